@@ -1,0 +1,78 @@
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+#include <vector>
+
+namespace hydroprint {
+
+/// Why something could not be done; the names and meanings are those of gRPC's status codes.
+enum class Code {
+  kCancelled,
+  kInvalidArgument,
+  kNotFound,
+  kAlreadyExists,
+  kPermissionDenied,
+  kResourceExhausted,
+  kFailedPrecondition,
+  kAborted,
+  kOutOfRange,
+  kUnimplemented,
+  kInternal,
+  kUnavailable,
+  kDataLoss,
+};
+
+/// One failure: a code for programs and one sentence for people that names the thing, the place in
+/// it and what to do.
+struct Error {
+  Code code = Code::kInternal;
+  std::string message;
+  /// Stable UPPER_SNAKE word that scripts may rely on ("ASSET_HASH_MISMATCH"); empty if the code
+  /// says it all.
+  std::string reason;
+};
+
+/// The one way errors travel: a value or an Error.
+template <class T>
+using Result = tl::expected<T, Error>;
+
+/// Outcome of something that returns no value.
+using Status = Result<void>;
+
+/// Makes the failing side of any Result.
+[[nodiscard]] inline tl::unexpected<Error> fail(Code code, std::string message,
+                                                std::string reason = {}) {
+  return tl::unexpected<Error>(Error{code, std::move(message), std::move(reason)});
+}
+
+/// Something that was assumed or that the user should look at; goes into report.json as is.
+struct Warning {
+  std::string code;     ///< stable lower_snake word
+  std::string message;  ///< one sentence: what was found and what was assumed
+  std::string where;    ///< file, face, depth or place on the object
+};
+using Warnings = std::vector<Warning>;
+
+/// Exit statuses of every program here (contract): 0 done, 2 bad usage, 3 bad input, 4 the
+/// computation failed, 130 cancelled.
+enum class ExitStatus { kDone = 0, kUsage = 2, kBadInput = 3, kFailed = 4, kCancelled = 130 };
+
+/// The exit status that belongs to an error.
+[[nodiscard]] ExitStatus exit_status(const Error& error);
+
+}  // namespace hydroprint
+
+/// Evaluates a Result; on error returns it from the enclosing function, else binds the value.
+#define HP_CONCAT_INNER(a, b) a##b
+#define HP_CONCAT(a, b) HP_CONCAT_INNER(a, b)
+#define HP_ASSIGN_OR_RETURN(declaration, expression)                             \
+  auto HP_CONCAT(result_, __LINE__) = (expression);                              \
+  if (!HP_CONCAT(result_, __LINE__))                                             \
+    return tl::unexpected(std::move(HP_CONCAT(result_, __LINE__)).error());      \
+  declaration = std::move(*HP_CONCAT(result_, __LINE__))
+
+/// Evaluates a Status (or Result whose value is not needed); on error returns it.
+#define HP_RETURN_IF_ERROR(expression)                                           \
+  if (auto status_ = (expression); !status_) return tl::unexpected(std::move(status_).error())

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "sim/base/result.h"
+
+namespace hydroprint::film {
+
+/// The film's edge, clamped to the vat (Gamma_v of section 4.1): a simple polygon in F, mm,
+/// counter-clockwise, and the size of its image (its bounding box, centred on the origin unless it
+/// is a polygon given as such).
+struct Outline {
+  std::vector<Eigen::Vector2d> polygon;
+  Eigen::Vector2d min_mm = Eigen::Vector2d::Zero();
+  Eigen::Vector2d max_mm = Eigen::Vector2d::Zero();
+  std::string name;  ///< as the user gave it
+
+  [[nodiscard]] Eigen::Vector2d size_mm() const { return max_mm - min_mm; }
+};
+
+/// Reads "A4", "A3", "letter", "WxH", "circle:RADIUS" or "polygon:FILE.json" (contract). A circle
+/// becomes a polygon of chords no longer than 1 mm whose area is the circle's.
+/// Refuses with kOutOfRange sizes below 10 mm or above 2000 mm, with kInvalidArgument what it does
+/// not understand, polygons that cross themselves or have fewer than three corners.
+[[nodiscard]] Result<Outline> parse_outline(const std::string& text);
+
+/// True if the point lies inside the outline or on it.
+[[nodiscard]] bool contains(const Outline& outline, const Eigen::Vector2d& point_mm);
+
+}  // namespace hydroprint::film

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+namespace hydroprint::flow {
+
+/// Where the film lands, seen from the surface: one entry per point of mesh::Surface. NaN where no
+/// film arrives.
+struct SurfaceMap {
+  std::vector<Eigen::Vector2d> film_mm;   ///< the point of the film, in F at rest, that lands here
+  std::vector<double> contact_time_s;     ///< since the start of the dip
+  std::vector<double> stretch;            ///< largest singular value of the film-to-surface Jacobian (section 6)
+  std::vector<double> least_stretch;      ///< the smaller singular value
+};
+
+/// A small triangle of the surface on which the map film -> surface is continuous and linear to
+/// within the tolerance it was made with. Together they tile what the film reaches.
+struct MappedTriangle {
+  std::array<Eigen::Vector2d, 3> film_mm;  ///< counter-clockwise seen from above
+  int triangle = 0;                        ///< into mesh::Surface::triangles
+  /// The three corners in barycentric coordinates (of corners 0, 1, 2) of that triangle.
+  std::array<Eigen::Vector3f, 3> barycentric;
+  std::array<float, 3> contact_time_s{};
+};
+
+/// The flow map of one dip (section 4.5): per surface point, and as tiles for drawing.
+struct FlowMap {
+  SurfaceMap surface;
+  std::vector<MappedTriangle> tiles;
+};
+
+}  // namespace hydroprint::flow

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/base/result.h"
+
+namespace hydroprint::mesh {
+
+/// What a texture coordinate outside [0, 1] means.
+enum class Wrap { kRepeat, kMirror, kClamp };
+
+/// A material as the model file names it.
+struct Material {
+  std::string name;
+  Eigen::Vector3f colour = {1, 1, 1};  ///< sRGB-coded, [0, 1]
+  bool has_colour = false;             ///< false: the file states no colour
+  std::filesystem::path texture;       ///< resolved against the model's folder; empty: none
+  Wrap wrap_u = Wrap::kRepeat;
+  Wrap wrap_v = Wrap::kRepeat;
+};
+
+/// A model as read: geometry in mm in the object frame O, and where its colour comes from.
+/// Invariants: indices in range, every coordinate finite, at least one triangle with an area.
+struct Model {
+  std::filesystem::path path;
+  std::vector<Eigen::Vector3d> vertices;                       ///< in the file's order, times scale
+  std::vector<Eigen::Vector3i> triangles;                      ///< polygons fanned; no zero-area ones
+  std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs;      ///< per triangle, v up; empty: none
+  std::vector<int> triangle_material;                          ///< into materials; empty: none
+  std::vector<Material> materials;
+  std::vector<Eigen::Vector3f> vertex_colours;                 ///< sRGB-coded [0, 1]; empty: none
+  Warnings warnings;                                           ///< what was assumed in reading
+};
+
+}  // namespace hydroprint::mesh

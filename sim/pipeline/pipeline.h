@@ -1,0 +1,56 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/base/pose.h"
+#include "sim/base/result.h"
+#include "sim/film/outline.h"
+#include "sim/film/profile.h"
+#include "sim/flow/surface_map.h"
+#include "sim/mesh/model.h"
+#include "sim/mesh/surface.h"
+#include "sim/waterline/motion.h"
+
+namespace hydroprint::pipeline {
+
+/// One immersion: where the object is and how it goes down through which film.
+struct DipOptions {
+  /// Object frame to film frame at the start of the dip; z is ignored (contract). None: as in the
+  /// file, bounding box centred on the film.
+  std::optional<Pose> X_FO;
+  film::Outline outline;
+  film::Profile profile;
+  std::optional<double> depth_mm;  ///< immersion at the end of the dip; none: full
+  double dip_speed_mm_per_s = 5;
+  waterline::Motion motion;        ///< sideways path as driven; empty: straight down
+};
+
+/// Figures of one dip for the report.
+struct DipFigures {
+  double depth_mm = 0;              ///< immersion reached
+  bool stopped_at_edge = false;     ///< the waterline reached the film's edge before `depth_mm`
+  int steps = 0;                    ///< waterlines solved
+  int film_vertices_max = 0;        ///< of the largest film mesh
+  int film_triangles_max = 0;
+  double coverage = 0;              ///< share of the object's surface that film reaches
+  double clamped_share = 0;         ///< share of the surface with theta beyond 170 degrees
+  double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
+};
+
+/// The outcome of one immersion: the surface it was computed on and where the film lands.
+struct Dip {
+  mesh::Surface surface;
+  Pose X_FO;  ///< as used: lowest point on the water, z = 0
+  flow::FlowMap map;
+  DipFigures figures;
+  Warnings warnings;
+};
+
+/// The method of section 4 with Stokes flow: mesh, pose, waterline, film mesh, velocity, flow map.
+/// Refuses a pose whose first contact misses the film (kFailedPrecondition).
+[[nodiscard]] Result<Dip> dip(const mesh::Model& model, const DipOptions& options,
+                              const Context& context);
+
+}  // namespace hydroprint::pipeline
