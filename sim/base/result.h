@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <tl/expected.hpp>
 #include <utility>
@@ -32,6 +33,8 @@ struct Error {
   /// Stable UPPER_SNAKE word that scripts may rely on ("ASSET_HASH_MISMATCH"); empty if the code
   /// says it all.
   std::string reason;
+  /// The parts of the message that a program may want, by stable names ("field", "max_bytes").
+  std::map<std::string, std::string> metadata = {};
 };
 
 /// The one way errors travel: a value or an Error.
@@ -44,7 +47,7 @@ using Status = Result<void>;
 /// Makes the failing side of any Result.
 [[nodiscard]] inline tl::unexpected<Error> fail(Code code, std::string message,
                                                 std::string reason = {}) {
-  return tl::unexpected<Error>(Error{code, std::move(message), std::move(reason)});
+  return tl::unexpected<Error>(Error{code, std::move(message), std::move(reason), {}});
 }
 
 /// Something that was assumed or that the user should look at; goes into report.json as is.
