@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace hydroprint::mesh {
+
+/// The sides of triangles gathered by edge. Side s = 3 t + k of triangle t runs from its corner k
+/// to its corner (k + 1) % 3; two sides lie on the same edge if their welded ends are the same.
+class Edges {
+ public:
+  /// @param weld  per point, the point that stands for it
+  Edges(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld);
+
+  [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+  /// The sides on edge e, ascending: one at a boundary, two on a manifold, else more.
+  [[nodiscard]] std::span<const int> sides(std::size_t e) const {
+    return std::span(sides_).subspan(begin_[e], begin_[e + 1] - begin_[e]);
+  }
+
+ private:
+  std::vector<int> sides_;
+  std::vector<std::size_t> begin_;
+};
+
+/// Welded point at which a side begins, and at which it ends.
+struct SideEnds {
+  int from = 0;
+  int to = 0;
+};
+[[nodiscard]] inline SideEnds side_ends(int side, const std::vector<Eigen::Vector3i>& triangles,
+                                        const std::vector<int>& weld) {
+  const auto& t = triangles[static_cast<std::size_t>(side / 3)];
+  return {weld[static_cast<std::size_t>(t[side % 3])],
+          weld[static_cast<std::size_t>(t[(side + 1) % 3])]};
+}
+
+}  // namespace hydroprint::mesh

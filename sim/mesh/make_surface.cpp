@@ -1,0 +1,175 @@
+#include "sim/mesh/make_surface.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "sim/mesh/edges.h"
+#include "sim/mesh/normals.h"
+#include "sim/mesh/orient.h"
+#include "sim/mesh/subdivide.h"
+#include "sim/mesh/weld.h"
+
+namespace hydroprint::mesh {
+namespace {
+
+constexpr double kSmallMm = 5;
+constexpr double kLargeMm = 1000;
+
+void warn(Surface& surface, const Model& model, std::string code, std::string message) {
+  surface.warnings.push_back({std::move(code), std::move(message), model.path.string()});
+}
+
+/// Triangles that have an area once coincident points are one.
+std::vector<int> proper_triangles(const Model& model, const std::vector<int>& weld,
+                                  double tolerance) {
+  std::vector<int> kept;
+  kept.reserve(model.triangles.size());
+  for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+    std::array<Eigen::Vector3d, 3> p;
+    std::array<int, 3> w{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      w[k] = weld[static_cast<std::size_t>(model.triangles[t][static_cast<int>(k)])];
+      p[k] = model.vertices[static_cast<std::size_t>(w[k])];
+    }
+    const bool distinct = w[0] != w[1] && w[1] != w[2] && w[2] != w[0];
+    if (distinct && !is_degenerate(p[0], p[1], p[2], tolerance))
+      kept.push_back(static_cast<int>(t));
+  }
+  return kept;
+}
+
+Patchwork start(const Model& model, std::vector<int> weld, const std::vector<int>& kept) {
+  Patchwork work;
+  work.points = model.vertices;
+  work.weld = std::move(weld);
+  work.source_triangle = kept;
+  work.triangles.reserve(kept.size());
+  for (const int t : kept) work.triangles.push_back(model.triangles[static_cast<std::size_t>(t)]);
+  const std::array<Eigen::Vector3f, 3> whole = {Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitY(),
+                                                Eigen::Vector3f::UnitZ()};
+  work.source_barycentric.assign(kept.size(), whole);
+  return work;
+}
+
+/// @return true if anything was turned over (which renumbers sides)
+bool turn_over(Patchwork& work, const std::vector<bool>& flip) {
+  bool any = false;
+  for (std::size_t t = 0; t < flip.size(); ++t) {
+    if (!flip[t]) continue;
+    any = true;
+    std::swap(work.triangles[t][1], work.triangles[t][2]);
+    std::swap(work.source_barycentric[t][1], work.source_barycentric[t][2]);
+  }
+  return any;
+}
+
+void warn_about_size(const Model& model, Surface& surface) {
+  Eigen::AlignedBox3d box;
+  for (const auto& t : surface.triangles)
+    for (int k = 0; k < 3; ++k) box.extend(surface.points[static_cast<std::size_t>(t[k])]);
+  const double largest_mm = box.sizes().maxCoeff();
+  if (largest_mm >= kSmallMm && largest_mm <= kLargeMm) return;
+  std::ostringstream text;
+  text << "the largest side is " << largest_mm << " mm: if the file is in "
+       << (largest_mm < kSmallMm ? "metres or inches, give --scale 1000 or --scale 25.4"
+                                 : "micrometres or thousandths, give --scale 0.001");
+  warn(surface, model, "small_or_large_object", text.str());
+}
+
+void warn_about_orientation(const Model& model, const Orientation& found, Surface& surface) {
+  if (found.inconsistent > 0 || found.one_sided > 0)
+    warn(surface, model, "inconsistent_orientation",
+         std::to_string(found.inconsistent) + " faces were turned over to agree with their " +
+             "neighbours, " + std::to_string(found.one_sided) + " edges disagree either way");
+  if (found.inside_out > 0)
+    warn(surface, model, "inside_out",
+         std::to_string(found.inside_out) + " of " + std::to_string(found.shells) +
+             " shells had their faces looking inward and were turned over");
+  if (found.shells > 1)
+    warn(surface, model, "many_shells",
+         std::to_string(found.shells) + " separate shells (" + std::to_string(found.cavities) +
+             " of them hollows inside another): their union is used");
+}
+
+/// @return true if every edge has two faces, one each way
+bool check_edges(const Model& model, const Edges& edges, const Patchwork& work, Surface& surface) {
+  std::size_t open = 0;
+  std::size_t crowded = 0;
+  std::size_t opposed = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto sides = edges.sides(e);
+    if (sides.size() == 1) {
+      ++open;
+    } else if (sides.size() > 2) {
+      ++crowded;
+    } else if (side_ends(sides[0], work.triangles, work.weld).from ==
+               side_ends(sides[1], work.triangles, work.weld).from) {
+      ++opposed;
+    }
+  }
+  if (open > 0)
+    warn(surface, model, "mesh_open",
+         std::to_string(open) + " boundary edges: the openings are treated as closed by straight " +
+             "lines at each waterline");
+  if (crowded > 0)
+    warn(
+        surface, model, "mesh_non_manifold",
+        std::to_string(crowded) + " edges have more than two faces: the outermost surface is used");
+  return open + crowded + opposed == 0;
+}
+
+}  // namespace
+
+Result<Surface> make_surface(const Model& model, double max_edge_mm, const Context& context) {
+  const std::string name = model.path.string();
+  if (!(max_edge_mm > 0))
+    return fail(Code::kInvalidArgument, name + ": the longest edge allowed must be positive");
+  context.progress("surface", 0);
+  Surface surface;
+  const double tolerance = kNothing * diagonal(model.vertices);
+  auto weld = weld_points(model.vertices, tolerance);
+  const auto kept = proper_triangles(model, weld, tolerance);
+  if (kept.empty())
+    return fail(Code::kInvalidArgument, name + ": no face has an area; export the model again");
+  if (kept.size() < model.triangles.size())
+    warn(surface, model, "zero_area_faces",
+         std::to_string(model.triangles.size() - kept.size()) +
+             " faces whose corners coincide or lie on a line were dropped");
+  Patchwork work = start(model, std::move(weld), kept);
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+
+  Edges edges(work.triangles, work.weld);
+  context.progress("surface", 0.3);
+  const auto orientation = orient(work.points, work.weld, work.triangles, edges);
+  if (turn_over(work, orientation.flip)) edges = Edges(work.triangles, work.weld);
+  surface.closed = check_edges(model, edges, work, surface);
+  warn_about_orientation(model, orientation, surface);
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+
+  context.progress("surface", 0.5);
+  const auto before = work.triangles.size();
+  auto subdivided = subdivide(std::move(work), max_edge_mm, kMaxSubdividedTriangles, context);
+  if (!subdivided && subdivided.error().code == Code::kResourceExhausted)
+    return fail(Code::kResourceExhausted,
+                name + ": subdividing its faces to edges of " + std::to_string(max_edge_mm) +
+                    " mm takes " + subdivided.error().message + "; give a smaller --scale");
+  if (!subdivided) return tl::unexpected(std::move(subdivided).error());
+  work = std::move(*subdivided);
+  if (work.triangles.size() != before) edges = Edges(work.triangles, work.weld);
+
+  context.progress("surface", 0.8);
+  surface.corner_normals = corner_normals(work.points, work.triangles, work.weld, edges);
+  surface.points = std::move(work.points);
+  surface.triangles = std::move(work.triangles);
+  surface.source_triangle = std::move(work.source_triangle);
+  surface.source_barycentric = std::move(work.source_barycentric);
+  surface.weld = std::move(work.weld);
+  warn_about_size(model, surface);
+  context.progress("surface", 1);
+  return surface;
+}
+
+}  // namespace hydroprint::mesh

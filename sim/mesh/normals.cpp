@@ -1,0 +1,82 @@
+#include "sim/mesh/normals.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "sim/mesh/groups.h"
+
+namespace hydroprint::mesh {
+namespace {
+
+const double kCosCrease = std::sqrt(3.0) / 2;  // 30 degrees
+
+const Eigen::Vector3d& at(const std::vector<Eigen::Vector3d>& points, int i) {
+  return points[static_cast<std::size_t>(i)];
+}
+
+std::vector<Eigen::Vector3d> face_normals(const std::vector<Eigen::Vector3d>& points,
+                                          const std::vector<Eigen::Vector3i>& triangles) {
+  std::vector<Eigen::Vector3d> normals;
+  normals.reserve(triangles.size());
+  for (const auto& t : triangles) {
+    const auto& a = at(points, t[0]);
+    normals.push_back((at(points, t[1]) - a).cross(at(points, t[2]) - a).stableNormalized());
+  }
+  return normals;
+}
+
+/// Corners that share a normal. A corner has the number of the side that begins at it.
+Groups smooth_corners(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld,
+                      const Edges& edges, const std::vector<Eigen::Vector3d>& normals) {
+  const auto next = [](int side) { return side % 3 == 2 ? side - 2 : side + 1; };
+  Groups groups(3 * triangles.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const auto sides = edges.sides(e);
+    if (sides.size() != 2) continue;
+    const int a = sides[0];
+    const int b = sides[1];
+    // Faces that run the same way along their edge look to opposite sides: no surface bends so.
+    if (side_ends(a, triangles, weld).from == side_ends(b, triangles, weld).from) continue;
+    const double cosine =
+        normals[static_cast<std::size_t>(a / 3)].dot(normals[static_cast<std::size_t>(b / 3)]);
+    if (!(cosine > kCosCrease)) continue;
+    groups.join(static_cast<std::size_t>(a), static_cast<std::size_t>(next(b)));
+    groups.join(static_cast<std::size_t>(next(a)), static_cast<std::size_t>(b));
+  }
+  return groups;
+}
+
+double angle(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+}  // namespace
+
+std::vector<std::array<Eigen::Vector3d, 3>> corner_normals(
+    const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
+    const std::vector<int>& weld, const Edges& edges) {
+  const auto normals = face_normals(points, triangles);
+  auto groups = smooth_corners(triangles, weld, edges, normals);
+
+  std::vector<Eigen::Vector3d> sums(3 * triangles.size(), Eigen::Vector3d::Zero());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const auto& p = at(points, triangles[t][k]);
+      const Eigen::Vector3d u = at(points, triangles[t][(k + 1) % 3]) - p;
+      const Eigen::Vector3d v = at(points, triangles[t][(k + 2) % 3]) - p;
+      sums[groups.find(3 * t + static_cast<std::size_t>(k))] += angle(u, v) * normals[t];
+    }
+  }
+
+  std::vector<std::array<Eigen::Vector3d, 3>> result(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& sum = sums[groups.find(3 * t + k)];
+      // A ring of faces that turns right round may add up to nothing: then the face's own.
+      result[t][k] = sum.norm() > 1e-6 ? sum.normalized() : normals[t];
+    }
+  }
+  return result;
+}
+
+}  // namespace hydroprint::mesh

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "sim/mesh/edges.h"
+
+namespace hydroprint::mesh {
+
+/// Unit normals at triangle corners: the mean over the faces round the corner, weighted by their
+/// angles there, that can be reached from the corner's own face without crossing a crease (dihedral
+/// angle of 30 degrees or more), a boundary, or an edge of more than two faces.
+/// Linear in the number of triangles, however many meet at a point.
+[[nodiscard]] std::vector<std::array<Eigen::Vector3d, 3>> corner_normals(
+    const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
+    const std::vector<int>& weld, const Edges& edges);
+
+}  // namespace hydroprint::mesh
