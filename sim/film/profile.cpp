@@ -1,0 +1,116 @@
+#include "sim/film/profile.h"
+
+#include <toml++/toml.h>
+
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include "sim/base/text_file.h"
+
+namespace hydroprint::film {
+namespace {
+
+constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
+
+struct Range {
+  double least;
+  double most;
+};
+
+struct Key {
+  std::string_view name;
+  double Profile::*member;
+  Range range;
+};
+
+// Everything but swelling, which is a pair.
+constexpr std::array<Key, 8> kKeys = {{
+    {"thickness_mm", &Profile::thickness_mm, {1e-3, 10}},
+    {"ink_ratio_mm", &Profile::ink_ratio_mm, {0, 10}},
+    {"drag_length_mm", &Profile::drag_length_mm, {0, 1e4}},
+    {"tear_stretch", &Profile::tear_stretch, {1, 100}},
+    {"wrinkle_stretch", &Profile::wrinkle_stretch, {0, 1}},
+    {"activator_ml_per_m2", &Profile::activator_ml_per_m2, {0, 1000}},
+    {"soak_s", &Profile::soak_s, {0, 3600}},
+    {"activator_wait_s", &Profile::activator_wait_s, {0, 3600}},
+}};
+constexpr std::string_view kSwelling = "swelling";
+constexpr Range kSwellingRange = {1, 2};
+
+std::string known_keys() {
+  std::string out(kSwelling);
+  for (const Key& key : kKeys) out.append(", ").append(key.name);
+  return out;
+}
+
+/// Where in the file, and of what the message speaks.
+std::string place(const std::filesystem::path& path, const toml::source_region& region,
+                  std::string_view key) {
+  return path.string() + ": line " + std::to_string(region.begin.line) + ": " + std::string(key);
+}
+
+Result<double> read_number(const std::string& where, const toml::node& node, const Range& range) {
+  std::ostringstream remedy;
+  remedy << ". Give a number from " << range.least << " to " << range.most;
+  if (!node.is_number())
+    return fail(Code::kInvalidArgument, where + " is not a number" + remedy.str());
+  const double value = node.value<double>().value_or(NAN);
+  if (!(value >= range.least && value <= range.most)) {
+    return fail(Code::kOutOfRange, where + " is out of range" + remedy.str());
+  }
+  return value;
+}
+
+Result<Eigen::Vector2d> read_swelling(const std::string& where, const toml::node& node) {
+  const toml::array* pair = node.as_array();
+  if (pair == nullptr || pair->size() != 2) {
+    return fail(Code::kInvalidArgument, where + " is not a pair. Write swelling = [1.0, 1.0]");
+  }
+  Eigen::Vector2d out;
+  for (int i = 0; i < 2; ++i) {
+    HP_ASSIGN_OR_RETURN(
+        out[i], read_number(where, *pair->get(static_cast<std::size_t>(i)), kSwellingRange));
+  }
+  return out;
+}
+
+Status read_key(const std::filesystem::path& path, const toml::key& name, const toml::node& node,
+                Profile& profile) {
+  const std::string where = place(path, name.source(), name.str());
+  if (name.str() == kSwelling) {
+    HP_ASSIGN_OR_RETURN(profile.swelling, read_swelling(where, node));
+    return {};
+  }
+  for (const Key& key : kKeys) {
+    if (name.str() != key.name) continue;
+    HP_ASSIGN_OR_RETURN(profile.*key.member, read_number(where, node, key.range));
+    return {};
+  }
+  return fail(Code::kInvalidArgument, where + " is not a known key. Use " + known_keys());
+}
+
+Result<toml::table> parse(const std::filesystem::path& path, const std::string& text) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    return fail(Code::kInvalidArgument,
+                place(path, error.source(), error.description()) + ". Correct the TOML there");
+  }
+}
+
+}  // namespace
+
+Result<Profile> read_profile(const std::filesystem::path& path) {
+  HP_ASSIGN_OR_RETURN(const std::string text, read_text_file(path, kMaxBytes));
+  HP_ASSIGN_OR_RETURN(const toml::table table, parse(path, text));
+  Profile profile;
+  for (const auto& [name, node] : table) {
+    HP_RETURN_IF_ERROR(read_key(path, name, node, profile));
+  }
+  return profile;
+}
+
+}  // namespace hydroprint::film
