@@ -70,12 +70,12 @@ enum class ExitStatus { kDone = 0, kUsage = 2, kBadInput = 3, kFailed = 4, kCanc
 /// Evaluates a Result; on error returns it from the enclosing function, else binds the value.
 #define HP_CONCAT_INNER(a, b) a##b
 #define HP_CONCAT(a, b) HP_CONCAT_INNER(a, b)
-#define HP_ASSIGN_OR_RETURN(declaration, expression)                             \
-  auto HP_CONCAT(result_, __LINE__) = (expression);                              \
-  if (!HP_CONCAT(result_, __LINE__))                                             \
-    return tl::unexpected(std::move(HP_CONCAT(result_, __LINE__)).error());      \
+#define HP_ASSIGN_OR_RETURN(declaration, expression)                        \
+  auto HP_CONCAT(result_, __LINE__) = (expression);                         \
+  if (!HP_CONCAT(result_, __LINE__))                                        \
+    return tl::unexpected(std::move(HP_CONCAT(result_, __LINE__)).error()); \
   declaration = std::move(*HP_CONCAT(result_, __LINE__))
 
 /// Evaluates a Status (or Result whose value is not needed); on error returns it.
-#define HP_RETURN_IF_ERROR(expression)                                           \
+#define HP_RETURN_IF_ERROR(expression) \
   if (auto status_ = (expression); !status_) return tl::unexpected(std::move(status_).error())

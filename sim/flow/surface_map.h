@@ -9,10 +9,11 @@ namespace hydroprint::flow {
 /// Where the film lands, seen from the surface: one entry per point of mesh::Surface. NaN where no
 /// film arrives.
 struct SurfaceMap {
-  std::vector<Eigen::Vector2d> film_mm;   ///< the point of the film, in F at rest, that lands here
-  std::vector<double> contact_time_s;     ///< since the start of the dip
-  std::vector<double> stretch;            ///< largest singular value of the film-to-surface Jacobian (section 6)
-  std::vector<double> least_stretch;      ///< the smaller singular value
+  std::vector<Eigen::Vector2d> film_mm;  ///< the point of the film, in F at rest, that lands here
+  std::vector<double> contact_time_s;    ///< since the start of the dip
+  std::vector<double>
+      stretch;  ///< largest singular value of the film-to-surface Jacobian (section 6)
+  std::vector<double> least_stretch;  ///< the smaller singular value
 };
 
 /// A small triangle of the surface on which the map film -> surface is continuous and linear to

@@ -8,10 +8,12 @@
 #include "sim/base/result.h"
 #include "sim/film/outline.h"
 #include "sim/film/profile.h"
-#include "sim/flow/surface_map.h"
+#include "sim/flow/flow_map.h"
 #include "sim/mesh/model.h"
 #include "sim/mesh/surface.h"
+#include "sim/velocity/film_mesh.h"
 #include "sim/waterline/motion.h"
+#include "sim/waterline/schedule.h"
 
 namespace hydroprint::pipeline {
 
@@ -24,18 +26,22 @@ struct DipOptions {
   film::Profile profile;
   std::optional<double> depth_mm;  ///< immersion at the end of the dip; none: full
   double dip_speed_mm_per_s = 5;
-  waterline::Motion motion;        ///< sideways path as driven; empty: straight down
+  waterline::Motion motion;  ///< sideways path as driven; empty: straight down
+  // How finely: the defaults are both fast and accurate (tests/bench).
+  waterline::ScheduleOptions schedule;
+  velocity::MeshOptions mesh;
+  flow::MapOptions map;  ///< speed and swelling are taken from above
 };
 
 /// Figures of one dip for the report.
 struct DipFigures {
-  double depth_mm = 0;              ///< immersion reached
-  bool stopped_at_edge = false;     ///< the waterline reached the film's edge before `depth_mm`
-  int steps = 0;                    ///< waterlines solved
-  int film_vertices_max = 0;        ///< of the largest film mesh
+  double depth_mm = 0;           ///< immersion reached
+  bool stopped_at_edge = false;  ///< the waterline reached the film's edge before `depth_mm`
+  int steps = 0;                 ///< waterlines solved
+  int film_vertices_max = 0;     ///< of the largest film mesh
   int film_triangles_max = 0;
-  double coverage = 0;              ///< share of the object's surface that film reaches
-  double clamped_share = 0;         ///< share of the surface with theta beyond 170 degrees
+  double coverage = 0;       ///< share of the object's surface that film reaches
+  double clamped_share = 0;  ///< share of the surface with theta beyond 170 degrees
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
 };
 

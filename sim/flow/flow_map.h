@@ -1,0 +1,30 @@
+#pragma once
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/flow/surface_map.h"
+#include "sim/flow/trace.h"
+#include "sim/mesh/surface.h"
+#include "sim/waterline/body.h"
+#include "sim/waterline/motion.h"
+
+namespace hydroprint::flow {
+
+struct MapOptions {
+  double dip_speed_mm_per_s = 5;
+  Eigen::Vector2d swelling = {1, 1};  ///< rest film = floating film divided by this
+  /// Tiles are divided until the map is linear on each to within this, on the film.
+  double tolerance_mm = 0.02;
+  /// Edges of tiles shorter than this are not divided further (a pixel at 600 dpi).
+  double least_edge_mm = 0.042;
+  bool make_tiles = true;
+};
+
+/// Finds for every point of the surface the film that lands there, and tiles the part of the
+/// surface that film reaches.
+[[nodiscard]] Result<FlowMap> make_flow_map(const mesh::Surface& surface,
+                                            const waterline::Body& body, const DipField& dip,
+                                            const waterline::Motion& motion,
+                                            const MapOptions& options, const Context& context);
+
+}  // namespace hydroprint::flow

@@ -1,0 +1,303 @@
+#include "sim/flow/tiles.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+
+#include "sim/waterline/waterlines.h"
+
+namespace hydroprint::flow {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kChunk = 128;
+
+/// A corner of tiles: where it lies on the surface and which film lands there (NaN: none).
+struct Node {
+  Vector3d surface_mm;
+  Vector2d film_mm;
+};
+
+struct Tile {
+  int triangle;
+  std::array<int, 3> node;
+  std::array<Vector3d, 3> barycentric;
+};
+
+/// What is known of the edge between two nodes.
+enum class EdgeState : unsigned char { kLinear, kDivided, kBroken };
+
+struct Edge {
+  int a, b;
+  Landing middle;  ///< summed over the tiles that share it, then averaged
+  int sides = 0;
+  Vector2d film_mm = Vector2d::Constant(kNaN);
+};
+
+std::uint64_t key_of(int a, int b) {
+  const auto [low, high] = std::minmax(a, b);
+  return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
+}
+
+bool is_reached(const Node& node) { return !std::isnan(node.film_mm.x()); }
+
+/// Gradient of the map surface -> film at each node, averaged over the triangles round it.
+std::vector<Eigen::Matrix<double, 2, 3>> node_gradients(const std::vector<Node>& nodes,
+                                                        const std::vector<Tile>& tiles) {
+  std::vector<Eigen::Matrix<double, 2, 3>> gradient(nodes.size(),
+                                                    Eigen::Matrix<double, 2, 3>::Zero());
+  std::vector<double> weight(nodes.size(), 0);
+  for (const Tile& tile : tiles) {
+    const Node& a = nodes[tile.node[0]];
+    const Node& b = nodes[tile.node[1]];
+    const Node& c = nodes[tile.node[2]];
+    if (!is_reached(a) || !is_reached(b) || !is_reached(c)) continue;
+    Eigen::Matrix<double, 3, 2> surface;
+    surface << b.surface_mm - a.surface_mm, c.surface_mm - a.surface_mm;
+    Eigen::Matrix2d film;
+    film << b.film_mm - a.film_mm, c.film_mm - a.film_mm;
+    const Eigen::Matrix2d gram = surface.transpose() * surface;
+    const double area2 = gram.determinant();
+    if (area2 <= 0) continue;
+    const double area = std::sqrt(area2);
+    const Eigen::Matrix<double, 2, 3> g = film * gram.inverse() * surface.transpose();
+    for (const int n : tile.node) {
+      gradient[n] += area * g;
+      weight[n] += area;
+    }
+  }
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    if (weight[n] > 0) gradient[n] /= weight[n];
+  }
+  return gradient;
+}
+
+class Tiler {
+ public:
+  Tiler(const waterline::Body& body, const DipField& dip, const waterline::Motion& motion,
+        const std::vector<Vector2d>& film_mm, const MapOptions& options)
+      : body_(body), dip_(dip), motion_(motion), options_(options) {
+    nodes_.reserve(film_mm.size());
+    for (std::size_t v = 0; v < film_mm.size(); ++v) {
+      nodes_.push_back({body.points_mm[v], film_mm[v]});
+    }
+    for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
+      const Eigen::Vector3i& v = body.triangles[t];
+      if (!is_reached(nodes_[v[0]]) && !is_reached(nodes_[v[1]]) && !is_reached(nodes_[v[2]])) {
+        continue;
+      }
+      active_.push_back(
+          {t, {v[0], v[1], v[2]}, {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}});
+    }
+    trust_smooth_edges();
+  }
+
+  Status run(const Context& context) {
+    while (!active_.empty()) {
+      std::vector<Edge> edges = untested_edges();
+      HP_RETURN_IF_ERROR(trace_middles(edges, context));
+      judge(edges);
+      divide();
+    }
+    return {};
+  }
+
+  std::vector<MappedTriangle> take() { return std::move(done_); }
+
+ private:
+  /// Edges of the mesh itself along which the map turns too little to matter, judged by its
+  /// gradients at both ends: the middle of a cubic through them.
+  void trust_smooth_edges() {
+    const auto gradient = node_gradients(nodes_, active_);
+    for (const Tile& tile : active_) {
+      for (int i = 0; i < 3; ++i) {
+        const int a = tile.node[(i + 1) % 3];
+        const int b = tile.node[(i + 2) % 3];
+        if (!is_reached(nodes_[a]) || !is_reached(nodes_[b])) continue;
+        const Vector3d along = nodes_[b].surface_mm - nodes_[a].surface_mm;
+        const double bow_mm = ((gradient[a] - gradient[b]) * along).norm() / 8;
+        if (bow_mm < 0.5 * options_.tolerance_mm) state_[key_of(a, b)] = EdgeState::kLinear;
+      }
+    }
+  }
+
+  std::vector<Edge> untested_edges() {
+    std::vector<Edge> edges;
+    std::unordered_map<std::uint64_t, std::size_t> index;
+    for (const Tile& tile : active_) {
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        const int k = (i + 2) % 3;
+        const std::uint64_t key = key_of(tile.node[j], tile.node[k]);
+        if (state_.contains(key)) continue;
+        const auto [it, is_new] = index.try_emplace(key, edges.size());
+        if (is_new) edges.push_back({tile.node[j], tile.node[k], {}, 0, Vector2d::Constant(kNaN)});
+        Edge& edge = edges[it->second];
+        const Landing landing = landing_on(body_, motion_, tile.triangle,
+                                           0.5 * (tile.barycentric[j] + tile.barycentric[k]));
+        if (edge.sides == 0) {
+          edge.middle = landing;
+        } else {
+          edge.middle.pull += landing.pull;
+        }
+        ++edge.sides;
+      }
+    }
+    for (Edge& edge : edges) edge.middle.pull /= edge.sides;
+    return edges;
+  }
+
+  Status trace_middles(std::vector<Edge>& edges, const Context& context) const {
+    const std::size_t chunks = (edges.size() + kChunk - 1) / kChunk;
+    return parallel_for(context, {}, chunks, [&](std::size_t c) -> Status {
+      for (std::size_t e = c * kChunk; e < std::min((c + 1) * kChunk, edges.size()); ++e) {
+        if (const auto film = trace_back(dip_, edges[e].middle)) edges[e].film_mm = *film;
+      }
+      return {};
+    });
+  }
+
+  /// Decides for each traced edge whether it is linear, worth dividing, or broken for good.
+  void judge(const std::vector<Edge>& edges) {
+    for (const Edge& edge : edges) {
+      const Node& a = nodes_[edge.a];
+      const Node& b = nodes_[edge.b];
+      const Node middle = {0.5 * (a.surface_mm + b.surface_mm), edge.film_mm};
+      const double off_mm = (middle.film_mm - 0.5 * (a.film_mm + b.film_mm)).norm();
+      const std::uint64_t key = key_of(edge.a, edge.b);
+      if (off_mm <= options_.tolerance_mm) {  // false if any of the three is NaN
+        state_[key] = EdgeState::kLinear;
+      } else if (!is_reached(a) && !is_reached(b) && !is_reached(middle)) {
+        state_[key] = EdgeState::kLinear;  // nothing lands there at all
+      } else if ((b.surface_mm - a.surface_mm).norm() <= options_.least_edge_mm) {
+        state_[key] = EdgeState::kBroken;
+      } else {
+        state_[key] = EdgeState::kDivided;
+        middle_[key] = static_cast<int>(nodes_.size());
+        nodes_.push_back(middle);
+      }
+    }
+  }
+
+  void divide() {
+    std::vector<Tile> next;
+    for (const Tile& tile : active_) {
+      std::array<int, 3> middle = {-1, -1, -1};
+      bool is_divided = false;
+      for (int i = 0; i < 3; ++i) {
+        const std::uint64_t key = key_of(tile.node[(i + 1) % 3], tile.node[(i + 2) % 3]);
+        if (state_.at(key) != EdgeState::kDivided) continue;
+        middle[i] = middle_.at(key);
+        is_divided = true;
+      }
+      if (is_divided) {
+        split(tile, middle, next);
+      } else {
+        finish(tile);
+      }
+    }
+    std::erase_if(next, [&](const Tile& tile) {
+      return !is_reached(nodes_[tile.node[0]]) && !is_reached(nodes_[tile.node[1]]) &&
+             !is_reached(nodes_[tile.node[2]]);
+    });
+    active_ = std::move(next);
+  }
+
+  /// Two, three or four smaller tiles, according to how many edges are divided.
+  static void split(const Tile& tile, const std::array<int, 3>& middle, std::vector<Tile>& out) {
+    const auto bary_middle = [&](int i) -> Vector3d {
+      return 0.5 * (tile.barycentric[(i + 1) % 3] + tile.barycentric[(i + 2) % 3]);
+    };
+    // Corners of the polygon round the tile, starting so that the pattern below fits.
+    struct Corner {
+      int node;
+      Vector3d barycentric;
+    };
+    const auto corner = [&](int i) { return Corner{tile.node[i % 3], tile.barycentric[i % 3]}; };
+    const auto mid = [&](int i) { return Corner{middle[i % 3], bary_middle(i % 3)}; };
+    const auto add = [&](const Corner& a, const Corner& b, const Corner& c) {
+      out.push_back(
+          {tile.triangle, {a.node, b.node, c.node}, {a.barycentric, b.barycentric, c.barycentric}});
+    };
+    const int divided = (middle[0] >= 0) + (middle[1] >= 0) + (middle[2] >= 0);
+    if (divided == 3) {
+      for (int i = 0; i < 3; ++i) add(corner(i), mid(i + 2), mid(i + 1));
+      add(mid(0), mid(1), mid(2));
+      return;
+    }
+    if (divided == 1) {
+      const int i = middle[0] >= 0 ? 0 : (middle[1] >= 0 ? 1 : 2);
+      add(corner(i), corner(i + 1), mid(i));
+      add(corner(i), mid(i), corner(i + 2));
+      return;
+    }
+    const int whole = middle[0] < 0 ? 0 : (middle[1] < 0 ? 1 : 2);  // opposite this corner
+    add(corner(whole), mid(whole + 2), mid(whole + 1));
+    add(mid(whole + 2), corner(whole + 1), mid(whole + 1));
+    add(corner(whole + 1), corner(whole + 2), mid(whole + 1));
+  }
+
+  void finish(const Tile& tile) {
+    for (int i = 0; i < 3; ++i) {
+      if (!is_reached(nodes_[tile.node[i]])) return;
+      const std::uint64_t key = key_of(tile.node[(i + 1) % 3], tile.node[(i + 2) % 3]);
+      if (state_.at(key) == EdgeState::kBroken) return;
+    }
+    MappedTriangle mapped;
+    mapped.triangle = tile.triangle;
+    // The film touches the surface from outside, so what turns left on the surface turns right
+    // on the film seen from above.
+    for (int i = 0; i < 3; ++i) {
+      const int from = 2 - i;
+      const Node& node = nodes_[tile.node[from]];
+      mapped.film_mm[i] = node.film_mm.cwiseQuotient(options_.swelling);
+      mapped.barycentric[i] = tile.barycentric[from].cast<float>();
+      mapped.contact_time_s[i] =
+          static_cast<float>(node.surface_mm.z() / options_.dip_speed_mm_per_s);
+    }
+    const Vector2d u = mapped.film_mm[1] - mapped.film_mm[0];
+    const Vector2d v = mapped.film_mm[2] - mapped.film_mm[0];
+    if (u.x() * v.y() - u.y() * v.x() > 0) done_.push_back(mapped);
+  }
+
+  const waterline::Body& body_;
+  const DipField& dip_;
+  const waterline::Motion& motion_;
+  const MapOptions& options_;
+  std::vector<Node> nodes_;
+  std::vector<Tile> active_;
+  std::vector<MappedTriangle> done_;
+  std::unordered_map<std::uint64_t, EdgeState> state_;
+  std::unordered_map<std::uint64_t, int> middle_;
+};
+
+}  // namespace
+
+Landing landing_on(const waterline::Body& body, const waterline::Motion& motion, int triangle,
+                   const Vector3d& barycentric) {
+  const Eigen::Vector3i& v = body.triangles[triangle];
+  const auto& n = body.corner_normals[triangle];
+  const Vector3d point = barycentric[0] * body.points_mm[v[0]] +
+                         barycentric[1] * body.points_mm[v[1]] +
+                         barycentric[2] * body.points_mm[v[2]];
+  const Vector3d normal =
+      (barycentric[0] * n[0] + barycentric[1] * n[1] + barycentric[2] * n[2]).normalized();
+  return {point.head<2>() + waterline::offset_at(motion, point.z()), point.z(),
+          waterline::pull(normal) + waterline::drift_at(motion, point.z())};
+}
+
+Result<std::vector<MappedTriangle>> make_tiles(const waterline::Body& body, const DipField& dip,
+                                               const waterline::Motion& motion,
+                                               const std::vector<Vector2d>& film_mm,
+                                               const MapOptions& options, const Context& context) {
+  Tiler tiler(body, dip, motion, film_mm, options);
+  HP_RETURN_IF_ERROR(tiler.run(context));
+  return tiler.take();
+}
+
+}  // namespace hydroprint::flow

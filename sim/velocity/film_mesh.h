@@ -1,0 +1,48 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "sim/base/result.h"
+#include "sim/film/outline.h"
+#include "sim/velocity/sizing.h"
+#include "sim/waterline/waterlines.h"
+
+namespace hydroprint::velocity {
+
+/// What lies on the other side of an edge of the film mesh.
+enum class EdgeKind : unsigned char {
+  kInner,      ///< more film
+  kVat,        ///< the film's clamped edge, Gamma_v
+  kWaterline,  ///< the object, Gamma_s
+};
+
+/// The floating film at one immersion as triangles with six nodes each: the vertices, then the
+/// midpoints of the edges (node vertices_mm.size() + e for edge e).
+struct FilmMesh {
+  std::vector<Eigen::Vector2d> vertices_mm;
+  std::vector<Eigen::Vector3i> triangles;       ///< counter-clockwise
+  std::vector<Eigen::Vector3i> triangle_edges;  ///< edge i of a triangle lies opposite corner i
+  std::vector<std::array<int, 2>> edges;
+  std::vector<EdgeKind> edge_kind;
+
+  [[nodiscard]] std::size_t node_count() const { return vertices_mm.size() + edges.size(); }
+};
+
+/// How finely the film is meshed (section 4.4; see field notes on why finer than the paper).
+struct MeshOptions {
+  Sizing::Options size;
+  double spacing_mm = 1.0;     ///< of mesh vertices along the waterline
+  double tolerance_mm = 0.01;  ///< by which their chords may miss the waterline
+  double least_mm = 0.1;       ///< waterline features smaller than this are smoothed over
+};
+
+/// Meshes the film between its edge and the waterline: constrained Delaunay triangulation refined
+/// to angles of 30 degrees (where the boundary permits) and to the sizing field.
+/// @return fails with kInternal if the mesh would need more than 400,000 vertices
+[[nodiscard]] Result<FilmMesh> mesh_film(const film::Outline& outline,
+                                         const waterline::Waterline& line,
+                                         const MeshOptions& options);
+
+}  // namespace hydroprint::velocity

@@ -1,0 +1,131 @@
+#include "sim/velocity/locator.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace hydroprint::velocity {
+namespace {
+
+constexpr double kCell_mm = 2.0;
+
+struct Box {
+  Eigen::Vector2d low, high;
+};
+
+Box box_of(const FilmMesh& mesh, const Eigen::Vector3i& triangle) {
+  const auto& v = mesh.vertices_mm;
+  return {v[triangle[0]].cwiseMin(v[triangle[1]]).cwiseMin(v[triangle[2]]),
+          v[triangle[0]].cwiseMax(v[triangle[1]]).cwiseMax(v[triangle[2]])};
+}
+
+/// Point of the triangle nearest to one outside it, in barycentric coordinates.
+Eigen::Vector3d nearest_in(const Eigen::Vector2d& p, const Eigen::Vector2d& origin,
+                           const Eigen::Matrix2d& edges, double& square_mm2) {
+  const std::array<Eigen::Vector2d, 3> corner = {origin, origin + edges.col(0),
+                                                 origin + edges.col(1)};
+  square_mm2 = std::numeric_limits<double>::infinity();
+  Eigen::Vector3d best = Eigen::Vector3d::UnitX();
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const Eigen::Vector2d along = corner[j] - corner[i];
+    const double t = std::clamp((p - corner[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double square = (corner[i] + t * along - p).squaredNorm();
+    if (square >= square_mm2) continue;
+    square_mm2 = square;
+    best.setZero();
+    best[i] = 1 - t;
+    best[j] = t;
+  }
+  return best;
+}
+
+}  // namespace
+
+Locator::Locator(const FilmMesh& mesh) {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+  for (const Eigen::Vector2d& p : mesh.vertices_mm) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  if (mesh.triangles.empty()) return;
+  origin_mm_ = low.array() - kReach_mm;
+  const Eigen::Vector2d size = (high - low).array() + 2 * kReach_mm;
+  columns_ = static_cast<int>(size.x() / kCell_mm) + 1;
+  rows_ = static_cast<int>(size.y() / kCell_mm) + 1;
+
+  triangles_.reserve(mesh.triangles.size());
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    Eigen::Matrix2d edges;
+    edges << mesh.vertices_mm[t[1]] - mesh.vertices_mm[t[0]],
+        mesh.vertices_mm[t[2]] - mesh.vertices_mm[t[0]];
+    triangles_.push_back({mesh.vertices_mm[t[0]], edges.inverse(), edges});
+  }
+
+  const auto fill = [&](double margin_mm, const std::vector<int>& which, std::vector<int>& start,
+                        std::vector<int>& list) {
+    const auto for_cells = [&](int t, auto&& visit) {
+      const Box box = box_of(mesh, mesh.triangles[t]);
+      const auto clamp_cell = [](double at, int count) {
+        return std::clamp(static_cast<int>(at / kCell_mm), 0, count - 1);
+      };
+      const Eigen::Vector2d first = box.low.array() - margin_mm - origin_mm_.array();
+      const Eigen::Vector2d last = box.high.array() + margin_mm - origin_mm_.array();
+      for (int r = clamp_cell(first.y(), rows_); r <= clamp_cell(last.y(), rows_); ++r) {
+        for (int c = clamp_cell(first.x(), columns_); c <= clamp_cell(last.x(), columns_); ++c) {
+          visit(r * columns_ + c);
+        }
+      }
+    };
+    start.assign(static_cast<std::size_t>(columns_) * rows_ + 1, 0);
+    for (const int t : which) for_cells(t, [&](int cell) { ++start[cell + 1]; });
+    for (std::size_t c = 1; c < start.size(); ++c) start[c] += start[c - 1];
+    list.resize(start.back());
+    std::vector<int> next(start.begin(), start.end() - 1);
+    for (const int t : which) for_cells(t, [&](int cell) { list[next[cell]++] = t; });
+  };
+  std::vector<int> all(mesh.triangles.size()), border;
+  for (int t = 0; t < static_cast<int>(all.size()); ++t) {
+    all[t] = t;
+    const Eigen::Vector3i& edges = mesh.triangle_edges[t];
+    const bool at_border = std::any_of(
+        edges.begin(), edges.end(), [&](int e) { return mesh.edge_kind[e] != EdgeKind::kInner; });
+    if (at_border) border.push_back(t);
+  }
+  fill(0, all, inner_start_, inner_);
+  fill(kReach_mm, border, near_start_, near_);
+}
+
+Locator::Place Locator::find(const Eigen::Vector2d& point_mm) const {
+  const Eigen::Vector2d at = (point_mm - origin_mm_) / kCell_mm;
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ && at.y() < rows_)) return {};
+  const int cell = static_cast<int>(at.y()) * columns_ + static_cast<int>(at.x());
+  for (int i = inner_start_[cell]; i < inner_start_[cell + 1]; ++i) {
+    const Corners& corners = triangles_[inner_[i]];
+    const Eigen::Vector2d b = corners.to_barycentric * (point_mm - corners.origin_mm);
+    const double b0 = 1 - b.x() - b.y();
+    if (b.x() >= -1e-10 && b.y() >= -1e-10 && b0 >= -1e-10) {
+      return {inner_[i], {b0, b.x(), b.y()}, 0};
+    }
+  }
+  return find_nearest(point_mm, cell);
+}
+
+Locator::Place Locator::find_nearest(const Eigen::Vector2d& point_mm, int cell) const {
+  Place place;
+  double best_mm2 = kReach_mm * kReach_mm;
+  for (int i = near_start_[cell]; i < near_start_[cell + 1]; ++i) {
+    const Corners& corners = triangles_[near_[i]];
+    double square_mm2 = 0;
+    const Eigen::Vector3d barycentric =
+        nearest_in(point_mm, corners.origin_mm, corners.edges_mm, square_mm2);
+    if (square_mm2 > best_mm2) continue;
+    best_mm2 = square_mm2;
+    place = {near_[i], barycentric, std::sqrt(square_mm2)};
+  }
+  return place;
+}
+
+}  // namespace hydroprint::velocity

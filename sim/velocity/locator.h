@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/velocity/film_mesh.h"
+
+namespace hydroprint::velocity {
+
+/// Finds the triangle of a film mesh under a point, in constant time for graded meshes.
+class Locator {
+ public:
+  Locator() = default;
+  explicit Locator(const FilmMesh& mesh);
+
+  struct Place {
+    int triangle = -1;
+    Eigen::Vector3d barycentric;  ///< of corners 0, 1, 2; clamped into the triangle if outside
+    double outside_mm = 0;        ///< how far outside the film the point lies; 0: inside
+  };
+
+  /// How far outside the film a point is still found, mm.
+  static constexpr double kReach_mm = 1.0;
+
+  /// The triangle that holds the point or, outside the film, the nearest one within kReach_mm;
+  /// triangle = -1 if there is none.
+  [[nodiscard]] Place find(const Eigen::Vector2d& point_mm) const;
+
+ private:
+  struct Corners {
+    Eigen::Vector2d origin_mm;
+    Eigen::Matrix2d to_barycentric;  ///< (point - origin) to the coordinates of corners 1 and 2
+    Eigen::Matrix2d edges_mm;        ///< its inverse
+  };
+
+  [[nodiscard]] Place find_nearest(const Eigen::Vector2d& point_mm, int cell) const;
+
+  std::vector<Corners> triangles_;
+  Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();
+  int columns_ = 0, rows_ = 0;
+  /// Per cell the triangles that overlap it, then those that come within reach of it.
+  std::vector<int> inner_start_, inner_, near_start_, near_;
+};
+
+}  // namespace hydroprint::velocity

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/film/outline.h"
+
+namespace hydroprint::velocity {
+
+/// Edge length wanted at each place of the film: small at the waterline, growing with the distance
+/// from it. The distance is a chamfer transform on a grid, good to a few percent, which is all that
+/// a mesh size needs.
+class Sizing {
+ public:
+  struct Options {
+    double at_waterline_mm = 1.0;
+    double growth = 0.25;  ///< mm of edge length per mm of distance
+    double most_mm = 10.0;
+  };
+
+  Sizing(const film::Outline& outline, const std::vector<std::vector<Eigen::Vector2d>>& waterlines,
+         const Options& options);
+
+  [[nodiscard]] double at(const Eigen::Vector2d& point_mm) const;
+
+ private:
+  Options options_;
+  Eigen::Vector2d origin_mm_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<float> distance_mm_;
+};
+
+}  // namespace hydroprint::velocity

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/base/result.h"
+#include "sim/velocity/film_mesh.h"
+#include "sim/velocity/locator.h"
+#include "sim/waterline/pull_index.h"
+
+namespace hydroprint::velocity {
+
+/// Film velocity at one immersion, per unit of dip speed: quadratic on the triangles of the film
+/// mesh.
+class VelocityField {
+ public:
+  /// The film at rest before first contact: zero everywhere.
+  VelocityField() = default;
+  VelocityField(FilmMesh mesh, std::vector<Eigen::Vector2d> nodes);
+
+  /// Velocity at a point of the film, or at its nearest point if it lies up to `reach_mm` outside.
+  /// @return false, leaving `velocity` alone, where there is no film within reach
+  [[nodiscard]] bool at(const Eigen::Vector2d& point_mm, double reach_mm,
+                        Eigen::Vector2d& velocity) const;
+
+  [[nodiscard]] const FilmMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const std::vector<Eigen::Vector2d>& nodes() const { return nodes_; }
+
+ private:
+  FilmMesh mesh_;
+  std::vector<Eigen::Vector2d> nodes_;
+  Locator locator_;
+};
+
+/// Dirichlet values of eq. (1) for every node: zero at the vat, the pull at the waterline (at a
+/// corner the mean of its two sides), NaN for inner nodes.
+[[nodiscard]] std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
+                                                               const waterline::PullIndex& pulls);
+
+/// Stokes flow (section 4.2, eq. 2): each component harmonic, quadratic elements, one
+/// factorisation for both.
+/// @param fixed  per node the prescribed velocity, NaN where it is to be found
+/// @return per node the velocity; kInternal if the matrix cannot be factored
+[[nodiscard]] Result<std::vector<Eigen::Vector2d>> solve_stokes(
+    const FilmMesh& mesh, const std::vector<Eigen::Vector2d>& fixed);
+
+}  // namespace hydroprint::velocity

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "sim/base/pose.h"
+#include "sim/base/result.h"
+#include "sim/mesh/surface.h"
+
+namespace hydroprint::waterline {
+
+/// The object as the water sees it: in the film frame F at the start of the dip, its lowest point
+/// at z = 0. A point's z is thus the immersion at which the water reaches it.
+struct Body {
+  std::vector<Eigen::Vector3d> points_mm;  ///< one per point of the surface
+  std::vector<Eigen::Vector3i> triangles;  ///< same order as the surface's, indices welded
+  std::vector<std::array<Eigen::Vector3d, 3>> corner_normals;  ///< outward, unit, in F
+  double height_mm = 0;  ///< immersion at which all of it is under water
+};
+
+/// Puts the surface into the film frame.
+/// @param X_FO  its z is ignored and set so that the lowest point touches the water
+/// @return the body and, through `X_FO`, the pose as used
+[[nodiscard]] Body place(const mesh::Surface& surface, Pose& X_FO);
+
+/// The pose of an object left as it is in its file: bounding box centred on the film.
+[[nodiscard]] Pose centred_pose(const mesh::Surface& surface);
+
+/// Beyond this angle between surface and water eq. (1) is not followed any more (contract).
+inline constexpr double kThetaLimit_rad = 170.0 * 3.14159265358979323846 / 180.0;
+
+/// Film velocity at the waterline per unit of dip speed, eq. (1) in half-angle form:
+/// tan(theta / 2) towards the object, with theta clamped at kThetaLimit_rad.
+/// @param normal  outward unit normal of the object, in F; cos(theta) = -normal.z
+/// @return in-plane vector, dimensionless; zero where the surface lies flat on the water
+[[nodiscard]] Eigen::Vector2d pull(const Eigen::Vector3d& normal);
+
+}  // namespace hydroprint::waterline

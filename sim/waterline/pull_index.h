@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/waterline/slicer.h"
+
+namespace hydroprint::waterline {
+
+/// Finds the pull of eq. (1) at any point of the waterline: that of the nearest segment. The
+/// segments are those of all contours at one immersion, binned on a grid.
+class PullIndex {
+ public:
+  PullIndex() = default;
+  explicit PullIndex(const std::vector<Contour>& contours);
+
+  /// Film velocity per unit dip speed at the waterline point nearest to `point_mm`; zero if there
+  /// are no segments at all.
+  [[nodiscard]] Eigen::Vector2d at(const Eigen::Vector2d& point_mm) const;
+
+ private:
+  [[nodiscard]] Eigen::Vector2i cell_of(const Eigen::Vector2d& point_mm) const;
+
+  std::vector<Segment> segments_;
+  Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2i cells_ = Eigen::Vector2i::Zero();
+  std::vector<int> cell_start_, cell_segments_;
+};
+
+}  // namespace hydroprint::waterline

@@ -1,0 +1,160 @@
+#include "sim/waterline/schedule.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+namespace hydroprint::waterline {
+namespace {
+
+constexpr int kBins = 8192;
+constexpr double kLeastShelf_mm2 = 0.5;  ///< smaller level faces are no event
+constexpr double kLeastRim_mm = 5;       ///< shorter level edges are no event
+
+struct Triangle {
+  double low_mm, high_mm, area_mm2, sine, cosine;
+};
+
+Triangle measure(const Body& body, const Eigen::Vector3i& t) {
+  const Eigen::Vector3d& a = body.points_mm[t[0]];
+  const Eigen::Vector3d& b = body.points_mm[t[1]];
+  const Eigen::Vector3d& c = body.points_mm[t[2]];
+  const Eigen::Vector3d normal = (b - a).cross(c - a);
+  const double length = std::max(normal.norm(), 1e-300);
+  const auto [low, high] = std::minmax({a.z(), b.z(), c.z()});
+  return {low, high, 0.5 * length, normal.head<2>().norm() / length, -normal.z() / length};
+}
+
+/// What the depth range between two bin edges holds.
+struct Bins {
+  std::vector<double> wetted_mm2;  ///< surface wetted, weighed
+  std::vector<double> length_mm;   ///< mean waterline length
+};
+
+/// How much the time step matters for a surface at this angle: the film hardly moves near level
+/// faces (u = tan(theta / 2)), so there the steps may be longer.
+double weight(double cosine) {
+  const double tangent = std::sqrt(std::max(0.0, 1 - cosine) / std::max(1e-12, 1 + cosine));
+  return std::clamp(2 * tangent, 0.1, 1.0);
+}
+
+Bins collect(const Body& body, double shelf_slope_rad) {
+  const double bin_mm = body.height_mm / kBins;
+  // Densities enter as differences at the ends of each triangle's range, with the two end bins
+  // filled in part; a running sum then gives every bin.
+  std::vector<double> area(kBins + 2, 0), length(kBins + 2, 0);
+  const auto spread = [&](std::vector<double>& bins, double low, double high, double density) {
+    const auto step_up = [&](double z, double rise) {  // density from z on, as bin averages
+      const double at = std::clamp(z / bin_mm, 0.0, static_cast<double>(kBins));
+      const int bin = static_cast<int>(at);
+      const double inside = 1 - (at - bin);
+      bins[bin] += rise * inside;
+      bins[bin + 1] += rise * (1 - inside);
+    };
+    step_up(low, density);
+    step_up(high, -density);
+  };
+  for (const Eigen::Vector3i& t : body.triangles) {
+    const Triangle m = measure(body, t);
+    if (m.sine < shelf_slope_rad) continue;
+    const double range_mm = std::max(m.high_mm - m.low_mm, 1e-9);
+    spread(area, m.low_mm, m.high_mm, weight(m.cosine) * m.area_mm2 / range_mm);
+    spread(length, m.low_mm, m.high_mm, m.area_mm2 * m.sine / range_mm);
+  }
+  Bins bins{std::vector<double>(kBins), std::vector<double>(kBins)};
+  double running_area = 0, running_length = 0;
+  for (int b = 0; b < kBins; ++b) {
+    running_area += area[b];
+    running_length += length[b];
+    bins.wetted_mm2[b] = std::max(0.0, running_area) * bin_mm;
+    bins.length_mm[b] = std::max(0.0, running_length);
+  }
+  return bins;
+}
+
+/// Levels at which at least `least` of the given weighted heights gather within 1e-3 mm.
+std::vector<double> gather(std::vector<std::pair<double, double>> heights, double least) {
+  std::sort(heights.begin(), heights.end());
+  std::vector<double> levels;
+  for (std::size_t i = 0; i < heights.size();) {
+    const double start = heights[i].first;
+    double sum = 0;
+    for (; i < heights.size() && heights[i].first - start < 1e-3; ++i) sum += heights[i].second;
+    if (sum >= least) levels.push_back(start);
+  }
+  return levels;
+}
+
+std::vector<double> shelves(const Body& body, double shelf_slope_rad) {
+  std::vector<std::pair<double, double>> faces;
+  for (const Eigen::Vector3i& t : body.triangles) {
+    const Triangle m = measure(body, t);
+    if (m.sine < shelf_slope_rad) faces.emplace_back(0.5 * (m.low_mm + m.high_mm), m.area_mm2);
+  }
+  return gather(std::move(faces), kLeastShelf_mm2);
+}
+
+/// Level edges at which the surface has a crease: the waterline's speed jumps all along them.
+std::vector<double> rims(const Body& body) {
+  struct Side {
+    Eigen::Vector3d normal;
+    bool found = false;
+  };
+  std::unordered_map<std::uint64_t, Side> sides;
+  std::vector<std::pair<double, double>> creases;
+  for (std::size_t t = 0; t < body.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int a = body.triangles[t][i];
+      const int b = body.triangles[t][(i + 1) % 3];
+      const Eigen::Vector3d& p = body.points_mm[a];
+      const Eigen::Vector3d& q = body.points_mm[b];
+      if (std::abs(p.z() - q.z()) > 1e-3) continue;
+      const auto [low, high] = std::minmax(a, b);
+      Side& side = sides[static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high)];
+      const Eigen::Vector3d& normal = body.corner_normals[t][a == low ? i : (i + 1) % 3];
+      if (!side.found) {
+        side = {normal, true};
+      } else if (side.normal.dot(normal) < 0.9) {
+        creases.emplace_back(p.z(), (p - q).norm());
+      }
+    }
+  }
+  return gather(std::move(creases), kLeastRim_mm);
+}
+
+}  // namespace
+
+std::vector<double> schedule(const Body& body, double depth_mm, const ScheduleOptions& options) {
+  const double bin_mm = body.height_mm / kBins;
+  const double gap_mm = options.event_gap_mm;
+  std::vector<double> depths = {gap_mm, depth_mm - gap_mm};
+
+  const Bins bins = collect(body, options.shelf_slope_rad);
+  double steps = 0, next = 1;
+  for (int b = 0; b < kBins; ++b) {
+    if (bins.length_mm[b] <= 0) continue;
+    const double here = std::min(bins.wetted_mm2[b] / (options.swept_mm * bins.length_mm[b]), 4.0);
+    while (steps + here >= next) {
+      depths.push_back((b + (next - steps) / here) * bin_mm);
+      ++next;
+    }
+    steps += here;
+  }
+  for (const auto& levels : {shelves(body, options.shelf_slope_rad), rims(body)}) {
+    for (const double level : levels) {
+      depths.push_back(level - gap_mm);
+      depths.push_back(level + gap_mm);
+    }
+  }
+  std::sort(depths.begin(), depths.end());
+  std::vector<double> kept;
+  for (const double d : depths) {
+    const bool in_range = d >= 0.5 * gap_mm && d <= depth_mm - 0.5 * gap_mm;
+    if (in_range && (kept.empty() || d - kept.back() > 0.5 * gap_mm)) kept.push_back(d);
+  }
+  return kept;
+}
+
+}  // namespace hydroprint::waterline

@@ -1,0 +1,234 @@
+#include "sim/waterline/waterlines.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "sim/waterline/slicer.h"
+
+namespace hydroprint::waterline {
+namespace {
+
+constexpr double kEdgeMargin_mm = 0.05;   ///< nearer than this to the film's edge counts as there
+constexpr double kLeastIsland_mm2 = 0.2;  ///< smaller contours may come and go unresolved
+constexpr std::size_t kMostWaterlines = 3000;
+
+const Motion::Row* row_after(const Motion& motion, double immersion_mm) {
+  const auto it =
+      std::lower_bound(motion.rows.begin(), motion.rows.end(), immersion_mm,
+                       [](const Motion::Row& row, double d) { return row.immersion_mm < d; });
+  return it == motion.rows.end() ? nullptr : &*it;
+}
+
+Waterline take(const Slicer& slicer, const Motion& motion, double immersion_mm) {
+  std::vector<Contour> contours = slicer.cut(immersion_mm);
+  const Eigen::Vector2d offset = offset_at(motion, immersion_mm);
+  const Eigen::Vector2d drift = drift_at(motion, immersion_mm);
+  for (Contour& contour : contours) {
+    for (Segment& s : contour) {
+      s.a_mm += offset;
+      s.b_mm += offset;
+      s.pull_a += drift;
+      s.pull_b += drift;
+    }
+  }
+  return {immersion_mm, unite(contours), {}, PullIndex(contours)};
+}
+
+/// How many outer loops and holes of some size there are: when it changes, the topology has.
+std::array<int, 2> signature(const Waterline& line) {
+  std::array<int, 2> count = {0, 0};
+  for (const Loop& loop : line.section) {
+    if (std::abs(signed_area(loop.points_mm)) >= kLeastIsland_mm2) ++count[loop.is_hole];
+  }
+  return count;
+}
+
+double distance_to(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Eigen::Vector2d along = polygon[i] - polygon[j];
+    const double t = std::clamp((p - polygon[j]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    least = std::min(least, (polygon[j] + t * along - p).norm());
+  }
+  return least;
+}
+
+bool reaches_edge(const film::Outline& outline, const Waterline& line) {
+  for (const Loop& loop : line.section) {
+    if (loop.parent >= 0) continue;
+    for (const Eigen::Vector2d& p : loop.points_mm) {
+      if (!film::contains(outline, p) || distance_to(outline.polygon, p) < kEdgeMargin_mm) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+Status check_first_contact(const Body& body, const film::Outline& outline, const Waterline& first,
+                           const Motion& motion) {
+  Eigen::Vector2d touch = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector3i& triangle : body.triangles) {
+    for (const int v : triangle) {
+      if (body.points_mm[v].z() > 1e-3) continue;
+      touch = body.points_mm[v].head<2>() + offset_at(motion, 0);
+      if (film::contains(outline, touch)) return {};
+    }
+  }
+  std::vector<std::vector<Eigen::Vector2d>> solid;
+  for (const Loop& loop : first.section) solid.push_back(loop.points_mm);
+  if (common_area({outline.polygon}, solid) > 0) return {};
+  return fail(Code::kFailedPrecondition,
+              "pose: the object's lowest point, at (" + std::to_string(touch.x()) + ", " +
+                  std::to_string(touch.y()) + ") mm, misses the film " + outline.name +
+                  "; move the object over the film (translation_mm) or take a larger --film",
+              "CONTACT_MISSES_FILM");
+}
+
+using Curves = std::vector<std::vector<Eigen::Vector2d>>;
+
+/// The curves round everything that is neither film nor solid: holes without film.
+Curves dry_curves(const Waterline& line) {
+  Curves curves;
+  for (std::size_t l = 0; l < line.section.size(); ++l) {
+    const Loop& loop = line.section[l];
+    if (!line.bounds_film[l] && (loop.is_hole || loop.parent >= 0)) {
+      curves.push_back(loop.points_mm);
+    }
+  }
+  return curves;
+}
+
+/// Decides which loops bound film, given the waterline just before.
+void carry_film(const film::Outline& outline, const Waterline& before, Waterline& line) {
+  line.bounds_film.assign(line.section.size(), 0);
+  for (std::size_t l = 0; l < line.section.size(); ++l) {
+    const Loop& loop = line.section[l];
+    if (!loop.is_hole) {
+      line.bounds_film[l] = loop.parent < 0 || line.bounds_film[loop.parent];
+      continue;
+    }
+    Curves hole = {loop.points_mm};
+    for (const Loop& island : line.section) {
+      if (island.parent == static_cast<int>(l)) hole.push_back(island.points_mm);
+    }
+    const double film_mm2 = common_area(hole, film_curves(outline, before));
+    const double dry_mm2 = common_area(hole, dry_curves(before));
+    const double hole_mm2 = std::abs(signed_area(loop.points_mm));
+    line.bounds_film[l] = film_mm2 > 0.05 * hole_mm2 && film_mm2 > dry_mm2;
+  }
+}
+
+/// Waterlines at the given immersions, more where the topology changes in between.
+Result<std::vector<Waterline>> take_all(const Slicer& slicer, const Motion& motion,
+                                        const std::vector<double>& depths, double event_gap_mm,
+                                        const Context& context) {
+  std::vector<Waterline> lines(depths.size());
+  HP_RETURN_IF_ERROR(
+      parallel_for(context, "waterline", depths.size(), [&](std::size_t i) -> Status {
+        lines[i] = take(slicer, motion, depths[i]);
+        return {};
+      }));
+  while (lines.size() < kMostWaterlines) {
+    std::vector<double> more;
+    for (std::size_t i = 1; i < lines.size(); ++i) {
+      const double gap = lines[i].immersion_mm - lines[i - 1].immersion_mm;
+      if (gap > 5 * event_gap_mm && signature(lines[i]) != signature(lines[i - 1])) {
+        more.push_back(0.5 * (lines[i].immersion_mm + lines[i - 1].immersion_mm));
+      }
+    }
+    if (more.empty()) break;
+    std::vector<Waterline> added(more.size());
+    HP_RETURN_IF_ERROR(parallel_for(context, {}, more.size(), [&](std::size_t i) -> Status {
+      added[i] = take(slicer, motion, more[i]);
+      return {};
+    }));
+    for (Waterline& line : added) lines.push_back(std::move(line));
+    std::sort(lines.begin(), lines.end(), [](const Waterline& a, const Waterline& b) {
+      return a.immersion_mm < b.immersion_mm;
+    });
+  }
+  return lines;
+}
+
+/// Cuts the list off where the waterline reaches the film's edge, adding one last waterline just
+/// before that.
+void stop_at_edge(const Slicer& slicer, const Motion& motion, const film::Outline& outline,
+                  Waterlines& waterlines) {
+  auto& lines = waterlines.lines;
+  const auto first = std::find_if(lines.begin(), lines.end(), [&](const Waterline& line) {
+    return reaches_edge(outline, line);
+  });
+  if (first == lines.end()) return;
+  waterlines.stopped_at_edge = true;
+  double inside = first == lines.begin() ? 0 : (first - 1)->immersion_mm;
+  double beyond = first->immersion_mm;
+  lines.erase(first, lines.end());
+  Waterline last;
+  while (beyond - inside > 1e-3) {
+    Waterline middle = take(slicer, motion, 0.5 * (inside + beyond));
+    if (reaches_edge(outline, middle)) {
+      beyond = middle.immersion_mm;
+    } else {
+      inside = middle.immersion_mm;
+      last = std::move(middle);
+    }
+  }
+  if (last.immersion_mm > 0) lines.push_back(std::move(last));
+  waterlines.depth_mm = beyond;
+}
+
+}  // namespace
+
+Eigen::Vector2d offset_at(const Motion& motion, double immersion_mm) {
+  if (motion.rows.empty()) return Eigen::Vector2d::Zero();
+  const Motion::Row* after = row_after(motion, immersion_mm);
+  if (after == nullptr) return motion.rows.back().offset_mm;
+  if (after == motion.rows.data()) return after->offset_mm;
+  const Motion::Row& before = *(after - 1);
+  const double span = after->immersion_mm - before.immersion_mm;
+  const double t = span > 0 ? (immersion_mm - before.immersion_mm) / span : 1.0;
+  return (1 - t) * before.offset_mm + t * after->offset_mm;
+}
+
+Eigen::Vector2d drift_at(const Motion& motion, double immersion_mm) {
+  const Motion::Row* after = row_after(motion, immersion_mm);
+  if (motion.rows.empty() || after == nullptr || after == motion.rows.data()) {
+    return Eigen::Vector2d::Zero();
+  }
+  const Motion::Row& before = *(after - 1);
+  const double span = after->immersion_mm - before.immersion_mm;
+  if (span <= 0) return Eigen::Vector2d::Zero();
+  return (after->offset_mm - before.offset_mm) / span;
+}
+
+Curves film_curves(const film::Outline& outline, const Waterline& line) {
+  Curves curves = {outline.polygon};
+  for (std::size_t l = 0; l < line.section.size(); ++l) {
+    if (line.bounds_film[l]) curves.push_back(line.section[l].points_mm);
+  }
+  return curves;
+}
+
+Result<Waterlines> take_waterlines(const Body& body, const film::Outline& outline, double depth_mm,
+                                   const Motion& motion, const ScheduleOptions& options,
+                                   const Context& context) {
+  const Slicer slicer(body);
+  Waterlines result;
+  result.depth_mm = std::min(depth_mm, body.height_mm);
+  HP_RETURN_IF_ERROR(
+      check_first_contact(body, outline, take(slicer, motion, options.event_gap_mm), motion));
+  HP_ASSIGN_OR_RETURN(result.lines,
+                      take_all(slicer, motion, schedule(body, result.depth_mm, options),
+                               options.event_gap_mm, context));
+  stop_at_edge(slicer, motion, outline, result);
+  const Waterline rest;
+  for (std::size_t i = 0; i < result.lines.size(); ++i) {
+    carry_film(outline, i == 0 ? rest : result.lines[i - 1], result.lines[i]);
+  }
+  return result;
+}
+
+}  // namespace hydroprint::waterline
