@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+#include "sim/base/result.h"
+
+namespace hydroprint::image {
+
+/// Writes a whole file under a temporary name in the same folder, syncs it and renames it, so that
+/// the name never stands for half a file. Refuses with kResourceExhausted (reason DISK_FULL),
+/// kNotFound (no such folder), kPermissionDenied or kInternal; nothing is left behind then.
+[[nodiscard]] Status write_artifact(const std::filesystem::path& path,
+                                    std::span<const unsigned char> bytes);
+
+}  // namespace hydroprint::image

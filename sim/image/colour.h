@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+namespace hydroprint::image {
+
+/// sRGB's transfer curve (IEC 61966-2-1); both ways map [0, 1] to [0, 1], clamping what lies
+/// outside (NaN becomes 0).
+[[nodiscard]] float linear_from_srgb(float coded);
+[[nodiscard]] float srgb_from_linear(float linear);
+[[nodiscard]] Eigen::Vector3f linear_from_srgb(const Eigen::Vector3f& coded);
+[[nodiscard]] Eigen::Vector3f srgb_from_linear(const Eigen::Vector3f& linear);
+
+/// The nearest 8-bit sRGB code, by table: fast enough for every pixel of a film image.
+[[nodiscard]] std::uint8_t srgb8_from_linear(float linear);
+
+/// Linear light in 16 bits from 16-bit sRGB codes, by table. 8-bit codes times 257 survive the way
+/// there and back.
+[[nodiscard]] std::uint16_t linear16_from_srgb16(std::uint16_t coded);
+
+}  // namespace hydroprint::image

@@ -1,0 +1,203 @@
+#include "sim/image/film_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "sim/image/colour.h"
+#include "sim/image/tile_bins.h"
+
+namespace hydroprint::image {
+namespace {
+
+constexpr int kBlock_px = 64;
+constexpr int kSamples = 4;
+/// A rotated grid: no two samples in one row or column, so that edges near either axis are smooth.
+const std::array<Eigen::Vector2d, kSamples> kOffsets = {
+    Eigen::Vector2d(-0.125, -0.375), Eigen::Vector2d(0.375, -0.125), Eigen::Vector2d(0.125, 0.375),
+    Eigen::Vector2d(-0.375, 0.125)};
+
+/// How far beyond a tile's edge its colours are believed, as a part of its size.
+constexpr double kBeyondEdge = 0.5;
+
+/// Where a pixel's colour is looked up, once for all its samples: in its middle, so that tiles that
+/// share the pixel agree, unless that lies far outside a tiny tile.
+/// @param covered  the mean place of the samples that the tile covers
+Eigen::Vector2d look_up_at(const BarycentricMap& map, const Eigen::Vector2d& middle,
+                           const Eigen::Vector2d& covered) {
+  return map.at(middle.x(), middle.y()).minCoeff() >= -kBeyondEdge ? middle : covered;
+}
+
+/// One block of the image while it is painted: the colour of each sample and when it landed.
+class Block {
+ public:
+  explicit Block(const Window& window)
+      : window_(window), samples_(static_cast<std::size_t>(kBlock_px) * kBlock_px * kSamples) {}
+
+  /// @param at  the tile's corners on the pixel grid
+  void paint(const Corners& at, const std::array<float, 3>& time_s, const Brush& brush) {
+    collect_spans(at);
+    const BarycentricMap map(at);
+    const Eigen::Vector3d times(time_s[0], time_s[1], time_s[2]);
+    for (int y = first_row_; y <= last_row_; ++y) paint_row(y, map, times, brush);
+  }
+
+  void resolve(RgbImage& image) const {
+    for (int y = window_.y0; y < window_.y1; ++y) {
+      for (int x = window_.x0; x < window_.x1; ++x) {
+        Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+        for (int s = 0; s < kSamples; ++s) sum += at(x, y)[s].colour;
+        for (int c = 0; c < 3; ++c) {
+          image.at(x, y)[c] = srgb8_from_linear(sum[c] / kSamples);
+        }
+      }
+    }
+  }
+
+ private:
+  struct Sample {
+    Eigen::Vector3f colour = Eigen::Vector3f::Ones();  ///< linear; the bare film is white
+    float time_s = HUGE_VALF;
+  };
+  struct Span {
+    int begin = 0, end = 0;
+  };
+  using Spans = std::array<Span, kSamples>;
+
+  const Sample* at(int x, int y) const { return &samples_[index(x, y)]; }
+  std::size_t index(int x, int y) const {
+    return (static_cast<std::size_t>(y - window_.y0) * kBlock_px +
+            static_cast<std::size_t>(x - window_.x0)) *
+           kSamples;
+  }
+
+  /// Rasterises the tile once per sample of a pixel.
+  void collect_spans(const Corners& at) {
+    first_row_ = window_.y1;
+    last_row_ = window_.y0 - 1;
+    for (int s = 0; s < kSamples; ++s) {
+      const Corners shifted = {at[0] - kOffsets[s], at[1] - kOffsets[s], at[2] - kOffsets[s]};
+      for_each_span(shifted, window_, [&](int y, int begin, int end) {
+        if (y < first_row_ || y > last_row_) clear_rows(y);
+        rows_[y - window_.y0][s] = {begin, end};
+      });
+    }
+  }
+
+  void clear_rows(int y) {
+    const int begin = first_row_ > last_row_ ? y : std::min(y, last_row_ + 1);
+    const int end = first_row_ > last_row_ ? y : std::max(y, first_row_ - 1);
+    for (int row = begin; row <= end; ++row) rows_[row - window_.y0] = {};
+    first_row_ = std::min(first_row_, y);
+    last_row_ = std::max(last_row_, y);
+  }
+
+  void paint_row(int y, const BarycentricMap& map, const Eigen::Vector3d& times,
+                 const Brush& brush) {
+    const Spans& spans = rows_[y - window_.y0];
+    int begin = window_.x1, end = window_.x0;
+    for (const Span& span : spans) {
+      if (span.begin >= span.end) continue;
+      begin = std::min(begin, span.begin);
+      end = std::max(end, span.end);
+    }
+    for (int x = begin; x < end; ++x) {
+      Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+      int count = 0;
+      Sample* samples = &samples_[index(x, y)];
+      std::array<bool, kSamples> is_mine{};
+      for (int s = 0; s < kSamples; ++s) {
+        if (x < spans[s].begin || x >= spans[s].end) continue;
+        const Eigen::Vector2d place = Eigen::Vector2d(x + 0.5, y + 0.5) + kOffsets[s];
+        const auto time_s = static_cast<float>(map.at(place.x(), place.y()).dot(times));
+        if (!(time_s < samples[s].time_s)) continue;
+        samples[s].time_s = time_s;
+        is_mine[s] = true;
+        middle += place;
+        ++count;
+      }
+      if (count == 0) continue;
+      middle = look_up_at(map, {x + 0.5, y + 0.5}, middle / count);
+      const Eigen::Vector3f colour = brush.at(middle.x(), middle.y());
+      for (int s = 0; s < kSamples; ++s) {
+        if (is_mine[s]) samples[s].colour = colour;
+      }
+    }
+  }
+
+  Window window_;
+  std::vector<Sample> samples_;
+  std::array<Spans, kBlock_px> rows_;
+  int first_row_ = 0, last_row_ = -1;
+};
+
+Status check_size(const film::Outline& outline, double dpi) {
+  if (!(dpi >= kMinDpi && dpi <= kMaxDpi)) {
+    return fail(Code::kOutOfRange, "dpi " + std::to_string(dpi) +
+                                       ": must lie in 20 to 2400. "
+                                       "Give the resolution of the printer, such as 300 or 600");
+  }
+  const Eigen::Vector2d size_px = outline.size_mm() * dpi / 25.4;
+  if (!(size_px.x() * size_px.y() <= kMaxFilmImage_px)) {
+    return fail(Code::kOutOfRange, "dpi " + std::to_string(dpi) + " on film " + outline.name +
+                                       ": an image of more than 400 million pixels. Lower the dpi");
+  }
+  return {};
+}
+
+}  // namespace
+
+FilmGrid film_grid(const film::Outline& outline, double pitch_mm) {
+  const Eigen::Vector2d cells = outline.size_mm() / pitch_mm;
+  const Eigen::Vector2d centre = 0.5 * (outline.min_mm + outline.max_mm);
+  FilmGrid grid;
+  grid.columns = std::max(1, static_cast<int>(std::lround(cells.x())));
+  grid.rows = std::max(1, static_cast<int>(std::lround(cells.y())));
+  grid.pitch_mm = pitch_mm;
+  grid.left_mm = centre.x() - 0.5 * grid.columns * pitch_mm;
+  grid.top_mm = centre.y() + 0.5 * grid.rows * pitch_mm;
+  return grid;
+}
+
+std::array<Eigen::Vector3d, 3> model_barycentric(const mesh::Surface& surface,
+                                                 const flow::MappedTriangle& tile) {
+  std::array<Eigen::Vector3d, 3> out;
+  const auto& source = surface.source_barycentric[tile.triangle];
+  for (int i = 0; i < 3; ++i) {
+    out[i].setZero();
+    for (int k = 0; k < 3; ++k) {
+      out[i] += static_cast<double>(tile.barycentric[i][k]) * source[k].cast<double>();
+    }
+  }
+  return out;
+}
+
+Result<RgbImage> film_image(const mesh::Surface& surface,
+                            const std::vector<flow::MappedTriangle>& tiles, const Paint& paint,
+                            const film::Outline& outline, double dpi, const Context& context) {
+  HP_RETURN_IF_ERROR(check_size(outline, dpi));
+  const FilmGrid grid = film_grid(outline, 25.4 / dpi);
+  RgbImage image{grid.columns, grid.rows, {}};
+  image.rgb.assign(3 * static_cast<std::size_t>(grid.columns) * grid.rows, 255);
+  if (!paint.has_colour()) return image;
+
+  const TileBins bins(tiles, grid, kBlock_px);
+  HP_RETURN_IF_ERROR(parallel_for(context, "film image", bins.count(), [&](std::size_t b) {
+    const auto in_block = bins.tiles(b);
+    if (in_block.empty()) return Status{};
+    Block block(bins.window(b));
+    for (const int t : in_block) {
+      const flow::MappedTriangle& tile = tiles[t];
+      const Corners at = {grid.cell(tile.film_mm[0]), grid.cell(tile.film_mm[1]),
+                          grid.cell(tile.film_mm[2])};
+      block.paint(at, tile.contact_time_s,
+                  paint.brush(surface.source_triangle[tile.triangle], at,
+                              model_barycentric(surface, tile)));
+    }
+    block.resolve(image);
+    return Status{};
+  }));
+  return image;
+}
+
+}  // namespace hydroprint::image

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hydroprint::image {
+
+/// 8-bit sRGB, row 0 on top, pixels R G B without padding.
+struct RgbImage {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;
+
+  [[nodiscard]] const std::uint8_t* at(int x, int y) const {
+    return &rgb[3 * (static_cast<std::size_t>(y) * width + x)];
+  }
+  [[nodiscard]] std::uint8_t* at(int x, int y) {
+    return &rgb[3 * (static_cast<std::size_t>(y) * width + x)];
+  }
+};
+
+}  // namespace hydroprint::image

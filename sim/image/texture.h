@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/image/image_file.h"
+#include "sim/mesh/model.h"
+
+namespace hydroprint::image {
+
+/// The part of a texture that one connected piece of the unwrapped surface uses.
+struct Chart {
+  std::uint16_t id = 0;  ///< texels of other charts are left out of averages; 0: all are taken
+  /// Per axis: the whole chart lies in the unit tile that starts here, so that filters stop at the
+  /// tile's edge instead of wrapping round to the opposite one.
+  std::array<bool, 2> in_one_tile = {false, false};
+  std::array<double, 2> tile = {0, 0};
+};
+
+/// A triangle of the unwrapped surface: texture coordinates (v up), and the corners' positions,
+/// which tell seams from mere edges.
+struct UvTriangle {
+  std::array<Eigen::Vector2d, 3> uv;
+  std::array<Eigen::Vector3d, 3> position;
+};
+
+/// Finds the charts (triangles joined along edges equal in space and in the texture), marks their
+/// texels and extends each by up to 16 texels of background with the nearest texel's colour. Charts
+/// that lie on each other (mirrored halves) count as one. Gives up, every id 0, on coordinates that
+/// cover the texture more than 64 times over.
+/// @return per triangle its chart
+[[nodiscard]] std::vector<Chart> make_charts(const std::vector<UvTriangle>& triangles,
+                                             mesh::Wrap wrap_u, mesh::Wrap wrap_v, Texels& texels);
+
+/// A picture to be sampled at any size: linear light, a pyramid of halved copies, averages that
+/// keep to one chart.
+class Texture {
+ public:
+  /// Takes the texels as level 0 and builds the rest: 8 bytes a texel, a third more for the
+  /// pyramid.
+  [[nodiscard]] static Result<Texture> build(Texels texels, mesh::Wrap wrap_u, mesh::Wrap wrap_v,
+                                             const Context& context);
+
+  /// How the neighbourhood of one sample lies on the texture; the same all over an affine patch.
+  struct Footprint {
+    int level = 0;
+    float blend = 0;  ///< share of the next level
+    int probes = 1;   ///< along the longer axis of the footprint
+    Eigen::Vector2d step_uv = Eigen::Vector2d::Zero();
+  };
+  /// @param uv_per_sample  columns: change of (u, v) from one sample to the next in x and in y
+  [[nodiscard]] Footprint footprint(const Eigen::Matrix2d& uv_per_sample) const;
+
+  /// Mean colour, linear light, of the footprint round a point (v up).
+  [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector2d& uv, const Footprint& footprint,
+                                       const Chart& chart) const;
+
+  [[nodiscard]] int width() const { return levels_[0].width; }
+  [[nodiscard]] int height() const { return levels_[0].height; }
+
+ private:
+  struct Sum {
+    Eigen::Vector3f colour = Eigen::Vector3f::Zero();
+    float weight = 0;
+  };
+  [[nodiscard]] Eigen::Vector2d fold(const Eigen::Vector2d& uv, const Chart& chart) const;
+  [[nodiscard]] Sum bilinear(const Eigen::Vector2d& folded, int level, const Chart& chart) const;
+  [[nodiscard]] Sum trilinear(const Eigen::Vector2d& folded, const Footprint& footprint,
+                              const Chart& chart) const;
+  [[nodiscard]] Eigen::Vector3f nearest(const Eigen::Vector2d& folded) const;
+
+  std::vector<Texels> levels_;
+  std::array<mesh::Wrap, 2> wrap_ = {mesh::Wrap::kRepeat, mesh::Wrap::kRepeat};
+};
+
+}  // namespace hydroprint::image
