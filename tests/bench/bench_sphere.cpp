@@ -13,7 +13,7 @@
 
 #include "sim/pipeline/pipeline.h"
 #include "sim/sample/icosphere.h"
-#include "tests/bench/exact_sphere.h"
+#include "tests/support/exact_sphere.h"
 
 namespace hydroprint::bench {
 namespace {
@@ -86,7 +86,7 @@ Errors against_exact(const pipeline::Dip& dip, double sphere_mm, double vat_mm, 
       continue;
     }
     const double along =
-        sphere_mm * (exact_contact_angle_rad(sphere_mm, vat_mm, film.norm()) - theta);
+        sphere_mm * (exact::contact_angle_rad(sphere_mm, vat_mm, film.norm()) - theta);
     const Eigen::Vector2d flat = p.head<2>();
     const double turn = flat.norm() < 1e-9 || film.norm() < 1e-9
                             ? 0

@@ -1,0 +1,55 @@
+#include "sim/base/result.h"
+
+#include <gtest/gtest.h>
+
+namespace hydroprint {
+namespace {
+
+ExitStatus status_of(Code code) { return exit_status(Error{code, "x", {}, {}}); }
+
+TEST(ExitStatus, CancelledIs130) {
+  EXPECT_EQ(status_of(Code::kCancelled), ExitStatus::kCancelled);
+  EXPECT_EQ(static_cast<int>(ExitStatus::kCancelled), 130);
+}
+
+TEST(ExitStatus, WhatIsNotBuiltYetIsBadUsage) {
+  EXPECT_EQ(static_cast<int>(status_of(Code::kUnimplemented)), 2);
+}
+
+TEST(ExitStatus, WhatTheUserCanMendInTheInputIsBadInput) {
+  for (const Code code : {Code::kInvalidArgument, Code::kNotFound, Code::kAlreadyExists,
+                          Code::kPermissionDenied, Code::kFailedPrecondition, Code::kOutOfRange}) {
+    EXPECT_EQ(static_cast<int>(status_of(code)), 3) << static_cast<int>(code);
+  }
+}
+
+TEST(ExitStatus, WhatIsOurFaultIsFailed) {
+  for (const Code code : {Code::kInternal, Code::kUnavailable, Code::kAborted, Code::kDataLoss}) {
+    EXPECT_EQ(static_cast<int>(status_of(code)), 4) << static_cast<int>(code);
+  }
+}
+
+Result<int> half(int value) {
+  if (value % 2 != 0) return fail(Code::kInvalidArgument, "odd", "ODD");
+  return value / 2;
+}
+
+Result<int> quarter(int value) {
+  HP_ASSIGN_OR_RETURN(const int once, half(value));
+  HP_RETURN_IF_ERROR(half(once));
+  return half(once);
+}
+
+TEST(Result, AnErrorTravelsThroughTheMacrosWhole) {
+  EXPECT_EQ(quarter(8).value(), 2);
+  for (const int value : {3, 6}) {
+    const auto result = quarter(value);
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, Code::kInvalidArgument);
+    EXPECT_EQ(result.error().message, "odd");
+    EXPECT_EQ(result.error().reason, "ODD");
+  }
+}
+
+}  // namespace
+}  // namespace hydroprint

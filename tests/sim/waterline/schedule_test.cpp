@@ -1,0 +1,99 @@
+#include "sim/waterline/schedule.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "sim/sample/icosphere.h"
+#include "tests/sim/support/bodies.h"
+
+namespace hydroprint::waterline {
+namespace {
+
+bool has_within(const std::vector<double>& depths, double low, double high) {
+  return std::any_of(depths.begin(), depths.end(), [&](double d) { return d >= low && d <= high; });
+}
+
+void expect_increasing_in(const std::vector<double>& depths, double depth_mm) {
+  ASSERT_FALSE(depths.empty());
+  EXPECT_GT(depths.front(), 0);
+  EXPECT_LT(depths.back(), depth_mm);
+  for (std::size_t i = 1; i < depths.size(); ++i) EXPECT_GT(depths[i], depths[i - 1]);
+}
+
+TEST(Schedule, DividesASphereEvenlyInTheta) {
+  const double radius = 40;
+  const Body body = testing::body_of(sample::icosphere(radius, 5));
+  const ScheduleOptions options;
+  const auto depths = schedule(body, body.height_mm, options);
+  expect_increasing_in(depths, body.height_mm);
+  int tested = 0;
+  for (std::size_t i = 1; i < depths.size(); ++i) {
+    const double before = std::acos(1 - depths[i - 1] / radius);
+    const double after = std::acos(1 - depths[i] / radius);
+    if (before < 60 * std::numbers::pi / 180 || after > 160 * std::numbers::pi / 180) continue;
+    EXPECT_NEAR((after - before) * radius / options.swept_mm, 1, 0.1) << depths[i];
+    ++tested;
+  }
+  EXPECT_GT(tested, 40);
+}
+
+TEST(Schedule, StartsJustAfterContactAndEndsJustBeforeTheTop) {
+  const Body body = testing::body_of(sample::icosphere(40, 4));
+  const ScheduleOptions options;
+  const auto depths = schedule(body, body.height_mm, options);
+  EXPECT_NEAR(depths.front(), options.event_gap_mm, 1e-12);
+  EXPECT_NEAR(depths.back(), body.height_mm - options.event_gap_mm, 1e-9);
+}
+
+TEST(Schedule, EndsAtTheDepthAskedFor) {
+  const Body body = testing::body_of(sample::icosphere(40, 4));
+  const auto depths = schedule(body, 23.5);
+  expect_increasing_in(depths, 23.5);
+  EXPECT_NEAR(depths.back(), 23.5, 0.01);
+}
+
+TEST(Schedule, TakesBothSidesOfAShelf) {
+  // A box 10 mm high on a smaller one of 10 mm: a level face looks down at 10 mm.
+  const Body body =
+      testing::body_of(testing::blocks({-20, -10, 10, 20}, {-10, 10}, {0, 10, 20},
+                                       [](int i, int, int k) { return k == 1 || i == 1; }));
+  const ScheduleOptions options;
+  const auto depths = schedule(body, body.height_mm, options);
+  expect_increasing_in(depths, body.height_mm);
+  const double gap = 1.5 * options.event_gap_mm;
+  EXPECT_TRUE(has_within(depths, 10 - gap, 10 - 1e-9));
+  EXPECT_TRUE(has_within(depths, 10 + 1e-9, 10 + gap));
+}
+
+TEST(Schedule, TakesBothSidesOfALevelEdge) {
+  // A cone that goes over into a cylinder.
+  const Body body = testing::body_of(testing::turned({{0, 0}, {15, 15}, {15, 30}, {0, 30}}, 64));
+  const ScheduleOptions options;
+  const auto depths = schedule(body, body.height_mm, options);
+  const double gap = 1.5 * options.event_gap_mm;
+  EXPECT_TRUE(has_within(depths, 15 - gap, 15 - 1e-9));
+  EXPECT_TRUE(has_within(depths, 15 + 1e-9, 15 + gap));
+}
+
+TEST(Schedule, HalvingTheSweptWidthDoublesTheSteps) {
+  const Body body = testing::body_of(sample::icosphere(40, 4));
+  ScheduleOptions options;
+  const auto coarse = schedule(body, body.height_mm, options);
+  options.swept_mm /= 2;
+  const auto fine = schedule(body, body.height_mm, options);
+  EXPECT_NEAR(static_cast<double>(fine.size()) / static_cast<double>(coarse.size()), 2, 0.1);
+}
+
+TEST(Schedule, OfABodyWithoutHeightIsEmpty) {
+  mesh::Model model;
+  model.path = "sheet";
+  model.vertices = {{0, 0, 0}, {5, 0, 0}, {0, 5, 0}};
+  model.triangles = {{0, 1, 2}};
+  EXPECT_TRUE(schedule(testing::body_of(model), 0).empty());
+}
+
+}  // namespace
+}  // namespace hydroprint::waterline
