@@ -86,9 +86,11 @@ Contour follow(const std::vector<CutSegment>& cuts, const std::vector<int>& link
   return contour;
 }
 
-/// Appends a straight line to `to`, in pieces no longer than 1 mm, pull going over linearly.
-void bridge(Contour& contour, const Segment& to) {
+/// Appends a straight line to `target`, in pieces no longer than 1 mm, pull going over linearly.
+void bridge(Contour& contour, const Segment& target) {
+  // Copies: both may be part of the curve that grows.
   const Segment from = contour.back();
+  const Segment to = target;
   const double length_mm = (to.a_mm - from.b_mm).norm();
   if (length_mm == 0) return;
   const int pieces = static_cast<int>(std::ceil(length_mm));
