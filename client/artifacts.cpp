@@ -1,0 +1,196 @@
+#include "client/artifacts.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "client/convert.h"
+#include "client/digest.h"
+#include "client/rpc.h"
+
+namespace hydroprint::client {
+namespace {
+
+using Stub = v1::ArtifactService::Stub;
+
+constexpr int kPageSize = 1000;
+constexpr int kAttemptsWithoutProgress = 5;
+constexpr std::chrono::milliseconds kTryAgainAfter{500};
+
+tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int error_number) {
+  return fail(error_number == ENOSPC ? Code::kResourceExhausted : Code::kPermissionDenied,
+              path.string() + ": cannot be written (" + std::strerror(error_number) +
+                  "); choose another folder with --out or make room");
+}
+
+// The file that grows until it is complete.
+class PartFile {
+ public:
+  explicit PartFile(std::filesystem::path path)
+      : path_(std::move(path)),
+        descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644)) {}
+  ~PartFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  Status is_open() const {
+    if (descriptor_ < 0) return cannot_write(path_, errno);
+    return {};
+  }
+
+  Status append(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written < 0) return cannot_write(path_, errno);
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+    return {};
+  }
+
+  Status truncate() {
+    if (::ftruncate(descriptor_, 0) != 0) return cannot_write(path_, errno);
+    return {};
+  }
+
+  Status rename_to(const std::filesystem::path& path) {
+    if (::fsync(descriptor_) != 0 || ::rename(path_.c_str(), path.c_str()) != 0)
+      return cannot_write(path, errno);
+    return {};
+  }
+
+ private:
+  std::filesystem::path path_;
+  int descriptor_;
+};
+
+// Fetches the bytes of one artifact into a part file, over as many calls as it takes.
+class Downloader {
+ public:
+  Downloader(Connection& connection, const Artifact& artifact, PartFile& file,
+             const ByteProgress& progress)
+      : connection_(connection), artifact_(artifact), file_(file), progress_(progress) {}
+
+  Status run(std::int64_t have_bytes) {
+    done_ = have_bytes;
+    for (int attempt = 0; attempt < kAttemptsWithoutProgress; ++attempt) {
+      if (done_ == artifact_.size_bytes) return {};
+      const std::int64_t before = done_;
+      const Status received = receive();
+      if (!received && received.error().code != Code::kUnavailable) return received;
+      if (!received) last_ = received.error();
+      if (done_ > before) attempt = 0;
+      if (done_ != artifact_.size_bytes) pause(connection_, kTryAgainAfter);
+    }
+    return tl::unexpected(last_);
+  }
+
+ private:
+  Status receive() {
+    Call call(connection_);
+    v1::DownloadArtifactRequest request;
+    request.set_name(artifact_.name);
+    request.set_offset(done_);
+    auto stream = connection_.impl().artifacts->DownloadArtifact(call.context(), request);
+    v1::DownloadArtifactResponse piece;
+    Status taken;
+    while (taken && stream->Read(&piece)) taken = take(piece);
+    if (!taken) call.context()->TryCancel();
+    const grpc::Status status = stream->Finish();
+    if (!taken) return taken;
+    if (!status.ok()) return tl::unexpected(to_error(connection_, status));
+    return {};
+  }
+
+  Status take(const v1::DownloadArtifactResponse& piece) {
+    const auto size = static_cast<std::int64_t>(piece.data().size());
+    if (piece.offset() != done_ || done_ + size > artifact_.size_bytes)
+      return fail(Code::kDataLoss, artifact_.name + ": byte " + std::to_string(piece.offset()) +
+                                       " came where " + std::to_string(done_) +
+                                       " was due; download it again");
+    HP_RETURN_IF_ERROR(file_.append(piece.data()));
+    done_ += size;
+    if (progress_) progress_(done_, artifact_.size_bytes);
+    return {};
+  }
+
+  Connection& connection_;
+  const Artifact& artifact_;
+  PartFile& file_;
+  const ByteProgress& progress_;
+  std::int64_t done_ = 0;
+  Error last_{Code::kDataLoss, "the daemon sends no bytes", {}};
+};
+
+bool has_digest(const std::filesystem::path& path, const std::string& sha256,
+                const std::stop_token& stop) {
+  const auto digest = digest_file(path, stop);
+  return digest && digest->sha256 == sha256;
+}
+
+// Two jobs may have an artifact of the same name: the part file is named after the bytes too.
+std::filesystem::path part_path(const std::filesystem::path& folder, const Artifact& artifact) {
+  std::string name = artifact.file_name();
+  name.insert(0, 1, '.').append(".").append(artifact.sha256, 0, 16).append(".part");
+  return folder / name;
+}
+
+std::int64_t size_of(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  return error ? 0 : static_cast<std::int64_t>(size);
+}
+
+}  // namespace
+
+std::string Artifact::file_name() const { return std::filesystem::path(name).filename().string(); }
+
+Result<std::vector<Artifact>> list_artifacts(Connection& connection, const std::string& job) {
+  v1::ListArtifactsRequest request;
+  request.set_parent(job);
+  request.set_page_size(kPageSize);
+  std::vector<Artifact> artifacts;
+  do {
+    HP_ASSIGN_OR_RETURN(const auto page, call(connection, *connection.impl().artifacts,
+                                              &Stub::ListArtifacts, request));
+    for (const auto& artifact : page.artifacts()) artifacts.push_back(from_proto(artifact));
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty());
+  return artifacts;
+}
+
+Result<std::filesystem::path> download(Connection& connection, const Artifact& artifact,
+                                       const std::filesystem::path& folder,
+                                       const ByteProgress& progress) {
+  const std::filesystem::path path = folder / artifact.file_name();
+  const std::stop_token& stop = connection.options().stop;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return cannot_write(folder, error.value());
+  if (size_of(path) == artifact.size_bytes && has_digest(path, artifact.sha256, stop)) return path;
+
+  const std::filesystem::path part = part_path(folder, artifact);
+  PartFile file(part);
+  HP_RETURN_IF_ERROR(file.is_open());
+  std::int64_t have_bytes = size_of(part);
+  if (have_bytes > artifact.size_bytes) {
+    HP_RETURN_IF_ERROR(file.truncate());
+    have_bytes = 0;
+  }
+  HP_RETURN_IF_ERROR(Downloader(connection, artifact, file, progress).run(have_bytes));
+  if (!has_digest(part, artifact.sha256, stop)) {
+    if (stop.stop_requested()) return fail(Code::kCancelled, "interrupted");
+    std::filesystem::remove(part, error);
+    return fail(Code::kDataLoss,
+                artifact.name + ": the bytes received do not have its SHA-256; download it again");
+  }
+  HP_RETURN_IF_ERROR(file.rename_to(path));
+  return path;
+}
+
+}  // namespace hydroprint::client

@@ -1,0 +1,50 @@
+#include "client/assets.h"
+
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/cli/commands.h"
+#include "client/cli/console.h"
+#include "client/cli/json.h"
+#include "client/cli/program.h"
+
+namespace hydroprint::cli {
+namespace {
+
+Status list(Program& program) {
+  HP_ASSIGN_OR_RETURN(const auto assets, client::list_assets(program.daemon()));
+  if (program.json()) {
+    print({{"assets", to_json(assets)}});
+    return {};
+  }
+  for (const client::Asset& asset : assets)
+    std::cout << asset.name << "  " << format_time(asset.create_time) << "  "
+              << format_bytes(asset.size_bytes) << "  " << printable(asset.media_type) << "\n";
+  return {};
+}
+
+Status delete_all(Program& program, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    HP_RETURN_IF_ERROR(client::delete_asset(program.daemon(), name));
+    if (!program.json()) std::cout << name << " deleted" << std::endl;
+  }
+  if (program.json()) print({{"deleted", names}});
+  return {};
+}
+
+}  // namespace
+
+void add_assets(CLI::App& app, Program& program) {
+  CLI::App* command = app.add_subcommand("assets", "List or delete uploaded files");
+  command->require_subcommand(1);
+  CLI::App* lister = command->add_subcommand("list", "List them, in the order of their hashes");
+  program.on(*lister, [&program] { return list(program); });
+  auto names = std::make_shared<std::vector<std::string>>();
+  CLI::App* deleter = command->add_subcommand("delete", "Delete what no unfinished job needs");
+  deleter->add_option("asset", *names, "assets/SHA256")->type_name("ASSET")->required();
+  program.on(*deleter, [&program, names] { return delete_all(program, *names); });
+}
+
+}  // namespace hydroprint::cli

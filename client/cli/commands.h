@@ -1,0 +1,29 @@
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace hydroprint::cli {
+
+class Program;
+
+// Each adds one command, with its flags, help and what it does, to the program's command line.
+void add_sample(CLI::App& app, Program& program);
+void add_upload(CLI::App& app, Program& program);
+void add_submit(CLI::App& app, Program& program);
+void add_watch(CLI::App& app, Program& program);
+void add_list(CLI::App& app, Program& program);
+void add_show(CLI::App& app, Program& program);
+void add_events(CLI::App& app, Program& program);
+void add_cancel(CLI::App& app, Program& program);
+void add_retry(CLI::App& app, Program& program);
+void add_delete(CLI::App& app, Program& program);
+void add_artifacts(CLI::App& app, Program& program);
+void add_download(CLI::App& app, Program& program);
+void add_assets(CLI::App& app, Program& program);
+void add_queue(CLI::App& app, Program& program);
+void add_status(CLI::App& app, Program& program);
+void add_completion(CLI::App& app, Program& program);
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <csignal>
+#include <stop_token>
+#include <thread>
+
+namespace hydroprint::cli {
+
+/// Turns the first Ctrl-C (or SIGTERM) into a stop request; a second one ends the program at once.
+/// To be made before any other thread, which then inherits that these signals are left to it.
+class Interrupt {
+ public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+
+  [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
+
+ private:
+  void listen();
+
+  sigset_t signals_{};
+  std::stop_source stop_;
+  std::thread listener_;
+};
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,167 @@
+#include "client/cli/json.h"
+
+#include <iostream>
+#include <string>
+
+#include "client/cli/console.h"
+
+namespace hydroprint::cli {
+namespace {
+
+Json value_of(const client::InputFile& file) {
+  return {{"name", file.name}, {"asset", file.asset}};
+}
+
+Json value_of(const client::PoseSpec& pose) {
+  return {{"rotation_wxyz", pose.rotation_wxyz}, {"translation_mm", pose.translation_mm}};
+}
+
+Json value_of(client::Time time) { return format_rfc3339(time); }
+
+Json value_of(const auto& value) { return value; }
+
+template <class T>
+void put(Json& json, const char* key, const std::optional<T>& value) {
+  if (value) json[key] = value_of(*value);
+}
+
+void put(Json& json, const char* key, const std::string& value) {
+  if (!value.empty()) json[key] = value;
+}
+
+Json to_json(const client::JobError& error) {
+  Json json{{"code", error.code}, {"reason", error.reason}, {"message", error.message}};
+  put(json, "exit_status", error.exit_status);
+  put(json, "signal", error.signal);
+  return json;
+}
+
+std::string_view name_of(Code code) {
+  switch (code) {
+    case Code::kCancelled:
+      return "CANCELLED";
+    case Code::kInvalidArgument:
+      return "INVALID_ARGUMENT";
+    case Code::kNotFound:
+      return "NOT_FOUND";
+    case Code::kAlreadyExists:
+      return "ALREADY_EXISTS";
+    case Code::kPermissionDenied:
+      return "PERMISSION_DENIED";
+    case Code::kResourceExhausted:
+      return "RESOURCE_EXHAUSTED";
+    case Code::kFailedPrecondition:
+      return "FAILED_PRECONDITION";
+    case Code::kAborted:
+      return "ABORTED";
+    case Code::kOutOfRange:
+      return "OUT_OF_RANGE";
+    case Code::kUnimplemented:
+      return "UNIMPLEMENTED";
+    case Code::kInternal:
+      return "INTERNAL";
+    case Code::kUnavailable:
+      return "UNAVAILABLE";
+    case Code::kDataLoss:
+      return "DATA_LOSS";
+  }
+  return "UNKNOWN";
+}
+
+}  // namespace
+
+Json to_json(const client::Spec& spec) {
+  Json json{{"mesh", value_of(spec.mesh)}};
+  put(json, "texture", spec.texture);
+  put(json, "film_image", spec.film_image);
+  put(json, "motion", spec.motion);
+  for (const auto& file : spec.extra_files) json["extra_files"].push_back(value_of(file));
+  put(json, "profile", spec.profile);
+  put(json, "scale", spec.scale);
+  put(json, "pose", spec.pose);
+  put(json, "film", spec.film);
+  put(json, "dpi", spec.dpi);
+  put(json, "model", spec.model);
+  put(json, "ink_passes", spec.ink_passes);
+  put(json, "ink_image", spec.ink_image);
+  put(json, "depth_mm", spec.depth_mm);
+  put(json, "dip_speed_mm_per_s", spec.dip_speed_mm_per_s);
+  put(json, "threads", spec.threads);
+  put(json, "artifacts", spec.artifacts);
+  return json;
+}
+
+Json to_json(const client::Job& job) {
+  Json json;
+  put(json, "name", job.name);
+  put(json, "uid", job.uid);
+  json["display_name"] = job.display_name;
+  json["owner"] = job.owner;
+  json["priority"] = job.priority;
+  if (!job.labels.empty()) json["labels"] = job.labels;
+  json["state"] = client::name_of(job.state);
+  json["progress_fraction"] = job.progress_fraction;
+  put(json, "phase", job.phase);
+  put(json, "eta_time", job.eta_time);
+  put(json, "create_time", job.create_time);
+  put(json, "start_time", job.start_time);
+  put(json, "end_time", job.end_time);
+  if (job.error) json["error"] = to_json(*job.error);
+  put(json, "retry_of", job.retry_of);
+  put(json, "input_digest", job.input_digest);
+  json["cache_hit"] = job.cache_hit;
+  if (job.spec)
+    json[job.spec->verb == client::Verb::kSimulate ? "simulate" : "predict"] = to_json(*job.spec);
+  return json;
+}
+
+Json to_json(const client::JobEvent& event) {
+  Json json{{"seq", event.seq}, {"job", event.job}, {"kind", event.kind}};
+  put(json, "time", event.time);
+  json["state"] = client::name_of(event.state);
+  json["progress_fraction"] = event.progress_fraction;
+  put(json, "phase", event.phase);
+  json["phase_fraction"] = event.phase_fraction;
+  put(json, "eta_time", event.eta_time);
+  put(json, "message", event.message);
+  return json;
+}
+
+Json to_json(const client::Queue& queue) {
+  return {{"paused", queue.paused},
+          {"pause_reason", queue.pause_reason},
+          {"queued_jobs", queue.queued_jobs},
+          {"queued_count", queue.queued_count},
+          {"running_jobs", queue.running_jobs},
+          {"worker_slots", queue.worker_slots},
+          {"daemon_version", queue.daemon_version}};
+}
+
+Json to_json(const client::Asset& asset) {
+  Json json{{"name", asset.name}, {"sha256", asset.sha256}, {"size_bytes", asset.size_bytes}};
+  put(json, "media_type", asset.media_type);
+  put(json, "create_time", asset.create_time);
+  return json;
+}
+
+Json to_json(const client::Artifact& artifact) {
+  return {{"name", artifact.name},
+          {"size_bytes", artifact.size_bytes},
+          {"sha256", artifact.sha256},
+          {"media_type", artifact.media_type}};
+}
+
+Json to_json(const Error& error) {
+  Json json{{"code", name_of(error.code)}};
+  put(json, "reason", error.reason);
+  json["message"] = error.message;
+  if (!error.metadata.empty()) json["metadata"] = error.metadata;
+  return json;
+}
+
+void print(const Json& json) {
+  // Names in file systems need not be UTF-8.
+  std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,101 @@
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "client/cli/commands.h"
+#include "client/cli/console.h"
+#include "client/cli/json.h"
+#include "client/cli/program.h"
+
+namespace hydroprint::cli {
+namespace {
+
+constexpr char kFooter[] = R"(Examples:
+  hydroprint sample globe --out sample
+  hydroprint submit simulate --mesh sample/globe.obj --texture sample/globe.png --out result
+  hydroprint list --state RUNNING
+  hydroprint show 7 --json
+
+Exit status: 0 done; 2 wrong usage; 3 bad input, or refused by the daemon; 4 failed;
+5 no daemon answers; 130 cancelled.)";
+
+// "hydroprint submit simulate"
+std::string full_name(const CLI::App& app) {
+  return (app.get_parent() != nullptr ? full_name(*app.get_parent()) + " " : "") + app.get_name();
+}
+
+// CLI11 leaves the commands above out.
+class Help : public CLI::Formatter {
+ public:
+  std::string make_usage(const CLI::App* app, std::string) const override {
+    return CLI::Formatter::make_usage(app, full_name(*app));
+  }
+};
+
+std::string usage_error(const CLI::App* app, const CLI::Error& error) {
+  for (auto chosen = app->get_subcommands(); !chosen.empty(); chosen = app->get_subcommands())
+    app = chosen.front();
+  return "hydroprint: " + printable(error.what()) + "; see " + full_name(*app) + " --help\n";
+}
+
+void add_commands(CLI::App& app, Program& program) {
+  // add_sample(app, program);
+  add_upload(app, program);
+  add_submit(app, program);
+  add_watch(app, program);
+  add_list(app, program);
+  add_show(app, program);
+  add_events(app, program);
+  add_cancel(app, program);
+  add_retry(app, program);
+  add_delete(app, program);
+  add_artifacts(app, program);
+  add_download(app, program);
+  add_assets(app, program);
+  add_queue(app, program);
+  add_status(app, program);
+  add_completion(app, program);
+}
+
+void report(const Program& program, const Error& error) {
+  if (program.json()) print({{"error", to_json(error)}});
+  std::cerr << "hydroprint: " << printable(error.message) << std::endl;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app("Computational hydrographic printing: the client of hydroprintd", "hydroprint");
+  app.formatter(std::make_shared<Help>());
+  app.fallthrough();
+  app.require_subcommand(1);
+  app.failure_message(usage_error);
+  Program program(app);
+  add_commands(app, program);
+  app.footer(kFooter);  // after the commands, which would inherit it
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitStatus::kUsage);
+  }
+  const Status status = program.run();
+  if (!status) {
+    report(program, status.error());
+    return exit_code(status.error());
+  }
+  if (std::cout.flush()) return 0;
+  std::cerr << "hydroprint: standard output cannot be written; is its disk full?" << std::endl;
+  return static_cast<int>(ExitStatus::kFailed);
+}
+
+}  // namespace
+}  // namespace hydroprint::cli
+
+int main(int argc, char** argv) {
+  try {
+    return hydroprint::cli::run(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "hydroprint: " << error.what() << std::endl;
+    return static_cast<int>(hydroprint::ExitStatus::kFailed);
+  }
+}

@@ -1,0 +1,83 @@
+#include "client/cli/program.h"
+
+#include <pwd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace hydroprint::cli {
+namespace {
+
+constexpr int kUnreachable = 5;
+constexpr std::size_t kOwnerMaxBytes = 64;
+
+std::string login_name() {
+  const passwd* entry = getpwuid(getuid());
+  return entry != nullptr ? entry->pw_name : "";
+}
+
+std::string check_server(const std::string& text) {
+  const auto colon = text.rfind(':');
+  const bool good = colon != std::string::npos && colon > 0 && colon + 1 < text.size();
+  return good ? "" : "'" + text + "' is not host:port, as in 127.0.0.1:50051";
+}
+
+std::string check_owner(const std::string& text) {
+  const bool good =
+      !text.empty() && text.size() <= kOwnerMaxBytes &&
+      std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
+  return good ? "" : "an owner is 1 to 64 printable ASCII characters without blanks";
+}
+
+}  // namespace
+
+Program::Program(CLI::App& app) : owner_(login_name()) {
+  app.add_option("--server", server_, "Where hydroprintd listens")
+      ->type_name("HOST:PORT")
+      ->envname("HYDROPRINT_SERVER")
+      ->check(check_server)
+      ->capture_default_str();
+  app.add_option("--owner", owner_, "In whose name; owners take turns")
+      ->type_name("NAME")
+      ->envname("HYDROPRINT_OWNER")
+      ->check(check_owner)
+      ->capture_default_str();
+  app.add_flag("--json", json_, "Print JSON, for scripts");
+  app.set_version_flag("--version", std::string("hydroprint ") + HYDROPRINT_VERSION);
+}
+
+void Program::on(CLI::App& command, std::function<Status()> action) {
+  command.callback([this, action = std::move(action)] { action_ = action; });
+}
+
+Status Program::run() { return action_(); }
+
+client::Connection& Program::daemon() {
+  if (!daemon_) {
+    interrupt_ = std::make_unique<Interrupt>();
+    daemon_ = std::make_unique<client::Connection>(
+        client::ConnectionOptions{server_, owner_, interrupt_->token()});
+  }
+  return *daemon_;
+}
+
+client::Connection Program::uninterrupted() const {
+  return client::Connection({server_, owner_, {}});
+}
+
+std::string job_name(const std::string& text) {
+  const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return is_number ? "jobs/" + text : text;
+}
+
+void add_job_argument(CLI::App& command, std::string& job) {
+  command.add_option("job", job, "The job: jobs/7, or 7")->type_name("JOB")->required();
+}
+
+int exit_code(const Error& error) {
+  if (error.code == Code::kUnavailable) return kUnreachable;
+  return static_cast<int>(exit_status(error));
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "client/cli/interrupt.h"
+#include "client/connection.h"
+#include "sim/base/result.h"
+
+namespace hydroprint::cli {
+
+/// What every command shares: the flags that all of them take, and the way to the daemon.
+class Program {
+ public:
+  /// Adds --server, --owner, --json and --version.
+  explicit Program(CLI::App& app);
+
+  /// Makes `action` what happens once the command line is read, if `command` stands on it.
+  void on(CLI::App& command, std::function<Status()> action);
+  /// Runs the action chosen.
+  [[nodiscard]] Status run();
+
+  [[nodiscard]] bool json() const { return json_; }
+  [[nodiscard]] const std::string& server() const { return server_; }
+  [[nodiscard]] const std::string& owner() const { return owner_; }
+  /// The daemon; from the first call on, Ctrl-C ends its calls with kCancelled.
+  [[nodiscard]] client::Connection& daemon();
+  /// Another connection, which Ctrl-C does not end.
+  [[nodiscard]] client::Connection uninterrupted() const;
+
+ private:
+  std::string server_ = client::ConnectionOptions().server;
+  std::string owner_;
+  bool json_ = false;
+  std::function<Status()> action_;
+  std::unique_ptr<Interrupt> interrupt_;
+  std::unique_ptr<client::Connection> daemon_;
+};
+
+/// "7" or "jobs/7" to "jobs/7"; anything else is left to the daemon to refuse.
+[[nodiscard]] std::string job_name(const std::string& text);
+
+/// Adds the positional argument JOB.
+void add_job_argument(CLI::App& command, std::string& job);
+
+/// The exit status of the program: as of every program here, and 5 if no daemon answers.
+[[nodiscard]] int exit_code(const Error& error);
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,38 @@
+#include "client/connection.h"
+
+#include <utility>
+
+#include "client/rpc.h"
+
+namespace hydroprint::client {
+namespace {
+
+grpc::ChannelArguments channel_arguments() {
+  grpc::ChannelArguments arguments;
+  // The daemon listens on loopback, where a proxy from the environment is never right.
+  arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);  // also the limit for connecting
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  return arguments;
+}
+
+}  // namespace
+
+Connection::Impl::Impl(ConnectionOptions connection_options)
+    : options(std::move(connection_options)),
+      channel(grpc::CreateCustomChannel(options.server, grpc::InsecureChannelCredentials(),
+                                        channel_arguments())),
+      artifacts(v1::ArtifactService::NewStub(channel)),
+      assets(v1::AssetService::NewStub(channel)),
+      jobs(v1::JobService::NewStub(channel)),
+      queue(v1::QueueService::NewStub(channel)) {}
+
+Connection::Connection(ConnectionOptions options)
+    : impl_(std::make_unique<Impl>(std::move(options))) {}
+
+Connection::~Connection() = default;
+
+const ConnectionOptions& Connection::options() const { return impl_->options; }
+
+}  // namespace hydroprint::client

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <stop_token>
+#include <string>
+
+namespace hydroprint::client {
+
+/// Where the daemon is and who asks it.
+struct ConnectionOptions {
+  std::string server = "127.0.0.1:50051";  ///< "host:port"
+  std::string owner;     ///< sent as the call metadata `hydroprint-owner`; empty: nothing is sent
+  std::stop_token stop;  ///< once requested, every call ends soon with kCancelled
+};
+
+/// A connection to one daemon, made on first use and made anew when it breaks. The functions that
+/// take one (jobs.h, assets.h, artifacts.h, queue.h, health.h) may be called from several threads.
+///
+/// Calls that may safely be repeated are repeated a few times, for about a second, when the daemon
+/// does not answer; creating calls carry a request_id, which makes them safe as well. After that
+/// they return kUnavailable. Errors of the daemon keep their code, message and reason.
+class Connection {
+ public:
+  explicit Connection(ConnectionOptions options);
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  [[nodiscard]] const ConnectionOptions& options() const;
+
+  struct Impl;  ///< of use to this library's own .cpp files only (rpc.h)
+  [[nodiscard]] Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hydroprint::client

@@ -1,0 +1,246 @@
+#include "client/convert.h"
+
+#include <google/protobuf/util/time_util.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace hydroprint::client {
+namespace {
+
+namespace v1 = ::hydroprint::v1;
+
+std::optional<Time> from_proto(bool is_set, const google::protobuf::Timestamp& time) {
+  if (!is_set) return std::nullopt;
+  return Time(std::chrono::duration_cast<Time::duration>(
+      std::chrono::nanoseconds(google::protobuf::util::TimeUtil::TimestampToNanoseconds(time))));
+}
+
+JobState from_proto(v1::Job::State state) {
+  switch (state) {
+    case v1::Job::QUEUED:
+      return JobState::kQueued;
+    case v1::Job::RUNNING:
+      return JobState::kRunning;
+    case v1::Job::CANCELLING:
+      return JobState::kCancelling;
+    case v1::Job::SUCCEEDED:
+      return JobState::kSucceeded;
+    case v1::Job::FAILED:
+      return JobState::kFailed;
+    case v1::Job::CANCELLED:
+      return JobState::kCancelled;
+    case v1::Job::INTERRUPTED:
+      return JobState::kInterrupted;
+    default:
+      return JobState::kUnknown;
+  }
+}
+
+InputFile from_proto(const v1::InputFile& file) { return {file.name(), file.asset()}; }
+
+std::optional<InputFile> from_proto(bool is_set, const v1::InputFile& file) {
+  if (!is_set) return std::nullopt;
+  return from_proto(file);
+}
+
+void to_proto(const InputFile& file, v1::InputFile* message) {
+  message->set_name(file.name);
+  message->set_asset(file.asset);
+}
+
+template <class T>
+std::optional<T> given(bool is_set, const T& value) {
+  return is_set ? std::optional<T>(value) : std::nullopt;
+}
+
+std::optional<PoseSpec> from_proto(bool is_set, const v1::Pose& pose) {
+  PoseSpec result;
+  if (!is_set || pose.rotation_wxyz_size() != 4 || pose.translation_mm_size() != 3)
+    return std::nullopt;
+  std::copy(pose.rotation_wxyz().begin(), pose.rotation_wxyz().end(), result.rotation_wxyz.begin());
+  std::copy(pose.translation_mm().begin(), pose.translation_mm().end(),
+            result.translation_mm.begin());
+  return result;
+}
+
+std::optional<std::string> from_proto(v1::Model model) {
+  if (model == v1::MODEL_SHEET) return "sheet";
+  if (model == v1::MODEL_STOKES) return "stokes";
+  return std::nullopt;
+}
+
+std::optional<std::string> from_proto(v1::ArtifactSet artifacts) {
+  if (artifacts == v1::ARTIFACT_SET_ALL) return "all";
+  if (artifacts == v1::ARTIFACT_SET_MAP) return "map";
+  return std::nullopt;
+}
+
+// The fields that SimulateSpec and PredictSpec share.
+template <class Message>
+Spec common_from_proto(const Message& message) {
+  Spec spec;
+  spec.mesh = from_proto(message.mesh());
+  for (const auto& file : message.extra_files()) spec.extra_files.push_back(from_proto(file));
+  spec.profile = from_proto(message.has_profile(), message.profile());
+  spec.ink_image = from_proto(message.has_ink_image(), message.ink_image());
+  spec.scale = given(message.has_scale(), message.scale());
+  spec.pose = from_proto(message.has_pose(), message.pose());
+  spec.film = given(message.has_film(), message.film());
+  spec.dpi = given(message.has_dpi(), message.dpi());
+  spec.model = from_proto(message.model());
+  spec.ink_passes = given(message.has_ink_passes(), static_cast<int>(message.ink_passes()));
+  spec.depth_mm = given(message.has_depth_mm(), message.depth_mm());
+  spec.dip_speed_mm_per_s = given(message.has_dip_speed_mm_per_s(), message.dip_speed_mm_per_s());
+  spec.threads = given(message.has_threads(), static_cast<int>(message.threads()));
+  spec.artifacts = from_proto(message.artifacts());
+  return spec;
+}
+
+std::optional<Spec> spec_from_proto(const v1::Job& job) {
+  if (job.has_simulate()) {
+    Spec spec = common_from_proto(job.simulate());
+    spec.texture = from_proto(job.simulate().has_texture(), job.simulate().texture());
+    return spec;
+  }
+  if (job.has_predict()) {
+    Spec spec = common_from_proto(job.predict());
+    spec.verb = Verb::kPredict;
+    spec.film_image = from_proto(job.predict().has_film_image(), job.predict().film_image());
+    spec.motion = from_proto(job.predict().has_motion(), job.predict().motion());
+    return spec;
+  }
+  return std::nullopt;
+}
+
+// Names of google.rpc.Code, by number.
+constexpr std::array<std::string_view, 17> kCodeNames{
+    "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
+    "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
+    "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
+    "DATA_LOSS", "UNAUTHENTICATED"};
+
+JobError from_proto(const v1::JobError& error) {
+  JobError result;
+  result.code = kCodeNames.at(error.code() < 0 || error.code() > 16 ? 2 : error.code());
+  result.reason = error.reason();
+  result.message = error.message();
+  if (error.has_exit_status()) result.exit_status = error.exit_status();
+  if (error.has_signal()) result.signal = error.signal();
+  return result;
+}
+
+template <class Message>
+Status names_to_proto(const Spec& spec, Message& message) {
+  if (spec.model == "sheet") message.set_model(v1::MODEL_SHEET);
+  if (spec.model == "stokes") message.set_model(v1::MODEL_STOKES);
+  if (spec.model && message.model() == v1::MODEL_UNSPECIFIED)
+    return fail(Code::kInvalidArgument, "model '" + *spec.model + "': give sheet or stokes");
+  if (spec.artifacts == "all") message.set_artifacts(v1::ARTIFACT_SET_ALL);
+  if (spec.artifacts == "map") message.set_artifacts(v1::ARTIFACT_SET_MAP);
+  if (spec.artifacts && message.artifacts() == v1::ARTIFACT_SET_UNSPECIFIED)
+    return fail(Code::kInvalidArgument, "artifacts '" + *spec.artifacts + "': give all or map");
+  return {};
+}
+
+template <class Message>
+Status common_to_proto(const Spec& spec, Message& message) {
+  to_proto(spec.mesh, message.mutable_mesh());
+  for (const InputFile& file : spec.extra_files) to_proto(file, message.add_extra_files());
+  if (spec.profile) to_proto(*spec.profile, message.mutable_profile());
+  if (spec.ink_image) to_proto(*spec.ink_image, message.mutable_ink_image());
+  if (spec.scale) message.set_scale(*spec.scale);
+  if (spec.pose) {
+    for (const double x : spec.pose->rotation_wxyz) message.mutable_pose()->add_rotation_wxyz(x);
+    for (const double x : spec.pose->translation_mm) message.mutable_pose()->add_translation_mm(x);
+  }
+  if (spec.film) message.set_film(*spec.film);
+  if (spec.dpi) message.set_dpi(*spec.dpi);
+  if (spec.ink_passes) message.set_ink_passes(*spec.ink_passes);
+  if (spec.depth_mm) message.set_depth_mm(*spec.depth_mm);
+  if (spec.dip_speed_mm_per_s) message.set_dip_speed_mm_per_s(*spec.dip_speed_mm_per_s);
+  if (spec.threads) message.set_threads(*spec.threads);
+  return names_to_proto(spec, message);
+}
+
+}  // namespace
+
+Job from_proto(const v1::Job& message) {
+  Job job;
+  job.name = message.name();
+  job.uid = message.uid();
+  job.display_name = message.display_name();
+  job.owner = message.owner();
+  job.priority = message.priority();
+  job.labels.insert(message.labels().begin(), message.labels().end());
+  job.state = from_proto(message.state());
+  job.progress_fraction = message.progress_fraction();
+  job.phase = message.phase();
+  job.eta_time = from_proto(message.has_eta_time(), message.eta_time());
+  job.create_time = from_proto(message.has_create_time(), message.create_time());
+  job.start_time = from_proto(message.has_start_time(), message.start_time());
+  job.end_time = from_proto(message.has_end_time(), message.end_time());
+  if (message.has_error()) job.error = from_proto(message.error());
+  job.retry_of = message.retry_of();
+  job.input_digest = message.input_digest();
+  job.cache_hit = message.cache_hit();
+  job.spec = spec_from_proto(message);
+  return job;
+}
+
+JobEvent from_proto(const v1::JobEvent& message) {
+  JobEvent event;
+  event.seq = message.seq();
+  event.time = from_proto(message.has_time(), message.time());
+  event.job = message.job();
+  event.kind = v1::JobEvent::Kind_Name(message.kind());
+  event.state = from_proto(message.state());
+  event.progress_fraction = message.progress_fraction();
+  event.phase = message.phase();
+  event.phase_fraction = message.phase_fraction();
+  event.eta_time = from_proto(message.has_eta_time(), message.eta_time());
+  event.message = message.message();
+  return event;
+}
+
+Queue from_proto(const v1::Queue& message) {
+  Queue queue;
+  queue.paused = message.paused();
+  queue.pause_reason = message.pause_reason();
+  queue.queued_jobs.assign(message.queued_jobs().begin(), message.queued_jobs().end());
+  queue.queued_count = message.queued_count();
+  queue.running_jobs.assign(message.running_jobs().begin(), message.running_jobs().end());
+  queue.worker_slots = message.worker_slots();
+  queue.daemon_version = message.daemon_version();
+  return queue;
+}
+
+Asset from_proto(const v1::Asset& message) {
+  return {message.name(), message.sha256(), message.size_bytes(), message.media_type(),
+          from_proto(message.has_create_time(), message.create_time())};
+}
+
+Artifact from_proto(const v1::Artifact& message) {
+  return {message.name(), message.size_bytes(), message.sha256(), message.media_type()};
+}
+
+Status to_proto(const Spec& spec, v1::Job& job) {
+  if (spec.verb == Verb::kSimulate) {
+    auto& message = *job.mutable_simulate();
+    if (spec.texture) to_proto(*spec.texture, message.mutable_texture());
+    return common_to_proto(spec, message);
+  }
+  auto& message = *job.mutable_predict();
+  if (spec.film_image) to_proto(*spec.film_image, message.mutable_film_image());
+  if (spec.motion) to_proto(*spec.motion, message.mutable_motion());
+  return common_to_proto(spec, message);
+}
+
+v1::Job::State to_proto(JobState state) {
+  v1::Job::State result = v1::Job::STATE_UNSPECIFIED;
+  v1::Job::State_Parse(std::string(name_of(state)), &result);
+  return result;
+}
+
+}  // namespace hydroprint::client

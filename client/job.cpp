@@ -1,0 +1,33 @@
+#include "client/job.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace hydroprint::client {
+namespace {
+
+constexpr std::array<std::pair<JobState, std::string_view>, 8> kNames{{
+    {JobState::kUnknown, "UNKNOWN"},
+    {JobState::kQueued, "QUEUED"},
+    {JobState::kRunning, "RUNNING"},
+    {JobState::kCancelling, "CANCELLING"},
+    {JobState::kSucceeded, "SUCCEEDED"},
+    {JobState::kFailed, "FAILED"},
+    {JobState::kCancelled, "CANCELLED"},
+    {JobState::kInterrupted, "INTERRUPTED"},
+}};
+
+}  // namespace
+
+std::string_view name_of(JobState state) {
+  return std::find_if(kNames.begin(), kNames.end(),
+                      [&](const auto& entry) { return entry.first == state; })
+      ->second;
+}
+
+bool is_finished(JobState state) {
+  return state == JobState::kSucceeded || state == JobState::kFailed ||
+         state == JobState::kCancelled;
+}
+
+}  // namespace hydroprint::client

@@ -1,0 +1,115 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hydroprint::client {
+
+using Time = std::chrono::system_clock::time_point;
+
+/// The kinds of computation, as the worker's verbs.
+enum class Verb { kSimulate, kPredict };
+
+/// Uploaded bytes and the name by which the computation sees them.
+struct InputFile {
+  std::string name;   ///< plain file name or relative path
+  std::string asset;  ///< "assets/{sha256}"
+};
+
+/// Rigid transform X_FO at the start of the dip; keys of the worker's `--pose` file.
+struct PoseSpec {
+  std::array<double, 4> rotation_wxyz = {1, 0, 0, 0};
+  std::array<double, 3> translation_mm = {0, 0, 0};
+};
+
+/// What a job computes: the worker's flags (contract). What is not set is left to the worker.
+struct Spec {
+  Verb verb = Verb::kSimulate;
+  InputFile mesh;
+  std::vector<InputFile> extra_files;   ///< files that others refer to by name
+  std::optional<InputFile> texture;     ///< simulate only
+  std::optional<InputFile> film_image;  ///< predict only, and needed there
+  std::optional<InputFile> motion;      ///< predict only
+  std::optional<InputFile> profile;
+  std::optional<InputFile> ink_image;
+  std::optional<double> scale;
+  std::optional<PoseSpec> pose;
+  std::optional<std::string> film;
+  std::optional<double> dpi;
+  std::optional<std::string> model;  ///< "sheet" or "stokes"
+  std::optional<int> ink_passes;
+  std::optional<double> depth_mm;
+  std::optional<double> dip_speed_mm_per_s;
+  std::optional<int> threads;
+  std::optional<std::string> artifacts;  ///< "all" or "map"
+};
+
+enum class JobState {
+  kUnknown,
+  kQueued,
+  kRunning,
+  kCancelling,
+  kSucceeded,
+  kFailed,
+  kCancelled,
+  kInterrupted
+};
+
+/// "QUEUED", "RUNNING", ... as in the API; "UNKNOWN" for what this client does not know.
+[[nodiscard]] std::string_view name_of(JobState state);
+
+/// Whether the job's state will not change any more.
+[[nodiscard]] bool is_finished(JobState state);
+
+/// Why a job failed.
+struct JobError {
+  std::string code;     ///< gRPC's name, "INVALID_ARGUMENT" when the input is at fault
+  std::string reason;   ///< stable word
+  std::string message;  ///< one line: what, where, and what to do
+  std::optional<int> exit_status;
+  std::optional<int> signal;
+};
+
+/// A job as the daemon describes it; the fields are those of the API's Job.
+struct Job {
+  std::string name;  ///< "jobs/7"
+  std::string uid;
+  std::string display_name;
+  std::string owner;
+  int priority = 0;
+  std::map<std::string, std::string> labels;
+  JobState state = JobState::kUnknown;
+  double progress_fraction = 0;  ///< [0, 1]
+  std::string phase;
+  std::optional<Time> eta_time;
+  std::optional<Time> create_time;
+  std::optional<Time> start_time;
+  std::optional<Time> end_time;
+  std::optional<JobError> error;
+  std::string retry_of;
+  std::string input_digest;
+  bool cache_hit = false;
+  std::optional<Spec> spec;  ///< none if the job is of a kind that this client does not know
+};
+
+/// Something that happened to a job.
+struct JobEvent {
+  std::int64_t seq = 0;
+  std::optional<Time> time;
+  std::string job;
+  std::string kind;  ///< "STATE_CHANGED", "PROGRESS", "MOVED"
+  JobState state = JobState::kUnknown;
+  double progress_fraction = 0;  ///< of the whole job, [0, 1]
+  std::string phase;
+  double phase_fraction = 0;  ///< of that stage, [0, 1]
+  std::optional<Time> eta_time;
+  std::string message;
+};
+
+}  // namespace hydroprint::client

@@ -1,0 +1,157 @@
+#include "client/jobs.h"
+
+#include <chrono>
+#include <utility>
+
+#include "client/convert.h"
+#include "client/rpc.h"
+#include "client/uuid.h"
+
+namespace hydroprint::client {
+namespace {
+
+using Stub = v1::JobService::Stub;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kGiveUpAfter{60};
+constexpr std::chrono::milliseconds kTryAgainAfter{500};
+
+Result<Job> to_job(Result<v1::Job> answer) {
+  return std::move(answer).map([](const v1::Job& job) { return from_proto(job); });
+}
+
+template <class Request>
+Request named(const std::string& name) {
+  Request request;
+  request.set_name(name);
+  return request;
+}
+
+// Follows one job over as many streams as it takes.
+class Watcher {
+ public:
+  Watcher(Connection& connection, const std::string& name,
+          const std::function<void(const JobUpdate&)>& update)
+      : connection_(connection), update_(update) {
+    request_.set_name(name);
+  }
+
+  Result<Job> run(const std::function<void(const Error&)>& lost) {
+    for (;;) {
+      const grpc::Status status = follow();
+      if (is_finished(last_.state)) return last_;
+      // The daemon may end a stream in good order, when it shuts down.
+      const Error error = status.ok() ? Error{Code::kUnavailable, "the daemon ended the stream", {}}
+                                      : to_error(connection_, status);
+      if (error.reason == "EVENTS_GONE" && request_.has_after_seq()) {
+        request_.clear_after_seq();
+        continue;
+      }
+      const bool never_answered = last_.name.empty();
+      if (error.code != Code::kUnavailable || never_answered ||
+          Clock::now() - last_news_ > kGiveUpAfter)
+        return tl::unexpected(error);
+      if (lost && !told_) lost(error);
+      told_ = true;
+      pause(connection_, kTryAgainAfter);
+    }
+  }
+
+ private:
+  // One stream, to its end.
+  grpc::Status follow() {
+    Call call(connection_);
+    auto stream = connection_.impl().jobs->WatchJob(call.context(), request_);
+    v1::WatchJobResponse message;
+    while (stream->Read(&message)) take(message);
+    return stream->Finish();
+  }
+
+  void take(const v1::WatchJobResponse& message) {
+    request_.set_after_seq(message.seq());
+    last_news_ = Clock::now();
+    told_ = false;
+    JobUpdate update;
+    if (message.has_job()) update.job = last_ = from_proto(message.job());
+    if (message.has_event()) update.event = from_proto(message.event());
+    update_(update);
+  }
+
+  Connection& connection_;
+  const std::function<void(const JobUpdate&)>& update_;
+  v1::WatchJobRequest request_;
+  Job last_;
+  Clock::time_point last_news_ = Clock::now();
+  bool told_ = false;
+};
+
+}  // namespace
+
+Result<Job> create_job(Connection& connection, const Spec& spec, const JobOptions& options) {
+  v1::CreateJobRequest request;
+  HP_RETURN_IF_ERROR(to_proto(spec, *request.mutable_job()));
+  request.mutable_job()->set_display_name(options.display_name);
+  request.mutable_job()->set_priority(options.priority);
+  request.set_request_id(make_uuid());
+  request.set_validate_only(options.validate_only);
+  return to_job(call(connection, *connection.impl().jobs, &Stub::CreateJob, request));
+}
+
+Result<Job> get_job(Connection& connection, const std::string& name) {
+  return to_job(
+      call(connection, *connection.impl().jobs, &Stub::GetJob, named<v1::GetJobRequest>(name)));
+}
+
+Result<std::vector<Job>> list_jobs(Connection& connection, const JobFilter& filter) {
+  v1::ListJobsRequest request;
+  request.set_owner(filter.owner);
+  for (const JobState state : filter.states) request.add_states(to_proto(state));
+  std::vector<Job> jobs;
+  do {
+    request.set_page_size(filter.limit - static_cast<int>(jobs.size()));
+    HP_ASSIGN_OR_RETURN(const auto page,
+                        call(connection, *connection.impl().jobs, &Stub::ListJobs, request));
+    for (const auto& job : page.jobs()) jobs.push_back(from_proto(job));
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty() && std::ssize(jobs) < filter.limit);
+  return jobs;
+}
+
+Result<Job> cancel_job(Connection& connection, const std::string& name) {
+  return to_job(call(connection, *connection.impl().jobs, &Stub::CancelJob,
+                     named<v1::CancelJobRequest>(name)));
+}
+
+Result<Job> retry_job(Connection& connection, const std::string& name) {
+  auto request = named<v1::RetryJobRequest>(name);
+  request.set_request_id(make_uuid());
+  return to_job(call(connection, *connection.impl().jobs, &Stub::RetryJob, request));
+}
+
+Status delete_job(Connection& connection, const std::string& name) {
+  HP_RETURN_IF_ERROR(call(connection, *connection.impl().jobs, &Stub::DeleteJob,
+                          named<v1::DeleteJobRequest>(name)));
+  return {};
+}
+
+Result<std::vector<JobEvent>> list_job_events(Connection& connection, const std::string& name) {
+  v1::ListJobEventsRequest request;
+  request.set_parent(name);
+  request.set_page_size(1000);
+  std::vector<JobEvent> events;
+  do {
+    HP_ASSIGN_OR_RETURN(const auto page,
+                        call(connection, *connection.impl().jobs, &Stub::ListJobEvents, request));
+    for (const auto& event : page.events()) events.push_back(from_proto(event));
+    request.set_page_token(page.next_page_token());
+  } while (!request.page_token().empty());
+  return events;
+}
+
+Result<Job> watch_job(Connection& connection, const std::string& name,
+                      const std::function<void(const JobUpdate&)>& update,
+                      const std::function<void(const Error&)>& lost) {
+  return Watcher(connection, name, update).run(lost);
+}
+
+}  // namespace hydroprint::client

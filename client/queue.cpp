@@ -1,0 +1,44 @@
+#include "client/queue.h"
+
+#include <utility>
+
+#include "client/convert.h"
+#include "client/rpc.h"
+
+namespace hydroprint::client {
+namespace {
+
+using Stub = v1::QueueService::Stub;
+
+Result<Queue> to_queue(Result<v1::Queue> answer) {
+  return std::move(answer).map([](const v1::Queue& queue) { return from_proto(queue); });
+}
+
+}  // namespace
+
+Result<Queue> get_queue(Connection& connection) {
+  return to_queue(
+      call(connection, *connection.impl().queue, &Stub::GetQueue, v1::GetQueueRequest()));
+}
+
+Result<Queue> pause_queue(Connection& connection, const std::string& reason) {
+  v1::PauseQueueRequest request;
+  request.set_reason(reason);
+  return to_queue(call(connection, *connection.impl().queue, &Stub::PauseQueue, request));
+}
+
+Result<Queue> resume_queue(Connection& connection) {
+  return to_queue(
+      call(connection, *connection.impl().queue, &Stub::ResumeQueue, v1::ResumeQueueRequest()));
+}
+
+Result<Job> move_job(Connection& connection, const std::string& name, const std::string& before) {
+  v1::MoveJobRequest request;
+  request.set_name(name);
+  request.set_before(before);
+  HP_ASSIGN_OR_RETURN(const v1::Job job,
+                      call(connection, *connection.impl().queue, &Stub::MoveJob, request));
+  return from_proto(job);
+}
+
+}  // namespace hydroprint::client

@@ -1,0 +1,78 @@
+#pragma once
+
+// Private to this library: how one call is made. Included by .cpp files only.
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+#include "client/connection.h"
+#include "hydroprint/v1/artifact_service.grpc.pb.h"
+#include "hydroprint/v1/asset_service.grpc.pb.h"
+#include "hydroprint/v1/job_service.grpc.pb.h"
+#include "hydroprint/v1/queue_service.grpc.pb.h"
+#include "sim/base/result.h"
+
+namespace hydroprint::client {
+
+namespace v1 = ::hydroprint::v1;
+
+struct Connection::Impl {
+  explicit Impl(ConnectionOptions connection_options);
+
+  ConnectionOptions options;
+  std::shared_ptr<grpc::Channel> channel;
+  std::unique_ptr<v1::ArtifactService::Stub> artifacts;
+  std::unique_ptr<v1::AssetService::Stub> assets;
+  std::unique_ptr<v1::JobService::Stub> jobs;
+  std::unique_ptr<v1::QueueService::Stub> queue;
+};
+
+/// What every call carries: the owner, a time limit, and an end when the connection is to stop.
+class Call {
+ public:
+  explicit Call(Connection& connection);
+  /// As above, and ends after `limit`.
+  Call(Connection& connection, std::chrono::seconds limit);
+
+  [[nodiscard]] grpc::ClientContext* context() { return &context_; }
+
+ private:
+  grpc::ClientContext context_;
+  std::stop_callback<std::function<void()>> on_stop_;
+};
+
+/// Time within which a call that does not stream must be answered.
+inline constexpr std::chrono::seconds kAnswerLimit{30};
+
+/// The error that a failed call means, with the reason from its google.rpc.ErrorInfo.
+[[nodiscard]] Error to_error(const Connection& connection, const grpc::Status& status);
+
+/// Runs `attempt` until it answers anything but UNAVAILABLE, a few times with growing pauses.
+[[nodiscard]] grpc::Status with_retries(const Connection& connection,
+                                        const std::function<grpc::Status()>& attempt);
+
+/// Waits that long, or until the connection is to stop.
+void pause(const Connection& connection, std::chrono::milliseconds time);
+
+/// One call that may safely be repeated.
+template <class Stub, class Request, class Response>
+[[nodiscard]] Result<Response> call(Connection& connection, Stub& stub,
+                                    grpc::Status (Stub::*method)(grpc::ClientContext*,
+                                                                 const Request&, Response*),
+                                    const Request& request) {
+  Response response;
+  const grpc::Status status = with_retries(connection, [&] {
+    Call one(connection, kAnswerLimit);
+    response.Clear();
+    return (stub.*method)(one.context(), request, &response);
+  });
+  if (!status.ok()) return tl::unexpected(to_error(connection, status));
+  return response;
+}
+
+}  // namespace hydroprint::client
