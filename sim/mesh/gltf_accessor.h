@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace tinygltf {
+class Model;
+}
+
+namespace hydroprint::mesh {
+
+/// A glTF accessor whose every element is known to lie within its buffer.
+class GltfAccessor {
+ public:
+  /// @return nothing if the accessor does not exist, is sparse, or reaches out of its buffer
+  [[nodiscard]] static std::optional<GltfAccessor> open(const tinygltf::Model& model, int index);
+
+  [[nodiscard]] std::size_t size() const { return count_; }
+  [[nodiscard]] int components() const { return components_; }
+  /// Components of element i, normalised if the file says so; those beyond components() are 1.
+  [[nodiscard]] std::array<double, 4> values(std::size_t i) const;
+  /// First component of element i as an index; UINT32_MAX if it is none.
+  [[nodiscard]] std::uint32_t index(std::size_t i) const;
+
+ private:
+  [[nodiscard]] double component(const unsigned char* at) const;
+
+  const unsigned char* data_ = nullptr;
+  std::size_t count_ = 0;
+  std::size_t stride_ = 0;
+  std::size_t component_bytes_ = 0;
+  int components_ = 0;
+  int component_type_ = 0;
+  bool normalised_ = false;
+};
+
+}  // namespace hydroprint::mesh
