@@ -1,0 +1,126 @@
+#include "daemon/convert.h"
+#include "daemon/log.h"
+#include "daemon/names.h"
+#include "daemon/services.h"
+#include "daemon/status.h"
+#include "hydroprint/v1/asset_service.grpc.pb.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::size_t kLargestChunk = 1 << 20;
+
+template <class Reply>
+void set_result(const AssetOrUpload& result, Reply& reply) {
+  if (const Asset* asset = std::get_if<Asset>(&result)) {
+    *reply.mutable_asset() = to_message(*asset);
+  } else {
+    *reply.mutable_upload() = to_message(std::get<Upload>(result));
+  }
+}
+
+class AssetService final : public v1::AssetService::Service {
+ public:
+  explicit AssetService(const Backend& backend) : backend_(backend) {}
+
+  grpc::Status StartUpload(grpc::ServerContext* context, const v1::StartUploadRequest* request,
+                           v1::StartUploadResponse* reply) override {
+    const auto result = start(*context, *request);
+    if (!result) return to_grpc(result.error());
+    set_result(*result, *reply);
+    return grpc::Status::OK;
+  }
+
+  grpc::Status GetUpload(grpc::ServerContext*, const v1::GetUploadRequest* request,
+                         v1::Upload* reply) override {
+    const auto id = parse_upload_name(request->name());
+    if (!id) return to_grpc(id.error());
+    const auto upload = backend_.assets.upload(*id);
+    if (!upload) return to_grpc(upload.error());
+    *reply = to_message(*upload);
+    return grpc::Status::OK;
+  }
+
+  grpc::Status UploadChunk(grpc::ServerContext*, grpc::ServerReader<v1::UploadChunkRequest>* reader,
+                           v1::UploadChunkResponse* reply) override {
+    const auto result = receive(*reader);
+    if (!result) return to_grpc(result.error());
+    set_result(*result, *reply);
+    return grpc::Status::OK;
+  }
+
+  grpc::Status GetAsset(grpc::ServerContext*, const v1::GetAssetRequest* request,
+                        v1::Asset* reply) override {
+    const auto hash = parse_asset_name(request->name());
+    if (!hash) return to_grpc(hash.error());
+    const auto asset = backend_.assets.asset(*hash);
+    if (!asset) return to_grpc(asset.error());
+    *reply = to_message(*asset);
+    return grpc::Status::OK;
+  }
+
+  grpc::Status ListAssets(grpc::ServerContext*, const v1::ListAssetsRequest* request,
+                          v1::ListAssetsResponse* reply) override {
+    return to_grpc(list(*request, *reply));
+  }
+
+  grpc::Status DeleteAsset(grpc::ServerContext*, const v1::DeleteAssetRequest* request,
+                           google::protobuf::Empty*) override {
+    const auto hash = parse_asset_name(request->name());
+    return hash ? to_grpc(backend_.assets.remove(*hash)) : to_grpc(hash.error());
+  }
+
+ private:
+  Result<AssetOrUpload> start(const grpc::ServerContext& context,
+                              const v1::StartUploadRequest& request) {
+    HP_RETURN_IF_ERROR(check_serving(backend_));
+    HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
+    HP_RETURN_IF_ERROR(check_text("media_type", request.media_type(), 100));
+    if (request.size_bytes() < 0) return invalid_field("size_bytes", "must not be negative");
+    HP_ASSIGN_OR_RETURN(const std::string hash, parse_asset_name("assets/" + request.sha256()));
+    HP_ASSIGN_OR_RETURN(const std::string owner, owner_of(context));
+    const Upload wanted{"", hash, request.size_bytes(), 0, request.media_type(), 0};
+    return backend_.assets.start(wanted, owner, request_key("StartUpload", request));
+  }
+
+  Result<AssetOrUpload> receive(grpc::ServerReader<v1::UploadChunkRequest>& reader) {
+    v1::UploadChunkRequest chunk;
+    if (!reader.Read(&chunk)) return invalid_field("upload", "is missing: no message came");
+    HP_ASSIGN_OR_RETURN(const std::string id, parse_upload_name(chunk.upload()));
+    HP_ASSIGN_OR_RETURN(const auto writer, UploadWriter::open(backend_.assets, id));
+    do {
+      if (chunk.data().size() > kLargestChunk) {
+        return invalid_field("data", "is longer than 1 MiB; send smaller chunks");
+      }
+      if (!chunk.upload().empty() && chunk.upload() != "uploads/" + id) {
+        return invalid_field("upload", "changed within one call; use a call for each");
+      }
+      HP_RETURN_IF_ERROR(writer->append(chunk.offset(), chunk.data()));
+    } while (reader.Read(&chunk));
+    HP_ASSIGN_OR_RETURN(AssetOrUpload result, writer->finish());
+    if (const Asset* asset = std::get_if<Asset>(&result)) {
+      log(LogLevel::kInfo, "asset_stored",
+          {{"asset", asset->sha256}, {"bytes", asset->size_bytes}});
+    }
+    return result;
+  }
+
+  Status list(const v1::ListAssetsRequest& request, v1::ListAssetsResponse& reply) {
+    HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
+    if (!request.page_token().empty() && !is_sha256(request.page_token())) return bad_page_token();
+    HP_ASSIGN_OR_RETURN(auto assets, backend_.assets.list(request.page_token(), size + 1));
+    if (cut_page(assets, size)) reply.set_next_page_token(assets.back().sha256);
+    for (const Asset& asset : assets) *reply.add_assets() = to_message(asset);
+    return {};
+  }
+
+  Backend backend_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> make_asset_service(const Backend& backend) {
+  return std::make_unique<AssetService>(backend);
+}
+
+}  // namespace hydroprint::daemon

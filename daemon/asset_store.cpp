@@ -1,0 +1,273 @@
+#include "daemon/asset_store.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "daemon/job_rows.h"
+#include "daemon/names.h"
+#include "daemon/requests.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+tl::unexpected<Error> too_large(Code code, std::int64_t max_bytes) {
+  auto error = fail(code,
+                    "more than " + std::to_string(max_bytes) +
+                        " bytes; send what was announced, within assets.max_mib",
+                    "ASSET_TOO_LARGE");
+  error.value().metadata["max_bytes"] = std::to_string(max_bytes);
+  return error;
+}
+
+std::int64_t size_on_disk(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path, error);
+  return error ? 0 : static_cast<std::int64_t>(size);
+}
+
+}  // namespace
+
+AssetStore::AssetStore(Database& database, const Layout& layout, const AssetStoreOptions& options,
+                       Clock clock)
+    : database_(database), layout_(layout), options_(options), clock_(std::move(clock)) {}
+
+Result<AssetOrUpload> AssetStore::start(const Upload& wanted, const std::string& owner,
+                                        const RequestKey& request) {
+  if (wanted.size_bytes > options_.max_bytes) {
+    return too_large(Code::kResourceExhausted, options_.max_bytes);
+  }
+  std::string id;
+  const Status done = database_.transaction([&]() -> Status {
+    const std::int64_t now = clock_();
+    HP_ASSIGN_OR_RETURN(const auto earlier, earlier_result(database_, owner, request, now));
+    if (asset(wanted.sha256)) return {};
+    if (earlier && upload(*earlier)) {
+      id = *earlier;
+      return {};
+    }
+    HP_RETURN_IF_ERROR(check_free_space(layout_.root, wanted.size_bytes + options_.min_free_bytes));
+    HP_ASSIGN_OR_RETURN(const auto open,
+                        select_numbers(database_, "SELECT count(*) FROM uploads", {}));
+    if (open.front() >= options_.max_open_uploads) {
+      return fail(Code::kResourceExhausted,
+                  "too many uploads are open; finish some, or try again later", "UPLOADS_FULL");
+    }
+    id = make_token();
+    HP_RETURN_IF_ERROR(database_.run("INSERT INTO uploads VALUES (?,?,?,?,?)",
+                                     {id, wanted.sha256, wanted.size_bytes, wanted.media_type,
+                                      now + options_.upload_expires_ms}));
+    return remember_result(database_, owner, request, id, now);
+  });
+  HP_RETURN_IF_ERROR(done);
+  if (!id.empty()) {
+    HP_ASSIGN_OR_RETURN(Upload made, upload(id));
+    return AssetOrUpload(std::move(made));
+  }
+  HP_ASSIGN_OR_RETURN(Asset known, asset(wanted.sha256));
+  return AssetOrUpload(std::move(known));
+}
+
+Result<Upload> AssetStore::upload(const std::string& id) {
+  Upload upload;
+  HP_RETURN_IF_ERROR(database_.each(
+      "SELECT id, sha256, size, media_type, expire_ms FROM uploads WHERE id=? AND expire_ms>?",
+      {id, clock_()}, [&](const DbRow& row) {
+        upload = {row.text(0), row.text(1), row.integer(2), 0, row.text(3), row.integer(4)};
+      }));
+  if (upload.id.empty()) {
+    return fail(Code::kNotFound,
+                "uploads/" + id + ": there is no such upload (any more); start it again",
+                "UPLOAD_NOT_FOUND");
+  }
+  upload.received_bytes = std::min(size_on_disk(layout_.upload(id)), upload.size_bytes);
+  return upload;
+}
+
+Result<Asset> AssetStore::asset(const std::string& sha256) {
+  Asset asset;
+  HP_RETURN_IF_ERROR(
+      database_.each("SELECT sha256, size, media_type, create_ms FROM assets WHERE sha256=?",
+                     {sha256}, [&](const DbRow& row) {
+                       asset = {row.text(0), row.integer(1), row.text(2), row.integer(3)};
+                     }));
+  if (asset.sha256.empty()) {
+    return fail(Code::kNotFound, "assets/" + sha256 + " is not here; upload it", "ASSET_NOT_FOUND");
+  }
+  return asset;
+}
+
+Result<std::vector<Asset>> AssetStore::list(const std::string& after, int limit) {
+  std::vector<Asset> assets;
+  HP_RETURN_IF_ERROR(database_.each(
+      "SELECT sha256, size, media_type, create_ms FROM assets WHERE sha256>? ORDER BY sha256 "
+      "LIMIT ?",
+      {after, std::int64_t{limit}}, [&](const DbRow& row) {
+        assets.push_back({row.text(0), row.integer(1), row.text(2), row.integer(3)});
+      }));
+  return assets;
+}
+
+Status AssetStore::remove(const std::string& sha256) {
+  return database_.transaction([&]() -> Status {
+    HP_RETURN_IF_ERROR(asset(sha256));
+    HP_ASSIGN_OR_RETURN(
+        const auto jobs,
+        select_numbers(database_,
+                       "SELECT jobs.id FROM jobs JOIN job_inputs ON job_inputs.job=jobs.id "
+                       "WHERE job_inputs.sha256=? AND jobs.state IN (1,3,4,8) LIMIT 1",
+                       {sha256}));
+    if (!jobs.empty()) {
+      return fail(Code::kFailedPrecondition,
+                  "assets/" + sha256 + " is needed by " + job_name(jobs.front()) +
+                      "; cancel that or wait for its end",
+                  "STATE_FORBIDS");
+    }
+    HP_RETURN_IF_ERROR(database_.run("DELETE FROM assets WHERE sha256=?", {sha256}));
+    // Within the transaction: nobody can have made the same asset anew. Should the power fail now,
+    // a row without a file is left, which the next start finds.
+    discard(layout_.asset(sha256));
+    return {};
+  });
+}
+
+Result<Asset> AssetStore::complete(const Upload& upload) {
+  const auto part = layout_.upload(upload.id), final_path = layout_.asset(upload.sha256);
+  HP_RETURN_IF_ERROR(make_folder(final_path.parent_path()));
+  const Status done = database_.transaction([&]() -> Status {
+    ::chmod(part.c_str(), 0400);
+    HP_RETURN_IF_ERROR(publish(part, final_path));
+    HP_RETURN_IF_ERROR(
+        database_.run("INSERT OR IGNORE INTO assets VALUES (?,?,?,?)",
+                      {upload.sha256, upload.size_bytes, upload.media_type, clock_()}));
+    return database_.run("DELETE FROM uploads WHERE id=?", {upload.id});
+  });
+  HP_RETURN_IF_ERROR(done);
+  return asset(upload.sha256);
+}
+
+Status AssetStore::purge() {
+  return database_.transaction([&]() -> Status {
+    HP_RETURN_IF_ERROR(database_.run("DELETE FROM uploads WHERE expire_ms<=?", {clock_()}));
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(layout_.uploads(), ignored)) {
+      if (!upload(entry.path().filename().string())) discard(entry.path());
+    }
+    return {};
+  });
+}
+
+// After a crash in the middle of complete(): a verified file under its final name whose row is
+// missing.
+Status AssetStore::adopt_completed_uploads() {
+  std::vector<Upload> open;
+  HP_RETURN_IF_ERROR(
+      database_.each("SELECT id, sha256, size, media_type FROM uploads", {}, [&](const DbRow& row) {
+        open.push_back({row.text(0), row.text(1), row.integer(2), 0, row.text(3), 0});
+      }));
+  for (const Upload& upload : open) {
+    const auto path = layout_.asset(upload.sha256);
+    if (std::filesystem::exists(layout_.upload(upload.id)) || !std::filesystem::exists(path)) {
+      continue;
+    }
+    const auto hash = sha256_of_file(path);
+    if (!hash || *hash != upload.sha256) continue;
+    HP_RETURN_IF_ERROR(
+        database_.run("INSERT OR IGNORE INTO assets VALUES (?,?,?,?)",
+                      {upload.sha256, upload.size_bytes, upload.media_type, clock_()}));
+    HP_RETURN_IF_ERROR(database_.run("DELETE FROM uploads WHERE id=?", {upload.id}));
+  }
+  return {};
+}
+
+Status AssetStore::drop_rows_without_file() {
+  std::vector<Asset> assets;
+  HP_RETURN_IF_ERROR(database_.each("SELECT sha256, size FROM assets", {}, [&](const DbRow& row) {
+    assets.push_back({row.text(0), row.integer(1), "", 0});
+  }));
+  for (const Asset& asset : assets) {
+    const auto path = layout_.asset(asset.sha256);
+    if (std::filesystem::exists(path) && size_on_disk(path) == asset.size_bytes) continue;
+    HP_RETURN_IF_ERROR(database_.run("DELETE FROM assets WHERE sha256=?", {asset.sha256}));
+  }
+  return {};
+}
+
+Status AssetStore::sweep() {
+  HP_RETURN_IF_ERROR(make_folder(layout_.uploads()));
+  HP_RETURN_IF_ERROR(make_folder(layout_.assets()));
+  return database_.transaction([&]() -> Status {
+    HP_RETURN_IF_ERROR(adopt_completed_uploads());
+    HP_RETURN_IF_ERROR(drop_rows_without_file());
+    std::error_code ignored;
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(layout_.assets(), ignored)) {
+      if (entry.is_directory()) continue;
+      const auto& path = entry.path();
+      if (!asset(path.parent_path().filename().string() + path.filename().string())) discard(path);
+    }
+    return {};
+  });
+}
+
+Result<std::unique_ptr<UploadWriter>> UploadWriter::open(AssetStore& store, const std::string& id) {
+  {
+    const std::lock_guard lock(store.busy_mutex_);
+    if (!store.busy_.insert(id).second) {
+      return fail(Code::kAborted,
+                  "uploads/" + id + ": another call is sending to it; wait for its end",
+                  "UPLOAD_BUSY");
+    }
+  }
+  // From here on, its end frees the upload.
+  std::unique_ptr<UploadWriter> writer(new UploadWriter(store, Upload{id, "", 0, 0, "", 0}));
+  HP_ASSIGN_OR_RETURN(writer->upload_, store.upload(id));
+  HP_ASSIGN_OR_RETURN(writer->file_, open_file(store.layout_.upload(id), O_WRONLY | O_CREAT));
+  return writer;
+}
+
+UploadWriter::~UploadWriter() {
+  const std::lock_guard lock(store_.busy_mutex_);
+  store_.busy_.erase(upload_.id);
+}
+
+Status UploadWriter::append(std::int64_t offset, std::string_view bytes) {
+  if (offset != upload_.received_bytes) {
+    const std::string expected = std::to_string(upload_.received_bytes);
+    auto error = fail(
+        Code::kOutOfRange,
+        "offset: " + std::to_string(offset) + " is not where the upload is; go on at " + expected,
+        "OFFSET_MISMATCH");
+    error.value().metadata["expected_offset"] = expected;
+    return error;
+  }
+  const auto size = static_cast<std::int64_t>(bytes.size());
+  if (size > upload_.size_bytes - offset) return too_large(Code::kOutOfRange, upload_.size_bytes);
+  const auto path = store_.layout_.upload(upload_.id);
+  HP_RETURN_IF_ERROR(write_at(file_, path, bytes, offset));
+  upload_.received_bytes += size;
+  return {};
+}
+
+Result<AssetOrUpload> UploadWriter::finish() {
+  const auto path = store_.layout_.upload(upload_.id);
+  if (::fsync(file_.get()) != 0) return system_failure(path, "cannot be made safe on disk");
+  if (upload_.received_bytes < upload_.size_bytes) return AssetOrUpload(upload_);
+  HP_ASSIGN_OR_RETURN(const std::string hash, sha256_of_file(path));
+  if (hash == upload_.sha256) {
+    HP_ASSIGN_OR_RETURN(Asset asset, store_.complete(upload_));
+    return AssetOrUpload(std::move(asset));
+  }
+  HP_RETURN_IF_ERROR(store_.database_.run("DELETE FROM uploads WHERE id=?", {upload_.id}));
+  discard(path);
+  auto error = fail(Code::kInvalidArgument,
+                    "the bytes have the hash " + hash + ", not the announced " + upload_.sha256 +
+                        "; start the upload again",
+                    "ASSET_HASH_MISMATCH");
+  error.value().metadata["sha256"] = hash;
+  return error;
+}
+
+}  // namespace hydroprint::daemon

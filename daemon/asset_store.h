@@ -1,0 +1,113 @@
+#pragma once
+
+#include <cstdint>
+#include <mutex>
+#include <set>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "daemon/clock.h"
+#include "daemon/database.h"
+#include "daemon/files.h"
+#include "daemon/job.h"
+#include "daemon/layout.h"
+
+namespace hydroprint::daemon {
+
+/// Verified bytes.
+struct Asset {
+  std::string sha256;
+  std::int64_t size_bytes = 0;
+  std::string media_type;
+  std::int64_t create_ms = 0;
+};
+
+/// Bytes that are still to come.
+struct Upload {
+  std::string id;
+  std::string sha256;
+  std::int64_t size_bytes = 0;
+  std::int64_t received_bytes = 0;
+  std::string media_type;
+  std::int64_t expire_ms = 0;
+};
+
+/// What an upload led to so far.
+using AssetOrUpload = std::variant<Asset, Upload>;
+
+/// Limits the store keeps.
+struct AssetStoreOptions {
+  std::int64_t max_bytes = 1LL << 30;
+  std::int64_t max_open_uploads = 64;
+  std::int64_t upload_expires_ms = 24LL * 3600 * 1000;
+  std::int64_t min_free_bytes = 512LL << 20;
+};
+
+/// Assets and uploads. An asset exists once its row does, which is written after its bytes were
+/// hashed and are safe on disk under their final name. Any thread may call.
+class AssetStore {
+ public:
+  AssetStore(Database& database, const Layout& layout, const AssetStoreOptions& options,
+             Clock clock);
+
+  /// The asset if the bytes are here, else an upload for them (the earlier one of the same
+  /// request).
+  /// @return kResourceExhausted: ASSET_TOO_LARGE, DISK_FULL, UPLOADS_FULL; REQUEST_ID_REUSED
+  [[nodiscard]] Result<AssetOrUpload> start(const Upload& wanted, const std::string& owner,
+                                            const RequestKey& request);
+  /// kNotFound, UPLOAD_NOT_FOUND.
+  [[nodiscard]] Result<Upload> upload(const std::string& id);
+  /// kNotFound, ASSET_NOT_FOUND.
+  [[nodiscard]] Result<Asset> asset(const std::string& sha256);
+  /// In the order of their hashes, those after `after`.
+  [[nodiscard]] Result<std::vector<Asset>> list(const std::string& after, int limit);
+  /// kFailedPrecondition, STATE_FORBIDS while an unfinished job needs it; ASSET_NOT_FOUND.
+  [[nodiscard]] Status remove(const std::string& sha256);
+
+  /// Deletes uploads whose time is up, and files that belong to none.
+  [[nodiscard]] Status purge();
+  /// Makes rows and files agree again after a crash; only before anyone is served.
+  [[nodiscard]] Status sweep();
+
+ private:
+  [[nodiscard]] Status adopt_completed_uploads();
+  [[nodiscard]] Status drop_rows_without_file();
+  friend class UploadWriter;
+  [[nodiscard]] Result<Asset> complete(const Upload& upload);
+
+  Database& database_;
+  Layout layout_;
+  AssetStoreOptions options_;
+  Clock clock_;
+  std::mutex busy_mutex_;
+  std::set<std::string> busy_;  // uploads that a writer has
+};
+
+/// One call's bytes on their way into an upload; at most one at a time for each.
+class UploadWriter {
+ public:
+  /// UPLOAD_NOT_FOUND; kAborted, UPLOAD_BUSY.
+  [[nodiscard]] static Result<std::unique_ptr<UploadWriter>> open(AssetStore& store,
+                                                                  const std::string& id);
+  ~UploadWriter();
+  UploadWriter(const UploadWriter&) = delete;
+  UploadWriter& operator=(const UploadWriter&) = delete;
+
+  /// Appends bytes. kOutOfRange: OFFSET_MISMATCH (metadata expected_offset), ASSET_TOO_LARGE;
+  /// kResourceExhausted, DISK_FULL.
+  [[nodiscard]] Status append(std::int64_t offset, std::string_view bytes);
+  /// Makes what came safe on disk; with all bytes there, verifies them and makes the asset.
+  /// @return kInvalidArgument, ASSET_HASH_MISMATCH: the upload is gone
+  [[nodiscard]] Result<AssetOrUpload> finish();
+
+ private:
+  UploadWriter(AssetStore& store, Upload upload) : store_(store), upload_(std::move(upload)) {}
+
+  AssetStore& store_;
+  Upload upload_;
+  UniqueFd file_;
+};
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <grpcpp/server_context.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <string>
+
+#include "daemon/asset_store.h"
+#include "daemon/job_store.h"
+#include "daemon/pool.h"
+
+namespace hydroprint::daemon {
+
+/// What the services work on.
+struct Backend {
+  JobStore& jobs;
+  AssetStore& assets;
+  WorkerPool& pool;
+  Layout layout;
+  std::int64_t min_free_bytes = 0;
+  /// True from the moment the daemon goes down: streams end, nothing new begins.
+  const std::atomic<bool>& stopping;
+};
+
+/// Who calls: the metadata "hydroprint-owner", "anonymous" without it. A claim, trusted for
+/// fairness between owners alone. Refuses (SPEC_INVALID) more than 64 bytes or anything but
+/// printable ASCII.
+[[nodiscard]] Result<std::string> owner_of(const grpc::ServerContext& context);
+
+/// Size of a page: the default for 0, at most 1000; negative sizes are refused (SPEC_INVALID).
+[[nodiscard]] Result<int> page_size(std::int32_t asked, int otherwise);
+
+/// kUnavailable, SHUTTING_DOWN once the daemon goes down.
+[[nodiscard]] Status check_serving(const Backend& backend);
+
+/// kInvalidArgument, PAGE_TOKEN_INVALID.
+[[nodiscard]] tl::unexpected<Error> bad_page_token();
+
+/// Reads a page token that is a number; 0 for none.
+[[nodiscard]] Result<std::int64_t> number_token(const std::string& token);
+
+/// Given one item more than a page holds: drops it, and tells whether it was there.
+template <class Items>
+[[nodiscard]] bool cut_page(Items& items, int size) {
+  if (items.size() <= static_cast<std::size_t>(size)) return false;
+  items.resize(static_cast<std::size_t>(size));
+  return true;
+}
+
+}  // namespace hydroprint::daemon

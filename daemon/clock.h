@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+namespace hydroprint::daemon {
+
+/// Unix time in ms; tests pass their own.
+using Clock = std::function<std::int64_t()>;
+
+/// The machine's clock.
+[[nodiscard]] std::int64_t system_clock_ms();
+
+}  // namespace hydroprint::daemon

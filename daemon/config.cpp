@@ -1,0 +1,250 @@
+#include "daemon/config.h"
+
+#include <arpa/inet.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <variant>
+
+namespace hydroprint::daemon {
+namespace {
+
+struct Text {
+  std::string Config::*member;
+  std::vector<std::string_view> allowed = {};  // empty: anything without control characters
+};
+struct Flag {
+  bool Config::*member;
+};
+struct Number {
+  std::int64_t Config::*member;
+  std::int64_t min, max;
+  const char* unit;
+};
+
+struct Key {
+  std::string_view section, name;
+  std::variant<Text, Flag, Number> kind;
+
+  [[nodiscard]] std::string full() const { return std::string(section) + "." + std::string(name); }
+};
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> all{
+      {"server", "grpc", Text{&Config::server_grpc}},
+      {"server", "reflection", Flag{&Config::server_reflection}},
+      {"store", "state_dir", Text{&Config::store_state_dir}},
+      {"store", "keep_finished_days", Number{&Config::store_keep_finished_days, 1, 36500, "days"}},
+      {"store", "min_free_mib", Number{&Config::store_min_free_mib, 1, 1 << 30, "MiB"}},
+      {"assets", "max_mib", Number{&Config::assets_max_mib, 1, 1 << 20, "MiB"}},
+      {"assets", "max_open_uploads", Number{&Config::assets_max_open_uploads, 1, 10000, "uploads"}},
+      {"assets", "upload_expires_h", Number{&Config::assets_upload_expires_h, 1, 8760, "hours"}},
+      {"queue", "max_jobs", Number{&Config::queue_max_jobs, 1, 100000, "jobs"}},
+      {"workers", "program", Text{&Config::workers_program}},
+      {"workers", "count", Number{&Config::workers_count, 0, 256, "workers"}},
+      {"workers", "threads", Number{&Config::workers_threads, 0, 256, "threads"}},
+      {"workers", "memory_mib", Number{&Config::workers_memory_mib, 0, 1 << 24, "MiB"}},
+      {"workers", "time_limit_s", Number{&Config::workers_time_limit_s, 1, 2592000, "seconds"}},
+      {"workers", "file_mib", Number{&Config::workers_file_mib, 1, 1 << 24, "MiB"}},
+      {"log", "level", Text{&Config::log_level, {"debug", "info", "warning", "error"}}},
+      {"log", "file", Text{&Config::log_file}},
+  };
+  return all;
+}
+
+std::string remedy(const Number& number) {
+  return "a whole number of " + std::string(number.unit) + " from " + std::to_string(number.min) +
+         " to " + std::to_string(number.max) + ", without quotes or unit";
+}
+std::string remedy(const Flag&) { return "true or false"; }
+std::string remedy(const Text& text) {
+  if (text.allowed.empty()) return "text in quotes";
+  std::string out = "one of";
+  for (const std::string_view word : text.allowed) out += " \"" + std::string(word) + '"';
+  return out;
+}
+
+bool accept(const Number& kind, const toml::node& node, Config& config) {
+  const auto* number = node.as_integer();
+  if (number == nullptr || number->get() < kind.min || number->get() > kind.max) return false;
+  config.*kind.member = number->get();
+  return true;
+}
+bool accept(const Flag& kind, const toml::node& node, Config& config) {
+  const auto* flag = node.as_boolean();
+  if (flag == nullptr) return false;
+  config.*kind.member = flag->get();
+  return true;
+}
+bool accept(const Text& kind, const toml::node& node, Config& config) {
+  const auto* text = node.as_string();
+  if (text == nullptr) return false;
+  const std::string& value = text->get();
+  const auto& allowed = kind.allowed;
+  if (!allowed.empty() && std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
+    return false;
+  }
+  if (std::any_of(value.begin(), value.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }))
+    return false;
+  config.*kind.member = value;
+  return true;
+}
+
+// Says "name:line: ..." for a place in the file.
+tl::unexpected<Error> refuse(const std::string& name, const toml::source_region& where,
+                             const std::string& what) {
+  return fail(Code::kInvalidArgument, name + ":" + std::to_string(where.begin.line) + ": " + what,
+              "CONFIG_INVALID");
+}
+
+std::size_t common_prefix(std::string_view a, std::string_view b) {
+  const auto ends = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
+  return static_cast<std::size_t>(ends.first - a.begin());
+}
+
+// The key that was probably meant: the longest common beginning in the same section.
+std::string suggestion(std::string_view section, std::string_view name) {
+  const Key* best = nullptr;
+  std::size_t length = 2;
+  for (const Key& key : keys()) {
+    if (key.section != section || common_prefix(key.name, name) <= length) continue;
+    best = &key;
+    length = common_prefix(key.name, name);
+  }
+  if (best != nullptr) {
+    return "did you mean \"" + best->full() + "\", " +
+           std::visit([](const auto& kind) { return remedy(kind); }, best->kind) + "?";
+  }
+  return "see deploy/hydroprintd.toml.example for the keys there are";
+}
+
+Status read_section(const std::string& name, std::string_view section, const toml::table& table,
+                    Config& config) {
+  for (const auto& [toml_key, node] : table) {
+    const std::string_view key_name = toml_key.str();
+    const auto key = std::find_if(keys().begin(), keys().end(), [&](const Key& k) {
+      return k.section == section && k.name == key_name;
+    });
+    if (key == keys().end()) {
+      return refuse(name, toml_key.source(),
+                    "unknown key \"" + std::string(section) + "." + std::string(key_name) + "\"; " +
+                        suggestion(section, key_name));
+    }
+    const bool good =
+        std::visit([&](const auto& kind) { return accept(kind, node, config); }, key->kind);
+    if (!good) {
+      return refuse(name, toml_key.source(),
+                    key->full() + " must be " +
+                        std::visit([](const auto& kind) { return remedy(kind); }, key->kind));
+    }
+  }
+  return {};
+}
+
+Status check_values(const Config& config, const std::string& name, const toml::table& root) {
+  if (const auto endpoint = parse_endpoint(config.server_grpc); !endpoint) {
+    return refuse(name, root["server"]["grpc"].node()->source(),
+                  "server.grpc: " + endpoint.error().message);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<std::string> config_keys() {
+  std::vector<std::string> names;
+  for (const Key& key : keys()) names.push_back(key.full());
+  return names;
+}
+
+Result<Config> parse_config(std::string_view text, const std::string& name) {
+  try {
+    const toml::table root = toml::parse(text, name);
+    Config config;
+    for (const auto& [section, node] : root) {
+      const bool known = std::any_of(keys().begin(), keys().end(),
+                                     [&](const Key& key) { return key.section == section.str(); });
+      const toml::table* table = node.as_table();
+      if (!known || table == nullptr) {
+        return refuse(name, section.source(),
+                      "unknown section \"" + std::string(section.str()) +
+                          "\"; there are [server], [store], [assets], [queue], [workers], [log]");
+      }
+      HP_RETURN_IF_ERROR(read_section(name, section.str(), *table, config));
+    }
+    HP_RETURN_IF_ERROR(check_values(config, name, root));
+    return config;
+  } catch (const toml::parse_error& error) {
+    return refuse(name, error.source(), "not valid TOML: " + std::string(error.description()));
+  }
+}
+
+Result<Config> read_config(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file || std::filesystem::is_directory(path)) {
+    return fail(Code::kNotFound, path.string() +
+                                     ": cannot be read; give --config the name of a "
+                                     "TOML file that is there, or leave it out");
+  }
+  return parse_config(text.str(), path.string());
+}
+
+std::string Endpoint::text() const {
+  const bool v6 = host.find(':') != std::string::npos;
+  return (v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+}
+
+Result<Endpoint> parse_endpoint(std::string_view text) {
+  const auto refused = [&](const std::string& why) {
+    return fail(Code::kInvalidArgument, "\"" + std::string(text) + "\" " + why, "CONFIG_INVALID");
+  };
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) {
+    return refused("has no port; write it like 127.0.0.1:50051");
+  }
+  Endpoint endpoint;
+  const std::string_view port = text.substr(colon + 1);
+  const auto parsed = std::from_chars(port.data(), port.data() + port.size(), endpoint.port);
+  if (parsed.ec != std::errc() || parsed.ptr != port.data() + port.size() || endpoint.port < 0 ||
+      endpoint.port > 65535) {
+    return refused("has no port from 0 to 65535; write it like 127.0.0.1:50051");
+  }
+  std::string host(text.substr(0, colon));
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
+    host = host.substr(1, host.size() - 2);
+  }
+  if (host == "localhost") host = "127.0.0.1";
+  in_addr v4{};
+  const bool loopback_v4 =
+      inet_pton(AF_INET, host.c_str(), &v4) == 1 && (ntohl(v4.s_addr) >> 24) == 127;
+  if (!loopback_v4 && host != "::1") {
+    return refused(
+        "is not a loopback address; this version serves this machine only, write "
+        "127.0.0.1 or [::1]");
+  }
+  endpoint.host = host;
+  return endpoint;
+}
+
+Result<std::filesystem::path> default_state_dir() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state != nullptr && *state == '/') {
+    return std::filesystem::path(state) / "hydroprint";
+  }
+  if (const char* home = std::getenv("HOME"); home != nullptr && *home == '/') {
+    return std::filesystem::path(home) / ".local" / "state" / "hydroprint";
+  }
+  return fail(
+      Code::kFailedPrecondition,
+      "store.state_dir: neither XDG_STATE_HOME nor HOME is set; say where to keep jobs with "
+      "--state-dir DIR");
+}
+
+}  // namespace hydroprint::daemon

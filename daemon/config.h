@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/base/result.h"
+
+namespace hydroprint::daemon {
+
+/// Everything that can be set, with its default: one member per key of the TOML file (section and
+/// key in the comment; deploy/hydroprintd.toml.example explains each).
+struct Config {
+  std::string server_grpc = "127.0.0.1:50051";  ///< server.grpc: loopback address and port, 0: any
+  bool server_reflection = true;                ///< server.reflection
+  std::string store_state_dir;                  ///< store.state_dir; empty: the user's own
+  std::int64_t store_keep_finished_days = 30;   ///< store.keep_finished_days
+  std::int64_t store_min_free_mib = 512;        ///< store.min_free_mib
+  std::int64_t assets_max_mib = 1024;           ///< assets.max_mib, of one file
+  std::int64_t assets_max_open_uploads = 64;    ///< assets.max_open_uploads
+  std::int64_t assets_upload_expires_h = 24;    ///< assets.upload_expires_h
+  std::int64_t queue_max_jobs = 1000;           ///< queue.max_jobs
+  std::string workers_program;             ///< workers.program; empty: hydroprint-worker beside us
+  std::int64_t workers_count = 0;          ///< workers.count; 0: as many as cores
+  std::int64_t workers_threads = 0;        ///< workers.threads per worker; 0: the cores, shared out
+  std::int64_t workers_memory_mib = 4096;  ///< workers.memory_mib per worker; 0: no limit
+  std::int64_t workers_time_limit_s = 3600;  ///< workers.time_limit_s per job
+  std::int64_t workers_file_mib = 4096;      ///< workers.file_mib, of one file a worker writes
+  std::string log_level = "info";            ///< log.level: debug, info, warning, error
+  std::string log_file;                      ///< log.file besides stderr; empty: none
+
+  bool operator==(const Config&) const = default;
+};
+
+/// Names of all keys, "section.key", in the order of the example.
+[[nodiscard]] std::vector<std::string> config_keys();
+
+/// Reads and checks a TOML file; keys that are absent keep their defaults.
+/// @return kNotFound if there is no such file; kInvalidArgument for text that is no TOML, an
+/// unknown
+///   key, a wrong type or a value out of range, as one line with file, line and remedy
+[[nodiscard]] Result<Config> read_config(const std::filesystem::path& path);
+
+/// The same for text that came from `name`.
+[[nodiscard]] Result<Config> parse_config(std::string_view text, const std::string& name);
+
+/// An address to listen at.
+struct Endpoint {
+  std::string host;  ///< "127.0.0.1" or "::1", never anything that leaves the machine
+  int port = 0;      ///< 0: any free one
+
+  /// "127.0.0.1:50051" or "[::1]:50051".
+  [[nodiscard]] std::string text() const;
+};
+
+/// Reads "127.0.0.1:50051", "[::1]:50051" or "localhost:50051".
+/// @return kInvalidArgument for anything else, above all for an address beyond loopback
+[[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
+
+/// Where the store is if the configuration does not say: $XDG_STATE_HOME/hydroprint or
+/// ~/.local/state/hydroprint; kFailedPrecondition if neither variable is set.
+[[nodiscard]] Result<std::filesystem::path> default_state_dir();
+
+}  // namespace hydroprint::daemon

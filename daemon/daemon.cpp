@@ -1,0 +1,106 @@
+#include "daemon/daemon.h"
+
+#include <sched.h>
+
+#include <algorithm>
+
+#include "daemon/log.h"
+#include "daemon/schema.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::int64_t kMiB = 1 << 20;
+constexpr std::int64_t kHourMs = 3600 * 1000;
+constexpr std::chrono::milliseconds kPatience{1000};
+
+// Cores this process may use, which in a container or under taskset are not all of the machine's.
+int core_count() {
+  cpu_set_t set;
+  return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
+}
+
+std::filesystem::path worker_program(const Config& config) {
+  if (!config.workers_program.empty()) return config.workers_program;
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() /
+         "hydroprint-worker";
+}
+
+PoolOptions pool_options(const Config& config) {
+  PoolOptions options;
+  options.program = worker_program(config);
+  options.cores = core_count();
+  options.slots = config.workers_count > 0 ? static_cast<int>(config.workers_count) : options.cores;
+  options.threads = static_cast<int>(config.workers_threads);
+  options.memory_bytes = config.workers_memory_mib * kMiB;
+  options.time_limit_s = config.workers_time_limit_s;
+  options.file_bytes = config.workers_file_mib * kMiB;
+  return options;
+}
+
+Result<std::filesystem::path> state_dir(const Config& config) {
+  if (config.store_state_dir.empty()) return default_state_dir();
+  return std::filesystem::absolute(config.store_state_dir).lexically_normal();
+}
+
+void log_failure(const char* event, const Status& status) {
+  if (!status) log(LogLevel::kError, event, {{"message", status.error().message}});
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config) {
+  std::unique_ptr<Daemon> daemon(new Daemon);
+  HP_ASSIGN_OR_RETURN(daemon->layout_.root, state_dir(config));
+  HP_ASSIGN_OR_RETURN(daemon->lock_, lock_state(daemon->layout_));
+  HP_RETURN_IF_ERROR(daemon->open_store(config));
+  HP_RETURN_IF_ERROR(daemon->start_serving(config));
+  return daemon;
+}
+
+Status Daemon::open_store(const Config& config) {
+  HP_ASSIGN_OR_RETURN(database_, Database::open(layout_.database(), kSchema));
+  jobs_ = std::make_unique<JobStore>(
+      *database_, layout_,
+      JobStoreOptions{config.queue_max_jobs, config.store_keep_finished_days * 24 * kHourMs},
+      system_clock_ms);
+  assets_ = std::make_unique<AssetStore>(
+      *database_, layout_,
+      AssetStoreOptions{config.assets_max_mib * kMiB, config.assets_max_open_uploads,
+                        config.assets_upload_expires_h * kHourMs, config.store_min_free_mib * kMiB},
+      system_clock_ms);
+  HP_RETURN_IF_ERROR(jobs_->interrupt_all("the daemon was restarted"));
+  HP_RETURN_IF_ERROR(jobs_->sweep());
+  HP_RETURN_IF_ERROR(assets_->sweep());
+  clean_up();
+  return {};
+}
+
+Status Daemon::start_serving(const Config& config) {
+  HP_ASSIGN_OR_RETURN(pool_,
+                      WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
+  const Backend backend{*jobs_,   *assets_, *pool_, layout_, config.store_min_free_mib * kMiB,
+                        stopping_};
+  HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
+  HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
+  pool_->start();
+  return {};
+}
+
+Daemon::~Daemon() { stop(); }
+
+void Daemon::clean_up() {
+  log_failure("jobs_not_purged", jobs_->purge());
+  log_failure("uploads_not_purged", assets_->purge());
+}
+
+void Daemon::stop() {
+  if (stopping_.exchange(true) || !server_) return;
+  jobs_->bell().ring();
+  server_->stop(kPatience);
+  pool_.reset();
+  log_failure("jobs_not_queued_again", jobs_->interrupt_all("the daemon was shut down"));
+}
+
+}  // namespace hydroprint::daemon

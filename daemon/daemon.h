@@ -1,0 +1,51 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+
+#include "daemon/asset_store.h"
+#include "daemon/config.h"
+#include "daemon/database.h"
+#include "daemon/job_store.h"
+#include "daemon/pool.h"
+#include "daemon/server.h"
+#include "daemon/state_lock.h"
+
+namespace hydroprint::daemon {
+
+/// Everything a running daemon consists of, from the lock on its state folder to the server.
+class Daemon {
+ public:
+  /// Takes the state folder, brings the store back into order after a crash, listens and starts
+  /// workers: jobs that were running are queued again.
+  [[nodiscard]] static Result<std::unique_ptr<Daemon>> start(const Config& config);
+  /// Stops if stop() was not called.
+  ~Daemon();
+  Daemon(const Daemon&) = delete;
+  Daemon& operator=(const Daemon&) = delete;
+
+  [[nodiscard]] const Endpoint& endpoint() const { return server_->endpoint(); }
+  [[nodiscard]] const Layout& layout() const { return layout_; }
+
+  /// Deletes what is too old; to be called now and then.
+  void clean_up();
+  /// Takes no more calls, ends the workers and queues their jobs again for the next start; takes a
+  /// few seconds at most.
+  void stop();
+
+ private:
+  Daemon() = default;
+  [[nodiscard]] Status open_store(const Config& config);
+  [[nodiscard]] Status start_serving(const Config& config);
+
+  Layout layout_;
+  UniqueFd lock_;
+  std::unique_ptr<Database> database_;
+  std::unique_ptr<JobStore> jobs_;
+  std::unique_ptr<AssetStore> assets_;
+  std::unique_ptr<WorkerPool> pool_;
+  std::unique_ptr<Server> server_;
+  std::atomic<bool> stopping_{false};
+};
+
+}  // namespace hydroprint::daemon

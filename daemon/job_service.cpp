@@ -1,0 +1,183 @@
+#include "daemon/convert.h"
+#include "daemon/log.h"
+#include "daemon/names.h"
+#include "daemon/services.h"
+#include "daemon/spec.h"
+#include "daemon/status.h"
+#include "daemon/watch.h"
+#include "hydroprint/v1/job_service.grpc.pb.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr int kMostWatches = 128;  // each holds a thread
+
+class JobService final : public v1::JobService::Service {
+ public:
+  explicit JobService(const Backend& backend) : backend_(backend) {}
+
+  grpc::Status CreateJob(grpc::ServerContext* context, const v1::CreateJobRequest* request,
+                         v1::Job* reply) override {
+    return answer(create(*context, *request), reply);
+  }
+
+  grpc::Status GetJob(grpc::ServerContext*, const v1::GetJobRequest* request,
+                      v1::Job* reply) override {
+    return answer(with_job(request->name(), [&](auto id) { return backend_.jobs.get(id); }), reply);
+  }
+
+  grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
+                        v1::ListJobsResponse* reply) override {
+    return to_grpc(list(*request, *reply));
+  }
+
+  grpc::Status DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest* request,
+                         google::protobuf::Empty*) override {
+    const auto id = parse_job_name(request->name());
+    return id ? to_grpc(backend_.jobs.remove(*id)) : to_grpc(id.error());
+  }
+
+  grpc::Status CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request,
+                         v1::Job* reply) override {
+    const auto job = with_job(request->name(), [&](auto id) { return backend_.jobs.cancel(id); });
+    backend_.pool.wake();
+    return answer(job, reply);
+  }
+
+  grpc::Status RetryJob(grpc::ServerContext* context, const v1::RetryJobRequest* request,
+                        v1::Job* reply) override {
+    return answer(retry(*context, *request), reply);
+  }
+
+  grpc::Status WatchJob(grpc::ServerContext* context, const v1::WatchJobRequest* request,
+                        grpc::ServerWriter<v1::WatchJobResponse>* writer) override {
+    const int before = watches_.fetch_add(1);
+    const Status status = before < kMostWatches ? watch(*context, *request, *writer)
+                                                : fail(Code::kResourceExhausted,
+                                                       "too many watches are open; list events "
+                                                       "instead, or try again later",
+                                                       "WATCHES_FULL");
+    watches_.fetch_sub(1);
+    return to_grpc(status);
+  }
+
+  grpc::Status ListJobEvents(grpc::ServerContext*, const v1::ListJobEventsRequest* request,
+                             v1::ListJobEventsResponse* reply) override {
+    return to_grpc(list_events(*request, *reply));
+  }
+
+ private:
+  static grpc::Status answer(const Result<Job>& job, v1::Job* reply) {
+    if (!job) return to_grpc(job.error());
+    *reply = to_message(*job);
+    return grpc::Status::OK;
+  }
+
+  template <class Action>
+  static Result<Job> with_job(const std::string& name, const Action& action) {
+    HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(name));
+    return action(id);
+  }
+
+  Result<Job> create(const grpc::ServerContext& context, const v1::CreateJobRequest& request) {
+    HP_RETURN_IF_ERROR(check_serving(backend_));
+    HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
+    HP_ASSIGN_OR_RETURN(NewJob made, check_job(request.job()));
+    HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
+    if (!request.validate_only()) return store(std::move(made), request_key("CreateJob", request));
+    HP_RETURN_IF_ERROR(backend_.jobs.check_inputs(made.work.inputs));
+    HP_ASSIGN_OR_RETURN(made.digest, digest_of(made.work));
+    Job job;
+    job.made = std::move(made);
+    return job;
+  }
+
+  Result<std::string> digest_of(const Work& work) const {
+    HP_ASSIGN_OR_RETURN(const std::string worker, backend_.pool.program_digest());
+    return input_digest(work, worker);
+  }
+
+  Result<Job> store(NewJob made, const RequestKey& key) {
+    HP_ASSIGN_OR_RETURN(made.digest, digest_of(made.work));
+    HP_RETURN_IF_ERROR(check_free_space(backend_.layout.root, backend_.min_free_bytes));
+    HP_ASSIGN_OR_RETURN(Job job, backend_.jobs.create(made, key));
+    backend_.pool.wake();
+    log(LogLevel::kInfo, "job_created",
+        {{"job", job.id},
+         {"owner", job.made.owner},
+         {"verb", job.made.work.verb},
+         {"state", name_of(job.state)},
+         {"name", job.made.display_name}});
+    return job;
+  }
+
+  Result<Job> retry(const grpc::ServerContext& context, const v1::RetryJobRequest& request) {
+    HP_RETURN_IF_ERROR(check_serving(backend_));
+    HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
+    HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.name()));
+    HP_ASSIGN_OR_RETURN(const Job old, backend_.jobs.get(id));
+    if (!is_finished(old.state)) {
+      return fail(Code::kFailedPrecondition,
+                  job_name(id) + " is " + name_of(old.state) + "; wait for its end or cancel it",
+                  "STATE_FORBIDS");
+    }
+    NewJob made = old.made;
+    HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
+    made.retry_of = id;
+    made.use_cache = false;
+    return store(std::move(made), request_key("RetryJob", request));
+  }
+
+  Status list(const v1::ListJobsRequest& request, v1::ListJobsResponse& reply) {
+    HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
+    JobFilter filter;
+    for (const int state : request.states()) {
+      if (!v1::Job::State_IsValid(state)) return invalid_field("states", "has an unknown state");
+      filter.states.push_back(static_cast<JobState>(state));
+    }
+    filter.owner = request.owner();
+    HP_ASSIGN_OR_RETURN(filter.before_id, number_token(request.page_token()));
+    filter.limit = size + 1;
+    HP_ASSIGN_OR_RETURN(auto jobs, backend_.jobs.list(filter));
+    if (cut_page(jobs, size)) reply.set_next_page_token(std::to_string(jobs.back().id));
+    for (const Job& job : jobs) *reply.add_jobs() = to_message(job);
+    return {};
+  }
+
+  Status list_events(const v1::ListJobEventsRequest& request, v1::ListJobEventsResponse& reply) {
+    HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.parent()));
+    HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 100));
+    HP_ASSIGN_OR_RETURN(const std::int64_t token, number_token(request.page_token()));
+    HP_RETURN_IF_ERROR(backend_.jobs.get(id));
+    const std::int64_t after = std::max(token, request.after_seq());
+    HP_ASSIGN_OR_RETURN(auto events, backend_.jobs.events(id, after, size + 1));
+    if (cut_page(events, size)) reply.set_next_page_token(std::to_string(events.back().seq));
+    for (const JobEvent& event : events) *reply.add_events() = to_message(event);
+    return {};
+  }
+
+  Status watch(const grpc::ServerContext& context, const v1::WatchJobRequest& request,
+               grpc::ServerWriter<v1::WatchJobResponse>& writer) {
+    HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.name()));
+    const auto after = request.has_after_seq() ? std::optional(request.after_seq()) : std::nullopt;
+    const auto send = [&](const WatchItem& item) {
+      v1::WatchJobResponse message;
+      message.set_seq(item.seq);
+      if (item.job) *message.mutable_job() = to_message(*item.job);
+      if (item.event) *message.mutable_event() = to_message(*item.event);
+      return writer.Write(message);
+    };
+    return watch_job(backend_, id, after, send, [&] { return context.IsCancelled(); });
+  }
+
+  Backend backend_;
+  std::atomic<int> watches_{0};
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> make_job_service(const Backend& backend) {
+  return std::make_unique<JobService>(backend);
+}
+
+}  // namespace hydroprint::daemon

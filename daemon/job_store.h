@@ -1,0 +1,132 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/bell.h"
+#include "daemon/clock.h"
+#include "daemon/database.h"
+#include "daemon/job.h"
+#include "daemon/layout.h"
+
+namespace hydroprint::daemon {
+
+/// A queued job as the order of starting sees it.
+struct WaitingJob {
+  std::int64_t id = 0;
+  std::string owner;
+  std::int32_t priority = 0;
+  std::int64_t rank = 0;
+};
+
+/// Which jobs to list.
+struct JobFilter {
+  std::vector<JobState> states;  ///< empty: all
+  std::string owner;             ///< empty: all
+  std::int64_t before_id = 0;    ///< only older ones; 0: all
+  int limit = 50;
+};
+
+/// Whether the queue stands still, and why.
+struct QueuePause {
+  bool paused = false;
+  std::string reason;
+};
+
+/// Limits the store keeps.
+struct JobStoreOptions {
+  std::int64_t max_queued = 1000;
+  std::int64_t keep_finished_ms = 30LL * 24 * 3600 * 1000;
+};
+
+/// Jobs, their events and their artifacts' rows. Every change is one transaction that is on disk
+/// when the call returns, with the event that tells of it; afterwards the bell rings. Any thread
+/// may call.
+///
+/// QUEUED -> RUNNING -> SUCCEEDED | FAILED, QUEUED -> CANCELLED, RUNNING -> CANCELLING ->
+/// CANCELLED; RUNNING -> INTERRUPTED -> QUEUED when the daemon was lost; QUEUED -> SUCCEEDED from
+/// the cache.
+///
+/// Where a job is named that is not there: kNotFound, JOB_NOT_FOUND. Where its state does not allow
+/// the change: kFailedPrecondition, STATE_FORBIDS. Where the disk fails: see Database::run().
+class JobStore {
+ public:
+  JobStore(Database& database, const Layout& layout, const JobStoreOptions& options, Clock clock);
+
+  /// Stores a job, or returns the one that the same request made before. A job with the inputs of
+  /// one that succeeded gets that one's artifacts and is finished at once.
+  /// @return kResourceExhausted, QUEUE_FULL; kFailedPrecondition, ASSET_MISSING; kInvalidArgument,
+  ///   REQUEST_ID_REUSED
+  [[nodiscard]] Result<Job> create(const NewJob& made, const RequestKey& request);
+  /// Refuses (ASSET_MISSING) inputs that are not here.
+  [[nodiscard]] Status check_inputs(const std::vector<InputFile>& inputs);
+
+  [[nodiscard]] Result<Job> get(std::int64_t id);
+  /// Newest first.
+  [[nodiscard]] Result<std::vector<Job>> list(const JobFilter& filter);
+  /// Deletes a finished job with all that belongs to it.
+  [[nodiscard]] Status remove(std::int64_t id);
+  /// QUEUED -> CANCELLED, RUNNING -> CANCELLING; CANCELLING and CANCELLED stay.
+  [[nodiscard]] Result<Job> cancel(std::int64_t id);
+
+  /// QUEUED -> RUNNING, or -> SUCCEEDED if an equal job has finished meanwhile.
+  [[nodiscard]] Result<Job> start(std::int64_t id);
+  /// Does nothing if the job does not run.
+  [[nodiscard]] Status report(std::int64_t id, const Progress& progress);
+  /// RUNNING -> SUCCEEDED; a job that someone asked to cancel becomes CANCELLED all the same.
+  [[nodiscard]] Result<Job> succeed(std::int64_t id, const std::vector<Artifact>& artifacts);
+  /// RUNNING -> FAILED, CANCELLING -> CANCELLED.
+  [[nodiscard]] Result<Job> give_up(std::int64_t id, const JobFailure& failure);
+  /// RUNNING -> INTERRUPTED -> QUEUED, CANCELLING -> CANCELLED, for all: to be called when no
+  /// worker runs any more. Says why in the event.
+  [[nodiscard]] Status interrupt_all(const std::string& why);
+
+  /// Artifacts by name; those after `after`.
+  [[nodiscard]] Result<std::vector<Artifact>> artifacts(std::int64_t id, const std::string& after,
+                                                        int limit);
+  /// kNotFound, ARTIFACT_NOT_FOUND.
+  [[nodiscard]] Result<Artifact> artifact(std::int64_t id, const std::string& name);
+
+  /// Events of one job after `seq`, oldest first. kOutOfRange, EVENTS_GONE if `seq` was never
+  /// given.
+  [[nodiscard]] Result<std::vector<JobEvent>> events(std::int64_t id, std::int64_t after_seq,
+                                                     int limit);
+  /// The newest event's number, 0 if there never was one.
+  [[nodiscard]] Result<std::int64_t> last_seq();
+
+  /// All queued jobs; order of starting within one owner.
+  [[nodiscard]] Result<std::vector<WaitingJob>> waiting();
+  [[nodiscard]] Result<std::vector<std::int64_t>> ids_in_state(JobState state);
+  /// Moves a queued job before another of its owner (0: behind all of them).
+  [[nodiscard]] Result<Job> move(std::int64_t id, std::int64_t before);
+  [[nodiscard]] Result<QueuePause> pause();
+  [[nodiscard]] Status set_pause(const QueuePause& pause);
+
+  /// Deletes finished jobs whose time is up.
+  [[nodiscard]] Status purge();
+  /// Deletes folders that no job owns (left by a crash); only before the pool starts.
+  [[nodiscard]] Status sweep();
+
+  [[nodiscard]] Bell& bell() { return bell_; }
+
+ private:
+  [[nodiscard]] Result<std::int64_t> insert(const NewJob& made);
+  [[nodiscard]] Result<bool> adopt_cached(const Job& job);
+  [[nodiscard]] Status store_artifacts(std::int64_t id, const std::vector<Artifact>& artifacts);
+  [[nodiscard]] Status change(std::int64_t id, JobState state, const std::string& message);
+  [[nodiscard]] Status finish(std::int64_t id, JobState state, const std::string& message);
+  [[nodiscard]] Status add_event(std::int64_t id, EventKind kind, const std::string& message);
+  [[nodiscard]] Status change_running(JobState from, const std::function<Status(std::int64_t)>& to);
+  [[nodiscard]] Result<Job> changed(std::int64_t id, const std::function<Status(const Job&)>& body);
+
+  Database& database_;
+  Layout layout_;
+  JobStoreOptions options_;
+  Clock clock_;
+  Bell bell_;
+};
+
+}  // namespace hydroprint::daemon

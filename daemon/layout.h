@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace hydroprint::daemon {
+
+/// Where things are in the state folder.
+struct Layout {
+  std::filesystem::path root;
+
+  [[nodiscard]] std::filesystem::path lock() const { return root / "lock"; }
+  [[nodiscard]] std::filesystem::path database() const { return root / "hydroprint.db"; }
+  [[nodiscard]] std::filesystem::path assets() const { return root / "assets"; }
+  [[nodiscard]] std::filesystem::path asset(const std::string& sha256) const {
+    return assets() / sha256.substr(0, 2) / sha256.substr(2);
+  }
+  [[nodiscard]] std::filesystem::path uploads() const { return root / "uploads"; }
+  [[nodiscard]] std::filesystem::path upload(const std::string& id) const { return uploads() / id; }
+  /// Folders of the jobs that run now: their inputs, and what they write until it is published.
+  [[nodiscard]] std::filesystem::path runs() const { return root / "runs"; }
+  [[nodiscard]] std::filesystem::path run(std::int64_t job) const {
+    return runs() / std::to_string(job);
+  }
+  [[nodiscard]] std::filesystem::path artifacts() const { return root / "artifacts"; }
+  [[nodiscard]] std::filesystem::path artifacts(std::int64_t job) const {
+    return artifacts() / std::to_string(job);
+  }
+};
+
+}  // namespace hydroprint::daemon

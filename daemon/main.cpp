@@ -1,0 +1,130 @@
+#include <pthread.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <CLI/CLI.hpp>
+#include <cerrno>
+#include <ctime>
+#include <iostream>
+
+#include "daemon/daemon.h"
+#include "daemon/log.h"
+
+namespace {
+
+using namespace hydroprint;          // NOLINT(google-build-using-namespace): the program itself
+using namespace hydroprint::daemon;  // NOLINT(google-build-using-namespace)
+
+constexpr timespec kCleanUpEvery{3600, 0};
+
+struct Options {
+  std::string config_file;
+  bool check_config = false;
+  std::string state_dir;
+  std::string grpc;
+};
+
+int refuse(const Error& error, ExitStatus status) {
+  std::cerr << "hydroprintd: " << error.message << '\n';
+  return static_cast<int>(status);
+}
+
+LogLevel log_level(const std::string& name) {
+  if (name == "debug") return LogLevel::kDebug;
+  if (name == "warning") return LogLevel::kWarning;
+  return name == "error" ? LogLevel::kError : LogLevel::kInfo;
+}
+
+Result<Config> configure(const Options& options) {
+  Config config;
+  if (!options.config_file.empty()) {
+    HP_ASSIGN_OR_RETURN(config, read_config(options.config_file));
+  }
+  if (!options.state_dir.empty()) config.store_state_dir = options.state_dir;
+  if (!options.grpc.empty()) config.server_grpc = options.grpc;
+  if (const auto endpoint = parse_endpoint(config.server_grpc); !endpoint) {
+    return fail(Code::kInvalidArgument, "--grpc: " + endpoint.error().message);
+  }
+  return config;
+}
+
+// Signals wait for sigtimedwait() in main instead of breaking in anywhere; threads inherit that.
+sigset_t block_signals() {
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGTERM);
+  sigaddset(&set, SIGINT);
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+  signal(SIGPIPE, SIG_IGN);
+  return set;
+}
+
+// A server that runs out of descriptors stops answering for good: take as many as allowed.
+void raise_descriptor_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+void serve_until_signal(Daemon& daemon, const sigset_t& signals) {
+  for (;;) {
+    const int signal = sigtimedwait(&signals, nullptr, &kCleanUpEvery);
+    if (signal > 0) {
+      log(LogLevel::kInfo, "stopping", {{"signal", signal}});
+      return;
+    }
+    if (errno == EAGAIN) daemon.clean_up();
+  }
+}
+
+int run(const Config& config) {
+  const sigset_t signals = block_signals();
+  raise_descriptor_limit();
+  umask(077);
+  if (const Status started = start_logging(log_level(config.log_level), config.log_file);
+      !started) {
+    return refuse(started.error(), ExitStatus::kBadInput);
+  }
+  const auto daemon = Daemon::start(config);
+  if (!daemon) return refuse(daemon.error(), ExitStatus::kFailed);
+  const std::string address = (*daemon)->endpoint().text();
+  log(LogLevel::kInfo, "ready",
+      {{"grpc", address}, {"state_dir", (*daemon)->layout().root.string()}});
+  std::cout << "hydroprintd ready grpc=" << address
+            << " state_dir=" << (*daemon)->layout().root.string() << std::endl;
+  serve_until_signal(**daemon, signals);
+  (*daemon)->stop();
+  log(LogLevel::kInfo, "stopped");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Keeps the job queue of Hydroprint and runs its workers; serves gRPC on loopback.");
+  app.name("hydroprintd");
+  app.set_version_flag("--version", "hydroprintd " HYDROPRINT_VERSION);
+  app.add_option("--config", options.config_file, "TOML file; without it, defaults")
+      ->type_name("FILE");
+  app.add_flag("--check-config", options.check_config, "Check the configuration and end");
+  app.add_option("--state-dir", options.state_dir,
+                 "Where jobs are kept; default $XDG_STATE_HOME/hydroprint or "
+                 "~/.local/state/hydroprint")
+      ->type_name("DIR");
+  app.add_option("--grpc", options.grpc,
+                 "Loopback address and port to listen at; default 127.0.0.1:50051; port 0: any")
+      ->type_name("HOST:PORT");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitStatus::kUsage);
+  }
+  const auto config = configure(options);
+  if (!config) return refuse(config.error(), ExitStatus::kBadInput);
+  if (!options.check_config) return run(*config);
+  std::cout << "the configuration is good\n";
+  return 0;
+}

@@ -1,0 +1,85 @@
+#include "daemon/convert.h"
+#include "daemon/log.h"
+#include "daemon/names.h"
+#include "daemon/services.h"
+#include "daemon/status.h"
+#include "hydroprint/v1/queue_service.grpc.pb.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::size_t kMostShown = 1000;
+
+class QueueService final : public v1::QueueService::Service {
+ public:
+  explicit QueueService(const Backend& backend) : backend_(backend) {}
+
+  grpc::Status GetQueue(grpc::ServerContext*, const v1::GetQueueRequest*,
+                        v1::Queue* reply) override {
+    return to_grpc(show(*reply));
+  }
+
+  grpc::Status PauseQueue(grpc::ServerContext*, const v1::PauseQueueRequest* request,
+                          v1::Queue* reply) override {
+    const Status good = check_text("reason", request->reason(), 200);
+    return good ? to_grpc(set({true, request->reason()}, *reply)) : to_grpc(good);
+  }
+
+  grpc::Status ResumeQueue(grpc::ServerContext*, const v1::ResumeQueueRequest*,
+                           v1::Queue* reply) override {
+    return to_grpc(set({}, *reply));
+  }
+
+  grpc::Status MoveJob(grpc::ServerContext*, const v1::MoveJobRequest* request,
+                       v1::Job* reply) override {
+    const auto job = move(*request);
+    if (!job) return to_grpc(job.error());
+    *reply = to_message(*job);
+    return grpc::Status::OK;
+  }
+
+ private:
+  Status show(v1::Queue& reply) {
+    HP_ASSIGN_OR_RETURN(const QueuePause pause, backend_.jobs.pause());
+    HP_ASSIGN_OR_RETURN(const auto order, backend_.pool.order(kMostShown));
+    HP_ASSIGN_OR_RETURN(const auto queued, backend_.jobs.ids_in_state(JobState::kQueued));
+    reply.set_paused(pause.paused);
+    reply.set_pause_reason(pause.reason);
+    for (const std::int64_t id : order) reply.add_queued_jobs(job_name(id));
+    reply.set_queued_count(static_cast<std::int32_t>(queued.size()));
+    for (const JobState state : {JobState::kRunning, JobState::kCancelling}) {
+      HP_ASSIGN_OR_RETURN(const auto ids, backend_.jobs.ids_in_state(state));
+      for (const std::int64_t id : ids) reply.add_running_jobs(job_name(id));
+    }
+    reply.set_worker_slots(backend_.pool.slots());
+    reply.set_daemon_version(HYDROPRINT_VERSION);
+    return {};
+  }
+
+  Status set(const QueuePause& pause, v1::Queue& reply) {
+    HP_RETURN_IF_ERROR(backend_.jobs.set_pause(pause));
+    backend_.pool.wake();
+    log(LogLevel::kInfo, pause.paused ? "queue_paused" : "queue_resumed",
+        {{"reason", pause.reason}});
+    return show(reply);
+  }
+
+  Result<Job> move(const v1::MoveJobRequest& request) {
+    HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.name()));
+    std::int64_t before = 0;
+    if (!request.before().empty()) {
+      HP_ASSIGN_OR_RETURN(before, parse_job_name(request.before()));
+    }
+    return backend_.jobs.move(id, before);
+  }
+
+  Backend backend_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::Service> make_queue_service(const Backend& backend) {
+  return std::make_unique<QueueService>(backend);
+}
+
+}  // namespace hydroprint::daemon

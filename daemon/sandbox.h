@@ -1,0 +1,35 @@
+#pragma once
+
+#include <linux/filter.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/base/result.h"
+
+namespace hydroprint::daemon {
+
+/// What one worker may use up.
+struct Limits {
+  std::int64_t memory_bytes = 0;  ///< 0: no limit
+  std::int64_t cpu_s = 0;         ///< processor time over all its threads
+  std::int64_t file_bytes = 0;    ///< of one file it writes
+};
+
+/// What keeps a worker, which opens files from strangers, from doing harm: no network, no look at
+/// other processes, no new privileges, limits on what it uses up. Made once, before there are
+/// workers; confine() runs in the child.
+class Sandbox {
+ public:
+  /// kFailedPrecondition if the machine's kernel or seccomp library cannot do it.
+  [[nodiscard]] static Result<Sandbox> make();
+
+  /// Confines the calling process for good. Between fork and exec: calls nothing that takes locks.
+  /// @return what failed, or nullptr
+  [[nodiscard]] const char* confine(const Limits& limits) const;
+
+ private:
+  std::vector<sock_filter> filter_;
+};
+
+}  // namespace hydroprint::daemon

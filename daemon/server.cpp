@@ -1,0 +1,74 @@
+#include "daemon/server.h"
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/grpcpp.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/resource_quota.h>
+
+#include "daemon/services.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+// Every watch and every running transfer holds a thread.
+constexpr int kMostThreads = 256;
+
+constexpr const char* kServices[] = {"", "hydroprint.v1.JobService", "hydroprint.v1.QueueService",
+                                     "hydroprint.v1.AssetService", "hydroprint.v1.ArtifactService"};
+
+}  // namespace
+
+struct Server::Impl {
+  Endpoint endpoint;
+  std::vector<std::unique_ptr<grpc::Service>> services;
+  std::unique_ptr<grpc::Server> server;
+
+  void set_serving(bool serving) const {
+    for (const char* service : kServices) {
+      server->GetHealthCheckService()->SetServingStatus(service, serving);
+    }
+  }
+};
+
+Server::Server() : impl_(std::make_unique<Impl>()) {}
+Server::~Server() = default;
+
+Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool reflection,
+                                              const Backend& backend) {
+  grpc::EnableDefaultHealthCheckService(true);
+  if (reflection) grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  std::unique_ptr<Server> made(new Server);
+  Impl& impl = *made->impl_;
+  impl.services.push_back(make_job_service(backend));
+  impl.services.push_back(make_queue_service(backend));
+  impl.services.push_back(make_asset_service(backend));
+  impl.services.push_back(make_artifact_service(backend));
+
+  grpc::ServerBuilder builder;
+  // Without this a second daemon would silently share the port.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  builder.SetResourceQuota(grpc::ResourceQuota("hydroprintd").SetMaxThreads(kMostThreads));
+  for (const auto& service : impl.services) builder.RegisterService(service.get());
+  int port = 0;
+  builder.AddListeningPort(endpoint.text(), grpc::InsecureServerCredentials(), &port);
+  impl.server = builder.BuildAndStart();
+  if (!impl.server || port == 0) {
+    return fail(Code::kUnavailable,
+                "cannot listen at " + endpoint.text() +
+                    ": something else does, perhaps another hydroprintd; stop that or give another "
+                    "port with --grpc");
+  }
+  impl.endpoint = {endpoint.host, port};
+  impl.set_serving(true);
+  return made;
+}
+
+const Endpoint& Server::endpoint() const { return impl_->endpoint; }
+
+void Server::stop(std::chrono::milliseconds patience) {
+  impl_->set_serving(false);
+  impl_->server->Shutdown(std::chrono::system_clock::now() + patience);
+  impl_->server->Wait();
+}
+
+}  // namespace hydroprint::daemon

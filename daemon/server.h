@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "daemon/call.h"
+#include "daemon/config.h"
+
+namespace hydroprint::daemon {
+
+/// The gRPC server: the four services, health for each of them, reflection if wanted.
+class Server {
+ public:
+  /// Listens; calls are answered from here on.
+  /// @return kUnavailable if the address cannot be had, above all because something else has it
+  [[nodiscard]] static Result<std::unique_ptr<Server>> start(const Endpoint& endpoint,
+                                                             bool reflection,
+                                                             const Backend& backend);
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// Where it listens, with the real port.
+  [[nodiscard]] const Endpoint& endpoint() const;
+  /// Reports "not serving", takes no more calls, and waits for those that run; after `patience`
+  /// they are broken off.
+  void stop(std::chrono::milliseconds patience);
+
+ private:
+  Server();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <grpcpp/impl/service_type.h>
+
+#include <memory>
+
+#include "daemon/call.h"
+
+namespace hydroprint::daemon {
+
+/// The services of proto/hydroprint/v1, where each method is described. They check what comes in,
+/// call the stores and translate what comes out.
+[[nodiscard]] std::unique_ptr<grpc::Service> make_job_service(const Backend& backend);
+[[nodiscard]] std::unique_ptr<grpc::Service> make_queue_service(const Backend& backend);
+[[nodiscard]] std::unique_ptr<grpc::Service> make_asset_service(const Backend& backend);
+[[nodiscard]] std::unique_ptr<grpc::Service> make_artifact_service(const Backend& backend);
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,242 @@
+#include "daemon/spec.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "daemon/names.h"
+#include "hydroprint/v1/job.pb.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr int kMostExtraFiles = 256;
+
+// The shortest text that reads back as the same number.
+std::string text_of(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  return {buffer.data(), end};
+}
+
+// Collects the flags and files of one work, and the first thing that is wrong with them.
+class WorkBuilder {
+ public:
+  explicit WorkBuilder(std::string verb) { work_.verb = std::move(verb); }
+
+  void require(const Status& status) {
+    if (status_ && !status) status_ = status;
+  }
+  void flag(const std::string& name, const std::string& value) {
+    work_.flags.push_back("--" + name + "=" + value);
+  }
+  void pose(std::string json) { work_.pose_json = std::move(json); }
+  void number(const std::string& field, const std::string& name, double value, double most) {
+    if (!std::isfinite(value) || value <= 0 || value > most) {
+      require(invalid_field(path(field), "must be above 0 and at most " + text_of(most)));
+    }
+    flag(name, text_of(value));
+  }
+  void whole(const std::string& field, const std::string& name, std::int32_t value,
+             std::int32_t least, std::int32_t most) {
+    check_whole(field, value, least, most);
+    flag(name, std::to_string(value));
+  }
+  void check_whole(const std::string& field, std::int32_t value, std::int32_t least,
+                   std::int32_t most) {
+    if (value >= least && value <= most) return;
+    require(invalid_field(path(field),
+                          "must be from " + std::to_string(least) + " to " + std::to_string(most)));
+  }
+  // A file that goes with a flag (an empty one: with none, others refer to it).
+  void file(const std::string& field, const std::string& name, const v1::InputFile& input) {
+    require(check_file_name(path(field) + ".name", input.name()));
+    const auto asset = parse_asset_name(input.asset());
+    if (!asset) {
+      Error error = asset.error();
+      error.message = path(field) + ".asset: " + error.message;
+      require(tl::unexpected(error));
+      return;
+    }
+    work_.inputs.push_back({input.name(), *asset});
+    if (!name.empty()) flag(name, input.name());
+  }
+  [[nodiscard]] std::string path(const std::string& field) const {
+    return work_.verb + "." + field;
+  }
+  [[nodiscard]] const std::vector<InputFile>& inputs() const { return work_.inputs; }
+
+  Result<Work> build() {
+    require(check_names_differ());
+    if (!status_) return tl::unexpected(status_.error());
+    return std::move(work_);
+  }
+
+ private:
+  // No name twice, and none that is another one's folder.
+  [[nodiscard]] Status check_names_differ() const {
+    for (const InputFile& a : work_.inputs) {
+      for (const InputFile& b : work_.inputs) {
+        if (&a == &b || (a.name != b.name && !b.name.starts_with(a.name + "/"))) continue;
+        auto error = fail(Code::kInvalidArgument,
+                          work_.verb + ": the name \"" + a.name +
+                              "\" stands for two files; give each file its own",
+                          "NAME_INVALID");
+        return error;
+      }
+    }
+    return {};
+  }
+
+  Work work_;
+  Status status_;
+};
+
+Status check_numbers(const std::string& field,
+                     const google::protobuf::RepeatedField<double>& numbers, int count) {
+  if (numbers.size() == count &&
+      std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); })) {
+    return {};
+  }
+  return invalid_field(field, "must be " + std::to_string(count) + " finite numbers");
+}
+
+std::string list_of(const google::protobuf::RepeatedField<double>& numbers) {
+  std::string out;
+  for (const double number : numbers) out += (out.empty() ? "" : ",") + text_of(number);
+  return "[" + out + "]";
+}
+
+void add_pose(WorkBuilder& builder, const v1::Pose& pose) {
+  builder.require(check_numbers(builder.path("pose.rotation_wxyz"), pose.rotation_wxyz(), 4));
+  builder.require(check_numbers(builder.path("pose.translation_mm"), pose.translation_mm(), 3));
+  double square = 0;
+  for (const double x : pose.rotation_wxyz()) square += x * x;
+  if (!(std::abs(std::sqrt(square) - 1) <= 1e-3)) {
+    builder.require(invalid_field(builder.path("pose.rotation_wxyz"), "must have length 1"));
+  }
+  builder.pose("{\"rotation_wxyz\":" + list_of(pose.rotation_wxyz()) +
+               ",\"translation_mm\":" + list_of(pose.translation_mm()) + "}");
+}
+
+void add_film(WorkBuilder& builder, const std::string& film) {
+  builder.require(check_text(builder.path("film"), film, 300));
+  if (film.empty()) builder.require(invalid_field(builder.path("film"), "is empty; leave it out"));
+  if (film.starts_with("polygon:")) {
+    const auto& inputs = builder.inputs();
+    if (std::none_of(inputs.begin(), inputs.end(),
+                     [&](const InputFile& file) { return file.name == film.substr(8); })) {
+      builder.require(
+          invalid_field(builder.path("film"), "names a polygon that is not in extra_files"));
+    }
+  }
+  builder.flag("film", film);
+}
+
+template <class Spec>
+void add_choices(WorkBuilder& builder, const Spec& spec) {
+  if (spec.model() != v1::MODEL_UNSPECIFIED) {
+    if (!v1::Model_IsValid(spec.model())) {
+      builder.require(invalid_field(builder.path("model"), "is not one of sheet, stokes"));
+    }
+    builder.flag("model", spec.model() == v1::MODEL_SHEET ? "sheet" : "stokes");
+  }
+  if (spec.artifacts() != v1::ARTIFACT_SET_UNSPECIFIED) {
+    if (!v1::ArtifactSet_IsValid(spec.artifacts())) {
+      builder.require(invalid_field(builder.path("artifacts"), "is not one of all, map"));
+    }
+    builder.flag("artifacts", spec.artifacts() == v1::ARTIFACT_SET_MAP ? "map" : "all");
+  }
+}
+
+// What simulate and predict have in common.
+template <class Spec>
+void add_common(WorkBuilder& builder, const Spec& spec, NewJob& made) {
+  if (!spec.has_mesh()) builder.require(invalid_field(builder.path("mesh"), "is missing"));
+  if (spec.has_mesh()) builder.file("mesh", "mesh", spec.mesh());
+  if (spec.extra_files_size() > kMostExtraFiles) {
+    builder.require(invalid_field(builder.path("extra_files"), "has more than 256 files"));
+    return;
+  }
+  for (const v1::InputFile& file : spec.extra_files()) builder.file("extra_files", "", file);
+  if (spec.has_profile()) builder.file("profile", "profile", spec.profile());
+  if (spec.has_ink_image()) builder.file("ink_image", "ink-image", spec.ink_image());
+  if (spec.has_scale()) builder.number("scale", "scale", spec.scale(), 1e9);
+  if (spec.has_pose()) add_pose(builder, spec.pose());
+  if (spec.has_film()) add_film(builder, spec.film());
+  if (spec.has_dpi()) builder.number("dpi", "dpi", spec.dpi(), 4800);
+  if (spec.has_ink_passes()) builder.whole("ink_passes", "ink-passes", spec.ink_passes(), 0, 10);
+  if (spec.has_depth_mm()) builder.number("depth_mm", "depth-mm", spec.depth_mm(), 1e6);
+  if (spec.has_dip_speed_mm_per_s()) {
+    builder.number("dip_speed_mm_per_s", "dip-speed-mm-per-s", spec.dip_speed_mm_per_s(), 1000);
+  }
+  if (spec.has_threads()) {
+    builder.check_whole("threads", spec.threads(), 1, 256);
+    made.threads = spec.threads();
+  }
+  add_choices(builder, spec);
+}
+
+Result<Work> work_of(const v1::Job& job, NewJob& made) {
+  if (job.has_simulate()) {
+    WorkBuilder builder("simulate");
+    const auto& spec = job.simulate();
+    add_common(builder, spec, made);
+    if (spec.has_texture()) builder.file("texture", "texture", spec.texture());
+    return builder.build();
+  }
+  if (job.has_predict()) {
+    WorkBuilder builder("predict");
+    const auto& spec = job.predict();
+    add_common(builder, spec, made);
+    if (!spec.has_film_image()) {
+      builder.require(invalid_field(builder.path("film_image"), "is missing"));
+    }
+    if (spec.has_film_image()) builder.file("film_image", "film-image", spec.film_image());
+    if (spec.has_motion()) builder.file("motion", "motion", spec.motion());
+    return builder.build();
+  }
+  return invalid_field("job", "has no spec; set simulate or predict");
+}
+
+Status check_labels(const v1::Job& job) {
+  if (job.labels_size() > 32) return invalid_field("labels", "are more than 32");
+  for (const auto& [key, value] : job.labels()) {
+    if (key.empty()) return invalid_field("labels", "have an empty key");
+    HP_RETURN_IF_ERROR(check_text("labels", key, 200));
+    HP_RETURN_IF_ERROR(check_text("labels", value, 200));
+  }
+  return {};
+}
+
+// Only what the client decides, serialised always in the same way.
+std::string body_of(const v1::Job& job) {
+  v1::Job body;
+  body.set_display_name(job.display_name());
+  *body.mutable_labels() = job.labels();
+  if (job.has_simulate()) *body.mutable_simulate() = job.simulate();
+  if (job.has_predict()) *body.mutable_predict() = job.predict();
+  return body.SerializeAsString();
+}
+
+}  // namespace
+
+Result<NewJob> check_job(const v1::Job& job) {
+  NewJob made;
+  HP_RETURN_IF_ERROR(check_text("display_name", job.display_name(), 200));
+  HP_RETURN_IF_ERROR(check_labels(job));
+  if (job.priority() < 0 || job.priority() > 9) {
+    return invalid_field("priority", "must be from 0 to 9");
+  }
+  HP_ASSIGN_OR_RETURN(made.work, work_of(job, made));
+  made.priority = job.priority();
+  made.display_name = job.display_name();
+  if (made.display_name.empty()) {
+    made.display_name = made.work.verb + " " + made.work.inputs.front().name;
+  }
+  made.body = body_of(job);
+  return made;
+}
+
+}  // namespace hydroprint::daemon

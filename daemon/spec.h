@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "daemon/job.h"
+
+namespace hydroprint::v1 {
+class Job;
+}
+
+namespace hydroprint::daemon {
+
+/// Checks what a client sent as a job (see proto/hydroprint/v1/spec.proto for what is refused) and
+/// translates it for the worker. Sets all of NewJob but owner, digest, retry_of and use_cache.
+/// @return kInvalidArgument: SPEC_INVALID (metadata field), NAME_INVALID, ID_INVALID
+[[nodiscard]] Result<NewJob> check_job(const v1::Job& job);
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "daemon/files.h"
+#include "daemon/layout.h"
+
+namespace hydroprint::daemon {
+
+/// Takes the state folder (made if it is not there) for this process, until the descriptor is
+/// closed.
+/// @return kFailedPrecondition if another daemon has it
+[[nodiscard]] Result<UniqueFd> lock_state(const Layout& layout);
+
+}  // namespace hydroprint::daemon

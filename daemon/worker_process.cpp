@@ -1,0 +1,134 @@
+#include "daemon/worker_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+namespace hydroprint::daemon {
+namespace {
+
+struct Pipe {
+  UniqueFd read;
+  UniqueFd write;
+};
+
+// Both ends above the descriptors that the child puts in place; ours does not block.
+Result<Pipe> make_pipe() {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return system_failure("pipe", "cannot be made");
+  const UniqueFd low_read(ends[0]), low_write(ends[1]);
+  Pipe pipe{UniqueFd(::fcntl(ends[0], F_DUPFD_CLOEXEC, 10)),
+            UniqueFd(::fcntl(ends[1], F_DUPFD_CLOEXEC, 10))};
+  if (!pipe.read.valid() || !pipe.write.valid() ||
+      ::fcntl(pipe.read.get(), F_SETFL, O_NONBLOCK) != 0) {
+    return system_failure("pipe", "cannot be made");
+  }
+  return pipe;
+}
+
+// Little of the daemon's environment reaches a worker: what sanitizers and the loader need.
+std::vector<std::string> make_environment(const std::filesystem::path& folder) {
+  std::vector<std::string> out{"PATH=/usr/bin:/bin", "LANG=C.UTF-8", "HOME=" + folder.string(),
+                               "TMPDIR=" + folder.string()};
+  for (const char* name :
+       {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS"}) {
+    if (const char* value = std::getenv(name)) out.push_back(std::string(name) + "=" + value);
+  }
+  return out;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& strings) {
+  std::vector<char*> out;
+  for (std::string& text : strings) out.push_back(text.data());
+  out.push_back(nullptr);
+  return out;
+}
+
+// All that the child needs, made before fork: afterwards only calls that take no lock are safe.
+struct ChildPlan {
+  const char* program;
+  char* const* arguments;
+  char* const* environment;
+  const char* folder;
+  int null, progress, errors;
+  pid_t parent;
+};
+
+[[noreturn]] void give_up(const char* what) {
+  const char* const reason = ::strerrordesc_np(errno);
+  for (const char* part : {"the worker cannot be started: ", what, ": ", reason, "\n"}) {
+    if (::write(2, part, std::strlen(part)) < 0) break;
+  }
+  ::_exit(127);
+}
+
+[[noreturn]] void become_worker(const ChildPlan& plan, const Limits& limits,
+                                const Sandbox& sandbox) {
+  ::dup2(plan.errors, 2);
+  ::dup2(plan.null, 0);
+  ::dup2(plan.null, 1);
+  ::dup2(plan.progress, kProgressFd);
+  ::close_range(kProgressFd + 1, ~0U, 0);
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != plan.parent) ::_exit(127);  // the daemon died before that took effect
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::signal(SIGPIPE, SIG_DFL);
+  if (::chdir(plan.folder) != 0) give_up(plan.folder);
+  if (const char* problem = sandbox.confine(limits)) give_up(problem);
+  ::execve(plan.program, plan.arguments, plan.environment);
+  give_up(plan.program);
+}
+
+}  // namespace
+
+Result<WorkerProcess> launch(const Launch& what, const Sandbox& sandbox) {
+  HP_ASSIGN_OR_RETURN(Pipe progress, make_pipe());
+  HP_ASSIGN_OR_RETURN(Pipe errors, make_pipe());
+  const UniqueFd null_low(::open("/dev/null", O_RDWR | O_CLOEXEC));
+  const UniqueFd null(::fcntl(null_low.get(), F_DUPFD_CLOEXEC, 10));
+  std::vector<std::string> arguments = what.arguments;
+  arguments.insert(arguments.begin(), what.program.string());
+  std::vector<std::string> environment = make_environment(what.folder);
+  const std::vector<char*> argv = pointers(arguments), envp = pointers(environment);
+  const ChildPlan plan{what.program.c_str(), argv.data(), envp.data(),
+                       what.folder.c_str(),  null.get(),  progress.write.get(),
+                       errors.write.get(),   ::getpid()};
+  WorkerProcess worker;
+  worker.pid = ::fork();
+  if (worker.pid == 0) become_worker(plan, what.limits, sandbox);
+  if (worker.pid < 0) {
+    return fail(Code::kInternal,
+                std::string("no worker can be started: ") + std::strerror(errno) +
+                    "; the machine is short of processes or memory",
+                "WORKER_UNUSABLE");
+  }
+  ::setpgid(worker.pid, worker.pid);
+  worker.handle = UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, worker.pid, 0)));
+  worker.progress = std::move(progress.read);
+  worker.errors = std::move(errors.read);
+  return worker;
+}
+
+void signal_group(const WorkerProcess& worker, int signal) {
+  if (worker.pid > 0) ::kill(-worker.pid, signal);
+}
+
+std::int64_t resident_bytes(const WorkerProcess& worker) {
+  std::ifstream file("/proc/" + std::to_string(worker.pid) + "/statm");
+  std::int64_t total = 0, resident = 0;
+  file >> total >> resident;
+  return file ? resident * ::sysconf(_SC_PAGESIZE) : 0;
+}
+
+}  // namespace hydroprint::daemon

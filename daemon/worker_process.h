@@ -1,0 +1,45 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "daemon/files.h"
+#include "daemon/sandbox.h"
+
+namespace hydroprint::daemon {
+
+/// What to run and where.
+struct Launch {
+  std::filesystem::path program;
+  std::vector<std::string> arguments;  ///< without the program's name
+  std::filesystem::path folder;        ///< working folder, also for temporary files
+  Limits limits;
+};
+
+/// A running worker: leader of a process group of its own, which dies with the thread that started
+/// it. Its progress arrives at `progress` and its words at `errors`, neither of which ever blocks.
+struct WorkerProcess {
+  pid_t pid = -1;
+  UniqueFd handle;  ///< becomes readable when it ends
+  UniqueFd progress;
+  UniqueFd errors;
+};
+
+/// The file descriptor that a worker finds its progress pipe at.
+inline constexpr int kProgressFd = 3;
+
+/// Starts a confined worker. The calling thread must outlive it.
+/// @return kInternal, WORKER_UNUSABLE if the system has no room for another process; a program that
+///   cannot be run ends at once with status 127 and says so at `errors`
+[[nodiscard]] Result<WorkerProcess> launch(const Launch& what, const Sandbox& sandbox);
+
+/// Sends a signal to the worker and all its children.
+void signal_group(const WorkerProcess& worker, int signal);
+
+/// Bytes the worker has in memory now; 0 if it is gone.
+[[nodiscard]] std::int64_t resident_bytes(const WorkerProcess& worker);
+
+}  // namespace hydroprint::daemon
