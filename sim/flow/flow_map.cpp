@@ -22,6 +22,7 @@ std::vector<Landing> landings(const waterline::Body& body, const waterline::Moti
     for (int i = 0; i < 3; ++i) {
       const int v = body.triangles[t][i];
       landing[v].pull += waterline::pull(body.corner_normals[t][i]);
+      landing[v].film_can_follow |= waterline::film_can_follow(body.corner_normals[t][i]);
       ++corners[v];
     }
   }
@@ -50,6 +51,14 @@ Result<std::vector<Vector2d>> trace_points(const std::vector<Landing>& landing, 
   return film;
 }
 
+/// True if the film lies the wrong way up on the triangle: scatter where it is stretched to
+/// nothing.
+bool is_folded(const SurfaceMap& map, const Eigen::Vector3i& t) {
+  const Vector2d u = map.film_mm[t[1]] - map.film_mm[t[0]];
+  const Vector2d v = map.film_mm[t[2]] - map.film_mm[t[0]];
+  return u.x() * v.y() - u.y() * v.x() >= 0;
+}
+
 /// Per surface point the mean stretch of the triangles round it (section 6).
 void average_stretch(const mesh::Surface& surface, SurfaceMap& map) {
   std::vector<int> count(surface.points.size(), 0);
@@ -59,7 +68,7 @@ void average_stretch(const mesh::Surface& surface, SurfaceMap& map) {
     const Stretch s =
         stretch_of({map.film_mm[t[0]], map.film_mm[t[1]], map.film_mm[t[2]]},
                    {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]});
-    if (!std::isfinite(s.most)) continue;
+    if (!std::isfinite(s.most) || is_folded(map, t)) continue;
     for (const int corner : t) {
       const int v = surface.weld[corner];
       map.stretch[v] += s.most;

@@ -13,7 +13,8 @@ namespace hydroprint::flow {
 struct MapOptions {
   double dip_speed_mm_per_s = 5;
   Eigen::Vector2d swelling = {1, 1};  ///< rest film = floating film divided by this
-  /// Tiles are divided until the map is linear on each to within this, on the film.
+  /// Tiles are divided until the map is linear on each to within this, on the film; doubled with
+  /// each division, so that scatter of the traced points does not pass for a jump.
   double tolerance_mm = 0.02;
   /// Edges of tiles shorter than this are not divided further (a pixel at 600 dpi).
   double least_edge_mm = 0.042;

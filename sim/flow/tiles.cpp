@@ -16,6 +16,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kChunk = 128;
+/// More edges than this at one level are a scatter of reached and unreached points, which no
+/// division resolves.
+constexpr std::size_t kMostEdges = 400000;
+/// A 2 mm edge is a pixel long long before this; slivers could go on for ever.
+constexpr int kMostLevels = 8;
 
 /// A corner of tiles: where it lies on the surface and which film lands there (NaN: none).
 struct Node {
@@ -81,7 +86,11 @@ class Tiler {
  public:
   Tiler(const waterline::Body& body, const DipField& dip, const waterline::Motion& motion,
         const std::vector<Vector2d>& film_mm, const MapOptions& options)
-      : body_(body), dip_(dip), motion_(motion), options_(options) {
+      : body_(body),
+        dip_(dip),
+        motion_(motion),
+        options_(options),
+        tolerance_mm_(options.tolerance_mm) {
     nodes_.reserve(film_mm.size());
     for (std::size_t v = 0; v < film_mm.size(); ++v) {
       nodes_.push_back({body.points_mm[v], film_mm[v]});
@@ -103,6 +112,10 @@ class Tiler {
       HP_RETURN_IF_ERROR(trace_middles(edges, context));
       judge(edges);
       divide();
+      // A smooth map bows four times less on half an edge; what does not get better by dividing is
+      // either a jump, which is large, or the scatter of the traced points, which is small.
+      tolerance_mm_ *= 2;
+      ++level_;
     }
     return {};
   }
@@ -144,6 +157,7 @@ class Tiler {
           edge.middle = landing;
         } else {
           edge.middle.pull += landing.pull;
+          edge.middle.film_can_follow |= landing.film_can_follow;
         }
         ++edge.sides;
       }
@@ -164,17 +178,18 @@ class Tiler {
 
   /// Decides for each traced edge whether it is linear, worth dividing, or broken for good.
   void judge(const std::vector<Edge>& edges) {
+    const bool may_divide = edges.size() < kMostEdges && level_ < kMostLevels;
     for (const Edge& edge : edges) {
       const Node& a = nodes_[edge.a];
       const Node& b = nodes_[edge.b];
       const Node middle = {0.5 * (a.surface_mm + b.surface_mm), edge.film_mm};
       const double off_mm = (middle.film_mm - 0.5 * (a.film_mm + b.film_mm)).norm();
       const std::uint64_t key = key_of(edge.a, edge.b);
-      if (off_mm <= options_.tolerance_mm) {  // false if any of the three is NaN
+      if (off_mm <= tolerance_mm_) {  // false if any of the three is NaN
         state_[key] = EdgeState::kLinear;
       } else if (!is_reached(a) && !is_reached(b) && !is_reached(middle)) {
         state_[key] = EdgeState::kLinear;  // nothing lands there at all
-      } else if ((b.surface_mm - a.surface_mm).norm() <= options_.least_edge_mm) {
+      } else if (!may_divide || (b.surface_mm - a.surface_mm).norm() <= options_.least_edge_mm) {
         state_[key] = EdgeState::kBroken;
       } else {
         state_[key] = EdgeState::kDivided;
@@ -269,6 +284,8 @@ class Tiler {
   const DipField& dip_;
   const waterline::Motion& motion_;
   const MapOptions& options_;
+  double tolerance_mm_;  ///< at the present level of division
+  int level_ = 0;
   std::vector<Node> nodes_;
   std::vector<Tile> active_;
   std::vector<MappedTriangle> done_;
@@ -288,7 +305,8 @@ Landing landing_on(const waterline::Body& body, const waterline::Motion& motion,
   const Vector3d normal =
       (barycentric[0] * n[0] + barycentric[1] * n[1] + barycentric[2] * n[2]).normalized();
   return {point.head<2>() + waterline::offset_at(motion, point.z()), point.z(),
-          waterline::pull(normal) + waterline::drift_at(motion, point.z())};
+          waterline::pull(normal) + waterline::drift_at(motion, point.z()),
+          waterline::film_can_follow(normal)};
 }
 
 Result<std::vector<MappedTriangle>> make_tiles(const waterline::Body& body, const DipField& dip,

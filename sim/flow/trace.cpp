@@ -25,7 +25,7 @@ bool step_back(const velocity::VelocityField& field, double span_mm, Vector2d& p
 }  // namespace
 
 std::optional<Vector2d> trace_back(const DipField& dip, const Landing& landing) {
-  if (landing.immersion_mm > dip.depth_mm) return std::nullopt;
+  if (!landing.film_can_follow || landing.immersion_mm > dip.depth_mm) return std::nullopt;
   const auto after =
       std::upper_bound(dip.immersion_mm.begin(), dip.immersion_mm.end(), landing.immersion_mm);
   Vector2d point = landing.point_mm;

@@ -22,8 +22,8 @@ struct DipField {
 struct Landing {
   Eigen::Vector2d point_mm = Eigen::Vector2d::Zero();  ///< where on the water, in F
   double immersion_mm = 0;
-  Eigen::Vector2d pull =
-      Eigen::Vector2d::Zero();  ///< film velocity there per unit dip speed, eq. (1)
+  Eigen::Vector2d pull = Eigen::Vector2d::Zero();  ///< film velocity per unit dip speed (eq. 1)
+  bool film_can_follow = true;  ///< false: no film arrives, the surface recedes too fast
 };
 
 /// The point of the film at rest that lands there (the inverse map of section 4.5): the film is

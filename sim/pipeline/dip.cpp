@@ -53,6 +53,7 @@ double area_of(const mesh::Surface& surface, const Eigen::Vector3i& t) {
 void measure(const mesh::Surface& surface, const waterline::Body& body, const flow::SurfaceMap& map,
              DipFigures& figures) {
   double total = 0, reached = 0, clamped = 0;
+  std::vector<char> is_clamped(surface.points.size(), 0);
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     const Eigen::Vector3i& t = surface.triangles[i];
     const double area = area_of(surface, t);
@@ -66,13 +67,14 @@ void measure(const mesh::Surface& surface, const waterline::Body& body, const fl
                                        .normalized();
     if (std::acos(std::clamp(-normal.z(), -1.0, 1.0)) > waterline::kThetaLimit_rad) {
       clamped += area;
+      for (const int v : t) is_clamped[v] = 1;
     }
   }
   figures.coverage = total > 0 ? reached / total : 0;
   figures.clamped_share = total > 0 ? clamped / total : 0;
   std::vector<double> stretch;
-  for (const double s : map.stretch) {
-    if (std::isfinite(s)) stretch.push_back(s);
+  for (std::size_t v = 0; v < map.stretch.size(); ++v) {
+    if (std::isfinite(map.stretch[v]) && is_clamped[v] == 0) stretch.push_back(map.stretch[v]);
   }
   if (stretch.empty()) return;
   std::sort(stretch.begin(), stretch.end());

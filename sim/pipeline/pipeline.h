@@ -42,7 +42,7 @@ struct DipFigures {
   int film_triangles_max = 0;
   double coverage = 0;       ///< share of the object's surface that film reaches
   double clamped_share = 0;  ///< share of the surface with theta beyond 170 degrees
-  double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
+  double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;  ///< where theta is not clamped
 };
 
 /// The outcome of one immersion: the surface it was computed on and where the film lands.

@@ -51,6 +51,11 @@ Pose centred_pose(const mesh::Surface& surface) {
   return X_FO;
 }
 
+bool film_can_follow(const Eigen::Vector3d& normal) {
+  static const double limit = -std::cos(kThetaLost_rad);
+  return normal.z() < limit;
+}
+
 Eigen::Vector2d pull(const Eigen::Vector3d& normal) {
   static const double limit = std::tan(0.5 * kThetaLimit_rad);
   const Eigen::Vector2d outward = normal.head<2>();

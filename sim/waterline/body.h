@@ -30,6 +30,13 @@ struct Body {
 /// Beyond this angle between surface and water eq. (1) is not followed any more (contract).
 inline constexpr double kThetaLimit_rad = 170.0 * 3.14159265358979323846 / 180.0;
 
+/// Beyond this angle the film, which eq. (1) clamped there no longer speeds up, falls behind the
+/// receding waterline (tan(85 deg) < -cot(theta)): no film arrives.
+inline constexpr double kThetaLost_rad = 175.0 * 3.14159265358979323846 / 180.0;
+
+/// False where the surface recedes from the film faster than the film can follow.
+[[nodiscard]] bool film_can_follow(const Eigen::Vector3d& normal);
+
 /// Film velocity at the waterline per unit of dip speed, eq. (1) in half-angle form:
 /// tan(theta / 2) towards the object, with theta clamped at kThetaLimit_rad.
 /// @param normal  outward unit normal of the object, in F; cos(theta) = -normal.z
