@@ -51,39 +51,15 @@ Result<std::vector<Vector2d>> trace_points(const std::vector<Landing>& landing, 
   return film;
 }
 
-/// True if the film lies the wrong way up on the triangle: scatter where it is stretched to
-/// nothing.
-bool is_folded(const SurfaceMap& map, const Eigen::Vector3i& t) {
-  const Vector2d u = map.film_mm[t[1]] - map.film_mm[t[0]];
-  const Vector2d v = map.film_mm[t[2]] - map.film_mm[t[0]];
-  return u.x() * v.y() - u.y() * v.x() >= 0;
-}
-
-/// Per surface point the mean stretch of the triangles round it (section 6).
-void average_stretch(const mesh::Surface& surface, SurfaceMap& map) {
-  std::vector<int> count(surface.points.size(), 0);
-  map.stretch.assign(surface.points.size(), 0);
-  map.least_stretch.assign(surface.points.size(), 0);
-  for (const Eigen::Vector3i& t : surface.triangles) {
-    const Stretch s =
-        stretch_of({map.film_mm[t[0]], map.film_mm[t[1]], map.film_mm[t[2]]},
-                   {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]});
-    if (!std::isfinite(s.most) || is_folded(map, t)) continue;
-    for (const int corner : t) {
-      const int v = surface.weld[corner];
-      map.stretch[v] += s.most;
-      map.least_stretch[v] += s.least;
-      ++count[v];
-    }
-  }
+/// Per surface point the stretch of the film round it (section 6).
+void measure_stretch(const mesh::Surface& surface, const waterline::Body& body,
+                     const std::vector<Vector2d>& film_mm, SurfaceMap& map) {
+  const std::vector<Gradient> gradient = point_gradients(film_mm, body.points_mm, body.triangles);
   for (std::size_t v = 0; v < surface.points.size(); ++v) {
-    if (surface.weld[v] != static_cast<int>(v)) continue;
-    map.stretch[v] = count[v] > 0 ? map.stretch[v] / count[v] : kNaN;
-    map.least_stretch[v] = count[v] > 0 ? map.least_stretch[v] / count[v] : kNaN;
-  }
-  for (std::size_t v = 0; v < surface.points.size(); ++v) {
-    map.stretch[v] = map.stretch[surface.weld[v]];
-    map.least_stretch[v] = map.least_stretch[surface.weld[v]];
+    const Stretch stretch = stretch_of(gradient[surface.weld[v]]);
+    const bool is_known = std::isfinite(stretch.most) && std::isfinite(map.contact_time_s[v]);
+    map.stretch.push_back(is_known ? stretch.most : kNaN);
+    map.least_stretch.push_back(is_known ? stretch.least : kNaN);
   }
 }
 
@@ -102,7 +78,7 @@ Result<FlowMap> make_flow_map(const mesh::Surface& surface, const waterline::Bod
     map.surface.contact_time_s.push_back(
         reached ? landing[w].immersion_mm / options.dip_speed_mm_per_s : kNaN);
   }
-  average_stretch(surface, map.surface);
+  measure_stretch(surface, body, film, map.surface);
   if (!options.make_tiles) return map;
   HP_ASSIGN_OR_RETURN(map.tiles, make_tiles(body, dip, motion, film, options, context));
   return map;

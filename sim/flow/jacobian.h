@@ -2,18 +2,35 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <vector>
 
 namespace hydroprint::flow {
 
-/// Singular values of the affine map from a triangle of the film to a triangle of the surface
-/// (eq. 6): how far the film is stretched, one at rest.
+/// Derivative of the map from the surface to the film (the inverse of eq. 6): how far on the film
+/// one goes for a step along the surface.
+using Gradient = Eigen::Matrix<double, 2, 3>;
+
+/// Singular values of the Jacobian of the map from film to surface (section 6): one at rest.
 struct Stretch {
   double most = 0, least = 0;
 };
 
-/// @param film_mm, surface_mm  the same three corners on both
-/// @return both values infinite if the film triangle has no area
-[[nodiscard]] Stretch stretch_of(const std::array<Eigen::Vector2d, 3>& film_mm,
-                                 const std::array<Eigen::Vector3d, 3>& surface_mm);
+/// Stretch of the film where the inverse map has this gradient; infinite where film is stretched
+/// without end.
+[[nodiscard]] Stretch stretch_of(const Gradient& gradient);
+
+/// The gradient on one triangle, constant there.
+/// @return zero if the surface triangle has no area
+[[nodiscard]] Gradient gradient_of(const std::array<Eigen::Vector2d, 3>& film_mm,
+                                   const std::array<Eigen::Vector3d, 3>& surface_mm);
+
+/// The gradient at each point: the mean over the triangles round it, by area. Averaging this way
+/// round stays finite where film is stretched without end.
+/// @param film_mm  per point; triangles with a NaN corner, or on which the film lies the wrong way
+///                 up, do not count
+/// @return NaN at points without a triangle
+[[nodiscard]] std::vector<Gradient> point_gradients(const std::vector<Eigen::Vector2d>& film_mm,
+                                                    const std::vector<Eigen::Vector3d>& surface_mm,
+                                                    const std::vector<Eigen::Vector3i>& triangles);
 
 }  // namespace hydroprint::flow

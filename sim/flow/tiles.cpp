@@ -1,12 +1,12 @@
 #include "sim/flow/tiles.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <unordered_map>
 
+#include "sim/flow/jacobian.h"
 #include "sim/waterline/waterlines.h"
 
 namespace hydroprint::flow {
@@ -51,37 +51,6 @@ std::uint64_t key_of(int a, int b) {
 
 bool is_reached(const Node& node) { return !std::isnan(node.film_mm.x()); }
 
-/// Gradient of the map surface -> film at each node, averaged over the triangles round it.
-std::vector<Eigen::Matrix<double, 2, 3>> node_gradients(const std::vector<Node>& nodes,
-                                                        const std::vector<Tile>& tiles) {
-  std::vector<Eigen::Matrix<double, 2, 3>> gradient(nodes.size(),
-                                                    Eigen::Matrix<double, 2, 3>::Zero());
-  std::vector<double> weight(nodes.size(), 0);
-  for (const Tile& tile : tiles) {
-    const Node& a = nodes[tile.node[0]];
-    const Node& b = nodes[tile.node[1]];
-    const Node& c = nodes[tile.node[2]];
-    if (!is_reached(a) || !is_reached(b) || !is_reached(c)) continue;
-    Eigen::Matrix<double, 3, 2> surface;
-    surface << b.surface_mm - a.surface_mm, c.surface_mm - a.surface_mm;
-    Eigen::Matrix2d film;
-    film << b.film_mm - a.film_mm, c.film_mm - a.film_mm;
-    const Eigen::Matrix2d gram = surface.transpose() * surface;
-    const double area2 = gram.determinant();
-    if (area2 <= 0) continue;
-    const double area = std::sqrt(area2);
-    const Eigen::Matrix<double, 2, 3> g = film * gram.inverse() * surface.transpose();
-    for (const int n : tile.node) {
-      gradient[n] += area * g;
-      weight[n] += area;
-    }
-  }
-  for (std::size_t n = 0; n < nodes.size(); ++n) {
-    if (weight[n] > 0) gradient[n] /= weight[n];
-  }
-  return gradient;
-}
-
 class Tiler {
  public:
   Tiler(const waterline::Body& body, const DipField& dip, const waterline::Motion& motion,
@@ -103,7 +72,7 @@ class Tiler {
       active_.push_back(
           {t, {v[0], v[1], v[2]}, {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}});
     }
-    trust_smooth_edges();
+    trust_smooth_edges(point_gradients(film_mm, body.points_mm, body.triangles));
   }
 
   Status run(const Context& context) {
@@ -125,8 +94,7 @@ class Tiler {
  private:
   /// Edges of the mesh itself along which the map turns too little to matter, judged by its
   /// gradients at both ends: the middle of a cubic through them.
-  void trust_smooth_edges() {
-    const auto gradient = node_gradients(nodes_, active_);
+  void trust_smooth_edges(const std::vector<Gradient>& gradient) {
     for (const Tile& tile : active_) {
       for (int i = 0; i < 3; ++i) {
         const int a = tile.node[(i + 1) % 3];
