@@ -47,10 +47,12 @@ Eigen::Vector3f srgb_from_linear(const Eigen::Vector3f& linear) {
   return {srgb_from_linear(linear.x()), srgb_from_linear(linear.y()), srgb_from_linear(linear.z())};
 }
 
-std::uint8_t srgb8_from_linear(float linear) {
+Srgb8Encoder::Srgb8Encoder() {
   static const std::vector<std::uint8_t> table = make_srgb8_table();
-  return table[static_cast<std::size_t>(clamp01(linear) * 65535.0F + 0.5F)];
+  table_ = table.data();
 }
+
+std::uint8_t srgb8_from_linear(float linear) { return Srgb8Encoder()(linear); }
 
 std::uint16_t linear16_from_srgb16(std::uint16_t coded) {
   static const std::vector<std::uint16_t> table = make_linear16_table();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 
 namespace hydroprint::image {
@@ -12,7 +13,20 @@ namespace hydroprint::image {
 [[nodiscard]] Eigen::Vector3f linear_from_srgb(const Eigen::Vector3f& coded);
 [[nodiscard]] Eigen::Vector3f srgb_from_linear(const Eigen::Vector3f& linear);
 
-/// The nearest 8-bit sRGB code, by table: fast enough for every pixel of a film image.
+/// Gives the nearest 8-bit sRGB code, by table: fast enough for every pixel of a film image.
+class Srgb8Encoder {
+ public:
+  Srgb8Encoder();
+  [[nodiscard]] std::uint8_t operator()(float linear) const {
+    const float clamped = linear > 0 ? std::min(linear, 1.0F) : 0.0F;
+    return table_[static_cast<int>(clamped * 65535.0F + 0.5F)];
+  }
+
+ private:
+  const std::uint8_t* table_;
+};
+
+/// The same for single values.
 [[nodiscard]] std::uint8_t srgb8_from_linear(float linear);
 
 /// Linear light in 16 bits from 16-bit sRGB codes, by table. 8-bit codes times 257 survive the way

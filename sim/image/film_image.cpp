@@ -32,39 +32,52 @@ Eigen::Vector2d look_up_at(const BarycentricMap& map, const Eigen::Vector2d& mid
 class Block {
  public:
   explicit Block(const Window& window)
-      : window_(window), samples_(static_cast<std::size_t>(kBlock_px) * kBlock_px * kSamples) {}
+      : window_(window),
+        samples_(static_cast<std::size_t>(kBlock_px) * kBlock_px * kSamples,
+                 Sample(1, 1, 1, HUGE_VALF)) {}  // the bare film is white
 
   /// @param at  the tile's corners on the pixel grid
   void paint(const Corners& at, const std::array<float, 3>& time_s, const Brush& brush) {
     collect_spans(at);
     const BarycentricMap map(at);
-    const Eigen::Vector3d times(time_s[0], time_s[1], time_s[2]);
+    const TimePlane times(map, {time_s[0], time_s[1], time_s[2]});
     for (int y = first_row_; y <= last_row_; ++y) paint_row(y, map, times, brush);
   }
 
   void resolve(RgbImage& image) const {
+    const Srgb8Encoder encode;
     for (int y = window_.y0; y < window_.y1; ++y) {
-      for (int x = window_.x0; x < window_.x1; ++x) {
-        Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-        for (int s = 0; s < kSamples; ++s) sum += at(x, y)[s].colour;
-        for (int c = 0; c < 3; ++c) {
-          image.at(x, y)[c] = srgb8_from_linear(sum[c] / kSamples);
-        }
+      std::uint8_t* out = image.at(window_.x0, y);
+      const Sample* in = &samples_[index(window_.x0, y)];
+      for (int x = window_.x0; x < window_.x1; ++x, out += 3, in += kSamples) {
+        const Sample mean = (in[0] + in[1] + in[2] + in[3]) * (1.0F / kSamples);
+        for (int c = 0; c < 3; ++c) out[c] = encode(mean[c]);
       }
     }
   }
 
  private:
-  struct Sample {
-    Eigen::Vector3f colour = Eigen::Vector3f::Ones();  ///< linear; the bare film is white
-    float time_s = HUGE_VALF;
+  /// Linear light, and the time at which it landed.
+  using Sample = Eigen::Array4f;
+
+  /// Contact time over the pixel grid, at the samples of a pixel.
+  struct TimePlane {
+    TimePlane(const BarycentricMap& map, const Eigen::Vector3d& time_s)
+        : per_x(map.per_x().dot(time_s)), per_y(map.per_y().dot(time_s)) {
+      for (int s = 0; s < kSamples; ++s) {
+        const Eigen::Vector2d place = Eigen::Vector2d(0.5, 0.5) + kOffsets[s];
+        origin[s] = map.at(place.x(), place.y()).dot(time_s);
+      }
+    }
+    Eigen::Array4d origin;
+    double per_x, per_y;
   };
+
   struct Span {
     int begin = 0, end = 0;
   };
   using Spans = std::array<Span, kSamples>;
 
-  const Sample* at(int x, int y) const { return &samples_[index(x, y)]; }
   std::size_t index(int x, int y) const {
     return (static_cast<std::size_t>(y - window_.y0) * kBlock_px +
             static_cast<std::size_t>(x - window_.x0)) *
@@ -92,8 +105,7 @@ class Block {
     last_row_ = std::max(last_row_, y);
   }
 
-  void paint_row(int y, const BarycentricMap& map, const Eigen::Vector3d& times,
-                 const Brush& brush) {
+  void paint_row(int y, const BarycentricMap& map, const TimePlane& times, const Brush& brush) {
     const Spans& spans = rows_[y - window_.y0];
     int begin = window_.x1, end = window_.x0;
     for (const Span& span : spans) {
@@ -101,27 +113,31 @@ class Block {
       begin = std::min(begin, span.begin);
       end = std::max(end, span.end);
     }
+    const Eigen::Array4d row_times = times.origin + times.per_y * y;
     for (int x = begin; x < end; ++x) {
-      Eigen::Vector2d middle = Eigen::Vector2d::Zero();
-      int count = 0;
-      Sample* samples = &samples_[index(x, y)];
-      std::array<bool, kSamples> is_mine{};
-      for (int s = 0; s < kSamples; ++s) {
-        if (x < spans[s].begin || x >= spans[s].end) continue;
-        const Eigen::Vector2d place = Eigen::Vector2d(x + 0.5, y + 0.5) + kOffsets[s];
-        const auto time_s = static_cast<float>(map.at(place.x(), place.y()).dot(times));
-        if (!(time_s < samples[s].time_s)) continue;
-        samples[s].time_s = time_s;
-        is_mine[s] = true;
-        middle += place;
-        ++count;
-      }
-      if (count == 0) continue;
-      middle = look_up_at(map, {x + 0.5, y + 0.5}, middle / count);
-      const Eigen::Vector3f colour = brush.at(middle.x(), middle.y());
-      for (int s = 0; s < kSamples; ++s) {
-        if (is_mine[s]) samples[s].colour = colour;
-      }
+      const Eigen::Array4f time_s = (row_times + times.per_x * x).cast<float>();
+      paint_pixel(x, y, spans, time_s, map, brush);
+    }
+  }
+
+  void paint_pixel(int x, int y, const Spans& spans, const Eigen::Array4f& time_s,
+                   const BarycentricMap& map, const Brush& brush) {
+    Sample* samples = &samples_[index(x, y)];
+    Eigen::Vector2d covered = Eigen::Vector2d::Zero();
+    std::array<int, kSamples> mine{};
+    int count = 0;
+    for (int s = 0; s < kSamples; ++s) {
+      if (x < spans[s].begin || x >= spans[s].end || !(time_s[s] < samples[s][3])) continue;
+      mine[count++] = s;
+      covered += kOffsets[s];
+    }
+    if (count == 0) return;
+    const Eigen::Vector2d middle(x + 0.5, y + 0.5);
+    const Eigen::Vector2d place =
+        count == kSamples ? middle : look_up_at(map, middle, middle + covered / count);
+    const Eigen::Vector3f colour = brush.at(place.x(), place.y());
+    for (int i = 0; i < count; ++i) {
+      samples[mine[i]] = Sample(colour.x(), colour.y(), colour.z(), time_s[mine[i]]);
     }
   }
 

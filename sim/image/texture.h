@@ -70,6 +70,8 @@ class Texture {
   [[nodiscard]] Sum bilinear(const Eigen::Vector2d& folded, int level, const Chart& chart) const;
   [[nodiscard]] Sum trilinear(const Eigen::Vector2d& folded, const Footprint& footprint,
                               const Chart& chart) const;
+  [[nodiscard]] Eigen::Vector3f finer(const Eigen::Vector2d& uv, const Footprint& footprint,
+                                      const Chart& chart) const;
   [[nodiscard]] Eigen::Vector3f nearest(const Eigen::Vector2d& folded) const;
 
   std::vector<Texels> levels_;
