@@ -210,7 +210,7 @@ Result<ReadImage> read_image(const std::filesystem::path& path, const Context& c
   return decode_safely(proxy, path.string(), context);
 }
 
-Result<ReadImage> read_image(const std::vector<std::byte>& bytes, const std::string& name,
+Result<ReadImage> read_image(const std::vector<unsigned char>& bytes, const std::string& name,
                              const Context& context) {
   OIIO::Filesystem::IOMemReader proxy(bytes.data(), bytes.size());
   return decode_safely(proxy, name, context);

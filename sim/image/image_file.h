@@ -42,7 +42,7 @@ inline constexpr std::int64_t kMaxImageArea_px = 200'000'000;
                                            const Context& context);
 
 /// The same for an image embedded in another file; `name` says where in messages.
-[[nodiscard]] Result<ReadImage> read_image(const std::vector<std::byte>& bytes,
+[[nodiscard]] Result<ReadImage> read_image(const std::vector<unsigned char>& bytes,
                                            const std::string& name, const Context& context);
 
 /// Writes a PNG with its resolution, under a temporary name that is renamed at the end.

@@ -1,8 +1,10 @@
 #include "sim/image/paint.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 
@@ -16,6 +18,15 @@ bool is_finite(const std::array<Eigen::Vector2f, 3>& uvs) {
 }
 
 }  // namespace
+
+Brush::Brush(const Texture& texture, const Chart& chart, const Corners& at, const Corners& uv)
+    : texture_(&texture), chart_(&chart), origin_(at[0]), uv_(uv[0]) {
+  const BarycentricMap map(at);
+  Eigen::Matrix<double, 2, 3> uvs;
+  uvs << uv[0], uv[1], uv[2];
+  uv_per_sample_ << uvs * map.per_x(), uvs * map.per_y();
+  footprint_ = texture.footprint(uv_per_sample_);
+}
 
 Eigen::Vector3f Brush::at(double x, double y) const {
   const Eigen::Vector2d offset = Eigen::Vector2d(x, y) - origin_;
@@ -36,33 +47,31 @@ Eigen::Vector2i Paint::texture_size_px() const {
 
 Brush Paint::brush(int model_triangle, const Corners& at,
                    const std::array<Eigen::Vector3d, 3>& barycentric) const {
-  Brush brush;
   const Ink& ink = inks_[ink_of_triangle_[model_triangle]];
+  if (ink.kind == Ink::Kind::kTexture) {
+    Corners uv;
+    for (int i = 0; i < 3; ++i) {
+      uv[i].setZero();
+      for (int k = 0; k < 3; ++k) {
+        uv[i] += barycentric[i][k] * corner_uvs_[model_triangle][k].cast<double>();
+      }
+    }
+    return Brush(textures_[ink.texture], chart_of_triangle_[model_triangle], at, uv);
+  }
+  Brush brush;
   brush.colour_ = ink.colour;
-  if (ink.kind == Ink::Kind::kNone || ink.kind == Ink::Kind::kColour) return brush;
-
+  if (ink.kind != Ink::Kind::kVertices) return brush;
   const BarycentricMap map(at);
-  Eigen::Matrix3d corners;
-  for (int i = 0; i < 3; ++i) corners.col(i) = barycentric[i];
+  Eigen::Matrix3d colours, corners;
+  for (int i = 0; i < 3; ++i) {
+    colours.col(i) = vertex_colours_[triangles_[model_triangle][i]].cast<double>();
+    corners.col(i) = barycentric[i];
+  }
   Eigen::Matrix<double, 3, 2> per_sample;
   per_sample << corners * map.per_x(), corners * map.per_y();
   brush.origin_ = at[0];
-  if (ink.kind == Ink::Kind::kVertices) {
-    Eigen::Matrix3d colours;
-    for (int i = 0; i < 3; ++i) {
-      colours.col(i) = vertex_colours_[triangles_[model_triangle][i]].cast<double>();
-    }
-    brush.colour_ = (colours * barycentric[0]).cast<float>();
-    brush.colour_per_sample_ = (colours * per_sample).cast<float>();
-    return brush;
-  }
-  Eigen::Matrix<double, 2, 3> uvs;
-  for (int i = 0; i < 3; ++i) uvs.col(i) = corner_uvs_[model_triangle][i].cast<double>();
-  brush.texture_ = &textures_[ink.texture];
-  brush.chart_ = &chart_of_triangle_[model_triangle];
-  brush.uv_ = uvs * barycentric[0];
-  brush.uv_per_sample_ = uvs * per_sample;
-  brush.footprint_ = brush.texture_->footprint(brush.uv_per_sample_);
+  brush.colour_ = (colours * barycentric[0]).cast<float>();
+  brush.colour_per_sample_ = (colours * per_sample).cast<float>();
   return brush;
 }
 
@@ -169,15 +178,22 @@ class PaintLoader {
     return {};
   }
 
-  static bool has_texture(const mesh::Material& material) { return !material.texture.empty(); }
+  static bool has_texture(const mesh::Material& material) {
+    return !material.texture.empty() || !material.texture_bytes.empty();
+  }
 
   /// Reads a material's texture, once for all materials that use it in the same way.
   Result<int> material_texture(const mesh::Material& material) {
-    const auto key = std::make_tuple(material.texture, material.wrap_u, material.wrap_v);
+    const auto& bytes = material.texture_bytes;
+    const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const Key key{material.texture, std::hash<std::string_view>()(content), material.wrap_u,
+                  material.wrap_v};
     if (const auto found = known_.find(key); found != known_.end()) return found->second;
-    const std::string name = model_.path.string() + ", material \"" + material.name +
-                             "\", texture " + material.texture.string();
-    auto read = read_image(material.texture, context_);
+    const std::string name =
+        model_.path.string() + ", material \"" + material.name + "\", " +
+        (bytes.empty() ? "texture " + material.texture.string() : "embedded texture");
+    auto read =
+        bytes.empty() ? read_image(material.texture, context_) : read_image(bytes, name, context_);
     if (!read) {
       Error error = std::move(read).error();
       if (error.code == Code::kNotFound) {
@@ -271,7 +287,9 @@ class PaintLoader {
   Paint paint_;
   std::vector<Pending> pending_;
   std::int64_t area_px_ = 0;
-  std::map<std::tuple<std::filesystem::path, mesh::Wrap, mesh::Wrap>, int> known_;
+  /// A texture and how it is used: path, content if embedded, wrap modes.
+  using Key = std::tuple<std::filesystem::path, std::size_t, mesh::Wrap, mesh::Wrap>;
+  std::map<Key, int> known_;
 };
 
 Result<Paint> load_paint(const mesh::Model& model,

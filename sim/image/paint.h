@@ -18,6 +18,13 @@ namespace hydroprint::image {
 /// samples: filtered for that grid.
 class Brush {
  public:
+  /// One colour all over: white.
+  Brush() = default;
+  /// A patch of a texture, which must outlive the brush, as must the chart.
+  /// @param at  three places on the grid of samples
+  /// @param uv  what lies there
+  Brush(const Texture& texture, const Chart& chart, const Corners& at, const Corners& uv);
+
   /// Mean colour in linear light over the sample at this place of the grid.
   [[nodiscard]] Eigen::Vector3f at(double x, double y) const;
 

@@ -148,9 +148,7 @@ const std::vector<unsigned char> kPalettePng = {
     0x57, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
 
 TEST(ReadImage, PalettesAreLookedUp) {
-  std::vector<std::byte> bytes;
-  for (const unsigned char b : kPalettePng) bytes.push_back(static_cast<std::byte>(b));
-  const auto read = read_image(bytes, "model.glb, image 0", {});
+  const auto read = read_image(kPalettePng, "model.glb, image 0", {});
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(srgb8(read->image.texels[0]), (std::array<int, 3>{255, 0, 0}));
   EXPECT_EQ(srgb8(read->image.texels[1]), (std::array<int, 3>{0, 255, 0}));
@@ -250,12 +248,11 @@ TEST(ReadImage, BytesFlippedAnywhereNeverCrash) {
   for (const std::string name : {"a.png", "a.jpg", "a.tif"}) {
     const std::vector<char> whole = bytes_of(folder / name);
     for (int trial = 0; trial < 150; ++trial) {
-      std::vector<std::byte> bytes;
-      for (const char c : whole) bytes.push_back(static_cast<std::byte>(c));
+      std::vector<unsigned char> bytes(whole.begin(), whole.end());
       for (int flips = 0; flips < 3; ++flips) {
         state = state * 1664525 + 1013904223;
         bytes[state % std::min<std::size_t>(bytes.size(), 700)] =
-            static_cast<std::byte>(state >> 16);
+            static_cast<unsigned char>(state >> 16);
       }
       const auto read = read_image(bytes, name, {});
       if (!read) continue;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "sim/flow/surface_map.h"
+#include "sim/mesh/surface.h"
+
+namespace hydroprint::image {
+
+/// The tile's corners on the object, frame O, mm.
+[[nodiscard]] std::array<Eigen::Vector3d, 3> tile_points(const mesh::Surface& surface,
+                                                         const flow::MappedTriangle& tile);
+
+/// Largest singular value of the film-to-surface Jacobian at a tile's corners (section 6): from the
+/// surface's points where all three round the tile have one, else that of the tile itself; NaN for
+/// a tile whose film has no area.
+[[nodiscard]] std::array<double, 3> tile_stretch(const mesh::Surface& surface,
+                                                 const flow::SurfaceMap& map,
+                                                 const flow::MappedTriangle& tile);
+
+}  // namespace hydroprint::image
