@@ -38,9 +38,7 @@ Status parallel_for(const Context& context, std::string_view stage, std::size_t 
     }
   };
   tbb::task_arena arena(std::max(1, context.threads));
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, count, one, tbb::simple_partitioner());
-  });
+  arena.execute([&] { tbb::parallel_for(std::size_t{0}, count, one, tbb::simple_partitioner()); });
   if (context.is_cancelled()) return fail(Code::kCancelled, "cancelled");
   if (error) return tl::unexpected(std::move(*error));
   return {};

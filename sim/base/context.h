@@ -31,8 +31,7 @@ struct Context {
 /// `stage` (empty: none) and stopping early on cancel. Each index must write only its own results,
 /// so that the outcome does not depend on the number of threads.
 /// @return kCancelled, or the error of the smallest index seen to fail.
-[[nodiscard]] Status parallel_for(const Context& context, std::string_view stage,
-                                  std::size_t count,
+[[nodiscard]] Status parallel_for(const Context& context, std::string_view stage, std::size_t count,
                                   const std::function<Status(std::size_t)>& work);
 
 }  // namespace hydroprint

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "sim/base/text_file.h"
+#include "sim/base/input_file.h"
 
 namespace hydroprint {
 namespace {

@@ -27,6 +27,8 @@ struct Sheet {
   std::string_view name;
   Vector2d size_mm;
 };
+constexpr std::string_view kCircle = "circle:";
+constexpr std::string_view kPolygon = "polygon:";
 const std::array<Sheet, 3> kSheets = {
     {{"a4", {210, 297}}, {"a3", {297, 420}}, {"letter", {215.9, 279.4}}}};
 
@@ -219,17 +221,19 @@ Result<Outline> parse_rectangle(const std::string& text) {
 }  // namespace
 
 Result<Outline> parse_outline(const std::string& text) {
-  constexpr std::string_view kCircle = "circle:";
-  constexpr std::string_view kPolygon = "polygon:";
-  const std::string word = lower(text);
   for (const Sheet& sheet : kSheets) {
-    if (word == sheet.name) return rectangle(text, sheet.size_mm);
+    if (lower(text) == sheet.name) return rectangle(text, sheet.size_mm);
   }
-  if (word.starts_with(kCircle)) {
+  if (text.starts_with(kCircle)) {
     return parse_circle(text, std::string_view(text).substr(kCircle.size()));
   }
-  if (word.starts_with(kPolygon)) return read_polygon(text, text.substr(kPolygon.size()));
+  if (const auto file = polygon_file(text)) return read_polygon(text, file->string());
   return parse_rectangle(text);
+}
+
+std::optional<std::filesystem::path> polygon_file(const std::string& text) {
+  if (!text.starts_with(kPolygon)) return std::nullopt;
+  return text.substr(kPolygon.size());
 }
 
 bool contains(const Outline& outline, const Eigen::Vector2d& point_mm) {

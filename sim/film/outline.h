@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +27,9 @@ struct Outline {
 /// Refuses with kOutOfRange sizes below 10 mm or above 2000 mm, with kInvalidArgument what it does
 /// not understand, polygons that cross themselves or have fewer than three corners.
 [[nodiscard]] Result<Outline> parse_outline(const std::string& text);
+
+/// The file that a text for parse_outline names ("polygon:FILE.json"), if it names one.
+[[nodiscard]] std::optional<std::filesystem::path> polygon_file(const std::string& text);
 
 /// True if the point lies inside the outline or on it.
 [[nodiscard]] bool contains(const Outline& outline, const Eigen::Vector2d& point_mm);

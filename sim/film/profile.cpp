@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/base/text_file.h"
+#include "sim/base/input_file.h"
 
 namespace hydroprint::film {
 namespace {

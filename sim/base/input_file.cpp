@@ -1,11 +1,11 @@
-#include "sim/base/text_file.h"
+#include "sim/base/input_file.h"
 
-#include <fstream>
+#include <array>
 #include <system_error>
 
 namespace hydroprint {
 
-Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {
+Result<std::ifstream> open_input_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
@@ -19,10 +19,18 @@ Result<std::string> read_text_file(const std::filesystem::path& path, std::size_
     return fail(Code::kPermissionDenied,
                 path.string() + ": cannot be opened. Check its permissions");
   }
-  // One byte more than allowed: the file may have grown since anyone asked for its size.
-  std::string text(max_bytes + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(file.gcount()));
+  return file;
+}
+
+Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {
+  HP_ASSIGN_OR_RETURN(std::ifstream file, open_input_file(path));
+  // Read, not asked for its size: the file may grow, and some files state none.
+  std::string text;
+  std::array<char, 1 << 16> chunk;
+  while (text.size() <= max_bytes && file) {
+    file.read(chunk.data(), chunk.size());
+    text.append(chunk.data(), static_cast<std::size_t>(file.gcount()));
+  }
   if (file.bad()) {
     return fail(Code::kDataLoss, path.string() + ": reading failed. Check the disk");
   }

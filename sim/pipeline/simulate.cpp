@@ -1,0 +1,51 @@
+#include "sim/pipeline/simulate.h"
+
+#include <utility>
+
+#include "sim/image/film_image.h"
+#include "sim/image/paint.h"
+#include "sim/mesh/read_model.h"
+
+namespace hydroprint::pipeline {
+namespace {
+
+/// What would leave faces white though the model means them to have a colour.
+Status check_materials(const mesh::Model& model) {
+  for (const Warning& warning : model.warnings) {
+    if (warning.code != "material_file_missing" && warning.code != "material_missing") continue;
+    return fail(Code::kNotFound, warning.where + ": " + warning.message +
+                                     ". Put it beside the model or give a texture");
+  }
+  return {};
+}
+
+Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
+                             const SimulateOptions& options, const Context& context) {
+  SimulatedImages out;
+  const film::Outline& film = options.dip.outline;
+  HP_ASSIGN_OR_RETURN(
+      out.film, image::film_image(dip.surface, dip.map.tiles, paint, film, options.dpi, context));
+  return out;
+}
+
+}  // namespace
+
+Result<Simulation> simulate(const SimulateOptions& options, const Context& context) {
+  Simulation out;
+  HP_ASSIGN_OR_RETURN(out.model, mesh::read_model(options.mesh, options.scale, context));
+  if (!options.images) {
+    HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, options.dip, context));
+    out.warnings = out.dip.warnings;
+    return out;
+  }
+  if (!options.texture) HP_RETURN_IF_ERROR(check_materials(out.model));
+  HP_ASSIGN_OR_RETURN(const image::Paint paint,
+                      image::load_paint(out.model, options.texture, context));
+  HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, options.dip, context));
+  HP_ASSIGN_OR_RETURN(out.images, draw(out.dip, paint, options, context));
+  out.warnings = out.dip.warnings;
+  out.warnings.insert(out.warnings.end(), paint.warnings().begin(), paint.warnings().end());
+  return out;
+}
+
+}  // namespace hydroprint::pipeline

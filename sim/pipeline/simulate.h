@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/image/picture.h"
+#include "sim/mesh/model.h"
+#include "sim/pipeline/pipeline.h"
+
+namespace hydroprint::pipeline {
+
+/// From a textured model to the image to print.
+struct SimulateOptions {
+  std::filesystem::path mesh;
+  double scale = 1;                              ///< model units to mm
+  std::optional<std::filesystem::path> texture;  ///< none: the model's own colours
+  DipOptions dip;
+  double dpi = 300;
+  bool images = true;  ///< false: where the film lands, and nothing to look at
+};
+
+/// What is made to be printed and looked at.
+struct SimulatedImages {
+  image::RgbImage film;  ///< the image to print
+};
+
+struct Simulation {
+  mesh::Model model;
+  Dip dip;
+  std::optional<SimulatedImages> images;
+  Warnings warnings;  ///< of every stage
+};
+
+/// The whole chain of section 4: model, paint, dip, film image, pictures.
+/// Refuses what its stages refuse and, unless a texture is given, a model whose material file or
+/// material is missing (kNotFound): its colours would be white without a word.
+[[nodiscard]] Result<Simulation> simulate(const SimulateOptions& options, const Context& context);
+
+}  // namespace hydroprint::pipeline

@@ -1,0 +1,63 @@
+#include "sim/worker/errors.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace hydroprint::worker {
+
+std::string_view code_name(Code code) {
+  switch (code) {
+    case Code::kCancelled:
+      return "CANCELLED";
+    case Code::kInvalidArgument:
+      return "INVALID_ARGUMENT";
+    case Code::kNotFound:
+      return "NOT_FOUND";
+    case Code::kAlreadyExists:
+      return "ALREADY_EXISTS";
+    case Code::kPermissionDenied:
+      return "PERMISSION_DENIED";
+    case Code::kResourceExhausted:
+      return "RESOURCE_EXHAUSTED";
+    case Code::kFailedPrecondition:
+      return "FAILED_PRECONDITION";
+    case Code::kAborted:
+      return "ABORTED";
+    case Code::kOutOfRange:
+      return "OUT_OF_RANGE";
+    case Code::kUnimplemented:
+      return "UNIMPLEMENTED";
+    case Code::kInternal:
+      return "INTERNAL";
+    case Code::kUnavailable:
+      return "UNAVAILABLE";
+    case Code::kDataLoss:
+      return "DATA_LOSS";
+  }
+  return "INTERNAL";
+}
+
+std::string one_line(std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  }
+  return text;
+}
+
+void tell(const Error& error, ExitStatus status, bool json) {
+  const std::string message = one_line(error.message);
+  std::fprintf(stderr, "hydroprint-worker: %s\n", message.c_str());
+  if (!json) return;
+  const nlohmann::ordered_json object = {{"error",
+                                          {{"code", code_name(error.code)},
+                                           {"reason", error.reason},
+                                           {"message", message},
+                                           {"metadata", error.metadata},
+                                           {"exit_status", static_cast<int>(status)}}}};
+  const std::string text =
+      object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
+}  // namespace hydroprint::worker

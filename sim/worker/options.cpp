@@ -1,0 +1,250 @@
+#include "sim/worker/options.h"
+
+#include <fcntl.h>
+#include <sched.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+#include <utility>
+
+#include "sim/film/outline.h"
+#include "sim/image/film_image.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr int kMaxThreads = 1024;
+
+constexpr const char* kSimulateExamples = R"(Examples:
+  hydroprint-worker simulate --mesh spot.obj --texture spot.png --scale 50 --out spot-film
+  hydroprint-worker simulate --mesh mug.obj --scale 10 --pose pose.json --film A3 --dpi 600 --out mug
+  hydroprint-worker simulate --mesh ball.ply --film circle:105 --depth-mm 40 --artifacts map --out map
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+constexpr const char* kPredictExamples = R"(Examples:
+  hydroprint-worker predict --mesh spot.obj --film-image film.png --scale 50 --out landed
+  hydroprint-worker predict --mesh spot.obj --film-image film.png --pose true.json --motion driven.csv --out landed
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+/// Options as typed: what cannot stand in Options is settled in `settle`.
+struct Typed {
+  Options options;
+  std::string depth = "full";
+  std::string model = "stokes";
+  int ink_passes = 0;
+  std::filesystem::path ink_image;
+  std::string artifacts = "all";
+};
+
+int all_cores() {
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
+  return std::max(1, CPU_COUNT(&set));
+}
+
+/// An option that names a file. (Left to itself, the library would cut paths at blanks.)
+CLI::Option* add_path(CLI::App& app, const std::string& flag, std::filesystem::path& path,
+                      const std::string& description, const std::string& type = "FILE") {
+  return app
+      .add_option_function<std::string>(
+          flag, [&path](const std::string& text) { path = text; }, description)
+      ->type_name(type);
+}
+
+void add_common(CLI::App& app, Typed& typed) {
+  Options& o = typed.options;
+  add_path(app, "--mesh", o.mesh, "Model: OBJ, STL, PLY, glTF or GLB")->required();
+  add_path(app, "--out", o.out, "Artifact folder to make; one of an earlier run is replaced", "DIR")
+      ->required();
+  app.add_option("--scale", o.scale, "Model units to mm")->capture_default_str();
+  add_path(app, "--pose", o.pose,
+           R"({"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]}; default: as in the file, )"
+           "bounding box centred on the film",
+           "FILE.json");
+  add_path(app, "--profile", o.profile, "Film profile", "FILE.toml");
+  app.add_option("--film", o.film, "A4, A3, letter, WxH, circle:RADIUS (mm) or polygon:FILE.json")
+      ->capture_default_str()
+      ->type_name("FILM");
+  app.add_option("--dpi", o.dpi, "Resolution of the film image")->capture_default_str();
+  app.add_option("--model", typed.model, "How the film moves: stokes (sheet is not built yet)")
+      ->capture_default_str()
+      ->type_name("sheet|stokes");
+  app.add_option("--ink-passes", typed.ink_passes,
+                 "Passes that take the ink's thickness into account: 0 (more are not built yet)")
+      ->capture_default_str();
+  add_path(app, "--ink-image", typed.ink_image, "Ink given directly (not built yet)", "FILE.png");
+  app.add_option("--depth-mm", typed.depth, "Immersion at the end of the dip")
+      ->capture_default_str()
+      ->type_name("D|full");
+  app.add_option("--dip-speed-mm-per-s", o.dip_speed_mm_per_s, "Speed of the dip")
+      ->capture_default_str();
+  app.add_option("--threads", o.threads, "Threads to compute on; default: all cores");
+  app.add_option("--artifacts", typed.artifacts, "map: the map and report.json only")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"all", "map"}))
+      ->type_name("all|map");
+  app.add_flag("--json", o.json, "Summary or error as one JSON object on stdout");
+  app.add_option("--progress-fd", o.progress_fd,
+                 "File descriptor to write progress to, one JSON object a line")
+      ->type_name("N");
+}
+
+CommandLine refuse(const Options& options, ExitStatus status, Code code, std::string message) {
+  CommandLine out;
+  out.action = CommandLine::Action::kRefuse;
+  out.options = options;
+  out.status = status;
+  out.error = {code, std::move(message), {}, {}};
+  return out;
+}
+
+/// The first of the flags that asks for what is not there yet; empty if none does.
+std::string not_built(const Typed& typed) {
+  if (typed.model == "sheet") {
+    return "--model sheet: the viscous sheet is not built yet. Use --model stokes";
+  }
+  if (!typed.ink_image.empty()) {
+    return "--ink-image: ink thickness is not built yet. Leave the flag out";
+  }
+  if (typed.ink_passes > 0) {
+    return "--ink-passes: ink thickness is not built yet. Use --ink-passes 0";
+  }
+  return {};
+}
+
+/// What is wrong with the values as such; empty if nothing is.
+std::string usage_objection(const Typed& typed) {
+  const Options& o = typed.options;
+  if (typed.model != "stokes" && typed.model != "sheet") {
+    return "--model: '" + typed.model + "' is unknown. Use stokes";
+  }
+  if (typed.ink_passes < 0) return "--ink-passes: below 0. Use --ink-passes 0";
+  if (o.threads < 1 || o.threads > kMaxThreads) {
+    return "--threads: out of range. Use 1 to " + std::to_string(kMaxThreads);
+  }
+  if (o.progress_fd != -1 && (o.progress_fd < 0 || fcntl(o.progress_fd, F_GETFD) == -1)) {
+    return "--progress-fd: not an open file descriptor. Open it before";
+  }
+  if (o.mesh.empty()) return "--mesh: empty. Name a file";
+  if (o.out.empty()) return "--out: empty. Name a folder";
+  return {};
+}
+
+std::string range_objection(const Options& o) {
+  struct Quantity {
+    const char* flag;
+    double value, least, most;
+  };
+  for (const Quantity& q : {Quantity{"--scale", o.scale, 1e-6, 1e6},
+                            Quantity{"--dpi", o.dpi, image::kMinDpi, image::kMaxDpi},
+                            Quantity{"--dip-speed-mm-per-s", o.dip_speed_mm_per_s, 1e-3, 1000},
+                            Quantity{"--depth-mm", o.depth_mm.value_or(1), 1e-3, 1e4}}) {
+    if (q.value >= q.least && q.value <= q.most) continue;
+    std::ostringstream out;
+    out << q.flag << ": " << q.value << " is out of range. Use " << q.least << " to " << q.most;
+    return out.str();
+  }
+  return {};
+}
+
+/// Refuses a film that is not a file's but makes no sense or is out of range.
+CommandLine check_film(const Options& o) {
+  CommandLine accepted;
+  accepted.options = o;
+  if (film::polygon_file(o.film)) return accepted;
+  const auto outline = film::parse_outline(o.film);
+  if (outline) return accepted;
+  const bool out_of_range = outline.error().code == Code::kOutOfRange;
+  return refuse(o, out_of_range ? ExitStatus::kBadInput : ExitStatus::kUsage, outline.error().code,
+                "--film: " + outline.error().message);
+}
+
+bool parse_depth(Typed& typed) {
+  if (typed.depth == "full") return true;
+  double depth_mm = 0;
+  const char* end = typed.depth.data() + typed.depth.size();
+  const auto parsed = std::from_chars(typed.depth.data(), end, depth_mm);
+  if (parsed.ec != std::errc() || parsed.ptr != end) return false;
+  typed.options.depth_mm = depth_mm;
+  return true;
+}
+
+CommandLine settle(Typed& typed) {
+  const Options& o = typed.options;
+  if (const std::string what = not_built(typed); !what.empty()) {
+    return refuse(o, ExitStatus::kUsage, Code::kUnimplemented, what);
+  }
+  if (const std::string what = usage_objection(typed); !what.empty()) {
+    return refuse(o, ExitStatus::kUsage, Code::kInvalidArgument, what);
+  }
+  if (!parse_depth(typed)) {
+    return refuse(o, ExitStatus::kUsage, Code::kInvalidArgument,
+                  "--depth-mm: '" + typed.depth + "' is not a number. Give mm, or full");
+  }
+  typed.options.map_only = typed.artifacts == "map";
+  if (const std::string what = range_objection(o); !what.empty()) {
+    return refuse(o, ExitStatus::kBadInput, Code::kOutOfRange, what);
+  }
+  return check_film(o);
+}
+
+CommandLine print(std::string text) {
+  CommandLine out;
+  out.action = CommandLine::Action::kPrint;
+  out.text = std::move(text);
+  return out;
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+  CLI::App app(
+      "Computes one hydrographic print: reads a model, writes an artifact folder.\n"
+      "Needs no daemon and no network.");
+  app.name("hydroprint-worker");
+  app.set_version_flag("--version", "hydroprint-worker " HYDROPRINT_VERSION);
+  app.require_subcommand(1);
+
+  Typed typed;
+  typed.options.threads = all_cores();
+  CLI::App* simulate =
+      app.add_subcommand("simulate", "From a textured model to the film image to print");
+  add_path(*simulate, "--texture", typed.options.texture,
+           "PNG, JPEG or TIFF; default: the model's own materials");
+  add_common(*simulate, typed);
+  simulate->footer(kSimulateExamples);
+
+  CLI::App* predict =
+      app.add_subcommand("predict", "From a film image as printed to the colours that land");
+  add_path(*predict, "--film-image", typed.options.film_image, "The film image as printed")
+      ->required();
+  add_path(*predict, "--motion", typed.options.motion, "Path as driven: t_s,x_mm,y_mm,z_mm",
+           "FILE.csv");
+  add_common(*predict, typed);
+  predict->footer(kPredictExamples);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForVersion&) {
+    return print(std::string("hydroprint-worker ") + HYDROPRINT_VERSION + "\n");
+  } catch (const CLI::CallForHelp&) {
+    return print(app.help());
+  } catch (const CLI::CallForAllHelp&) {
+    return print(app.help());
+  } catch (const CLI::ParseError& error) {
+    // The library stops at the first error, and may not have come to this flag.
+    typed.options.json = std::find(argv, argv + argc, std::string_view("--json")) != argv + argc;
+    return refuse(typed.options, ExitStatus::kUsage, Code::kInvalidArgument,
+                  std::string(error.what()) + ". See --help");
+  }
+  typed.options.verb = predict->parsed() ? Verb::kPredict : Verb::kSimulate;
+  return settle(typed);
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "sim/base/result.h"
+
+namespace hydroprint::worker {
+
+enum class Verb { kSimulate, kPredict };
+
+/// What the command line asks for (contract, "hydroprint-worker simulate" and "predict"), checked
+/// as far as that goes without opening a file.
+struct Options {
+  Verb verb = Verb::kSimulate;
+  std::filesystem::path mesh;
+  std::filesystem::path texture;     ///< simulate; empty: the model's own colours
+  std::filesystem::path film_image;  ///< predict
+  std::filesystem::path motion;      ///< predict; empty: straight down
+  std::filesystem::path out;
+  std::filesystem::path pose;     ///< empty: as in the file, centred
+  std::filesystem::path profile;  ///< empty: the defaults of film::Profile
+  double scale = 1;
+  std::string film = "A4";
+  double dpi = 300;
+  std::optional<double> depth_mm;  ///< none: full
+  double dip_speed_mm_per_s = 5;
+  int threads = 1;
+  bool map_only = false;  ///< --artifacts map
+  bool json = false;
+  int progress_fd = -1;  ///< -1: none
+};
+
+/// What to do with a command line.
+struct CommandLine {
+  enum class Action { kRun, kPrint, kRefuse };
+  Action action = Action::kRun;
+  Options options;
+  std::string text;  ///< kPrint: help or version
+  Error error;       ///< kRefuse
+  ExitStatus status = ExitStatus::kDone;
+};
+
+/// Reads the command line. Refuses with kUsage what it does not understand and what is not built
+/// yet, with kBadInput a dpi, scale, depth or speed out of range.
+[[nodiscard]] CommandLine parse_command_line(int argc, const char* const* argv);
+
+}  // namespace hydroprint::worker

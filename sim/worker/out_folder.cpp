@@ -1,0 +1,173 @@
+#include "sim/worker/out_folder.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <random>
+#include <string_view>
+#include <utility>
+
+namespace hydroprint::worker {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 8> kArtifacts = {
+    "film.png",      "film_map.exr", "landed.ply",  "landed.png",
+    "predicted.png", "report.json",  "stretch.png", "surface_map.ply"};
+
+Status check_replaceable(const fs::path& dir) {
+  std::error_code error;
+  const auto status = fs::status(dir, error);
+  if (!fs::exists(status)) return {};
+  if (!fs::is_directory(status)) {
+    return fail(Code::kAlreadyExists, dir.string() + ": is a file. Choose another --out");
+  }
+  bool has_report = false;
+  bool empty = true;
+  std::string stranger;
+  for (fs::directory_iterator entry(dir, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    empty = false;
+    has_report = has_report || name == "report.json";
+    if (std::find(kArtifacts.begin(), kArtifacts.end(), name) == kArtifacts.end()) stranger = name;
+  }
+  if (error) {
+    return fail(Code::kPermissionDenied,
+                dir.string() + ": cannot be listed. Check its permissions");
+  }
+  if (!stranger.empty()) {
+    return fail(Code::kAlreadyExists, dir.string() + ": holds " + stranger +
+                                          ", which is no artifact. Choose another --out");
+  }
+  if (!empty && !has_report) {
+    return fail(Code::kAlreadyExists,
+                dir.string() + ": not empty and without a report.json. Choose another --out");
+  }
+  return {};
+}
+
+std::string random_suffix() {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::random_device device;
+  std::uniform_int_distribution<std::size_t> letter(0, kLetters.size() - 1);
+  std::string out;
+  for (int i = 0; i < 6; ++i) out += kLetters[letter(device)];
+  return out;
+}
+
+tl::unexpected<Error> system_failure(const fs::path& dir, int error) {
+  if (error == ENOSPC || error == EDQUOT) {
+    return fail(Code::kResourceExhausted,
+                dir.string() + ": the disk is full. Free some space or choose another --out",
+                "DISK_FULL");
+  }
+  return fail(Code::kPermissionDenied, dir.string() + ": cannot be written (" +
+                                           std::generic_category().message(error) +
+                                           "). Choose another --out");
+}
+
+/// So that after a power cut DIR is there with all its files or not at all.
+void sync_folder(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::fsync(file);
+  ::close(file);
+}
+
+void remove_quietly(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+}
+
+Status move_into_place(const fs::path& partial, const fs::path& dir) {
+  if (::rename(partial.c_str(), dir.c_str()) == 0) return {};  // DIR was not there, or empty
+  if (::renameat2(AT_FDCWD, partial.c_str(), AT_FDCWD, dir.c_str(), RENAME_EXCHANGE) == 0) {
+    remove_quietly(partial);  // the earlier run's, which has this name now
+    return {};
+  }
+  // Some file systems cannot exchange names.
+  const fs::path old = partial.string() + "-old";
+  if (::rename(dir.c_str(), old.c_str()) != 0) return system_failure(dir, errno);
+  if (::rename(partial.c_str(), dir.c_str()) != 0) {
+    const int error = errno;
+    ::rename(old.c_str(), dir.c_str());
+    return system_failure(dir, error);
+  }
+  remove_quietly(old);
+  return {};
+}
+
+}  // namespace
+
+Result<OutFolder> OutFolder::plan(const fs::path& dir) {
+  std::error_code error;
+  // The folder itself, not a link to it, is what gets replaced.
+  fs::path target = fs::weakly_canonical(fs::absolute(dir, error), error);
+  if (!target.has_filename()) target = target.parent_path();
+  if (error || !target.has_filename()) {
+    return fail(Code::kInvalidArgument,
+                dir.string() + ": not a folder to write to. Choose another --out");
+  }
+  if (!fs::is_directory(target.parent_path(), error)) {
+    return fail(Code::kNotFound, target.parent_path().string() +
+                                     ": no such folder. Create it or choose another --out");
+  }
+  if (::access(target.parent_path().c_str(), W_OK | X_OK) != 0) {
+    return system_failure(target, errno);
+  }
+  HP_RETURN_IF_ERROR(check_replaceable(target));
+  return OutFolder(std::move(target));
+}
+
+OutFolder::OutFolder(fs::path dir)
+    : dir_(std::move(dir)), partial_(dir_.string() + ".partial-" + random_suffix()) {}
+
+OutFolder::OutFolder(OutFolder&& other) noexcept
+    : dir_(std::move(other.dir_)),
+      partial_(std::move(other.partial_)),
+      created_(std::exchange(other.created_, false)) {}
+
+OutFolder::~OutFolder() {
+  if (created_) remove_quietly(partial_);
+}
+
+Status OutFolder::create() {
+  if (::mkdir(partial_.c_str(), 0777) != 0) return system_failure(dir_, errno);
+  created_ = true;
+  return {};
+}
+
+Status OutFolder::commit() {
+  HP_RETURN_IF_ERROR(check_replaceable(dir_));
+  sync_folder(partial_);
+  HP_RETURN_IF_ERROR(move_into_place(partial_, dir_));
+  created_ = false;
+  sync_folder(dir_.parent_path());
+  return {};
+}
+
+void OutFolder::abandon() const {
+  // A file that is being written may appear between emptying the folder and removing it.
+  std::error_code error;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    remove_quietly(partial_);
+    if (!fs::exists(partial_, error)) return;
+  }
+}
+
+std::string OutFolder::in_terms_of_dir(std::string message) const {
+  const std::string partial = partial_.string();
+  for (auto at = message.find(partial); at != std::string::npos; at = message.find(partial)) {
+    message.replace(at, partial.size(), dir_.string());
+  }
+  return message;
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,70 @@
+#include "sim/worker/pose_file.h"
+
+#include <string>
+
+#include "sim/base/json_file.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr double kMaxTranslation_mm = 1e6;
+constexpr double kMinQuaternion = 1e-6;
+
+template <int size>
+Result<Eigen::Vector<double, size>> read_vector(const std::string& where,
+                                                const nlohmann::json& json) {
+  const std::string wanted =
+      ": not a list of " + std::to_string(size) + " numbers. Write it as one";
+  if (!json.is_array() || json.size() != size) return fail(Code::kInvalidArgument, where + wanted);
+  Eigen::Vector<double, size> out;
+  for (int i = 0; i < size; ++i) {
+    const auto& number = json[static_cast<std::size_t>(i)];
+    if (!number.is_number()) return fail(Code::kInvalidArgument, where + wanted);
+    out[i] = number.get<double>();
+  }
+  return out;
+}
+
+Result<Eigen::Matrix3d> read_rotation(const std::string& where, const nlohmann::json& json) {
+  HP_ASSIGN_OR_RETURN(const Eigen::Vector4d wxyz, read_vector<4>(where, json));
+  const double length = wxyz.stableNorm();
+  if (!(length >= kMinQuaternion)) {
+    return fail(Code::kInvalidArgument,
+                where + ": too short to be a rotation. No rotation is [1, 0, 0, 0]");
+  }
+  const Eigen::Vector4d unit = wxyz / length;
+  return Eigen::Quaterniond(unit[0], unit[1], unit[2], unit[3]).toRotationMatrix();
+}
+
+Result<Eigen::Vector3d> read_translation(const std::string& where, const nlohmann::json& json) {
+  HP_ASSIGN_OR_RETURN(const Eigen::Vector3d xyz_mm, read_vector<3>(where, json));
+  if (!(xyz_mm.cwiseAbs().maxCoeff() <= kMaxTranslation_mm)) {
+    return fail(Code::kOutOfRange, where + ": beyond 1e6 mm. Is it in mm?");
+  }
+  return xyz_mm;
+}
+
+}  // namespace
+
+Result<Pose> read_pose(const std::filesystem::path& path) {
+  HP_ASSIGN_OR_RETURN(const nlohmann::json json, read_json_file(path));
+  const std::string example =
+      R"(. Write {"rotation_wxyz": [1, 0, 0, 0], "translation_mm": [0, 0, 0]})";
+  if (!json.is_object()) {
+    return fail(Code::kInvalidArgument, path.string() + ": not a pose" + example);
+  }
+  Pose pose = Pose::Identity();
+  for (const auto& [key, value] : json.items()) {
+    const std::string where = path.string() + ": " + key;
+    if (key == "rotation_wxyz") {
+      HP_ASSIGN_OR_RETURN(pose.linear(), read_rotation(where, value));
+    } else if (key == "translation_mm") {
+      HP_ASSIGN_OR_RETURN(pose.translation(), read_translation(where, value));
+    } else {
+      return fail(Code::kInvalidArgument, where + ": not a known key" + example);
+    }
+  }
+  return pose;
+}
+
+}  // namespace hydroprint::worker

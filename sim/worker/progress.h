@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace hydroprint::worker {
+
+/// A stage of the work and its usual share of the whole.
+struct Stage {
+  std::string name;
+  double weight = 0;
+};
+
+/// How far the work is.
+struct ProgressReport {
+  std::string stage;
+  double fraction = 0;          ///< of the stage, [0, 1]
+  double total_fraction = 0;    ///< of the whole, [0, 1], never decreasing
+  std::optional<double> eta_s;  ///< none: too early to say
+};
+
+/// Turns the stages' own reports into a total, seconds per stage and time left. Owns the clock,
+/// which the simulation has none of.
+class Progress {
+ public:
+  /// @param stages  in the order of work; a stage not among them counts for nothing in the total
+  /// @param now_s   a clock that never goes back
+  /// @param sink    told of changes, at most ten times a second within a stage
+  Progress(std::vector<Stage> stages, std::function<double()> now_s,
+           std::function<void(const ProgressReport&)> sink);
+
+  /// The listener for Context::report.
+  void update(std::string_view stage, double fraction);
+  /// Seconds spent in each stage so far, in order of first appearance.
+  [[nodiscard]] std::vector<std::pair<std::string, double>> stage_seconds() const;
+  [[nodiscard]] double total_s() const { return now_s_() - start_s_; }
+
+ private:
+  [[nodiscard]] ProgressReport report(double now_s);
+
+  std::vector<Stage> stages_;
+  std::function<double()> now_s_;
+  std::function<void(const ProgressReport&)> sink_;
+  double start_s_;
+  mutable std::mutex mutex_;
+  std::string stage_;
+  double fraction_ = 0;
+  double stage_start_s_;
+  double last_told_s_;
+  double total_fraction_ = 0;
+  std::vector<std::pair<std::string, double>> seconds_;
+};
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "sim/worker/progress.h"
+
+namespace hydroprint::worker {
+
+/// Writes reports to a pipe, one JSON object a line (contract, `--progress-fd`):
+/// {"stage":"velocity","fraction":0.42,"total_fraction":0.31,"eta_s":3.1}; eta_s is null while
+/// unknown. A reader that is slow misses lines; one that has gone is written to no more.
+class ProgressPipe {
+ public:
+  explicit ProgressPipe(int fd) : fd_(fd) {}
+  void write(const ProgressReport& report);
+
+ private:
+  int fd_;
+};
+
+/// Keeps one line for people on the terminal behind stderr: stage, bar, time left.
+class ProgressLine {
+ public:
+  ~ProgressLine() { clear(); }
+  void show(const ProgressReport& report);
+  /// Leaves the line empty for what is to be said next.
+  void clear();
+
+ private:
+  bool shown_ = false;
+};
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,156 @@
+#include "sim/worker/report.h"
+
+#include <sys/resource.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace hydroprint::worker {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::int64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::int64_t{usage.ru_maxrss} * 1024;
+}
+
+Json pair_of(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
+
+Json pose_json(const Pose& X_FO) {
+  const Eigen::Quaterniond q(X_FO.linear());
+  const Eigen::Vector3d& t = X_FO.translation();
+  return {{"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+          {"translation_mm", {t.x(), t.y(), t.z()}}};
+}
+
+Json film_json(const film::Outline& outline) {
+  return {{"name", outline.name},
+          {"min_mm", pair_of(outline.min_mm)},
+          {"max_mm", pair_of(outline.max_mm)},
+          {"corners", outline.polygon.size()}};
+}
+
+Json profile_json(const film::Profile& p) {
+  return {{"thickness_mm", p.thickness_mm},
+          {"ink_ratio_mm", p.ink_ratio_mm},
+          {"swelling", pair_of(p.swelling)},
+          {"drag_length_mm", p.drag_length_mm},
+          {"tear_stretch", p.tear_stretch},
+          {"wrinkle_stretch", p.wrinkle_stretch},
+          {"activator_ml_per_m2", p.activator_ml_per_m2},
+          {"soak_s", p.soak_s},
+          {"activator_wait_s", p.activator_wait_s}};
+}
+
+Json inputs_json(const std::vector<Input>& inputs) {
+  Json out = Json::array();
+  for (const Input& input : inputs) {
+    out.push_back({{"role", input.role},
+                   {"path", input.path.string()},
+                   {"sha256", input.digest.sha256},
+                   {"size_bytes", input.digest.size_bytes}});
+  }
+  return out;
+}
+
+Json parameters_json(const Report& report) {
+  const Options& o = report.options;
+  Json out = {{"scale", o.scale},
+              {"pose", pose_json(report.X_FO)},
+              {"film", film_json(report.outline)},
+              {"profile", profile_json(report.profile)},
+              {"dpi", o.dpi},
+              {"film_image_px", report.film_image_px},
+              {"model", "stokes"},
+              {"ink_passes", 0},
+              {"depth_mm", "full"},
+              {"dip_speed_mm_per_s", o.dip_speed_mm_per_s},
+              {"threads", o.threads},
+              {"artifacts", o.map_only ? "map" : "all"}};
+  if (o.depth_mm) out["depth_mm"] = *o.depth_mm;
+  return out;
+}
+
+Json stretch_json(const pipeline::DipFigures& figures) {
+  return {{"p50", figures.stretch_p50}, {"p95", figures.stretch_p95}, {"max", figures.stretch_max}};
+}
+
+Json warnings_json(const Warnings& warnings) {
+  Json out = Json::array();
+  for (const Warning& warning : warnings) {
+    out.push_back({{"code", warning.code}, {"message", warning.message}, {"where", warning.where}});
+  }
+  return out;
+}
+
+Json seconds_json(const std::vector<std::pair<std::string, double>>& seconds) {
+  Json out = Json::object();
+  for (const auto& [stage, value] : seconds) out[stage] = value;
+  return out;
+}
+
+std::string dump(const Json& json, int indent) {
+  // File names need not be UTF-8; JSON has to be.
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+const char* verb_name(Verb verb) { return verb == Verb::kPredict ? "predict" : "simulate"; }
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  const pipeline::DipFigures& f = report.figures;
+  return dump({{"program", "hydroprint-worker"},
+               {"version", HYDROPRINT_VERSION},
+               {"verb", verb_name(report.options.verb)},
+               {"inputs", inputs_json(report.inputs)},
+               {"parameters", parameters_json(report)},
+               {"mesh",
+                {{"vertices", report.mesh_vertices},
+                 {"triangles", report.mesh_triangles},
+                 {"surface_points", report.surface_points},
+                 {"surface_triangles", report.surface_triangles},
+                 {"closed", report.closed},
+                 {"film_vertices_max", f.film_vertices_max},
+                 {"film_triangles_max", f.film_triangles_max}}},
+               {"steps", f.steps},
+               {"depth_mm", f.depth_mm},
+               {"stopped_at_film_edge", f.stopped_at_edge},
+               {"coverage", f.coverage},
+               {"theta_clamped_share", f.clamped_share},
+               {"stretch", stretch_json(f)},
+               {"stage_seconds", seconds_json(report.stage_seconds)},
+               {"total_seconds", report.total_s},
+               {"peak_memory_bytes", peak_memory_bytes()},
+               {"warnings", warnings_json(report.warnings)},
+               {"artifacts", report.artifacts}},
+              2);
+}
+
+std::string summary_json(const Report& report, const std::filesystem::path& dir) {
+  return dump({{"out", dir.string()},
+               {"artifacts", report.artifacts},
+               {"coverage", report.figures.coverage},
+               {"depth_mm", report.figures.depth_mm},
+               {"stretch", stretch_json(report.figures)},
+               {"seconds", report.total_s},
+               {"warnings", warnings_json(report.warnings)}},
+              -1);
+}
+
+std::string summary_text(const Report& report, const std::filesystem::path& dir) {
+  std::string files;
+  for (const std::string& name : report.artifacts) files += name + " ";
+  std::array<char, 200> figures;
+  std::snprintf(figures.data(), figures.size(),
+                "film reaches %.1f %% of the surface, stretched at most %.2f times; %.1f s\n",
+                100 * report.figures.coverage, report.figures.stretch_max, report.total_s);
+  return dir.string() + ": " + files + "report.json\n" + figures.data();
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,203 @@
+#include "sim/worker/run.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/image/artifact_file.h"
+#include "sim/pipeline/simulate.h"
+#include "sim/worker/artifacts.h"
+#include "sim/worker/errors.h"
+#include "sim/worker/motion_file.h"
+#include "sim/worker/out_folder.h"
+#include "sim/worker/pose_file.h"
+#include "sim/worker/progress.h"
+#include "sim/worker/progress_sinks.h"
+#include "sim/worker/report.h"
+
+namespace hydroprint::worker {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Shares of the whole, from a sphere of radius 60 mm on A4 at 600 dpi.
+std::vector<Stage> stages(const Options& options) {
+  std::vector<Stage> out = {{"inputs", 1},    {"reading", 3},   {"surface", 2},
+                            {"waterline", 8}, {"velocity", 25}, {"flow map", 25}};
+  if (!options.map_only) {
+    for (const Stage& stage :
+         {Stage{"film image", 20}, Stage{"film map", 3}, Stage{"pictures", 5}}) {
+      out.push_back(stage);
+    }
+  }
+  out.push_back({"writing", 8});
+  return out;
+}
+
+double seconds_now() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+/// The named files' fingerprints; whatever is missing is refused before anything is computed.
+Result<std::vector<Input>> fingerprint(const std::vector<std::pair<std::string, fs::path>>& files) {
+  std::vector<Input> out;
+  for (const auto& [role, path] : files) {
+    if (path.empty()) continue;
+    HP_ASSIGN_OR_RETURN(Digest digest, digest_file(path));
+    out.push_back({role, path, std::move(digest)});
+  }
+  return out;
+}
+
+Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip) {
+  Report report;
+  report.options = o;
+  HP_ASSIGN_OR_RETURN(report.inputs, fingerprint({{"mesh", o.mesh},
+                                                  {"texture", o.texture},
+                                                  {"film_image", o.film_image},
+                                                  {"pose", o.pose},
+                                                  {"profile", o.profile},
+                                                  {"film", film::polygon_file(o.film).value_or("")},
+                                                  {"motion", o.motion}}));
+  HP_ASSIGN_OR_RETURN(dip.outline, film::parse_outline(o.film));
+  if (!o.pose.empty()) {
+    HP_ASSIGN_OR_RETURN(dip.X_FO, read_pose(o.pose));
+  }
+  if (!o.profile.empty()) {
+    HP_ASSIGN_OR_RETURN(dip.profile, film::read_profile(o.profile));
+  }
+  if (dip.profile.drag_length_mm > 0) {
+    return fail(Code::kUnimplemented,
+                o.profile.string() +
+                    ": drag_length_mm: water drag belongs to the viscous sheet, which is not built "
+                    "yet. Set it to 0");
+  }
+  if (!o.motion.empty()) {
+    HP_ASSIGN_OR_RETURN(dip.motion, read_motion(o.motion));
+  }
+  dip.depth_mm = o.depth_mm;
+  dip.dip_speed_mm_per_s = o.dip_speed_mm_per_s;
+  report.outline = dip.outline;
+  report.profile = dip.profile;
+  return report;
+}
+
+/// Fills in what the computation found out.
+Status complete(Report& report, const mesh::Model& model, const pipeline::Dip& dip,
+                const Warnings& warnings, bool own_textures) {
+  report.X_FO = dip.X_FO;
+  report.mesh_vertices = model.vertices.size();
+  report.mesh_triangles = model.triangles.size();
+  report.surface_points = dip.surface.points.size();
+  report.surface_triangles = dip.surface.triangles.size();
+  report.closed = dip.surface.closed;
+  report.figures = dip.figures;
+  report.warnings = warnings;
+  if (!own_textures) return {};
+  for (const mesh::Material& material : model.materials) {
+    HP_ASSIGN_OR_RETURN(auto inputs, fingerprint({{"material_texture", material.texture}}));
+    report.inputs.insert(report.inputs.end(), inputs.begin(), inputs.end());
+  }
+  return {};
+}
+
+Status run_simulate(const Options& o, pipeline::DipOptions dip, OutFolder& folder, Report& report,
+                    const Context& context) {
+  pipeline::SimulateOptions options;
+  options.mesh = o.mesh;
+  options.scale = o.scale;
+  if (!o.texture.empty()) options.texture = o.texture;
+  options.dip = std::move(dip);
+  options.dpi = o.dpi;
+  options.images = !o.map_only;
+  HP_ASSIGN_OR_RETURN(const pipeline::Simulation simulation, pipeline::simulate(options, context));
+  HP_RETURN_IF_ERROR(complete(report, simulation.model, simulation.dip, simulation.warnings,
+                              options.images && o.texture.empty()));
+  if (simulation.images) {
+    report.film_image_px = {simulation.images->film.width, simulation.images->film.height};
+  }
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_ASSIGN_OR_RETURN(report.artifacts,
+                      write_artifacts(folder.partial(), simulation, o.dpi, context));
+  return {};
+}
+
+/// Where progress goes: a pipe, a terminal, both or nowhere.
+class ProgressSink {
+ public:
+  explicit ProgressSink(int fd) : pipe_(fd), to_terminal_(isatty(STDERR_FILENO) == 1) {}
+  void operator()(const ProgressReport& report) {
+    pipe_.write(report);
+    if (to_terminal_) line_.show(report);
+  }
+
+ private:
+  ProgressPipe pipe_;
+  bool to_terminal_;
+  ProgressLine line_;
+};
+
+Status compute(const Options& o, OutFolder& folder, Report& report, Progress& progress,
+               const Context& context) {
+  context.progress("inputs", 0);
+  pipeline::DipOptions dip;
+  HP_ASSIGN_OR_RETURN(report, read_parameters(o, dip));
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+  if (o.verb == Verb::kPredict) return fail(Code::kUnimplemented, "predict: not built yet");
+  HP_RETURN_IF_ERROR(run_simulate(o, std::move(dip), folder, report, context));
+  report.stage_seconds = progress.stage_seconds();
+  report.total_s = progress.total_s();
+  const std::string text = report_json(report);
+  HP_RETURN_IF_ERROR(image::write_artifact(
+      folder.partial() / "report.json",
+      std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size())));
+  context.progress("writing", 1);
+  return check_cancelled(context);
+}
+
+void sum_up(const Report& report, const OutFolder& folder, bool json) {
+  const std::string text =
+      json ? summary_json(report, folder.dir()) : summary_text(report, folder.dir());
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+  if (json) return;
+  for (const Warning& warning : report.warnings) {
+    const std::string line = one_line(warning.message + " (" + warning.where + ")");
+    std::fprintf(stderr, "hydroprint-worker: warning: %s\n", line.c_str());
+  }
+}
+
+}  // namespace
+
+Status run(const Options& options, Ending& ending) {
+  HP_ASSIGN_OR_RETURN(OutFolder folder, OutFolder::plan(options.out));
+  const CleanupAtEnding cleanup(ending, [&folder] { folder.abandon(); });
+  Report report;
+  {
+    ProgressSink sink(options.progress_fd);
+    Progress progress(stages(options), seconds_now, std::ref(sink));
+    const Context context{
+        options.threads,
+        [&progress](std::string_view stage, double fraction) { progress.update(stage, fraction); },
+        [&ending] { return ending.requested(); }};
+    Status status = compute(options, folder, report, progress, context);
+    if (!status) {
+      status.error().message = folder.in_terms_of_dir(std::move(status.error().message));
+      return status;
+    }
+  }
+  ending.decide();
+  HP_RETURN_IF_ERROR(folder.commit());
+  sum_up(report, folder, options.json);
+  return {};
+}
+
+}  // namespace hydroprint::worker
