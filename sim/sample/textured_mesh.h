@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "sim/image/picture.h"
+
+namespace hydroprint::sample {
+
+/// A mesh of triangles and quads on its way to an OBJ file. Faces look outward.
+class TexturedMesh {
+ public:
+  struct Corner {
+    int vertex = 0;
+    int uv = 0;
+  };
+
+  int add_vertex(const Eigen::Vector3d& position_mm);
+  int add_uv(const Eigen::Vector2d& uv);
+  /// Three or four corners, counter-clockwise from outside.
+  void add_face(std::vector<Corner> corners);
+
+  [[nodiscard]] const Eigen::Vector3d& vertex(int i) const {
+    return vertices_[static_cast<std::size_t>(i)];
+  }
+  /// The whole as an OBJ file that uses material `name` of `name`.mtl.
+  [[nodiscard]] std::string to_obj(const std::string& name) const;
+
+ private:
+  std::vector<Eigen::Vector3d> vertices_;
+  std::vector<Eigen::Vector2d> uvs_;
+  std::vector<std::vector<Corner>> faces_;
+};
+
+/// What a sample is made of.
+struct Sample {
+  TexturedMesh mesh;
+  image::RgbImage texture;
+  double px_per_mm = 1;
+};
+
+[[nodiscard]] Sample make_globe();
+[[nodiscard]] Sample make_sphere80();
+[[nodiscard]] Sample make_board();
+[[nodiscard]] Sample make_ubend();
+[[nodiscard]] Sample make_mug();
+
+}  // namespace hydroprint::sample

@@ -1,0 +1,146 @@
+#include "sim/sample/sample.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "sim/mesh/make_surface.h"
+#include "sim/mesh/read_model.h"
+#include "sim/mesh/uv_warnings.h"
+
+namespace hydroprint::sample {
+namespace {
+
+class EverySample : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    std::string name = (std::filesystem::temp_directory_path() / "hydroprint-test-XXXXXX").string();
+    folder_ = mkdtemp(name.data());
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+
+  [[nodiscard]] mesh::Model make() const {
+    const auto written = write_sample(GetParam(), folder_);
+    EXPECT_TRUE(written) << written.error().message;
+    auto model = mesh::read_model(folder_ / (GetParam() + ".obj"), 1, {});
+    EXPECT_TRUE(model) << model.error().message;
+    return model ? *model : mesh::Model();
+  }
+
+  std::filesystem::path folder_;
+};
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_P(EverySample, IsAClosedManifoldThatLooksOutward) {
+  const mesh::Model model = make();
+  EXPECT_TRUE(model.warnings.empty());
+  const auto surface = mesh::make_surface(model, mesh::kMaxEdgeMm, {});
+  ASSERT_TRUE(surface);
+  EXPECT_TRUE(surface->closed);
+  EXPECT_TRUE(surface->warnings.empty()) << surface->warnings.front().message;
+}
+
+TEST_P(EverySample, HasTextureCoordinatesInTheUnitSquareThatAreNotMirrored) {
+  const mesh::Model model = make();
+  ASSERT_EQ(model.corner_uvs.size(), model.triangles.size());
+  for (const auto& uvs : model.corner_uvs) {
+    for (const auto& uv : uvs) {
+      EXPECT_GE(uv.minCoeff(), 0);
+      EXPECT_LE(uv.maxCoeff(), 1);
+    }
+    const Eigen::Vector2f a = uvs[1] - uvs[0];
+    const Eigen::Vector2f b = uvs[2] - uvs[0];
+    EXPECT_GT(a.x() * b.y() - a.y() * b.x(), 0);
+  }
+  EXPECT_TRUE(mesh::uv_warnings(model).empty());
+}
+
+TEST_P(EverySample, NamesItsOwnTexture) {
+  const mesh::Model model = make();
+  ASSERT_EQ(model.materials.size(), 1U);
+  EXPECT_EQ(model.materials[0].texture, folder_ / (GetParam() + ".png"));
+  EXPECT_GT(std::filesystem::file_size(model.materials[0].texture), 10000U);
+}
+
+TEST_P(EverySample, FitsOnA4AndStandsOnItsFeet) {
+  Eigen::AlignedBox3d box;
+  for (const auto& v : make().vertices) box.extend(v);
+  EXPECT_LT(box.sizes().x(), 190);
+  EXPECT_LT(box.sizes().y(), 190);
+  EXPECT_GT(box.sizes().maxCoeff(), 50);
+}
+
+TEST_P(EverySample, IsTheSameBytesEveryTime) {
+  (void)make();
+  const auto again = folder_ / "again" / "deeper";
+  ASSERT_TRUE(write_sample(GetParam(), again));
+  for (const std::string ending : {".obj", ".mtl", ".png"})
+    EXPECT_EQ(content(folder_ / (GetParam() + ending)), content(again / (GetParam() + ending)));
+}
+
+std::vector<std::string> names() {
+  std::vector<std::string> result;
+  for (const auto& kind : kinds()) result.push_back(kind.name);
+  return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EverySample, testing::ValuesIn(names()),
+                         [](const auto& test) { return test.param; });
+
+TEST(Sample, SizesAreThePapersOwn) {
+  EXPECT_EQ(names(), (std::vector<std::string>{"globe", "sphere80", "board", "ubend", "mug"}));
+  const auto folder = std::filesystem::temp_directory_path() / "hydroprint-test-sizes";
+  const auto read = [&](const std::string& name) {
+    EXPECT_TRUE(write_sample(name, folder));
+    return *mesh::read_model(folder / (name + ".obj"), 1, {});
+  };
+  const auto globe = read("globe");
+  EXPECT_GE(globe.triangles.size(), 80000U);
+  for (const auto& v : globe.vertices) EXPECT_NEAR(v.norm(), 60, 1e-5);
+  for (const auto& v : read("sphere80").vertices) EXPECT_NEAR(v.norm(), 80, 1e-5);
+  Eigen::AlignedBox3d box;
+  for (const auto& v : read("board").vertices) box.extend(v);
+  EXPECT_LT((box.sizes() - Eigen::Vector3d(120, 120, 10)).norm(), 1e-5);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Sample, TheGlobesMapRunsEastFromTheAntimeridian) {
+  const auto folder = std::filesystem::temp_directory_path() / "hydroprint-test-map";
+  ASSERT_TRUE(write_sample("globe", folder));
+  const auto globe = *mesh::read_model(folder / "globe.obj", 1, {});
+  for (std::size_t t = 0; t < globe.triangles.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const auto& p = globe.vertices[globe.triangles[t][k]];
+      const auto& uv = globe.corner_uvs[t][k];
+      EXPECT_NEAR(p.z(), 60 * std::sin(M_PI * (uv.y() - 0.5)), 1e-4);
+      const double across = std::hypot(p.x(), p.y());
+      EXPECT_NEAR(p.x(), across * std::cos(2 * M_PI * (uv.x() - 0.5)), 1e-4);
+      EXPECT_NEAR(p.y(), across * std::sin(2 * M_PI * (uv.x() - 0.5)), 1e-4);
+    }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Sample, UnknownKindsAreRefusedWithTheKnownOnes) {
+  const auto written = write_sample("teapot", "/tmp");
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().code, Code::kInvalidArgument);
+  EXPECT_NE(written.error().message.find("globe, sphere80, board, ubend, mug"), std::string::npos);
+}
+
+TEST(Sample, FoldersThatCannotBeMadeAreRefused) {
+  EXPECT_FALSE(write_sample("board", "/dev/null/folder"));
+}
+
+}  // namespace
+}  // namespace hydroprint::sample
