@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -20,7 +19,7 @@ struct Material {
   Eigen::Vector3f colour = {1, 1, 1};  ///< sRGB-coded, [0, 1]
   bool has_colour = false;             ///< false: the file states no colour
   std::filesystem::path texture;       ///< resolved against the model's folder; empty: none
-  std::vector<std::byte> texture_bytes;  ///< the image file itself if the model embeds it
+  std::vector<unsigned char> texture_bytes;  ///< the image file itself if the model embeds it
   Wrap wrap_u = Wrap::kRepeat;
   Wrap wrap_v = Wrap::kRepeat;
 };

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <span>
 
 #include "sim/mesh/file.h"
 #include "sim/mesh/gltf_accessor.h"
@@ -310,8 +309,7 @@ class GltfImporter {
     }
     if (!image->image.empty()) {
       material.texture = model_.path.string() + "#" + std::to_string(texture.source);
-      const auto bytes = std::as_bytes(std::span(image->image));
-      material.texture_bytes.assign(bytes.begin(), bytes.end());
+      material.texture_bytes = image->image;
     } else if (!image->uri.empty()) {
       material.texture = resolve_texture(model_.path.parent_path(), unescape(image->uri));
     }
