@@ -16,7 +16,7 @@ struct MapOptions {
   /// Tiles are divided until the map is linear on each to within this, on the film; doubled with
   /// each division, so that scatter of the traced points does not pass for a jump.
   double tolerance_mm = 0.02;
-  /// Edges of tiles shorter than this are not divided further (a pixel at 600 dpi).
+  /// Edges of tiles shorter than this on the film are not divided further (a pixel at 600 dpi).
   double least_edge_mm = 0.042;
   bool make_tiles = true;
 };

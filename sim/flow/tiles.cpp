@@ -30,6 +30,7 @@ struct Node {
 
 struct Tile {
   int triangle;
+  double film_per_surface;  ///< length on the film per length on the surface, at most
   std::array<int, 3> node;
   std::array<Vector3d, 3> barycentric;
 };
@@ -41,6 +42,7 @@ struct Edge {
   int a, b;
   Landing middle;  ///< summed over the tiles that share it, then averaged
   int sides = 0;
+  double film_per_surface = 0;
   Vector2d film_mm = Vector2d::Constant(kNaN);
 };
 
@@ -64,15 +66,23 @@ class Tiler {
     for (std::size_t v = 0; v < film_mm.size(); ++v) {
       nodes_.push_back({body.points_mm[v], film_mm[v]});
     }
+    const auto gradient = point_gradients(film_mm, body.points_mm, body.triangles);
     for (int t = 0; t < static_cast<int>(body.triangles.size()); ++t) {
       const Eigen::Vector3i& v = body.triangles[t];
       if (!is_reached(nodes_[v[0]]) && !is_reached(nodes_[v[1]]) && !is_reached(nodes_[v[2]])) {
         continue;
       }
-      active_.push_back(
-          {t, {v[0], v[1], v[2]}, {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}});
+      double film_per_surface = 0;
+      for (const int n : v) {
+        const double least = stretch_of(gradient[n]).least;  // NaN: not known
+        film_per_surface = std::max(film_per_surface, std::isnan(least) ? 0 : 1 / least);
+      }
+      active_.push_back({t,
+                         film_per_surface > 0 ? film_per_surface : 1,
+                         {v[0], v[1], v[2]},
+                         {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}});
     }
-    trust_smooth_edges(point_gradients(film_mm, body.points_mm, body.triangles));
+    trust_smooth_edges(gradient);
   }
 
   Status run(const Context& context) {
@@ -117,7 +127,8 @@ class Tiler {
         const std::uint64_t key = key_of(tile.node[j], tile.node[k]);
         if (state_.contains(key)) continue;
         const auto [it, is_new] = index.try_emplace(key, edges.size());
-        if (is_new) edges.push_back({tile.node[j], tile.node[k], {}, 0, Vector2d::Constant(kNaN)});
+        if (is_new)
+          edges.push_back({tile.node[j], tile.node[k], {}, 0, 0, Vector2d::Constant(kNaN)});
         Edge& edge = edges[it->second];
         const Landing landing = landing_on(body_, motion_, tile.triangle,
                                            0.5 * (tile.barycentric[j] + tile.barycentric[k]));
@@ -128,6 +139,7 @@ class Tiler {
           edge.middle.film_can_follow |= landing.film_can_follow;
         }
         ++edge.sides;
+        edge.film_per_surface = std::max(edge.film_per_surface, tile.film_per_surface);
       }
     }
     for (Edge& edge : edges) edge.middle.pull /= edge.sides;
@@ -157,7 +169,8 @@ class Tiler {
         state_[key] = EdgeState::kLinear;
       } else if (!is_reached(a) && !is_reached(b) && !is_reached(middle)) {
         state_[key] = EdgeState::kLinear;  // nothing lands there at all
-      } else if (!may_divide || (b.surface_mm - a.surface_mm).norm() <= options_.least_edge_mm) {
+      } else if (!may_divide || edge.film_per_surface * (b.surface_mm - a.surface_mm).norm() <=
+                                    options_.least_edge_mm) {
         state_[key] = EdgeState::kBroken;
       } else {
         state_[key] = EdgeState::kDivided;
@@ -204,8 +217,10 @@ class Tiler {
     const auto corner = [&](int i) { return Corner{tile.node[i % 3], tile.barycentric[i % 3]}; };
     const auto mid = [&](int i) { return Corner{middle[i % 3], bary_middle(i % 3)}; };
     const auto add = [&](const Corner& a, const Corner& b, const Corner& c) {
-      out.push_back(
-          {tile.triangle, {a.node, b.node, c.node}, {a.barycentric, b.barycentric, c.barycentric}});
+      out.push_back({tile.triangle,
+                     tile.film_per_surface,
+                     {a.node, b.node, c.node},
+                     {a.barycentric, b.barycentric, c.barycentric}});
     };
     const int divided = (middle[0] >= 0) + (middle[1] >= 0) + (middle[2] >= 0);
     if (divided == 3) {
