@@ -19,8 +19,8 @@ constexpr std::size_t kChunk = 128;
 /// More edges than this at one level are a scatter of reached and unreached points, which no
 /// division resolves.
 constexpr std::size_t kMostEdges = 400000;
-/// A 2 mm edge is a pixel long long before this; slivers could go on for ever.
-constexpr int kMostLevels = 8;
+/// A 2 mm edge is shorter than a pixel by then; slivers could go on for ever.
+constexpr int kMostLevels = 6;
 
 /// A corner of tiles: where it lies on the surface and which film lands there (NaN: none).
 struct Node {
