@@ -93,7 +93,7 @@ struct Layout {
   int height = 0;
 };
 
-/// Two by two or four in a row, whichever shows the object larger on a sheet of decent height.
+/// Two by two or four in a row: the compact row unless it shows the object much smaller.
 Layout lay_out(const mesh::Surface& surface, const Pose& X_FO, int legend_px) {
   Layout best;
   double best_score = 0;
@@ -112,7 +112,7 @@ Layout lay_out(const mesh::Surface& surface, const Pose& X_FO, int legend_px) {
     layout.cell_height = static_cast<int>(2 * half.y() * layout.px_per_mm) + 9;
     layout.height =
         kMargin_px + layout.rows * (layout.cell_height + kCaption_px + kMargin_px) + legend_px;
-    const double score = layout.px_per_mm * (columns == 2 ? 1.2 : 1.0);
+    const double score = layout.px_per_mm * (columns == 2 ? 0.8 : 1.0);
     if (score > best_score) {
       best_score = score;
       best = layout;

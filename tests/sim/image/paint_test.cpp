@@ -234,6 +234,26 @@ TEST(Paint, AnUnusedMaterialsTextureNeedNotExist) {
   EXPECT_TRUE(load_paint(model, folder / "t.png", {}));
 }
 
+TEST(Paint, EmbeddedTexturesAreReadFromTheirBytes) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(write_png(folder / "t.png", make_image(4, 4, [](int, int) { return kBlue; }), 72));
+  std::ifstream file(folder / "t.png", std::ios::binary);
+  mesh::Model model = plate(-20, -20, 20, 20);
+  model.materials.resize(2);
+  for (auto& material : model.materials) {
+    material.name = "glass";
+    material.texture_bytes = {std::istreambuf_iterator<char>(file), {}};
+  }
+  model.triangle_material = {0, 0};
+  const auto paint = load_paint(model, {}, {});
+  ASSERT_TRUE(paint) << paint.error().message;
+  EXPECT_EQ(print(model, *paint, 40, 40, 50).at(40, 40)[2], 255);
+  model.materials[0].texture_bytes.resize(40);
+  const auto cut = load_paint(model, {}, {});
+  ASSERT_FALSE(cut);
+  EXPECT_NE(cut.error().message.find("glass"), std::string::npos) << cut.error().message;
+}
+
 TEST(Paint, ATextureForAModelWithoutUvsIsRefused) {
   mesh::Model model = plate(-20, -20, 20, 20);
   model.corner_uvs.clear();
