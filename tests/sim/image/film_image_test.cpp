@@ -2,8 +2,10 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
 #include <numeric>
 
 #include "sim/image/colour.h"
@@ -243,6 +245,30 @@ TEST(WritePng, KeepsPixelsAndResolution) {
   std::vector<std::uint8_t> pixels(image.rgb.size());
   ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()));
   EXPECT_EQ(pixels, image.rgb);
+}
+
+TEST(WritePng, AFullDiskIsSaidSoAndLeavesNothingBehind) {
+  // A limit on the size of files stands in for the disk; random pixels do not compress.
+  const TemporaryFolder folder;
+  unsigned state = 1;
+  const RgbImage image = make_image(100, 100, [&](int, int) {
+    state = state * 1664525 + 1013904223;
+    return std::array<int, 3>{static_cast<int>(state >> 24), static_cast<int>(state >> 16 & 255),
+                              static_cast<int>(state >> 8 & 255)};
+  });
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  rlimit limited = before;
+  limited.rlim_cur = 4096;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limited), 0);
+  const Status status = write_png(folder / "film.png", image, 300);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, Code::kResourceExhausted);
+  EXPECT_EQ(status.error().reason, "DISK_FULL");
+  EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
 TEST(WritePng, LeavesNothingBehindWhereItCannotWrite) {
