@@ -1,0 +1,94 @@
+#include "daemon/config.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace hydroprint::daemon {
+namespace {
+
+std::string problem(const std::string& text) {
+  const auto config = parse_config(text, "d.toml");
+  return config ? "accepted" : config.error().message;
+}
+
+bool says(const std::string& message, const std::string& part) {
+  return message.find(part) != std::string::npos;
+}
+
+TEST(Config, ExampleNamesEveryKeyWithItsDefault) {
+  std::ifstream file(HYDROPRINT_EXAMPLE_CONFIG);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto config = parse_config(text, "example");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(*config, Config{});
+  std::string section;
+  std::vector<std::string> named;
+  std::ifstream lines(HYDROPRINT_EXAMPLE_CONFIG);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("[")) section = line.substr(1, line.find(']') - 1);
+    if (line.find(" = ") != std::string::npos && !line.starts_with("#")) {
+      named.push_back(section + "." + line.substr(0, line.find(' ')));
+    }
+  }
+  EXPECT_EQ(named, config_keys());
+}
+
+TEST(Config, AbsentKeysKeepTheirDefaults) {
+  const auto config = parse_config("[workers]\ncount = 3\n", "d.toml");
+  ASSERT_TRUE(config);
+  EXPECT_EQ(config->workers_count, 3);
+  EXPECT_EQ(config->workers_time_limit_s, Config{}.workers_time_limit_s);
+}
+
+TEST(Config, UnknownKeyNamesFileLineAndTheKeyThatWasMeant) {
+  const std::string message = problem("[workers]\ncount = 1\ntime_limit = 60\n");
+  EXPECT_TRUE(says(message, "d.toml:3:")) << message;
+  EXPECT_TRUE(says(message, "workers.time_limit")) << message;
+  EXPECT_TRUE(says(message, "did you mean \"workers.time_limit_s\"")) << message;
+}
+
+TEST(Config, UnknownSectionNamesTheSectionsThereAre) {
+  const std::string message = problem("\n[worker]\ncount = 1\n");
+  EXPECT_TRUE(says(message, "d.toml:2:")) << message;
+  EXPECT_TRUE(says(message, "[workers]")) << message;
+}
+
+TEST(Config, WrongTypesAndRangesSayWhatIsRight) {
+  EXPECT_TRUE(says(problem("[workers]\nmemory_mib = \"4 GiB\"\n"), "whole number of MiB"));
+  EXPECT_TRUE(says(problem("[workers]\ntime_limit_s = 1.5\n"), "whole number of seconds"));
+  EXPECT_TRUE(says(problem("[workers]\ncount = -1\n"), "from 0 to 256"));
+  EXPECT_TRUE(says(problem("[workers]\ncount = 257\n"), "d.toml:2:"));
+  EXPECT_TRUE(says(problem("[server]\nreflection = 1\n"), "true or false"));
+  EXPECT_TRUE(says(problem("[log]\nlevel = \"loud\"\n"), "\"warning\""));
+  EXPECT_TRUE(says(problem("[log]\nlevel = 3\n"), "one of"));
+}
+
+TEST(Config, TextThatIsNoTomlNamesTheLine) {
+  EXPECT_TRUE(says(problem("[log]\nlevel = = 3\n"), "d.toml:2: not valid TOML"));
+  EXPECT_TRUE(says(problem("count = 1\n"), "unknown section \"count\""));
+}
+
+TEST(Config, AbsentFileIsNamed) {
+  const auto config = read_config("/nonexistent/x.toml");
+  ASSERT_FALSE(config);
+  EXPECT_EQ(config.error().code, Code::kNotFound);
+  EXPECT_TRUE(says(config.error().message, "/nonexistent/x.toml"));
+}
+
+TEST(Config, OnlyLoopbackAddressesAreAccepted) {
+  EXPECT_EQ(parse_endpoint("127.0.0.1:50051")->text(), "127.0.0.1:50051");
+  EXPECT_EQ(parse_endpoint("127.1.2.3:0")->port, 0);
+  EXPECT_EQ(parse_endpoint("[::1]:80")->text(), "[::1]:80");
+  EXPECT_EQ(parse_endpoint("localhost:7")->host, "127.0.0.1");
+  for (const char* bad : {"0.0.0.0:1", "[::]:1", "192.168.0.2:1", "example.org:1", ":1",
+                          "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1",
+                          "127.0.0.1:1x", "127.0.0.1.evil.org:1", "unix:/tmp/x", ""}) {
+    EXPECT_FALSE(parse_endpoint(bad)) << bad;
+  }
+  EXPECT_TRUE(says(problem("[server]\ngrpc = \"0.0.0.0:1\"\n"), "d.toml:2:"));
+}
+
+}  // namespace
+}  // namespace hydroprint::daemon

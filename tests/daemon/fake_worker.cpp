@@ -1,0 +1,121 @@
+// Speaks the worker's flags and does what the mesh file says, one command a line:
+//   sleep SECONDS     with progress, ends on SIGTERM          stubborn  like sleep 60, ignores
+//   SIGTERM exit N WORDS      says WORDS and ends with status N       crash     aborts eat uses
+//   memory until it has no more        huge      writes a file of 64 MiB socket            says
+//   whether it could open a socket     nothing   leaves no artifacts link              leaves a
+//   symbolic link as artifact      babble    writes nonsense as progress orphan            leaves a
+//   child behind                   kill-parent  tries to kill the daemon
+// and then leaves film.png and report.json.
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+std::map<std::string, std::string> flags;
+std::string facts;
+
+void tell(const std::string& line) {
+  const int fd = std::stoi(flags["--progress-fd"]);
+  if (write(fd, line.data(), line.size()) < 0) std::cerr << "the progress pipe is closed\n";
+}
+
+void sleep_for(double seconds) {
+  constexpr int kSteps_per_s = 20;
+  const int steps = static_cast<int>(seconds * kSteps_per_s);
+  for (int i = 0; i < steps; ++i) {
+    const double done = static_cast<double>(i) / steps;
+    std::ostringstream line;
+    line << R"({"stage":"velocity","fraction":)" << done << R"(,"total_fraction":)" << done
+         << R"(,"eta_s":)" << seconds * (1 - done) << "}\n";
+    tell(line.str());
+    usleep(1000000 / kSteps_per_s);
+  }
+}
+
+void eat() {
+  constexpr std::size_t kBlock = 16 << 20;
+  std::vector<char*> blocks;
+  for (int i = 0; i < 4096; ++i) {
+    blocks.push_back(new char[kBlock]);
+    std::memset(blocks.back(), i, kBlock);
+    usleep(1000);
+  }
+}
+
+void leave_child_behind() {
+  if (fork() == 0) {
+    signal(SIGTERM, SIG_IGN);
+    for (int i = 0; i < 60; ++i) sleep(1);
+    _exit(0);
+  }
+}
+
+void obey(const std::string& line) {
+  std::istringstream words(line);
+  std::string command, rest;
+  words >> command;
+  if (command == "sleep") {
+    double seconds = 0;
+    words >> seconds;
+    sleep_for(seconds);
+  } else if (command == "stubborn") {
+    signal(SIGTERM, SIG_IGN);
+    sleep_for(60);
+  } else if (command == "exit") {
+    int status = 0;
+    words >> status;
+    std::getline(words >> std::ws, rest);
+    std::cerr << rest << std::endl;
+    std::_Exit(status);
+  } else if (command == "crash") {
+    std::abort();
+  } else if (command == "eat") {
+    eat();
+  } else if (command == "huge") {
+    std::ofstream(flags["--out"] + "/huge") << std::string(64 << 20, 'x') << std::flush;
+  } else if (command == "socket") {
+    facts += socket(AF_INET, SOCK_STREAM, 0) < 0 ? " no-inet" : " INET";
+    facts += socket(AF_UNIX, SOCK_STREAM, 0) < 0 ? " no-unix" : " UNIX";
+  } else if (command == "kill-parent") {
+    facts += kill(getppid(), SIGKILL) < 0 ? " no-kill" : " KILL";
+  } else if (command == "nothing") {
+    std::filesystem::remove_all(flags["--out"]);
+    std::_Exit(0);
+  } else if (command == "link") {
+    std::filesystem::create_symlink("/etc/passwd", flags["--out"] + "/passwd");
+  } else if (command == "orphan") {
+    leave_child_behind();
+  } else if (command == "babble") {
+    tell(std::string(100000, '[') + "\n{\"stage\":7}\n\x01\x02\n");
+    tell(R"({"stage":"last\n\u0007word","total_fraction":7e99,"fraction":-1,"eta_s":1e300})"
+         "\n");
+    usleep(600000);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (int i = 2; i < argc; ++i) {
+    const std::string text = argv[i];
+    flags[text.substr(0, text.find('='))] = text.substr(text.find('=') + 1);
+  }
+  std::filesystem::create_directory(flags["--out"]);
+  std::ifstream mesh(flags["--mesh"]);
+  for (std::string line; std::getline(mesh, line);) obey(line);
+  std::ofstream(flags["--out"] + "/film.png") << "film of " << flags["--mesh"];
+  std::ofstream report(flags["--out"] + "/report.json");
+  for (int i = 1; i < argc; ++i) report << argv[i] << '\n';
+  report << facts << '\n';
+}

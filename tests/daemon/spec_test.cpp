@@ -1,0 +1,175 @@
+#include "daemon/spec.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hydroprint/v1/error_reason.pb.h"
+#include "hydroprint/v1/job.pb.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+const std::string kAsset = "assets/" + std::string(64, 'a');
+
+void set_file(v1::InputFile& file, const std::string& name) {
+  file.set_name(name);
+  file.set_asset(kAsset);
+}
+
+v1::Job job_with_mesh() {
+  v1::Job job;
+  set_file(*job.mutable_simulate()->mutable_mesh(), "spot.obj");
+  return job;
+}
+
+std::string refused_field(const v1::Job& job) {
+  const auto made = check_job(job);
+  if (made) return "accepted";
+  EXPECT_EQ(made.error().code, Code::kInvalidArgument);
+  const auto& metadata = made.error().metadata;
+  return metadata.contains("field") ? metadata.at("field") : made.error().reason;
+}
+
+TEST(Spec, EveryFieldBecomesItsFlag) {
+  v1::Job job = job_with_mesh();
+  auto& spec = *job.mutable_simulate();
+  set_file(*spec.mutable_texture(), "textures/spot.png");
+  set_file(*spec.add_extra_files(), "film.json");
+  set_file(*spec.mutable_profile(), "p.toml");
+  set_file(*spec.mutable_ink_image(), "ink.png");
+  spec.set_scale(50);
+  spec.set_film("polygon:film.json");
+  spec.set_dpi(600.5);
+  spec.set_model(v1::MODEL_STOKES);
+  spec.set_ink_passes(0);
+  spec.set_depth_mm(12.25);
+  spec.set_dip_speed_mm_per_s(0.1);
+  spec.set_threads(4);
+  spec.set_artifacts(v1::ARTIFACT_SET_MAP);
+  const auto made = check_job(job);
+  ASSERT_TRUE(made) << made.error().message;
+  auto flags = made->work.flags;
+  std::sort(flags.begin(), flags.end());
+  EXPECT_EQ(flags, (std::vector<std::string>{
+                       "--artifacts=map", "--depth-mm=12.25", "--dip-speed-mm-per-s=0.1",
+                       "--dpi=600.5", "--film=polygon:film.json", "--ink-image=ink.png",
+                       "--ink-passes=0", "--mesh=spot.obj", "--model=stokes", "--profile=p.toml",
+                       "--scale=50", "--texture=textures/spot.png"}));
+  EXPECT_EQ(made->threads, 4);
+  EXPECT_EQ(made->work.inputs.size(), 5U);
+  EXPECT_EQ(made->display_name, "simulate spot.obj");
+}
+
+TEST(Spec, UnsetFieldsLeaveTheirFlagsOut) {
+  const auto made = check_job(job_with_mesh());
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->work.flags, std::vector<std::string>{"--mesh=spot.obj"});
+  EXPECT_TRUE(made->work.pose_json.empty());
+}
+
+TEST(Spec, PoseBecomesTheFileOfTheContract) {
+  v1::Job job = job_with_mesh();
+  auto& pose = *job.mutable_simulate()->mutable_pose();
+  for (const double x : {0.0, 0.0, 0.6, 0.8}) pose.add_rotation_wxyz(x);
+  for (const double x : {1.5, -2.0, 0.0}) pose.add_translation_mm(x);
+  EXPECT_EQ(check_job(job)->work.pose_json,
+            R"({"rotation_wxyz":[0,0,0.6,0.8],"translation_mm":[1.5,-2,0]})");
+}
+
+TEST(Spec, PredictHasItsOwnFiles) {
+  v1::Job job;
+  set_file(*job.mutable_predict()->mutable_mesh(), "spot.obj");
+  EXPECT_EQ(refused_field(job), "predict.film_image");
+  set_file(*job.mutable_predict()->mutable_film_image(), "film.png");
+  set_file(*job.mutable_predict()->mutable_motion(), "path.csv");
+  const auto made = check_job(job);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->work.verb, "predict");
+  EXPECT_EQ(made->work.flags, (std::vector<std::string>{"--mesh=spot.obj", "--film-image=film.png",
+                                                        "--motion=path.csv"}));
+}
+
+TEST(Spec, NumbersThatAreNoneOrOutOfRangeAreRefused) {
+  for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    v1::Job job = job_with_mesh();
+    job.mutable_simulate()->set_dpi(bad);
+    EXPECT_EQ(refused_field(job), "simulate.dpi");
+    job = job_with_mesh();
+    job.mutable_simulate()->set_scale(bad);
+    EXPECT_EQ(refused_field(job), "simulate.scale");
+    job = job_with_mesh();
+    job.mutable_simulate()->set_depth_mm(bad);
+    EXPECT_EQ(refused_field(job), "simulate.depth_mm");
+  }
+  v1::Job job = job_with_mesh();
+  job.mutable_simulate()->set_threads(0);
+  EXPECT_EQ(refused_field(job), "simulate.threads");
+  job = job_with_mesh();
+  job.mutable_simulate()->set_model(static_cast<v1::Model>(77));
+  EXPECT_EQ(refused_field(job), "simulate.model");
+  job = job_with_mesh();
+  job.set_priority(10);
+  EXPECT_EQ(refused_field(job), "priority");
+}
+
+TEST(Spec, PosesThatAreNoneAreRefused) {
+  v1::Job job = job_with_mesh();
+  auto& pose = *job.mutable_simulate()->mutable_pose();
+  EXPECT_EQ(refused_field(job), "simulate.pose.rotation_wxyz");
+  for (int i = 0; i < 4; ++i) pose.add_rotation_wxyz(i == 0 ? std::nan("") : 0);
+  for (int i = 0; i < 3; ++i) pose.add_translation_mm(0);
+  EXPECT_EQ(refused_field(job), "simulate.pose.rotation_wxyz");
+  pose.set_rotation_wxyz(0, 2);
+  EXPECT_EQ(refused_field(job), "simulate.pose.rotation_wxyz");
+  pose.set_rotation_wxyz(0, 1);
+  EXPECT_EQ(refused_field(job), "accepted");
+  pose.add_translation_mm(0);
+  EXPECT_EQ(refused_field(job), "simulate.pose.translation_mm");
+}
+
+TEST(Spec, HostileNamesAndTextsAreRefused) {
+  v1::Job job = job_with_mesh();
+  job.mutable_simulate()->mutable_mesh()->set_name("../../etc/passwd");
+  EXPECT_EQ(refused_field(job), "simulate.mesh.name");
+  job = job_with_mesh();
+  job.mutable_simulate()->mutable_mesh()->set_asset("assets/../x");
+  EXPECT_EQ(refused_field(job), "ID_INVALID");
+  job = job_with_mesh();
+  set_file(*job.mutable_simulate()->mutable_texture(), "spot.obj");
+  EXPECT_EQ(refused_field(job), "NAME_INVALID") << "the same name twice";
+  job = job_with_mesh();
+  set_file(*job.mutable_simulate()->mutable_texture(), "spot.obj/a.png");
+  EXPECT_EQ(refused_field(job), "NAME_INVALID") << "a file as a folder";
+  job = job_with_mesh();
+  job.mutable_simulate()->set_film("A4\n--out=/");
+  EXPECT_EQ(refused_field(job), "simulate.film");
+  job.mutable_simulate()->set_film("polygon:/etc/passwd");
+  EXPECT_EQ(refused_field(job), "simulate.film");
+  job = job_with_mesh();
+  job.set_display_name("a\x1b[2J");
+  EXPECT_EQ(refused_field(job), "display_name");
+  job = job_with_mesh();
+  (*job.mutable_labels())["k"] = std::string(201, 'x');
+  EXPECT_EQ(refused_field(job), "labels");
+  EXPECT_EQ(refused_field(v1::Job()), "job");
+}
+
+TEST(Digest, DependsOnAllThatMattersAndOnNothingElse) {
+  v1::Job job = job_with_mesh();
+  const std::string digest = input_digest(check_job(job)->work, "w");
+  job.set_display_name("other");
+  job.mutable_simulate()->set_threads(3);
+  EXPECT_EQ(input_digest(check_job(job)->work, "w"), digest);
+  EXPECT_NE(input_digest(check_job(job)->work, "v"), digest);
+  job.mutable_simulate()->set_dpi(301);
+  EXPECT_NE(input_digest(check_job(job)->work, "w"), digest);
+  job = job_with_mesh();
+  job.mutable_simulate()->mutable_mesh()->set_asset("assets/" + std::string(64, 'b'));
+  EXPECT_NE(input_digest(check_job(job)->work, "w"), digest);
+}
+
+}  // namespace
+}  // namespace hydroprint::daemon
