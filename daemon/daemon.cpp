@@ -98,8 +98,8 @@ void Daemon::clean_up() {
 void Daemon::stop() {
   if (stopping_.exchange(true) || !server_) return;
   jobs_->bell().ring();
+  pool_->stop();
   server_->stop(kPatience);
-  pool_.reset();
   log_failure("jobs_not_queued_again", jobs_->interrupt_all("the daemon was shut down"));
 }
 

@@ -102,7 +102,9 @@ Result<std::unique_ptr<WorkerPool>> WorkerPool::make(const PoolOptions& options,
   return pool;
 }
 
-WorkerPool::~WorkerPool() {
+WorkerPool::~WorkerPool() { stop(); }
+
+void WorkerPool::stop() {
   if (!impl_ || !impl_->thread.joinable()) return;
   impl_->stopping = true;
   wake();

@@ -32,13 +32,15 @@ class WorkerPool {
   [[nodiscard]] static Result<std::unique_ptr<WorkerPool>> make(const PoolOptions& options,
                                                                 JobStore& store,
                                                                 const Layout& layout, Clock clock);
-  /// Ends the workers and waits for that, a few seconds at most. Their jobs stay RUNNING or
-  /// CANCELLING in the store: see JobStore::interrupt_all().
+  /// Stops if stop() was not called.
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;
   WorkerPool& operator=(const WorkerPool&) = delete;
 
   void start();
+  /// Ends the workers and waits for that, a few seconds at most. Their jobs stay RUNNING or
+  /// CANCELLING in the store: see JobStore::interrupt_all().
+  void stop();
   /// Has it look at the store at once (a new job, a cancel).
   void wake();
 

@@ -1,4 +1,5 @@
 // Round trips through the real daemon over gRPC: assets, jobs, queue, artifacts.
+#include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -364,7 +365,7 @@ std::string call_raw(Client& client, const std::string& method, const std::strin
   grpc::ByteBuffer request(&slice, 1), reply;
   grpc::CompletionQueue queue;
   const auto context = client.context();
-  grpc::TemplatedGenericStub<grpc::ByteBuffer, grpc::ByteBuffer> stub(client.channel);
+  grpc::GenericStub stub(client.channel);
   const auto call = stub.PrepareCall(context.get(), method, &queue);
   void* tag = nullptr;
   bool good = false;

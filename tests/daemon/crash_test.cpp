@@ -159,7 +159,7 @@ TEST_F(Crash, NothingAcknowledgedIsLostAtAnyMoment) {
 }
 
 TEST_F(Crash, CleanShutdownEndsInTimeAndJobsGoOnAfterwards) {
-  const std::string name = client->simulate("sleep 1").name();
+  const std::string name = client->simulate("sleep 4").name();
   client->wait(name, [](const v1::Job& job) { return job.phase() == "velocity"; });
   EXPECT_EQ(daemon.terminate(), 0);
   daemon.start();
