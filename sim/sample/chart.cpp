@@ -15,7 +15,7 @@ image::RgbImage Sheet::draw() const {
     return {1, 1, 1};
   };
   return sample::draw(static_cast<int>(std::lround(size_mm.x() * px_per_mm)),
-                      static_cast<int>(std::lround(size_mm.y() * px_per_mm)), 1 / px_per_mm,
+                      static_cast<int>(std::lround(size_mm.y() * px_per_mm)), 1 / px_per_mm, 2,
                       colour);
 }
 

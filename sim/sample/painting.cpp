@@ -35,7 +35,7 @@ double value_noise(const Eigen::Vector3d& p) {
 
 }  // namespace
 
-image::RgbImage draw(int width_px, int height_px, double units_per_px,
+image::RgbImage draw(int width_px, int height_px, double units_per_px, int samples,
                      const std::function<Colour(double x, double y)>& colour_at) {
   image::RgbImage picture;
   picture.width = width_px;
@@ -44,12 +44,14 @@ image::RgbImage draw(int width_px, int height_px, double units_per_px,
   for (int row = 0; row < height_px; ++row)
     for (int column = 0; column < width_px; ++column) {
       Colour sum = Colour::Zero();
-      for (int k = 0; k < 4; ++k)
-        sum += colour_at((column + 0.25 + 0.5 * (k & 1)) * units_per_px,
-                         (height_px - row - 0.25 - 0.5 * (k >> 1)) * units_per_px);
+      for (int j = 0; j < samples; ++j)
+        for (int i = 0; i < samples; ++i)
+          sum += colour_at((column + (i + 0.5) / samples) * units_per_px,
+                           (height_px - row - (j + 0.5) / samples) * units_per_px);
+      sum /= static_cast<float>(samples * samples);
       for (int c = 0; c < 3; ++c)
         picture.at(column, row)[c] =
-            static_cast<std::uint8_t>(std::lround(255 * std::clamp(sum[c] / 4, 0.0F, 1.0F)));
+            static_cast<std::uint8_t>(std::lround(255 * std::clamp(sum[c], 0.0F, 1.0F)));
     }
   return picture;
 }

@@ -12,8 +12,8 @@ namespace hydroprint::sample {
 using Colour = Eigen::Vector3f;
 
 /// Draws a picture from a function of the place (x to the right, y up, in the given unit), as the
-/// mean of 2 x 2 samples a pixel.
-[[nodiscard]] image::RgbImage draw(int width_px, int height_px, double units_per_px,
+/// mean of so many samples a pixel in each direction.
+[[nodiscard]] image::RgbImage draw(int width_px, int height_px, double units_per_px, int samples,
                                    const std::function<Colour(double x, double y)>& colour_at);
 
 /// b over a, with the given weight.

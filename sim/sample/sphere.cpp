@@ -97,8 +97,8 @@ Colour land(const Place& p, double height) {
   Colour colour = mix(jungle, desert, ramp(9, 19, latitude));
   colour = mix(colour, forest, ramp(29, 39, latitude));
   colour = mix(colour, tundra, ramp(52, 64, latitude));
-  colour = mix(colour, {0.50F, 0.38F, 0.27F}, 0.8 * ramp(0.22, 0.45, height));
-  return mix(colour, {0.97F, 0.97F, 0.98F}, ramp(0.5, 0.6, height));
+  colour = mix(colour, {0.50F, 0.38F, 0.27F}, 0.8 * ramp(0.3, 0.7, height));
+  return mix(colour, {0.97F, 0.97F, 0.98F}, ramp(0.8, 0.9, height));
 }
 
 Colour globe_colour(double x_deg, double y_deg) {
@@ -108,8 +108,10 @@ Colour globe_colour(double x_deg, double y_deg) {
   const double height = noise(1.7 * p.direction + 0.35 * warp + Eigen::Vector3d(3, 1, 4), 6) - 0.12;
   Colour colour = height > 0 ? land(p, height) : ocean(-height);
   colour = mix(colour, {0.96F, 0.93F, 0.80F}, 0.8 * (1 - ramp(0, 0.018, std::abs(height))));
-  const double ice = std::abs(p.latitude_deg) + 5 * noise(6 * p.direction, 4);
-  colour = mix(colour, {0.95F, 0.97F, 1.0F}, ramp(71, 74, ice));
+  if (std::abs(p.latitude_deg) > 55) {
+    const double ice = std::abs(p.latitude_deg) + 5 * noise(6 * p.direction, 4);
+    colour = mix(colour, {0.95F, 0.97F, 1.0F}, ramp(71, 74, ice));
+  }
   colour = mix(colour, {1, 1, 1}, 0.55 * on_graticule(p, 15, 0.3));
   return with_marks(colour, p);
 }
@@ -124,18 +126,19 @@ Colour chessboard_colour(double x_deg, double y_deg) {
   return with_marks(colour, p);
 }
 
-Sample make(double radius_mm, int meridians, int height_px, Colour (*colour)(double, double)) {
+Sample make(double radius_mm, int meridians, int height_px, int samples,
+            Colour (*colour)(double, double)) {
   Sample sample;
   sample.mesh = make_sphere(radius_mm, meridians, meridians / 2);
-  sample.texture = draw(2 * height_px, height_px, 180.0 / height_px, colour);
+  sample.texture = draw(2 * height_px, height_px, 180.0 / height_px, samples, colour);
   sample.px_per_mm = height_px / (pi * radius_mm);
   return sample;
 }
 
 }  // namespace
 
-Sample make_globe() { return make(60, 288, 1536, globe_colour); }
+Sample make_globe() { return make(60, 288, 1280, 1, globe_colour); }
 
-Sample make_sphere80() { return make(80, 360, 1536, chessboard_colour); }
+Sample make_sphere80() { return make(80, 360, 1280, 2, chessboard_colour); }
 
 }  // namespace hydroprint::sample

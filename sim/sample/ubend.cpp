@@ -95,7 +95,7 @@ Sample make_ubend() {
   sample.px_per_mm = 9;
   const int width_px = static_cast<int>(std::lround(kLengthMm * sample.px_per_mm));
   const int height_px = static_cast<int>(std::lround(kRoundMm * sample.px_per_mm));
-  sample.texture = draw(width_px, height_px, 1 / sample.px_per_mm, colour_at);
+  sample.texture = draw(width_px, height_px, 1 / sample.px_per_mm, 2, colour_at);
   return sample;
 }
 

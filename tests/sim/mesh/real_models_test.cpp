@@ -25,7 +25,7 @@ TEST_P(RealModel, IsReadAsItsReadmeDescribesIt) {
   const auto& expected = GetParam();
   const auto path = model_path(expected.file);
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const Model m = read(path, 50);
+  const Model m = read(path, 10);
   EXPECT_EQ(m.vertices.size(), expected.vertices);
   EXPECT_EQ(m.triangles.size(), expected.triangles);
   EXPECT_EQ(!m.corner_uvs.empty(), expected.has_uvs);

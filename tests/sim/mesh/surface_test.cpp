@@ -284,7 +284,7 @@ TEST(MakeSurface, OnlyFacesWithoutAreaAreRefused) {
 
 TEST(MakeSurface, ProbablyWrongUnitsAreReported) {
   EXPECT_TRUE(has_warning(made(box({0, 0, 0}, {0.1, 0.1, 0.1})), "small_or_large_object"));
-  EXPECT_TRUE(has_warning(made(box({0, 0, 0}, {1500, 10, 10})), "small_or_large_object"));
+  EXPECT_TRUE(has_warning(made(box({0, 0, 0}, {1500, 10, 10}), 50), "small_or_large_object"));
   EXPECT_FALSE(has_warning(made(box({0, 0, 0}, {100, 10, 10})), "small_or_large_object"));
 }
 
