@@ -1,3 +1,4 @@
+#include <assimp/BaseImporter.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
@@ -16,9 +17,11 @@ namespace {
 
 /// Leaves only the one importer wanted: a file never reaches any of the other forty.
 void keep_only(Assimp::Importer& importer, const std::string& extension) {
-  for (std::size_t i = importer.GetImporterCount(); i-- > 0;)
-    if (importer.GetImporterIndex(extension.c_str()) != i)
-      importer.UnregisterLoader(importer.GetImporter(i));
+  for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
+    if (importer.GetImporterIndex(extension.c_str()) == i) continue;
+    const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
+    importer.UnregisterLoader(other.get());  // which leaves it to us
+  }
 }
 
 Status append(const aiMesh& mesh, const std::filesystem::path& path, Model& model) {
