@@ -3,6 +3,7 @@
 namespace hydroprint {
 
 ExitStatus exit_status(const Error& error) {
+  if (error.reason == "OUT_OF_MEMORY") return ExitStatus::kFailed;  // a full disk is bad input
   switch (error.code) {
     case Code::kCancelled:
       return ExitStatus::kCancelled;
@@ -11,7 +12,6 @@ ExitStatus exit_status(const Error& error) {
     case Code::kInternal:
     case Code::kUnavailable:
     case Code::kAborted:
-    case Code::kDataLoss:
       return ExitStatus::kFailed;
     default:
       return ExitStatus::kBadInput;

@@ -4,6 +4,7 @@
 #include <assimp/Importer.hpp>
 #include <exception>
 #include <memory>
+#include <new>
 
 #include "sim/mesh/file.h"
 #include "sim/mesh/ply_check.h"
@@ -73,6 +74,8 @@ Result<Model> import(const std::string& bytes, const std::filesystem::path& path
   for (unsigned m = 0; m < scene->mNumMeshes; ++m)
     HP_RETURN_IF_ERROR(append(*scene->mMeshes[m], path, model));
   return model;
+} catch (const std::bad_alloc&) {
+  throw;  // says nothing about the file
 } catch (const std::exception& e) {
   return bad_input(path, "", e.what());
 }

@@ -5,6 +5,7 @@
 #include <exception>
 #include <fstream>
 #include <map>
+#include <new>
 #include <optional>
 
 #include "sim/mesh/file.h"
@@ -387,6 +388,8 @@ Result<Model> read_gltf(std::string bytes, const std::filesystem::path& path,
                                        folder.string());
   if (!loaded) return bad_input(path, "", error.substr(0, 200) + std::string(kExportAgain));
   return GltfImporter(source, path).run();
+} catch (const std::bad_alloc&) {
+  throw;  // says nothing about the file
 } catch (const std::exception& e) {
   return bad_input(path, "", e.what());
 }

@@ -3,6 +3,7 @@
 #include <exception>
 #include <fstream>
 #include <map>
+#include <new>
 #include <set>
 #include <sstream>
 #include <streambuf>
@@ -275,6 +276,8 @@ Result<Model> read_obj(std::string bytes, const std::filesystem::path& path,
   HP_ASSIGN_OR_RETURN(ObjFacts facts, check_obj(bytes, path, context));
   HP_RETURN_IF_ERROR(check_face_count(facts.triangles, path));
   return ObjImporter(path, std::move(facts)).run(bytes);
+} catch (const std::bad_alloc&) {
+  throw;  // says nothing about the file
 } catch (const std::exception& e) {
   return bad_input(path, "", e.what());
 }

@@ -17,16 +17,22 @@ TEST(ExitStatus, WhatIsNotBuiltYetIsBadUsage) {
 }
 
 TEST(ExitStatus, WhatTheUserCanMendInTheInputIsBadInput) {
-  for (const Code code : {Code::kInvalidArgument, Code::kNotFound, Code::kAlreadyExists,
-                          Code::kPermissionDenied, Code::kFailedPrecondition, Code::kOutOfRange}) {
+  for (const Code code :
+       {Code::kInvalidArgument, Code::kNotFound, Code::kAlreadyExists, Code::kPermissionDenied,
+        Code::kFailedPrecondition, Code::kOutOfRange, Code::kResourceExhausted, Code::kDataLoss}) {
     EXPECT_EQ(static_cast<int>(status_of(code)), 3) << static_cast<int>(code);
   }
 }
 
 TEST(ExitStatus, WhatIsOurFaultIsFailed) {
-  for (const Code code : {Code::kInternal, Code::kUnavailable, Code::kAborted, Code::kDataLoss}) {
+  for (const Code code : {Code::kInternal, Code::kUnavailable, Code::kAborted}) {
     EXPECT_EQ(static_cast<int>(status_of(code)), 4) << static_cast<int>(code);
   }
+}
+
+TEST(ExitStatus, AFullDiskIsBadInputAndFullMemoryIsFailed) {
+  EXPECT_EQ(exit_status({Code::kResourceExhausted, "x", "DISK_FULL", {}}), ExitStatus::kBadInput);
+  EXPECT_EQ(exit_status({Code::kResourceExhausted, "x", "OUT_OF_MEMORY", {}}), ExitStatus::kFailed);
 }
 
 Result<int> half(int value) {
