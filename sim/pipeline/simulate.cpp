@@ -3,11 +3,15 @@
 #include <utility>
 
 #include "sim/image/film_image.h"
+#include "sim/image/film_texture.h"
 #include "sim/image/paint.h"
+#include "sim/image/pictures.h"
 #include "sim/mesh/read_model.h"
 
 namespace hydroprint::pipeline {
 namespace {
+
+constexpr double kFilmMapCell_mm = 1;  ///< contract: film_map.exr
 
 /// What would leave faces white though the model means them to have a colour.
 Status check_materials(const mesh::Model& model) {
@@ -25,6 +29,17 @@ Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
   const film::Outline& film = options.dip.outline;
   HP_ASSIGN_OR_RETURN(
       out.film, image::film_image(dip.surface, dip.map.tiles, paint, film, options.dpi, context));
+  context.progress("pictures", 0);
+  HP_ASSIGN_OR_RETURN(out.film_map,
+                      image::film_map(dip.surface, dip.map, film, kFilmMapCell_mm, context));
+  context.progress("pictures", 0.3);
+  HP_ASSIGN_OR_RETURN(out.stretch, image::stretch_picture(dip.surface, dip.X_FO, dip.map, context));
+  context.progress("pictures", 0.6);
+  HP_ASSIGN_OR_RETURN(
+      const image::FilmTexture printed,
+      image::FilmTexture::from_image(out.film, film, image::kPictureFilmSide_px, context));
+  HP_ASSIGN_OR_RETURN(out.predicted, image::predicted_picture(dip.surface, dip.X_FO, dip.map.tiles,
+                                                              printed, context));
   return out;
 }
 
@@ -32,16 +47,19 @@ Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
 
 Result<Simulation> simulate(const SimulateOptions& options, const Context& context) {
   Simulation out;
+  context.progress("reading", 0);
   HP_ASSIGN_OR_RETURN(out.model, mesh::read_model(options.mesh, options.scale, context));
+  DipOptions dip_options = options.dip;
+  dip_options.map.make_tiles = options.images;
   if (!options.images) {
-    HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, options.dip, context));
+    HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, dip_options, context));
     out.warnings = out.dip.warnings;
     return out;
   }
   if (!options.texture) HP_RETURN_IF_ERROR(check_materials(out.model));
   HP_ASSIGN_OR_RETURN(const image::Paint paint,
                       image::load_paint(out.model, options.texture, context));
-  HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, options.dip, context));
+  HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, dip_options, context));
   HP_ASSIGN_OR_RETURN(out.images, draw(out.dip, paint, options, context));
   out.warnings = out.dip.warnings;
   out.warnings.insert(out.warnings.end(), paint.warnings().begin(), paint.warnings().end());

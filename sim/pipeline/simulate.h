@@ -5,6 +5,7 @@
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
+#include "sim/image/film_map.h"
 #include "sim/image/picture.h"
 #include "sim/mesh/model.h"
 #include "sim/pipeline/pipeline.h"
@@ -23,7 +24,10 @@ struct SimulateOptions {
 
 /// What is made to be printed and looked at.
 struct SimulatedImages {
-  image::RgbImage film;  ///< the image to print
+  image::RgbImage film;       ///< the image to print
+  image::FilmMap film_map;    ///< where the film's points land
+  image::RgbImage stretch;    ///< picture of the stretch on the object
+  image::RgbImage predicted;  ///< picture of the object as it will look
 };
 
 struct Simulation {

@@ -9,8 +9,12 @@
 namespace hydroprint::worker {
 namespace {
 
+using Path = std::filesystem::path;
+
 /// A file to write: its name and how.
-using Task = std::pair<std::string, std::function<Status(const std::filesystem::path&)>>;
+using Task = std::pair<std::string, std::function<Status(const Path&)>>;
+
+constexpr double kScreenDpi = 96;  // of pictures to be looked at
 
 Result<std::vector<std::string>> write_all(const std::filesystem::path& folder,
                                            const std::vector<Task>& tasks, const Context& context) {
@@ -25,22 +29,49 @@ Result<std::vector<std::string>> write_all(const std::filesystem::path& folder,
   return names;
 }
 
+Task surface_map(const pipeline::Dip& dip) {
+  return {"surface_map.ply", [&dip](const Path& path) {
+            return write_surface_map(path, dip.surface, dip.map.surface);
+          }};
+}
+
+Task picture(const std::string& name, const image::RgbImage& image, double dpi) {
+  return {name, [&image, dpi](const Path& path) { return image::write_png(path, image, dpi); }};
+}
+
 }  // namespace
 
 Result<std::vector<std::string>> write_artifacts(const std::filesystem::path& folder,
                                                  const pipeline::Simulation& simulation, double dpi,
                                                  const Context& context) {
-  using Path = std::filesystem::path;
-  const pipeline::Dip& dip = simulation.dip;
-  std::vector<Task> tasks = {{"surface_map.ply", [&](const Path& path) {
-                                return write_surface_map(path, dip.surface, dip.map.surface);
-                              }}};
+  std::vector<Task> tasks = {surface_map(simulation.dip)};
   if (simulation.images) {
     const pipeline::SimulatedImages& images = *simulation.images;
-    tasks.emplace_back("film.png", [&images, dpi](const Path& path) {
-      return image::write_png(path, images.film, dpi);
+    tasks.push_back(picture("film.png", images.film, dpi));
+    tasks.emplace_back("film_map.exr", [&images](const Path& path) {
+      return image::write_film_map_exr(path, images.film_map);
+    });
+    tasks.push_back(picture("stretch.png", images.stretch, kScreenDpi));
+    tasks.push_back(picture("predicted.png", images.predicted, kScreenDpi));
+  }
+  return write_all(folder, tasks, context);
+}
+
+Result<std::vector<std::string>> write_artifacts(const std::filesystem::path& folder,
+                                                 const pipeline::Prediction& prediction,
+                                                 const Context& context) {
+  if (!prediction.images) return write_all(folder, {surface_map(prediction.dip)}, context);
+  const pipeline::PredictedImages& images = *prediction.images;
+  std::vector<Task> tasks = {{"landed.ply", [&](const Path& path) {
+                                return write_landed(path, prediction.dip.surface, images.landed);
+                              }}};
+  if (images.texture) {
+    tasks.emplace_back("landed.png", [&images](const Path& path) {
+      return image::write_png_rgba(path, images.texture->width, images.texture->height,
+                                   images.texture->rgba);
     });
   }
+  tasks.push_back(picture("predicted.png", images.picture, kScreenDpi));
   return write_all(folder, tasks, context);
 }
 

@@ -11,6 +11,8 @@
 #include "sim/worker/ending.h"
 #include "sim/worker/errors.h"
 #include "sim/worker/options.h"
+#include "sim/worker/quiet_stderr.h"
+#include "sim/worker/report.h"
 #include "sim/worker/run.h"
 
 namespace hydroprint::worker {
@@ -28,16 +30,28 @@ void occupy_standard_streams() {
 }
 
 /// Runs and turns what libraries may throw into an error.
-Status run_guarded(const Options& options, Ending& ending) {
+Result<Finished> run_guarded(const Options& options, Ending& ending, int stderr_fd) {
   const std::string mesh = options.mesh.string();
   try {
-    return run(options, ending);
+    return run(options, ending, stderr_fd);
   } catch (const std::bad_alloc&) {
     return fail(Code::kInternal,
                 mesh + ": out of memory. Use a smaller model, a lower --dpi or more memory",
                 "OUT_OF_MEMORY");
   } catch (const std::exception& error) {
     return fail(Code::kInternal, mesh + ": " + error.what() + ". Please report this");
+  }
+}
+
+void sum_up(const Finished& finished, bool json) {
+  const std::string text = json ? summary_json(finished.report, finished.dir)
+                                : summary_text(finished.report, finished.dir);
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+  if (json) return;
+  for (const Warning& warning : finished.report.warnings) {
+    const std::string line = one_line(warning.message + " (" + warning.where + ")");
+    std::fprintf(stderr, "hydroprint-worker: warning: %s\n", line.c_str());
   }
 }
 
@@ -55,14 +69,20 @@ int main_of(int argc, char** argv) {
       break;
   }
   const bool json = command.options.json;
-  Ending ending([json] {
+  const QuietStderr quiet;
+  Ending ending([&quiet, json] {
+    quiet.restore();
     tell({Code::kCancelled, "cancelled", {}, {}}, ExitStatus::kCancelled, json);
   });
-  const Status status = run_guarded(command.options, ending);
-  if (status) return 0;
+  const Result<Finished> finished = run_guarded(command.options, ending, quiet.own());
   ending.decide();
-  tell(status.error(), exit_status(status.error()), json);
-  return static_cast<int>(exit_status(status.error()));
+  quiet.restore();
+  if (finished) {
+    sum_up(*finished, json);
+    return 0;
+  }
+  tell(finished.error(), exit_status(finished.error()), json);
+  return static_cast<int>(exit_status(finished.error()));
 }
 
 }  // namespace

@@ -87,8 +87,7 @@ void add_common(CLI::App& app, Typed& typed) {
   app.add_option("--threads", o.threads, "Threads to compute on; default: all cores");
   app.add_option("--artifacts", typed.artifacts, "map: the map and report.json only")
       ->capture_default_str()
-      ->check(CLI::IsMember({"all", "map"}))
-      ->type_name("all|map");
+      ->check(CLI::IsMember({"all", "map"}));
   app.add_flag("--json", o.json, "Summary or error as one JSON object on stdout");
   app.add_option("--progress-fd", o.progress_fd,
                  "File descriptor to write progress to, one JSON object a line")
@@ -215,18 +214,18 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   typed.options.threads = all_cores();
   CLI::App* simulate =
       app.add_subcommand("simulate", "From a textured model to the film image to print");
+  add_common(*simulate, typed);
   add_path(*simulate, "--texture", typed.options.texture,
            "PNG, JPEG or TIFF; default: the model's own materials");
-  add_common(*simulate, typed);
   simulate->footer(kSimulateExamples);
 
   CLI::App* predict =
       app.add_subcommand("predict", "From a film image as printed to the colours that land");
+  add_common(*predict, typed);
   add_path(*predict, "--film-image", typed.options.film_image, "The film image as printed")
       ->required();
   add_path(*predict, "--motion", typed.options.motion, "Path as driven: t_s,x_mm,y_mm,z_mm",
            "FILE.csv");
-  add_common(*predict, typed);
   predict->footer(kPredictExamples);
 
   try {

@@ -39,8 +39,10 @@ void Progress::update(std::string_view stage, double fraction) {
     stage_start_s_ = now;
     fraction_ = 0;
   }
+  const bool was_done = fraction_ >= 1;
   fraction_ = std::clamp(fraction, fraction_, 1.0);
-  if (!new_stage && now - last_told_s_ < kInterval_s) return;
+  const bool changed = new_stage || (fraction_ >= 1 && !was_done);
+  if (!changed && now - last_told_s_ < kInterval_s) return;
   last_told_s_ = now;
   if (sink_) sink_(report(now));
 }

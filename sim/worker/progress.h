@@ -30,7 +30,8 @@ class Progress {
  public:
   /// @param stages  in the order of work; a stage not among them counts for nothing in the total
   /// @param now_s   a clock that never goes back
-  /// @param sink    told of changes, at most ten times a second within a stage
+  /// @param sink    told of changes: beginning and end of a stage, and at most ten times a second
+  ///                in between
   Progress(std::vector<Stage> stages, std::function<double()> now_s,
            std::function<void(const ProgressReport&)> sink);
 

@@ -3,7 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -42,21 +42,18 @@ void ProgressPipe::write(const ProgressReport& report) {
   }
 }
 
-void ProgressLine::show(const ProgressReport& report) {
-  const int filled = static_cast<int>(report.total_fraction * kBarLength);
-  std::string bar(static_cast<std::size_t>(kBarLength), '-');
-  std::fill_n(bar.begin(), filled, '#');
-  std::array<char, 160> line;
-  std::snprintf(line.data(), line.size(), "\r\x1b[K[%s] %3.0f %%  %.40s  %s", bar.c_str(),
-                100 * report.total_fraction, report.stage.c_str(),
-                report.eta_s ? time_left(*report.eta_s).c_str() : "");
-  std::fputs(line.data(), stderr);
-  shown_ = true;
+ProgressLine::ProgressLine(int fd) : fd_(::isatty(fd) == 1 ? fd : -1) {}
+
+ProgressLine::~ProgressLine() {
+  if (fd_ >= 0) ::dprintf(fd_, "\r\x1b[K");
 }
 
-void ProgressLine::clear() {
-  if (shown_) std::fputs("\r\x1b[K", stderr);
-  shown_ = false;
+void ProgressLine::show(const ProgressReport& report) const {
+  if (fd_ < 0) return;
+  std::string bar(static_cast<std::size_t>(kBarLength), '-');
+  std::fill_n(bar.begin(), static_cast<int>(report.total_fraction * kBarLength), '#');
+  ::dprintf(fd_, "\r\x1b[K[%s] %3.0f %%  %.40s  %s", bar.c_str(), 100 * report.total_fraction,
+            report.stage.c_str(), report.eta_s ? time_left(*report.eta_s).c_str() : "");
 }
 
 }  // namespace hydroprint::worker

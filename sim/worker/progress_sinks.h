@@ -16,16 +16,18 @@ class ProgressPipe {
   int fd_;
 };
 
-/// Keeps one line for people on the terminal behind stderr: stage, bar, time left.
+/// Keeps one line for people on a terminal: bar, stage, time left. Not a terminal: says nothing.
 class ProgressLine {
  public:
-  ~ProgressLine() { clear(); }
-  void show(const ProgressReport& report);
+  explicit ProgressLine(int fd);
   /// Leaves the line empty for what is to be said next.
-  void clear();
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+  void show(const ProgressReport& report) const;
 
  private:
-  bool shown_ = false;
+  int fd_;
 };
 
 }  // namespace hydroprint::worker

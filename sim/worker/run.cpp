@@ -1,9 +1,7 @@
 #include "sim/worker/run.h"
 
-#include <unistd.h>
-
 #include <chrono>
-#include <cstdio>
+#include <cmath>
 #include <functional>
 #include <span>
 #include <string>
@@ -12,9 +10,10 @@
 #include <vector>
 
 #include "sim/image/artifact_file.h"
+#include "sim/image/film_image.h"
+#include "sim/pipeline/predict.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/worker/artifacts.h"
-#include "sim/worker/errors.h"
 #include "sim/worker/motion_file.h"
 #include "sim/worker/out_folder.h"
 #include "sim/worker/pose_file.h"
@@ -32,10 +31,8 @@ std::vector<Stage> stages(const Options& options) {
   std::vector<Stage> out = {{"inputs", 1},    {"reading", 3},   {"surface", 2},
                             {"waterline", 8}, {"velocity", 25}, {"flow map", 25}};
   if (!options.map_only) {
-    for (const Stage& stage :
-         {Stage{"film image", 20}, Stage{"film map", 3}, Stage{"pictures", 5}}) {
-      out.push_back(stage);
-    }
+    if (options.verb == Verb::kSimulate) out.push_back({"film image", 20});
+    out.push_back({"pictures", 12});
   }
   out.push_back({"writing", 8});
   return out;
@@ -57,6 +54,18 @@ Result<std::vector<Input>> fingerprint(const std::vector<std::pair<std::string, 
   return out;
 }
 
+/// Refuses before the dip a film image that would be refused after it.
+Status check_film_image(const film::Outline& outline, double dpi) {
+  const image::FilmGrid grid = image::film_grid(outline, 25.4 / dpi);
+  const double pixels = static_cast<double>(grid.columns) * grid.rows;
+  if (pixels <= image::kMaxFilmImage_px) return {};
+  const int most_dpi = static_cast<int>(dpi * std::sqrt(image::kMaxFilmImage_px / pixels));
+  return fail(Code::kOutOfRange, "--dpi: the film image would have " +
+                                     std::to_string(grid.columns) + " x " +
+                                     std::to_string(grid.rows) + " pixels. Use at most " +
+                                     std::to_string(most_dpi) + " for this film");
+}
+
 Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip) {
   Report report;
   report.options = o;
@@ -68,6 +77,9 @@ Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip) {
                                                   {"film", film::polygon_file(o.film).value_or("")},
                                                   {"motion", o.motion}}));
   HP_ASSIGN_OR_RETURN(dip.outline, film::parse_outline(o.film));
+  if (o.verb == Verb::kSimulate && !o.map_only) {
+    HP_RETURN_IF_ERROR(check_film_image(dip.outline, o.dpi));
+  }
   if (!o.pose.empty()) {
     HP_ASSIGN_OR_RETURN(dip.X_FO, read_pose(o.pose));
   }
@@ -130,18 +142,33 @@ Status run_simulate(const Options& o, pipeline::DipOptions dip, OutFolder& folde
   return {};
 }
 
+Status run_predict(const Options& o, pipeline::DipOptions dip, OutFolder& folder, Report& report,
+                   const Context& context) {
+  pipeline::PredictOptions options;
+  options.mesh = o.mesh;
+  options.scale = o.scale;
+  options.film_image = o.film_image;
+  options.dip = std::move(dip);
+  options.images = !o.map_only;
+  HP_ASSIGN_OR_RETURN(const pipeline::Prediction prediction, pipeline::predict(options, context));
+  HP_RETURN_IF_ERROR(
+      complete(report, prediction.model, prediction.dip, prediction.warnings, false));
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_ASSIGN_OR_RETURN(report.artifacts, write_artifacts(folder.partial(), prediction, context));
+  return {};
+}
+
 /// Where progress goes: a pipe, a terminal, both or nowhere.
 class ProgressSink {
  public:
-  explicit ProgressSink(int fd) : pipe_(fd), to_terminal_(isatty(STDERR_FILENO) == 1) {}
+  ProgressSink(int pipe, int stderr_fd) : pipe_(pipe), line_(stderr_fd) {}
   void operator()(const ProgressReport& report) {
     pipe_.write(report);
-    if (to_terminal_) line_.show(report);
+    line_.show(report);
   }
 
  private:
   ProgressPipe pipe_;
-  bool to_terminal_;
   ProgressLine line_;
 };
 
@@ -151,8 +178,9 @@ Status compute(const Options& o, OutFolder& folder, Report& report, Progress& pr
   pipeline::DipOptions dip;
   HP_ASSIGN_OR_RETURN(report, read_parameters(o, dip));
   HP_RETURN_IF_ERROR(check_cancelled(context));
-  if (o.verb == Verb::kPredict) return fail(Code::kUnimplemented, "predict: not built yet");
-  HP_RETURN_IF_ERROR(run_simulate(o, std::move(dip), folder, report, context));
+  HP_RETURN_IF_ERROR(o.verb == Verb::kPredict
+                         ? run_predict(o, std::move(dip), folder, report, context)
+                         : run_simulate(o, std::move(dip), folder, report, context));
   report.stage_seconds = progress.stage_seconds();
   report.total_s = progress.total_s();
   const std::string text = report_json(report);
@@ -163,41 +191,29 @@ Status compute(const Options& o, OutFolder& folder, Report& report, Progress& pr
   return check_cancelled(context);
 }
 
-void sum_up(const Report& report, const OutFolder& folder, bool json) {
-  const std::string text =
-      json ? summary_json(report, folder.dir()) : summary_text(report, folder.dir());
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
-  if (json) return;
-  for (const Warning& warning : report.warnings) {
-    const std::string line = one_line(warning.message + " (" + warning.where + ")");
-    std::fprintf(stderr, "hydroprint-worker: warning: %s\n", line.c_str());
-  }
-}
-
 }  // namespace
 
-Status run(const Options& options, Ending& ending) {
+Result<Finished> run(const Options& options, Ending& ending, int stderr_fd) {
   HP_ASSIGN_OR_RETURN(OutFolder folder, OutFolder::plan(options.out));
   const CleanupAtEnding cleanup(ending, [&folder] { folder.abandon(); });
-  Report report;
+  Finished finished;
   {
-    ProgressSink sink(options.progress_fd);
+    ProgressSink sink(options.progress_fd, stderr_fd);
     Progress progress(stages(options), seconds_now, std::ref(sink));
     const Context context{
         options.threads,
         [&progress](std::string_view stage, double fraction) { progress.update(stage, fraction); },
         [&ending] { return ending.requested(); }};
-    Status status = compute(options, folder, report, progress, context);
+    Status status = compute(options, folder, finished.report, progress, context);
     if (!status) {
       status.error().message = folder.in_terms_of_dir(std::move(status.error().message));
-      return status;
+      return tl::unexpected(std::move(status).error());
     }
   }
   ending.decide();
   HP_RETURN_IF_ERROR(folder.commit());
-  sum_up(report, folder, options.json);
-  return {};
+  finished.dir = folder.dir();
+  return finished;
 }
 
 }  // namespace hydroprint::worker

@@ -1,7 +1,9 @@
 #include "sim/worker/surface_ply.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <span>
@@ -21,6 +23,10 @@ void put(std::string& bytes, Value value) {
 
 void put(std::string& bytes, const Eigen::Vector3d& point) {
   for (const double coordinate : point) put(bytes, coordinate);
+}
+
+std::uint8_t byte(float channel) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(channel, 0.0f, 1.0f)));
 }
 
 /// @param properties  lines of the header, after x, y, z
@@ -62,14 +68,15 @@ Status write_surface_map(const std::filesystem::path& path, const mesh::Surface&
 }
 
 Status write_landed(const std::filesystem::path& path, const mesh::Surface& surface,
-                    const std::vector<Landed>& landed) {
+                    const std::vector<Eigen::Vector3f>& colours) {
   std::string bytes = header(surface,
                              "property uchar red\nproperty uchar green\nproperty uchar blue\n"
                              "property uchar landed\n");
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     put(bytes, surface.points[i]);
-    for (const std::uint8_t channel : landed[i].rgb) put(bytes, channel);
-    put(bytes, static_cast<std::uint8_t>(landed[i].landed ? 1 : 0));
+    const bool landed = colours[i].allFinite();
+    for (const float channel : colours[i]) put(bytes, landed ? byte(channel) : std::uint8_t{255});
+    put(bytes, static_cast<std::uint8_t>(landed ? 1 : 0));
   }
   return write(path, surface, std::move(bytes));
 }

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -18,14 +16,10 @@ namespace hydroprint::worker {
 [[nodiscard]] Status write_surface_map(const std::filesystem::path& path,
                                        const mesh::Surface& surface, const flow::SurfaceMap& map);
 
-/// What lands on one point of the surface: sRGB, and whether any film does.
-struct Landed {
-  std::array<std::uint8_t, 3> rgb = {255, 255, 255};
-  bool landed = false;
-};
-
-/// Writes landed.ply: per point x, y, z, red, green, blue, landed (0 or 1); then the triangles.
+/// Writes landed.ply: per point x, y, z (O, mm), red, green, blue and landed (1, or 0 where no film
+/// arrives); then the triangles. Fails as image::write_artifact does.
+/// @param colours  per point, sRGB-coded in [0, 1]; NaN where no film arrives, which shows as white
 [[nodiscard]] Status write_landed(const std::filesystem::path& path, const mesh::Surface& surface,
-                                  const std::vector<Landed>& landed);
+                                  const std::vector<Eigen::Vector3f>& colours);
 
 }  // namespace hydroprint::worker

@@ -1,0 +1,47 @@
+#include "sim/pipeline/predict.h"
+
+#include "sim/image/film_texture.h"
+#include "sim/image/pictures.h"
+#include "sim/mesh/read_model.h"
+
+namespace hydroprint::pipeline {
+namespace {
+
+/// Side of the texture that lands, in texels: a film image on A4 at 300 dpi has as many.
+constexpr int kTextureSide_px = 2048;
+
+Result<PredictedImages> draw(const mesh::Model& model, const Dip& dip,
+                             const image::FilmTexture& film, const Context& context) {
+  PredictedImages out;
+  context.progress("pictures", 0);
+  out.landed = image::landed_colours(dip.map.surface, film);
+  if (!model.corner_uvs.empty()) {
+    HP_ASSIGN_OR_RETURN(
+        out.texture, image::landed_texture(model, dip.surface, dip.map.tiles, film, kTextureSide_px,
+                                           kTextureSide_px, context));
+  }
+  context.progress("pictures", 0.5);
+  HP_ASSIGN_OR_RETURN(
+      out.picture, image::predicted_picture(dip.surface, dip.X_FO, dip.map.tiles, film, context));
+  return out;
+}
+
+}  // namespace
+
+Result<Prediction> predict(const PredictOptions& options, const Context& context) {
+  Prediction out;
+  context.progress("reading", 0);
+  HP_ASSIGN_OR_RETURN(const image::FilmTexture film,
+                      image::FilmTexture::read(options.film_image, options.dip.outline, context));
+  HP_ASSIGN_OR_RETURN(out.model, mesh::read_model(options.mesh, options.scale, context));
+  DipOptions dip_options = options.dip;
+  dip_options.map.make_tiles = options.images;
+  HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, dip_options, context));
+  out.warnings = out.dip.warnings;
+  if (options.images) {
+    HP_ASSIGN_OR_RETURN(out.images, draw(out.model, out.dip, film, context));
+  }
+  return out;
+}
+
+}  // namespace hydroprint::pipeline

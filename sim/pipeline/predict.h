@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/image/landed.h"
+#include "sim/image/picture.h"
+#include "sim/mesh/model.h"
+#include "sim/pipeline/pipeline.h"
+
+namespace hydroprint::pipeline {
+
+/// From a film image as printed to what lands on the object.
+struct PredictOptions {
+  std::filesystem::path mesh;
+  double scale = 1;                  ///< model units to mm
+  std::filesystem::path film_image;  ///< any image at the film's size
+  DipOptions dip;                    ///< the true pose, and the path as driven
+  bool images = true;                ///< false: where the film lands, and nothing to look at
+};
+
+/// The colours that land.
+struct PredictedImages {
+  std::vector<Eigen::Vector3f> landed;      ///< per point of the surface; NaN: no film arrives
+  std::optional<image::RgbaImage> texture;  ///< the same as a texture; none: no UVs
+  image::RgbImage picture;                  ///< of the object
+};
+
+struct Prediction {
+  mesh::Model model;
+  Dip dip;
+  std::optional<PredictedImages> images;
+  Warnings warnings;  ///< of every stage
+};
+
+/// The chain of section 4 the other way: film image, model, dip, colours, pictures. Refuses what
+/// its stages refuse.
+[[nodiscard]] Result<Prediction> predict(const PredictOptions& options, const Context& context);
+
+}  // namespace hydroprint::pipeline
