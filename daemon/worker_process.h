@@ -15,8 +15,7 @@ namespace hydroprint::daemon {
 struct Launch {
   std::filesystem::path program;
   std::vector<std::string> arguments;  ///< without the program's name
-  std::filesystem::path inputs;        ///< working folder: what it may read
-  std::filesystem::path work;          ///< the only folder it may write in
+  std::filesystem::path folder;        ///< working folder, also for temporary files
   Limits limits;
 };
 

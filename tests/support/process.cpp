@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,6 +41,7 @@ Process::Process(std::vector<std::string> arguments, const ProcessOptions& optio
   start_s_ = seconds_now();
   pid_ = ::fork();
   if (pid_ != 0) return;
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that is killed takes its programs along
   open_as(STDOUT_FILENO, out.c_str());
   open_as(STDERR_FILENO, err.c_str());
   if (options.close_stdout) ::close(STDOUT_FILENO);

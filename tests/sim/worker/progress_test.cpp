@@ -60,7 +60,15 @@ TEST(Progress, TellsAtMostTenTimesASecondWithinAStage) {
   Bench bench;
   for (int i = 0; i <= 1000; ++i) bench.update(i / 1000.0, "velocity", i / 1000.0);
   EXPECT_GE(bench.told.size(), 9u);
-  EXPECT_LE(bench.told.size(), 11u);
+  EXPECT_LE(bench.told.size(), 12u);
+}
+
+TEST(Progress, TheEndOfAStageIsAlwaysToldAndOnce) {
+  Bench bench;
+  bench.update(0, "velocity", 0);
+  for (int i = 1; i < 5; ++i) bench.update(0.01 * i, "velocity", 1);
+  ASSERT_EQ(bench.told.size(), 2u);
+  EXPECT_EQ(bench.told[1].total_fraction, 1);
 }
 
 TEST(Progress, SecondsAreCountedPerStageAlsoWhenOneComesBack) {
