@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "daemon/file_fence.h"
 #include "daemon/log.h"
 #include "daemon/schema.h"
 
@@ -84,6 +85,10 @@ Status Daemon::start_serving(const Config& config) {
                         stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
+  if (!fences_work()) {
+    log(LogLevel::kWarning, "files_not_fenced",
+        {{"message", "this kernel has no Landlock: workers see all files of this user"}});
+  }
   pool_->start();
   return {};
 }

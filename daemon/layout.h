@@ -17,10 +17,19 @@ struct Layout {
   }
   [[nodiscard]] std::filesystem::path uploads() const { return root / "uploads"; }
   [[nodiscard]] std::filesystem::path upload(const std::string& id) const { return uploads() / id; }
-  /// Folders of the jobs that run now: their inputs, and what they write until it is published.
+  /// Folders of the jobs that run now: their inputs, and where they write until it is published.
   [[nodiscard]] std::filesystem::path runs() const { return root / "runs"; }
   [[nodiscard]] std::filesystem::path run(std::int64_t job) const {
     return runs() / std::to_string(job);
+  }
+  [[nodiscard]] std::filesystem::path run_inputs(std::int64_t job) const { return run(job) / "in"; }
+  [[nodiscard]] std::filesystem::path run_work(std::int64_t job) const { return run(job) / "work"; }
+  [[nodiscard]] std::filesystem::path run_out(std::int64_t job) const {
+    return run_work(job) / "out";
+  }
+  /// The pose that the job was given, apart from its inputs, whose names it might collide with.
+  [[nodiscard]] std::filesystem::path run_pose(std::int64_t job) const {
+    return run_work(job) / "pose.json";
   }
   [[nodiscard]] std::filesystem::path artifacts() const { return root / "artifacts"; }
   [[nodiscard]] std::filesystem::path artifacts(std::int64_t job) const {

@@ -223,9 +223,9 @@ void WorkerPool::Impl::start_job(const Job& job) {
 }
 
 Status WorkerPool::Impl::make_run_folder(const Job& job) const {
-  HP_RETURN_IF_ERROR(make_folder(layout.run(job.id)));
+  HP_RETURN_IF_ERROR(make_folder(layout.run_work(job.id)));
   if (job.made.work.pose_json.empty()) return {};
-  const auto path = layout.run(job.id) / "pose.json";
+  const auto path = layout.run_pose(job.id);
   HP_ASSIGN_OR_RETURN(const UniqueFd file, open_file(path, O_WRONLY | O_CREAT | O_TRUNC));
   return write_at(file, path, job.made.work.pose_json, 0);
 }
@@ -250,15 +250,16 @@ Launch WorkerPool::Impl::plan(const Job& job) const {
                                             : shared;
   Launch launch;
   launch.program = options.program;
-  launch.folder = layout.run(job.id) / "in";
+  launch.inputs = layout.run_inputs(job.id);
+  launch.work = layout.run_work(job.id);
   launch.arguments = {job.made.work.verb};
   const auto& flags = job.made.work.flags;
   launch.arguments.insert(launch.arguments.end(), flags.begin(), flags.end());
   if (!job.made.work.pose_json.empty()) {
-    launch.arguments.push_back("--pose=" + (layout.run(job.id) / "pose.json").string());
+    launch.arguments.push_back("--pose=" + layout.run_pose(job.id).string());
   }
   launch.arguments.push_back("--threads=" + std::to_string(threads));
-  launch.arguments.push_back("--out=" + (layout.run(job.id) / "out").string());
+  launch.arguments.push_back("--out=" + layout.run_out(job.id).string());
   launch.arguments.push_back("--progress-fd=" + std::to_string(kProgressFd));
   launch.limits = {options.memory_bytes,
                    options.time_limit_s * std::max(threads, options.cores) + 10,

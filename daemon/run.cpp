@@ -48,7 +48,7 @@ Result<std::unique_ptr<Run>> Run::start(const Job& job, const Launch& launch_pla
                                         std::function<void()> wake) {
   std::unique_ptr<Run> run(new Run(job, layout));
   run->wake_ = std::move(wake);
-  HP_RETURN_IF_ERROR(lay_out_inputs(layout, job.made.work.inputs, launch_plan.folder));
+  HP_RETURN_IF_ERROR(lay_out_inputs(layout, job.made.work.inputs, launch_plan.inputs));
   HP_ASSIGN_OR_RETURN(run->worker_, launch(launch_plan, sandbox));
   run->memory_bytes_ = launch_plan.limits.memory_bytes;
   run->deadline_ = SteadyClock::now() + time_limit;
@@ -160,7 +160,7 @@ bool Run::reap() {
 // Hashing and syncing large files takes a while; other jobs need the pool's thread meanwhile.
 void Run::begin_publishing() {
   publishing_ = std::async(std::launch::async, [this] {
-    auto result = publish_artifacts(layout_.run(job_.id) / "out", layout_.artifacts(job_.id));
+    auto result = publish_artifacts(layout_.run_out(job_.id), layout_.artifacts(job_.id));
     wake_();
     return result;
   });

@@ -14,14 +14,15 @@
 #include <cerrno>
 #include <memory>
 
+#include "daemon/file_fence.h"
 #include "daemon/files.h"
 
 namespace hydroprint::daemon {
 namespace {
 
 // Refused with EACCES. No socket of any family: no network, and no talking to other services of the
-// same user either. io_uring could open sockets past a filter; the others reach into other
-// processes or into the kernel's workings.
+// same user either. io_uring could open sockets past a filter, and truncate() passes older file
+// fences; the others reach into other processes or into the kernel's workings.
 constexpr std::array kRefused{
     SCMP_SYS(socket),
     SCMP_SYS(connect),
@@ -50,6 +51,7 @@ constexpr std::array kRefused{
     SCMP_SYS(request_key),
     SCMP_SYS(userfaultfd),
     SCMP_SYS(setsid),
+    SCMP_SYS(truncate),
 };
 
 constexpr const char* kNoSandbox =
@@ -103,7 +105,7 @@ Result<Sandbox> Sandbox::make() {
   return sandbox;
 }
 
-const char* Sandbox::confine(const Limits& limits) const {
+const char* Sandbox::confine(const Limits& limits, int fence) const {
   volunteer_for_oom();
   if (!limit(RLIMIT_CORE, 0) || !limit(RLIMIT_NOFILE, 256) ||
       !limit(RLIMIT_FSIZE, limits.file_bytes) || !limit(RLIMIT_CPU, limits.cpu_s, 5)) {
@@ -117,6 +119,7 @@ const char* Sandbox::confine(const Limits& limits) const {
     return "cannot set the memory limit";
   }
   if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return "cannot give up privileges";
+  if (!enter_fence(fence)) return "cannot fence off files";
   const sock_fprog program{static_cast<unsigned short>(filter_.size()),
                            const_cast<sock_filter*>(filter_.data())};
   if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0) return "cannot shut the network";

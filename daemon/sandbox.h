@@ -17,16 +17,17 @@ struct Limits {
 };
 
 /// What keeps a worker, which opens files from strangers, from doing harm: no network, no look at
-/// other processes, no new privileges, limits on what it uses up. Made once, before there are
-/// workers; confine() runs in the child.
+/// other processes, no new privileges, no files but its own (see file_fence.h), limits on what it
+/// uses up. Made once, before there are workers; confine() runs in the child.
 class Sandbox {
  public:
   /// kFailedPrecondition if the machine's kernel or seccomp library cannot do it.
   [[nodiscard]] static Result<Sandbox> make();
 
   /// Confines the calling process for good. Between fork and exec: calls nothing that takes locks.
+  /// @param fence  see make_fence(); below 0: none
   /// @return what failed, or nullptr
-  [[nodiscard]] const char* confine(const Limits& limits) const;
+  [[nodiscard]] const char* confine(const Limits& limits, int fence) const;
 
  private:
   std::vector<sock_filter> filter_;

@@ -12,6 +12,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "daemon/file_fence.h"
+
 namespace hydroprint::daemon {
 namespace {
 
@@ -35,9 +37,9 @@ Result<Pipe> make_pipe() {
 }
 
 // Little of the daemon's environment reaches a worker: what sanitizers and the loader need.
-std::vector<std::string> make_environment(const std::filesystem::path& folder) {
-  std::vector<std::string> out{"PATH=/usr/bin:/bin", "LANG=C.UTF-8", "HOME=" + folder.string(),
-                               "TMPDIR=" + folder.string()};
+std::vector<std::string> make_environment(const std::filesystem::path& work) {
+  std::vector<std::string> out{"PATH=/usr/bin:/bin", "LANG=C.UTF-8", "HOME=" + work.string(),
+                               "TMPDIR=" + work.string()};
   for (const char* name :
        {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS"}) {
     if (const char* value = std::getenv(name)) out.push_back(std::string(name) + "=" + value);
@@ -58,7 +60,7 @@ struct ChildPlan {
   char* const* arguments;
   char* const* environment;
   const char* folder;
-  int null, progress, errors;
+  int null, progress, errors, fence;
   pid_t parent;
 };
 
@@ -76,7 +78,6 @@ struct ChildPlan {
   ::dup2(plan.null, 0);
   ::dup2(plan.null, 1);
   ::dup2(plan.progress, kProgressFd);
-  ::close_range(kProgressFd + 1, ~0U, 0);
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != plan.parent) ::_exit(127);  // the daemon died before that took effect
@@ -85,7 +86,8 @@ struct ChildPlan {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
   if (::chdir(plan.folder) != 0) give_up(plan.folder);
-  if (const char* problem = sandbox.confine(limits)) give_up(problem);
+  if (const char* problem = sandbox.confine(limits, plan.fence)) give_up(problem);
+  ::close_range(kProgressFd + 1, ~0U, 0);
   ::execve(plan.program, plan.arguments, plan.environment);
   give_up(plan.program);
 }
@@ -97,13 +99,14 @@ Result<WorkerProcess> launch(const Launch& what, const Sandbox& sandbox) {
   HP_ASSIGN_OR_RETURN(Pipe errors, make_pipe());
   const UniqueFd null_low(::open("/dev/null", O_RDWR | O_CLOEXEC));
   const UniqueFd null(::fcntl(null_low.get(), F_DUPFD_CLOEXEC, 10));
+  HP_ASSIGN_OR_RETURN(const UniqueFd fence, make_fence(what.program, what.inputs, what.work));
   std::vector<std::string> arguments = what.arguments;
   arguments.insert(arguments.begin(), what.program.string());
-  std::vector<std::string> environment = make_environment(what.folder);
+  std::vector<std::string> environment = make_environment(what.work);
   const std::vector<char*> argv = pointers(arguments), envp = pointers(environment);
   const ChildPlan plan{what.program.c_str(), argv.data(), envp.data(),
-                       what.folder.c_str(),  null.get(),  progress.write.get(),
-                       errors.write.get(),   ::getpid()};
+                       what.inputs.c_str(),  null.get(),  progress.write.get(),
+                       errors.write.get(),   fence.get(), ::getpid()};
   WorkerProcess worker;
   worker.pid = ::fork();
   if (worker.pid == 0) become_worker(plan, what.limits, sandbox);

@@ -15,7 +15,8 @@ namespace hydroprint::daemon {
 struct Launch {
   std::filesystem::path program;
   std::vector<std::string> arguments;  ///< without the program's name
-  std::filesystem::path folder;        ///< working folder, also for temporary files
+  std::filesystem::path inputs;        ///< working folder: what it may read
+  std::filesystem::path work;          ///< the only folder it may write in
   Limits limits;
 };
 

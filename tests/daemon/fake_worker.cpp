@@ -5,6 +5,7 @@
 //   whether it could open a socket     nothing   leaves no artifacts link              leaves a
 //   symbolic link as artifact      babble    writes nonsense as progress orphan            leaves a
 //   child behind                   kill-parent  tries to kill the daemon
+//   read FILE         says whether it could                   write FILE   says whether it could
 // and then leaves film.png and report.json.
 #include <signal.h>
 #include <sys/socket.h>
@@ -87,6 +88,12 @@ void obey(const std::string& line) {
   } else if (command == "socket") {
     facts += socket(AF_INET, SOCK_STREAM, 0) < 0 ? " no-inet" : " INET";
     facts += socket(AF_UNIX, SOCK_STREAM, 0) < 0 ? " no-unix" : " UNIX";
+  } else if (command == "read") {
+    words >> rest;
+    facts += std::ifstream(rest).get() < 0 ? " cannot-read" : " READ";
+  } else if (command == "write") {
+    words >> rest;
+    facts += std::ofstream(rest, std::ios::app).put('x').flush() ? " WROTE" : " cannot-write";
   } else if (command == "kill-parent") {
     facts += kill(getppid(), SIGKILL) < 0 ? " no-kill" : " KILL";
   } else if (command == "nothing") {

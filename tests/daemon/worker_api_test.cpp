@@ -7,6 +7,7 @@
 #include <sstream>
 #include <thread>
 
+#include "daemon/file_fence.h"
 #include "tests/daemon/support.h"
 
 namespace hydroprint::tests {
@@ -132,6 +133,20 @@ TEST_F(Workers, HaveNoNetworkAndCannotHarmTheDaemon) {
   ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
   const std::string report = client->download(job.name() + "/artifacts/report.json");
   EXPECT_NE(report.find("no-inet no-unix no-kill"), std::string::npos) << report;
+}
+
+TEST_F(Workers, ReadTheirOwnInputsAndChangeNothingOutsideTheirFolder) {
+  if (!hydroprint::daemon::fences_work()) GTEST_SKIP() << "this kernel has no Landlock";
+  start(DaemonProcess::fake());
+  const auto secret = folder.write("secret", "secret");
+  const v1::Job job =
+      run("read m.obj\nwrite m.obj\nread " + secret.string() + "\nwrite " + secret.string() +
+          "\nread " + (daemon->state() / "hydroprint.db").string() + "\nread /etc/passwd");
+  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  const std::string report = client->download(job.name() + "/artifacts/report.json");
+  EXPECT_NE(report.find("READ cannot-write cannot-read cannot-write cannot-read READ"),
+            std::string::npos)
+      << report;
 }
 
 TEST_F(Workers, ChildrenTheyLeaveBehindAreEnded) {

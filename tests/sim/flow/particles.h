@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "sim/flow/trace.h"
+#include "sim/waterline/body.h"
+
+namespace hydroprint::flow::testing {
+
+/// The paper's way (section 4.5), as plainly as possible: film points advected with the velocity
+/// field, interpolated linearly in depth, by small steps of the fourth-order Runge-Kutta rule,
+/// until the way of the point through the water's surface crosses a triangle of the body.
+class Particles {
+ public:
+  Particles(const waterline::Body& body, const DipField& dip, double step_mm);
+
+  struct Contact {
+    int triangle = 0;
+    Eigen::Vector3d barycentric;
+  };
+
+  /// Where the film point lands; nothing if it still floats at the end of the dip.
+  [[nodiscard]] std::optional<Contact> follow(Eigen::Vector2d film_mm) const;
+
+ private:
+  [[nodiscard]] Eigen::Vector2d velocity(const Eigen::Vector2d& point_mm, double depth_mm) const;
+  [[nodiscard]] std::optional<Contact> contact(const Eigen::Vector3d& from,
+                                               const Eigen::Vector3d& to) const;
+
+  const waterline::Body& body_;
+  const DipField& dip_;
+  double step_mm_;
+  std::vector<std::vector<int>> layers_;  ///< triangles per millimetre of height
+};
+
+}  // namespace hydroprint::flow::testing

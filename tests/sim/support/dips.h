@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+
+#include "sim/film/outline.h"
+#include "sim/flow/trace.h"
+#include "sim/mesh/surface.h"
+#include "sim/velocity/film_mesh.h"
+#include "sim/waterline/body.h"
+#include "sim/waterline/motion.h"
+#include "sim/waterline/schedule.h"
+
+namespace hydroprint::testing {
+
+/// How a test dips: like the pipeline, but every stage stays at hand.
+struct DipSetting {
+  film::Outline film;
+  double depth_mm = 1e9;  ///< no deeper than the body is high
+  waterline::ScheduleOptions schedule;
+  velocity::MeshOptions mesh;
+  waterline::Motion motion;
+  double max_edge_mm = 2;
+
+  /// Every length of the discretisation multiplied.
+  void coarsen(double factor);
+};
+
+struct SolvedDip {
+  mesh::Surface surface;
+  waterline::Body body;
+  flow::DipField field;
+};
+
+/// Waterlines, film meshes and velocities of a dip of the model where its own coordinates put it.
+[[nodiscard]] SolvedDip solve_dip(const mesh::Model& model, const DipSetting& setting);
+
+/// A regular polygon with the area of a circle: a circular film with few corners.
+[[nodiscard]] film::Outline round_film(double radius_mm, int corners = 120, double turn_rad = 0);
+
+[[nodiscard]] film::Outline film_of(const std::string& text);
+
+}  // namespace hydroprint::testing
