@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "client/files.h"
@@ -35,6 +36,12 @@ std::string_view trim(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
+std::string_view unquote(std::string_view text) {
+  while (text.starts_with('"')) text.remove_prefix(1);
+  while (text.ends_with('"')) text.remove_suffix(1);
+  return trim(text);
+}
+
 /// Splits off the first word.
 std::pair<std::string_view, std::string_view> word(std::string_view text) {
   text = trim(text);
@@ -50,43 +57,42 @@ class Collector {
       : folder_(model.parent_path()), model_name_(model.filename().string()) {}
 
   [[nodiscard]] std::filesystem::path path_of(std::string_view name) const {
-    return folder_ / plain(name);
+    return folder_ / name;
   }
 
-  [[nodiscard]] bool exists(std::string_view name) const {
+  /// The file beside `from` that a reader would take for `name`: the name with any kind of slash,
+  /// or else its last part alone. Never one outside of the model's folder.
+  [[nodiscard]] std::optional<std::string> resolve(std::string_view name,
+                                                   const std::string& from) const {
+    const std::filesystem::path base = std::filesystem::path(from).parent_path();
+    const std::filesystem::path named = with_slashes(name);
     std::error_code error;
-    return leads_inside(plain(name)) && std::filesystem::is_regular_file(path_of(name), error);
+    for (const auto& path : {base / named, base / named.filename()}) {
+      const std::filesystem::path plain = path.lexically_normal();
+      if (!plain.has_filename() || plain.is_absolute() || *plain.begin() == "..") continue;
+      if (std::filesystem::is_regular_file(folder_ / plain, error)) return plain.generic_string();
+    }
+    return std::nullopt;
   }
 
-  /// @param from  the file that mentions `name`, for the note if it cannot be sent
+  /// @param from  the file that mentions `name`, relative to the model's folder
   void add(std::string_view name, const std::string& from) {
-    const std::string clean = plain(name);
-    if (clean.empty() || !seen_.insert(clean).second) return;
-    if (!leads_inside(clean)) {
+    const auto found = resolve(name, from);
+    if (!seen_.insert(found.value_or(std::string(name))).second) return;
+    if (!found)
       result_.notes.push_back(from + " refers to '" + std::string(name) +
-                              "', which is outside of its folder: not sent; move it next to " +
-                              model_name_ + ", or give a texture with --texture");
-    } else if (!exists(clean)) {
-      result_.notes.push_back(from + " refers to '" + std::string(name) + "', which is not there");
-    } else if (clean != model_name_) {
-      result_.files.push_back({clean, path_of(clean)});
-    }
+                              "', which is not in its folder: not sent");
+    else if (*found != model_name_)
+      result_.files.push_back({*found, path_of(*found)});
   }
 
   References take() { return std::move(result_); }
 
  private:
-  /// '/' between parts, no "./"; as the worker will look for it.
-  static std::string plain(std::string_view name) {
+  static std::string with_slashes(std::string_view name) {
     std::string text(name);
     std::replace(text.begin(), text.end(), '\\', '/');
-    return std::filesystem::path(text).lexically_normal().generic_string();
-  }
-
-  static bool leads_inside(const std::string& name) {
-    const std::filesystem::path path(name);
-    return !name.empty() && path.is_relative() && *path.begin() != ".." &&
-           !(name.size() > 1 && name[1] == ':');
+    return text;
   }
 
   std::filesystem::path folder_;
@@ -118,35 +124,28 @@ std::string_view skip_map_options(std::string_view rest) {
   }
 }
 
-void follow_mtl(std::string_view name, Collector& collector) {
+/// @param name  of a material library that is there, relative to the model's folder
+void follow_mtl(const std::string& name, Collector& collector) {
   const auto text = read_text(collector.path_of(name), kMaxMtlBytes);
   if (!text) return;  // the worker says what is wrong with it
-  const std::string folder = std::filesystem::path(name).parent_path().generic_string();
   std::istringstream lines(*text);
   for (std::string line; std::getline(lines, line);) {
     const auto [key, rest] = word(line);
     if (lower(std::string(key)) != "map_kd") continue;
-    const std::string_view texture = skip_map_options(rest);
-    if (texture.empty()) continue;
-    // Readers differ in whether such a name starts at the library or at the model.
-    const std::string beside = folder + "/" + std::string(texture);
-    if (!folder.empty() && collector.exists(beside)) collector.add(beside, std::string(name));
-    if (folder.empty() || collector.exists(texture)) collector.add(texture, std::string(name));
+    const std::string_view texture = unquote(skip_map_options(rest));
+    if (!texture.empty()) collector.add(texture, name);
   }
 }
 
 void follow_mtllib(std::string_view names, const std::string& model, Collector& collector) {
-  // Several names may stand on the line, and a name may contain blanks.
-  if (collector.exists(names) || names.find_first_of(" \t") == std::string_view::npos) {
-    collector.add(names, model);
-    return follow_mtl(names, collector);
-  }
-  while (!names.empty()) {
-    const auto [name, rest] = word(names);
+  const auto follow = [&](std::string_view name) {
     collector.add(name, model);
-    follow_mtl(name, collector);
-    names = rest;
-  }
+    if (const auto found = collector.resolve(name, model)) follow_mtl(*found, collector);
+  };
+  // The line may be one name with blanks, or several names.
+  if (collector.resolve(unquote(names), model)) return follow(unquote(names));
+  for (auto [name, rest] = word(names); !name.empty(); std::tie(name, rest) = word(rest))
+    follow(name);
 }
 
 Status follow_obj(const std::filesystem::path& path, Collector& collector) {
@@ -160,7 +159,7 @@ Status follow_obj(const std::filesystem::path& path, Collector& collector) {
   };
   HP_RETURN_IF_ERROR(read_file(path, 0, [&](std::string_view bytes) {
     for (const char c : bytes) {
-      if (c == '\n')
+      if (c == '\n' || c == '\r')
         take_line();
       else if (line.size() < 4096)
         line += c;
@@ -239,7 +238,8 @@ Status follow_ply(const std::filesystem::path& path, Collector& collector) {
   for (std::string line; std::getline(lines, line);) {
     const auto [comment, rest] = word(line);
     const auto [key, name] = word(rest);
-    if (comment == "comment" && key == "TextureFile") collector.add(name, path.filename().string());
+    if (comment == "comment" && key == "TextureFile")
+      collector.add(unquote(name), path.filename().string());
   }
   return {};
 }

@@ -24,8 +24,9 @@ void JobDisplay::update(const client::JobUpdate& update) {
   };
   if (update.event) take(*update.event);
   if (update.job) take(*update.job);
+  if (client::is_finished(state_)) return;  // how it ended is for whoever waits to say
   if (update.event && !update.event->message.empty()) say(job_ + ": " + update.event->message);
-  if (!client::is_finished(state_)) show();
+  show();
 }
 
 void JobDisplay::say(const std::string& text) {

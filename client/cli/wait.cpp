@@ -31,7 +31,7 @@ Error why(const client::Job& job) {
     return {Code::kCancelled, job.name + " was cancelled", {}};
   const client::JobError error = job.error.value_or(client::JobError{});
   const Code code = error.code == "INVALID_ARGUMENT" ? Code::kInvalidArgument : Code::kInternal;
-  return {code, job.name + " failed: " + error.message, error.reason};
+  return {code, job.name + " failed: " + error.message, error.reason, {{"job", job.name}}};
 }
 
 std::string summary(const client::Job& job) {

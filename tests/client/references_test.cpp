@@ -62,6 +62,20 @@ TEST_F(FindReferences, MayBeWrittenWithBackslashes) {
   EXPECT_EQ(names("a.obj"), (Names{"a.mtl", "sub/skin.png"}));
 }
 
+TEST_F(FindReferences, InALibraryStartAtTheLibrary) {
+  folder_.write("a.obj", "mtllib sub/a.mtl\n");
+  folder_.write("sub/a.mtl", "map_Kd skin.png\n");
+  folder_.write("sub/skin.png", "");
+  EXPECT_EQ(names("a.obj"), (Names{"sub/a.mtl", "sub/skin.png"}));
+}
+
+TEST_F(FindReferences, WithAnotherMachinesPathAreFoundBesideTheModel) {
+  folder_.write("a.obj", "mtllib a.mtl\n");
+  folder_.write("a.mtl", "map_Kd \"C:\\Users\\x\\my skin.png\"\n");
+  folder_.write("my skin.png", "");
+  EXPECT_EQ(names("a.obj"), (Names{"a.mtl", "my skin.png"}));
+}
+
 TEST_F(FindReferences, ThatLeadOutOfTheFolderAreNotedAndNotSent) {
   folder_.write("secret.mtl", "");
   folder_.write("sub/a.obj", "mtllib ../secret.mtl\nmtllib /etc/passwd\nmtllib C:\\x.mtl\n");

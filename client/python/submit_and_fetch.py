@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+"""Submits a simulation to hydroprintd and fetches its film image.
+
+The stubs are made by the build (target hydroprint_python):
+
+    PYTHONPATH=build/release/python client/python/submit_and_fetch.py \
+        --mesh globe.obj --texture globe.png --out result
+"""
+
+import argparse
+import hashlib
+import os
+import sys
+import uuid
+
+import grpc
+
+try:
+    from hydroprint.v1 import artifact_service_pb2, artifact_service_pb2_grpc
+    from hydroprint.v1 import asset_service_pb2, asset_service_pb2_grpc
+    from hydroprint.v1 import job_pb2, job_service_pb2, job_service_pb2_grpc, spec_pb2
+except ImportError as error:
+    sys.exit(f"{error}; build the target hydroprint_python and set PYTHONPATH to build/release/python")
+
+CHUNK_BYTES = 64 * 1024
+
+
+def upload(channel, path):
+    """Uploads a file, unless its bytes are there already; returns it as an input of a job."""
+    assets = asset_service_pb2_grpc.AssetServiceStub(channel)
+    with open(path, "rb") as file:
+        content = file.read()
+    answer = assets.StartUpload(
+        asset_service_pb2.StartUploadRequest(
+            size_bytes=len(content),
+            sha256=hashlib.sha256(content).hexdigest(),
+            request_id=str(uuid.uuid4()),
+        )
+    )
+    if answer.HasField("upload"):
+        answer = assets.UploadChunk(chunks(answer.upload, content))
+    return spec_pb2.InputFile(name=os.path.basename(path), asset=answer.asset.name)
+
+
+def chunks(upload_, content):
+    """The messages that send what is missing of `content`."""
+    for offset in range(upload_.received_bytes, max(len(content), 1), CHUNK_BYTES):
+        yield asset_service_pb2.UploadChunkRequest(
+            upload=upload_.name, offset=offset, data=content[offset : offset + CHUNK_BYTES]
+        )
+
+
+def submit(channel, spec):
+    """Queues a job; returns its name."""
+    jobs = job_service_pb2_grpc.JobServiceStub(channel)
+    request = job_service_pb2.CreateJobRequest(
+        job=job_pb2.Job(simulate=spec), request_id=str(uuid.uuid4())
+    )
+    return jobs.CreateJob(request).name
+
+
+def wait(channel, name):
+    """Prints what happens to a job until it is finished; returns it."""
+    jobs = job_service_pb2_grpc.JobServiceStub(channel)
+    for message in jobs.WatchJob(job_service_pb2.WatchJobRequest(name=name)):
+        if message.HasField("event"):
+            event = message.event
+            print(f"{name}: {event.progress_fraction:4.0%}  {event.phase}")
+    return jobs.GetJob(job_service_pb2.GetJobRequest(name=name))
+
+
+def fetch(channel, name, folder):
+    """Downloads one artifact, checks it, and puts it into `folder`; returns its path."""
+    artifacts = artifact_service_pb2_grpc.ArtifactServiceStub(channel)
+    artifact = artifacts.GetArtifact(artifact_service_pb2.GetArtifactRequest(name=name))
+    pieces = artifacts.DownloadArtifact(artifact_service_pb2.DownloadArtifactRequest(name=name))
+    content = b"".join(piece.data for piece in pieces)
+    if hashlib.sha256(content).hexdigest() != artifact.sha256:
+        sys.exit(f"{name}: the bytes received do not have its SHA-256; run this again")
+    os.makedirs(folder, exist_ok=True)
+    path = os.path.join(folder, name.rsplit("/", 1)[1])
+    with open(path + ".part", "wb") as file:
+        file.write(content)
+    os.replace(path + ".part", path)
+    return path
+
+
+def main():
+    """Runs the example."""
+    parser = argparse.ArgumentParser(description="Submits a simulation and fetches its film image.")
+    parser.add_argument("--server", default=os.environ.get("HYDROPRINT_SERVER", "127.0.0.1:50051"))
+    parser.add_argument("--mesh", required=True, help="OBJ, STL, PLY, glTF or GLB, without other files")
+    parser.add_argument("--texture", help="PNG, JPEG or TIFF")
+    parser.add_argument("--dpi", type=float, help="of the film image")
+    parser.add_argument("--out", default=".", help="folder for film.png")
+    arguments = parser.parse_args()
+
+    with grpc.insecure_channel(arguments.server, [("grpc.enable_http_proxy", 0)]) as channel:
+        spec = spec_pb2.SimulateSpec(mesh=upload(channel, arguments.mesh), dpi=arguments.dpi)
+        if arguments.texture:
+            spec.texture.CopyFrom(upload(channel, arguments.texture))
+        job = wait(channel, submit(channel, spec))
+        if job.state != job_pb2.Job.SUCCEEDED:
+            sys.exit(f"{job.name}: {job_pb2.Job.State.Name(job.state)} {job.error.message}")
+        print(fetch(channel, f"{job.name}/artifacts/film.png", arguments.out))
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except OSError as error:
+        sys.exit(str(error))
+    except grpc.RpcError as error:
+        sys.exit(f"{error.code().name}: {error.details()}")
