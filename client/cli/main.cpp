@@ -41,7 +41,7 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
 }
 
 void add_commands(CLI::App& app, Program& program) {
-  // add_sample(app, program);
+  add_sample(app, program);
   add_upload(app, program);
   add_submit(app, program);
   add_watch(app, program);

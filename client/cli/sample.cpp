@@ -38,7 +38,8 @@ void add_sample(CLI::App& app, Program& program) {
   std::string footer = "Kinds:\n";
   for (const sample::SampleKind& kind : sample::kinds()) {
     names.push_back(kind.name);
-    footer += "  " + kind.name + std::string(kind.name.size() < 8 ? 8 - kind.name.size() : 1, ' ') +
+    footer += "  " + kind.name +
+              std::string(kind.name.size() < 10 ? 10 - kind.name.size() : 1, ' ') +
               kind.description + "\n";
   }
   command->add_option("kind", options->kind, "Which one")
