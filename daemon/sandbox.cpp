@@ -22,7 +22,7 @@ namespace {
 
 // Refused with EACCES. No socket of any family: no network, and no talking to other services of the
 // same user either. io_uring could open sockets past a filter, and truncate() passes older file
-// fences; the others reach into other processes or into the kernel's workings.
+// fences; the others reach into other processes, out of the process group or into the kernel.
 constexpr std::array kRefused{
     SCMP_SYS(socket),
     SCMP_SYS(connect),
@@ -38,20 +38,28 @@ constexpr std::array kRefused{
     SCMP_SYS(process_vm_writev),
     SCMP_SYS(kill),
     SCMP_SYS(tkill),
+    SCMP_SYS(rt_sigqueueinfo),
     SCMP_SYS(pidfd_open),
     SCMP_SYS(pidfd_getfd),
     SCMP_SYS(pidfd_send_signal),
     SCMP_SYS(mount),
+    SCMP_SYS(umount2),
+    SCMP_SYS(pivot_root),
+    SCMP_SYS(chroot),
+    SCMP_SYS(open_tree),
+    SCMP_SYS(move_mount),
+    SCMP_SYS(fsopen),
     SCMP_SYS(unshare),
     SCMP_SYS(setns),
+    SCMP_SYS(setsid),
+    SCMP_SYS(setpgid),
+    SCMP_SYS(truncate),
     SCMP_SYS(bpf),
     SCMP_SYS(perf_event_open),
+    SCMP_SYS(userfaultfd),
     SCMP_SYS(keyctl),
     SCMP_SYS(add_key),
     SCMP_SYS(request_key),
-    SCMP_SYS(userfaultfd),
-    SCMP_SYS(setsid),
-    SCMP_SYS(truncate),
 };
 
 constexpr const char* kNoSandbox =
@@ -65,9 +73,20 @@ Result<std::vector<sock_filter>> compile_filter() {
   const std::unique_ptr<void, FreeFilter> filter(seccomp_init(SCMP_ACT_ALLOW));
   const UniqueFd file(memfd_create("seccomp", MFD_CLOEXEC));
   bool good = filter && file.valid();
+  constexpr std::uint32_t kRefuse = SCMP_ACT_ERRNO(EACCES);
   for (const int call : kRefused) {
-    good = good && seccomp_rule_add(filter.get(), SCMP_ACT_ERRNO(EACCES), call, 0) == 0;
+    good = good && seccomp_rule_add(filter.get(), kRefuse, call, 0) == 0;
   }
+  // A worker signals its own threads and reads its own limits this way; the daemon's are not its
+  // own.
+  const auto daemon = static_cast<scmp_datum_t>(::getpid());
+  good = good &&
+         seccomp_rule_add(filter.get(), kRefuse, SCMP_SYS(tgkill), 1,
+                          SCMP_A0_64(SCMP_CMP_EQ, daemon, 0)) == 0 &&
+         seccomp_rule_add(filter.get(), kRefuse, SCMP_SYS(rt_tgsigqueueinfo), 1,
+                          SCMP_A0_64(SCMP_CMP_EQ, daemon, 0)) == 0 &&
+         seccomp_rule_add(filter.get(), kRefuse, SCMP_SYS(prlimit64), 1,
+                          SCMP_A0_64(SCMP_CMP_NE, 0, 0)) == 0;
   good = good && seccomp_export_bpf(filter.get(), file.get()) == 0;
   struct stat info {};
   good = good && fstat(file.get(), &info) == 0;

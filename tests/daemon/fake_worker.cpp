@@ -8,6 +8,7 @@
 //   read FILE         says whether it could                   write FILE   says whether it could
 // and then leaves film.png and report.json.
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -96,6 +97,9 @@ void obey(const std::string& line) {
     facts += std::ofstream(rest, std::ios::app).put('x').flush() ? " WROTE" : " cannot-write";
   } else if (command == "kill-parent") {
     facts += kill(getppid(), SIGKILL) < 0 ? " no-kill" : " KILL";
+    facts += tgkill(getppid(), getppid(), SIGKILL) < 0 ? " no-tgkill" : " TGKILL";
+    const rlimit none{};
+    facts += prlimit(getppid(), RLIMIT_NOFILE, &none, nullptr) < 0 ? " no-prlimit" : " PRLIMIT";
   } else if (command == "nothing") {
     std::filesystem::remove_all(flags["--out"]);
     std::_Exit(0);

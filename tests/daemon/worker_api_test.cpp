@@ -132,7 +132,8 @@ TEST_F(Workers, HaveNoNetworkAndCannotHarmTheDaemon) {
   const v1::Job job = run("socket\nkill-parent");
   ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
   const std::string report = client->download(job.name() + "/artifacts/report.json");
-  EXPECT_NE(report.find("no-inet no-unix no-kill"), std::string::npos) << report;
+  EXPECT_NE(report.find("no-inet no-unix no-kill no-tgkill no-prlimit"), std::string::npos)
+      << report;
 }
 
 TEST_F(Workers, ReadTheirOwnInputsAndChangeNothingOutsideTheirFolder) {
