@@ -126,7 +126,9 @@ std::string suggestion(std::string_view section, std::string_view name) {
 
 Status read_section(const std::string& name, std::string_view section, const toml::table& table,
                     Config& config) {
-  for (const auto& [toml_key, node] : table) {
+  for (const auto& entry : table) {
+    const toml::key& toml_key = entry.first;
+    const toml::node& node = entry.second;
     const std::string_view key_name = toml_key.str();
     const auto key = std::find_if(keys().begin(), keys().end(), [&](const Key& k) {
       return k.section == section && k.name == key_name;
@@ -159,6 +161,7 @@ Status check_values(const Config& config, const std::string& name, const toml::t
 
 std::vector<std::string> config_keys() {
   std::vector<std::string> names;
+  names.reserve(keys().size());
   for (const Key& key : keys()) names.push_back(key.full());
   return names;
 }
@@ -167,10 +170,11 @@ Result<Config> parse_config(std::string_view text, const std::string& name) {
   try {
     const toml::table root = toml::parse(text, name);
     Config config;
-    for (const auto& [section, node] : root) {
+    for (const auto& entry : root) {
+      const toml::key& section = entry.first;
       const bool known = std::any_of(keys().begin(), keys().end(),
                                      [&](const Key& key) { return key.section == section.str(); });
-      const toml::table* table = node.as_table();
+      const toml::table* table = entry.second.as_table();
       if (!known || table == nullptr) {
         return refuse(name, section.source(),
                       "unknown section \"" + std::string(section.str()) +

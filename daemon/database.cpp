@@ -97,7 +97,7 @@ Status Database::each(const std::string& sql, std::initializer_list<DbValue> val
   for (const DbValue& value : values) bind(statement, ++index, value);
   int code = sqlite3_step(statement);
   for (; code == SQLITE_ROW; code = sqlite3_step(statement)) row(DbRow(statement));
-  const Status status = code == SQLITE_DONE ? Status() : database_failure(impl_->db);
+  Status status = code == SQLITE_DONE ? Status() : database_failure(impl_->db);
   sqlite3_reset(statement);
   sqlite3_clear_bindings(statement);
   return status;

@@ -12,6 +12,7 @@ namespace {
 std::vector<WaitingJob> reordered(std::vector<WaitingJob> jobs, std::int64_t id,
                                   std::int64_t before) {
   std::vector<std::int64_t> ranks;
+  ranks.reserve(jobs.size());
   for (const WaitingJob& job : jobs) ranks.push_back(job.rank);
   std::sort(ranks.begin(), ranks.end());
   const auto is = [](std::int64_t wanted) {
@@ -76,7 +77,7 @@ Result<QueuePause> JobStore::pause() {
 }
 
 Status JobStore::set_pause(const QueuePause& pause) {
-  const Status status =
+  Status status =
       pause.paused
           ? database_.run("INSERT OR REPLACE INTO settings VALUES ('pause', ?)", {pause.reason})
           : database_.run("DELETE FROM settings WHERE name='pause'");
