@@ -67,7 +67,7 @@ void add_list(CLI::App& app, Program& program) {
   for (const auto& [name, state] : states_by_name()) names.push_back(name);
   command->add_option("--state", options->states, "Only jobs in this state; may be repeated")
       ->type_name("STATE")
-      ->check(CLI::IsMember(names, CLI::ignore_case));
+      ->transform(CLI::IsMember(names, CLI::ignore_case));
   command->add_flag("--mine", options->mine, "Only jobs of the owner that --owner names");
   command->add_option("--limit", options->filter.limit, "At most so many")
       ->type_name("N")

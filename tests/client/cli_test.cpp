@@ -1,0 +1,366 @@
+// `hydroprint` as users run it, against the real daemon with a worker that does what its mesh says.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/daemon/support.h"
+#include "tests/support/process.h"
+
+namespace hydroprint::tests {
+namespace {
+
+using hydroprint::testing::Process;
+using Outcome = hydroprint::testing::Ended;
+using Arguments = std::vector<std::string>;
+using nlohmann::json;
+
+constexpr char kClient[] = HYDROPRINT_BIN_DIR "/hydroprint";
+
+std::string content_of(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Cli : public ::testing::Test {
+ protected:
+  void start(const DaemonProcess::Options& options = DaemonProcess::fake()) {
+    daemon_ = std::make_unique<DaemonProcess>(folder_.path(), options);
+  }
+
+  Arguments command(const Arguments& arguments) const {
+    Arguments all{kClient, "--owner", "tester"};
+    if (daemon_) all.insert(all.end(), {"--server", daemon_->address()});
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return all;
+  }
+
+  Outcome client(const Arguments& arguments) const {
+    return hydroprint::testing::run(command(arguments));
+  }
+
+  /// What --json printed; fails the test unless the exit status is 0 and it is one JSON value.
+  json client_json(Arguments arguments) const {
+    arguments.emplace_back("--json");
+    const Outcome ended = client(arguments);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    json value = json::parse(ended.out, nullptr, false);
+    EXPECT_FALSE(value.is_discarded()) << ended.out;
+    return value;
+  }
+
+  /// Queues a job whose worker does this; its name.
+  std::string submit(const std::string& work) const {
+    return client_json({"submit", "simulate", "--mesh", mesh(work)}).at("name");
+  }
+
+  std::string mesh(const std::string& work) const { return folder_.write("m.obj", work).string(); }
+  std::filesystem::path out() const { return folder_.path() / "result"; }
+  std::string state_of(const std::string& job) const {
+    return client_json({"show", job}).at("state");
+  }
+
+  /// Waits until the job is in that state, for at most ten seconds.
+  bool becomes(const std::string& job, const std::string& state) const {
+    for (int i = 0; i < 100; ++i) {
+      if (state_of(job) == state) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    return false;
+  }
+
+  /// The last line on stderr says what is wrong, in these words among others.
+  void expect_error(const Arguments& arguments, int status, const std::string& words) const {
+    const Outcome ended = client(arguments);
+    EXPECT_EQ(ended.status, status) << ended.err;
+    const auto line = ended.err.rfind("hydroprint: ");
+    ASSERT_NE(line, std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find(words, line), std::string::npos) << ended.err;
+    EXPECT_EQ(ended.err.find('\n', line), ended.err.size() - 1) << ended.err;
+  }
+
+  TemporaryFolder folder_;
+  std::unique_ptr<DaemonProcess> daemon_;
+};
+
+TEST_F(Cli, SubmitUploadsWhatTheModelNeedsWaitsAndDownloads) {
+  start();
+  folder_.write("m.mtl", "map_Kd skin.png\n");
+  folder_.write("skin.png", "skin");
+  const json job = client_json({"submit", "simulate", "--mesh", mesh("mtllib m.mtl\nsleep 0.2\n"),
+                                "--dpi", "120", "--depth-mm", "30", "--out", out().string()});
+  EXPECT_EQ(job.at("state"), "SUCCEEDED");
+  EXPECT_EQ(job.at("owner"), "tester");
+  ASSERT_EQ(job.at("simulate").at("extra_files").size(), 2U);
+  EXPECT_EQ(job["simulate"]["extra_files"][0]["name"], "m.mtl");
+  EXPECT_EQ(job["simulate"]["extra_files"][1]["name"], "skin.png");
+  EXPECT_NE(content_of(out() / "film.png").find("film of"), std::string::npos);
+  const std::string flags = content_of(out() / "report.json");
+  EXPECT_NE(flags.find("--dpi=120"), std::string::npos) << flags;
+  EXPECT_NE(flags.find("--depth-mm=30"), std::string::npos) << flags;
+  EXPECT_EQ(job.at("files").size(), 2U);
+}
+
+TEST_F(Cli, SubmitPrintsTheJobsNameAndDoesNotWaitUnlessAsked) {
+  start();
+  const Outcome ended = client({"submit", "simulate", "--mesh", mesh("sleep 30")});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(ended.out, "jobs/1\n");
+}
+
+TEST_F(Cli, TellsThatAnAnswerCameFromAnEarlierJob) {
+  start();
+  const std::string path = mesh("sleep 0.1");
+  client({"submit", "simulate", "--mesh", path, "--wait"});
+  const Outcome ended = client({"submit", "simulate", "--mesh", path, "--wait"});
+  EXPECT_EQ(ended.status, 0);
+  EXPECT_NE(ended.err.find("from an earlier job"), std::string::npos) << ended.err;
+}
+
+TEST_F(Cli, PredictTakesTheFilmImageAndTheMotion) {
+  start();
+  const json job = client_json({"submit", "predict", "--mesh", mesh("sleep 0.1"), "--film-image",
+                                folder_.write("film.png", "film").string(), "--motion",
+                                folder_.write("film.csv", "motion").string(), "--wait"});
+  EXPECT_EQ(job.at("state"), "SUCCEEDED");
+  EXPECT_EQ(job.at("predict").at("film_image").at("name"), "film.png");
+  EXPECT_EQ(job.at("predict").at("motion").at("name"), "film.csv");
+}
+
+TEST_F(Cli, FilesOfOneNameAreKeptApartInAJob) {
+  start();
+  std::filesystem::create_directory(folder_.path() / "other");
+  folder_.write("m.mtl", "map_Kd skin.png\n");
+  folder_.write("skin.png", "one");
+  const std::string texture = folder_.write("other/skin.png", "two").string();
+  const json job = client_json(
+      {"submit", "simulate", "--mesh", mesh("mtllib m.mtl"), "--texture", texture, "--wait"});
+  EXPECT_EQ(job.at("simulate").at("texture").at("name"), "2-skin.png");
+  EXPECT_EQ(job.at("state"), "SUCCEEDED");
+}
+
+TEST_F(Cli, EveryVerbPrintsJson) {
+  start();
+  const std::string job = submit("sleep 0.1");
+  ASSERT_TRUE(becomes(job, "SUCCEEDED"));
+  EXPECT_EQ(client_json({"status"}).at("health"), "SERVING");
+  EXPECT_EQ(client_json({"list"}).at("jobs").at(0).at("name"), job);
+  EXPECT_EQ(client_json({"list", "--state", "failed"}).at("jobs").size(), 0U);
+  EXPECT_EQ(client_json({"show", job}).at("artifacts").size(), 2U);
+  EXPECT_EQ(client_json({"artifacts", job}).at("artifacts").at(0).at("name"),
+            job + "/artifacts/film.png");
+  EXPECT_EQ(client_json({"events", job}).at("events").at(0).at("state"), "QUEUED");
+  EXPECT_EQ(client_json({"queue", "show"}).at("paused"), false);
+  EXPECT_EQ(client_json({"upload", mesh("x")}).at("assets").size(), 1U);
+  EXPECT_EQ(client_json({"assets", "list"}).at("assets").size(), 2U);
+  const std::string again = client_json({"retry", job}).at("name");
+  EXPECT_NE(again, job);
+  ASSERT_TRUE(becomes(again, "SUCCEEDED"));
+  EXPECT_EQ(client_json({"show", again}).at("retry_of"), job);
+  EXPECT_EQ(client_json({"delete", job}).at("deleted").at(0), job);
+  expect_error({"show", job}, 3, job);
+}
+
+TEST_F(Cli, WatchPrintsALineOfJsonForEachEvent) {
+  start();
+  const Outcome ended = client({"watch", submit("sleep 1"), "--json"});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  std::istringstream lines(ended.out);
+  json last;
+  double progress_fraction = 0;
+  for (std::string line; std::getline(lines, line);) {
+    last = json::parse(line, nullptr, false);
+    ASSERT_TRUE(last.is_object()) << line;
+    if (last.contains("event"))
+      progress_fraction =
+          std::max<double>(progress_fraction, last["event"].at("progress_fraction"));
+  }
+  EXPECT_EQ(last.at("job").at("state"), "SUCCEEDED");
+  EXPECT_GT(progress_fraction, 0);
+}
+
+TEST_F(Cli, WatchShowsTheTimeLeftInLinesWhereThereIsNoTerminal) {
+  start();
+  const Outcome ended = client({"watch", submit("sleep 1.5")});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find(" left\n"), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.out.find('\r'), std::string::npos) << ended.out;
+}
+
+TEST_F(Cli, ExitStatusTellsWhoIsAtFault) {
+  start();
+  expect_error({"submit", "simulate", "--mesh", mesh("exit 3 m.obj:7: not a number; fix it"),
+                "--out", out().string()},
+               3, "m.obj:7: not a number; fix it");
+  EXPECT_FALSE(std::filesystem::exists(out()));
+  expect_error({"watch", submit("exit 4 it diverged")}, 4, "it diverged");
+  expect_error({"show", "77"}, 3, "jobs/77");
+  expect_error({"show", "nonsense"}, 3, "nonsense");
+  expect_error({"submit", "simulate", "--mesh", "/no/such.obj"}, 3, "/no/such.obj");
+  expect_error({"submit", "simulate", "--mesh", mesh(""), "--dpi", "1e9"}, 3, "dpi");
+  expect_error({"submit", "simulate", "--mesh", mesh(""), "--dpi", "many"}, 2, "--dpi");
+  expect_error({"submit", "simulate"}, 2, "--mesh");
+  expect_error({"frobnicate"}, 2, "subcommand");
+}
+
+TEST_F(Cli, SaysWhereNoDaemonAnswers) {
+  expect_error({"--server", "nonsense", "status"}, 2, "nonsense");
+  expect_error({"--server", "127.0.0.1:1", "list"}, 5, "127.0.0.1:1");
+  expect_error({"--server", "127.0.0.1:1", "watch", "1"}, 5, "127.0.0.1:1");
+  const Outcome ended = client({"--server", "127.0.0.1:1", "status", "--json"});
+  EXPECT_EQ(json::parse(ended.out, nullptr, false).at("error").at("code"), "UNAVAILABLE");
+}
+
+TEST_F(Cli, CtrlCWhileWaitingLeavesTheJobRunning) {
+  start();
+  const std::string job = submit("sleep 30");
+  Process watch(command({"watch", job}));
+  ASSERT_TRUE(becomes(job, "RUNNING"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  watch.signal(SIGINT);
+  const Outcome ended = watch.wait();
+  EXPECT_EQ(ended.status, 130) << ended.err;
+  EXPECT_NE(ended.err.find("hydroprint cancel " + job), std::string::npos) << ended.err;
+  EXPECT_EQ(state_of(job), "RUNNING");
+}
+
+TEST_F(Cli, CtrlCCancelsTheJobIfAskedTo) {
+  start();
+  const std::string job = submit("sleep 30");
+  Process watch(command({"watch", job, "--cancel-on-interrupt"}));
+  ASSERT_TRUE(becomes(job, "RUNNING"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  watch.signal(SIGINT);
+  EXPECT_EQ(watch.wait().status, 130);
+  EXPECT_TRUE(becomes(job, "CANCELLED"));
+}
+
+TEST_F(Cli, WatchOfAJobThatIsCancelledEndsWith130) {
+  start();
+  const std::string job = submit("sleep 30");
+  Process watch(command({"watch", job}));
+  ASSERT_TRUE(becomes(job, "RUNNING"));
+  EXPECT_EQ(client({"cancel", job}).status, 0);
+  EXPECT_EQ(watch.wait().status, 130);
+}
+
+TEST_F(Cli, QueuePausesReordersAndResumes) {
+  start();
+  EXPECT_EQ(client_json({"queue", "pause", "--reason", "new film"}).at("paused"), true);
+  const std::string first = submit("sleep 0.1");
+  const std::string second = submit("sleep 0.2");
+  EXPECT_EQ(client({"queue", "move", second, "--before", first}).status, 0);
+  const json queue = client_json({"queue", "show"});
+  EXPECT_EQ(queue.at("pause_reason"), "new film");
+  EXPECT_EQ(queue.at("queued_jobs"), json({second, first}));
+  EXPECT_EQ(client_json({"queue", "resume"}).at("paused"), false);
+  EXPECT_TRUE(becomes(first, "SUCCEEDED"));
+}
+
+class CliDownload : public Cli {
+ protected:
+  CliDownload() {
+    start();
+    job_ = submit("sleep 0.1");
+    EXPECT_TRUE(becomes(job_, "SUCCEEDED"));
+    const json artifact = client_json({"artifacts", job_}).at("artifacts").at(0);
+    sha256_ = artifact.at("sha256");
+    part_ = out() / (".film.png." + sha256_.substr(0, 16) + ".part");
+    std::filesystem::create_directory(out());
+  }
+  Outcome download() const {
+    return client({"download", job_, "film.png", "--out", out().string()});
+  }
+  std::string sha256_of_film() const { return hash_of(content_of(out() / "film.png")); }
+
+  std::string job_;
+  std::string sha256_;
+  std::filesystem::path part_;
+};
+
+TEST_F(CliDownload, ReplacesAFileWithOtherBytesAndLeavesNoPart) {
+  std::ofstream(out() / "film.png") << "something else";
+  EXPECT_EQ(download().status, 0);
+  EXPECT_EQ(sha256_of_film(), sha256_);
+  EXPECT_FALSE(std::filesystem::exists(part_));
+}
+
+TEST_F(CliDownload, GoesOnWhereItBroke) {
+  std::ofstream(part_) << "film o";
+  EXPECT_EQ(download().status, 0);
+  EXPECT_EQ(sha256_of_film(), sha256_);
+}
+
+TEST_F(CliDownload, NeverShowsAFileWithWrongBytes) {
+  std::ofstream(part_) << "FILM";
+  const Outcome ended = download();
+  EXPECT_NE(ended.status, 0);
+  EXPECT_NE(ended.err.find("SHA-256"), std::string::npos) << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(out() / "film.png"));
+  EXPECT_EQ(download().status, 0) << "a second attempt starts afresh";
+  EXPECT_EQ(sha256_of_film(), sha256_);
+}
+
+TEST_F(CliDownload, NamesTheArtifactsThereAreWhenAskedForAnother) {
+  expect_error({"download", job_, "nope.png"}, 3, "film.png");
+}
+
+TEST_F(CliDownload, NamesAFolderThatCannotBeMade) {
+  const std::string file = folder_.write("file", "").string();
+  expect_error({"download", job_, "--out", file + "/below"}, 3, file);
+}
+
+TEST_F(Cli, CompletionScriptsAreValidAndComplete) {
+  const std::string bash = folder_.write("c.bash", client({"completion", "bash"}).out).string();
+  EXPECT_EQ(hydroprint::testing::run({"/bin/bash", "-n", bash}).status, 0);
+  const auto complete = [&](const std::string& words, int at) {
+    const std::string script = "source " + bash + "; COMP_WORDS=(hydroprint " + words +
+                               "); COMP_CWORD=" + std::to_string(at) +
+                               "; _hydroprint; echo \"${COMPREPLY[*]}\"";
+    return hydroprint::testing::run({"/bin/bash", "-c", script}).out;
+  };
+  EXPECT_EQ(complete("wat", 1), "watch\n");
+  EXPECT_EQ(complete("submit simulate --mod", 3), "--model\n");
+  EXPECT_EQ(complete("--owner me submit simulate --model st", 6), "stokes\n");
+  EXPECT_EQ(complete("queue pa", 2), "pause\n");
+  for (const char* shell : {"zsh", "fish"}) {
+    const Outcome ended = client({"completion", shell});
+    EXPECT_EQ(ended.status, 0);
+    EXPECT_NE(ended.out.find("submit simulate"), std::string::npos);
+  }
+}
+
+TEST_F(Cli, PythonExampleFetchesTheFilm) {
+  start();
+  const Outcome ended = hydroprint::testing::run(
+      {"/usr/bin/env", "PYTHONPATH=" PYTHON_STUBS, "PYTHONDONTWRITEBYTECODE=1", "/usr/bin/python3",
+       PYTHON_EXAMPLE, "--server", daemon_->address(), "--mesh", mesh("sleep 0.2"), "--out",
+       out().string()});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(content_of(out() / "film.png").find("film of"), std::string::npos);
+}
+
+TEST_F(Cli, SampleRefusesAKindThatThereIsNot) { expect_error({"sample", "teapot"}, 2, "globe"); }
+
+TEST_F(Cli, GlobeGoesInAndAFilmImageComesOut) {
+  DaemonProcess::Options real;
+  start(real);
+  const std::string sample = (folder_.path() / "sample").string();
+  ASSERT_EQ(client({"sample", "globe", "--out", sample}).status, 0);
+  const Outcome ended = client({"submit", "simulate", "--mesh", sample + "/globe.obj", "--dpi",
+                                "50", "--out", out().string()});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  for (const char* picture : {"film.png", "stretch.png", "predicted.png"})
+    EXPECT_TRUE(content_of(out() / picture).starts_with("\x89PNG")) << picture;
+}
+
+}  // namespace
+}  // namespace hydroprint::tests
