@@ -7,6 +7,13 @@
 #include <limits>
 
 namespace hydroprint::flow {
+namespace {
+
+/// A triangle on which film is gathered more than this lies across a jump of the map: at 170
+/// degrees, where eq. (1) ends, a sphere gathers it to cos(85 deg) = 0.087.
+constexpr double kLeastStretch = 0.05;
+
+}  // namespace
 
 Stretch stretch_of(const Gradient& gradient) {
   // Singular values of a 2 x 3 matrix from its 2 x 2 Gram matrix; those of the inverse map are
@@ -45,6 +52,7 @@ std::vector<Gradient> point_gradients(const std::vector<Eigen::Vector2d>& film_m
     const double area = (surface_mm[t[1]] - origin).cross(surface_mm[t[2]] - origin).norm();
     const Gradient gradient = gradient_of({film_mm[t[0]], film_mm[t[1]], film_mm[t[2]]},
                                           {origin, surface_mm[t[1]], surface_mm[t[2]]});
+    if (stretch_of(gradient).least < kLeastStretch) continue;
     for (const int corner : t) {
       sum[corner] += area * gradient;
       weight[corner] += area;

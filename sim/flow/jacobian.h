@@ -26,8 +26,8 @@ struct Stretch {
 
 /// The gradient at each point: the mean over the triangles round it, by area. Averaging this way
 /// round stays finite where film is stretched without end.
-/// @param film_mm  per point; triangles with a NaN corner, or on which the film lies the wrong way
-///                 up, do not count
+/// @param film_mm  per point; triangles with a NaN corner, on which the film lies the wrong way up,
+///                 or across a jump of the map do not count
 /// @return NaN at points without a triangle
 [[nodiscard]] std::vector<Gradient> point_gradients(const std::vector<Eigen::Vector2d>& film_mm,
                                                     const std::vector<Eigen::Vector3d>& surface_mm,

@@ -7,7 +7,6 @@
 #include <unordered_map>
 
 #include "sim/flow/jacobian.h"
-#include "sim/waterline/waterlines.h"
 
 namespace hydroprint::flow {
 namespace {
@@ -40,8 +39,7 @@ enum class EdgeState : unsigned char { kLinear, kDivided, kBroken };
 
 struct Edge {
   int a, b;
-  Landing middle;  ///< summed over the tiles that share it, then averaged
-  int sides = 0;
+  Landing middle = {};
   double film_per_surface = 0;
   Vector2d film_mm = Vector2d::Constant(kNaN);
 };
@@ -55,11 +53,11 @@ bool is_reached(const Node& node) { return !std::isnan(node.film_mm.x()); }
 
 class Tiler {
  public:
-  Tiler(const waterline::Body& body, const DipField& dip, const waterline::Motion& motion,
+  Tiler(const waterline::Body& body, const DipField& dip, const Landings& landings,
         const std::vector<Vector2d>& film_mm, const MapOptions& options)
       : body_(body),
         dip_(dip),
-        motion_(motion),
+        landings_(landings),
         options_(options),
         tolerance_mm_(options.tolerance_mm) {
     nodes_.reserve(film_mm.size());
@@ -127,22 +125,14 @@ class Tiler {
         const std::uint64_t key = key_of(tile.node[j], tile.node[k]);
         if (state_.contains(key)) continue;
         const auto [it, is_new] = index.try_emplace(key, edges.size());
-        if (is_new)
-          edges.push_back({tile.node[j], tile.node[k], {}, 0, 0, Vector2d::Constant(kNaN)});
+        if (is_new) edges.push_back({tile.node[j], tile.node[k]});
         Edge& edge = edges[it->second];
-        const Landing landing = landing_on(body_, motion_, tile.triangle,
-                                           0.5 * (tile.barycentric[j] + tile.barycentric[k]));
-        if (edge.sides == 0) {
-          edge.middle = landing;
-        } else {
-          edge.middle.pull += landing.pull;
-          edge.middle.film_can_follow |= landing.film_can_follow;
-        }
-        ++edge.sides;
+        const Landing landing =
+            landings_.on(tile.triangle, 0.5 * (tile.barycentric[j] + tile.barycentric[k]));
+        edge.middle = is_new ? landing : shared(edge.middle, landing);
         edge.film_per_surface = std::max(edge.film_per_surface, tile.film_per_surface);
       }
     }
-    for (Edge& edge : edges) edge.middle.pull /= edge.sides;
     return edges;
   }
 
@@ -265,7 +255,7 @@ class Tiler {
 
   const waterline::Body& body_;
   const DipField& dip_;
-  const waterline::Motion& motion_;
+  const Landings& landings_;
   const MapOptions& options_;
   double tolerance_mm_;  ///< at the present level of division
   int level_ = 0;
@@ -278,25 +268,11 @@ class Tiler {
 
 }  // namespace
 
-Landing landing_on(const waterline::Body& body, const waterline::Motion& motion, int triangle,
-                   const Vector3d& barycentric) {
-  const Eigen::Vector3i& v = body.triangles[triangle];
-  const auto& n = body.corner_normals[triangle];
-  const Vector3d point = barycentric[0] * body.points_mm[v[0]] +
-                         barycentric[1] * body.points_mm[v[1]] +
-                         barycentric[2] * body.points_mm[v[2]];
-  const Vector3d normal =
-      (barycentric[0] * n[0] + barycentric[1] * n[1] + barycentric[2] * n[2]).normalized();
-  return {point.head<2>() + waterline::offset_at(motion, point.z()), point.z(),
-          waterline::pull(normal) + waterline::drift_at(motion, point.z()),
-          waterline::film_can_follow(normal)};
-}
-
 Result<std::vector<MappedTriangle>> make_tiles(const waterline::Body& body, const DipField& dip,
-                                               const waterline::Motion& motion,
+                                               const Landings& landings,
                                                const std::vector<Vector2d>& film_mm,
                                                const MapOptions& options, const Context& context) {
-  Tiler tiler(body, dip, motion, film_mm, options);
+  Tiler tiler(body, dip, landings, film_mm, options);
   HP_RETURN_IF_ERROR(tiler.run(context));
   return tiler.take();
 }

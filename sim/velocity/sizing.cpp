@@ -13,6 +13,8 @@ constexpr double kCell_mm = 1.0;
 Sizing::Sizing(const film::Outline& outline,
                const std::vector<std::vector<Eigen::Vector2d>>& waterlines, const Options& options)
     : options_(options), origin_mm_(outline.min_mm) {
+  // A large film far from the object needs no finer mesh than a small one.
+  options_.most_mm = std::max(options.most_mm, 0.05 * outline.size_mm().minCoeff());
   columns_ = static_cast<int>(std::ceil(outline.size_mm().x() / kCell_mm)) + 1;
   rows_ = static_cast<int>(std::ceil(outline.size_mm().y() / kCell_mm)) + 1;
   distance_mm_.assign(static_cast<std::size_t>(columns_) * rows_, 1e6F);

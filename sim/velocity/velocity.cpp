@@ -51,15 +51,23 @@ VelocityField::VelocityField(FilmMesh mesh, std::vector<Eigen::Vector2d> nodes)
 
 bool VelocityField::at(const Eigen::Vector2d& point_mm, double reach_mm,
                        Eigen::Vector2d& velocity) const {
+  Eigen::Vector2d found;
+  if (nearest(point_mm, found) > reach_mm) return false;
+  velocity = found;
+  return true;
+}
+
+double VelocityField::nearest(const Eigen::Vector2d& point_mm, Eigen::Vector2d& velocity) const {
+  velocity.setZero();
   const Locator::Place place = locator_.find(point_mm);
-  if (place.triangle < 0 || place.outside_mm > reach_mm) return false;
+  if (place.triangle < 0) return kNoFilm_mm;
   const Eigen::Vector3d& l = place.barycentric;
   const auto node = nodes_of(mesh_, place.triangle);
   velocity = l[0] * (2 * l[0] - 1) * nodes_[node[0]] + l[1] * (2 * l[1] - 1) * nodes_[node[1]] +
              l[2] * (2 * l[2] - 1) * nodes_[node[2]] +
              4 * (l[1] * l[2] * nodes_[node[3]] + l[2] * l[0] * nodes_[node[4]] +
                   l[0] * l[1] * nodes_[node[5]]);
-  return true;
+  return place.outside_mm;
 }
 
 std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
@@ -68,6 +76,7 @@ std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
   const Eigen::Vector2d unknown =
       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<Eigen::Vector2d> fixed(mesh.node_count(), unknown);
+  std::vector<int> sides(mesh.vertices_mm.size(), 0);
   const std::size_t corner_count = mesh.vertices_mm.size();
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     if (mesh.edge_kind[e] != EdgeKind::kWaterline) continue;
@@ -76,9 +85,12 @@ std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
     const Eigen::Vector2d& q = mesh.vertices_mm[b];
     fixed[corner_count + e] = pulls.at(0.5 * (p + q));
     for (const auto& [v, from, to] : {std::tuple{a, p, q}, std::tuple{b, q, p}}) {
-      const Eigen::Vector2d half = 0.5 * pulls.at(from + kInwards * (to - from));
-      fixed[v] = is_free(fixed[v]) ? half : Eigen::Vector2d(fixed[v] + half);
+      const Eigen::Vector2d side = pulls.at(from + kInwards * (to - from));
+      fixed[v] = sides[v]++ == 0 ? side : Eigen::Vector2d(fixed[v] + side);
     }
+  }
+  for (std::size_t v = 0; v < sides.size(); ++v) {
+    if (sides[v] > 1) fixed[v] /= sides[v];
   }
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     if (mesh.edge_kind[e] != EdgeKind::kVat) continue;

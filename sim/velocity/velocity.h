@@ -14,7 +14,7 @@ namespace hydroprint::velocity {
 /// mesh.
 class VelocityField {
  public:
-  /// The film at rest before first contact: zero everywhere.
+  /// No film anywhere.
   VelocityField() = default;
   VelocityField(FilmMesh mesh, std::vector<Eigen::Vector2d> nodes);
 
@@ -22,6 +22,12 @@ class VelocityField {
   /// @return false, leaving `velocity` alone, where there is no film within reach
   [[nodiscard]] bool at(const Eigen::Vector2d& point_mm, double reach_mm,
                         Eigen::Vector2d& velocity) const;
+
+  /// Velocity at the point of the film nearest to this one, zero if none is within the locator's
+  /// reach.
+  /// @return how far outside the film the point lies, mm; kNoFilm_mm if beyond reach
+  double nearest(const Eigen::Vector2d& point_mm, Eigen::Vector2d& velocity) const;
+  static constexpr double kNoFilm_mm = 1e30;
 
   [[nodiscard]] const FilmMesh& mesh() const { return mesh_; }
   [[nodiscard]] const std::vector<Eigen::Vector2d>& nodes() const { return nodes_; }

@@ -11,6 +11,7 @@ namespace clip = ClipperLib;
 // Clipper works on integers; at 1e-6 mm a vat of a metre stays in its fast 32-bit range.
 constexpr double kUnits_per_mm = 1e6;
 constexpr double kLeastArea_mm2 = 1e-3;
+constexpr double kSlit_mm = 0.05;
 
 clip::IntPoint to_units(const Eigen::Vector2d& p) {
   return {std::llround(p.x() * kUnits_per_mm), std::llround(p.y() * kUnits_per_mm)};
@@ -42,6 +43,22 @@ void collect(const clip::PolyNode& node, int parent, CrossSection& section) {
   }
 }
 
+/// Closes gaps narrower than kSlit_mm between curves, by widening the solid and narrowing it again:
+/// parts that touch but for rounding are one, and no film fits between them.
+void close_slits(clip::PolyTree& tree) {
+  clip::Paths paths;
+  clip::ClosedPathsFromPolyTree(tree, paths);
+  for (const double by_mm : {0.5 * kSlit_mm, -0.5 * kSlit_mm}) {
+    clip::ClipperOffset offset;
+    offset.AddPaths(paths, clip::jtMiter, clip::etClosedPolygon);
+    if (by_mm > 0) {
+      offset.Execute(paths, by_mm * kUnits_per_mm);
+    } else {
+      offset.Execute(tree, by_mm * kUnits_per_mm);
+    }
+  }
+}
+
 }  // namespace
 
 double signed_area(const std::vector<Eigen::Vector2d>& polygon) {
@@ -62,6 +79,7 @@ CrossSection unite(const std::vector<Contour>& contours) {
   }
   clip::PolyTree tree;
   clipper.Execute(clip::ctUnion, tree, clip::pftNonZero, clip::pftNonZero);
+  if (tree.Total() > 1) close_slits(tree);
   CrossSection section;
   collect(tree, -1, section);
   return section;

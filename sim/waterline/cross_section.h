@@ -19,8 +19,8 @@ struct Loop {
 /// it, whatever lies behind): simple closed curves that do not cross.
 using CrossSection = std::vector<Loop>;
 
-/// Unites contours by winding number (anything wound round at least once is solid). Curves that
-/// enclose less than 0.001 mm2 are left out.
+/// Unites contours by winding number (anything wound round at least once is solid). Gaps narrower
+/// than 0.05 mm between curves are closed; curves that enclose less than 0.001 mm2 are left out.
 [[nodiscard]] CrossSection unite(const std::vector<Contour>& contours);
 
 /// Area of a closed curve, positive if counter-clockwise, mm2.

@@ -37,7 +37,7 @@ struct Bins {
 /// faces (u = tan(theta / 2)), so there the steps may be longer.
 double weight(double cosine) {
   const double tangent = std::sqrt(std::max(0.0, 1 - cosine) / std::max(1e-12, 1 + cosine));
-  return std::clamp(2 * tangent, 0.1, 1.0);
+  return std::clamp(2 * tangent, 0.3, 1.0);
 }
 
 Bins collect(const Body& body, double shelf_slope_rad) {

@@ -39,7 +39,7 @@ Crossing cross(const Body& body, int t, int i, int j, double level_mm) {
 }  // namespace
 
 Slicer::Slicer(const Body& body) : body_(&body) {
-  bins_per_mm_ = kBins / std::max(body.height_mm, 1e-9);
+  bins_per_mm_ = kBins / std::max(body.height_mm, 1e-3);
   const auto bin_of = [&](double z) {
     return std::clamp(static_cast<int>(std::floor(z * bins_per_mm_)), 0, kBins - 1);
   };

@@ -20,6 +20,8 @@ void expect_round_trips(const mesh::Model& model, const hydroprint::testing::Dip
                         int count) {
   const auto dip = hydroprint::testing::solve_dip(model, setting);
   const testing::Particles particles(dip.body, dip.field, 0.05);
+  const waterline::Motion straight;
+  const Landings landings(dip.body, straight);
   std::mt19937 random(17);
   const Vector2d size = setting.film.size_mm();
   std::uniform_real_distribution<double> share(-0.5, 0.5);
@@ -29,8 +31,7 @@ void expect_round_trips(const mesh::Model& model, const hydroprint::testing::Dip
     const Vector2d film(share(random) * size.x(), share(random) * size.y());
     const auto contact = particles.follow(film);
     if (!contact) continue;
-    const auto back =
-        trace_back(dip.field, landing_on(dip.body, {}, contact->triangle, contact->barycentric));
+    const auto back = trace_back(dip.field, landings.on(contact->triangle, contact->barycentric));
     ASSERT_TRUE(back) << "film at " << film.transpose() << " lands, but none is found there";
     const double error = (*back - film).norm();
     square += error * error;

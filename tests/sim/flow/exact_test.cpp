@@ -31,7 +31,7 @@ Vector2d direction(double azimuth_rad) { return {std::cos(azimuth_rad), std::sin
 Landing on_sphere(double radius_mm, double theta_rad, double azimuth_rad) {
   const Vector2d outward = direction(azimuth_rad);
   return {radius_mm * std::sin(theta_rad) * outward, radius_mm * (1 - std::cos(theta_rad)),
-          -std::tan(theta_rad / 2) * outward};
+          -std::tan(theta_rad / 2) * outward, true, true};
 }
 
 struct Errors {
@@ -133,8 +133,8 @@ TEST(ExactCone, InACircularVat) {
         testing::solve_dip(testing::cone(slope, 42 * std::tan(slope), 240), setting);
     for (const double a : {0.5, 3.0, 15.0, 28.0, 40.0}) {
       const Vector2d outward = direction(0.4);
-      const auto film =
-          trace_back(dip.field, {a * outward, a * std::tan(slope), -std::tan(slope / 2) * outward});
+      const auto film = trace_back(dip.field, {a * outward, a * std::tan(slope),
+                                               -std::tan(slope / 2) * outward, true, true});
       ASSERT_TRUE(film) << a;
       const double exact_mm =
           vat * std::sqrt(1 - std::pow(1 - a * a / (vat * vat), 1 / std::cos(slope)));
@@ -156,8 +156,9 @@ TEST(ExactWedge, InAStrip) {
   for (const double a : {1.0, 5.0, 12.0, 19.0}) {
     for (const double side : {-1.0, 1.0}) {
       for (const double y : {-10.0, 3.0}) {
-        const auto film = trace_back(dip.field, {Vector2d(side * a, y), a * std::tan(slope),
-                                                 Vector2d(-side * std::tan(slope / 2), 0)});
+        const auto film =
+            trace_back(dip.field, {Vector2d(side * a, y), a * std::tan(slope),
+                                   Vector2d(-side * std::tan(slope / 2), 0), true, true});
         ASSERT_TRUE(film) << a;
         const double exact_mm =
             half_width * (1 - std::pow(1 - a / half_width, 1 / std::cos(slope)));
@@ -177,13 +178,13 @@ TEST(ExactCylinder, FilmIsDrawnUpItsWall) {
   const SolvedDip dip = testing::solve_dip(testing::cylinder(a, 30, 240), setting);
   for (const double z : {0.5, 5.0, 15.0, 29.0}) {
     const Vector2d outward = direction(1.9);
-    const auto film = trace_back(dip.field, {a * outward, z, -outward});
+    const auto film = trace_back(dip.field, {a * outward, z, -outward, true, true});
     ASSERT_TRUE(film) << z;
     const double s = (1 - a * a / (vat * vat)) * std::exp(-2 * a * z / (vat * vat - a * a));
     EXPECT_NEAR(film->norm(), vat * std::sqrt(1 - s), 0.02) << z;
   }
   for (const double r : {0.0, 7.0, 14.9}) {  // the bottom meets the film all at once
-    const auto film = trace_back(dip.field, {r * direction(0.2), 0, Vector2d(0, 0)});
+    const auto film = trace_back(dip.field, {r * direction(0.2), 0, Vector2d(0, 0), true, true});
     ASSERT_TRUE(film);
     EXPECT_LT((*film - r * direction(0.2)).norm(), 1e-9);
   }
@@ -197,12 +198,12 @@ TEST(ExactCup, TrappedFilmIsSpreadOverWallAndCeiling) {
   const SolvedDip dip = testing::solve_dip(testing::cup(a, 18, 25, 5, false, 240), setting);
   for (const double z : {0.5, 4.0, 12.0, 19.0}) {
     const Vector2d outward = direction(2.6);
-    const auto film = trace_back(dip.field, {a * outward, z, outward});
+    const auto film = trace_back(dip.field, {a * outward, z, outward, true, true});
     ASSERT_TRUE(film) << z;
     EXPECT_NEAR(film->norm(), a * std::exp(-z / a), 0.02) << z;
   }
   for (const double r : {1.0, 8.0, 14.0}) {
-    const auto film = trace_back(dip.field, {r * direction(1), 20, Vector2d(0, 0)});
+    const auto film = trace_back(dip.field, {r * direction(1), 20, Vector2d(0, 0), true, true});
     ASSERT_TRUE(film);
     EXPECT_NEAR(film->norm(), r * std::exp(-20 / a), 0.02) << r;
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "sim/sample/icosphere.h"
 #include "tests/sim/support/bodies.h"
@@ -88,7 +89,7 @@ TEST(FlowMap, IsNothingInsideTheUnionOfTheParts) {
     const Vector3d& p = dip.body.points_mm[v];
     if (p.z() < 1 || p.z() > 14) continue;
     const double depth = std::max(depth_in(p, -20, 4, 10), depth_in(p, -4, 20, 7));
-    if (depth > 1.5) {  // nearer to the seam the last step back may still find film
+    if (depth > 0.2) {
       EXPECT_TRUE(std::isnan(map.surface.film_mm[v].x())) << p.transpose();
       ++buried;
     } else if (depth < 1e-6) {
@@ -96,6 +97,36 @@ TEST(FlowMap, IsNothingInsideTheUnionOfTheParts) {
     }
   }
   EXPECT_GT(buried, 50);
+}
+
+TEST(FlowMap, IsNothingWhereFilmCannotFollow) {
+  DipSetting setting;
+  setting.film = testing::film_of("80x80");
+  const SolvedDip dip = testing::solve_dip(sample::icosphere(15, 5), setting);
+  const FlowMap map = mapped(dip);
+  int beyond = 0;
+  for (std::size_t v = 0; v < map.surface.film_mm.size(); ++v) {
+    const double cosine = -dip.surface.points[v].normalized().z();
+    if (cosine > std::cos(176 * std::numbers::pi / 180)) continue;
+    EXPECT_TRUE(std::isnan(map.surface.film_mm[v].x()));
+    ++beyond;
+  }
+  EXPECT_GT(beyond, 10);
+}
+
+TEST(FlowMap, OfACupIsNothingInsideAWallOfATenthOfAMillimetre) {
+  DipSetting setting;
+  setting.film = testing::film_of("80x80");
+  const SolvedDip dip = testing::solve_dip(testing::cup(12, 12.1, 20, 4, true, 64), setting);
+  const FlowMap map = mapped(dip);
+  int inside = 0;
+  for (std::size_t v = 0; v < map.surface.film_mm.size(); ++v) {
+    const Vector3d& p = dip.body.points_mm[v];
+    if (p.head<2>().norm() > 12.001 || p.z() < 4.5 || p.z() > 19) continue;
+    EXPECT_TRUE(std::isnan(map.surface.film_mm[v].x())) << p.transpose();
+    ++inside;
+  }
+  EXPECT_GT(inside, 500);
 }
 
 TEST(FlowMap, OfASwollenFilmIsGivenOnTheFilmAsPrinted) {
@@ -166,11 +197,11 @@ TEST(TraceBack, OfALandingOffTheFilmOrPastTheDipIsNothing) {
   setting.depth_mm = 10;
   const SolvedDip dip = testing::solve_dip(sample::icosphere(15, 3), setting);
   const Vector2d rest(0, 0);
-  EXPECT_FALSE(trace_back(dip.field, {Vector2d(41, 0), 0, rest}));
-  EXPECT_FALSE(trace_back(dip.field, {Vector2d(41, 0), 5, rest}));
-  EXPECT_FALSE(trace_back(dip.field, {Vector2d(0, 0), 10.001, rest}));
-  EXPECT_FALSE(trace_back(dip.field, {Vector2d(0, 0), 8, rest})) << "inside the body";
-  EXPECT_TRUE(trace_back(dip.field, {Vector2d(30, 30), 8, rest})) << "floating film";
+  EXPECT_FALSE(trace_back(dip.field, {Vector2d(41, 0), 0, rest, true, true}));
+  EXPECT_FALSE(trace_back(dip.field, {Vector2d(41, 0), 5, rest, true, true}));
+  EXPECT_FALSE(trace_back(dip.field, {Vector2d(0, 0), 10.001, rest, true, true}));
+  EXPECT_FALSE(trace_back(dip.field, {Vector2d(0, 0), 8, rest, true, true})) << "inside the body";
+  EXPECT_TRUE(trace_back(dip.field, {Vector2d(30, 30), 8, rest, true, true})) << "floating film";
 }
 
 }  // namespace

@@ -96,6 +96,8 @@ void expect_linear(const SolvedDip& dip, const FlowMap& map, const MapOptions& o
   const int samples = 3000;
   int off = 0, lost = 0;
   double most = 0;
+  const waterline::Motion straight;
+  const Landings landings(dip.body, straight);
   for (int i = 0; i < samples; ++i) {
     const MappedTriangle& tile = map.tiles[random() % map.tiles.size()];
     double a = unit(random), b = unit(random);
@@ -110,7 +112,7 @@ void expect_linear(const SolvedDip& dip, const FlowMap& map, const MapOptions& o
       film += share[k] * tile.film_mm[k];
       barycentric += share[k] * tile.barycentric[k].cast<double>();
     }
-    const auto traced = trace_back(dip.field, landing_on(dip.body, {}, tile.triangle, barycentric));
+    const auto traced = trace_back(dip.field, landings.on(tile.triangle, barycentric));
     if (!traced) {
       ++lost;
       continue;
@@ -181,9 +183,9 @@ TEST(Tiles, OfTwoFeetAndTheirBridgeOverlapLittle) {
                          setting);
   const MapOptions options;
   const FlowMap map = mapped(dip, options);
-  // Along upright edges the film that lands is known to a step only.
-  expect_sound(dip, map, 0.03);
-  expect_linear(dip, map, options, 0.2, 2);
+  expect_sound(dip, map);
+  // Along sharp upright edges eq. (1) turns at once by a right angle, and so does the map.
+  expect_linear(dip, map, options, 0.15, 0.4);
 }
 
 TEST(Tiles, OfASphereOnAStalkOverlapLittle) {
@@ -197,8 +199,8 @@ TEST(Tiles, OfASphereOnAStalkOverlapLittle) {
                          setting);
   const MapOptions options;
   const FlowMap map = mapped(dip, options);
-  expect_sound(dip, map, 0.03);
-  expect_linear(dip, map, options, 0.03);
+  expect_sound(dip, map, 0.015);
+  expect_linear(dip, map, options, 0.02, 0.25);
 }
 
 TEST(Tiles, KeepToAFinerTolerance) {
@@ -222,10 +224,11 @@ TEST(Tiles, CarryTheTimeOfContact) {
   const SolvedDip dip = testing::solve_dip(sample::icosphere(16, 3), setting);
   MapOptions options;
   options.dip_speed_mm_per_s = 2.5;
+  const waterline::Motion straight;
+  const Landings landings(dip.body, straight);
   for (const MappedTriangle& tile : mapped(dip, options).tiles) {
     for (int i = 0; i < 3; ++i) {
-      const Landing landing =
-          landing_on(dip.body, {}, tile.triangle, tile.barycentric[i].cast<double>());
+      const Landing landing = landings.on(tile.triangle, tile.barycentric[i].cast<double>());
       EXPECT_NEAR(tile.contact_time_s[i], landing.immersion_mm / 2.5, 1e-5);
     }
   }

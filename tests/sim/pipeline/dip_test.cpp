@@ -307,5 +307,18 @@ TEST(Dip, TakesOpenSheetsAndBrokenBodies) {
   EXPECT_GE(dipped(sheet, options_for("60x60")).figures.coverage, 0);
 }
 
+TEST(Dip, TakesPartsThatAbutWithinRounding) {
+  for (const double gap_mm : {1e-3, 1e-5, 2e-6}) {
+    pipeline::DipOptions options;
+    options.outline = film::parse_outline("80x80").value();
+    options.map.make_tiles = false;
+    const auto dip = pipeline::dip(testing::together({testing::box({-10, -8, 0}, {0, 8, 6}),
+                                                      testing::box({gap_mm, -8, 0}, {10, 8, 6})}),
+                                   options, {});
+    ASSERT_TRUE(dip) << gap_mm << ": " << dip.error().message;
+    EXPECT_LT(dip->figures.film_vertices_max, 5000) << gap_mm;
+  }
+}
+
 }  // namespace
 }  // namespace hydroprint::pipeline

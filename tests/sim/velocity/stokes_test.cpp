@@ -203,5 +203,18 @@ TEST(BoundaryVelocities, AtACornerAreTheMeanOfItsSides) {
   EXPECT_EQ(corners, 4);
 }
 
+TEST(BoundaryVelocities, WhereTwoSolidsTouchAreNoLargerThanElsewhere) {
+  const waterline::Waterline line = testing::line_round(
+      {{{-20, -20}, {0, -20}, {0, 0}, {-20, 0}}, {{0, 0}, {20, 0}, {20, 20}, {0, 20}}});
+  const FilmMesh mesh = mesh_film(outline_of("100x80"), line, {}).value();
+  const Vector2d unit(-0.6, -0.8);
+  const waterline::PullIndex pulls({{{{-30, -30}, {30, 30}, unit, unit}}});
+  for (const Vector2d& u : boundary_velocities(mesh, pulls)) {
+    if (!std::isnan(u.x())) {
+      EXPECT_LT(u.norm(), 1 + 1e-9);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace hydroprint::velocity

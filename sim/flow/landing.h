@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/waterline/body.h"
+#include "sim/waterline/motion.h"
+
+namespace hydroprint::flow {
+
+/// A point of the surface at the moment the water reaches it.
+struct Landing {
+  Eigen::Vector2d point_mm = Eigen::Vector2d::Zero();  ///< where on the water, in F
+  double immersion_mm = 0;
+  /// Film velocity per unit dip speed that eq. (1) gives there; at a crease the mean of its sides.
+  Eigen::Vector2d pull = Eigen::Vector2d::Zero();
+  bool is_smooth = false;        ///< no crease nearby, so `pull` is the film's velocity there
+  bool film_can_follow = false;  ///< false: no film arrives, the surface recedes too fast
+};
+
+/// A landing that several triangles share: the mean of their pulls, smooth if all of them are.
+[[nodiscard]] Landing shared(const Landing& a, const Landing& b);
+
+/// The landings of a body's surface.
+class Landings {
+ public:
+  Landings(const waterline::Body& body, const waterline::Motion& motion);
+
+  /// Of a welded point; its immersion is NaN if it belongs to no triangle.
+  [[nodiscard]] const Landing& of_point(std::size_t point) const { return points_[point]; }
+
+  /// Of a point inside a triangle, `barycentric` of its corners 0, 1, 2.
+  [[nodiscard]] Landing on(int triangle, const Eigen::Vector3d& barycentric) const;
+
+ private:
+  [[nodiscard]] Landing at(const Eigen::Vector3d& point_mm, const Eigen::Vector2d& pull) const;
+
+  const waterline::Body& body_;
+  const waterline::Motion& motion_;
+  std::vector<Landing> points_;
+};
+
+}  // namespace hydroprint::flow
