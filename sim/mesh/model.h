@@ -16,9 +16,9 @@ enum class Wrap { kRepeat, kMirror, kClamp };
 /// A material as the model file names it.
 struct Material {
   std::string name;
-  Eigen::Vector3f colour = {1, 1, 1};  ///< sRGB-coded, [0, 1]
-  bool has_colour = false;             ///< false: the file states no colour
-  std::filesystem::path texture;       ///< resolved against the model's folder; empty: none
+  Eigen::Vector3f colour = {1, 1, 1};        ///< sRGB-coded, [0, 1]
+  bool has_colour = false;                   ///< false: the file states no colour
+  std::filesystem::path texture;             ///< resolved against the model's folder; empty: none
   std::vector<unsigned char> texture_bytes;  ///< the image file itself if the model embeds it
   Wrap wrap_u = Wrap::kRepeat;
   Wrap wrap_v = Wrap::kRepeat;
@@ -28,13 +28,13 @@ struct Material {
 /// Invariants: indices in range, every coordinate finite, at least one triangle with an area.
 struct Model {
   std::filesystem::path path;
-  std::vector<Eigen::Vector3d> vertices;                       ///< in the file's order, times scale
-  std::vector<Eigen::Vector3i> triangles;                      ///< polygons fanned; no zero-area ones
-  std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs;      ///< per triangle, v up; empty: none
-  std::vector<int> triangle_material;                          ///< into materials; empty: none
+  std::vector<Eigen::Vector3d> vertices;                   ///< in the file's order, times scale
+  std::vector<Eigen::Vector3i> triangles;                  ///< polygons fanned; no zero-area ones
+  std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs;  ///< per triangle, v up; empty: none
+  std::vector<int> triangle_material;                      ///< into materials; empty: none
   std::vector<Material> materials;
-  std::vector<Eigen::Vector3f> vertex_colours;                 ///< sRGB-coded [0, 1]; empty: none
-  Warnings warnings;                                           ///< what was assumed in reading
+  std::vector<Eigen::Vector3f> vertex_colours;  ///< sRGB-coded [0, 1]; empty: none
+  Warnings warnings;                            ///< what was assumed in reading
 };
 
 }  // namespace hydroprint::mesh
