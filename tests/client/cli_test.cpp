@@ -68,6 +68,17 @@ class Cli : public ::testing::Test {
     return client_json({"show", job}).at("state");
   }
 
+  /// What `watch` says of a job that it sees from before its start to its end.
+  Outcome watch_whole(const Arguments& flags) const {
+    client({"queue", "pause"});
+    Arguments arguments{"watch", submit("sleep 5")};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    Process watch(command(arguments));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    client({"queue", "resume"});
+    return watch.wait();
+  }
+
   /// Waits until the job is in that state, for at most ten seconds.
   bool becomes(const std::string& job, const std::string& state) const {
     for (int i = 0; i < 100; ++i) {
@@ -171,7 +182,7 @@ TEST_F(Cli, EveryVerbPrintsJson) {
 
 TEST_F(Cli, WatchPrintsALineOfJsonForEachEvent) {
   start();
-  const Outcome ended = client({"watch", submit("sleep 1"), "--json"});
+  const Outcome ended = watch_whole({"--json"});
   EXPECT_EQ(ended.status, 0) << ended.err;
   std::istringstream lines(ended.out);
   json last;
@@ -189,7 +200,7 @@ TEST_F(Cli, WatchPrintsALineOfJsonForEachEvent) {
 
 TEST_F(Cli, WatchShowsTheTimeLeftInLinesWhereThereIsNoTerminal) {
   start();
-  const Outcome ended = client({"watch", submit("sleep 1.5")});
+  const Outcome ended = watch_whole({});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.out.find(" left\n"), std::string::npos) << ended.out;
   EXPECT_EQ(ended.out.find('\r'), std::string::npos) << ended.out;
