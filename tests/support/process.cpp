@@ -46,7 +46,10 @@ Process::Process(std::vector<std::string> arguments, const ProcessOptions& optio
   open_as(STDERR_FILENO, err.c_str());
   if (options.close_stdout) ::close(STDOUT_FILENO);
   for (const auto& [number, path] : options.files) open_as(number, path.c_str());
-  for (const auto& [number, ours] : options.inherited) ::dup2(ours, number);
+  for (const auto& [number, ours] : options.inherited) {
+    ::dup2(ours, number);
+    ::fcntl(number, F_SETFD, 0);  // dup2 onto itself would leave it closing at exec
+  }
   for (const auto& [resource, value] : options.limits) {
     const rlimit limit{value, value};
     ::setrlimit(resource, &limit);
