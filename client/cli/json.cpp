@@ -36,38 +36,6 @@ Json to_json(const client::JobError& error) {
   return json;
 }
 
-std::string_view name_of(Code code) {
-  switch (code) {
-    case Code::kCancelled:
-      return "CANCELLED";
-    case Code::kInvalidArgument:
-      return "INVALID_ARGUMENT";
-    case Code::kNotFound:
-      return "NOT_FOUND";
-    case Code::kAlreadyExists:
-      return "ALREADY_EXISTS";
-    case Code::kPermissionDenied:
-      return "PERMISSION_DENIED";
-    case Code::kResourceExhausted:
-      return "RESOURCE_EXHAUSTED";
-    case Code::kFailedPrecondition:
-      return "FAILED_PRECONDITION";
-    case Code::kAborted:
-      return "ABORTED";
-    case Code::kOutOfRange:
-      return "OUT_OF_RANGE";
-    case Code::kUnimplemented:
-      return "UNIMPLEMENTED";
-    case Code::kInternal:
-      return "INTERNAL";
-    case Code::kUnavailable:
-      return "UNAVAILABLE";
-    case Code::kDataLoss:
-      return "DATA_LOSS";
-  }
-  return "UNKNOWN";
-}
-
 }  // namespace
 
 Json to_json(const client::Spec& spec) {
@@ -152,7 +120,7 @@ Json to_json(const client::Artifact& artifact) {
 }
 
 Json to_json(const Error& error) {
-  Json json{{"code", name_of(error.code)}};
+  Json json{{"code", code_name(error.code)}};
   put(json, "reason", error.reason);
   json["message"] = error.message;
   if (!error.metadata.empty()) json["metadata"] = error.metadata;

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <tl/expected.hpp>
 #include <utility>
 #include <vector>
@@ -24,6 +25,9 @@ enum class Code {
   kUnavailable,
   kDataLoss,
 };
+
+/// gRPC's name of a code: "INVALID_ARGUMENT".
+[[nodiscard]] std::string_view code_name(Code code);
 
 /// One failure: a code for programs and one sentence for people that names the thing, the place in
 /// it and what to do.
@@ -67,6 +71,9 @@ enum class ExitStatus { kDone = 0, kUsage = 2, kBadInput = 3, kFailed = 4, kCanc
 
 }  // namespace hydroprint
 
+// What is declared cannot stand in parentheses.
+// NOLINTBEGIN(bugprone-macro-parentheses)
+
 /// Evaluates a Result; on error returns it from the enclosing function, else binds the value.
 #define HP_CONCAT_INNER(a, b) a##b
 #define HP_CONCAT(a, b) HP_CONCAT_INNER(a, b)
@@ -79,3 +86,5 @@ enum class ExitStatus { kDone = 0, kUsage = 2, kBadInput = 3, kFailed = 4, kCanc
 /// Evaluates a Status (or Result whose value is not needed); on error returns it.
 #define HP_RETURN_IF_ERROR(expression) \
   if (auto status_ = (expression); !status_) return tl::unexpected(std::move(status_).error())
+
+// NOLINTEND(bugprone-macro-parentheses)

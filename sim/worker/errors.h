@@ -1,14 +1,10 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "sim/base/result.h"
 
 namespace hydroprint::worker {
-
-/// gRPC's name of a code: "INVALID_ARGUMENT".
-[[nodiscard]] std::string_view code_name(Code code);
 
 /// The text on one line: control characters, line ends among them, become blanks.
 [[nodiscard]] std::string one_line(std::string text);
