@@ -53,7 +53,7 @@ TEST(AxisymmetricSheet, UniformFilmFollowsTheExactMapOfTheSphere) {
                 exact::film_radius_mm(kSphere, kVat, radians(degrees)), 1e-6)
         << degrees;
   }
-  for (double film_mm = 1; film_mm < 70; ++film_mm) {
+  for (int film_mm = 1; film_mm < 70; ++film_mm) {
     EXPECT_NEAR(dip.at_film(film_mm)->contact_angle_rad,
                 exact::contact_angle_rad(kSphere, kVat, film_mm), 1e-7)
         << film_mm;
@@ -92,7 +92,7 @@ TEST(AxisymmetricSheet, UniformFilmIsDilutedAsExactly) {
 TEST(AxisymmetricSheet, UniformFilmFollowsTheExactMapOfACone) {
   const double slope = radians(50);
   const Dip dip(uniform_film(), cone(slope, 60), 500);
-  for (double waterline = 1; waterline < 60; waterline += 1) {
+  for (int waterline = 1; waterline < 60; ++waterline) {
     const double share = waterline / kVat;
     const double exact = kVat * std::sqrt(1 - std::pow(1 - share * share, 1 / std::cos(slope)));
     const auto landing = dip.at_wetted(waterline * waterline / (2 * std::cos(slope)));
