@@ -26,22 +26,27 @@ struct Key {
   Range range;
 };
 
-// Everything but swelling, which is a pair.
-constexpr std::array<Key, 8> kKeys = {{
+// All the single numbers.
+constexpr std::array<Key, 11> kKeys = {{
     {"thickness_mm", &Profile::thickness_mm, {1e-3, 10}},
     {"ink_ratio_mm", &Profile::ink_ratio_mm, {0, 10}},
     {"drag_length_mm", &Profile::drag_length_mm, {0, 1e4}},
     {"tear_stretch", &Profile::tear_stretch, {1, 100}},
     {"wrinkle_stretch", &Profile::wrinkle_stretch, {0, 1}},
+    {"young_modulus_mpa", &Profile::young_modulus_mpa, {1e-6, 1e6}},
+    {"density_kg_per_m3", &Profile::density_kg_per_m3, {1, 1e5}},
+    {"poisson_ratio", &Profile::poisson_ratio, {0, 0.5}},
     {"activator_ml_per_m2", &Profile::activator_ml_per_m2, {0, 1000}},
     {"soak_s", &Profile::soak_s, {0, 3600}},
     {"activator_wait_s", &Profile::activator_wait_s, {0, 3600}},
 }};
 constexpr std::string_view kSwelling = "swelling";
 constexpr Range kSwellingRange = {1, 2};
+constexpr std::string_view kInkIccProfile = "ink_icc_profile";
 
 std::string known_keys() {
   std::string out(kSwelling);
+  out.append(", ").append(kInkIccProfile);
   for (const Key& key : kKeys) out.append(", ").append(key.name);
   return out;
 }
@@ -77,11 +82,27 @@ Result<Eigen::Vector2d> read_swelling(const std::string& where, const toml::node
   return out;
 }
 
+Result<std::filesystem::path> read_path(const std::string& where, const toml::node& node,
+                                        const std::filesystem::path& folder) {
+  const auto text = node.value_exact<std::string>();
+  if (!text || text->find('\0') != std::string::npos) {
+    return fail(
+        Code::kInvalidArgument,
+        where + " is not a path. Write ink_icc_profile = \"printer.icc\", or \"\" for none");
+  }
+  if (text->empty()) return std::filesystem::path();
+  return folder / *text;
+}
+
 Status read_key(const std::filesystem::path& path, const toml::key& name, const toml::node& node,
                 Profile& profile) {
   const std::string where = place(path, name.source(), name.str());
   if (name.str() == kSwelling) {
     HP_ASSIGN_OR_RETURN(profile.swelling, read_swelling(where, node));
+    return {};
+  }
+  if (name.str() == kInkIccProfile) {
+    HP_ASSIGN_OR_RETURN(profile.ink_icc_profile, read_path(where, node, path.parent_path()));
     return {};
   }
   for (const Key& key : kKeys) {
@@ -111,6 +132,10 @@ Result<Profile> read_profile(const std::filesystem::path& path) {
     HP_RETURN_IF_ERROR(read_key(path, name, node, profile));
   }
   return profile;
+}
+
+double rest_thickness_mm(const Profile& profile, double t) {
+  return profile.thickness_mm + profile.ink_ratio_mm * t;
 }
 
 }  // namespace hydroprint::film

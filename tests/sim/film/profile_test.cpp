@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "sim/base/input_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::film {
@@ -12,18 +15,48 @@ Result<Profile> profile(const std::string& toml) {
   return read_profile(folder.write("film.toml", toml));
 }
 
+void expect_equal(const Profile& a, const Profile& b) {
+  EXPECT_EQ(a.thickness_mm, b.thickness_mm);
+  EXPECT_EQ(a.ink_ratio_mm, b.ink_ratio_mm);
+  EXPECT_EQ(a.ink_icc_profile, b.ink_icc_profile);
+  EXPECT_EQ(a.swelling, b.swelling);
+  EXPECT_EQ(a.drag_length_mm, b.drag_length_mm);
+  EXPECT_EQ(a.tear_stretch, b.tear_stretch);
+  EXPECT_EQ(a.wrinkle_stretch, b.wrinkle_stretch);
+  EXPECT_EQ(a.young_modulus_mpa, b.young_modulus_mpa);
+  EXPECT_EQ(a.density_kg_per_m3, b.density_kg_per_m3);
+  EXPECT_EQ(a.poisson_ratio, b.poisson_ratio);
+  EXPECT_EQ(a.activator_ml_per_m2, b.activator_ml_per_m2);
+  EXPECT_EQ(a.soak_s, b.soak_s);
+  EXPECT_EQ(a.activator_wait_s, b.activator_wait_s);
+}
+
+/// The keys that the refusal of an unknown one lists.
+std::vector<std::string> known_keys() {
+  const std::string message = profile("no_such_key = 1").error().message;
+  std::istringstream list(message.substr(message.find("Use ") + 4));
+  std::vector<std::string> keys;
+  for (std::string key; std::getline(list >> std::ws, key, ',');) keys.push_back(key);
+  return keys;
+}
+
 TEST(Profile, EmptyFileIsThePapersFilm) {
   const auto read = profile("");
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->thickness_mm, Profile{}.thickness_mm);
-  EXPECT_EQ(read->swelling, Profile{}.swelling);
+  EXPECT_EQ(read->thickness_mm, 0.5);
+  EXPECT_EQ(read->ink_ratio_mm, 0.05);
+  EXPECT_EQ(read->young_modulus_mpa, 1.82);
+  EXPECT_EQ(read->density_kg_per_m3, 1300);
+  EXPECT_EQ(read->poisson_ratio, 0.5);
+  expect_equal(*read, Profile{});
 }
 
 TEST(Profile, EveryKeyReachesItsMember) {
   const auto read = profile(
       "thickness_mm = 0.04\nink_ratio_mm = 0.01\nswelling = [1.02, 1.1]\ndrag_length_mm = 12\n"
       "tear_stretch = 2.5\nwrinkle_stretch = 0.7\nactivator_ml_per_m2 = 17\nsoak_s = 55\n"
-      "activator_wait_s = 15\n");
+      "activator_wait_s = 15\nyoung_modulus_mpa = 2\ndensity_kg_per_m3 = 1200\n"
+      "poisson_ratio = 0.45\nink_icc_profile = \"/icc/printer.icc\"\n");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->thickness_mm, 0.04);
   EXPECT_EQ(read->ink_ratio_mm, 0.01);
@@ -34,6 +67,43 @@ TEST(Profile, EveryKeyReachesItsMember) {
   EXPECT_EQ(read->activator_ml_per_m2, 17);
   EXPECT_EQ(read->soak_s, 55);
   EXPECT_EQ(read->activator_wait_s, 15);
+  EXPECT_EQ(read->young_modulus_mpa, 2);
+  EXPECT_EQ(read->density_kg_per_m3, 1200);
+  EXPECT_EQ(read->poisson_ratio, 0.45);
+  EXPECT_EQ(read->ink_icc_profile, "/icc/printer.icc");
+}
+
+TEST(Profile, RelativeIccProfilesLieBesideTheFile) {
+  const testing::TemporaryFolder folder;
+  const auto file = folder.write("film.toml", "ink_icc_profile = \"icc/printer.icc\"");
+  const auto read = read_profile(file);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->ink_icc_profile, folder.path() / "icc/printer.icc");
+  const auto none = profile("ink_icc_profile = \"\"");
+  ASSERT_TRUE(none) << none.error().message;
+  EXPECT_TRUE(none->ink_icc_profile.empty()) << "not the folder";
+}
+
+TEST(Profile, ExampleShowsEveryKeyWithItsDefault) {
+  const auto read = read_profile(HYDROPRINT_EXAMPLE_PROFILE);
+  ASSERT_TRUE(read) << read.error().message;
+  expect_equal(*read, Profile{});
+  const auto text = read_text_file(HYDROPRINT_EXAMPLE_PROFILE, 1 << 20);
+  ASSERT_TRUE(text);
+  const auto keys = known_keys();
+  EXPECT_EQ(keys.size(), 13u);
+  for (const std::string& key : keys) {
+    EXPECT_NE(text->find("\n" + key + " = "), std::string::npos) << key;
+  }
+}
+
+TEST(Profile, InkAddsToTheThicknessInProportion) {
+  Profile film;
+  EXPECT_DOUBLE_EQ(rest_thickness_mm(film, 0), 0.5);
+  EXPECT_DOUBLE_EQ(rest_thickness_mm(film, 4), 0.7);
+  film.thickness_mm = 0.04;
+  film.ink_ratio_mm = 0.002;
+  EXPECT_DOUBLE_EQ(rest_thickness_mm(film, 1.5), 0.043);
 }
 
 TEST(Profile, WhatIsWrongIsNamedWithItsLineAndARemedy) {
@@ -53,6 +123,13 @@ TEST(Profile, WhatIsWrongIsNamedWithItsLineAndARemedy) {
       {"swelling = [1.1, 0.9]", "line 1", "from 1 to 2", Code::kOutOfRange},
       {"swelling = [2.1, 1]", "line 1", "from 1 to 2", Code::kOutOfRange},
       {"drag_length_mm = -1", "line 1", "from 0", Code::kOutOfRange},
+      {"young_modulus_mpa = 0", "line 1", "from 1e-06", Code::kOutOfRange},
+      {"density_kg_per_m3 = 0", "line 1", "from 1 to", Code::kOutOfRange},
+      {"poisson_ratio = 0.51", "line 1", "from 0 to 0.5", Code::kOutOfRange},
+      {"poisson_ratio = -0.1", "line 1", "from 0 to 0.5", Code::kOutOfRange},
+      {"ink_icc_profile = 1", "line 1", "printer.icc", Code::kInvalidArgument},
+      {"ink_icc_profile = [\"a.icc\"]", "line 1", "printer.icc", Code::kInvalidArgument},
+      {"ink_icc_profile = \"a\\u0000.icc\"", "line 1", "printer.icc", Code::kInvalidArgument},
       {"soak_s = 60\nsoak_s = 61", "line 2", "Correct", Code::kInvalidArgument},
       {"soak_s = \n", "line 1", "Correct", Code::kInvalidArgument},
   };
