@@ -9,20 +9,6 @@
 namespace hydroprint::image {
 namespace {
 
-/// What an image of this size covers, if it covers the whole film: lower left corner and size.
-std::pair<Eigen::Vector2d, Eigen::Vector2d> extent(int width, int height,
-                                                   const film::Outline& outline) {
-  const double dpi = std::round(width * 25.4 / outline.size_mm().x());
-  if (dpi >= 1) {
-    const FilmGrid grid = film_grid(outline, 25.4 / dpi);
-    if (grid.columns == width && grid.rows == height) {
-      const Eigen::Vector2d size = Eigen::Vector2d(width, height) * grid.pitch_mm;
-      return {{grid.left_mm, grid.top_mm - size.y()}, size};
-    }
-  }
-  return {outline.min_mm, outline.size_mm()};
-}
-
 /// Means over blocks of `factor` by `factor` pixels, in linear light; the last ones may be smaller.
 Texels reduce(const RgbImage& image, int factor) {
   Texels out;
@@ -53,10 +39,22 @@ Texels reduce(const RgbImage& image, int factor) {
 
 }  // namespace
 
+ImageExtent image_extent(int width, int height, const film::Outline& outline) {
+  const double dpi = std::round(width * 25.4 / outline.size_mm().x());
+  if (dpi >= 1) {
+    const FilmGrid grid = film_grid(outline, 25.4 / dpi);
+    if (grid.columns == width && grid.rows == height) {
+      const Eigen::Vector2d size_mm = Eigen::Vector2d(width, height) * grid.pitch_mm;
+      return {{grid.left_mm, grid.top_mm - size_mm.y()}, size_mm};
+    }
+  }
+  return {outline.min_mm, outline.size_mm()};
+}
+
 Result<FilmTexture> FilmTexture::read(const std::filesystem::path& path,
                                       const film::Outline& outline, const Context& context) {
   HP_ASSIGN_OR_RETURN(ReadImage read, read_image(path, context));
-  const auto [low, size] = extent(read.image.width, read.image.height, outline);
+  const auto [low, size] = image_extent(read.image.width, read.image.height, outline);
   HP_ASSIGN_OR_RETURN(Texture texture, Texture::build(std::move(read.image), mesh::Wrap::kClamp,
                                                       mesh::Wrap::kClamp, context));
   return FilmTexture(std::move(texture), low, size);
@@ -64,7 +62,7 @@ Result<FilmTexture> FilmTexture::read(const std::filesystem::path& path,
 
 Result<FilmTexture> FilmTexture::from_image(const RgbImage& image, const film::Outline& outline,
                                             int max_side_px, const Context& context) {
-  const auto [low, size] = extent(image.width, image.height, outline);
+  const auto [low, size] = image_extent(image.width, image.height, outline);
   const int factor = (std::max(image.width, image.height) + max_side_px - 1) / max_side_px;
   Texels texels = reduce(image, factor);
   // Whole texels: the last column and row may reach beyond the image.

@@ -14,12 +14,21 @@
 
 namespace hydroprint::image {
 
+/// The part of the film's plane that an image lies on.
+struct ImageExtent {
+  Eigen::Vector2d low_mm, size_mm;  ///< lower left corner; width and height
+};
+
+/// Where an image of a film lies: one whose size is that of a whole number of dots per inch has
+/// exactly that pitch and is centred (as film_image makes them); any other is fitted to the film's
+/// bounding box.
+[[nodiscard]] ImageExtent image_extent(int width, int height, const film::Outline& outline);
+
 /// A film image lying on its film, to be looked up by place.
 class FilmTexture {
  public:
-  /// Reads any PNG, JPEG or TIFF at the film's size. An image whose size is that of a whole number
-  /// of dots per inch has exactly that pitch and is centred (as film_image makes them); any other
-  /// is fitted to the film's bounding box. Refuses what read_image refuses.
+  /// Reads any PNG, JPEG or TIFF at the film's size; it lies as image_extent says. Refuses what
+  /// read_image refuses.
   [[nodiscard]] static Result<FilmTexture> read(const std::filesystem::path& path,
                                                 const film::Outline& outline,
                                                 const Context& context);
