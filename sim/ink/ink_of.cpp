@@ -1,0 +1,117 @@
+#include "sim/ink/ink_of.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "sim/image/colour.h"
+#include "sim/image/film_texture.h"
+#include "sim/image/image_file.h"
+#include "sim/ink/separation.h"
+
+namespace hydroprint::ink {
+namespace {
+
+/// An image by its rows (8-bit sRGB, row 0 on top); `buffer` is there to put one into.
+struct Rows {
+  int width, height;
+  std::function<const std::uint8_t*(int y, std::vector<std::uint8_t>& buffer)> row;
+};
+
+/// Which pixels a cell covers, along one axis: from the first one's edge, in pixels.
+struct Span {
+  double from, to;
+
+  [[nodiscard]] int begin() const { return static_cast<int>(from); }
+  [[nodiscard]] int end() const { return static_cast<int>(std::ceil(to)); }
+  [[nodiscard]] double share(int pixel) const {
+    return std::min<double>(to, pixel + 1) - std::max<double>(from, pixel);
+  }
+};
+
+/// @param first_px, cell_px  where cell 0 begins and the cells' size, in pixels
+std::vector<Span> spans(int cells, double first_px, double cell_px, int pixels) {
+  const auto edge = [&](int cell) {
+    return std::clamp(first_px + cell * cell_px, 0.0, static_cast<double>(pixels));
+  };
+  std::vector<Span> out;
+  for (int cell = 0; cell < cells; ++cell) out.push_back({edge(cell), edge(cell + 1)});
+  return out;
+}
+
+double covered(const std::vector<double>& t, const Span& span) {
+  const int begin = span.begin(), end = span.end();
+  double sum = 0;
+  if (begin < end) sum += span.share(begin) * t[begin];
+  for (int x = begin + 1; x < end - 1; ++x) sum += t[x];
+  if (begin + 1 < end) sum += span.share(end - 1) * t[end - 1];
+  return sum;
+}
+
+Result<InkField> average(const Rows& image, const film::Outline& outline, const InkOptions& options,
+                         const Context& context) {
+  HP_ASSIGN_OR_RETURN(const Separation separation, make_separation(options.icc_profile));
+  const InkGrid grid = ink_grid(outline, options.cell_mm);
+  const auto extent = image::image_extent(image.width, image.height, outline);
+  const Eigen::Vector2d px_mm =
+      extent.size_mm.cwiseQuotient(Eigen::Vector2d(image.width, image.height));
+  const Eigen::Vector2d cell_px = grid.cell_mm.cwiseQuotient(px_mm);
+  // Counted from the top, as the image's rows are.
+  const Eigen::Vector2d first_px =
+      Eigen::Vector2d(outline.min_mm.x() - extent.low_mm.x(),
+                      extent.low_mm.y() + extent.size_mm.y() - outline.max_mm.y())
+          .cwiseQuotient(px_mm);
+  const auto across = spans(grid.columns, first_px.x(), cell_px.x(), image.width);
+  const auto down = spans(grid.rows, first_px.y(), cell_px.y(), image.height);
+
+  std::vector<double> means(grid.count());
+  HP_RETURN_IF_ERROR(parallel_for(context, "ink", down.size(), [&](std::size_t j) {
+    double* cells = &means[(down.size() - 1 - j) * across.size()];
+    std::vector<double> t(static_cast<std::size_t>(image.width));
+    std::vector<std::uint8_t> buffer;
+    for (int y = down[j].begin(); y < down[j].end(); ++y) {
+      separation(image.row(y, buffer), t.size(), t.data());
+      for (std::size_t i = 0; i < across.size(); ++i) {
+        cells[i] += down[j].share(y) * covered(t, across[i]);
+      }
+    }
+    for (std::size_t i = 0; i < across.size(); ++i) {
+      cells[i] = std::min(cells[i] / cell_px.prod(), kMostInk);  // rounding
+    }
+    return Status{};
+  }));
+  return InkField::from_means(grid, means);
+}
+
+}  // namespace
+
+Result<InkField> ink_of(const image::RgbImage& film_image, const film::Outline& outline,
+                        const InkOptions& options, const Context& context) {
+  return average({film_image.width, film_image.height,
+                  [&](int y, std::vector<std::uint8_t>&) { return film_image.at(0, y); }},
+                 outline, options, context);
+}
+
+Result<InkField> read_ink_image(const std::filesystem::path& path, const film::Outline& outline,
+                                const InkOptions& options, const Context& context) {
+  HP_ASSIGN_OR_RETURN(const image::ReadImage read, image::read_image(path, context));
+  const image::Texels& image = read.image;
+  const image::Srgb8Encoder encode;
+  const auto row = [&](int y, std::vector<std::uint8_t>& buffer) {
+    const auto width = static_cast<std::size_t>(image.width);
+    const image::Texel* texels = &image.texels[static_cast<std::size_t>(y) * width];
+    buffer.resize(3 * width);
+    for (std::size_t x = 0; x < width; ++x) {
+      const std::uint16_t linear[] = {texels[x].r, texels[x].g, texels[x].b};
+      for (std::size_t c = 0; c < 3; ++c) {
+        buffer[3 * x + c] = encode(static_cast<float>(linear[c]) / 65535.0F);
+      }
+    }
+    return buffer.data();
+  };
+  return average({image.width, image.height, row}, outline, options, context);
+}
+
+}  // namespace hydroprint::ink
