@@ -80,8 +80,10 @@ Result<InkField> InkField::from_function(const InkGrid& grid,
     const auto i = static_cast<int>(cell % static_cast<std::size_t>(grid.columns));
     const auto j = static_cast<int>(cell / static_cast<std::size_t>(grid.columns));
     for (int k = 0; k < kPointsPerCell * kPointsPerCell; ++k) {
-      const Vector2d offset((k % kPointsPerCell + 0.5) / kPointsPerCell - 0.5,
-                            (k / kPointsPerCell + 0.5) / kPointsPerCell - 0.5);
+      const int row = k / kPointsPerCell;
+      const Vector2d point(k % kPointsPerCell, row);
+      const Vector2d offset =
+          (point + Vector2d::Constant(0.5)) / kPointsPerCell - Vector2d::Constant(0.5);
       const double value = t(grid.centre_mm(i, j) + grid.cell_mm.cwiseProduct(offset));
       if (!is_ink(value)) return not_ink(grid, cell, value);
       means[cell] += value / (kPointsPerCell * kPointsPerCell);

@@ -37,6 +37,7 @@ std::vector<Span> spans(int cells, double first_px, double cell_px, int pixels) 
     return std::clamp(first_px + cell * cell_px, 0.0, static_cast<double>(pixels));
   };
   std::vector<Span> out;
+  out.reserve(static_cast<std::size_t>(cells));
   for (int cell = 0; cell < cells; ++cell) out.push_back({edge(cell), edge(cell + 1)});
   return out;
 }
