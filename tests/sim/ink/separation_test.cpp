@@ -17,7 +17,6 @@ namespace hydroprint::ink {
 namespace {
 
 using testing::icc_profile;
-using testing::Printer;
 
 using Rgb = std::array<std::uint8_t, 3>;
 
