@@ -111,7 +111,7 @@ Result<std::vector<Asset>> AssetStore::list(const std::string& after, int limit)
 }
 
 Status AssetStore::remove(const std::string& sha256) {
-  return database_.transaction([&]() -> Status {
+  const Status done = database_.transaction([&]() -> Status {
     HP_RETURN_IF_ERROR(asset(sha256));
     HP_ASSIGN_OR_RETURN(
         const auto jobs,
@@ -125,10 +125,19 @@ Status AssetStore::remove(const std::string& sha256) {
                       "; cancel that or wait for its end",
                   "STATE_FORBIDS");
     }
-    HP_RETURN_IF_ERROR(database_.run("DELETE FROM assets WHERE sha256=?", {sha256}));
-    // Within the transaction: nobody can have made the same asset anew. Should the power fail now,
-    // a row without a file is left, which the next start finds.
-    discard(layout_.asset(sha256));
+    return database_.run("DELETE FROM assets WHERE sha256=?", {sha256});
+  });
+  HP_RETURN_IF_ERROR(done);
+  discard_unowned(sha256);
+  return {};
+}
+
+// Deletes an asset's file if it has no row, in one turn: nobody can be making the same asset anew.
+// What stays because the power or the store fails now, the next start finds.
+void AssetStore::discard_unowned(const std::string& sha256) {
+  (void)database_.transaction([&]() -> Status {
+    const auto owner = asset(sha256);
+    if (!owner && owner.error().code == Code::kNotFound) discard(layout_.asset(sha256));
     return {};
   });
 }
@@ -146,6 +155,13 @@ Result<Asset> AssetStore::complete(const Upload& upload) {
   });
   HP_RETURN_IF_ERROR(done);
   return asset(upload.sha256);
+}
+
+// The files first: they may be what the row's deletion needs room for.
+void AssetStore::give_up(const Upload& upload) {
+  discard(layout_.upload(upload.id));
+  discard_unowned(upload.sha256);
+  (void)database_.run("DELETE FROM uploads WHERE id=?", {upload.id});
 }
 
 Status AssetStore::purge() {
@@ -246,12 +262,25 @@ Status UploadWriter::append(std::int64_t offset, std::string_view bytes) {
   const auto size = static_cast<std::int64_t>(bytes.size());
   if (size > upload_.size_bytes - offset) return too_large(Code::kOutOfRange, upload_.size_bytes);
   const auto path = store_.layout_.upload(upload_.id);
-  HP_RETURN_IF_ERROR(write_at(file_, path, bytes, offset));
+  const Status written = write_at(file_, path, bytes, offset);
+  if (!written) return tl::unexpected(give_up_if_full(written.error()));
   upload_.received_bytes += size;
   return {};
 }
 
+Error UploadWriter::give_up_if_full(Error error) {
+  if (error.reason == "DISK_FULL") {
+    file_.reset();  // an open file keeps its room
+    store_.give_up(upload_);
+  }
+  return error;
+}
+
 Result<AssetOrUpload> UploadWriter::finish() {
+  return verify().map_error([&](Error error) { return give_up_if_full(std::move(error)); });
+}
+
+Result<AssetOrUpload> UploadWriter::verify() {
   const auto path = store_.layout_.upload(upload_.id);
   if (::fsync(file_.get()) != 0) return system_failure(path, "cannot be made safe on disk");
   if (upload_.received_bytes < upload_.size_bytes) return AssetOrUpload(upload_);

@@ -76,6 +76,8 @@ class AssetStore {
   [[nodiscard]] Status drop_rows_without_file();
   friend class UploadWriter;
   [[nodiscard]] Result<Asset> complete(const Upload& upload);
+  void give_up(const Upload& upload);
+  void discard_unowned(const std::string& sha256);
 
   Database& database_;
   Layout layout_;
@@ -96,14 +98,17 @@ class UploadWriter {
   UploadWriter& operator=(const UploadWriter&) = delete;
 
   /// Appends bytes. kOutOfRange: OFFSET_MISMATCH (metadata expected_offset), ASSET_TOO_LARGE;
-  /// kResourceExhausted, DISK_FULL.
+  /// kResourceExhausted, DISK_FULL: the upload is gone, so that it does not keep the disk full.
   [[nodiscard]] Status append(std::int64_t offset, std::string_view bytes);
   /// Makes what came safe on disk; with all bytes there, verifies them and makes the asset.
-  /// @return kInvalidArgument, ASSET_HASH_MISMATCH: the upload is gone
+  /// @return kInvalidArgument, ASSET_HASH_MISMATCH, or kResourceExhausted, DISK_FULL: the upload is
+  ///   gone
   [[nodiscard]] Result<AssetOrUpload> finish();
 
  private:
   UploadWriter(AssetStore& store, Upload upload) : store_(store), upload_(std::move(upload)) {}
+  [[nodiscard]] Result<AssetOrUpload> verify();
+  [[nodiscard]] Error give_up_if_full(Error error);
 
   AssetStore& store_;
   Upload upload_;

@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <cerrno>
 #include <mutex>
 #include <unordered_map>
 
@@ -15,8 +16,15 @@ using Statement = std::unique_ptr<sqlite3_stmt, CloseStatement>;
 
 sqlite3_stmt* as_statement(void* statement) { return static_cast<sqlite3_stmt*>(statement); }
 
+// SQLite says "full" where a write finds no room, but not where it stretches or syncs a file.
+bool disk_is_full(sqlite3* db) {
+  const int code = sqlite3_errcode(db), error = sqlite3_system_errno(db);
+  return code == SQLITE_FULL || ((code == SQLITE_IOERR || code == SQLITE_CANTOPEN) &&
+                                 (error == ENOSPC || error == EDQUOT));
+}
+
 tl::unexpected<Error> database_failure(sqlite3* db) {
-  if (sqlite3_errcode(db) == SQLITE_FULL) {
+  if (disk_is_full(db)) {
     return fail(Code::kResourceExhausted,
                 "the daemon's disk is full; delete jobs or assets, or make room", "DISK_FULL");
   }
@@ -24,6 +32,12 @@ tl::unexpected<Error> database_failure(sqlite3* db) {
               std::string("the job database: ") + sqlite3_errmsg(db) +
                   "; check the state folder's disk and permissions",
               "STORE_FAILED");
+}
+
+// Once the log's content is in the database, the log begins anew and has room without growing: so a
+// change that found the disk full may succeed the next time. No harm where that fails too.
+void empty_log(sqlite3* db) {
+  sqlite3_wal_checkpoint_v2(db, nullptr, SQLITE_CHECKPOINT_RESTART, nullptr, nullptr);
 }
 
 int bind(sqlite3_stmt* statement, int index, const DbValue& value) {
@@ -86,6 +100,7 @@ Result<std::unique_ptr<Database>> Database::open(const std::filesystem::path& pa
     failure.value().message = path.string() + ": " + failure.value().message;
     return failure;
   }
+  empty_log(db);
   return database;
 }
 
@@ -114,6 +129,7 @@ Status Database::transaction(const std::function<Status()>& body) {
   if (status) status = run("COMMIT");
   // A failed COMMIT may leave the transaction open; some errors have rolled it back already.
   if (!status && sqlite3_get_autocommit(impl_->db) == 0) (void)run("ROLLBACK");
+  if (!status && status.error().reason == "DISK_FULL") empty_log(impl_->db);
   return status;
 }
 

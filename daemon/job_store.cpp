@@ -83,7 +83,7 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
 }
 
 Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
-  std::int64_t id = 0;
+  std::int64_t id = 0, inserted = 0;
   const Status done = database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const auto earlier,
                         earlier_result(database_, made.owner, request, clock_()));
@@ -91,11 +91,13 @@ Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
       id = parse_number(*earlier);
       return {};
     }
-    HP_ASSIGN_OR_RETURN(id, insert(made));
+    HP_ASSIGN_OR_RETURN(inserted, insert(made));
+    id = inserted;
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
     HP_RETURN_IF_ERROR(adopt_cached(job));
     return remember_result(database_, made.owner, request, std::to_string(id), clock_());
   });
+  if (!done && inserted != 0) discard_unowned(inserted);
   HP_RETURN_IF_ERROR(done);
   bell_.ring();
   return get(id);
@@ -127,6 +129,17 @@ Result<bool> JobStore::adopt_cached(const Job& job) {
   HP_RETURN_IF_ERROR(finish(job.id, JobState::kSucceeded,
                             "same inputs as " + job_name(equal.front()) + ": its artifacts"));
   return true;
+}
+
+// Deletes the artifacts' folder of a job that has none: adopted, then not stored.
+void JobStore::discard_unowned(std::int64_t id) {
+  (void)database_.transaction([&]() -> Status {
+    HP_ASSIGN_OR_RETURN(const auto owner,
+                        select_numbers(database_, "SELECT id FROM jobs WHERE id=? AND state=?",
+                                       {id, number(JobState::kSucceeded)}));
+    if (owner.empty()) discard(layout_.artifacts(id));
+    return {};
+  });
 }
 
 Status JobStore::store_artifacts(std::int64_t id, const std::vector<Artifact>& artifacts) {
@@ -228,7 +241,7 @@ Result<Job> JobStore::cancel(std::int64_t id) {
 }
 
 Result<Job> JobStore::start(std::int64_t id) {
-  return changed(id, [&](const Job& job) -> Status {
+  auto started = changed(id, [&](const Job& job) -> Status {
     if (job.state != JobState::kQueued) return state_forbids(job, "only a queued job can start");
     HP_ASSIGN_OR_RETURN(const bool cached, adopt_cached(job));
     if (cached) return {};
@@ -237,6 +250,8 @@ Result<Job> JobStore::start(std::int64_t id) {
         {clock_(), id}));
     return change(id, JobState::kRunning, "");
   });
+  if (!started && started.error().reason == "DISK_FULL") discard_unowned(id);
+  return started;
 }
 
 Status JobStore::report(std::int64_t id, const Progress& progress) {

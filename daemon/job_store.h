@@ -115,6 +115,7 @@ class JobStore {
  private:
   [[nodiscard]] Result<std::int64_t> insert(const NewJob& made);
   [[nodiscard]] Result<bool> adopt_cached(const Job& job);
+  void discard_unowned(std::int64_t id);
   [[nodiscard]] Status store_artifacts(std::int64_t id, const std::vector<Artifact>& artifacts);
   [[nodiscard]] Status change(std::int64_t id, JobState state, const std::string& message);
   [[nodiscard]] Status finish(std::int64_t id, JobState state, const std::string& message);

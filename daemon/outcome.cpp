@@ -65,8 +65,27 @@ JobFailure time_failure() {
                  "workers.time_limit_s");
 }
 
+bool out_of_disk(const std::string& words) {
+  return words.find("the disk is full") != std::string::npos ||
+         words.find("No space left on device") != std::string::npos;
+}
+
+JobFailure disk_failure() {
+  return failure(Code::kResourceExhausted, "DISK_FULL",
+                 "the artifacts do not fit on the daemon's disk; delete jobs or assets, make room, "
+                 "or lower dpi, and retry");
+}
+
+JobFailure output_failure() {
+  return failure(Code::kResourceExhausted, "OUTPUT_LIMIT",
+                 "the worker wrote a larger file than it may; lower dpi or raise "
+                 "workers.file_mib");
+}
+
 JobFailure judge_exit(int status, const std::string& words) {
   if (out_of_memory(words) && status != 2) return memory_failure();
+  if (out_of_disk(words)) return disk_failure();
+  if (words.find("limit on file sizes") != std::string::npos) return output_failure();
   switch (status) {
     case 2:
     case 3:
@@ -89,11 +108,7 @@ JobFailure judge_exit(int status, const std::string& words) {
 
 JobFailure judge_signal(int signal, const std::string& words) {
   if (signal == SIGXCPU) return time_failure();
-  if (signal == SIGXFSZ) {
-    return failure(Code::kResourceExhausted, "OUTPUT_LIMIT",
-                   "the worker wrote a larger file than it may; lower dpi or raise "
-                   "workers.file_mib");
-  }
+  if (signal == SIGXFSZ) return output_failure();
   if (out_of_memory(words)) return memory_failure();
   if (signal == SIGKILL || signal == SIGTERM) {
     return failure(Code::kInternal, "WORKER_KILLED",

@@ -216,6 +216,7 @@ void WorkerPool::Impl::start_job(const Job& job) {
     }
     status = tl::unexpected(run.error());
   }
+  discard(layout.run(job.id));
   log(LogLevel::kError, "worker_not_started",
       {{"job", job.id}, {"message", status.error().message}});
   unstarted.push_back({job.id, {status.error(), {}, {}}});

@@ -18,6 +18,7 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kGrace{3};
 // Each report is a transaction on disk.
 constexpr milliseconds kReportInterval{250};
+constexpr std::chrono::seconds kTryAgainAfter{1};
 constexpr std::size_t kWordsKept = 16 << 10;
 constexpr std::size_t kLongestLine = 4 << 10;
 
@@ -172,11 +173,30 @@ bool Run::finish(JobStore& store) {
     if (publishing_.wait_for(milliseconds(0)) != std::future_status::ready) return false;
     published_ = publishing_.get();
   }
+  if (SteadyClock::now() < next_end_) return false;
+  if (!published_ || !*published_) discard_output();
   const auto ended = store_end(store);
   log_end(ended);
-  if (!ended) return is_settled(ended.error());
-  if (ended->state != JobState::kSucceeded) discard(layout_.artifacts(job_.id));
+  if (!ended) {
+    next_end_ = SteadyClock::now() + kTryAgainAfter;
+    free_disk_for(ended.error());
+    return is_settled(ended.error());
+  }
+  if (ended->state != JobState::kSucceeded) discard_output();
   return true;
+}
+
+// Artifacts that leave no room for the rows that name them do not fit: the job fails without them.
+void Run::free_disk_for(const Error& error) {
+  if (error.reason != "DISK_FULL" || !published_ || !*published_) return;
+  published_ = tl::unexpected(error);
+  next_end_ = {};
+}
+
+// What a failed worker left may be what fills the disk: it goes before its end is written.
+void Run::discard_output() const {
+  discard(layout_.run(job_.id));
+  discard(layout_.artifacts(job_.id));
 }
 
 Result<Job> Run::store_end(JobStore& store) const {

@@ -50,6 +50,8 @@ class Run {
   void begin_publishing();
   bool finish(JobStore& store);
   [[nodiscard]] Result<Job> store_end(JobStore& store) const;
+  void free_disk_for(const Error& error);
+  void discard_output() const;
   void log_end(const Result<Job>& job) const;
 
   Job job_;
@@ -64,7 +66,7 @@ class Run {
   std::string words_;                 // the end of what it wrote to stderr
   std::string progress_bytes_;        // a line that is not complete yet
   std::optional<Progress> progress_;  // not reported yet
-  Time next_report_;
+  Time next_report_, next_end_;
   std::future<Result<std::vector<Artifact>>> publishing_;
   std::optional<Result<std::vector<Artifact>>> published_;
 };

@@ -16,10 +16,13 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, int erro
   switch (error) {
     case ENOSPC:
     case EDQUOT:
-    case EFBIG:
       return fail(Code::kResourceExhausted,
                   start + "the disk is full. Free some space or choose another folder",
                   "DISK_FULL");
+    case EFBIG:
+      return fail(Code::kResourceExhausted,
+                  start + "beyond the limit on file sizes. Raise it (ulimit -f) or lower --dpi",
+                  "FILE_LIMIT");
     case ENOENT:
     case ENOTDIR:
       return fail(Code::kNotFound, start + "no such folder. Create it or choose another");

@@ -1,11 +1,12 @@
 // Speaks the worker's flags and does what the mesh file says, one command a line:
 //   sleep SECONDS     with progress, ends on SIGTERM          stubborn  like sleep 60, ignores
 //   SIGTERM exit N WORDS      says WORDS and ends with status N       crash     aborts eat uses
-//   memory until it has no more        huge      writes a file of 64 MiB socket            says
-//   whether it could open a socket     nothing   leaves no artifacts link              leaves a
-//   symbolic link as artifact      babble    writes nonsense as progress orphan            leaves a
-//   child behind                   kill-parent  tries to kill the daemon
-//   read FILE         says whether it could                   write FILE   says whether it could
+//   memory until it has no more        huge      writes a file of 64 MiB fill              writes a
+//   file until the disk is full        socket    says whether it could open a socket
+//   nothing           leaves no artifacts          link      leaves a symbolic link as artifact
+//   babble    writes nonsense as progress orphan            leaves a child behind kill-parent tries
+//   to kill the daemon read FILE         says whether it could                   write FILE   says
+//   whether it could
 // and then leaves film.png and report.json.
 #include <signal.h>
 #include <sys/resource.h>
@@ -86,6 +87,10 @@ void obey(const std::string& line) {
     eat();
   } else if (command == "huge") {
     std::ofstream(flags["--out"] + "/huge") << std::string(64 << 20, 'x') << std::flush;
+  } else if (command == "fill") {
+    std::ofstream file(flags["--out"] + "/fill");
+    while (file << std::string(4096, 'x') << std::flush) {
+    }
   } else if (command == "socket") {
     facts += socket(AF_INET, SOCK_STREAM, 0) < 0 ? " no-inet" : " INET";
     facts += socket(AF_UNIX, SOCK_STREAM, 0) < 0 ? " no-unix" : " UNIX";

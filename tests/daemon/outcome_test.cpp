@@ -37,6 +37,9 @@ TEST(Outcome, EachEndHasItsReason) {
   EXPECT_EQ(reason(SIGKILL, "", StoppedFor::kTime), "TIME_LIMIT");
   EXPECT_EQ(reason(SIGKILL, "", StoppedFor::kMemory), "MEMORY_LIMIT");
   EXPECT_EQ(reason(exited(4), "out of memory"), "MEMORY_LIMIT");
+  EXPECT_EQ(reason(exited(3), "out/film.png: the disk is full. Free some space"), "DISK_FULL");
+  EXPECT_EQ(reason(exited(3), "film.png: beyond the limit on file sizes. Raise it"),
+            "OUTPUT_LIMIT");
   EXPECT_EQ(reason(SIGABRT, "terminate called: std::bad_alloc"), "MEMORY_LIMIT");
 }
 

@@ -247,8 +247,8 @@ TEST(WritePng, KeepsPixelsAndResolution) {
   EXPECT_EQ(pixels, image.rgb);
 }
 
-TEST(WritePng, AFullDiskIsSaidSoAndLeavesNothingBehind) {
-  // A limit on the size of files stands in for the disk; random pixels do not compress.
+TEST(WritePng, AFileBeyondTheLimitIsSaidSoAndLeavesNothingBehind) {
+  // Random pixels do not compress.
   const TemporaryFolder folder;
   unsigned state = 1;
   const RgbImage image = make_image(100, 100, [&](int, int) {
@@ -267,7 +267,7 @@ TEST(WritePng, AFullDiskIsSaidSoAndLeavesNothingBehind) {
   std::signal(SIGXFSZ, handler);
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, Code::kResourceExhausted);
-  EXPECT_EQ(status.error().reason, "DISK_FULL");
+  EXPECT_EQ(status.error().reason, "FILE_LIMIT");
   EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 

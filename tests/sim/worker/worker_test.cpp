@@ -572,11 +572,11 @@ TEST_F(Worker, BadSmallFilesAreRefusedByNameAndPlace) {
                  {"no.json: no such file"});
 }
 
-TEST_F(Worker, AFullDiskIsToldOfAndNothingStays) {
-  // Files of at most 20 kB: writing fails as it does on a full disk.
-  ProcessOptions full;
-  full.limits = {{RLIMIT_FSIZE, 20000}};
-  expect_refusal(3, simulate({"--texture", path("texture.png")}), {"out", "disk is full"}, full);
+TEST_F(Worker, AFileBeyondTheLimitIsToldOfAndNothingStays) {
+  ProcessOptions limited;
+  limited.limits = {{RLIMIT_FSIZE, 20000}};
+  expect_refusal(3, simulate({"--texture", path("texture.png")}),
+                 {"out", "beyond the limit on file sizes"}, limited);
 }
 
 TEST_F(Worker, AFullFileSystemIsToldOfAndNothingStays) {
