@@ -22,8 +22,8 @@ struct Config {
   std::int64_t assets_max_open_uploads = 64;    ///< assets.max_open_uploads
   std::int64_t assets_upload_expires_h = 24;    ///< assets.upload_expires_h
   std::int64_t queue_max_jobs = 1000;           ///< queue.max_jobs
-  std::string workers_program;             ///< workers.program; empty: hydroprint-worker beside us
-  std::int64_t workers_count = 0;          ///< workers.count; 0: as many as cores
+  std::string workers_program;     ///< workers.program; empty: hydroprint-worker beside hydroprintd
+  std::int64_t workers_count = 0;  ///< workers.count; 0: as many as cores
   std::int64_t workers_threads = 0;        ///< workers.threads per worker; 0: the cores, shared out
   std::int64_t workers_memory_mib = 4096;  ///< workers.memory_mib per worker; 0: no limit
   std::int64_t workers_time_limit_s = 3600;  ///< workers.time_limit_s per job

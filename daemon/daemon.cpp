@@ -21,16 +21,9 @@ int core_count() {
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
 }
 
-std::filesystem::path worker_program(const Config& config) {
-  if (!config.workers_program.empty()) return config.workers_program;
-  std::error_code ignored;
-  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() /
-         "hydroprint-worker";
-}
-
 PoolOptions pool_options(const Config& config) {
   PoolOptions options;
-  options.program = worker_program(config);
+  options.program = config.workers_program;
   options.cores = core_count();
   options.slots = config.workers_count > 0 ? static_cast<int>(config.workers_count) : options.cores;
   options.threads = static_cast<int>(config.workers_threads);

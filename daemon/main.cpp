@@ -5,11 +5,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
+#include <cstdlib>
 #include <ctime>
 #include <iostream>
 
 #include "daemon/daemon.h"
 #include "daemon/log.h"
+#include "daemon/own_program.h"
 
 namespace {
 
@@ -36,13 +38,20 @@ LogLevel log_level(const std::string& name) {
   return name == "error" ? LogLevel::kError : LogLevel::kInfo;
 }
 
-Result<Config> configure(const Options& options) {
+std::string worker_beside(const char* argv0) {
+  const char* const search_path = std::getenv("PATH");
+  const auto self = own_program(argv0, search_path == nullptr ? "" : search_path);
+  return self.parent_path() / "hydroprint-worker";
+}
+
+Result<Config> configure(const Options& options, const char* argv0) {
   Config config;
   if (!options.config_file.empty()) {
     HP_ASSIGN_OR_RETURN(config, read_config(options.config_file));
   }
   if (!options.state_dir.empty()) config.store_state_dir = options.state_dir;
   if (!options.grpc.empty()) config.server_grpc = options.grpc;
+  if (config.workers_program.empty()) config.workers_program = worker_beside(argv0);
   if (const auto endpoint = parse_endpoint(config.server_grpc); !endpoint) {
     return fail(Code::kInvalidArgument, "--grpc: " + endpoint.error().message);
   }
@@ -122,7 +131,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitStatus::kUsage);
   }
-  const auto config = configure(options);
+  const auto config = configure(options, argv[0]);
   if (!config) return refuse(config.error(), ExitStatus::kBadInput);
   if (!options.check_config) return run(*config);
   std::cout << "the configuration is good\n";
