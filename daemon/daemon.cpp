@@ -64,8 +64,8 @@ Status Daemon::open_store(const Config& config) {
       AssetStoreOptions{config.assets_max_mib * kMiB, config.assets_max_open_uploads,
                         config.assets_upload_expires_h * kHourMs, config.store_min_free_mib * kMiB},
       system_clock_ms);
-  HP_RETURN_IF_ERROR(jobs_->interrupt_all("the daemon was restarted"));
-  HP_RETURN_IF_ERROR(jobs_->sweep());
+  HP_RETURN_IF_ERROR(jobs_->sweep());  // first: it may make the room that the next one needs
+  HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss));
   HP_RETURN_IF_ERROR(assets_->sweep());
   clean_up();
   return {};
@@ -98,7 +98,7 @@ void Daemon::stop() {
   jobs_->bell().ring();
   pool_->stop();
   server_->stop(kPatience);
-  log_failure("jobs_not_queued_again", jobs_->interrupt_all("the daemon was shut down"));
+  log_failure("jobs_not_queued_again", jobs_->interrupt_all(Interruption::kShutdown));
 }
 
 }  // namespace hydroprint::daemon

@@ -12,6 +12,8 @@
 namespace hydroprint::daemon {
 namespace {
 
+constexpr std::int64_t kMostLosses = 3;
+
 std::int64_t number(JobState state) { return static_cast<std::int64_t>(state); }
 std::int64_t number(EventKind kind) { return static_cast<std::int64_t>(kind); }
 
@@ -282,16 +284,20 @@ Result<Job> JobStore::give_up(std::int64_t id, const JobFailure& failure) {
   return changed(id, [&](const Job& job) -> Status {
     if (job.state == JobState::kCancelling) return finish(id, JobState::kCancelled, "");
     if (job.state != JobState::kRunning) return state_forbids(job, "only a running job can end");
-    const auto optional = [](const std::optional<std::int32_t>& value) {
-      return value ? DbValue(std::int64_t{*value}) : DbValue();
-    };
-    HP_RETURN_IF_ERROR(database_.run(
-        "UPDATE jobs SET error_code=?, error_reason=?, error_message=?, exit_status=?, signal=? "
-        "WHERE id=?",
-        {static_cast<std::int64_t>(failure.error.code), failure.error.reason, failure.error.message,
-         optional(failure.exit_status), optional(failure.signal), id}));
-    return finish(id, JobState::kFailed, failure.error.message);
+    return store_failure(id, failure);
   });
+}
+
+Status JobStore::store_failure(std::int64_t id, const JobFailure& failure) {
+  const auto optional = [](const std::optional<std::int32_t>& value) {
+    return value ? DbValue(std::int64_t{*value}) : DbValue();
+  };
+  HP_RETURN_IF_ERROR(database_.run(
+      "UPDATE jobs SET error_code=?, error_reason=?, error_message=?, exit_status=?, signal=? "
+      "WHERE id=?",
+      {static_cast<std::int64_t>(failure.error.code), failure.error.reason, failure.error.message,
+       optional(failure.exit_status), optional(failure.signal), id}));
+  return finish(id, JobState::kFailed, failure.error.message);
 }
 
 Status JobStore::change_running(JobState from, const std::function<Status(std::int64_t)>& to) {
@@ -300,15 +306,39 @@ Status JobStore::change_running(JobState from, const std::function<Status(std::i
   return {};
 }
 
-Status JobStore::interrupt_all(const std::string& why) {
+// A job that takes the machine down with it must not do so at every start.
+Status JobStore::queue_again(std::int64_t id, Interruption why) {
+  if (why == Interruption::kLoss) {
+    HP_RETURN_IF_ERROR(
+        database_.run("INSERT INTO losses VALUES (?,1) ON CONFLICT(job) DO UPDATE SET "
+                      "count=count+1",
+                      {id}));
+    HP_ASSIGN_OR_RETURN(const auto losses,
+                        select_numbers(database_, "SELECT count FROM losses WHERE job=?", {id}));
+    if (losses.front() >= kMostLosses) {
+      const Error lost{Code::kInternal,
+                       "the daemon or its machine was lost " + std::to_string(kMostLosses) +
+                           " times while this job ran, so it is not tried again; look into the "
+                           "daemon's log, and retry it if it was not at fault",
+                       "DAEMON_LOST",
+                       {}};
+      return store_failure(id, {lost, {}, {}});
+    }
+  }
+  return change(id, JobState::kQueued, "queued again");
+}
+
+Status JobStore::interrupt_all(Interruption why) {
+  const std::string words =
+      why == Interruption::kLoss ? "the daemon was restarted" : "the daemon was shut down";
   const Status done = database_.transaction([&]() -> Status {
-    const auto cancelled = [&](std::int64_t id) { return finish(id, JobState::kCancelled, why); };
+    const auto cancelled = [&](std::int64_t id) { return finish(id, JobState::kCancelled, words); };
     HP_RETURN_IF_ERROR(change_running(JobState::kCancelling, cancelled));
     return change_running(JobState::kRunning, [&](std::int64_t id) -> Status {
       HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-      HP_RETURN_IF_ERROR(change(id, JobState::kInterrupted, why));
+      HP_RETURN_IF_ERROR(change(id, JobState::kInterrupted, words));
       if (moves_the_rig(job.made.work.verb)) return {};
-      return change(id, JobState::kQueued, "queued again");
+      return queue_again(id, why);
     });
   });
   HP_RETURN_IF_ERROR(done);

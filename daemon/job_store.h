@@ -42,13 +42,17 @@ struct JobStoreOptions {
   std::int64_t keep_finished_ms = 30LL * 24 * 3600 * 1000;
 };
 
+/// Why running jobs are interrupted: the daemon is going down in order, or it was lost (killed, or
+/// the machine with it) and the next one finds them running.
+enum class Interruption { kShutdown, kLoss };
+
 /// Jobs, their events and their artifacts' rows. Every change is one transaction that is on disk
 /// when the call returns, with the event that tells of it; afterwards the bell rings. Any thread
 /// may call.
 ///
 /// QUEUED -> RUNNING -> SUCCEEDED | FAILED, QUEUED -> CANCELLED, RUNNING -> CANCELLING ->
-/// CANCELLED; RUNNING -> INTERRUPTED -> QUEUED when the daemon was lost; QUEUED -> SUCCEEDED from
-/// the cache.
+/// CANCELLED; RUNNING -> INTERRUPTED -> QUEUED when the daemon went down or was lost, but -> FAILED
+/// (DAEMON_LOST) when it was lost for the third time; QUEUED -> SUCCEEDED from the cache.
 ///
 /// Where a job is named that is not there: kNotFound, JOB_NOT_FOUND. Where its state does not allow
 /// the change: kFailedPrecondition, STATE_FORBIDS. Where the disk fails: see Database::run().
@@ -80,9 +84,9 @@ class JobStore {
   [[nodiscard]] Result<Job> succeed(std::int64_t id, const std::vector<Artifact>& artifacts);
   /// RUNNING -> FAILED, CANCELLING -> CANCELLED.
   [[nodiscard]] Result<Job> give_up(std::int64_t id, const JobFailure& failure);
-  /// RUNNING -> INTERRUPTED -> QUEUED, CANCELLING -> CANCELLED, for all: to be called when no
-  /// worker runs any more. Says why in the event.
-  [[nodiscard]] Status interrupt_all(const std::string& why);
+  /// RUNNING -> INTERRUPTED -> QUEUED (or FAILED, see above), CANCELLING -> CANCELLED, for all: to
+  /// be called when no worker runs any more. Says why in the event.
+  [[nodiscard]] Status interrupt_all(Interruption why);
 
   /// Artifacts by name; those after `after`.
   [[nodiscard]] Result<std::vector<Artifact>> artifacts(std::int64_t id, const std::string& after,
@@ -119,6 +123,8 @@ class JobStore {
   [[nodiscard]] Status store_artifacts(std::int64_t id, const std::vector<Artifact>& artifacts);
   [[nodiscard]] Status change(std::int64_t id, JobState state, const std::string& message);
   [[nodiscard]] Status finish(std::int64_t id, JobState state, const std::string& message);
+  [[nodiscard]] Status store_failure(std::int64_t id, const JobFailure& failure);
+  [[nodiscard]] Status queue_again(std::int64_t id, Interruption why);
   [[nodiscard]] Status add_event(std::int64_t id, EventKind kind, const std::string& message);
   [[nodiscard]] Status change_running(JobState from, const std::function<Status(std::int64_t)>& to);
   [[nodiscard]] Result<Job> changed(std::int64_t id, const std::function<Status(const Job&)>& body);

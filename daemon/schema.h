@@ -2,7 +2,8 @@
 
 namespace hydroprint::daemon {
 
-/// Tables of the store. `jobs.flags` holds one flag a line; `jobs.body` is a serialised message.
+/// Tables of the store. `jobs.flags` holds one flag a line; `jobs.body` is a serialised message;
+/// `losses.count` says how often the daemon was lost while the job ran.
 inline constexpr const char* kSchema = R"sql(
 CREATE TABLE IF NOT EXISTS settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 INSERT OR IGNORE INTO settings VALUES ('schema', '1');
@@ -38,6 +39,8 @@ CREATE TABLE IF NOT EXISTS assets(
 CREATE TABLE IF NOT EXISTS uploads(
   id TEXT PRIMARY KEY, sha256 TEXT NOT NULL, size INTEGER NOT NULL, media_type TEXT NOT NULL,
   expire_ms INTEGER NOT NULL) WITHOUT ROWID;
+CREATE TABLE IF NOT EXISTS losses(
+  job INTEGER PRIMARY KEY REFERENCES jobs(id) ON DELETE CASCADE, count INTEGER NOT NULL);
 CREATE TABLE IF NOT EXISTS requests(
   owner TEXT NOT NULL, method TEXT NOT NULL, id TEXT NOT NULL, digest TEXT NOT NULL,
   result TEXT NOT NULL, time_ms INTEGER NOT NULL, PRIMARY KEY(owner, method, id)) WITHOUT ROWID;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <random>
@@ -46,6 +47,23 @@ TEST_F(Crash, RunningJobShowsItWasInterruptedAndFinishes) {
                                    v1::Job::QUEUED, v1::Job::RUNNING, v1::Job::SUCCEEDED}));
   EXPECT_GT(client->events(name).back().seq(), before);
   EXPECT_FALSE(client->download(name + "/artifacts/film.png").empty());
+}
+
+TEST_F(Crash, JobThatIsThereEachTimeTheDaemonIsLostFailsAtTheThirdLoss) {
+  const std::string guilty = client->simulate("sleep 60").name();
+  client->wait(guilty, [](const v1::Job& job) { return job.phase() == "velocity"; });
+  for (int loss = 1; loss <= 2; ++loss) {
+    kill_and_restart();
+    client->wait(guilty, [](const v1::Job& job) { return job.phase() == "velocity"; });
+  }
+  kill_and_restart();
+  const v1::Job lost = client->job(guilty);
+  EXPECT_EQ(lost.state(), v1::Job::FAILED);
+  EXPECT_EQ(lost.error().code(), grpc::INTERNAL);
+  EXPECT_EQ(lost.error().reason(), "DAEMON_LOST");
+  EXPECT_NE(lost.error().message().find("3 times"), std::string::npos) << lost.error().message();
+  EXPECT_EQ(history(guilty).back(), v1::Job::FAILED);
+  EXPECT_EQ(client->wait_for_end(client->simulate("").name()).state(), v1::Job::SUCCEEDED);
 }
 
 TEST_F(Crash, WorkersDieWithTheDaemon) {
@@ -121,6 +139,13 @@ TEST_F(Crash, NothingAcknowledgedIsLostAtAnyMoment) {
   std::vector<std::string> assets, jobs;
   int made = 0;
   for (int round = 0; round < 6; ++round) {
+    // A job that is running at three kills would rightly fail.
+    for (const std::string& name : jobs) {
+      const States states = history(name);
+      if (std::count(states.begin(), states.end(), v1::Job::INTERRUPTED) > 1) {
+        client->wait_for_end(name);
+      }
+    }
     std::thread killer([&, delay = std::chrono::milliseconds(20 + random() % 400)] {
       std::this_thread::sleep_for(delay);
       ::kill(daemon.pid(), SIGKILL);

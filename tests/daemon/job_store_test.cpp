@@ -74,6 +74,54 @@ TEST_F(JobStoreTest, LostDaemonShowsInTheHistoryAndTheJobIsQueuedAgain) {
                                 JobState::kQueued}));
 }
 
+TEST_F(JobStoreTest, ThirdLossFailsTheJobAndARetryStartsAfresh) {
+  const std::int64_t id = add().id;
+  for (int loss = 1; loss <= 3; ++loss) {
+    EXPECT_EQ(jobs->get(id)->state, JobState::kQueued) << loss;
+    ASSERT_TRUE(jobs->start(id));
+    open();
+  }
+  const Job lost = jobs->get(id).value();
+  EXPECT_EQ(lost.state, JobState::kFailed);
+  EXPECT_EQ(lost.failure->error.reason, "DAEMON_LOST");
+  EXPECT_EQ(lost.failure->error.code, Code::kInternal);
+  const Job retried = add();
+  ASSERT_TRUE(jobs->start(retried.id));
+  open();
+  EXPECT_EQ(jobs->get(retried.id)->state, JobState::kQueued);
+}
+
+TEST_F(JobStoreTest, ShutdownsAndLossesWhileItWaitsDoNotCountAgainstAJob) {
+  const std::int64_t id = add().id;
+  for (int i = 0; i < 4; ++i) {
+    open();
+    ASSERT_TRUE(jobs->start(id));
+    ASSERT_TRUE(jobs->interrupt_all(Interruption::kShutdown));
+  }
+  EXPECT_EQ(jobs->get(id)->state, JobState::kQueued);
+}
+
+// SQLite's own limit on a file stands in for the disk.
+TEST_F(JobStoreTest, FullDatabaseRefusesWithoutAnyTraceAndWorksOnAfterwards) {
+  job_options.max_queued = 1000000;
+  open();
+  const std::int64_t first = complete(add("same").id).id;
+  ASSERT_TRUE(database->run("PRAGMA max_page_count=1"));  // no more than there are
+  NewJob made;
+  made.owner = "ann";
+  made.work.verb = "simulate";
+  made.digest = "same";
+  made.body = std::string(100000, 'x');
+  const auto refused = jobs->create(made, {"CreateJob", "id", "x"});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::kResourceExhausted);
+  EXPECT_EQ(refused.error().reason, "DISK_FULL");
+  EXPECT_EQ(jobs->list({})->size(), 1U);
+  EXPECT_EQ(jobs->get(first)->state, JobState::kSucceeded);
+  ASSERT_TRUE(database->run("PRAGMA max_page_count=1000000"));
+  EXPECT_TRUE(jobs->create(made, {"CreateJob", "id", "x"})->cache_hit);
+}
+
 TEST_F(JobStoreTest, CancelSurvivesALostDaemon) {
   const std::int64_t id = add().id;
   ASSERT_TRUE(jobs->start(id));

@@ -27,7 +27,7 @@ class StoreTest : public ::testing::Test {
     const auto clock = [this] { return now_ms; };
     jobs = std::make_unique<JobStore>(*database, layout, job_options, clock);
     assets = std::make_unique<AssetStore>(*database, layout, asset_options, clock);
-    EXPECT_TRUE(jobs->interrupt_all("the daemon was restarted"));
+    EXPECT_TRUE(jobs->interrupt_all(Interruption::kLoss));
     EXPECT_TRUE(jobs->sweep());
     EXPECT_TRUE(assets->sweep());
     EXPECT_TRUE(assets->purge());
