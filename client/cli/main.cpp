@@ -18,8 +18,8 @@ constexpr char kFooter[] = R"(Examples:
   hydroprint list --state RUNNING
   hydroprint show 7 --json
 
-Exit status: 0 done; 2 wrong usage; 3 bad input, or refused by the daemon; 4 failed;
-5 no daemon answers; 130 cancelled.)";
+Exit status: 0 done; 2 wrong usage; 3 bad input, or refused by the daemon; 4 failed,
+or bytes arrived damaged; 5 no daemon answers; 130 cancelled.)";
 
 // "hydroprint submit simulate"
 std::string full_name(const CLI::App& app) {

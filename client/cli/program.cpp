@@ -77,6 +77,7 @@ void add_job_argument(CLI::App& command, std::string& job) {
 
 int exit_code(const Error& error) {
   if (error.code == Code::kUnavailable) return kUnreachable;
+  // Damaged at the daemon or on its way to us: no input of the user's is bad.
   if (error.code == Code::kDataLoss) return static_cast<int>(ExitStatus::kFailed);
   return static_cast<int>(exit_status(error));
 }

@@ -45,7 +45,8 @@ class Program {
 /// Adds the positional argument JOB.
 void add_job_argument(CLI::App& command, std::string& job);
 
-/// The exit status of the program: as of every program here, and 5 if no daemon answers.
+/// The exit status of the program: as of every program here (sim/base/result.h), but 5 if no daemon
+/// answers, and 4 (failed) where bytes arrive damaged.
 [[nodiscard]] int exit_code(const Error& error);
 
 }  // namespace hydroprint::cli
