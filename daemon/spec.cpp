@@ -32,9 +32,12 @@ class WorkBuilder {
     work_.flags.push_back("--" + name + "=" + value);
   }
   void pose(std::string json) { work_.pose_json = std::move(json); }
-  void number(const std::string& field, const std::string& name, double value, double most) {
-    if (!std::isfinite(value) || value <= 0 || value > most) {
-      require(invalid_field(path(field), "must be above 0 and at most " + text_of(most)));
+  // Above 0 where there is no least value.
+  void number(const std::string& field, const std::string& name, double value, double most,
+              double least = 0) {
+    if (!std::isfinite(value) || value <= 0 || value < least || value > most) {
+      const std::string from = least > 0 ? "must be at least " : "must be above ";
+      require(invalid_field(path(field), from + text_of(least) + " and at most " + text_of(most)));
     }
     flag(name, text_of(value));
   }
@@ -165,7 +168,7 @@ void add_common(WorkBuilder& builder, const Spec& spec, NewJob& made) {
   if (spec.has_scale()) builder.number("scale", "scale", spec.scale(), 1e9);
   if (spec.has_pose()) add_pose(builder, spec.pose());
   if (spec.has_film()) add_film(builder, spec.film());
-  if (spec.has_dpi()) builder.number("dpi", "dpi", spec.dpi(), 4800);
+  if (spec.has_dpi()) builder.number("dpi", "dpi", spec.dpi(), 2400, 20);
   if (spec.has_ink_passes()) builder.whole("ink_passes", "ink-passes", spec.ink_passes(), 0, 10);
   if (spec.has_depth_mm()) builder.number("depth_mm", "depth-mm", spec.depth_mm(), 1e6);
   if (spec.has_dip_speed_mm_per_s()) {

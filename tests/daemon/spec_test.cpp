@@ -92,6 +92,14 @@ TEST(Spec, PredictHasItsOwnFiles) {
                                                         "--motion=path.csv"}));
 }
 
+TEST(Spec, ResolutionIsWhatTheWorkerTakes) {
+  for (const double dpi : {20.0, 2400.0, 19.9, 2400.1}) {
+    v1::Job job = job_with_mesh();
+    job.mutable_simulate()->set_dpi(dpi);
+    EXPECT_EQ(check_job(job).has_value(), dpi >= 20 && dpi <= 2400) << dpi;
+  }
+}
+
 TEST(Spec, NumbersThatAreNoneOrOutOfRangeAreRefused) {
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     v1::Job job = job_with_mesh();
