@@ -95,7 +95,6 @@ class ObjChecker {
   Status check_face(std::string_view line) {
     std::size_t corners = 0;
     for (auto word = next_word(line); !word.empty(); word = next_word(line)) {
-      if (word[0] == '#') return bad(line_, "a comment follows a face; move it to its own line");
       HP_RETURN_IF_ERROR(check_corner(word));
       ++corners;
     }

@@ -86,6 +86,14 @@ class GltfImporter {
       warn("faces_without_uv",
            "some parts have no texture coordinates: they take the texture's "
            "lower left corner");
+    if (skinned_ > 0)
+      warn("skin_ignored", std::to_string(skinned_) +
+                               " parts are bent by a skeleton, which is not followed: they are "
+                               "taken as they were modelled, where their node stands");
+    if (morphing_ > 0)
+      warn("morph_ignored", std::to_string(morphing_) +
+                                " parts have morph targets, which are not mixed in: their base "
+                                "shape is taken");
     if (skipped_ > 0)
       warn("not_a_surface", std::to_string(skipped_) + " sets of points or lines were left out");
     if (model_.materials.empty()) model_.triangle_material.clear();
@@ -122,7 +130,10 @@ class GltfImporter {
     if (node == nullptr) return bad(place, "does not exist");
     if (depth > kMaxDepth || ++visited_ > kMaxNodes) return bad(place, "contains itself");
     const Eigen::Affine3d transform = parent * local_transform(*node);
-    if (node->mesh >= 0) HP_RETURN_IF_ERROR(add_mesh(node->mesh, transform));
+    if (node->mesh >= 0) {
+      skinned_ += node->skin >= 0 ? 1 : 0;
+      HP_RETURN_IF_ERROR(add_mesh(node->mesh, transform));
+    }
     for (const int child : node->children) HP_RETURN_IF_ERROR(visit(child, transform, depth + 1));
     return {};
   }
@@ -166,6 +177,7 @@ class GltfImporter {
       model_.triangle_material.push_back(material);
     }
     ++primitives_;
+    morphing_ += primitive.targets.empty() ? 0 : 1;
     with_uvs_ += uvs.empty() ? 0 : 1;
     return {};
   }
@@ -324,6 +336,8 @@ class GltfImporter {
   std::size_t with_uvs_ = 0;
   std::size_t with_colours_ = 0;
   std::size_t skipped_ = 0;
+  std::size_t skinned_ = 0;
+  std::size_t morphing_ = 0;
 };
 
 /// What the importer may open: buffers below the model's folder. Images stay closed (the importer

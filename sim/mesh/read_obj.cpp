@@ -36,6 +36,17 @@ void join_continued_lines(std::string& text) {
   }
 }
 
+/// The importer would take a comment behind a face for more corners.
+void blank_face_comments(std::string& text) {
+  for (auto at = text.find('#'); at != text.npos; at = text.find('#', at)) {
+    const auto begin = text.find_last_of("\r\n", at) + 1;  // npos + 1 is 0: the first line
+    const auto end = std::min(text.find_first_of("\r\n", at), text.size());
+    std::string_view before(text.data() + begin, at - begin);
+    if (next_word(before) == "f") text.replace(at, end - at, end - at, ' ');
+    at = end;
+  }
+}
+
 struct MaterialFile {
   std::vector<tinyobj::material_t> materials;
   std::map<std::string, int> by_name;
@@ -273,6 +284,7 @@ class ObjImporter {
 Result<Model> read_obj(std::string bytes, const std::filesystem::path& path,
                        const Context& context) try {
   join_continued_lines(bytes);
+  blank_face_comments(bytes);
   HP_ASSIGN_OR_RETURN(ObjFacts facts, check_obj(bytes, path, context));
   HP_RETURN_IF_ERROR(check_face_count(facts.triangles, path));
   return ObjImporter(path, std::move(facts)).run(bytes);

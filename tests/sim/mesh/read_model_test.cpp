@@ -208,6 +208,24 @@ TEST(ReadGltf, MirroringNodesKeepFacesLookingOutward) {
   EXPECT_FALSE(has_warning(surface->warnings, "inside_out"));
 }
 
+TEST(ReadGltf, SkeletonsAndMorphTargetsThatAreNotFollowedAreWarnedOf) {
+  const Folder folder;
+  const Model plain = read(folder.write("a.gltf", tetrahedron_gltf()));
+  EXPECT_FALSE(has_warning(plain.warnings, "skin_ignored"));
+  EXPECT_FALSE(has_warning(plain.warnings, "morph_ignored"));
+  const Model skinned = read(folder.write(
+      "b.gltf", tetrahedron_gltf({{"nodes", R"([{"mesh":0,"skin":0,"children":[1]},{}])"},
+                                  {"extra", R"(,"skins":[{"joints":[1]}])"}})));
+  EXPECT_TRUE(has_warning(skinned.warnings, "skin_ignored"));
+  EXPECT_FALSE(has_warning(skinned.warnings, "morph_ignored"));
+  EXPECT_EQ(skinned.vertices, plain.vertices);
+  const Model morphing = read(
+      folder.write("c.gltf", tetrahedron_gltf({{"material", R"(,"targets":[{"POSITION":0}])"}})));
+  EXPECT_TRUE(has_warning(morphing.warnings, "morph_ignored"));
+  EXPECT_FALSE(has_warning(morphing.warnings, "skin_ignored"));
+  EXPECT_EQ(morphing.vertices, plain.vertices);
+}
+
 TEST(ReadGltf, MaterialsCoordinatesAndEmbeddedImagesAreKept) {
   const Folder folder;
   const Model m = read(folder.write("a.gltf", textured_gltf()));

@@ -149,6 +149,27 @@ TEST(ReadObj, ContinuedLinesAndDosLineEndsAreRead) {
       1U);
 }
 
+TEST(ReadObj, CommentsBehindAnythingAreNoPartOfIt) {
+  const Folder folder;
+  const std::string plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
+  const Model expected = read(folder.write("plain.obj", plain));
+  for (const std::string end : {"\n", "\r\n"}) {
+    const std::string text = "#f 1 2 3 # none" + end + "v 0 0 0 # 4 5" + end + "v 1 0 0 #1 1 1" +
+                             end + "v 0 1 0 # # 2" + end + "vt 0 0 # 9" + end + "vt 1 0 #9" + end +
+                             "vt 0 1 # 9" + end + "\tf 1/1 2/2 3/3 # 1/1 f 2/2 # 3" + end +
+                             "# f 9 9 9" + end;
+    const Model m = read(folder.write("a.obj", text));
+    EXPECT_EQ(m.vertices, expected.vertices);
+    EXPECT_EQ(m.triangles, expected.triangles);
+    EXPECT_EQ(m.corner_uvs, expected.corner_uvs);
+    EXPECT_TRUE(m.vertex_colours.empty());
+  }
+  EXPECT_EQ(read(folder.write("b.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3#end")).triangles.size(),
+            1U);
+  expect_refused(folder.write("c.obj", kTetrahedronObj + "f 1 2 # 3\n"),
+                 "line 9: a face has fewer than three");
+}
+
 TEST(ReadObj, BadLinesAreNamedByNumber) {
   const Folder folder;
   const std::array<std::array<std::string, 3>, 14> cases = {{
