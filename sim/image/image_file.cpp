@@ -237,6 +237,7 @@ Status write_exr(const std::filesystem::path& path, int width, int height,
   ImageSpec spec(width, height, static_cast<int>(channels.size()), TypeDesc::FLOAT);
   spec.channelnames = channels;
   spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // else the time of writing: equal images are equal files
   return write_image(path, "openexr", spec, TypeDesc::FLOAT, values.data());
 }
 
