@@ -26,7 +26,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Shares of the whole, from a sphere of radius 60 mm on A4 at 600 dpi.
+// Rough shares of the whole, for a time left that is believable; how they are in truth depends on
+// the job.
 std::vector<Stage> stages(const Options& options) {
   std::vector<Stage> out = {{"inputs", 1},    {"reading", 3},   {"surface", 2},
                             {"waterline", 8}, {"velocity", 25}, {"flow map", 25}};
