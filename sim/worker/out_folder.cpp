@@ -2,15 +2,19 @@
 
 #include <fcntl.h>
 #include <stdio.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <random>
 #include <string_view>
+#include <thread>
 #include <utility>
+#include <vector>
 
 namespace hydroprint::worker {
 namespace {
@@ -20,6 +24,9 @@ namespace fs = std::filesystem;
 constexpr std::array<std::string_view, 8> kArtifacts = {
     "film.png",      "film_map.exr", "landed.ply",  "landed.png",
     "predicted.png", "report.json",  "stretch.png", "surface_map.ply"};
+
+constexpr std::string_view kPartial = ".partial-";
+constexpr std::size_t kSuffixLength = 6;
 
 Status check_replaceable(const fs::path& dir) {
   std::error_code error;
@@ -58,7 +65,7 @@ std::string random_suffix() {
   std::random_device device;
   std::uniform_int_distribution<std::size_t> letter(0, kLetters.size() - 1);
   std::string out;
-  for (int i = 0; i < 6; ++i) out += kLetters[letter(device)];
+  for (std::size_t i = 0; i < kSuffixLength; ++i) out += kLetters[letter(device)];
   return out;
 }
 
@@ -84,6 +91,53 @@ void sync_folder(const fs::path& folder) {
 void remove_quietly(const fs::path& folder) {
   std::error_code ignored;
   fs::remove_all(folder, ignored);
+}
+
+bool is_artifact(const std::string& name) {
+  return std::find(kArtifacts.begin(), kArtifacts.end(), name.substr(0, name.find(".part-"))) !=
+         kArtifacts.end();
+}
+
+/// Opens a folder and takes its lock; else -1, errno being ENOENT if it is gone and EWOULDBLOCK if
+/// another process has it.
+int open_locked(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
+  if (file < 0) return -1;
+  struct stat ours {};
+  struct stat there {};
+  int error = ::flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+  // It may have been removed before it was locked.
+  if (error == 0 && (::fstat(file, &ours) != 0 || ::lstat(folder.c_str(), &there) != 0 ||
+                     ours.st_ino != there.st_ino)) {
+    error = ENOENT;
+  }
+  if (error == 0) return file;
+  ::close(file);
+  errno = error;
+  return -1;
+}
+
+/// Removes partial folders of `dir` whose process is dead.
+void remove_stale(const fs::path& dir) {
+  const std::string prefix = dir.filename().string() + std::string(kPartial);
+  std::error_code error;
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator entry(dir.parent_path(), error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(prefix) && name.size() == prefix.size() + kSuffixLength) {
+      stale.push_back(entry->path());
+    }
+  }
+  for (const fs::path& folder : stale) {
+    const int locked = open_locked(folder);
+    if (locked < 0) continue;  // alive, or a file system without locks: nobody's to remove
+    const bool ours = std::all_of(fs::directory_iterator(folder, error), {}, [](const auto& entry) {
+      return is_artifact(entry.path().filename().string());
+    });
+    if (ours && !error) remove_quietly(folder);
+    ::close(locked);
+  }
 }
 
 Status move_into_place(const fs::path& partial, const fs::path& dir) {
@@ -127,20 +181,31 @@ Result<OutFolder> OutFolder::plan(const fs::path& dir) {
 }
 
 OutFolder::OutFolder(fs::path dir)
-    : dir_(std::move(dir)), partial_(dir_.string() + ".partial-" + random_suffix()) {}
+    : dir_(std::move(dir)), partial_(dir_.string() + std::string(kPartial) + random_suffix()) {}
 
 OutFolder::OutFolder(OutFolder&& other) noexcept
     : dir_(std::move(other.dir_)),
       partial_(std::move(other.partial_)),
+      lock_(std::exchange(other.lock_, -1)),
       created_(std::exchange(other.created_, false)) {}
 
 OutFolder::~OutFolder() {
   if (created_) remove_quietly(partial_);
+  if (lock_ >= 0) ::close(lock_);
 }
 
 Status OutFolder::create() {
-  if (::mkdir(partial_.c_str(), 0777) != 0) return system_failure(dir_, errno);
-  created_ = true;
+  remove_stale(dir_);
+  // Until it is locked, another process may take it for a dead one's and remove it: then once more.
+  for (int attempt = 0; attempt < 100 && lock_ < 0; ++attempt) {
+    if (::mkdir(partial_.c_str(), 0777) != 0 && !(created_ && errno == EEXIST)) {
+      return system_failure(dir_, errno);
+    }
+    created_ = true;
+    lock_ = open_locked(partial_);
+    if (lock_ < 0 && errno != EWOULDBLOCK && errno != ENOENT) break;  // no locks there
+    if (lock_ < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
   return {};
 }
 

@@ -8,7 +8,9 @@
 namespace hydroprint::worker {
 
 /// The artifact folder DIR in the making: files are written to DIR.partial-XXXXXX beside it, which
-/// takes DIR's name as the last step. Whatever ends the program before that, DIR is as it was.
+/// takes DIR's name as the last step. Whatever ends the program before that, DIR is as it was. Its
+/// process holds a lock on the partial folder, by which the next one for the same DIR knows what a
+/// process that was killed left behind.
 class OutFolder {
  public:
   /// Refuses a DIR whose parent folder is missing, that is no folder, or that holds anything but
@@ -20,8 +22,8 @@ class OutFolder {
   /// Removes the partial folder unless it was committed.
   ~OutFolder();
 
-  /// Makes the partial folder. Refuses with kResourceExhausted (reason DISK_FULL) or
-  /// kPermissionDenied, naming DIR.
+  /// Makes the partial folder, and removes those that processes now dead left. Refuses with
+  /// kResourceExhausted (reason DISK_FULL) or kPermissionDenied, naming DIR.
   [[nodiscard]] Status create();
   /// Gives the partial folder DIR's name, replacing an earlier run's at once.
   [[nodiscard]] Status commit();
@@ -35,9 +37,11 @@ class OutFolder {
 
  private:
   explicit OutFolder(std::filesystem::path dir);
+  [[nodiscard]] bool lock();
 
   std::filesystem::path dir_;
   std::filesystem::path partial_;
+  int lock_ = -1;  ///< the partial folder, open and locked
   bool created_ = false;
 };
 

@@ -1,6 +1,9 @@
 #include "sim/worker/out_folder.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -66,6 +69,53 @@ TEST(OutFolder, AnEarlierRunIsReplacedAsAWhole) {
   EXPECT_EQ(content(dir / "report.json"), "new");
   EXPECT_FALSE(fs::exists(dir / "film.png"));
   EXPECT_EQ(entries(place.path()), 1u);
+}
+
+/// Has a process write half an artifact folder and die of SIGKILL.
+void leave_half_of(const fs::path& dir) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    auto folder = OutFolder::plan(dir);
+    if (folder && folder->create()) {
+      write(folder->partial() / "report.json", "half");
+      write(folder->partial() / "film.png.part-77", "half");
+      ::raise(SIGKILL);
+    }
+    ::_exit(1);
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status));
+}
+
+TEST(OutFolder, WhatAKilledProcessLeftIsRemovedByTheNextForTheSameFolder) {
+  const testing::TemporaryFolder place;
+  leave_half_of(place.path() / "out");
+  leave_half_of(place.path() / "other");
+  EXPECT_EQ(entries(place.path()), 2u);
+  ASSERT_TRUE(make(place.path() / "out", "new"));
+  EXPECT_EQ(entries(place.path()), 2u) << "the other folder's stays";
+  ASSERT_TRUE(make(place.path() / "other", "new"));
+  EXPECT_EQ(entries(place.path()), 2u);
+  EXPECT_EQ(content(place.path() / "other" / "report.json"), "new");
+}
+
+TEST(OutFolder, WhatALivingProcessWritesAndWhatIsNotOursStays) {
+  const testing::TemporaryFolder place;
+  const fs::path dir = place.path() / "out";
+  auto living = OutFolder::plan(dir);
+  ASSERT_TRUE(living && living->create());
+  write(living->partial() / "report.json", "living");
+  const fs::path mine = place.path() / "out.partial-photos",
+                 old = place.path() / "out.partial-abcdef-old";
+  for (const fs::path& folder : {mine, old}) fs::create_directory(folder);
+  write(mine / "me.png", "mine");
+  write(old / "report.json", "of an earlier run, set aside");
+  ASSERT_TRUE(make(dir, "first"));
+  EXPECT_EQ(content(mine / "me.png"), "mine");
+  EXPECT_TRUE(fs::exists(old / "report.json"));
+  ASSERT_TRUE(living->commit());
+  EXPECT_EQ(content(dir / "report.json"), "living");
 }
 
 TEST(OutFolder, AnEmptyFolderAndALinkToAFolderAreFilled) {
