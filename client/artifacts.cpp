@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "client/convert.h"
-#include "client/digest.h"
+#include "client/files.h"
 #include "client/rpc.h"
 
 namespace hydroprint::client {

@@ -6,8 +6,6 @@
 #include <fstream>
 #include <vector>
 
-#include "client/digest.h"
-
 namespace hydroprint::client {
 namespace {
 
@@ -42,16 +40,9 @@ Status read_file(const std::filesystem::path& path, std::int64_t offset,
 }
 
 Result<FileDigest> digest_file(const std::filesystem::path& path, const std::stop_token& stop) {
-  FileDigest result;
-  Digest digest;
-  HP_RETURN_IF_ERROR(read_file(path, 0, [&](std::string_view bytes) {
-    digest.add(bytes);
-    result.size_bytes += static_cast<std::int64_t>(bytes.size());
-    return !stop.stop_requested();
-  }));
-  if (stop.stop_requested()) return fail(Code::kCancelled, "interrupted");
-  result.sha256 = digest.finish();
-  return result;
+  Context context;
+  context.cancelled = [&] { return stop.stop_requested(); };
+  return hydroprint::digest_file(path, context);
 }
 
 Result<std::string> read_text(const std::filesystem::path& path, std::int64_t max_bytes) {

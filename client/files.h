@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "sim/base/file_digest.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::client {
@@ -14,19 +15,13 @@ namespace hydroprint::client {
 /// Told how many of how many bytes of a file are done.
 using ByteProgress = std::function<void(std::int64_t done_bytes, std::int64_t total_bytes)>;
 
-/// Size and SHA-256 of a file.
-struct FileDigest {
-  std::int64_t size_bytes = 0;
-  std::string sha256;
-};
-
 /// Reads a regular file from byte `offset` on, in pieces of at most 64 KiB, until its end or until
 /// `take` returns false.
 /// @return kNotFound, kPermissionDenied or kInvalidArgument (not a regular file) naming the file
 [[nodiscard]] Status read_file(const std::filesystem::path& path, std::int64_t offset,
                                const std::function<bool(std::string_view bytes)>& take);
 
-/// Hashes a file; errors as read_file's, kCancelled when stopped.
+/// Hashes a file; errors as open_input_file's, kCancelled when stopped.
 [[nodiscard]] Result<FileDigest> digest_file(const std::filesystem::path& path,
                                              const std::stop_token& stop);
 

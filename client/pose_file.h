@@ -7,8 +7,7 @@
 
 namespace hydroprint::client {
 
-/// Reads the worker's `--pose` file, {"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]}.
-/// @return kInvalidArgument naming the file, the key and what belongs there
+/// Reads the worker's `--pose` file as the worker does; refuses what it would refuse.
 [[nodiscard]] Result<PoseSpec> read_pose_file(const std::filesystem::path& path);
 
 }  // namespace hydroprint::client

@@ -3,7 +3,7 @@
 #include <array>
 #include <random>
 
-#include "client/digest.h"
+#include "sim/base/sha256.h"
 
 namespace hydroprint::client {
 

@@ -9,6 +9,7 @@
 #include "hydroprint/v1/artifact_service.pb.h"
 #include "hydroprint/v1/asset_service.pb.h"
 #include "hydroprint/v1/job.pb.h"
+#include "sim/base/sha256.h"
 
 namespace hydroprint::daemon {
 

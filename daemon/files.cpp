@@ -1,48 +1,16 @@
 #include "daemon/files.h"
 
 #include <fcntl.h>
-#include <openssl/evp.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
-#include <cstring>
-#include <memory>
 #include <vector>
 
+#include "sim/base/sha256.h"
+
 namespace hydroprint::daemon {
-namespace {
-
-// Hashes piece by piece.
-class Sha256 {
- public:
-  Sha256() : context_(EVP_MD_CTX_new()) {
-    EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr);
-  }
-  void update(const void* data, std::size_t size) { EVP_DigestUpdate(context_.get(), data, size); }
-  [[nodiscard]] std::string hex() {
-    static constexpr char kHex[] = "0123456789abcdef";
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-    unsigned size = 0;
-    EVP_DigestFinal_ex(context_.get(), digest.data(), &size);
-    std::string out;
-    for (unsigned i = 0; i < size; ++i) {
-      out += kHex[digest[i] >> 4];
-      out += kHex[digest[i] & 15];
-    }
-    return out;
-  }
-
- private:
-  struct Free {
-    void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
-  };
-  std::unique_ptr<EVP_MD_CTX, Free> context_;
-};
-
-}  // namespace
 
 UniqueFd& UniqueFd::operator=(UniqueFd&& other) noexcept {
   if (this != &other) {
@@ -131,12 +99,6 @@ Status link_or_copy(const std::filesystem::path& from, const std::filesystem::pa
   return {};
 }
 
-std::string sha256(std::string_view bytes) {
-  Sha256 hash;
-  hash.update(bytes.data(), bytes.size());
-  return hash.hex();
-}
-
 Result<std::string> sha256_of_file(const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(const UniqueFd file, open_file(path, O_RDONLY));
   std::vector<char> buffer(1 << 20);
@@ -145,8 +107,8 @@ Result<std::string> sha256_of_file(const std::filesystem::path& path) {
     const ssize_t count = ::read(file.get(), buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return system_failure(path, "cannot be read");
-    if (count == 0) return hash.hex();
-    hash.update(buffer.data(), static_cast<std::size_t>(count));
+    if (count == 0) return hash.finish();
+    hash.add({buffer.data(), static_cast<std::size_t>(count)});
   }
 }
 

@@ -57,8 +57,7 @@ void discard(const std::filesystem::path& path);
 [[nodiscard]] Status link_or_copy(const std::filesystem::path& from,
                                   const std::filesystem::path& to);
 
-/// SHA-256 of bytes, or of a file's content, as 64 lower-case hex digits.
-[[nodiscard]] std::string sha256(std::string_view bytes);
+/// SHA-256 of a file's content as 64 lower-case hex digits.
 [[nodiscard]] Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
 /// Refuses (kResourceExhausted, DISK_FULL) if fewer than `bytes` are free where `path` is.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "daemon/files.h"
+#include "sim/base/sha256.h"
 
 namespace hydroprint::daemon {
 

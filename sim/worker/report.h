@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/file_digest.h"
 #include "sim/base/pose.h"
 #include "sim/base/result.h"
 #include "sim/film/outline.h"
 #include "sim/film/profile.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/worker/options.h"
-#include "sim/worker/sha256.h"
 
 namespace hydroprint::worker {
 
@@ -20,7 +20,7 @@ namespace hydroprint::worker {
 struct Input {
   std::string role;  ///< "mesh", "texture", "material_texture", "pose", ...
   std::filesystem::path path;
-  Digest digest;
+  FileDigest digest;
 };
 
 /// What report.json tells of a finished run (contract).

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/pose_file.h"
 #include "sim/image/artifact_file.h"
 #include "sim/image/film_image.h"
 #include "sim/pipeline/predict.h"
@@ -16,7 +17,6 @@
 #include "sim/worker/artifacts.h"
 #include "sim/worker/motion_file.h"
 #include "sim/worker/out_folder.h"
-#include "sim/worker/pose_file.h"
 #include "sim/worker/progress.h"
 #include "sim/worker/progress_sinks.h"
 #include "sim/worker/report.h"
@@ -49,7 +49,7 @@ Result<std::vector<Input>> fingerprint(const std::vector<std::pair<std::string, 
   std::vector<Input> out;
   for (const auto& [role, path] : files) {
     if (path.empty()) continue;
-    HP_ASSIGN_OR_RETURN(Digest digest, digest_file(path));
+    HP_ASSIGN_OR_RETURN(FileDigest digest, digest_file(path));
     out.push_back({role, path, std::move(digest)});
   }
   return out;
@@ -82,7 +82,8 @@ Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip) {
     HP_RETURN_IF_ERROR(check_film_image(dip.outline, o.dpi));
   }
   if (!o.pose.empty()) {
-    HP_ASSIGN_OR_RETURN(dip.X_FO, read_pose(o.pose));
+    HP_ASSIGN_OR_RETURN(const PoseFile file, read_pose_file(o.pose));
+    dip.X_FO = file.pose();
   }
   if (!o.profile.empty()) {
     HP_ASSIGN_OR_RETURN(dip.profile, film::read_profile(o.profile));

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "client/digest.h"
+#include "sim/base/sha256.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::client {
@@ -39,12 +39,10 @@ TEST(ReadFile, RefusesAFolder) {
 TEST(DigestFile, IsThatOfItsBytes) {
   const testing::TemporaryFolder folder;
   const std::string content(100001, 'z');
-  Digest digest;
-  digest.add(content);
   const auto result = digest_file(folder.write("a", content), {});
   ASSERT_TRUE(result);
   EXPECT_EQ(result->size_bytes, 100001);
-  EXPECT_EQ(result->sha256, digest.finish());
+  EXPECT_EQ(result->sha256, sha256(content));
 }
 
 TEST(DigestFile, EndsWhenStopped) {

@@ -24,6 +24,12 @@ TEST_F(PoseFile, GivesRotationAndTranslation) {
   EXPECT_EQ(pose->translation_mm, (std::array{1.0, 2.0, 3.5}));
 }
 
+TEST_F(PoseFile, NormalisesTheRotationAsTheWorkerDoesAndTheDaemonWants) {
+  const auto pose = read(R"({"rotation_wxyz":[2,0,0,0]})");
+  ASSERT_TRUE(pose) << pose.error().message;
+  EXPECT_EQ(pose->rotation_wxyz, (std::array{1.0, 0.0, 0.0, 0.0}));
+}
+
 TEST_F(PoseFile, RefusesWhatIsNoPoseInOneLineThatNamesTheFile) {
   for (const char* content :
        {"", "[]", "{\"rotation_wxyz\":", R"({"rotation":[1,0,0,0]})", R"({"rotation_wxyz":[1,0]})",

@@ -9,6 +9,7 @@
 #include "daemon/asset_store.h"
 #include "daemon/job_store.h"
 #include "daemon/schema.h"
+#include "sim/base/sha256.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::daemon {

@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <thread>
 
-#include "daemon/files.h"
 #include "google/rpc/status.pb.h"
+#include "sim/base/sha256.h"
 
 namespace hydroprint::tests {
 namespace {
@@ -83,7 +83,7 @@ google::rpc::ErrorInfo error_info(const grpc::Status& status) {
   return info;
 }
 
-std::string hash_of(const std::string& bytes) { return daemon::sha256(bytes); }
+std::string hash_of(const std::string& bytes) { return sha256(bytes); }
 
 DaemonProcess::Options DaemonProcess::fake() {
   Options options;

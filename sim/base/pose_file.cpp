@@ -1,10 +1,10 @@
-#include "sim/worker/pose_file.h"
+#include "sim/base/pose_file.h"
 
 #include <string>
 
 #include "sim/base/json_file.h"
 
-namespace hydroprint::worker {
+namespace hydroprint {
 namespace {
 
 constexpr double kMaxTranslation_mm = 1e6;
@@ -25,15 +25,14 @@ Result<Eigen::Vector<double, size>> read_vector(const std::string& where,
   return out;
 }
 
-Result<Eigen::Matrix3d> read_rotation(const std::string& where, const nlohmann::json& json) {
+Result<Eigen::Vector4d> read_rotation(const std::string& where, const nlohmann::json& json) {
   HP_ASSIGN_OR_RETURN(const Eigen::Vector4d wxyz, read_vector<4>(where, json));
   const double length = wxyz.stableNorm();
   if (!(length >= kMinQuaternion)) {
     return fail(Code::kInvalidArgument,
                 where + ": too short to be a rotation. No rotation is [1, 0, 0, 0]");
   }
-  const Eigen::Vector4d unit = wxyz / length;
-  return Eigen::Quaterniond(unit[0], unit[1], unit[2], unit[3]).toRotationMatrix();
+  return Eigen::Vector4d(wxyz / length);
 }
 
 Result<Eigen::Vector3d> read_translation(const std::string& where, const nlohmann::json& json) {
@@ -46,25 +45,33 @@ Result<Eigen::Vector3d> read_translation(const std::string& where, const nlohman
 
 }  // namespace
 
-Result<Pose> read_pose(const std::filesystem::path& path) {
+Pose PoseFile::pose() const {
+  const auto& q = rotation_wxyz;
+  Pose pose = Pose::Identity();
+  pose.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  pose.translation() = translation_mm;
+  return pose;
+}
+
+Result<PoseFile> read_pose_file(const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(const nlohmann::json json, read_json_file(path));
   const std::string example =
       R"(. Write {"rotation_wxyz": [1, 0, 0, 0], "translation_mm": [0, 0, 0]})";
   if (!json.is_object()) {
     return fail(Code::kInvalidArgument, path.string() + ": not a pose" + example);
   }
-  Pose pose = Pose::Identity();
+  PoseFile file;
   for (const auto& [key, value] : json.items()) {
     const std::string where = path.string() + ": " + key;
     if (key == "rotation_wxyz") {
-      HP_ASSIGN_OR_RETURN(pose.linear(), read_rotation(where, value));
+      HP_ASSIGN_OR_RETURN(file.rotation_wxyz, read_rotation(where, value));
     } else if (key == "translation_mm") {
-      HP_ASSIGN_OR_RETURN(pose.translation(), read_translation(where, value));
+      HP_ASSIGN_OR_RETURN(file.translation_mm, read_translation(where, value));
     } else {
       return fail(Code::kInvalidArgument, where + ": not a known key" + example);
     }
   }
-  return pose;
+  return file;
 }
 
-}  // namespace hydroprint::worker
+}  // namespace hydroprint

@@ -5,15 +5,15 @@
 #include <string>
 #include <string_view>
 
-namespace hydroprint::client {
+namespace hydroprint {
 
-/// SHA-256 of bytes given piece by piece.
-class Digest {
+/// SHA-256 of bytes given piece by piece. Throws std::bad_alloc where the library has no memory.
+class Sha256 {
  public:
-  Digest();
-  ~Digest();
-  Digest(const Digest&) = delete;
-  Digest& operator=(const Digest&) = delete;
+  Sha256();
+  ~Sha256();
+  Sha256(const Sha256&) = delete;
+  Sha256& operator=(const Sha256&) = delete;
 
   void add(std::string_view bytes);
   /// 64 lower-case hex digits; ends the digest.
@@ -24,7 +24,10 @@ class Digest {
   std::unique_ptr<Impl> impl_;
 };
 
+/// SHA-256 of bytes as 64 lower-case hex digits.
+[[nodiscard]] std::string sha256(std::string_view bytes);
+
 /// Two lower-case hex digits a byte.
 [[nodiscard]] std::string to_hex(std::span<const unsigned char> bytes);
 
-}  // namespace hydroprint::client
+}  // namespace hydroprint
