@@ -12,7 +12,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr std::int64_t kMiB = 1 << 20;
-constexpr std::int64_t kHourMs = 3600 * 1000;
+constexpr std::int64_t kHourMs = 3600LL * 1000;
 constexpr std::chrono::milliseconds kPatience{1000};
 
 // Cores this process may use, which in a container or under taskset are not all of the machine's.

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <ctime>
+#include <exception>
 #include <iostream>
 
 #include "daemon/daemon.h"
@@ -109,9 +110,7 @@ int run(const Config& config) {
   return 0;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int obey(int argc, char** argv) {
   Options options;
   CLI::App app("Keeps the job queue of Hydroprint and runs its workers; serves gRPC on loopback.");
   app.name("hydroprintd");
@@ -136,4 +135,15 @@ int main(int argc, char** argv) {
   if (!options.check_config) return run(*config);
   std::cout << "the configuration is good\n";
   return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return obey(argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "hydroprintd: " << error.what() << std::endl;
+    return static_cast<int>(ExitStatus::kFailed);
+  }
 }

@@ -23,11 +23,11 @@ fs::path program_at(const fs::path& path) {
 fs::path own_program(const std::string& argv0, const std::string& search_path,
                      const fs::path& link) {
   std::error_code error;
-  if (const fs::path file = fs::read_symlink(link, error); !error) return file;
+  if (fs::path file = fs::read_symlink(link, error); !error) return file;
   if (argv0.find('/') != std::string::npos) return program_at(argv0);
   std::istringstream folders(search_path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path file = program_at(fs::path(folder.empty() ? "." : folder) / argv0);
+    fs::path file = program_at(fs::path(folder.empty() ? "." : folder) / argv0);
     if (!file.empty()) return file;
   }
   return {};
