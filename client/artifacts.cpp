@@ -167,7 +167,7 @@ Result<std::vector<Artifact>> list_artifacts(Connection& connection, const std::
 Result<std::filesystem::path> download(Connection& connection, const Artifact& artifact,
                                        const std::filesystem::path& folder,
                                        const ByteProgress& progress) {
-  const std::filesystem::path path = folder / artifact.file_name();
+  std::filesystem::path path = folder / artifact.file_name();
   const std::stop_token& stop = connection.options().stop;
   std::error_code error;
   std::filesystem::create_directories(folder, error);

@@ -9,7 +9,7 @@
 namespace hydroprint::client {
 namespace {
 
-constexpr std::streamsize kPieceBytes = 64 * 1024;
+constexpr std::streamsize kPieceBytes = std::streamsize{64} << 10;
 
 tl::unexpected<Error> cannot_read(const std::filesystem::path& path, int error_number) {
   const Code code = error_number == EACCES ? Code::kPermissionDenied : Code::kNotFound;

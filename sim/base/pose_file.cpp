@@ -62,13 +62,13 @@ Result<PoseFile> read_pose_file(const std::filesystem::path& path) {
   }
   PoseFile file;
   for (const auto& [key, value] : json.items()) {
-    const std::string where = path.string() + ": " + key;
+    std::string where = path.string() + ": " + key;
     if (key == "rotation_wxyz") {
       HP_ASSIGN_OR_RETURN(file.rotation_wxyz, read_rotation(where, value));
     } else if (key == "translation_mm") {
       HP_ASSIGN_OR_RETURN(file.translation_mm, read_translation(where, value));
     } else {
-      return fail(Code::kInvalidArgument, where + ": not a known key" + example);
+      return fail(Code::kInvalidArgument, where.append(": not a known key").append(example));
     }
   }
   return file;
