@@ -81,7 +81,7 @@ class Downloader {
     for (int attempt = 0; attempt < kAttemptsWithoutProgress; ++attempt) {
       if (done_ == artifact_.size_bytes) return {};
       const std::int64_t before = done_;
-      const Status received = receive();
+      Status received = receive();
       if (!received && received.error().code != Code::kUnavailable) return received;
       if (!received) last_ = received.error();
       if (done_ > before) attempt = 0;
