@@ -19,7 +19,7 @@ using Eigen::Vector2d;
 
 constexpr double kMinSize_mm = 10;
 constexpr double kMaxSize_mm = 2000;
-constexpr double kMaxChord_mm = 1;
+constexpr double kMaxChord_mm = 3;
 constexpr std::size_t kMaxCorners = 10000;
 constexpr double kOnEdge_mm = 1e-9;
 

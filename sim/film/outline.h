@@ -23,7 +23,7 @@ struct Outline {
 };
 
 /// Reads "A4", "A3", "letter", "WxH", "circle:RADIUS" or "polygon:FILE.json" (contract). A circle
-/// becomes a polygon of chords no longer than 1 mm whose area is the circle's.
+/// becomes a polygon of chords no longer than 3 mm whose area is the circle's.
 /// Refuses with kOutOfRange sizes below 10 mm or above 2000 mm, with kInvalidArgument what it does
 /// not understand, polygons that cross themselves or have fewer than three corners.
 [[nodiscard]] Result<Outline> parse_outline(const std::string& text);

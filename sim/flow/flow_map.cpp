@@ -11,23 +11,6 @@ namespace {
 
 using Eigen::Vector2d;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kChunk = 256;  ///< points traced per piece of parallel work
-
-/// Floating film per welded point; NaN where none arrives.
-Result<std::vector<Vector2d>> trace_points(std::size_t count, const Landings& landings,
-                                           const DipField& dip, const Context& context) {
-  std::vector<Vector2d> film(count, Vector2d::Constant(kNaN));
-  const std::size_t chunks = (count + kChunk - 1) / kChunk;
-  HP_RETURN_IF_ERROR(parallel_for(context, "flow map", chunks, [&](std::size_t c) -> Status {
-    for (std::size_t v = c * kChunk; v < std::min((c + 1) * kChunk, count); ++v) {
-      const Landing& landing = landings.of_point(v);
-      if (std::isnan(landing.immersion_mm)) continue;
-      if (const auto point = trace_back(dip, landing)) film[v] = *point;
-    }
-    return {};
-  }));
-  return film;
-}
 
 /// Per surface point the stretch of the film round it (section 6).
 void measure_stretch(const mesh::Surface& surface, const waterline::Body& body,
@@ -48,7 +31,7 @@ Result<FlowMap> make_flow_map(const mesh::Surface& surface, const waterline::Bod
                               const MapOptions& options, const Context& context) {
   const Landings landings(body, motion);
   HP_ASSIGN_OR_RETURN(const std::vector<Vector2d> film,
-                      trace_points(body.points_mm.size(), landings, dip, context));
+                      trace_back(dip, landings.of_points(), "flow map", context));
   FlowMap map;
   for (std::size_t v = 0; v < surface.points.size(); ++v) {
     const int w = surface.weld[v];

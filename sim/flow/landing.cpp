@@ -21,7 +21,7 @@ Landing shared(const Landing& a, const Landing& b) {
 Landings::Landings(const waterline::Body& body, const waterline::Motion& motion)
     : body_(body), motion_(motion) {
   Landing nowhere;
-  nowhere.immersion_mm = std::numeric_limits<double>::quiet_NaN();
+  nowhere.immersion_mm = std::numeric_limits<double>::infinity();
   points_.assign(body.points_mm.size(), nowhere);
   std::vector<int> corners(points_.size(), 0);
   std::vector<Vector3d> first_normal(points_.size());

@@ -26,8 +26,8 @@ class Landings {
  public:
   Landings(const waterline::Body& body, const waterline::Motion& motion);
 
-  /// Of a welded point; its immersion is NaN if it belongs to no triangle.
-  [[nodiscard]] const Landing& of_point(std::size_t point) const { return points_[point]; }
+  /// Per welded point; one that belongs to no triangle lies infinitely deep.
+  [[nodiscard]] const std::vector<Landing>& of_points() const { return points_; }
 
   /// Of a point inside a triangle, `barycentric` of its corners 0, 1, 2.
   [[nodiscard]] Landing on(int triangle, const Eigen::Vector3d& barycentric) const;

@@ -14,7 +14,6 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kChunk = 128;
 /// More edges than this at one level are a scatter of reached and unreached points, which no
 /// division resolves.
 constexpr std::size_t kMostEdges = 400000;
@@ -137,13 +136,12 @@ class Tiler {
   }
 
   Status trace_middles(std::vector<Edge>& edges, const Context& context) const {
-    const std::size_t chunks = (edges.size() + kChunk - 1) / kChunk;
-    return parallel_for(context, {}, chunks, [&](std::size_t c) -> Status {
-      for (std::size_t e = c * kChunk; e < std::min((c + 1) * kChunk, edges.size()); ++e) {
-        if (const auto film = trace_back(dip_, edges[e].middle)) edges[e].film_mm = *film;
-      }
-      return {};
-    });
+    std::vector<Landing> middles;
+    middles.reserve(edges.size());
+    for (const Edge& edge : edges) middles.push_back(edge.middle);
+    HP_ASSIGN_OR_RETURN(const std::vector<Vector2d> film, trace_back(dip_, middles, {}, context));
+    for (std::size_t e = 0; e < edges.size(); ++e) edges[e].film_mm = film[e];
+    return {};
   }
 
   /// Decides for each traced edge whether it is linear, worth dividing, or broken for good.

@@ -1,6 +1,12 @@
 #include "sim/flow/trace.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "sim/velocity/quadratic.h"
 
 namespace hydroprint::flow {
 namespace {
@@ -14,13 +20,104 @@ constexpr double kFarReach_mm = velocity::Locator::kReach_mm;
 using Eigen::Vector2d;
 using velocity::VelocityField;
 
-/// One step of Heun's rule back to `field` over `span_mm`; `velocity` is that at the start and
-/// becomes that at the end.
-bool step_back(const VelocityField& field, double span_mm, Vector2d& point, Vector2d& velocity) {
-  Vector2d before;
-  if (!field.at(point - span_mm * velocity, kFarReach_mm, before)) before = velocity;
-  point -= 0.5 * span_mm * (velocity + before);
-  return field.at(point, kReach_mm, velocity);
+/// A step more than this many times longer than the one before starts the multistep rule anew: the
+/// short one was across an event, where the velocity jumps.
+constexpr double kMostGrowth = 4;
+
+constexpr std::size_t kChunk = 512;  ///< points followed together
+
+/// A point of the film on its way back through the dip.
+struct BackPath {
+  Vector2d point_mm;  ///< NaN: lost
+  double immersion_mm;
+  Vector2d velocity;  ///< of the film there and then
+  std::size_t after;  ///< how many waterlines lie before it still
+  Vector2d later_velocity = Vector2d::Zero();  ///< one step later in the dip
+  double later_span_mm = 0;
+
+  [[nodiscard]] bool is_lost() const { return std::isnan(point_mm.x()); }
+  void lose() { point_mm.setConstant(std::numeric_limits<double>::quiet_NaN()); }
+};
+
+/// Displacement over a step for the velocity at its start and, predicted, at its end: quadratic in
+/// time through these and the one before (Adams and Moulton's rule for uneven steps), linear where
+/// there is none before.
+Vector2d displacement(const BackPath& path, double span_mm, const Vector2d& end_velocity) {
+  const double g = path.later_span_mm;
+  const double h = span_mm;
+  if (h > kMostGrowth * g) return 0.5 * h * (path.velocity + end_velocity);
+  return h * (2 * h + 3 * g) / (6 * (h + g)) * end_velocity +
+         h * (h + 3 * g) / (6 * g) * path.velocity -
+         h * h * h / (6 * g * (h + g)) * path.later_velocity;
+}
+
+/// The same, before the velocity at its end is known.
+Vector2d predicted_displacement(const BackPath& path, double span_mm) {
+  Vector2d out = span_mm * path.velocity;
+  if (span_mm <= kMostGrowth * path.later_span_mm) {
+    out += span_mm * span_mm / (2 * path.later_span_mm) * (path.velocity - path.later_velocity);
+  }
+  return out;
+}
+
+/// One step back to the waterline at `immersion_mm`; the path is lost where the field has no film.
+/// @param triangle  of the film mesh, near the point if possible; becomes that under the point
+void step_back(const VelocityField& field, double immersion_mm, int& triangle, BackPath& path) {
+  const double span_mm = path.immersion_mm - immersion_mm;
+  Vector2d before = path.velocity;
+  (void)field.at(path.point_mm - predicted_displacement(path, span_mm), kFarReach_mm, before,
+                 triangle);
+  path.point_mm -= displacement(path, span_mm, before);
+  path.later_velocity = path.velocity;
+  path.later_span_mm = span_mm;
+  path.immersion_mm = immersion_mm;
+  --path.after;
+  if (!field.at(path.point_mm, kReach_mm, path.velocity, triangle)) path.lose();
+}
+
+/// An order in which paths begin near one another: up and down narrow strips.
+std::vector<std::size_t> neighbours_in_turn(const std::vector<BackPath>& paths) {
+  constexpr double kStrip_mm = 4;
+  struct Key {
+    double strip, along;
+    std::size_t index;
+  };
+  std::vector<Key> keys;
+  keys.reserve(paths.size());
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    if (paths[i].is_lost()) continue;
+    const Vector2d& p = paths[i].point_mm;
+    const double strip = std::floor(p.x() / kStrip_mm);
+    keys.push_back({strip, std::fmod(strip, 2) == 0 ? p.y() : -p.y(), i});
+  }
+  std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+    return std::tie(a.strip, a.along, a.index) < std::tie(b.strip, b.along, b.index);
+  });
+  std::vector<std::size_t> order;
+  order.reserve(keys.size());
+  for (const Key& key : keys) order.push_back(key.index);
+  return order;
+}
+
+/// Follows paths back to rest, together from waterline to waterline, so that each film mesh is read
+/// once for all of them.
+void follow_back(const DipField& dip, std::vector<BackPath>& paths) {
+  std::size_t most = 0;
+  for (const BackPath& path : paths) most = std::max(most, path.after);
+  const std::vector<std::size_t> order = neighbours_in_turn(paths);
+  for (std::size_t k = most; k-- > 0;) {
+    int triangle = -1;
+    for (const std::size_t i : order) {
+      BackPath& path = paths[i];
+      if (path.after == k + 1 && !path.is_lost()) step_back(dip.fields[k], dip.immersion_mm[k], triangle, path);
+    }
+  }
+  for (BackPath& path : paths) {
+    if (path.is_lost()) continue;
+    // Before first contact the film is at rest.
+    path.point_mm -= displacement(path, path.immersion_mm, Vector2d::Zero());
+    if (!film::contains(dip.outline, path.point_mm)) path.lose();
+  }
 }
 
 /// The film's velocity at the landing.
@@ -51,27 +148,67 @@ bool velocity_at(const DipField& dip, const Landing& landing, std::size_t after,
   return true;
 }
 
-}  // namespace
-
-std::optional<Vector2d> trace_back(const DipField& dip, const Landing& landing) {
-  if (!landing.film_can_follow || landing.immersion_mm > dip.depth_mm) return std::nullopt;
+/// The path that ends in a landing, lost where no film arrives.
+BackPath path_to(const DipField& dip, const Landing& landing) {
   const auto after = static_cast<std::size_t>(
       std::upper_bound(dip.immersion_mm.begin(), dip.immersion_mm.end(), landing.immersion_mm) -
       dip.immersion_mm.begin());
-  Vector2d point = landing.point_mm;
-  Vector2d velocity;
-  if (!velocity_at(dip, landing, after, velocity)) return std::nullopt;
-  double from_mm = landing.immersion_mm;
-  for (std::size_t k = after; k-- > 0;) {
-    if (!step_back(dip.fields[k], from_mm - dip.immersion_mm[k], point, velocity)) {
-      return std::nullopt;
-    }
-    from_mm = dip.immersion_mm[k];
+  BackPath path{landing.point_mm, landing.immersion_mm, Vector2d::Zero(), after};
+  const bool arrives = landing.film_can_follow && landing.immersion_mm <= dip.depth_mm &&
+                       velocity_at(dip, landing, after, path.velocity);
+  if (!arrives) path.lose();
+  return path;
+}
+
+std::vector<std::size_t> by_immersion(const std::vector<Landing>& landings) {
+  std::vector<std::size_t> order(landings.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    const double depth_a = landings[a].immersion_mm;
+    const double depth_b = landings[b].immersion_mm;
+    return depth_a != depth_b ? depth_a < depth_b : a < b;
+  });
+  return order;
+}
+
+}  // namespace
+
+Result<std::vector<Vector2d>> trace_back(const DipField& dip, const std::vector<Landing>& landings,
+                                         std::string_view stage, const Context& context) {
+  std::vector<Vector2d> film_mm(landings.size());
+  const std::vector<std::size_t> order = by_immersion(landings);
+  const std::size_t chunks = (order.size() + kChunk - 1) / kChunk;
+  HP_RETURN_IF_ERROR(parallel_for(context, stage, chunks, [&](std::size_t c) -> Status {
+    const std::size_t first = c * kChunk;
+    const std::size_t last = std::min(first + kChunk, order.size());
+    std::vector<BackPath> paths;
+    paths.reserve(last - first);
+    for (std::size_t i = first; i < last; ++i) paths.push_back(path_to(dip, landings[order[i]]));
+    follow_back(dip, paths);
+    for (std::size_t i = first; i < last; ++i) film_mm[order[i]] = paths[i - first].point_mm;
+    return {};
+  }));
+  return film_mm;
+}
+
+std::optional<Vector2d> trace_back(const DipField& dip, const Landing& landing) {
+  std::vector<BackPath> paths = {path_to(dip, landing)};
+  follow_back(dip, paths);
+  if (paths[0].is_lost()) return std::nullopt;
+  return paths[0].point_mm;
+}
+
+std::vector<Vector2d> trace_back(const DipField& dip, std::size_t k) {
+  const VelocityField& field = dip.fields[k];
+  std::vector<BackPath> paths;
+  paths.reserve(field.nodes().size());
+  for (std::size_t n = 0; n < field.nodes().size(); ++n) {
+    paths.push_back({velocity::place_of(field.mesh(), n), dip.immersion_mm[k], field.nodes()[n], k});
   }
-  // Before first contact the film is at rest.
-  point -= 0.5 * from_mm * velocity;
-  if (!film::contains(dip.outline, point)) return std::nullopt;
-  return point;
+  follow_back(dip, paths);
+  std::vector<Vector2d> rest_mm(paths.size());
+  for (std::size_t n = 0; n < paths.size(); ++n) rest_mm[n] = paths[n].point_mm;
+  return rest_mm;
 }
 
 }  // namespace hydroprint::flow

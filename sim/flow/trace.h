@@ -2,8 +2,11 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string_view>
 #include <vector>
 
+#include "sim/base/context.h"
+#include "sim/base/result.h"
 #include "sim/film/outline.h"
 #include "sim/flow/landing.h"
 #include "sim/velocity/velocity.h"
@@ -20,8 +23,8 @@ struct DipField {
 };
 
 /// The point of the film at rest that lands there (the inverse map of section 4.5): the film is
-/// followed back from the landing to rest by Heun's rule (second order), from waterline to
-/// waterline. Where and when it lands is known exactly, so no contact has to be searched for; the
+/// followed back from the landing to rest, from waterline to waterline, by a multistep rule of
+/// third order that starts anew at events. Where and when it lands is known exactly, so no contact has to be searched for; the
 /// velocity there is that of eq. (1), and near creases, where that jumps, lies between those of the
 /// waterlines before and after.
 /// @return nothing where no film arrives: inside the union of the object's parts, in a cavity
@@ -29,5 +32,15 @@ struct DipField {
 ///         or past the end of the dip
 [[nodiscard]] std::optional<Eigen::Vector2d> trace_back(const DipField& dip,
                                                         const Landing& landing);
+
+/// The same for many landings at once, in parallel; NaN where no film arrives.
+[[nodiscard]] Result<std::vector<Eigen::Vector2d>> trace_back(const DipField& dip,
+                                                              const std::vector<Landing>& landings,
+                                                              std::string_view stage,
+                                                              const Context& context);
+
+/// Where each node of the film mesh of waterline `k` was when the film was at rest; NaN where its
+/// path leaves the film.
+[[nodiscard]] std::vector<Eigen::Vector2d> trace_back(const DipField& dip, std::size_t k);
 
 }  // namespace hydroprint::flow

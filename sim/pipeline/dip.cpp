@@ -137,6 +137,13 @@ Result<Dip> dip(const mesh::Model& model, const DipOptions& options, const Conte
     field.immersion_mm.push_back(line.immersion_mm);
   }
   HP_ASSIGN_OR_RETURN(field.fields, solve(outline, waterlines, options.mesh, context));
+  if (options.film_model == FilmModel::kSheet) {
+    HP_ASSIGN_OR_RETURN(
+        sheet::SheetFlow sheet,
+        sheet::sheet_flow(std::move(field), options.rest_thickness ? options.rest_thickness : [](const auto&) { return 1.0; }, options.sheet, context));
+    field = std::move(sheet.field);
+    result.figures.sweeps = sheet.sweeps;
+  }
 
   flow::MapOptions map_options = options.map;
   map_options.dip_speed_mm_per_s = options.dip_speed_mm_per_s;

@@ -11,11 +11,15 @@
 #include "sim/flow/flow_map.h"
 #include "sim/mesh/model.h"
 #include "sim/mesh/surface.h"
+#include "sim/sheet/sheet_flow.h"
 #include "sim/velocity/film_mesh.h"
 #include "sim/waterline/motion.h"
 #include "sim/waterline/schedule.h"
 
 namespace hydroprint::pipeline {
+
+/// How the film moves.
+enum class FilmModel { kStokes, kSheet };
 
 /// One immersion: where the object is and how it goes down through which film.
 struct DipOptions {
@@ -26,6 +30,9 @@ struct DipOptions {
   film::Profile profile;
   std::optional<double> depth_mm;  ///< immersion at the end of the dip; none: full
   double dip_speed_mm_per_s = 5;
+  FilmModel film_model = FilmModel::kStokes;
+  sheet::RestThickness rest_thickness;
+  sheet::SheetOptions sheet;
   waterline::Motion motion;  ///< sideways path as driven; empty: straight down
   // How finely: the defaults are both fast and accurate (tests/bench).
   waterline::ScheduleOptions schedule;
@@ -38,6 +45,7 @@ struct DipFigures {
   double depth_mm = 0;           ///< immersion reached
   bool stopped_at_edge = false;  ///< the waterline reached the film's edge before `depth_mm`
   int steps = 0;                 ///< waterlines solved
+  int sweeps = 0;
   int film_vertices_max = 0;     ///< of the largest film mesh
   int film_triangles_max = 0;
   double coverage = 0;       ///< share of the object's surface that film reaches

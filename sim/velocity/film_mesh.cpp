@@ -14,6 +14,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "sim/velocity/quadratic.h"
 #include "sim/velocity/sample_loop.h"
 
 namespace hydroprint::velocity {
@@ -205,7 +206,9 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
                                          " vertices; smooth the model or dip another part of it");
       }
     }
-    return extract(triangulation, outline);
+    FilmMesh mesh = extract(triangulation, outline);
+    mesh.elimination_order = elimination_order(mesh);
+    return mesh;
   } catch (const std::exception& error) {
     return fail(Code::kInternal, "film mesh at immersion " + std::to_string(line.immersion_mm) +
                                      " mm: " + error.what());

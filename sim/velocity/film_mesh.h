@@ -26,6 +26,8 @@ struct FilmMesh {
   std::vector<Eigen::Vector3i> triangle_edges;  ///< edge i of a triangle lies opposite corner i
   std::vector<std::array<int, 2>> edges;
   std::vector<EdgeKind> edge_kind;
+  /// All nodes in an order in which a matrix on them is factored with little fill.
+  std::vector<int> elimination_order;
 
   [[nodiscard]] std::size_t node_count() const { return vertices_mm.size() + edges.size(); }
 };

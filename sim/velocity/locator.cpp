@@ -9,6 +9,7 @@ namespace hydroprint::velocity {
 namespace {
 
 constexpr double kCell_mm = 2.0;
+constexpr int kMostSteps = 8;  ///< of a walk; farther than that the grid is faster
 
 struct Box {
   Eigen::Vector2d low, high;
@@ -64,6 +65,20 @@ Locator::Locator(const FilmMesh& mesh) {
     triangles_.push_back({mesh.vertices_mm[t[0]], edges.inverse(), edges});
   }
 
+  std::vector<std::array<int, 2>> sides(mesh.edges.size(), {-1, -1});
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const int e : mesh.triangle_edges[t]) sides[e][sides[e][0] < 0 ? 0 : 1] = static_cast<int>(t);
+  }
+  neighbours_.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Eigen::Vector3i across;
+    for (int i = 0; i < 3; ++i) {
+      const auto [a, b] = sides[mesh.triangle_edges[t][i]];
+      across[i] = a == static_cast<int>(t) ? b : a;
+    }
+    neighbours_.push_back(across);
+  }
+
   const auto fill = [&](double margin_mm, const std::vector<int>& which, std::vector<int>& start,
                         std::vector<int>& list) {
     const auto for_cells = [&](int t, auto&& visit) {
@@ -98,17 +113,31 @@ Locator::Locator(const FilmMesh& mesh) {
   fill(kReach_mm, border, near_start_, near_);
 }
 
-Locator::Place Locator::find(const Eigen::Vector2d& point_mm) const {
+bool Locator::walk(int triangle, const Eigen::Vector2d& point_mm, Place& place) const {
+  for (int step = 0; step < kMostSteps && triangle >= 0; ++step) {
+    if (holds(triangle, point_mm, place)) return true;
+    int outside = 0;
+    place.barycentric.minCoeff(&outside);
+    triangle = neighbours_[triangle][outside];
+  }
+  return false;
+}
+
+bool Locator::holds(int triangle, const Eigen::Vector2d& point_mm, Place& place) const {
+  const Corners& corners = triangles_[triangle];
+  const Eigen::Vector2d b = corners.to_barycentric * (point_mm - corners.origin_mm);
+  place = {triangle, {1 - b.x() - b.y(), b.x(), b.y()}, 0};
+  return place.barycentric.minCoeff() >= -1e-10;
+}
+
+Locator::Place Locator::find(const Eigen::Vector2d& point_mm, int guess) const {
+  Place place;
+  if (walk(guess, point_mm, place)) return place;
   const Eigen::Vector2d at = (point_mm - origin_mm_) / kCell_mm;
   if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ && at.y() < rows_)) return {};
   const int cell = static_cast<int>(at.y()) * columns_ + static_cast<int>(at.x());
   for (int i = inner_start_[cell]; i < inner_start_[cell + 1]; ++i) {
-    const Corners& corners = triangles_[inner_[i]];
-    const Eigen::Vector2d b = corners.to_barycentric * (point_mm - corners.origin_mm);
-    const double b0 = 1 - b.x() - b.y();
-    if (b.x() >= -1e-10 && b.y() >= -1e-10 && b0 >= -1e-10) {
-      return {inner_[i], {b0, b.x(), b.y()}, 0};
-    }
+    if (holds(inner_[i], point_mm, place)) return place;
   }
   return find_nearest(point_mm, cell);
 }

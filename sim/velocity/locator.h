@@ -24,7 +24,8 @@ class Locator {
 
   /// The triangle that holds the point or, outside the film, the nearest one within kReach_mm;
   /// triangle = -1 if there is none.
-  [[nodiscard]] Place find(const Eigen::Vector2d& point_mm) const;
+  /// @param guess  a triangle near the point, if one is known (-1: none), to start from
+  [[nodiscard]] Place find(const Eigen::Vector2d& point_mm, int guess = -1) const;
 
  private:
   struct Corners {
@@ -33,9 +34,12 @@ class Locator {
     Eigen::Matrix2d edges_mm;        ///< its inverse
   };
 
+  [[nodiscard]] bool holds(int triangle, const Eigen::Vector2d& point_mm, Place& place) const;
+  [[nodiscard]] bool walk(int triangle, const Eigen::Vector2d& point_mm, Place& place) const;
   [[nodiscard]] Place find_nearest(const Eigen::Vector2d& point_mm, int cell) const;
 
   std::vector<Corners> triangles_;
+  std::vector<Eigen::Vector3i> neighbours_;  ///< opposite each corner; -1: none
   Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();
   int columns_ = 0, rows_ = 0;
   /// Per cell the triangles that overlap it, then those that come within reach of it.

@@ -5,18 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/velocity/quadratic.h"
+
 namespace hydroprint::velocity {
 namespace {
 
 using Local = Eigen::Matrix<double, 6, 6>;
-
-/// The six nodes of a triangle: corners 0, 1, 2, then the middles of the edges opposite them.
-std::array<int, 6> nodes_of(const FilmMesh& mesh, std::size_t t) {
-  const auto corner_count = static_cast<int>(mesh.vertices_mm.size());
-  const Eigen::Vector3i& v = mesh.triangles[t];
-  const Eigen::Vector3i& e = mesh.triangle_edges[t];
-  return {v[0], v[1], v[2], corner_count + e[0], corner_count + e[1], corner_count + e[2]};
-}
 
 /// Quadratic stiffness of one triangle, in closed form from the linear one
 /// k_ij = area * grad(l_i) . grad(l_j).
@@ -42,32 +36,53 @@ Local stiffness(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen:
   return K;
 }
 
-bool is_free(const Eigen::Vector2d& fixed) { return std::isnan(fixed.x()); }
-
 }  // namespace
 
 VelocityField::VelocityField(FilmMesh mesh, std::vector<Eigen::Vector2d> nodes)
-    : mesh_(std::move(mesh)), nodes_(std::move(nodes)), locator_(mesh_) {}
+    : nodes_(std::move(nodes)) {
+  Locator locator(mesh);
+  film_ = std::make_shared<const Film>(Film{std::move(mesh), std::move(locator)});
+}
+
+std::shared_ptr<const VelocityField::Film> VelocityField::no_film() {
+  static const auto none = std::make_shared<const Film>();
+  return none;
+}
+
+VelocityField VelocityField::with(std::vector<Eigen::Vector2d> nodes) const {
+  VelocityField other = *this;
+  other.nodes_ = std::move(nodes);
+  return other;
+}
 
 bool VelocityField::at(const Eigen::Vector2d& point_mm, double reach_mm,
                        Eigen::Vector2d& velocity) const {
-  Eigen::Vector2d found;
-  if (nearest(point_mm, found) > reach_mm) return false;
-  velocity = found;
+  int triangle = -1;
+  return at(point_mm, reach_mm, velocity, triangle);
+}
+
+bool VelocityField::at(const Eigen::Vector2d& point_mm, double reach_mm, Eigen::Vector2d& velocity,
+                       int& triangle) const {
+  const Locator::Place place = film_->locator.find(point_mm, triangle);
+  if (place.triangle < 0 || place.outside_mm > reach_mm) return false;
+  triangle = place.triangle;
+  velocity = value(place);
   return true;
 }
 
 double VelocityField::nearest(const Eigen::Vector2d& point_mm, Eigen::Vector2d& velocity) const {
-  velocity.setZero();
-  const Locator::Place place = locator_.find(point_mm);
-  if (place.triangle < 0) return kNoFilm_mm;
+  const Locator::Place place = film_->locator.find(point_mm);
+  velocity = place.triangle < 0 ? Eigen::Vector2d(0, 0) : value(place);
+  return place.triangle < 0 ? kNoFilm_mm : place.outside_mm;
+}
+
+Eigen::Vector2d VelocityField::value(const Locator::Place& place) const {
   const Eigen::Vector3d& l = place.barycentric;
-  const auto node = nodes_of(mesh_, place.triangle);
-  velocity = l[0] * (2 * l[0] - 1) * nodes_[node[0]] + l[1] * (2 * l[1] - 1) * nodes_[node[1]] +
-             l[2] * (2 * l[2] - 1) * nodes_[node[2]] +
-             4 * (l[1] * l[2] * nodes_[node[3]] + l[2] * l[0] * nodes_[node[4]] +
-                  l[0] * l[1] * nodes_[node[5]]);
-  return place.outside_mm;
+  const auto node = nodes_of(film_->mesh, place.triangle);
+  return l[0] * (2 * l[0] - 1) * nodes_[node[0]] + l[1] * (2 * l[1] - 1) * nodes_[node[1]] +
+         l[2] * (2 * l[2] - 1) * nodes_[node[2]] +
+         4 * (l[1] * l[2] * nodes_[node[3]] + l[2] * l[0] * nodes_[node[4]] +
+              l[0] * l[1] * nodes_[node[5]]);
 }
 
 std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
@@ -102,11 +117,8 @@ std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
 
 Result<std::vector<Eigen::Vector2d>> solve_stokes(const FilmMesh& mesh,
                                                   const std::vector<Eigen::Vector2d>& fixed) {
-  std::vector<int> unknown(fixed.size(), -1);
-  int count = 0;
-  for (std::size_t n = 0; n < fixed.size(); ++n) {
-    if (is_free(fixed[n])) unknown[n] = count++;
-  }
+  const Unknowns unknowns(mesh, fixed);
+  const auto& [unknown, count] = unknowns;
   std::vector<Eigen::Vector2d> velocity = fixed;
   if (count == 0) return velocity;
 
@@ -133,7 +145,9 @@ Result<std::vector<Eigen::Vector2d>> solve_stokes(const FilmMesh& mesh,
   }
   Eigen::SparseMatrix<double> matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> factor(matrix);
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower,
+                             Eigen::NaturalOrdering<int>>
+      factor(matrix);
   if (factor.info() != Eigen::Success) {
     return fail(Code::kInternal, "velocity: the film mesh gives a singular matrix");
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "sim/base/result.h"
@@ -18,8 +19,14 @@ class VelocityField {
   VelocityField() = default;
   VelocityField(FilmMesh mesh, std::vector<Eigen::Vector2d> nodes);
 
+  /// Other velocities on the same film mesh, which the two then share.
+  [[nodiscard]] VelocityField with(std::vector<Eigen::Vector2d> nodes) const;
+
   /// Velocity at a point of the film, or at its nearest point if it lies up to `reach_mm` outside.
+  /// @param triangle  where to look first (-1: anywhere); becomes the triangle found
   /// @return false, leaving `velocity` alone, where there is no film within reach
+  [[nodiscard]] bool at(const Eigen::Vector2d& point_mm, double reach_mm, Eigen::Vector2d& velocity,
+                        int& triangle) const;
   [[nodiscard]] bool at(const Eigen::Vector2d& point_mm, double reach_mm,
                         Eigen::Vector2d& velocity) const;
 
@@ -29,13 +36,20 @@ class VelocityField {
   double nearest(const Eigen::Vector2d& point_mm, Eigen::Vector2d& velocity) const;
   static constexpr double kNoFilm_mm = 1e30;
 
-  [[nodiscard]] const FilmMesh& mesh() const { return mesh_; }
+  [[nodiscard]] const FilmMesh& mesh() const { return film_->mesh; }
   [[nodiscard]] const std::vector<Eigen::Vector2d>& nodes() const { return nodes_; }
 
  private:
-  FilmMesh mesh_;
+  [[nodiscard]] Eigen::Vector2d value(const Locator::Place& place) const;
+
+  struct Film {
+    FilmMesh mesh;
+    Locator locator;
+  };
+  static std::shared_ptr<const Film> no_film();
+
+  std::shared_ptr<const Film> film_ = no_film();
   std::vector<Eigen::Vector2d> nodes_;
-  Locator locator_;
 };
 
 /// Dirichlet values of eq. (1) for every node: zero at the vat, the pull at the waterline (at a

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/flow/trace.h"
+#include "sim/sheet/thickness.h"
+
+namespace hydroprint::sheet {
+
+struct SheetOptions {
+  double drag_per_mm = 0;  ///< see velocity::solve_sheet
+  /// Sweeps end when the next would move the film by less than this.
+  double tolerance_mm = 0.01;
+  int most_sweeps = 12;
+};
+
+struct SheetFlow {
+  flow::DipField field;
+  int sweeps = 0;  ///< over the waterlines that took most
+};
+
+/// The dip of a viscous sheet (section 4.3, quasistatic): velocity and thickness depend on one
+/// another through the whole dip. Each sweep takes the thickness at every waterline from the
+/// velocities of the sweep before and solves all waterlines anew, in parallel; what the sweeps
+/// converge to is the solution of the coupled problem.
+/// @param first  any velocities on the dip's film meshes with the right values at the edges:
+///               Stokes flow is a good start
+[[nodiscard]] Result<SheetFlow> sheet_flow(flow::DipField first, const RestThickness& rest_thickness,
+                                           const SheetOptions& options, const Context& context);
+
+}  // namespace hydroprint::sheet

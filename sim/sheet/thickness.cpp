@@ -1,0 +1,53 @@
+#include "sim/sheet/thickness.h"
+
+#include <algorithm>
+
+#include "sim/velocity/quadratic.h"
+
+namespace hydroprint::sheet {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Film gathered or drawn out more than this lies across a fold of the map.
+constexpr double kMostAreaRatio = 20;
+
+double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Twice the area within three parabolas through corners and edge middles (opposite corners 0, 1,
+/// 2): what a triangle of film was at rest has curved edges.
+double twice_area(const std::array<Vector2d, 6>& node) {
+  double area = cross(node[1] - node[0], node[2] - node[0]);
+  for (int i = 0; i < 3; ++i) {
+    const Vector2d& from = node[(i + 1) % 3];
+    const Vector2d& to = node[(i + 2) % 3];
+    area += 4.0 / 3 * cross(node[3 + i] - 0.5 * (from + to), to - from);
+  }
+  return area;
+}
+
+}  // namespace
+
+std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
+                                 const RestThickness& rest_thickness) {
+  const velocity::FilmMesh& mesh = dip.fields[k].mesh();
+  const std::vector<Vector2d> rest = flow::trace_back(dip, k);
+  std::vector<double> thickness(mesh.triangles.size(), 0);
+  double known_mm3 = 0, known_mm2 = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    std::array<Vector2d, 6> node;
+    const auto nodes = velocity::nodes_of(mesh, t);
+    std::transform(nodes.begin(), nodes.end(), node.begin(), [&](int n) { return rest[n]; });
+    const double area = velocity::twice_area_mm2(mesh, t);
+    const double ratio = twice_area(node) / area;
+    if (!(ratio > 1 / kMostAreaRatio && ratio < kMostAreaRatio)) continue;  // or NaN
+    thickness[t] = ratio * rest_thickness({node[0], node[1], node[2]});
+    known_mm3 += thickness[t] * area;
+    known_mm2 += area;
+  }
+  const double mean = known_mm2 > 0 ? known_mm3 / known_mm2 : 1;
+  std::replace(thickness.begin(), thickness.end(), 0.0, mean);
+  return thickness;
+}
+
+}  // namespace hydroprint::sheet

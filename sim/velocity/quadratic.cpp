@@ -1,0 +1,54 @@
+#include "sim/velocity/quadratic.h"
+
+#include <Eigen/OrderingMethods>
+#include <Eigen/SparseCore>
+#include <cmath>
+
+namespace hydroprint::velocity {
+
+std::array<int, 6> nodes_of(const FilmMesh& mesh, std::size_t triangle) {
+  const auto corner_count = static_cast<int>(mesh.vertices_mm.size());
+  const Eigen::Vector3i& v = mesh.triangles[triangle];
+  const Eigen::Vector3i& e = mesh.triangle_edges[triangle];
+  return {v[0], v[1], v[2], corner_count + e[0], corner_count + e[1], corner_count + e[2]};
+}
+
+Eigen::Vector2d place_of(const FilmMesh& mesh, std::size_t node) {
+  const std::size_t corner_count = mesh.vertices_mm.size();
+  if (node < corner_count) return mesh.vertices_mm[node];
+  const auto [a, b] = mesh.edges[node - corner_count];
+  return 0.5 * (mesh.vertices_mm[a] + mesh.vertices_mm[b]);
+}
+
+double twice_area_mm2(const FilmMesh& mesh, std::size_t triangle) {
+  const Eigen::Vector3i& v = mesh.triangles[triangle];
+  const Eigen::Vector2d ab = mesh.vertices_mm[v[1]] - mesh.vertices_mm[v[0]];
+  const Eigen::Vector2d ac = mesh.vertices_mm[v[2]] - mesh.vertices_mm[v[0]];
+  return ab.x() * ac.y() - ab.y() * ac.x();
+}
+
+std::vector<int> elimination_order(const FilmMesh& mesh) {
+  const auto size = static_cast<int>(mesh.node_count());
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(36 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const int row : nodes_of(mesh, t)) {
+      for (const int column : nodes_of(mesh, t)) entries.emplace_back(row, column, 1.0);
+    }
+  }
+  Eigen::SparseMatrix<double> graph(size, size);
+  graph.setFromTriplets(entries.begin(), entries.end());
+  Eigen::AMDOrdering<int>::PermutationType permutation;
+  Eigen::AMDOrdering<int>()(graph, permutation);
+  const auto& order = permutation.indices();
+  return {order.data(), order.data() + order.size()};
+}
+
+Unknowns::Unknowns(const FilmMesh& mesh, const std::vector<Eigen::Vector2d>& fixed)
+    : of_node(fixed.size(), -1) {
+  for (const int n : mesh.elimination_order) {
+    if (std::isnan(fixed[n].x())) of_node[n] = count++;
+  }
+}
+
+}  // namespace hydroprint::velocity

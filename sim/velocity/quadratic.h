@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "sim/velocity/film_mesh.h"
+
+namespace hydroprint::velocity {
+
+/// The six nodes of a triangle: corners 0, 1, 2, then the middles of the edges opposite them.
+[[nodiscard]] std::array<int, 6> nodes_of(const FilmMesh& mesh, std::size_t triangle);
+
+/// Where a node lies, mm.
+[[nodiscard]] Eigen::Vector2d place_of(const FilmMesh& mesh, std::size_t node);
+
+/// Twice the area of a triangle of the mesh, mm^2.
+[[nodiscard]] double twice_area_mm2(const FilmMesh& mesh, std::size_t triangle);
+
+/// Nodes in an order of low fill for matrices on the six-node triangles (approximate minimum
+/// degree).
+[[nodiscard]] std::vector<int> elimination_order(const FilmMesh& mesh);
+
+/// Numbers the nodes whose value is not prescribed, in the mesh's order of elimination.
+struct Unknowns {
+  std::vector<int> of_node;  ///< -1: prescribed
+  int count = 0;
+
+  /// @param fixed  per node the prescribed value, NaN where it is to be found
+  Unknowns(const FilmMesh& mesh, const std::vector<Eigen::Vector2d>& fixed);
+};
+
+}  // namespace hydroprint::velocity

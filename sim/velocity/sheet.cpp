@@ -1,0 +1,260 @@
+#include "sim/velocity/sheet.h"
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "sim/velocity/quadratic.h"
+
+namespace hydroprint::velocity {
+namespace {
+
+/// Two rows and columns per node: x, y of node 0, x, y of node 1, ...
+using Local = Eigen::Matrix<double, 12, 12>;
+using Gradients = Eigen::Matrix<double, 6, 2>;
+using Matrix = Eigen::SparseMatrix<double>;
+// The unknowns are numbered in a good order already (FilmMesh::elimination_order).
+using Factor = Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
+
+/// Gradients of the corners' barycentric coordinates.
+Eigen::Matrix<double, 3, 2> corner_gradients(const FilmMesh& mesh, std::size_t t,
+                                             double twice_area) {
+  const Eigen::Vector3i& v = mesh.triangles[t];
+  Eigen::Matrix<double, 3, 2> out;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d along = mesh.vertices_mm[v[(i + 2) % 3]] - mesh.vertices_mm[v[(i + 1) % 3]];
+    out.row(i) << -along.y() / twice_area, along.x() / twice_area;
+  }
+  return out;
+}
+
+/// Gradients of the six shape functions in the middle of the edge opposite corner `m`.
+Gradients gradients_at(const Eigen::Matrix<double, 3, 2>& corner, int m) {
+  Eigen::Vector3d l = Eigen::Vector3d::Constant(0.5);
+  l[m] = 0;
+  Gradients out;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    out.row(i) = (4 * l[i] - 1) * corner.row(i);
+    out.row(3 + i) = 4 * (l[j] * corner.row(k) + l[k] * corner.row(j));
+  }
+  return out;
+}
+
+/// Integral of 2 (D(u) : D(v) + tr D(u) tr D(v)) over one triangle; the middles of its edges
+/// integrate quadratic functions exactly.
+Local stiffness(const FilmMesh& mesh, std::size_t t) {
+  const double twice_area = twice_area_mm2(mesh, t);
+  const auto corner = corner_gradients(mesh, t, twice_area);
+  Local K = Local::Zero();
+  for (int m = 0; m < 3; ++m) {
+    const Gradients g = gradients_at(corner, m);
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        const Eigen::Matrix2d cross = g.row(i).transpose() * g.row(j);
+        const double dot = cross.trace();
+        K.block<2, 2>(2 * i, 2 * j) +=
+            twice_area / 6 *
+            (2 * cross + cross.transpose() + dot * Eigen::Matrix2d::Identity());
+      }
+    }
+  }
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < i; ++j) {
+      K.block<2, 2>(2 * j, 2 * i) = K.block<2, 2>(2 * i, 2 * j).transpose();
+    }
+  }
+  return K;
+}
+
+/// Integral of u . v over a triangle of unit area.
+const Local& unit_mass() {
+  static const Local mass = [] {
+    Local m = Local::Zero();
+    const auto set = [&](int i, int j, double value) {
+      m(2 * i, 2 * j) = m(2 * i + 1, 2 * j + 1) = value / 180;
+    };
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        set(i, j, i == j ? 6 : -1);
+        set(3 + i, 3 + j, i == j ? 32 : 16);
+        set(i, 3 + j, i == j ? -4 : 0);
+        set(3 + i, j, i == j ? -4 : 0);
+      }
+    }
+    return m;
+  }();
+  return mass;
+}
+
+/// Takes a factor of a nearby matrix for a preconditioner: what Eigen's solver asks of one.
+class NearbyFactor {
+ public:
+  void use(const Factor& factor) { factor_ = &factor; }
+
+  // The names are those that Eigen calls.  NOLINTBEGIN(readability-identifier-naming)
+  template <class M>
+  NearbyFactor& analyzePattern(const M& /*matrix*/) {
+    return *this;
+  }
+  template <class M>
+  NearbyFactor& factorize(const M& /*matrix*/) {
+    return *this;
+  }
+  template <class M>
+  NearbyFactor& compute(const M& /*matrix*/) {
+    return *this;
+  }
+  // NOLINTEND(readability-identifier-naming)
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const { return factor_->solve(b); }
+  [[nodiscard]] static Eigen::ComputationInfo info() { return Eigen::Success; }
+
+ private:
+  const Factor* factor_ = nullptr;
+};
+
+constexpr double kTolerance = 1e-8;  ///< of conjugate gradients, relative
+constexpr int kMostIterations = 40;  ///< a new factor is cheaper beyond
+
+}  // namespace
+
+struct Sheet::State {
+  State(const FilmMesh& film, double drag, std::vector<Eigen::Vector2d> prescribed);
+
+  void assemble(const std::vector<double>& thickness_mm);
+  [[nodiscard]] bool factorize();
+  [[nodiscard]] bool iterate();
+  [[nodiscard]] std::vector<Eigen::Vector2d> velocities() const;
+
+  const FilmMesh& mesh;
+  double drag_per_mm;
+  std::vector<Eigen::Vector2d> fixed;
+  Unknowns unknowns;
+  std::vector<Local> element;  ///< per triangle, for unit thickness
+  /// Per triangle and entry of its element, its place among the matrix's values; -1: none.
+  std::vector<std::array<int, 144>> place;
+  Matrix matrix;  ///< lower triangle
+  Eigen::VectorXd load, solution;
+  Factor factor;
+  bool has_factor = false;
+
+ private:
+  [[nodiscard]] std::array<int, 12> rows_of(std::size_t triangle) const;
+  void find_places();
+};
+
+Sheet::State::State(const FilmMesh& film, double drag, std::vector<Eigen::Vector2d> prescribed)
+    : mesh(film), drag_per_mm(drag), fixed(std::move(prescribed)), unknowns(film, fixed) {
+  element.reserve(mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) element.push_back(stiffness(mesh, t));
+  find_places();
+}
+
+/// Row of each of a triangle's twelve velocities, -1 where it is prescribed.
+std::array<int, 12> Sheet::State::rows_of(std::size_t triangle) const {
+  std::array<int, 12> rows;
+  const auto node = nodes_of(mesh, triangle);
+  for (int i = 0; i < 6; ++i) {
+    const int unknown = unknowns.of_node[node[i]];
+    rows[2 * i] = unknown < 0 ? -1 : 2 * unknown;
+    rows[2 * i + 1] = unknown < 0 ? -1 : 2 * unknown + 1;
+  }
+  return rows;
+}
+
+void Sheet::State::find_places() {
+  const int size = 2 * unknowns.count;
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(78 * mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto rows = rows_of(t);
+    for (int i = 0; i < 12; ++i) {
+      for (int j = 0; j < 12; ++j) {
+        if (rows[j] >= 0 && rows[i] >= rows[j]) entries.emplace_back(rows[i], rows[j], 0.0);
+      }
+    }
+  }
+  matrix.resize(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  place.resize(mesh.triangles.size());
+  const int* start = matrix.outerIndexPtr();
+  const int* inner = matrix.innerIndexPtr();
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto rows = rows_of(t);
+    for (int i = 0; i < 12; ++i) {
+      for (int j = 0; j < 12; ++j) {
+        int& at = place[t][12 * i + j];
+        at = -1;
+        if (rows[j] < 0 || rows[i] < rows[j]) continue;
+        const int* end = inner + start[rows[j] + 1];
+        at = static_cast<int>(std::lower_bound(inner + start[rows[j]], end, rows[i]) - inner);
+      }
+    }
+  }
+}
+
+void Sheet::State::assemble(const std::vector<double>& thickness_mm) {
+  std::fill_n(matrix.valuePtr(), matrix.nonZeros(), 0.0);
+  load = Eigen::VectorXd::Zero(matrix.rows());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    Local K = thickness_mm[t] * element[t];
+    if (drag_per_mm > 0) K += 0.5 * twice_area_mm2(mesh, t) * drag_per_mm * unit_mass();
+    for (int e = 0; e < 144; ++e) {
+      if (place[t][e] >= 0) matrix.valuePtr()[place[t][e]] += K(e / 12, e % 12);
+    }
+    const auto node = nodes_of(mesh, t);
+    for (int j = 0; j < 6; ++j) {
+      if (unknowns.of_node[node[j]] >= 0) continue;
+      for (int i = 0; i < 6; ++i) {
+        const int unknown = unknowns.of_node[node[i]];
+        if (unknown < 0) continue;
+        load.segment<2>(2 * unknown) -= K.block<2, 2>(2 * i, 2 * j) * fixed[node[j]];
+      }
+    }
+  }
+}
+
+bool Sheet::State::factorize() {
+  if (!has_factor) factor.analyzePattern(matrix);
+  factor.factorize(matrix);
+  has_factor = factor.info() == Eigen::Success;
+  if (has_factor) solution = factor.solve(load);
+  return has_factor;
+}
+
+bool Sheet::State::iterate() {
+  Eigen::ConjugateGradient<Matrix, Eigen::Lower, NearbyFactor> gradients(matrix);
+  gradients.preconditioner().use(factor);
+  gradients.setTolerance(kTolerance);
+  gradients.setMaxIterations(kMostIterations);
+  solution = gradients.solveWithGuess(load, Eigen::VectorXd(solution));
+  return gradients.info() == Eigen::Success;
+}
+
+std::vector<Eigen::Vector2d> Sheet::State::velocities() const {
+  std::vector<Eigen::Vector2d> out = fixed;
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    const int unknown = unknowns.of_node[n];
+    if (unknown >= 0) out[n] = solution.segment<2>(2 * unknown);
+  }
+  return out;
+}
+
+Sheet::Sheet(const FilmMesh& mesh, double drag_per_mm, std::vector<Eigen::Vector2d> fixed)
+    : state_(std::make_unique<State>(mesh, drag_per_mm, std::move(fixed))) {}
+Sheet::~Sheet() = default;
+Sheet::Sheet(Sheet&&) noexcept = default;
+Sheet& Sheet::operator=(Sheet&&) noexcept = default;
+
+Result<std::vector<Eigen::Vector2d>> Sheet::solve(const std::vector<double>& thickness_mm) {
+  State& s = *state_;
+  if (s.unknowns.count == 0) return s.fixed;
+  s.assemble(thickness_mm);
+  if ((s.has_factor && s.iterate()) || s.factorize()) return s.velocities();
+  return fail(Code::kInternal, "velocity: the film mesh gives a singular matrix for the sheet");
+}
+
+}  // namespace hydroprint::velocity
