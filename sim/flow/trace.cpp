@@ -30,10 +30,12 @@ constexpr std::size_t kChunk = 512;  ///< points followed together
 struct BackPath {
   Vector2d point_mm;  ///< NaN: lost
   double immersion_mm;
-  Vector2d velocity;  ///< of the film there and then
-  std::size_t after;  ///< how many waterlines lie before it still
+  Vector2d velocity;                           ///< of the film there and then
+  std::size_t after;                           ///< how many waterlines lie before it still
   Vector2d later_velocity = Vector2d::Zero();  ///< one step later in the dip
   double later_span_mm = 0;
+  double reach_mm = kReach_mm;  ///< how far outside the film it may be
+  bool keeps_on = false;        ///< with the velocity it has, beyond that; else it is lost
 
   [[nodiscard]] bool is_lost() const { return std::isnan(point_mm.x()); }
   void lose() { point_mm.setConstant(std::numeric_limits<double>::quiet_NaN()); }
@@ -72,7 +74,8 @@ void step_back(const VelocityField& field, double immersion_mm, int& triangle, B
   path.later_span_mm = span_mm;
   path.immersion_mm = immersion_mm;
   --path.after;
-  if (!field.at(path.point_mm, kReach_mm, path.velocity, triangle)) path.lose();
+  if (field.at(path.point_mm, path.reach_mm, path.velocity, triangle)) return;
+  if (!path.keeps_on) path.lose();
 }
 
 /// An order in which paths begin near one another: up and down narrow strips.
@@ -109,14 +112,15 @@ void follow_back(const DipField& dip, std::vector<BackPath>& paths) {
     int triangle = -1;
     for (const std::size_t i : order) {
       BackPath& path = paths[i];
-      if (path.after == k + 1 && !path.is_lost()) step_back(dip.fields[k], dip.immersion_mm[k], triangle, path);
+      if (path.after == k + 1 && !path.is_lost())
+        step_back(dip.fields[k], dip.immersion_mm[k], triangle, path);
     }
   }
   for (BackPath& path : paths) {
     if (path.is_lost()) continue;
     // Before first contact the film is at rest.
     path.point_mm -= displacement(path, path.immersion_mm, Vector2d::Zero());
-    if (!film::contains(dip.outline, path.point_mm)) path.lose();
+    if (!path.keeps_on && !film::contains(dip.outline, path.point_mm)) path.lose();
   }
 }
 
@@ -203,7 +207,11 @@ std::vector<Vector2d> trace_back(const DipField& dip, std::size_t k) {
   std::vector<BackPath> paths;
   paths.reserve(field.nodes().size());
   for (std::size_t n = 0; n < field.nodes().size(); ++n) {
-    paths.push_back({velocity::place_of(field.mesh(), n), dip.immersion_mm[k], field.nodes()[n], k});
+    BackPath& path = paths.emplace_back(
+        BackPath{velocity::place_of(field.mesh(), n), dip.immersion_mm[k], field.nodes()[n], k});
+    // This is film for certain; a step may cut a corner of the waterline before, no more.
+    path.reach_mm = kFarReach_mm;
+    path.keeps_on = true;
   }
   follow_back(dip, paths);
   std::vector<Vector2d> rest_mm(paths.size());

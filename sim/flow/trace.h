@@ -24,9 +24,9 @@ struct DipField {
 
 /// The point of the film at rest that lands there (the inverse map of section 4.5): the film is
 /// followed back from the landing to rest, from waterline to waterline, by a multistep rule of
-/// third order that starts anew at events. Where and when it lands is known exactly, so no contact has to be searched for; the
-/// velocity there is that of eq. (1), and near creases, where that jumps, lies between those of the
-/// waterlines before and after.
+/// third order that starts anew at events. Where and when it lands is known exactly, so no contact
+/// has to be searched for; the velocity there is that of eq. (1), and near creases, where that
+/// jumps, lies between those of the waterlines before and after.
 /// @return nothing where no film arrives: inside the union of the object's parts, in a cavity
 ///         without film, behind a level top that the film cannot follow, beyond the film's edge,
 ///         or past the end of the dip
@@ -39,8 +39,7 @@ struct DipField {
                                                               std::string_view stage,
                                                               const Context& context);
 
-/// Where each node of the film mesh of waterline `k` was when the film was at rest; NaN where its
-/// path leaves the film.
+/// Where each node of the film mesh of waterline `k` was when the film was at rest.
 [[nodiscard]] std::vector<Eigen::Vector2d> trace_back(const DipField& dip, std::size_t k);
 
 }  // namespace hydroprint::flow

@@ -9,6 +9,7 @@
 #include "sim/film/outline.h"
 #include "sim/film/profile.h"
 #include "sim/flow/flow_map.h"
+#include "sim/ink/ink_field.h"
 #include "sim/mesh/model.h"
 #include "sim/mesh/surface.h"
 #include "sim/sheet/sheet_flow.h"
@@ -18,7 +19,8 @@
 
 namespace hydroprint::pipeline {
 
-/// How the film moves.
+/// How the film moves: as Stokes flow (section 4.2) or as a viscous sheet whose thickness matters
+/// (section 4.3).
 enum class FilmModel { kStokes, kSheet };
 
 /// One immersion: where the object is and how it goes down through which film.
@@ -30,14 +32,21 @@ struct DipOptions {
   film::Profile profile;
   std::optional<double> depth_mm;  ///< immersion at the end of the dip; none: full
   double dip_speed_mm_per_s = 5;
-  FilmModel film_model = FilmModel::kStokes;
-  sheet::RestThickness rest_thickness;
-  sheet::SheetOptions sheet;
+  FilmModel film_model = FilmModel::kSheet;
+  ink::InkField ink;         ///< printed on the film; for the sheet alone
   waterline::Motion motion;  ///< sideways path as driven; empty: straight down
   // How finely: the defaults are both fast and accurate (tests/bench).
   waterline::ScheduleOptions schedule;
   velocity::MeshOptions mesh;
-  flow::MapOptions map;  ///< speed and swelling are taken from above
+  sheet::SheetOptions sheet;  ///< drag is taken from the profile
+  flow::MapOptions map;       ///< speed and swelling are taken from above
+};
+
+/// How far an ink pass moved where the film lands, from the pass before it.
+struct InkPass {
+  double moved_rms_mm = 0;
+  double moved_most_mm = 0;  ///< not exceeded by 99.9 % of the surface's points
+  double moved_max_mm = 0;
 };
 
 /// Figures of one dip for the report.
@@ -45,11 +54,13 @@ struct DipFigures {
   double depth_mm = 0;           ///< immersion reached
   bool stopped_at_edge = false;  ///< the waterline reached the film's edge before `depth_mm`
   int steps = 0;                 ///< waterlines solved
-  int sweeps = 0;
-  int film_vertices_max = 0;     ///< of the largest film mesh
+  std::vector<InkPass> ink_passes;
+  int film_vertices_max = 0;  ///< of the largest film mesh
   int film_triangles_max = 0;
-  double coverage = 0;       ///< share of the object's surface that film reaches
-  double clamped_share = 0;  ///< share of the surface with theta beyond 170 degrees
+  double coverage = 0;        ///< share of the object's surface that film reaches
+  double clamped_share = 0;   ///< share of the surface with theta beyond 170 degrees
+  double wrinkled_share = 0;  ///< of the surface, the film gathered below wrinkle_stretch
+  double torn_share = 0;      ///< of the surface, the film stretched beyond tear_stretch
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;  ///< where theta is not clamped
 };
 
@@ -62,7 +73,7 @@ struct Dip {
   Warnings warnings;
 };
 
-/// The method of section 4 with Stokes flow: mesh, pose, waterline, film mesh, velocity, flow map.
+/// The method of section 4: mesh, pose, waterline, film mesh, velocity, flow map.
 /// Refuses a pose whose first contact misses the film (kFailedPrecondition).
 [[nodiscard]] Result<Dip> dip(const mesh::Model& model, const DipOptions& options,
                               const Context& context);

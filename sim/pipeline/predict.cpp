@@ -2,6 +2,7 @@
 
 #include "sim/image/film_texture.h"
 #include "sim/image/pictures.h"
+#include "sim/ink/ink_of.h"
 #include "sim/mesh/read_model.h"
 
 namespace hydroprint::pipeline {
@@ -36,6 +37,11 @@ Result<Prediction> predict(const PredictOptions& options, const Context& context
   HP_ASSIGN_OR_RETURN(out.model, mesh::read_model(options.mesh, options.scale, context));
   DipOptions dip_options = options.dip;
   dip_options.map.make_tiles = options.images;
+  if (dip_options.film_model == FilmModel::kSheet && options.ink_passes > 0) {
+    HP_ASSIGN_OR_RETURN(dip_options.ink,
+                        ink::read_ink_image(options.film_image, dip_options.outline,
+                                            {dip_options.profile.ink_icc_profile}, context));
+  }
   HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, dip_options, context));
   out.warnings = out.dip.warnings;
   if (options.images) {

@@ -20,7 +20,8 @@ struct PredictOptions {
   double scale = 1;                  ///< model units to mm
   std::filesystem::path film_image;  ///< any image at the film's size
   DipOptions dip;                    ///< the true pose, and the path as driven
-  bool images = true;                ///< false: where the film lands, and nothing to look at
+  int ink_passes = 1;  ///< not 0: the film carries the ink of film_image, else that of dip.ink
+  bool images = true;  ///< false: where the film lands, and nothing to look at
 };
 
 /// The colours that land.

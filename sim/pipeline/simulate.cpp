@@ -7,6 +7,7 @@
 #include "sim/image/paint.h"
 #include "sim/image/pictures.h"
 #include "sim/mesh/read_model.h"
+#include "sim/pipeline/ink_passes.h"
 
 namespace hydroprint::pipeline {
 namespace {
@@ -43,6 +44,16 @@ Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
   return out;
 }
 
+/// The dip of a film that is printed with what it is to carry to the object.
+Result<Dip> dip_inked(const mesh::Model& model, const image::Paint& paint, int passes, double dpi,
+                      const DipOptions& options, const Context& context) {
+  HP_ASSIGN_OR_RETURN(Start begun, start(model, options, context));
+  HP_ASSIGN_OR_RETURN(InkedFlow inked, ink_passes(begun, paint, passes, dpi, options, context));
+  Dip dip = finish(model, std::move(begun), std::move(inked.map), options);
+  dip.figures.ink_passes = std::move(inked.passes);
+  return dip;
+}
+
 }  // namespace
 
 Result<Simulation> simulate(const SimulateOptions& options, const Context& context) {
@@ -51,18 +62,25 @@ Result<Simulation> simulate(const SimulateOptions& options, const Context& conte
   HP_ASSIGN_OR_RETURN(out.model, mesh::read_model(options.mesh, options.scale, context));
   DipOptions dip_options = options.dip;
   dip_options.map.make_tiles = options.images;
-  if (!options.images) {
-    HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, dip_options, context));
-    out.warnings = out.dip.warnings;
-    return out;
+  if (options.images && !options.texture) HP_RETURN_IF_ERROR(check_materials(out.model));
+  const int passes = dip_options.film_model == FilmModel::kSheet ? options.ink_passes : 0;
+  std::optional<image::Paint> paint;  // without images and ink nobody asks for the colours
+  if (options.images || passes > 0) {
+    HP_ASSIGN_OR_RETURN(paint, image::load_paint(out.model, options.texture, context));
   }
-  if (!options.texture) HP_RETURN_IF_ERROR(check_materials(out.model));
-  HP_ASSIGN_OR_RETURN(const image::Paint paint,
-                      image::load_paint(out.model, options.texture, context));
-  HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, dip_options, context));
-  HP_ASSIGN_OR_RETURN(out.images, draw(out.dip, paint, options, context));
+  if (passes > 0 && paint->has_colour()) {
+    HP_ASSIGN_OR_RETURN(out.dip,
+                        dip_inked(out.model, *paint, passes, options.dpi, dip_options, context));
+  } else {
+    HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, dip_options, context));
+  }
+  if (options.images) {
+    HP_ASSIGN_OR_RETURN(out.images, draw(out.dip, *paint, options, context));
+  }
   out.warnings = out.dip.warnings;
-  out.warnings.insert(out.warnings.end(), paint.warnings().begin(), paint.warnings().end());
+  if (paint) {
+    out.warnings.insert(out.warnings.end(), paint->warnings().begin(), paint->warnings().end());
+  }
   return out;
 }
 

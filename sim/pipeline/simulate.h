@@ -19,6 +19,9 @@ struct SimulateOptions {
   std::optional<std::filesystem::path> texture;  ///< none: the model's own colours
   DipOptions dip;
   double dpi = 300;
+  /// Passes of the two-step scheme (section 4.3); 0: as much ink as dip.ink says. For the sheet
+  /// alone, and for objects that have a colour.
+  int ink_passes = 1;
   bool images = true;  ///< false: where the film lands, and nothing to look at
 };
 

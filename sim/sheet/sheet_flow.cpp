@@ -1,11 +1,11 @@
 #include "sim/sheet/sheet_flow.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
-#include <cstdlib>
-#include <cstdio>
 
 #include "sim/velocity/sheet.h"
 
@@ -36,41 +36,55 @@ double span_mm(const flow::DipField& dip, std::size_t k) {
   return 0.5 * (after - before);
 }
 
-double largest_change(const std::vector<Vector2d>& a, const std::vector<Vector2d>& b) {
-  double most = 0;
-  for (std::size_t n = 0; n < a.size(); ++n) most = std::max(most, (a[n] - b[n]).norm());
-  return most;
+double rms_change(const std::vector<Vector2d>& a, const std::vector<Vector2d>& b) {
+  double sum = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) sum += (a[n] - b[n]).squaredNorm();
+  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(a.size(), 1)));
 }
+
+/// So many waterlines are solved together: few, so that each window starts from what is known for
+/// certain; enough to keep the cores busy. Not a matter of how many cores there are, or the results
+/// would be.
+constexpr std::size_t kWindow = 8;
+
+/// Sweeps that shrink the change less than this do not settle it: film that tears or is folded has
+/// no thickness to find.
+constexpr double kSettling = 0.5;
 
 /// Solves the waterlines [first, last) of the dip, those before being solved.
 Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
                     const RestThickness& rest_thickness, const SheetOptions& options,
                     const Context& context) {
   const std::size_t count = last - first;
-  std::vector<velocity::Sheet> sheets;
-  for (std::size_t k = first; k < last; ++k) {
-    const VelocityField& field = flow.field.fields[k];
-    sheets.emplace_back(field.mesh(), options.drag_per_mm, prescribed(field));
-  }
-  double move_before_mm = 0;  // none
-  for (int sweep = 1; sweep <= options.most_sweeps; ++sweep) {
+  std::vector<std::optional<velocity::Sheet>> sheets(count);
+  double move_before_mm = 0;
+  for (int sweep = 1;; ++sweep) {
     std::vector<VelocityField> next(count);
     std::vector<double> moves_mm(count);
     HP_RETURN_IF_ERROR(parallel_for(context, {}, count, [&](std::size_t i) -> Status {
       const std::size_t k = first + i;
       const VelocityField& before = flow.field.fields[k];
+      if (!sheets[i]) sheets[i].emplace(before.mesh(), options.drag_per_mm, prescribed(before));
       HP_ASSIGN_OR_RETURN(auto nodes,
-                          sheets[i].solve(thickness_mm(flow.field, k, rest_thickness)));
-      moves_mm[i] = span_mm(flow.field, k) * largest_change(nodes, before.nodes());
+                          sheets[i]->solve(thickness_mm(flow.field, k, rest_thickness)));
+      moves_mm[i] = span_mm(flow.field, k) * rms_change(nodes, before.nodes());
       next[i] = before.with(std::move(nodes));
       return {};
     }));
-    std::move(next.begin(), next.end(), flow.field.fields.begin() + static_cast<std::ptrdiff_t>(first));
+    std::move(next.begin(), next.end(),
+              flow.field.fields.begin() + static_cast<std::ptrdiff_t>(first));
     flow.sweeps = std::max(flow.sweeps, sweep);
     const double move_mm = std::accumulate(moves_mm.begin(), moves_mm.end(), 0.0);
-    if (std::getenv("VERB")) std::printf("  window %zu sweep %d move %.5f\n", first, sweep, move_mm);
-    // The next sweep would move the film by about as much less again.
-    if (sweep > 1 && move_mm * std::min(1.0, move_mm / move_before_mm) < options.tolerance_mm) break;
+    if (sweep > 1) {
+      const double shrinkage = move_before_mm > 0 ? move_mm / move_before_mm : 0;
+      const bool settles = shrinkage < kSettling;
+      // The next sweep would move the film by about as much less again.
+      if (settles && move_mm * shrinkage < options.tolerance_mm) break;
+      if (!settles || sweep == options.most_sweeps) {
+        flow.unsettled_mm += move_mm;
+        break;
+      }
+    }
     move_before_mm = move_mm;
   }
   return {};
@@ -82,11 +96,10 @@ Result<SheetFlow> sheet_flow(flow::DipField first, const RestThickness& rest_thi
                              const SheetOptions& options, const Context& context) {
   SheetFlow flow{std::move(first), 0};
   const std::size_t count = flow.field.fields.size();
-  const std::size_t kWindow = std::getenv("WIN") ? std::atoi(std::getenv("WIN")) : 16;
   for (std::size_t k = 0; k < count; k += kWindow) {
     context.progress("sheet", static_cast<double>(k) / static_cast<double>(count));
-    HP_RETURN_IF_ERROR(solve_window(flow, k, std::min(k + kWindow, count), rest_thickness, options,
-                                    context));
+    HP_RETURN_IF_ERROR(
+        solve_window(flow, k, std::min(k + kWindow, count), rest_thickness, options, context));
   }
   return flow;
 }

@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Film gathered or drawn out more than this lies across a fold of the map.
-constexpr double kMostAreaRatio = 20;
+/// Film gathered or drawn out more than this has wrinkled or torn long since: no sheet any more.
+constexpr double kMostAreaRatio = 5;
 
 double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -33,20 +33,14 @@ std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
   const velocity::FilmMesh& mesh = dip.fields[k].mesh();
   const std::vector<Vector2d> rest = flow::trace_back(dip, k);
   std::vector<double> thickness(mesh.triangles.size(), 0);
-  double known_mm3 = 0, known_mm2 = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     std::array<Vector2d, 6> node;
     const auto nodes = velocity::nodes_of(mesh, t);
     std::transform(nodes.begin(), nodes.end(), node.begin(), [&](int n) { return rest[n]; });
-    const double area = velocity::twice_area_mm2(mesh, t);
-    const double ratio = twice_area(node) / area;
-    if (!(ratio > 1 / kMostAreaRatio && ratio < kMostAreaRatio)) continue;  // or NaN
-    thickness[t] = ratio * rest_thickness({node[0], node[1], node[2]});
-    known_mm3 += thickness[t] * area;
-    known_mm2 += area;
+    const double ratio = twice_area(node) / velocity::twice_area_mm2(mesh, t);
+    thickness[t] = std::clamp(ratio, 1 / kMostAreaRatio, kMostAreaRatio) *
+                   rest_thickness({node[0], node[1], node[2]});
   }
-  const double mean = known_mm2 > 0 ? known_mm3 / known_mm2 : 1;
-  std::replace(thickness.begin(), thickness.end(), 0.0, mean);
   return thickness;
 }
 

@@ -18,8 +18,7 @@ using RestThickness = std::function<double(const std::array<Eigen::Vector2d, 3>&
 /// rest that has become the triangle, found by following its corners back through the dip. The
 /// material carries its thickness; nothing is interpolated from mesh to mesh.
 ///
-/// Triangles whose corners cannot be followed (the film tears from a part that the waterline
-/// closes in on) get the mean stretch of the others.
+/// Area ratios beyond five, where film would long have wrinkled or torn, count as five.
 [[nodiscard]] std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
                                                const RestThickness& rest_thickness);
 

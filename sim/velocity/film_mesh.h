@@ -35,7 +35,7 @@ struct FilmMesh {
 /// How finely the film is meshed (section 4.4; see field notes on why finer than the paper).
 struct MeshOptions {
   Sizing::Options size;
-  double spacing_mm = 1.0;     ///< of mesh vertices along the waterline
+  double spacing_mm = 2.0;     ///< of mesh vertices along the waterline
   double tolerance_mm = 0.01;  ///< by which their chords may miss the waterline
   double least_mm = 0.1;       ///< waterline features smaller than this are smoothed over
 };

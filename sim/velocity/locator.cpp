@@ -31,7 +31,8 @@ Eigen::Vector3d nearest_in(const Eigen::Vector2d& p, const Eigen::Vector2d& orig
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     const Eigen::Vector2d along = corner[j] - corner[i];
-    const double t = std::clamp((p - corner[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
+    const double length2 = along.squaredNorm();
+    const double t = length2 > 0 ? std::clamp((p - corner[i]).dot(along) / length2, 0.0, 1.0) : 0.0;
     const double square = (corner[i] + t * along - p).squaredNorm();
     if (square >= square_mm2) continue;
     square_mm2 = square;
@@ -67,7 +68,8 @@ Locator::Locator(const FilmMesh& mesh) {
 
   std::vector<std::array<int, 2>> sides(mesh.edges.size(), {-1, -1});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (const int e : mesh.triangle_edges[t]) sides[e][sides[e][0] < 0 ? 0 : 1] = static_cast<int>(t);
+    for (const int e : mesh.triangle_edges[t])
+      sides[e][sides[e][0] < 0 ? 0 : 1] = static_cast<int>(t);
   }
   neighbours_.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

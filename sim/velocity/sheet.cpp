@@ -24,7 +24,8 @@ Eigen::Matrix<double, 3, 2> corner_gradients(const FilmMesh& mesh, std::size_t t
   const Eigen::Vector3i& v = mesh.triangles[t];
   Eigen::Matrix<double, 3, 2> out;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2d along = mesh.vertices_mm[v[(i + 2) % 3]] - mesh.vertices_mm[v[(i + 1) % 3]];
+    const Eigen::Vector2d along =
+        mesh.vertices_mm[v[(i + 2) % 3]] - mesh.vertices_mm[v[(i + 1) % 3]];
     out.row(i) << -along.y() / twice_area, along.x() / twice_area;
   }
   return out;
@@ -57,8 +58,7 @@ Local stiffness(const FilmMesh& mesh, std::size_t t) {
         const Eigen::Matrix2d cross = g.row(i).transpose() * g.row(j);
         const double dot = cross.trace();
         K.block<2, 2>(2 * i, 2 * j) +=
-            twice_area / 6 *
-            (2 * cross + cross.transpose() + dot * Eigen::Matrix2d::Identity());
+            twice_area / 6 * (2 * cross + cross.transpose() + dot * Eigen::Matrix2d::Identity());
       }
     }
   }
@@ -117,7 +117,7 @@ class NearbyFactor {
 };
 
 constexpr double kTolerance = 1e-8;  ///< of conjugate gradients, relative
-constexpr int kMostIterations = 40;  ///< a new factor is cheaper beyond
+constexpr int kMostIterations = 15;  ///< a new factor is cheaper beyond
 
 }  // namespace
 

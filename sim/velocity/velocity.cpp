@@ -145,8 +145,7 @@ Result<std::vector<Eigen::Vector2d>> solve_stokes(const FilmMesh& mesh,
   }
   Eigen::SparseMatrix<double> matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower,
-                             Eigen::NaturalOrdering<int>>
+  const Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>
       factor(matrix);
   if (factor.info() != Eigen::Success) {
     return fail(Code::kInternal, "velocity: the film mesh gives a singular matrix");

@@ -10,7 +10,7 @@ namespace hydroprint::waterline {
 struct ScheduleOptions {
   /// Surface wetted between two waterlines, as a width: swept area over waterline length. A sphere
   /// is thus divided evenly in theta.
-  double swept_mm = 1.3;
+  double swept_mm = 3;
   /// Faces nearer than this to parallel with the water touch it all at once: the dip is divided
   /// just before and just after them.
   double shelf_slope_rad = 2e-3;

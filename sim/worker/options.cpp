@@ -18,6 +18,7 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr int kMaxThreads = 1024;
+constexpr int kMaxInkPasses = 20;
 
 constexpr const char* kSimulateExamples = R"(Examples:
   hydroprint-worker simulate --mesh spot.obj --texture spot.png --scale 50 --out spot-film
@@ -36,9 +37,7 @@ Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 can
 struct Typed {
   Options options;
   std::string depth = "full";
-  std::string model = "stokes";
-  int ink_passes = 0;
-  std::filesystem::path ink_image;
+  std::string model = "sheet";
   std::string artifacts = "all";
 };
 
@@ -72,13 +71,17 @@ void add_common(CLI::App& app, Typed& typed) {
       ->capture_default_str()
       ->type_name("FILM");
   app.add_option("--dpi", o.dpi, "Resolution of the film image")->capture_default_str();
-  app.add_option("--model", typed.model, "How the film moves: stokes (sheet is not built yet)")
+  app.add_option("--model", typed.model,
+                 "How the film moves: as a viscous sheet or as Stokes flow, faster and good while "
+                 "the film is stretched less than 1.3 times")
       ->capture_default_str()
       ->type_name("sheet|stokes");
-  app.add_option("--ink-passes", typed.ink_passes,
-                 "Passes that take the ink's thickness into account: 0 (more are not built yet)")
+  app.add_option("--ink-passes", o.ink_passes,
+                 "Passes that take the thickness of the image's own ink into account; 0: none. For "
+                 "the sheet alone")
       ->capture_default_str();
-  add_path(app, "--ink-image", typed.ink_image, "Ink given directly (not built yet)", "FILE.png");
+  add_path(app, "--ink-image", o.ink_image,
+           "What is printed on the film, in place of --ink-passes: an RGB film image", "FILE.png");
   app.add_option("--depth-mm", typed.depth, "Immersion at the end of the dip")
       ->capture_default_str()
       ->type_name("D|full");
@@ -103,27 +106,15 @@ CommandLine refuse(const Options& options, ExitStatus status, Code code, std::st
   return out;
 }
 
-/// The first of the flags that asks for what is not there yet; empty if none does.
-std::string not_built(const Typed& typed) {
-  if (typed.model == "sheet") {
-    return "--model sheet: the viscous sheet is not built yet. Use --model stokes";
-  }
-  if (!typed.ink_image.empty()) {
-    return "--ink-image: ink thickness is not built yet. Leave the flag out";
-  }
-  if (typed.ink_passes > 0) {
-    return "--ink-passes: ink thickness is not built yet. Use --ink-passes 0";
-  }
-  return {};
-}
-
 /// What is wrong with the values as such; empty if nothing is.
 std::string usage_objection(const Typed& typed) {
   const Options& o = typed.options;
   if (typed.model != "stokes" && typed.model != "sheet") {
-    return "--model: '" + typed.model + "' is unknown. Use stokes";
+    return "--model: '" + typed.model + "' is unknown. Use sheet or stokes";
   }
-  if (typed.ink_passes < 0) return "--ink-passes: below 0. Use --ink-passes 0";
+  if (o.ink_passes < 0 || o.ink_passes > kMaxInkPasses) {
+    return "--ink-passes: out of range. Use 0 to " + std::to_string(kMaxInkPasses);
+  }
   if (o.threads < 1 || o.threads > kMaxThreads) {
     return "--threads: out of range. Use 1 to " + std::to_string(kMaxThreads);
   }
@@ -176,9 +167,6 @@ bool parse_depth(Typed& typed) {
 
 CommandLine settle(Typed& typed) {
   const Options& o = typed.options;
-  if (const std::string what = not_built(typed); !what.empty()) {
-    return refuse(o, ExitStatus::kUsage, Code::kUnimplemented, what);
-  }
   if (const std::string what = usage_objection(typed); !what.empty()) {
     return refuse(o, ExitStatus::kUsage, Code::kInvalidArgument, what);
   }
@@ -187,6 +175,8 @@ CommandLine settle(Typed& typed) {
                   "--depth-mm: '" + typed.depth + "' is not a number. Give mm, or full");
   }
   typed.options.map_only = typed.artifacts == "map";
+  typed.options.film_model =
+      typed.model == "sheet" ? pipeline::FilmModel::kSheet : pipeline::FilmModel::kStokes;
   if (const std::string what = range_objection(o); !what.empty()) {
     return refuse(o, ExitStatus::kBadInput, Code::kOutOfRange, what);
   }

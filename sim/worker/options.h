@@ -5,6 +5,7 @@
 #include <string>
 
 #include "sim/base/result.h"
+#include "sim/pipeline/pipeline.h"
 
 namespace hydroprint::worker {
 
@@ -24,7 +25,10 @@ struct Options {
   double scale = 1;
   std::string film = "A4";
   double dpi = 300;
-  std::optional<double> depth_mm;  ///< none: full
+  pipeline::FilmModel film_model = pipeline::FilmModel::kSheet;
+  int ink_passes = 1;
+  std::filesystem::path ink_image;  ///< empty: none
+  std::optional<double> depth_mm;   ///< none: full
   double dip_speed_mm_per_s = 5;
   int threads = 1;
   bool map_only = false;  ///< --artifacts map
@@ -42,8 +46,8 @@ struct CommandLine {
   ExitStatus status = ExitStatus::kDone;
 };
 
-/// Reads the command line. Refuses with kUsage what it does not understand and what is not built
-/// yet, with kBadInput a dpi, scale, depth or speed out of range.
+/// Reads the command line. Refuses with kUsage what it does not understand, with
+/// kBadInput a dpi, scale, depth or speed out of range.
 [[nodiscard]] CommandLine parse_command_line(int argc, const char* const* argv);
 
 }  // namespace hydroprint::worker

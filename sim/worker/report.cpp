@@ -38,10 +38,14 @@ Json film_json(const film::Outline& outline) {
 Json profile_json(const film::Profile& p) {
   return {{"thickness_mm", p.thickness_mm},
           {"ink_ratio_mm", p.ink_ratio_mm},
+          {"ink_icc_profile", p.ink_icc_profile.string()},
           {"swelling", pair_of(p.swelling)},
           {"drag_length_mm", p.drag_length_mm},
           {"tear_stretch", p.tear_stretch},
           {"wrinkle_stretch", p.wrinkle_stretch},
+          {"young_modulus_mpa", p.young_modulus_mpa},
+          {"density_kg_per_m3", p.density_kg_per_m3},
+          {"poisson_ratio", p.poisson_ratio},
           {"activator_ml_per_m2", p.activator_ml_per_m2},
           {"soak_s", p.soak_s},
           {"activator_wait_s", p.activator_wait_s}};
@@ -60,14 +64,15 @@ Json inputs_json(const std::vector<Input>& inputs) {
 
 Json parameters_json(const Report& report) {
   const Options& o = report.options;
+  const bool is_sheet = o.film_model == pipeline::FilmModel::kSheet;
   Json out = {{"scale", o.scale},
               {"pose", pose_json(report.X_FO)},
               {"film", film_json(report.outline)},
               {"profile", profile_json(report.profile)},
               {"dpi", o.dpi},
               {"film_image_px", report.film_image_px},
-              {"model", "stokes"},
-              {"ink_passes", 0},
+              {"model", is_sheet ? "sheet" : "stokes"},
+              {"ink_passes", is_sheet && o.ink_image.empty() ? o.ink_passes : 0},
               {"depth_mm", "full"},
               {"dip_speed_mm_per_s", o.dip_speed_mm_per_s},
               {"threads", o.threads},
@@ -78,6 +83,16 @@ Json parameters_json(const Report& report) {
 
 Json stretch_json(const pipeline::DipFigures& figures) {
   return {{"p50", figures.stretch_p50}, {"p95", figures.stretch_p95}, {"max", figures.stretch_max}};
+}
+
+Json ink_passes_json(const std::vector<pipeline::InkPass>& passes) {
+  Json out = Json::array();
+  for (const pipeline::InkPass& pass : passes) {
+    out.push_back({{"moved_rms_mm", pass.moved_rms_mm},
+                   {"moved_p999_mm", pass.moved_most_mm},
+                   {"moved_max_mm", pass.moved_max_mm}});
+  }
+  return out;
 }
 
 Json warnings_json(const Warnings& warnings) {
@@ -123,7 +138,10 @@ std::string report_json(const Report& report) {
                {"stopped_at_film_edge", f.stopped_at_edge},
                {"coverage", f.coverage},
                {"theta_clamped_share", f.clamped_share},
+               {"wrinkled_share", f.wrinkled_share},
+               {"torn_share", f.torn_share},
                {"stretch", stretch_json(f)},
+               {"ink_passes", ink_passes_json(f.ink_passes)},
                {"stage_seconds", seconds_json(report.stage_seconds)},
                {"total_seconds", report.total_s},
                {"peak_memory_bytes", peak_memory_bytes()},

@@ -12,6 +12,7 @@
 #include "sim/base/pose_file.h"
 #include "sim/image/artifact_file.h"
 #include "sim/image/film_image.h"
+#include "sim/ink/ink_of.h"
 #include "sim/pipeline/predict.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/worker/artifacts.h"
@@ -67,7 +68,8 @@ Status check_film_image(const film::Outline& outline, double dpi) {
                                      std::to_string(most_dpi) + " for this film");
 }
 
-Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip) {
+Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip,
+                               const Context& context) {
   Report report;
   report.options = o;
   HP_ASSIGN_OR_RETURN(report.inputs, fingerprint({{"mesh", o.mesh},
@@ -75,6 +77,7 @@ Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip) {
                                                   {"film_image", o.film_image},
                                                   {"pose", o.pose},
                                                   {"profile", o.profile},
+                                                  {"ink_image", o.ink_image},
                                                   {"film", film::polygon_file(o.film).value_or("")},
                                                   {"motion", o.motion}}));
   HP_ASSIGN_OR_RETURN(dip.outline, film::parse_outline(o.film));
@@ -87,12 +90,13 @@ Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip) {
   }
   if (!o.profile.empty()) {
     HP_ASSIGN_OR_RETURN(dip.profile, film::read_profile(o.profile));
+    HP_ASSIGN_OR_RETURN(auto icc, fingerprint({{"ink_icc_profile", dip.profile.ink_icc_profile}}));
+    report.inputs.insert(report.inputs.end(), icc.begin(), icc.end());
   }
-  if (dip.profile.drag_length_mm > 0) {
-    return fail(Code::kUnimplemented,
-                o.profile.string() +
-                    ": drag_length_mm: water drag belongs to the viscous sheet, which is not built "
-                    "yet. Set it to 0");
+  dip.film_model = o.film_model;
+  if (!o.ink_image.empty()) {
+    HP_ASSIGN_OR_RETURN(dip.ink, ink::read_ink_image(o.ink_image, dip.outline,
+                                                     {dip.profile.ink_icc_profile}, context));
   }
   if (!o.motion.empty()) {
     HP_ASSIGN_OR_RETURN(dip.motion, read_motion(o.motion));
@@ -131,6 +135,7 @@ Status run_simulate(const Options& o, pipeline::DipOptions dip, OutFolder& folde
   if (!o.texture.empty()) options.texture = o.texture;
   options.dip = std::move(dip);
   options.dpi = o.dpi;
+  options.ink_passes = o.ink_image.empty() ? o.ink_passes : 0;
   options.images = !o.map_only;
   HP_ASSIGN_OR_RETURN(const pipeline::Simulation simulation, pipeline::simulate(options, context));
   HP_RETURN_IF_ERROR(complete(report, simulation.model, simulation.dip, simulation.warnings,
@@ -151,6 +156,7 @@ Status run_predict(const Options& o, pipeline::DipOptions dip, OutFolder& folder
   options.scale = o.scale;
   options.film_image = o.film_image;
   options.dip = std::move(dip);
+  options.ink_passes = o.ink_image.empty() ? o.ink_passes : 0;
   options.images = !o.map_only;
   HP_ASSIGN_OR_RETURN(const pipeline::Prediction prediction, pipeline::predict(options, context));
   HP_RETURN_IF_ERROR(
@@ -178,7 +184,7 @@ Status compute(const Options& o, OutFolder& folder, Report& report, Progress& pr
                const Context& context) {
   context.progress("inputs", 0);
   pipeline::DipOptions dip;
-  HP_ASSIGN_OR_RETURN(report, read_parameters(o, dip));
+  HP_ASSIGN_OR_RETURN(report, read_parameters(o, dip, context));
   HP_RETURN_IF_ERROR(check_cancelled(context));
   HP_RETURN_IF_ERROR(o.verb == Verb::kPredict
                          ? run_predict(o, std::move(dip), folder, report, context)

@@ -128,17 +128,8 @@ void print(const Run& r) {
   }
 }
 
-double env(const char* n, double d) { const char* v = std::getenv(n); return v ? std::atof(v) : d; }
 pipeline::DipOptions options_for(const std::string& film, double depth_mm) {
   pipeline::DipOptions options;
-  options.schedule.swept_mm = env("SWEPT", 1.3);
-  options.mesh.size.at_waterline_mm = env("ATW", 1.2);
-  options.mesh.size.growth = env("GROWTH", 0.5);
-  options.mesh.size.most_mm = env("MOST", 12);
-  options.mesh.spacing_mm = env("SPACING", 1.0);
-  options.mesh.tolerance_mm = env("TOL", 0.01);
-  if (env("SHEET", 0) > 0) options.film_model = pipeline::FilmModel::kSheet;
-  options.sheet.most_sweeps = static_cast<int>(env("SWEEPS", 12));
   options.outline = film::parse_outline(film).value();
   options.depth_mm = depth_mm;
   options.map.make_tiles = false;
@@ -157,57 +148,6 @@ void centred() {
     print(("to " + std::to_string(static_cast<int>(degrees)) + " degrees").c_str(),
           against_exact(r.dip, 40, 105, degrees * kDegree));
   }
-}
-
-void speed_sheet() {
-  const mesh::Model model = sample::icosphere(45, 6);
-  pipeline::DipOptions options = options_for("A4", depth_to(45, 121 * kDegree));
-  options.X_FO = Pose(Eigen::Translation3d(25, -40, 0));
-  std::vector<pipeline::Dip> dips;
-  options.film_model = pipeline::FilmModel::kSheet;
-  options.sheet.tolerance_mm = 0;
-  setenv("WIN", "64", 1);
-  dips.push_back(run(model, options).dip);
-  for (const char* win : {"4", "8", "16", "64"}) for (const int sweeps : {1, 2, 3}) {
-    setenv("WIN", win, 1);
-    options.sheet.most_sweeps = sweeps;
-    std::printf("window %s sweeps %d ", win, sweeps);
-    print("", against_run(run(model, options).dip, dips.front(), 45, 120 * kDegree));
-  }
-  options.film_model = pipeline::FilmModel::kStokes;
-  print("stokes", against_run(run(model, options).dip, dips.front(), 45, 120 * kDegree));
-}
-
-void grid() {
-  const mesh::Model model = sample::icosphere(45, 5);
-  pipeline::DipOptions options = options_for("A4", depth_to(45, 121 * kDegree));
-  options.X_FO = Pose(Eigen::Translation3d(25, -40, 0));
-  options.film_model = pipeline::FilmModel::kSheet;
-  pipeline::DipOptions f = options;
-  f.schedule.swept_mm = 1.3;
-  f.mesh.size = {0.8, 0.3, 10};
-  f.mesh.spacing_mm = 0.8;
-  f.mesh.tolerance_mm = 0.004;
-  f.sheet.tolerance_mm = 0.0005;
-  const Run fine = run(model, f);
-  std::printf("fine %.2f s %d lines\n", fine.seconds, fine.dip.figures.steps);
-  const auto one = [&](double swept, double spacing, velocity::Sizing::Options size, double tol) {
-    f = options;
-    f.schedule.swept_mm = swept;
-    f.mesh.spacing_mm = spacing;
-    f.mesh.size = size;
-    f.mesh.tolerance_mm = tol;
-    const Run r = run(model, f);
-    const Errors e = against_run(r.dip, fine.dip, 45, 120 * kDegree);
-    std::printf("swept %.1f spacing %.1f atw %.1f growth %.1f most %.0f tol %.3f: %d lines %d vertices, rms %.4f max %.4f\n", swept, spacing,
-                size.at_waterline_mm, size.growth, size.most_mm, tol, r.dip.figures.steps, r.dip.figures.film_vertices_max, e.rms_mm, e.max_mm);
-    std::fflush(stdout);
-  };
-  for (const double swept : {2.0, 3.0, 4.0, 5.0}) one(swept, 1, {1.2, 0.4, 12}, 0.01);
-  for (const auto& size : {velocity::Sizing::Options{1.2, 0.5, 12}, {2, 0.5, 12}, {2, 0.7, 20}, {2.5, 0.7, 25}, {3, 0.8, 30}, {4,1.2,30}}) one(3, std::min(2.0, size.at_waterline_mm), size, 0.01);
-  one(3, 3, {3, 0.8, 25}, 0.02);
-  one(3, 4, {4, 0.8, 25}, 0.04);
-  one(3, 4, {4, 0.4, 12}, 0.04);
 }
 
 void off_centre() {
@@ -246,6 +186,4 @@ int main(int argc, char** argv) {
   if (which == "all" || which == "centred") hydroprint::bench::centred();
   if (which == "all" || which == "off-centre") hydroprint::bench::off_centre();
   if (which == "all" || which == "speed") hydroprint::bench::speed();
-  if (which == "grid") hydroprint::bench::grid();
-  if (which == "sweeps") hydroprint::bench::speed_sheet();
 }

@@ -1,0 +1,152 @@
+#include "sim/pipeline/figures.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "sim/waterline/body.h"
+
+namespace hydroprint::pipeline {
+namespace {
+
+constexpr double kStokesStretch = 1.3;  ///< the paper's 0.3 is stretch beyond rest (section 4.4)
+
+struct Face {
+  double area_mm2;
+  double theta_rad;  ///< contact angle
+};
+
+Face face_of(const waterline::Body& body, std::size_t t) {
+  const Eigen::Vector3i& v = body.triangles[t];
+  const Eigen::Vector3d& a = body.points_mm[v[0]];
+  const Eigen::Vector3d normal = (body.points_mm[v[1]] - a).cross(body.points_mm[v[2]] - a);
+  const double length = normal.norm();
+  return {0.5 * length, length > 0 ? std::acos(std::clamp(-normal.z() / length, -1.0, 1.0)) : 0};
+}
+
+/// Shares of the surface, by area.
+struct Shares {
+  double total = 0, reached = 0, clamped = 0, wrinkled = 0, torn = 0;
+};
+
+void measure_stretch(const flow::SurfaceMap& map, const std::vector<char>& is_clamped,
+                     DipFigures& figures) {
+  std::vector<double> stretch;
+  for (std::size_t v = 0; v < map.stretch.size(); ++v) {
+    if (std::isfinite(map.stretch[v]) && is_clamped[v] == 0) stretch.push_back(map.stretch[v]);
+  }
+  if (stretch.empty()) return;
+  std::sort(stretch.begin(), stretch.end());
+  const auto quantile = [&](double q) {
+    return stretch[static_cast<std::size_t>(q * static_cast<double>(stretch.size() - 1))];
+  };
+  figures.stretch_p50 = quantile(0.5);
+  figures.stretch_p95 = quantile(0.95);
+  figures.stretch_max = stretch.back();
+}
+
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(std::lround(1000 * share)) / 10.0).substr(0, 4) + " %";
+}
+
+std::string times(double stretch) { return std::to_string(stretch).substr(0, 4); }
+
+}  // namespace
+
+DipFigures figures_of(const Start& start, const flow::SurfaceMap& map,
+                      const film::Profile& profile) {
+  DipFigures figures;
+  figures.depth_mm = start.stokes.depth_mm;
+  figures.stopped_at_edge = start.stopped_at_edge;
+  figures.steps = static_cast<int>(start.stokes.fields.size());
+  for (const velocity::VelocityField& field : start.stokes.fields) {
+    const auto vertices = static_cast<int>(field.mesh().vertices_mm.size());
+    const auto triangles = static_cast<int>(field.mesh().triangles.size());
+    figures.film_vertices_max = std::max(figures.film_vertices_max, vertices);
+    figures.film_triangles_max = std::max(figures.film_triangles_max, triangles);
+  }
+  Shares shares;
+  std::vector<char> is_clamped(start.surface.points.size(), 0);
+  for (std::size_t t = 0; t < start.surface.triangles.size(); ++t) {
+    const Face face = face_of(start.body, t);
+    const bool clamped = face.theta_rad > waterline::kThetaLimit_rad;
+    shares.total += face.area_mm2;
+    if (clamped) shares.clamped += face.area_mm2;
+    for (const int v : start.surface.triangles[t]) {
+      if (clamped) is_clamped[v] = 1;
+      if (std::isnan(map.film_mm[v].x())) continue;
+      shares.reached += face.area_mm2 / 3;
+      if (clamped) continue;  // nothing to be trusted there
+      if (map.least_stretch[v] < profile.wrinkle_stretch) shares.wrinkled += face.area_mm2 / 3;
+      if (map.stretch[v] > profile.tear_stretch) shares.torn += face.area_mm2 / 3;
+    }
+  }
+  if (shares.total > 0) {
+    figures.coverage = shares.reached / shares.total;
+    figures.clamped_share = shares.clamped / shares.total;
+    figures.wrinkled_share = shares.wrinkled / shares.total;
+    figures.torn_share = shares.torn / shares.total;
+  }
+  measure_stretch(map, is_clamped, figures);
+  return figures;
+}
+
+Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
+  Warnings warnings;
+  const film::Outline& outline = options.outline;
+  const std::string depth = std::to_string(figures.depth_mm) + " mm immersion";
+  if (figures.stopped_at_edge) {
+    warnings.push_back({"film_edge_reached",
+                        "the waterline reaches the edge of the film " + outline.name +
+                            "; the dip ends there and nothing above it is printed",
+                        depth});
+  }
+  if (figures.clamped_share > 0) {
+    warnings.push_back({"theta_clamped",
+                        "faces within 10 degrees of level, facing up, make " +
+                            percent(figures.clamped_share) +
+                            " of the surface; there theta is clamped at 170 degrees and the map "
+                            "is not to be trusted",
+                        "surface"});
+  }
+  if (figures.coverage < 0.995) {
+    warnings.push_back({"parts_not_reached",
+                        "film reaches " + percent(figures.coverage) +
+                            " of the surface; the rest stays bare. Turn the object or dip it again",
+                        "surface"});
+  }
+  if (options.film_model == FilmModel::kStokes && figures.stretch_max > kStokesStretch) {
+    warnings.push_back({"stretch_beyond_stokes",
+                        "the film is stretched up to " + times(figures.stretch_max) +
+                            " times; beyond 1.3 Stokes flow alone is not accurate (section 4.4). "
+                            "Use --model sheet",
+                        "surface"});
+  }
+  if (options.film_model == FilmModel::kStokes && options.profile.drag_length_mm > 0) {
+    warnings.push_back({"drag_ignored",
+                        "Stokes flow knows no water drag (drag_length_mm). Use --model sheet",
+                        "profile"});
+  }
+  if (figures.torn_share > 0) {
+    warnings.push_back({"film_torn",
+                        "on " + percent(figures.torn_share) +
+                            " of the surface the film is stretched more than " +
+                            times(options.profile.tear_stretch) +
+                            " times, where it tears. Dip less deep, turn the object, or take a "
+                            "larger film",
+                        "surface"});
+  }
+  if (figures.wrinkled_share > 0) {
+    warnings.push_back({"film_wrinkled",
+                        "on " + percent(figures.wrinkled_share) +
+                            " of the surface the film is gathered to less than " +
+                            times(options.profile.wrinkle_stretch) +
+                            " of its width and wrinkles. Turn the object or dip less deep",
+                        "surface"});
+  }
+  return warnings;
+}
+
+}  // namespace hydroprint::pipeline

@@ -1,0 +1,16 @@
+#pragma once
+
+#include "sim/flow/flow_map.h"
+#include "sim/pipeline/pipeline.h"
+#include "sim/pipeline/start.h"
+
+namespace hydroprint::pipeline {
+
+/// What there is to say of a dip in figures.
+[[nodiscard]] DipFigures figures_of(const Start& start, const flow::SurfaceMap& map,
+                                    const film::Profile& profile);
+
+/// What a user has to be told of a dip with these figures.
+[[nodiscard]] Warnings warnings_of(const DipFigures& figures, const DipOptions& options);
+
+}  // namespace hydroprint::pipeline

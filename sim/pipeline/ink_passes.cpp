@@ -1,0 +1,76 @@
+#include "sim/pipeline/ink_passes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/image/film_image.h"
+#include "sim/ink/ink_of.h"
+
+namespace hydroprint::pipeline {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Resolution of film images that are only made to know their ink: finer than the cells over which
+/// the ink is averaged.
+constexpr double kInkDpi = 100;
+/// Share of the points that must have come to rest: at the map's jumps a few may leap for ever.
+constexpr double kMostPoints = 0.999;
+
+/// How finely the map is tiled for such an image: to a fraction of its pixels.
+flow::MapOptions coarse(flow::MapOptions map) {
+  map.tolerance_mm = 0.1;
+  map.least_edge_mm = 0.25;
+  return map;
+}
+
+InkPass compare(const std::vector<Vector2d>& before, const std::vector<Vector2d>& after) {
+  std::vector<double> moves;
+  InkPass pass;
+  for (std::size_t v = 0; v < before.size(); ++v) {
+    const double move = (after[v] - before[v]).norm();
+    if (std::isnan(move)) continue;
+    moves.push_back(move);
+    pass.moved_rms_mm += move * move;
+    pass.moved_max_mm = std::max(pass.moved_max_mm, move);
+  }
+  if (moves.empty()) return pass;
+  pass.moved_rms_mm = std::sqrt(pass.moved_rms_mm / static_cast<double>(moves.size()));
+  const auto most = moves.begin() + static_cast<std::ptrdiff_t>(
+                                        kMostPoints * static_cast<double>(moves.size() - 1));
+  std::nth_element(moves.begin(), most, moves.end());
+  pass.moved_most_mm = *most;
+  return pass;
+}
+
+}  // namespace
+
+Result<InkedFlow> ink_passes(const Start& start, const image::Paint& paint, int most_passes,
+                             double dpi, const DipOptions& options, const Context& context) {
+  DipOptions rough = options;
+  rough.map = coarse(options.map);
+  rough.map.make_tiles = true;
+  InkedFlow out{start.stokes, {}, {}};
+  HP_ASSIGN_OR_RETURN(out.map, land(start, out.field, rough, context));
+  for (int pass = 1; pass <= most_passes; ++pass) {
+    HP_ASSIGN_OR_RETURN(
+        const image::RgbImage film,
+        image::film_image(start.surface, out.map.tiles, paint, options.outline, kInkDpi, context));
+    HP_ASSIGN_OR_RETURN(
+        const ink::InkField ink,
+        ink::ink_of(film, options.outline, {options.profile.ink_icc_profile}, context));
+    HP_ASSIGN_OR_RETURN(out.field, sheet_field(out.field, ink, options, context));
+    const bool is_last = pass == most_passes;
+    HP_ASSIGN_OR_RETURN(flow::FlowMap map,
+                        land(start, out.field, is_last ? options : rough, context));
+    out.passes.push_back(compare(out.map.surface.film_mm, map.surface.film_mm));
+    out.map = std::move(map);
+    if (is_last) return out;
+    if (out.passes.back().moved_most_mm < 25.4 / dpi) break;
+  }
+  HP_ASSIGN_OR_RETURN(out.map, land(start, out.field, options, context));
+  return out;
+}
+
+}  // namespace hydroprint::pipeline

@@ -1,0 +1,94 @@
+#include "sim/pipeline/start.h"
+
+#include <utility>
+
+#include "sim/flow/flow_map.h"
+#include "sim/mesh/make_surface.h"
+#include "sim/sheet/sheet_flow.h"
+#include "sim/velocity/film_mesh.h"
+#include "sim/velocity/velocity.h"
+#include "sim/waterline/waterlines.h"
+
+namespace hydroprint::pipeline {
+namespace {
+
+constexpr double kSurfaceEdge_mm = 2;  ///< longer faces are subdivided (contract)
+
+/// The film as it floats: swollen, its clamped edge with it.
+film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
+  for (Eigen::Vector2d& p : outline.polygon) p = p.cwiseProduct(swelling);
+  outline.min_mm = outline.min_mm.cwiseProduct(swelling);
+  outline.max_mm = outline.max_mm.cwiseProduct(swelling);
+  return outline;
+}
+
+/// Stokes has no memory: every waterline is meshed and solved by itself, all in parallel.
+Result<std::vector<velocity::VelocityField>> solve(const film::Outline& outline,
+                                                   waterline::Waterlines& waterlines,
+                                                   const velocity::MeshOptions& options,
+                                                   const Context& context) {
+  std::vector<velocity::VelocityField> fields(waterlines.lines.size());
+  HP_RETURN_IF_ERROR(parallel_for(context, "velocity", fields.size(), [&](std::size_t k) -> Status {
+    waterline::Waterline& line = waterlines.lines[k];
+    HP_ASSIGN_OR_RETURN(velocity::FilmMesh mesh, velocity::mesh_film(outline, line, options));
+    const auto fixed = velocity::boundary_velocities(mesh, line.pulls);
+    HP_ASSIGN_OR_RETURN(auto nodes, velocity::solve_stokes(mesh, fixed));
+    fields[k] = velocity::VelocityField(std::move(mesh), std::move(nodes));
+    line = {line.immersion_mm, {}, {}, {}};  // its curves are not needed any more
+    return {};
+  }));
+  return fields;
+}
+
+}  // namespace
+
+Result<Start> start(const mesh::Model& model, const DipOptions& options, const Context& context) {
+  Start out;
+  HP_ASSIGN_OR_RETURN(out.surface, mesh::make_surface(model, kSurfaceEdge_mm, context));
+  out.X_FO = options.X_FO.value_or(waterline::centred_pose(out.surface));
+  out.body = waterline::place(out.surface, out.X_FO);
+  out.stokes.outline = floating(options.outline, options.profile.swelling);
+
+  HP_ASSIGN_OR_RETURN(waterline::Waterlines waterlines,
+                      waterline::take_waterlines(out.body, out.stokes.outline,
+                                                 options.depth_mm.value_or(out.body.height_mm),
+                                                 options.motion, options.schedule, context));
+  out.stopped_at_edge = waterlines.stopped_at_edge;
+  out.stokes.depth_mm = waterlines.depth_mm;
+  for (const waterline::Waterline& line : waterlines.lines) {
+    out.stokes.immersion_mm.push_back(line.immersion_mm);
+  }
+  HP_ASSIGN_OR_RETURN(out.stokes.fields,
+                      solve(out.stokes.outline, waterlines, options.mesh, context));
+  return out;
+}
+
+Result<flow::DipField> sheet_field(const flow::DipField& first, const ink::InkField& ink,
+                                   const DipOptions& options, const Context& context) {
+  const film::Profile& profile = options.profile;
+  const auto rest_thickness = [&](const std::array<Eigen::Vector2d, 3>& rest_mm) {
+    // Swelling spreads a printed amount of film and ink alike; only relative thickness matters.
+    const auto printed = [&](const Eigen::Vector2d& p) {
+      return p.cwiseQuotient(profile.swelling);
+    };
+    return film::rest_thickness_mm(
+        profile, ink.mean(printed(rest_mm[0]), printed(rest_mm[1]), printed(rest_mm[2])));
+  };
+  sheet::SheetOptions sheet = options.sheet;
+  if (profile.drag_length_mm > 0) {
+    sheet.drag_per_mm = profile.thickness_mm / (profile.drag_length_mm * profile.drag_length_mm);
+  }
+  HP_ASSIGN_OR_RETURN(sheet::SheetFlow flow,
+                      sheet::sheet_flow(first, rest_thickness, sheet, context));
+  return std::move(flow.field);
+}
+
+Result<flow::FlowMap> land(const Start& start, const flow::DipField& field,
+                           const DipOptions& options, const Context& context) {
+  flow::MapOptions map = options.map;
+  map.dip_speed_mm_per_s = options.dip_speed_mm_per_s;
+  map.swelling = options.profile.swelling;
+  return flow::make_flow_map(start.surface, start.body, field, options.motion, map, context);
+}
+
+}  // namespace hydroprint::pipeline
