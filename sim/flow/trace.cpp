@@ -13,8 +13,9 @@ namespace {
 
 /// Chords of the film mesh cut off this much of the film at most; farther outside is no film.
 constexpr double kReach_mm = 0.08;
-/// The predictor may overshoot the waterline, and a landing lies up to a step's waterlines apart
-/// from either: they need some velocity all the same.
+/// A step may overshoot the waterline, and a landing lies up to a step's waterlines apart from
+/// either: they need some velocity all the same. (Whether a landing has film at all is decided
+/// where it begins.)
 constexpr double kFarReach_mm = velocity::Locator::kReach_mm;
 
 using Eigen::Vector2d;
@@ -34,8 +35,7 @@ struct BackPath {
   std::size_t after;                           ///< how many waterlines lie before it still
   Vector2d later_velocity = Vector2d::Zero();  ///< one step later in the dip
   double later_span_mm = 0;
-  double reach_mm = kReach_mm;  ///< how far outside the film it may be
-  bool keeps_on = false;        ///< with the velocity it has, beyond that; else it is lost
+  bool keeps_on = false;  ///< with the velocity it has where there is no film; else it is lost
 
   [[nodiscard]] bool is_lost() const { return std::isnan(point_mm.x()); }
   void lose() { point_mm.setConstant(std::numeric_limits<double>::quiet_NaN()); }
@@ -74,7 +74,7 @@ void step_back(const VelocityField& field, double immersion_mm, int& triangle, B
   path.later_span_mm = span_mm;
   path.immersion_mm = immersion_mm;
   --path.after;
-  if (field.at(path.point_mm, path.reach_mm, path.velocity, triangle)) return;
+  if (field.at(path.point_mm, kFarReach_mm, path.velocity, triangle)) return;
   if (!path.keeps_on) path.lose();
 }
 
@@ -209,9 +209,7 @@ std::vector<Vector2d> trace_back(const DipField& dip, std::size_t k) {
   for (std::size_t n = 0; n < field.nodes().size(); ++n) {
     BackPath& path = paths.emplace_back(
         BackPath{velocity::place_of(field.mesh(), n), dip.immersion_mm[k], field.nodes()[n], k});
-    // This is film for certain; a step may cut a corner of the waterline before, no more.
-    path.reach_mm = kFarReach_mm;
-    path.keeps_on = true;
+    path.keeps_on = true;  // this is film for certain
   }
   follow_back(dip, paths);
   std::vector<Vector2d> rest_mm(paths.size());
