@@ -21,7 +21,7 @@ constexpr double kFarReach_mm = velocity::Locator::kReach_mm;
 using Eigen::Vector2d;
 using velocity::VelocityField;
 
-/// A step more than this many times longer than the one before starts the multistep rule anew: the
+/// A step at least this many times longer than the one before starts the multistep rule anew: the
 /// short one was across an event, where the velocity jumps.
 constexpr double kMostGrowth = 4;
 
@@ -47,7 +47,7 @@ struct BackPath {
 Vector2d displacement(const BackPath& path, double span_mm, const Vector2d& end_velocity) {
   const double g = path.later_span_mm;
   const double h = span_mm;
-  if (h > kMostGrowth * g) return 0.5 * h * (path.velocity + end_velocity);
+  if (h >= kMostGrowth * g) return 0.5 * h * (path.velocity + end_velocity);
   return h * (2 * h + 3 * g) / (6 * (h + g)) * end_velocity +
          h * (h + 3 * g) / (6 * g) * path.velocity -
          h * h * h / (6 * g * (h + g)) * path.later_velocity;
@@ -56,7 +56,7 @@ Vector2d displacement(const BackPath& path, double span_mm, const Vector2d& end_
 /// The same, before the velocity at its end is known.
 Vector2d predicted_displacement(const BackPath& path, double span_mm) {
   Vector2d out = span_mm * path.velocity;
-  if (span_mm <= kMostGrowth * path.later_span_mm) {
+  if (span_mm < kMostGrowth * path.later_span_mm) {
     out += span_mm * span_mm / (2 * path.later_span_mm) * (path.velocity - path.later_velocity);
   }
   return out;
@@ -67,15 +67,20 @@ Vector2d predicted_displacement(const BackPath& path, double span_mm) {
 void step_back(const VelocityField& field, double immersion_mm, int& triangle, BackPath& path) {
   const double span_mm = path.immersion_mm - immersion_mm;
   Vector2d before = path.velocity;
-  (void)field.at(path.point_mm - predicted_displacement(path, span_mm), kFarReach_mm, before,
-                 triangle);
-  path.point_mm -= displacement(path, span_mm, before);
+  const Vector2d predicted = predicted_displacement(path, span_mm);
+  (void)field.at(path.point_mm - predicted, kFarReach_mm, before, triangle);
+  const Vector2d corrected = displacement(path, span_mm, before);
+  path.point_mm -= corrected;
   path.later_velocity = path.velocity;
   path.later_span_mm = span_mm;
   path.immersion_mm = immersion_mm;
   --path.after;
-  if (field.at(path.point_mm, kFarReach_mm, path.velocity, triangle)) return;
-  if (!path.keeps_on) path.lose();
+  // The step may have cut a corner of the waterline by as much as its two rules differ.
+  const double reach_mm = path.keeps_on
+                              ? kFarReach_mm
+                              : std::min(kFarReach_mm, kReach_mm + (corrected - predicted).norm());
+  const bool is_film = field.at(path.point_mm, reach_mm, path.velocity, triangle);
+  if (!is_film && !path.keeps_on) path.lose();
 }
 
 /// An order in which paths begin near one another: up and down narrow strips.
@@ -104,11 +109,12 @@ std::vector<std::size_t> neighbours_in_turn(const std::vector<BackPath>& paths) 
 
 /// Follows paths back to rest, together from waterline to waterline, so that each film mesh is read
 /// once for all of them.
-void follow_back(const DipField& dip, std::vector<BackPath>& paths) {
+/// @param first  the waterline at which they end; the first of all: they end at rest
+void follow_back(const DipField& dip, std::vector<BackPath>& paths, std::size_t first = 0) {
   std::size_t most = 0;
   for (const BackPath& path : paths) most = std::max(most, path.after);
   const std::vector<std::size_t> order = neighbours_in_turn(paths);
-  for (std::size_t k = most; k-- > 0;) {
+  for (std::size_t k = most; k-- > first;) {
     int triangle = -1;
     for (const std::size_t i : order) {
       BackPath& path = paths[i];
@@ -116,6 +122,10 @@ void follow_back(const DipField& dip, std::vector<BackPath>& paths) {
         step_back(dip.fields[k], dip.immersion_mm[k], triangle, path);
     }
   }
+}
+
+/// The last step, to before first contact.
+void come_to_rest(const DipField& dip, std::vector<BackPath>& paths) {
   for (BackPath& path : paths) {
     if (path.is_lost()) continue;
     // Before first contact the film is at rest.
@@ -189,6 +199,7 @@ Result<std::vector<Vector2d>> trace_back(const DipField& dip, const std::vector<
     paths.reserve(last - first);
     for (std::size_t i = first; i < last; ++i) paths.push_back(path_to(dip, landings[order[i]]));
     follow_back(dip, paths);
+    come_to_rest(dip, paths);
     for (std::size_t i = first; i < last; ++i) film_mm[order[i]] = paths[i - first].point_mm;
     return {};
   }));
@@ -198,11 +209,12 @@ Result<std::vector<Vector2d>> trace_back(const DipField& dip, const std::vector<
 std::optional<Vector2d> trace_back(const DipField& dip, const Landing& landing) {
   std::vector<BackPath> paths = {path_to(dip, landing)};
   follow_back(dip, paths);
+  come_to_rest(dip, paths);
   if (paths[0].is_lost()) return std::nullopt;
   return paths[0].point_mm;
 }
 
-std::vector<Vector2d> trace_back(const DipField& dip, std::size_t k) {
+std::vector<Vector2d> trace_back(const DipField& dip, std::size_t k, const RestMap* known) {
   const VelocityField& field = dip.fields[k];
   std::vector<BackPath> paths;
   paths.reserve(field.nodes().size());
@@ -211,9 +223,15 @@ std::vector<Vector2d> trace_back(const DipField& dip, std::size_t k) {
         BackPath{velocity::place_of(field.mesh(), n), dip.immersion_mm[k], field.nodes()[n], k});
     path.keeps_on = true;  // this is film for certain
   }
-  follow_back(dip, paths);
+  follow_back(dip, paths, known != nullptr ? known->waterline : 0);
+  if (known == nullptr) come_to_rest(dip, paths);
   std::vector<Vector2d> rest_mm(paths.size());
-  for (std::size_t n = 0; n < paths.size(); ++n) rest_mm[n] = paths[n].point_mm;
+  for (std::size_t n = 0; n < paths.size(); ++n) {
+    rest_mm[n] = paths[n].point_mm;
+    if (known == nullptr) continue;
+    const bool is_film = known->rest_mm.at(paths[n].point_mm, kFarReach_mm, rest_mm[n]);
+    if (!is_film) rest_mm[n].setConstant(std::numeric_limits<double>::quiet_NaN());
+  }
   return rest_mm;
 }
 

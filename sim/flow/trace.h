@@ -39,7 +39,17 @@ struct DipField {
                                                               std::string_view stage,
                                                               const Context& context);
 
-/// Where each node of the film mesh of waterline `k` was when the film was at rest.
-[[nodiscard]] std::vector<Eigen::Vector2d> trace_back(const DipField& dip, std::size_t k);
+/// Where the film at one waterline was when the film was at rest: a quadratic function on its film
+/// mesh, in the same shape as a velocity.
+struct RestMap {
+  std::size_t waterline = 0;
+  velocity::VelocityField rest_mm;
+};
+
+/// Where each node of the film mesh of waterline `k` was at rest.
+/// @param known  of a waterline before: paths are followed no further than there; none: to rest
+/// @return NaN where the film at `known` has no such point
+[[nodiscard]] std::vector<Eigen::Vector2d> trace_back(const DipField& dip, std::size_t k,
+                                                      const RestMap* known = nullptr);
 
 }  // namespace hydroprint::flow

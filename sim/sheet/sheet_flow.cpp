@@ -53,8 +53,8 @@ constexpr double kSettling = 0.5;
 
 /// Solves the waterlines [first, last) of the dip, those before being solved.
 Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
-                    const RestThickness& rest_thickness, const SheetOptions& options,
-                    const Context& context) {
+                    const flow::RestMap* known, const RestThickness& rest_thickness,
+                    const SheetOptions& options, const Context& context) {
   const std::size_t count = last - first;
   std::vector<std::optional<velocity::Sheet>> sheets(count);
   double move_before_mm = 0;
@@ -66,7 +66,7 @@ Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
       const VelocityField& before = flow.field.fields[k];
       if (!sheets[i]) sheets[i].emplace(before.mesh(), options.drag_per_mm, prescribed(before));
       HP_ASSIGN_OR_RETURN(auto nodes,
-                          sheets[i]->solve(thickness_mm(flow.field, k, rest_thickness)));
+                          sheets[i]->solve(thickness_mm(flow.field, k, rest_thickness, known)));
       moves_mm[i] = span_mm(flow.field, k) * rms_change(nodes, before.nodes());
       next[i] = before.with(std::move(nodes));
       return {};
@@ -96,10 +96,16 @@ Result<SheetFlow> sheet_flow(flow::DipField first, const RestThickness& rest_thi
                              const SheetOptions& options, const Context& context) {
   SheetFlow flow{std::move(first), 0};
   const std::size_t count = flow.field.fields.size();
+  // Long dips are not followed back to their beginning each time, but to the last window.
+  std::optional<flow::RestMap> known;
   for (std::size_t k = 0; k < count; k += kWindow) {
     context.progress("sheet", static_cast<double>(k) / static_cast<double>(count));
-    HP_RETURN_IF_ERROR(
-        solve_window(flow, k, std::min(k + kWindow, count), rest_thickness, options, context));
+    const std::size_t end = std::min(k + kWindow, count);
+    const flow::RestMap* before = known ? &*known : nullptr;
+    HP_RETURN_IF_ERROR(solve_window(flow, k, end, before, rest_thickness, options, context));
+    if (end == count) break;
+    auto rest_mm = flow::trace_back(flow.field, end - 1, before);
+    known = flow::RestMap{end - 1, flow.field.fields[end - 1].with(std::move(rest_mm))};
   }
   return flow;
 }

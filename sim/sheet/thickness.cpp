@@ -1,6 +1,7 @@
 #include "sim/sheet/thickness.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sim/velocity/quadratic.h"
 
@@ -29,15 +30,16 @@ double twice_area(const std::array<Vector2d, 6>& node) {
 }  // namespace
 
 std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
-                                 const RestThickness& rest_thickness) {
+                                 const RestThickness& rest_thickness, const flow::RestMap* known) {
   const velocity::FilmMesh& mesh = dip.fields[k].mesh();
-  const std::vector<Vector2d> rest = flow::trace_back(dip, k);
+  const std::vector<Vector2d> rest = flow::trace_back(dip, k, known);
   std::vector<double> thickness(mesh.triangles.size(), 0);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     std::array<Vector2d, 6> node;
     const auto nodes = velocity::nodes_of(mesh, t);
     std::transform(nodes.begin(), nodes.end(), node.begin(), [&](int n) { return rest[n]; });
-    const double ratio = twice_area(node) / velocity::twice_area_mm2(mesh, t);
+    double ratio = twice_area(node) / velocity::twice_area_mm2(mesh, t);
+    if (std::isnan(ratio)) ratio = 1;
     thickness[t] = std::clamp(ratio, 1 / kMostAreaRatio, kMostAreaRatio) *
                    rest_thickness({node[0], node[1], node[2]});
   }

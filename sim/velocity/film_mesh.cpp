@@ -31,6 +31,10 @@ using Point = Kernel::Point_2;
 constexpr std::size_t kMostVertices = 400000;
 constexpr double kSquaredSine = 0.25;  ///< of the smallest angle: 30 degrees
 
+/// Triangles with shorter edges are left as they are: where waterlines nearly touch, the gap would
+/// be filled with ever smaller ones.
+constexpr double kTiny_mm = 0.1;
+
 /// A triangle is bad if an angle is below 30 degrees or its longest edge beyond the sizing field.
 class Criteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
   using Base = CGAL::Delaunay_mesh_criteria_2<Triangulation>;
@@ -40,6 +44,7 @@ class Criteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
   /// the oversized first.
   struct Quality {
     double sine2 = 1, size2 = 0;
+    bool is_tiny = false;
     bool operator<(const Quality& other) const {
       if (size2 > 1 || other.size2 > 1) {
         return size2 != other.size2 ? size2 > other.size2 : sine2 < other.sine2;
@@ -55,7 +60,7 @@ class Criteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
 
     CGAL::Mesh_2::Face_badness operator()(const Quality& q) const {
       if (q.size2 > 1) return CGAL::Mesh_2::IMPERATIVELY_BAD;
-      return q.sine2 < kSquaredSine ? CGAL::Mesh_2::BAD : CGAL::Mesh_2::NOT_BAD;
+      return q.sine2 < kSquaredSine && !q.is_tiny ? CGAL::Mesh_2::BAD : CGAL::Mesh_2::NOT_BAD;
     }
 
     CGAL::Mesh_2::Face_badness operator()(const Triangulation::Face_handle& face,
@@ -71,6 +76,7 @@ class Criteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
       quality.sine2 = twice_area * twice_area / (square[1] * square[2]);
       const double size = sizing_->at({(a.x() + b.x() + c.x()) / 3, (a.y() + b.y() + c.y()) / 3});
       quality.size2 = square[2] / (size * size);
+      quality.is_tiny = square[2] < kTiny_mm * kTiny_mm;
       return (*this)(quality);
     }
 

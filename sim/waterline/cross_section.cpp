@@ -11,7 +11,7 @@ namespace clip = ClipperLib;
 // Clipper works on integers; at 1e-6 mm a vat of a metre stays in its fast 32-bit range.
 constexpr double kUnits_per_mm = 1e6;
 constexpr double kLeastArea_mm2 = 1e-3;
-constexpr double kSlit_mm = 0.05;
+constexpr double kSlit_mm = 0.3;
 
 clip::IntPoint to_units(const Eigen::Vector2d& p) {
   return {std::llround(p.x() * kUnits_per_mm), std::llround(p.y() * kUnits_per_mm)};

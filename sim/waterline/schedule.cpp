@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <unordered_map>
 
 namespace hydroprint::waterline {
@@ -12,6 +13,10 @@ namespace {
 constexpr int kBins = 8192;
 constexpr double kLeastShelf_mm2 = 0.5;  ///< smaller level faces are no event
 constexpr double kLeastRim_mm = 5;       ///< shorter level edges are no event
+constexpr double kCreaseCosine = 0.8;    ///< corner normals further apart make a crease
+/// Along an upright crease eq. (1) turns at once, and the film with it: steps are this much
+/// shorter.
+constexpr double kCreaseSteps = 2;
 
 struct Triangle {
   double low_mm, high_mm, area_mm2, sine, cosine;
@@ -31,6 +36,7 @@ Triangle measure(const Body& body, const Eigen::Vector3i& t) {
 struct Bins {
   std::vector<double> wetted_mm2;  ///< surface wetted, weighed
   std::vector<double> length_mm;   ///< mean waterline length
+  std::vector<char> has_crease;    ///< the waterline crosses creases
 };
 
 /// How much the time step matters for a surface at this angle: the film hardly moves near level
@@ -40,11 +46,31 @@ double weight(double cosine) {
   return std::clamp(2 * tangent, 0.3, 1.0);
 }
 
+/// Per point, whether the surface is sharp there.
+std::vector<char> crease_points(const Body& body) {
+  std::vector<char> is_crease(body.points_mm.size(), 0), found(body.points_mm.size(), 0);
+  std::vector<Eigen::Vector3d> first(body.points_mm.size());
+  for (std::size_t t = 0; t < body.triangles.size(); ++t) {
+    for (int i = 0; i < 3; ++i) {
+      const int v = body.triangles[t][i];
+      const Eigen::Vector3d& normal = body.corner_normals[t][i];
+      if (found[v] == 0) {
+        first[v] = normal;
+        found[v] = 1;
+      } else if (first[v].dot(normal) < kCreaseCosine) {
+        is_crease[v] = 1;
+      }
+    }
+  }
+  return is_crease;
+}
+
 Bins collect(const Body& body, double shelf_slope_rad) {
   const double bin_mm = body.height_mm / kBins;
   // Densities enter as differences at the ends of each triangle's range, with the two end bins
   // filled in part; a running sum then gives every bin.
-  std::vector<double> area(kBins + 2, 0), length(kBins + 2, 0);
+  std::vector<double> area(kBins + 2, 0), length(kBins + 2, 0), crease(kBins + 2, 0);
+  const std::vector<char> is_crease = crease_points(body);
   const auto spread = [&](std::vector<double>& bins, double low, double high, double density) {
     const auto step_up = [&](double z, double rise) {  // density from z on, as bin averages
       const double at = std::clamp(z / bin_mm, 0.0, static_cast<double>(kBins));
@@ -62,16 +88,29 @@ Bins collect(const Body& body, double shelf_slope_rad) {
     const double range_mm = std::max(m.high_mm - m.low_mm, 1e-9);
     spread(area, m.low_mm, m.high_mm, weight(m.cosine) * m.area_mm2 / range_mm);
     spread(length, m.low_mm, m.high_mm, m.area_mm2 * m.sine / range_mm);
+    if (is_crease[t[0]] + is_crease[t[1]] + is_crease[t[2]] > 1) {
+      spread(crease, m.low_mm, m.high_mm, 1);
+    }
   }
-  Bins bins{std::vector<double>(kBins), std::vector<double>(kBins)};
-  double running_area = 0, running_length = 0;
+  Bins bins{std::vector<double>(kBins), std::vector<double>(kBins), std::vector<char>(kBins)};
+  double running_area = 0, running_length = 0, running_crease = 0;
   for (int b = 0; b < kBins; ++b) {
     running_area += area[b];
     running_length += length[b];
+    running_crease += crease[b];
+    bins.has_crease[b] = running_crease > 1e-6;
     bins.wetted_mm2[b] = std::max(0.0, running_area) * bin_mm;
     bins.length_mm[b] = std::max(0.0, running_length);
   }
   return bins;
+}
+
+/// One for large bodies, less for smaller ones (ScheduleOptions::swept_mm).
+double smallness(const Body& body) {
+  double area_mm2 = 0;
+  for (const Eigen::Vector3i& t : body.triangles) area_mm2 += measure(body, t).area_mm2;
+  const double radius_mm = std::sqrt(area_mm2 / (4 * std::numbers::pi));
+  return std::min(1.0, std::pow(radius_mm / ScheduleOptions::kLarge_mm, 2.0 / 3));
 }
 
 /// Levels at which at least `least` of the given weighted heights gather within 1e-3 mm.
@@ -132,10 +171,12 @@ std::vector<double> schedule(const Body& body, double depth_mm, const ScheduleOp
   std::vector<double> depths = {gap_mm, depth_mm - gap_mm};
 
   const Bins bins = collect(body, options.shelf_slope_rad);
+  const double swept_mm = options.swept_mm * smallness(body);
   double steps = 0, next = 1;
   for (int b = 0; b < kBins; ++b) {
     if (bins.length_mm[b] <= 0) continue;
-    const double here = std::min(bins.wetted_mm2[b] / (options.swept_mm * bins.length_mm[b]), 4.0);
+    const double width_mm = bins.has_crease[b] != 0 ? swept_mm / kCreaseSteps : swept_mm;
+    const double here = std::min(bins.wetted_mm2[b] / (width_mm * bins.length_mm[b]), 4.0);
     while (steps + here >= next) {
       depths.push_back((b + (next - steps) / here) * bin_mm);
       ++next;
