@@ -158,7 +158,7 @@ TEST(SheetFlow, KeepsTheVolumeOfTheFilm) {
   setting.film = testing::film_of("120x100");
   setting.depth_mm = depth_at(25, 115);
   const SolvedDip dip =
-      testing::solve_dip(testing::moved(sample::icosphere(25, 5), {8, -5, 0}), setting);
+      testing::solve_dip(testing::moved(sample::icosphere(25, 6), {8, -5, 0}), setting);
   const auto thickness = [](double r) { return 0.1 + 0.05 * std::sin(r / 9); };
   const RestThickness rest = mean_of(thickness);
   const flow::DipField field = sheet_of(dip, rest);
@@ -175,8 +175,10 @@ TEST(SheetFlow, KeepsTheVolumeOfTheFilm) {
   }
   flow::DipField wetted = field;  // what is on the body where the last waterline is
   wetted.depth_mm = field.immersion_mm[last];
+  flow::MapOptions fine;  // tiles end up to a tile's width below the waterline
+  fine.least_edge_mm = 0.01;
   const auto map =
-      flow::make_flow_map(dip.surface, dip.body, wetted, {}, {}, two_threads()).value();
+      flow::make_flow_map(dip.surface, dip.body, wetted, {}, fine, two_threads()).value();
   double deposit = 0;
   for (const flow::MappedTriangle& tile : map.tiles) {
     const Vector2d ab = tile.film_mm[1] - tile.film_mm[0];
