@@ -27,6 +27,22 @@ double twice_area(const std::array<Vector2d, 6>& node) {
   return area;
 }
 
+/// Mean thickness at rest over a triangle with curved edges; large ones are taken in quarters,
+/// which keep to the curve.
+double mean_thickness_mm(const std::array<Vector2d, 6>& node, double twice_area_mm2,
+                         const RestThickness& rest_thickness) {
+  constexpr double kLarge_mm2 = 8;
+  if (std::abs(twice_area_mm2) < kLarge_mm2) return rest_thickness({node[0], node[1], node[2]});
+  double volume = 0, area = 0;
+  for (const auto& [a, b, c] : {std::array{0, 5, 4}, {5, 1, 3}, {4, 3, 2}, {3, 4, 5}}) {
+    const double quarter = cross(node[b] - node[a], node[c] - node[a]);
+    volume += quarter * rest_thickness({node[a], node[b], node[c]});
+    area += quarter;
+  }
+  const bool is_folded = !(area > 0.5 * twice_area_mm2 && area < 2 * twice_area_mm2);
+  return is_folded ? rest_thickness({node[0], node[1], node[2]}) : volume / area;
+}
+
 }  // namespace
 
 std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
@@ -38,10 +54,11 @@ std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
     std::array<Vector2d, 6> node;
     const auto nodes = velocity::nodes_of(mesh, t);
     std::transform(nodes.begin(), nodes.end(), node.begin(), [&](int n) { return rest[n]; });
-    double ratio = twice_area(node) / velocity::twice_area_mm2(mesh, t);
+    const double rest_area = twice_area(node);
+    double ratio = rest_area / velocity::twice_area_mm2(mesh, t);
     if (std::isnan(ratio)) ratio = 1;
     thickness[t] = std::clamp(ratio, 1 / kMostAreaRatio, kMostAreaRatio) *
-                   rest_thickness({node[0], node[1], node[2]});
+                   mean_thickness_mm(node, rest_area, rest_thickness);
   }
   return thickness;
 }
