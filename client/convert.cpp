@@ -111,6 +111,15 @@ std::optional<Spec> spec_from_proto(const v1::Job& job) {
     spec.motion = from_proto(job.predict().has_motion(), job.predict().motion());
     return spec;
   }
+  if (job.has_validate()) {
+    const v1::ValidateSpec& message = job.validate();
+    Spec spec;
+    spec.verb = Verb::kValidate;
+    spec.only.assign(message.only().begin(), message.only().end());
+    spec.quick = message.quick();
+    spec.threads = given(message.has_threads(), static_cast<int>(message.threads()));
+    return spec;
+  }
   return std::nullopt;
 }
 
@@ -230,6 +239,13 @@ Status to_proto(const Spec& spec, v1::Job& job) {
     auto& message = *job.mutable_simulate();
     if (spec.texture) to_proto(*spec.texture, message.mutable_texture());
     return common_to_proto(spec, message);
+  }
+  if (spec.verb == Verb::kValidate) {
+    auto& message = *job.mutable_validate();
+    for (const std::string& name : spec.only) message.add_only(name);
+    message.set_quick(spec.quick);
+    if (spec.threads) message.set_threads(*spec.threads);
+    return {};
   }
   auto& message = *job.mutable_predict();
   if (spec.film_image) to_proto(*spec.film_image, message.mutable_film_image());

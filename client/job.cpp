@@ -25,6 +25,18 @@ std::string_view name_of(JobState state) {
       ->second;
 }
 
+std::string_view name_of(Verb verb) {
+  switch (verb) {
+    case Verb::kSimulate:
+      return "simulate";
+    case Verb::kPredict:
+      return "predict";
+    case Verb::kValidate:
+      return "validate";
+  }
+  return "unknown";
+}
+
 bool is_finished(JobState state) {
   return state == JobState::kSucceeded || state == JobState::kFailed ||
          state == JobState::kCancelled;

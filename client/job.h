@@ -14,7 +14,10 @@ namespace hydroprint::client {
 using Time = std::chrono::system_clock::time_point;
 
 /// The kinds of computation, as the worker's verbs.
-enum class Verb { kSimulate, kPredict };
+enum class Verb { kSimulate, kPredict, kValidate };
+
+/// "simulate", "predict", ... as the worker and the API's Job have them.
+[[nodiscard]] std::string_view name_of(Verb verb);
 
 /// Uploaded bytes and the name by which the computation sees them.
 struct InputFile {
@@ -31,7 +34,7 @@ struct PoseSpec {
 /// What a job computes: the worker's flags (contract). What is not set is left to the worker.
 struct Spec {
   Verb verb = Verb::kSimulate;
-  InputFile mesh;
+  InputFile mesh;                       ///< all but validate
   std::vector<InputFile> extra_files;   ///< files that others refer to by name
   std::optional<InputFile> texture;     ///< simulate only
   std::optional<InputFile> film_image;  ///< predict only, and needed there
@@ -48,6 +51,8 @@ struct Spec {
   std::optional<double> dip_speed_mm_per_s;
   std::optional<int> threads;
   std::optional<std::string> artifacts;  ///< "all" or "map"
+  std::vector<std::string> only;         ///< validate only: names of experiments; none: all
+  bool quick = false;                    ///< validate only
 };
 
 enum class JobState {

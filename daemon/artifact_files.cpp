@@ -22,9 +22,10 @@ tl::unexpected<Error> unusable(const std::string& what) {
 }  // namespace
 
 std::string media_type(const std::string& name) {
-  static constexpr std::array<std::array<const char*, 2>, 9> kTypes{{
+  static constexpr std::array<std::array<const char*, 2>, 10> kTypes{{
       {".png", "image/png"},
       {".json", "application/json"},
+      {".html", "text/html"},
       {".ply", "model/ply"},
       {".exr", "image/x-exr"},
       {".tif", "image/tiff"},

@@ -12,6 +12,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr int kMostExtraFiles = 256;
+constexpr int kMostExperiments = 32;
 
 // The shortest text that reads back as the same number.
 std::string text_of(double value) {
@@ -31,6 +32,8 @@ class WorkBuilder {
   void flag(const std::string& name, const std::string& value) {
     work_.flags.push_back("--" + name + "=" + value);
   }
+  // One that takes no value.
+  void bare_flag(const std::string& name) { work_.flags.push_back("--" + name); }
   void pose(std::string json) { work_.pose_json = std::move(json); }
   // Above 0 where there is no least value.
   void number(const std::string& field, const std::string& name, double value, double most,
@@ -153,6 +156,11 @@ void add_choices(WorkBuilder& builder, const Spec& spec) {
   }
 }
 
+void add_threads(WorkBuilder& builder, std::int32_t threads, NewJob& made) {
+  builder.check_whole("threads", threads, 1, 256);
+  made.threads = threads;
+}
+
 // What simulate and predict have in common.
 template <class Spec>
 void add_common(WorkBuilder& builder, const Spec& spec, NewJob& made) {
@@ -174,11 +182,29 @@ void add_common(WorkBuilder& builder, const Spec& spec, NewJob& made) {
   if (spec.has_dip_speed_mm_per_s()) {
     builder.number("dip_speed_mm_per_s", "dip-speed-mm-per-s", spec.dip_speed_mm_per_s(), 1000);
   }
-  if (spec.has_threads()) {
-    builder.check_whole("threads", spec.threads(), 1, 256);
-    made.threads = spec.threads();
-  }
+  if (spec.has_threads()) add_threads(builder, spec.threads(), made);
   add_choices(builder, spec);
+}
+
+void add_validation(WorkBuilder& builder, const v1::ValidateSpec& spec, NewJob& made) {
+  if (spec.only_size() > kMostExperiments) {
+    builder.require(invalid_field(builder.path("only"), "has more than 32 names"));
+    return;
+  }
+  std::string names;
+  for (const std::string& name : spec.only()) {
+    const bool is_name = !name.empty() && name.size() <= 64 &&
+                         std::all_of(name.begin(), name.end(),
+                                     [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; });
+    if (!is_name) {
+      builder.require(
+          invalid_field(builder.path("only"), "must be names of experiments: a to z and -"));
+    }
+    names += (names.empty() ? "" : ",") + name;
+  }
+  if (!names.empty()) builder.flag("only", names);
+  if (spec.quick()) builder.bare_flag("quick");
+  if (spec.has_threads()) add_threads(builder, spec.threads(), made);
 }
 
 Result<Work> work_of(const v1::Job& job, NewJob& made) {
@@ -200,7 +226,12 @@ Result<Work> work_of(const v1::Job& job, NewJob& made) {
     if (spec.has_motion()) builder.file("motion", "motion", spec.motion());
     return builder.build();
   }
-  return invalid_field("job", "has no spec; set simulate or predict");
+  if (job.has_validate()) {
+    WorkBuilder builder("validate");
+    add_validation(builder, job.validate(), made);
+    return builder.build();
+  }
+  return invalid_field("job", "has no spec; set simulate, predict or validate");
 }
 
 Status check_labels(const v1::Job& job) {
@@ -220,6 +251,7 @@ std::string body_of(const v1::Job& job) {
   *body.mutable_labels() = job.labels();
   if (job.has_simulate()) *body.mutable_simulate() = job.simulate();
   if (job.has_predict()) *body.mutable_predict() = job.predict();
+  if (job.has_validate()) *body.mutable_validate() = job.validate();
   return body.SerializeAsString();
 }
 
@@ -236,7 +268,8 @@ Result<NewJob> check_job(const v1::Job& job) {
   made.priority = job.priority();
   made.display_name = job.display_name();
   if (made.display_name.empty()) {
-    made.display_name = made.work.verb + " " + made.work.inputs.front().name;
+    made.display_name = made.work.verb;
+    if (!made.work.inputs.empty()) made.display_name += " " + made.work.inputs.front().name;
   }
   made.body = body_of(job);
   return made;

@@ -39,7 +39,8 @@ Json to_json(const client::JobError& error) {
 }  // namespace
 
 Json to_json(const client::Spec& spec) {
-  Json json{{"mesh", value_of(spec.mesh)}};
+  Json json = Json::object();
+  if (!spec.mesh.name.empty()) json["mesh"] = value_of(spec.mesh);
   put(json, "texture", spec.texture);
   put(json, "film_image", spec.film_image);
   put(json, "motion", spec.motion);
@@ -56,6 +57,8 @@ Json to_json(const client::Spec& spec) {
   put(json, "dip_speed_mm_per_s", spec.dip_speed_mm_per_s);
   put(json, "threads", spec.threads);
   put(json, "artifacts", spec.artifacts);
+  if (!spec.only.empty()) json["only"] = spec.only;
+  if (spec.quick) json["quick"] = true;
   return json;
 }
 
@@ -78,8 +81,7 @@ Json to_json(const client::Job& job) {
   put(json, "retry_of", job.retry_of);
   put(json, "input_digest", job.input_digest);
   json["cache_hit"] = job.cache_hit;
-  if (job.spec)
-    json[job.spec->verb == client::Verb::kSimulate ? "simulate" : "predict"] = to_json(*job.spec);
+  if (job.spec) json[std::string(client::name_of(job.spec->verb))] = to_json(*job.spec);
   return json;
 }
 

@@ -29,6 +29,18 @@ void add_file(CLI::App& command, const char* flag, std::string& file, const char
   command.add_option(flag, file, help)->type_name("FILE");
 }
 
+void add_threads_flag(CLI::App& command, client::Spec& spec) {
+  command.add_option("--threads", spec.threads, "Threads of the computation")->type_name("N");
+}
+
+void add_validation_flags(CLI::App& command, client::Spec& spec) {
+  command.add_option("--only", spec.only, "Experiments to run; default: all")
+      ->delimiter(',')
+      ->type_name("NAME[,NAME]");
+  command.add_flag("--quick", spec.quick, "A coarse run, which shows that everything works");
+  add_threads_flag(command, spec);
+}
+
 void add_worker_flags(CLI::App& command, SubmitOptions& options) {
   client::Spec& spec = options.spec;
   command.add_option("--mesh", options.mesh, "The object: OBJ, STL, PLY, glTF or GLB")
@@ -64,7 +76,7 @@ void add_worker_flags(CLI::App& command, SubmitOptions& options) {
       ->type_name("D");
   command.add_option("--dip-speed-mm-per-s", spec.dip_speed_mm_per_s, "Speed of the dip")
       ->type_name("V");
-  command.add_option("--threads", spec.threads, "Threads of the computation")->type_name("N");
+  add_threads_flag(command, spec);
   command.add_option("--artifacts", spec.artifacts, "map: surface_map.ply and report.json only")
       ->type_name("SET")
       ->check(CLI::IsMember({"all", "map"}));
@@ -95,6 +107,7 @@ Status set_depth(const std::optional<std::string>& depth, client::Spec& spec) {
 
 Result<client::Spec> upload_inputs(Program& program, const SubmitOptions& options) {
   client::Spec spec = options.spec;
+  if (spec.verb == client::Verb::kValidate) return spec;  // it reads no files
   HP_RETURN_IF_ERROR(set_depth(options.depth, spec));
   if (!options.pose.empty()) {
     HP_ASSIGN_OR_RETURN(spec.pose, client::read_pose_file(options.pose));
@@ -146,12 +159,16 @@ Status submit(Program& program, const SubmitOptions& options) {
   return wait ? wait_and_fetch(program, job.name, options) : Status();
 }
 
-void add_verb(CLI::App& parent, Program& program, client::Verb verb, const char* name,
-              const char* help, const char* footer) {
+void add_verb(CLI::App& parent, Program& program, client::Verb verb, const char* help,
+              const char* footer) {
   auto options = std::make_shared<SubmitOptions>();
   options->spec.verb = verb;
-  CLI::App* command = parent.add_subcommand(name, help);
-  add_worker_flags(*command, *options);
+  CLI::App* command = parent.add_subcommand(std::string(client::name_of(verb)), help);
+  if (verb == client::Verb::kValidate) {
+    add_validation_flags(*command, options->spec);
+  } else {
+    add_worker_flags(*command, *options);
+  }
   add_job_flags(*command, *options);
   command->footer(footer);
   program.on(*command, [&program, options] { return submit(program, *options); });
@@ -163,15 +180,17 @@ void add_submit(CLI::App& app, Program& program) {
   CLI::App* command = app.add_subcommand("submit", "Upload files and queue a job");
   command->require_subcommand(1);
   add_verb(
-      *command, program, client::Verb::kSimulate, "simulate",
-      "From a textured model to the image to print",
+      *command, program, client::Verb::kSimulate, "From a textured model to the image to print",
       "What an OBJ, MTL or glTF refers to beside it is uploaded too. Flags left out take the\n"
       "worker's defaults.\n\nExample:\n"
       "  hydroprint submit simulate --mesh spot.obj --texture spot.png --scale 50 --out result");
-  add_verb(*command, program, client::Verb::kPredict, "predict",
+  add_verb(*command, program, client::Verb::kPredict,
            "From a film image to the colours that land on the object",
            "Example:\n"
            "  hydroprint submit predict --mesh spot.obj --film-image film.png --scale 50 --wait");
+  add_verb(*command, program, client::Verb::kValidate,
+           "The paper's experiments in silico, as a report with pictures",
+           "Example:\n  hydroprint submit validate --out validation");
 }
 
 }  // namespace hydroprint::cli

@@ -165,22 +165,30 @@ Result<ReadImage> decode_safely(IOProxy& proxy, const std::string& name, const C
   }
 }
 
-Status write_image(const std::filesystem::path& path, const char* encoder, const ImageSpec& spec,
-                   TypeDesc type, const void* pixels) {
+/// @param name  for messages; its extension is what the encoder expects
+Result<std::vector<unsigned char>> encode(const std::string& name, const char* encoder,
+                                          const ImageSpec& spec, TypeDesc type,
+                                          const void* pixels) {
   std::vector<unsigned char> file;
   OIIO::Filesystem::IOVecOutput proxy(file);
   try {
     const auto output = ImageOutput::create(encoder);
-    if (!output || !output->set_ioproxy(&proxy) || !output->open(path.string(), spec) ||
+    if (!output || !output->set_ioproxy(&proxy) || !output->open(name, spec) ||
         !output->write_image(type, pixels) || !output->close()) {
       const std::string why = output ? output->geterror() : "no encoder";
-      return fail(Code::kInternal, path.string() + ": encoding failed (" + first_line(why) +
-                                       "). Please report this");
+      return fail(Code::kInternal,
+                  name + ": encoding failed (" + first_line(why) + "). Please report this");
     }
   } catch (const std::exception& exception) {
-    return fail(Code::kInternal, path.string() + ": encoding failed (" + exception.what() +
-                                     "). Is there enough memory?");
+    return fail(Code::kInternal,
+                name + ": encoding failed (" + exception.what() + "). Is there enough memory?");
   }
+  return file;
+}
+
+Status write_image(const std::filesystem::path& path, const char* encoder, const ImageSpec& spec,
+                   TypeDesc type, const void* pixels) {
+  HP_ASSIGN_OR_RETURN(const auto file, encode(path.string(), encoder, spec, type, pixels));
   return write_artifact(path, file);
 }
 
@@ -188,6 +196,14 @@ ImageSpec png_spec(int width, int height, int channels) {
   ImageSpec spec(width, height, channels, TypeDesc::UINT8);
   spec.attribute("png:compressionLevel", 1);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  return spec;
+}
+
+ImageSpec png_spec(const RgbImage& image, double dpi) {
+  ImageSpec spec = png_spec(image.width, image.height, 3);
+  spec.attribute("XResolution", static_cast<float>(dpi));
+  spec.attribute("YResolution", static_cast<float>(dpi));
+  spec.attribute("ResolutionUnit", "in");
   return spec;
 }
 
@@ -216,12 +232,12 @@ Result<ReadImage> read_image(const std::vector<unsigned char>& bytes, const std:
   return decode_safely(proxy, name, context);
 }
 
+Result<std::vector<unsigned char>> encode_png(const RgbImage& image, double dpi) {
+  return encode("image.png", "png", png_spec(image, dpi), TypeDesc::UINT8, image.rgb.data());
+}
+
 Status write_png(const std::filesystem::path& path, const RgbImage& image, double dpi) {
-  ImageSpec spec = png_spec(image.width, image.height, 3);
-  spec.attribute("XResolution", static_cast<float>(dpi));
-  spec.attribute("YResolution", static_cast<float>(dpi));
-  spec.attribute("ResolutionUnit", "in");
-  return write_image(path, "png", spec, TypeDesc::UINT8, image.rgb.data());
+  return write_image(path, "png", png_spec(image, dpi), TypeDesc::UINT8, image.rgb.data());
 }
 
 Status write_png_rgba(const std::filesystem::path& path, int width, int height,

@@ -45,6 +45,9 @@ inline constexpr std::int64_t kMaxImageArea_px = 200'000'000;
 [[nodiscard]] Result<ReadImage> read_image(const std::vector<unsigned char>& bytes,
                                            const std::string& name, const Context& context);
 
+/// A PNG file's bytes. Fails (kInternal) when memory does not suffice.
+[[nodiscard]] Result<std::vector<unsigned char>> encode_png(const RgbImage& image, double dpi);
+
 /// Writes a PNG with its resolution, under a temporary name that is renamed at the end.
 /// Refuses with kResourceExhausted (reason DISK_FULL) when the disk is full, kPermissionDenied or
 /// kNotFound when the place cannot be written to.

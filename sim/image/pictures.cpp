@@ -56,31 +56,32 @@ struct Range {
   double low = 1, high = 2, step = 0.2;
 };
 
-Range range_of(const std::vector<double>& stretch) {
+Range range_of(const Quantity& quantity) {
   std::vector<double> sorted;
-  for (const double value : stretch) {
+  for (const double value : quantity.values) {
     if (std::isfinite(value)) sorted.push_back(value);
   }
-  if (sorted.empty()) return {};
+  if (sorted.empty()) sorted = {quantity.rest};
   std::sort(sorted.begin(), sorted.end());
   const auto at = [&](double part) {
     return sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
   };
-  const double top = std::max(at(0.98), 1.1);
+  const double top = std::max(at(0.98), quantity.rest + quantity.least_span);
   Range range;
-  for (const double step : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 50.0, 1000.0}) {
+  for (const double step : {0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5,
+                            1.0, 2.0, 5.0, 10.0, 50.0, 1000.0}) {
     range.step = step;
-    if (top - 1 <= 6 * step) break;
+    if (top - quantity.rest <= 6 * step) break;
   }
-  range.low = std::min(1.0, std::floor(at(0.02) / range.step + 1e-9) * range.step);
+  range.low = std::min(quantity.rest, std::floor(at(0.02) / range.step + 1e-9) * range.step);
   range.high = std::ceil(top / range.step - 1e-9) * range.step;
   return range;
 }
 
 std::string number(double value) {
-  std::string text = std::to_string(std::round(value * 100) / 100);
-  text.resize(text.find('.') + 3);
-  if (text.back() == '0') text.pop_back();
+  std::string text = std::to_string(std::round(value * 1e4) / 1e4);
+  text.resize(text.find('.') + 5);
+  while (text.back() == '0' && text[text.size() - 2] != '.') text.pop_back();
   return text;
 }
 
@@ -161,10 +162,10 @@ void fill(RgbImage& image, const Window& area,
   }
 }
 
-void draw_legend(RgbImage& sheet, const Range& range) {
+void draw_legend(RgbImage& sheet, const std::string& label, const Range& range) {
   constexpr int kBarWidth = 760, kBarHeight = 24;
   const int left = 330, top = sheet.height - kLegend_px + 8;
-  draw_text(sheet, left - 30 - text_width_px(16, "stretch"), top + 20, 16, "stretch", kInk);
+  draw_text(sheet, left - 30 - text_width_px(16, label), top + 20, 16, label, kInk);
   fill(sheet, {left, top, left + kBarWidth, top + kBarHeight},
        [&](int x, int) { return scale_colour((x - left + 0.5) / kBarWidth); });
   const int steps = static_cast<int>(std::lround((range.high - range.low) / range.step));
@@ -185,24 +186,38 @@ void draw_legend(RgbImage& sheet, const Range& range) {
 
 }  // namespace
 
-Result<RgbImage> stretch_picture(const mesh::Surface& surface, const Pose& X_FO,
-                                 const flow::FlowMap& map, const Context& context) {
-  const Range range = range_of(map.surface.stretch);
+Result<RgbImage> quantity_picture(const mesh::Surface& surface, const Pose& X_FO,
+                                  const std::vector<flow::MappedTriangle>& tiles,
+                                  const Quantity& quantity, const Context& context) {
+  const Range range = range_of(quantity);
   const auto colour_of = [&](const flow::MappedTriangle& tile, const Corners&) {
-    const auto values = tile_stretch(surface, map.surface, tile);
-    return [values, &range](int, int, const Eigen::Vector3d& b) {
-      const double stretch = b[0] * values[0] + b[1] * values[1] + b[2] * values[2];
-      const double t = (stretch - range.low) / (range.high - range.low);
-      return linear_from_srgb(scale_colour(std::isfinite(t) ? t : 1.0));
+    const auto values = quantity.at_corners(tile);
+    return [values, &range](int x, int y, const Eigen::Vector3d& b) {
+      const double value = b[0] * values[0] + b[1] * values[1] + b[2] * values[2];
+      if (std::isnan(value)) return hatch(x, y);
+      const double t = (value - range.low) / (range.high - range.low);
+      return linear_from_srgb(scale_colour(t));
     };
   };
   HP_ASSIGN_OR_RETURN(RgbImage sheet,
                       draw_sheet(surface, X_FO, kLegend_px, context, [&](ViewDrawing& drawing) {
                         drawing.draw_surface(hatch);
-                        drawing.draw_tiles(map.tiles, colour_of);
+                        drawing.draw_tiles(tiles, colour_of);
                       }));
-  draw_legend(sheet, range);
+  draw_legend(sheet, quantity.label, range);
   return sheet;
+}
+
+Result<RgbImage> stretch_picture(const mesh::Surface& surface, const Pose& X_FO,
+                                 const flow::FlowMap& map, const Context& context) {
+  const auto at_corners = [&](const flow::MappedTriangle& tile) {
+    auto values = tile_stretch(surface, map.surface, tile);
+    // Film that lands without having any area: stretched beyond measure.
+    for (double& value : values) value = std::isfinite(value) ? value : HUGE_VAL;
+    return values;
+  };
+  const Quantity stretch{"stretch", map.surface.stretch, 1, 0.1, at_corners};
+  return quantity_picture(surface, X_FO, map.tiles, stretch, context);
 }
 
 Result<RgbImage> predicted_picture(const mesh::Surface& surface, const Pose& X_FO,

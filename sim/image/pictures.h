@@ -1,5 +1,10 @@
 #pragma once
 
+#include <array>
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "sim/base/context.h"
 #include "sim/base/pose.h"
 #include "sim/base/result.h"
@@ -15,6 +20,20 @@ namespace hydroprint::image {
 /// arrives. About 1600 pixels wide. The colours stay apart for the colour-blind and in grey.
 [[nodiscard]] Result<RgbImage> stretch_picture(const mesh::Surface& surface, const Pose& X_FO,
                                                const flow::FlowMap& map, const Context& context);
+
+/// Something to colour an object by.
+struct Quantity {
+  std::string label;           ///< beside the legend; letters as draw_text has them
+  std::vector<double> values;  ///< of which all but the extremes fit the scale; NaN: left out
+  double rest = 0, least_span = 0.1;  ///< the scale holds the one and is no shorter than the other
+  /// At a tile's corners; NaN shows as where no film arrives.
+  std::function<std::array<double, 3>(const flow::MappedTriangle&)> at_corners;
+};
+
+/// The views of stretch_picture, coloured by any quantity.
+[[nodiscard]] Result<RgbImage> quantity_picture(const mesh::Surface& surface, const Pose& X_FO,
+                                                const std::vector<flow::MappedTriangle>& tiles,
+                                                const Quantity& quantity, const Context& context);
 
 /// The same views of the object as it will look: the film's colours where it lands, plain light
 /// grey elsewhere.

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kSideMm = 120;
 constexpr double kThickMm = 10;
+constexpr double kLineMm = 10;  // from line to line; the mesh has a vertex where two cross
 
 /// Lines each 10 mm, finer ones each 2 mm, on a ground whose colour tells the place.
 Colour grid_colour(double x, double y, const Colour& left, const Colour& right) {
@@ -19,7 +20,7 @@ Colour grid_colour(double x, double y, const Colour& left, const Colour& right) 
     return d < width / 2;
   };
   if (line(2, 0.15)) colour = mix(colour, {0, 0, 0}, 0.25);
-  if (line(10, 0.5)) colour = {0.08F, 0.08F, 0.10F};
+  if (line(kLineMm, 0.5)) colour = {0.08F, 0.08F, 0.10F};
   if (std::abs(x - kSideMm / 2) < 0.6 || std::abs(y - kSideMm / 2) < 0.6)
     colour = {0.80F, 0.08F, 0.08F};
   if (std::hypot(x - 15, y - 15) < 4) colour = {0.05F, 0.25F, 0.75F};  // one corner differs
@@ -31,6 +32,23 @@ Chart grid_chart(double x_mm, double y_mm, double height_mm, const Colour& left,
   return {{x_mm, y_mm}, {kSideMm, height_mm}, [=](double x, double y) {
             return grid_colour(x, y, left, right);
           }};
+}
+
+/// One side, divided where its lines cross.
+void add_side(TexturedMesh& mesh, const Eigen::Vector3d& origin, const Eigen::Vector3d& right,
+              const Eigen::Vector3d& up, std::size_t chart, const Sheet& sheet) {
+  const Eigen::Vector2d& size = sheet.charts[chart].size_mm;
+  const auto across = static_cast<int>(std::lround(size.x() / kLineMm));
+  const auto along = static_cast<int>(std::lround(size.y() / kLineMm));
+  std::vector<TexturedMesh::Corner> corners;
+  for (int j = 0; j <= along; ++j)
+    for (int i = 0; i <= across; ++i)
+      corners.push_back({mesh.add_vertex(origin + kLineMm * (i * right + j * up)),
+                         mesh.add_uv(sheet.uv(chart, {kLineMm * i, kLineMm * j}))});
+  const auto at = [&](int i, int j) { return corners[j * (across + 1) + i]; };
+  for (int j = 0; j < along; ++j)
+    for (int i = 0; i < across; ++i)
+      mesh.add_face({at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)});
 }
 
 }  // namespace
@@ -48,21 +66,18 @@ Sample make_board() {
       grid_chart(135, 5, kThickMm, leaf, leaf), grid_chart(135, 20, kThickMm, rose, rose)};
 
   Sample sample;
-  auto& mesh = sample.mesh;
-  for (int i = 0; i < 8; ++i)
-    mesh.add_vertex({((i & 1) != 0 ? 0.5 : -0.5) * kSideMm, ((i & 2) != 0 ? 0.5 : -0.5) * kSideMm,
-                     (i & 4) != 0 ? kThickMm : 0});
-  // Top, bottom (which is dipped first), then the sides; each from its lower left corner outside.
-  const std::array<std::array<int, 4>, 6> quads = {
-      {{4, 5, 7, 6}, {1, 0, 2, 3}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}};
-  for (std::size_t q = 0; q < quads.size(); ++q) {
-    const auto& size = sheet.charts[q].size_mm;
-    const std::array<Eigen::Vector2d, 4> places = {
-        {{0, 0}, {size.x(), 0}, {size.x(), size.y()}, {0, size.y()}}};
-    std::vector<TexturedMesh::Corner> corners;
-    for (std::size_t k = 0; k < 4; ++k)
-      corners.push_back({quads[q][k], mesh.add_uv(sheet.uv(q, places[k]))});
-    mesh.add_face(std::move(corners));
+  const auto corner = [](int i) {
+    return Eigen::Vector3d(((i & 1) != 0 ? 0.5 : -0.5) * kSideMm,
+                           ((i & 2) != 0 ? 0.5 : -0.5) * kSideMm, (i & 4) != 0 ? kThickMm : 0);
+  };
+  // Top, bottom (which is dipped first), then the sides: each from its lower left corner outside,
+  // and the next two the other way round.
+  const std::array<std::array<int, 3>, 6> sides = {
+      {{4, 5, 6}, {1, 0, 3}, {0, 1, 4}, {1, 3, 5}, {3, 2, 7}, {2, 0, 6}}};
+  for (std::size_t q = 0; q < sides.size(); ++q) {
+    const Eigen::Vector3d origin = corner(sides[q][0]);
+    add_side(sample.mesh, origin, (corner(sides[q][1]) - origin).normalized(),
+             (corner(sides[q][2]) - origin).normalized(), q, sheet);
   }
   sample.texture = sheet.draw();
   sample.px_per_mm = sheet.px_per_mm;

@@ -23,7 +23,9 @@ constexpr std::array kMakers = {
     Maker{"sphere80", "a sphere of radius 80 mm with a chessboard of 15 degrees", make_sphere80},
     Maker{"board", "a board of 120 x 120 x 10 mm with grid lines each 10 and 2 mm", make_board},
     Maker{"ubend", "a U-shaped tube with a chessboard, its two feet dipped first", make_ubend},
-    Maker{"mug", "a mug with handle and cavity and a picture wrapped round it", make_mug}};
+    Maker{"mug", "a mug with handle and cavity and a picture wrapped round it", make_mug},
+    Maker{"bowl", "a deep bowl with a chessboard, whose inside no film can line (Fig. 17)",
+          make_bowl}};
 
 std::span<const unsigned char> bytes_of(const std::string& text) {
   return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
@@ -42,6 +44,16 @@ Status write(const Sample& sample, const std::string& name, const std::filesyste
   return image::write_artifact(folder / (name + ".obj"), bytes_of(sample.mesh.to_obj(name)));
 }
 
+Result<Sample> make(const std::string& kind) {
+  std::string known;
+  for (const auto& maker : kMakers) {
+    if (kind == maker.name) return maker.make();
+    known.append(known.empty() ? "" : ", ").append(maker.name);
+  }
+  return fail(Code::kInvalidArgument,
+              "there is no sample \"" + kind + "\"; choose one of " + known);
+}
+
 }  // namespace
 
 std::vector<SampleKind> kinds() {
@@ -51,13 +63,22 @@ std::vector<SampleKind> kinds() {
 }
 
 Status write_sample(const std::string& kind, const std::filesystem::path& folder) {
-  std::string known;
-  for (const auto& maker : kMakers) {
-    if (kind == maker.name) return write(maker.make(), kind, folder);
-    known.append(known.empty() ? "" : ", ").append(maker.name);
-  }
-  return fail(Code::kInvalidArgument,
-              "there is no sample \"" + kind + "\"; choose one of " + known);
+  HP_ASSIGN_OR_RETURN(const Sample sample, make(kind));
+  return write(sample, kind, folder);
+}
+
+Result<mesh::Model> make_model(const std::string& kind) {
+  HP_ASSIGN_OR_RETURN(const Sample sample, make(kind));
+  mesh::Model model = sample.mesh.to_model();
+  model.path = kind;
+  mesh::Material material;
+  material.name = kind;
+  material.has_colour = true;
+  HP_ASSIGN_OR_RETURN(material.texture_bytes,
+                      image::encode_png(sample.texture, 25.4 * sample.px_per_mm));
+  model.materials = {std::move(material)};
+  model.triangle_material.assign(model.triangles.size(), 0);
+  return model;
 }
 
 }  // namespace hydroprint::sample

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/base/result.h"
+#include "sim/mesh/model.h"
 
 namespace hydroprint::sample {
 
@@ -16,6 +17,10 @@ struct SampleKind {
 
 /// All samples, in the order to show them in: the bodies of section 7, then a mug.
 [[nodiscard]] std::vector<SampleKind> kinds();
+
+/// A sample in memory, as reading what write_sample writes gives it but for rounding; its texture
+/// is embedded. Refuses an unknown kind (kInvalidArgument).
+[[nodiscard]] Result<mesh::Model> make_model(const std::string& kind);
 
 /// Writes KIND.obj, KIND.mtl and KIND.png into `folder`, which is made if need be; the same bytes
 /// every time. The meshes are closed 2-manifolds in mm with texture coordinates in [0, 1] that

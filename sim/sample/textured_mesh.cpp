@@ -29,6 +29,22 @@ int TexturedMesh::add_uv(const Eigen::Vector2d& uv) {
 
 void TexturedMesh::add_face(std::vector<Corner> corners) { faces_.push_back(std::move(corners)); }
 
+mesh::Model TexturedMesh::to_model() const {
+  mesh::Model model;
+  model.vertices = vertices_;
+  for (const auto& face : faces_) {
+    for (std::size_t k = 2; k < face.size(); ++k) {
+      const std::array<Corner, 3> corners = {face[0], face[k - 1], face[k]};
+      model.triangles.emplace_back(corners[0].vertex, corners[1].vertex, corners[2].vertex);
+      auto& uvs = model.corner_uvs.emplace_back();
+      for (std::size_t i = 0; i < 3; ++i) {
+        uvs[i] = uvs_[static_cast<std::size_t>(corners[i].uv)].cast<float>();
+      }
+    }
+  }
+  return model;
+}
+
 std::string TexturedMesh::to_obj(const std::string& name) const {
   std::string text = "# Hydroprint sample, in mm\nmtllib ";
   text.append(name).append(".mtl\nusemtl ").append(name).append("\n");

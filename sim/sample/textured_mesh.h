@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/image/picture.h"
+#include "sim/mesh/model.h"
 
 namespace hydroprint::sample {
 
@@ -26,6 +27,8 @@ class TexturedMesh {
   }
   /// The whole as an OBJ file that uses material `name` of `name`.mtl.
   [[nodiscard]] std::string to_obj(const std::string& name) const;
+  /// The whole as a model without material.
+  [[nodiscard]] mesh::Model to_model() const;
 
  private:
   std::vector<Eigen::Vector3d> vertices_;
@@ -45,5 +48,6 @@ struct Sample {
 [[nodiscard]] Sample make_board();
 [[nodiscard]] Sample make_ubend();
 [[nodiscard]] Sample make_mug();
+[[nodiscard]] Sample make_bowl();
 
 }  // namespace hydroprint::sample

@@ -31,7 +31,7 @@ void occupy_standard_streams() {
 
 /// Runs and turns what libraries may throw into an error.
 Result<Finished> run_guarded(const Options& options, Ending& ending, int stderr_fd) {
-  const std::string mesh = options.mesh.string();
+  const std::string mesh = options.mesh.empty() ? "validate" : options.mesh.string();
   try {
     return run(options, ending, stderr_fd);
   } catch (const std::bad_alloc&) {

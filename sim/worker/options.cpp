@@ -33,6 +33,12 @@ constexpr const char* kPredictExamples = R"(Examples:
 
 Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
 
+constexpr const char* kValidateExamples = R"(Examples:
+  hydroprint-worker validate --out validation                         # then open validation/report.html
+  hydroprint-worker validate --only accuracy,bowl --quick --out glance
+
+Exit status: 0 done, whatever the figures are; 2 bad usage, 4 the computation failed, 130 cancelled.)";
+
 /// Options as typed: what cannot stand in Options is settled in `settle`.
 struct Typed {
   Options options;
@@ -56,11 +62,33 @@ CLI::Option* add_path(CLI::App& app, const std::string& flag, std::filesystem::p
       ->type_name(type);
 }
 
-void add_common(CLI::App& app, Typed& typed) {
-  Options& o = typed.options;
-  add_path(app, "--mesh", o.mesh, "Model: OBJ, STL, PLY, glTF or GLB")->required();
+/// What every verb takes.
+void add_run(CLI::App& app, Options& o) {
   add_path(app, "--out", o.out, "Artifact folder to make; one of an earlier run is replaced", "DIR")
       ->required();
+  app.add_option("--threads", o.threads, "Threads to compute on; default: all cores");
+  app.add_flag("--json", o.json, "Summary or error as one JSON object on stdout");
+  app.add_option("--progress-fd", o.progress_fd,
+                 "File descriptor to write progress to, one JSON object a line")
+      ->type_name("N");
+}
+
+void add_validate(CLI::App& app, Options& o) {
+  add_run(app, o);
+  std::string names;
+  for (const auto& kind : validate::kinds()) names += (names.empty() ? "" : ", ") + kind.name;
+  app.add_option("--only", o.validate.only, "Experiments to run: " + names + "; default: all")
+      ->delimiter(',')
+      ->type_name("NAME[,NAME]");
+  app.add_flag("--quick", o.validate.quick,
+               "A coarse run: that everything works, not how accurate it is");
+  app.footer(kValidateExamples);
+}
+
+void add_common(CLI::App& app, Typed& typed) {
+  Options& o = typed.options;
+  add_run(app, o);
+  add_path(app, "--mesh", o.mesh, "Model: OBJ, STL, PLY, glTF or GLB")->required();
   app.add_option("--scale", o.scale, "Model units to mm")->capture_default_str();
   add_path(app, "--pose", o.pose,
            R"({"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]}; default: as in the file, )"
@@ -87,14 +115,9 @@ void add_common(CLI::App& app, Typed& typed) {
       ->type_name("D|full");
   app.add_option("--dip-speed-mm-per-s", o.dip_speed_mm_per_s, "Speed of the dip")
       ->capture_default_str();
-  app.add_option("--threads", o.threads, "Threads to compute on; default: all cores");
   app.add_option("--artifacts", typed.artifacts, "map: the map and report.json only")
       ->capture_default_str()
       ->check(CLI::IsMember({"all", "map"}));
-  app.add_flag("--json", o.json, "Summary or error as one JSON object on stdout");
-  app.add_option("--progress-fd", o.progress_fd,
-                 "File descriptor to write progress to, one JSON object a line")
-      ->type_name("N");
 }
 
 CommandLine refuse(const Options& options, ExitStatus status, Code code, std::string message) {
@@ -121,7 +144,10 @@ std::string usage_objection(const Typed& typed) {
   if (o.progress_fd != -1 && (o.progress_fd < 0 || fcntl(o.progress_fd, F_GETFD) == -1)) {
     return "--progress-fd: not an open file descriptor. Open it before";
   }
-  if (o.mesh.empty()) return "--mesh: empty. Name a file";
+  if (o.mesh.empty() && o.verb != Verb::kValidate) return "--mesh: empty. Name a file";
+  if (const Status known = validate::check(o.validate); !known) {
+    return "--only: " + known.error().message;
+  }
   if (o.out.empty()) return "--out: empty. Name a folder";
   return {};
 }
@@ -218,6 +244,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
            "FILE.csv");
   predict->footer(kPredictExamples);
 
+  CLI::App* validate = app.add_subcommand(
+      "validate", "The paper's experiments in silico, as a report with pictures");
+  add_validate(*validate, typed.options);
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForVersion&) {
@@ -233,6 +263,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
                   std::string(error.what()) + ". See --help");
   }
   typed.options.verb = predict->parsed() ? Verb::kPredict : Verb::kSimulate;
+  if (validate->parsed()) typed.options.verb = Verb::kValidate;
   return settle(typed);
 }
 

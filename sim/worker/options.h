@@ -6,10 +6,11 @@
 
 #include "sim/base/result.h"
 #include "sim/pipeline/pipeline.h"
+#include "sim/validate/validate.h"
 
 namespace hydroprint::worker {
 
-enum class Verb { kSimulate, kPredict };
+enum class Verb { kSimulate, kPredict, kValidate };
 
 /// What the command line asks for (contract, "hydroprint-worker simulate" and "predict"), checked
 /// as far as that goes without opening a file.
@@ -19,6 +20,7 @@ struct Options {
   std::filesystem::path texture;     ///< simulate; empty: the model's own colours
   std::filesystem::path film_image;  ///< predict
   std::filesystem::path motion;      ///< predict; empty: straight down
+  validate::Options validate;        ///< validate
   std::filesystem::path out;
   std::filesystem::path pose;     ///< empty: as in the file, centred
   std::filesystem::path profile;  ///< empty: the defaults of film::Profile

@@ -21,9 +21,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> kArtifacts = {
-    "film.png",      "film_map.exr", "landed.ply",  "landed.png",
-    "predicted.png", "report.json",  "stretch.png", "surface_map.ply"};
+constexpr std::array<std::string_view, 9> kArtifacts = {
+    "film.png",    "film_map.exr", "landed.ply",  "landed.png",     "predicted.png",
+    "report.html", "report.json",  "stretch.png", "surface_map.ply"};
+
+/// Whether a run may leave a file of that name.
+bool is_artifact_name(std::string_view name) {
+  // The pictures of `validate` are many.
+  return std::find(kArtifacts.begin(), kArtifacts.end(), name) != kArtifacts.end() ||
+         (name.starts_with("validate-") && name.ends_with(".png"));
+}
 
 constexpr std::string_view kPartial = ".partial-";
 constexpr std::size_t kSuffixLength = 6;
@@ -43,7 +50,7 @@ Status check_replaceable(const fs::path& dir) {
     const std::string name = entry->path().filename().string();
     empty = false;
     has_report = has_report || name == "report.json";
-    if (std::find(kArtifacts.begin(), kArtifacts.end(), name) == kArtifacts.end()) stranger = name;
+    if (!is_artifact_name(name)) stranger = name;
   }
   if (error) {
     return fail(Code::kPermissionDenied,
@@ -94,8 +101,7 @@ void remove_quietly(const fs::path& folder) {
 }
 
 bool is_artifact(const std::string& name) {
-  return std::find(kArtifacts.begin(), kArtifacts.end(), name.substr(0, name.find(".part-"))) !=
-         kArtifacts.end();
+  return is_artifact_name(name.substr(0, name.find(".part-")));
 }
 
 /// Opens a folder and takes its lock; else -1, errno being ENOENT if it is gone and EWOULDBLOCK if

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "sim/worker/validate_json.h"
+
 namespace hydroprint::worker {
 namespace {
 
@@ -114,11 +116,35 @@ std::string dump(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-const char* verb_name(Verb verb) { return verb == Verb::kPredict ? "predict" : "simulate"; }
+const char* verb_name(Verb verb) {
+  switch (verb) {
+    case Verb::kSimulate:
+      return "simulate";
+    case Verb::kPredict:
+      return "predict";
+    case Verb::kValidate:
+      return "validate";
+  }
+  return "";
+}
 
 }  // namespace
 
 std::string report_json(const Report& report) {
+  if (report.validation) {
+    return dump({{"program", "hydroprint-worker"},
+                 {"version", HYDROPRINT_VERSION},
+                 {"verb", verb_name(report.options.verb)},
+                 {"parameters", validation_parameters_json(report.options)},
+                 {"passed", report.validation->passed},
+                 {"failed", report.validation->failed},
+                 {"experiments", experiments_json(*report.validation)},
+                 {"stage_seconds", seconds_json(report.stage_seconds)},
+                 {"total_seconds", report.total_s},
+                 {"peak_memory_bytes", peak_memory_bytes()},
+                 {"artifacts", report.artifacts}},
+                2);
+  }
   const pipeline::DipFigures& f = report.figures;
   return dump({{"program", "hydroprint-worker"},
                {"version", HYDROPRINT_VERSION},
@@ -151,6 +177,14 @@ std::string report_json(const Report& report) {
 }
 
 std::string summary_json(const Report& report, const std::filesystem::path& dir) {
+  if (report.validation) {
+    return dump({{"out", dir.string()},
+                 {"artifacts", report.artifacts},
+                 {"passed", report.validation->passed},
+                 {"failed", report.validation->failed},
+                 {"seconds", report.total_s}},
+                -1);
+  }
   return dump({{"out", dir.string()},
                {"artifacts", report.artifacts},
                {"coverage", report.figures.coverage},
@@ -162,6 +196,7 @@ std::string summary_json(const Report& report, const std::filesystem::path& dir)
 }
 
 std::string summary_text(const Report& report, const std::filesystem::path& dir) {
+  if (report.validation) return validation_text(*report.validation, dir);
   std::string files;
   for (const std::string& name : report.artifacts) files += name + " ";
   std::array<char, 200> figures;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "sim/film/outline.h"
 #include "sim/film/profile.h"
 #include "sim/pipeline/pipeline.h"
+#include "sim/validate/validate.h"
 #include "sim/worker/options.h"
 
 namespace hydroprint::worker {
@@ -35,6 +37,7 @@ struct Report {
   std::size_t surface_points = 0, surface_triangles = 0;
   bool closed = false;
   pipeline::DipFigures figures;
+  std::optional<validate::Report> validation;  ///< of `validate`, which has none of the above
   std::vector<std::pair<std::string, double>> stage_seconds;
   double total_s = 0;
   Warnings warnings;

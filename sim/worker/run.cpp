@@ -21,6 +21,7 @@
 #include "sim/worker/progress.h"
 #include "sim/worker/progress_sinks.h"
 #include "sim/worker/report.h"
+#include "sim/worker/validate.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -30,6 +31,7 @@ namespace fs = std::filesystem;
 // Rough shares of the whole, for a time left that is believable; how they are in truth depends on
 // the job.
 std::vector<Stage> stages(const Options& options) {
+  if (options.verb == Verb::kValidate) return validation_stages(options);
   std::vector<Stage> out = {{"inputs", 1},    {"reading", 3},   {"surface", 2},
                             {"waterline", 8}, {"velocity", 25}, {"flow map", 25}};
   if (!options.map_only) {
@@ -166,6 +168,20 @@ Status run_predict(const Options& o, pipeline::DipOptions dip, OutFolder& folder
   return {};
 }
 
+/// Does what the verb says.
+Status run_verb(const Options& o, pipeline::DipOptions dip, OutFolder& folder, Report& report,
+                const Context& context) {
+  switch (o.verb) {
+    case Verb::kSimulate:
+      return run_simulate(o, std::move(dip), folder, report, context);
+    case Verb::kPredict:
+      return run_predict(o, std::move(dip), folder, report, context);
+    case Verb::kValidate:
+      return run_validate(o, folder, report, context);
+  }
+  return fail(Code::kInternal, "no such verb");
+}
+
 /// Where progress goes: a pipe, a terminal, both or nowhere.
 class ProgressSink {
  public:
@@ -186,9 +202,7 @@ Status compute(const Options& o, OutFolder& folder, Report& report, Progress& pr
   pipeline::DipOptions dip;
   HP_ASSIGN_OR_RETURN(report, read_parameters(o, dip, context));
   HP_RETURN_IF_ERROR(check_cancelled(context));
-  HP_RETURN_IF_ERROR(o.verb == Verb::kPredict
-                         ? run_predict(o, std::move(dip), folder, report, context)
-                         : run_simulate(o, std::move(dip), folder, report, context));
+  HP_RETURN_IF_ERROR(run_verb(o, std::move(dip), folder, report, context));
   report.stage_seconds = progress.stage_seconds();
   report.total_s = progress.total_s();
   const std::string text = report_json(report);

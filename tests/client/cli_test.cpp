@@ -146,6 +146,19 @@ TEST_F(Cli, PredictTakesTheFilmImageAndTheMotion) {
   EXPECT_EQ(job.at("predict").at("motion").at("name"), "film.csv");
 }
 
+TEST_F(Cli, ValidateNeedsNoFiles) {
+  start();
+  const json job = client_json({"submit", "validate", "--only", "repeatability,bowl", "--quick",
+                                "--threads", "2", "--out", out().string()});
+  EXPECT_EQ(job.at("state"), "SUCCEEDED");
+  EXPECT_EQ(job.at("validate"),
+            (json{{"only", {"repeatability", "bowl"}}, {"quick", true}, {"threads", 2}}));
+  EXPECT_FALSE(job.contains("mesh"));
+  const std::string flags = content_of(out() / "report.json");
+  EXPECT_NE(flags.find("validate\n"), std::string::npos) << flags;
+  EXPECT_NE(flags.find("--only=repeatability,bowl\n--quick\n"), std::string::npos) << flags;
+}
+
 TEST_F(Cli, FilesOfOneNameAreKeptApartInAJob) {
   start();
   std::filesystem::create_directory(folder_.path() / "other");

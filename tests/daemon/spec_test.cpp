@@ -92,6 +92,37 @@ TEST(Spec, PredictHasItsOwnFiles) {
                                                         "--motion=path.csv"}));
 }
 
+TEST(Spec, ValidateNeedsNoFiles) {
+  v1::Job job;
+  auto& spec = *job.mutable_validate();
+  auto made = check_job(job);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->work.verb, "validate");
+  EXPECT_TRUE(made->work.flags.empty());
+  EXPECT_TRUE(made->work.inputs.empty());
+  EXPECT_EQ(made->display_name, "validate");
+
+  spec.add_only("accuracy");
+  spec.add_only("cat-bowl");
+  spec.set_quick(true);
+  spec.set_threads(3);
+  made = check_job(job);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->work.flags, (std::vector<std::string>{"--only=accuracy,cat-bowl", "--quick"}));
+  EXPECT_EQ(made->threads, 3);
+
+  for (const char* bad : {"", "a,b", "--out=x", "Accuracy", "a b"}) {
+    spec.set_only(0, bad);
+    EXPECT_EQ(refused_field(job), "validate.only") << bad;
+  }
+  spec.set_only(0, "accuracy");
+  for (int i = 0; i < 40; ++i) spec.add_only("more");
+  EXPECT_EQ(refused_field(job), "validate.only");
+  spec.clear_only();
+  spec.set_threads(0);
+  EXPECT_EQ(refused_field(job), "validate.threads");
+}
+
 TEST(Spec, ResolutionIsWhatTheWorkerTakes) {
   for (const double dpi : {20.0, 2400.0, 19.9, 2400.1}) {
     v1::Job job = job_with_mesh();

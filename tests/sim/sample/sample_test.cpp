@@ -6,7 +6,9 @@
 #include <Eigen/Geometry>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
+#include <tuple>
 
 #include "sim/mesh/make_surface.h"
 #include "sim/mesh/read_model.h"
@@ -99,7 +101,8 @@ INSTANTIATE_TEST_SUITE_P(All, EverySample, testing::ValuesIn(names()),
                          [](const auto& test) { return test.param; });
 
 TEST(Sample, SizesAreThePapersOwn) {
-  EXPECT_EQ(names(), (std::vector<std::string>{"globe", "sphere80", "board", "ubend", "mug"}));
+  EXPECT_EQ(names(),
+            (std::vector<std::string>{"globe", "sphere80", "board", "ubend", "mug", "bowl"}));
   const auto folder = std::filesystem::temp_directory_path() / "hydroprint-test-sizes";
   const auto read = [&](const std::string& name) {
     EXPECT_TRUE(write_sample(name, folder));
@@ -131,11 +134,52 @@ TEST(Sample, TheGlobesMapRunsEastFromTheAntimeridian) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Sample, TheBoardsLinesCrossAtVertices) {
+  const auto board = make_model("board");
+  ASSERT_TRUE(board);
+  std::set<std::tuple<int, int, int>> places;
+  for (const auto& v : board->vertices) {
+    const Eigen::Vector3d tens = v / 10;
+    EXPECT_LT((tens - tens.array().round().matrix()).norm(), 1e-12);
+    places.insert({static_cast<int>(std::lround(tens.x())), static_cast<int>(std::lround(tens.y())),
+                   static_cast<int>(std::lround(tens.z()))});
+  }
+  EXPECT_EQ(places.size(), 2U * 13 * 13);
+}
+
+TEST(Sample, IsTheSameInMemoryAsInItsFiles) {
+  const auto folder = std::filesystem::temp_directory_path() / "hydroprint-test-memory";
+  for (const auto& kind : kinds()) {
+    ASSERT_TRUE(write_sample(kind.name, folder));
+    const auto read = *mesh::read_model(folder / (kind.name + ".obj"), 1, {});
+    const auto made = make_model(kind.name);
+    ASSERT_TRUE(made);
+    ASSERT_EQ(made->vertices.size(), read.vertices.size()) << kind.name;
+    for (std::size_t v = 0; v < read.vertices.size(); ++v) {
+      ASSERT_LT((made->vertices[v] - read.vertices[v]).norm(), 1e-5) << kind.name;
+    }
+    ASSERT_EQ(made->triangles, read.triangles) << kind.name;
+    ASSERT_EQ(made->corner_uvs.size(), read.corner_uvs.size());
+    for (std::size_t t = 0; t < read.corner_uvs.size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_LT((made->corner_uvs[t][k] - read.corner_uvs[t][k]).norm(), 1e-6F) << kind.name;
+      }
+    }
+    const std::string png = content(folder / (kind.name + ".png"));
+    EXPECT_EQ(std::string(made->materials[0].texture_bytes.begin(),
+                          made->materials[0].texture_bytes.end()),
+              png);
+  }
+  std::filesystem::remove_all(folder);
+  EXPECT_FALSE(make_model("teapot"));
+}
+
 TEST(Sample, UnknownKindsAreRefusedWithTheKnownOnes) {
   const auto written = write_sample("teapot", "/tmp");
   ASSERT_FALSE(written);
   EXPECT_EQ(written.error().code, Code::kInvalidArgument);
-  EXPECT_NE(written.error().message.find("globe, sphere80, board, ubend, mug"), std::string::npos);
+  EXPECT_NE(written.error().message.find("globe, sphere80, board, ubend, mug, bowl"),
+            std::string::npos);
 }
 
 TEST(Sample, FoldersThatCannotBeMadeAreRefused) {

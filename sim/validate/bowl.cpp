@@ -1,0 +1,124 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "sim/image/pictures.h"
+#include "sim/validate/experiments.h"
+#include "sim/validate/measure.h"
+#include "sim/validate/printable.h"
+#include "sim/validate/regions.h"
+
+namespace hydroprint::validate {
+namespace {
+
+using Eigen::Vector3d;
+
+/// How much the film is stretched, in every direction, that lines the floor of a bowl dipped mouth
+/// down. Inside the ring where film has landed, eqs. (1) and (2) make the film grow evenly, at the
+/// rate tan(theta / 2) v / a in a ring of radius a; with v dt = sin(theta) ds along the wall the
+/// growth is exp(integral of (1 - cos theta) / a ds), from the rim to the floor.
+double exact_floor_stretch(const mesh::Model& model) {
+  // The sample's outline, in order: the vertices at y = 0 on the +x side.
+  std::vector<Vector3d> outline;
+  for (const Vector3d& p : model.vertices) {
+    if (p.y() == 0 && p.x() >= 0) outline.push_back(p);
+  }
+  std::size_t i = static_cast<std::size_t>(
+      std::max_element(outline.begin(), outline.end(),
+                       [](const Vector3d& a, const Vector3d& b) { return a.z() < b.z(); }) -
+      outline.begin());
+  double growth = 0;
+  for (; i + 1 < outline.size(); ++i) {
+    const double ds = (outline[i + 1] - outline[i]).norm();
+    const double dr = outline[i].x() - outline[i + 1].x();
+    const double rise = outline[i].z() - outline[i + 1].z();
+    if (rise < 1e-9) break;  // the floor
+    const double middle = 0.5 * (outline[i].x() + outline[i + 1].x());
+    growth += (1 - dr / ds) / middle * ds;
+  }
+  return std::exp(growth);
+}
+
+std::string list_of(const Warnings& warnings) {
+  std::string out;
+  for (const Warning& w : warnings) out += (out.empty() ? "" : "; ") + w.code + ": " + w.message;
+  return out.empty() ? "none" : out;
+}
+
+bool warns(const pipeline::Dip& dip, const std::string& code) {
+  return std::any_of(dip.warnings.begin(), dip.warnings.end(),
+                     [&](const Warning& w) { return w.code == code; });
+}
+
+}  // namespace
+
+Status bowl(Laboratory& lab, Experiment& out, const Context& context) {
+  out.text = {
+      "The paper's failure: the inside of a deep bowl. Mouth down, the rim takes hold of a disc of "
+      "film that must line the whole wall before it comes to the floor; what is left by then is "
+      "stretched beyond what film bears. Standing upright, water and film do not come in at all. "
+      "The software must say so by itself, without a look at the picture.",
+      "Verdict by the rule of the stretch maps: " + std::string(kPrintableRule),
+      "That air trapped under the bowl would keep the water out as well is not computed."};
+  Steps steps(context, out.name, 3);
+  Table table{"The inside of the bowl, and its floor",
+              {"dipped", "film reaches of the inside", "torn, of the inside", "torn, of the floor",
+               "median stretch on the floor", "verdict on the floor", "warnings"},
+              {}};
+  struct Way {
+    std::string body, people, warning;
+  };
+  for (const Way& way : {Way{"bowl", "mouth down", "film_torn"},
+                         Way{"bowl-upright", "upright", "parts_not_reached"}}) {
+    const Context next = steps.next();
+    HP_ASSIGN_OR_RETURN(const Plan* plan, lab.plan(way.body, next));
+    const pipeline::Dip& dip = plan->dip;
+    const Verdict inside = judge(dip, is_bowl_inside);
+    const Verdict verdict = judge(dip, is_bowl_floor);
+    const double floor =
+        summarise(values_where(dip.surface, dip.map.surface.stretch, is_bowl_floor)).p50;
+    table.rows.push_back({way.people, percent(inside.reached), percent(inside.torn),
+                          percent(verdict.torn), text_of(floor, 2), verdict.text(),
+                          list_of(dip.warnings)});
+    const std::string key = way.body == "bowl" ? "mouth_down" : "upright";
+    out.figures.push_back({key + "_recognised",
+                           way.people +
+                               ": 1 if the verdict on the floor is that it cannot be "
+                               "printed and the warning " +
+                               way.warning + " is given",
+                           "", verdict.good() < 0.5 && warns(dip, way.warning) ? 1.0 : 0.0,
+                           Limit{1, 1, "Fig. 17: it cannot"}});
+    HP_RETURN_IF_ERROR(lab.show(
+        out, key + "-stretch", image::stretch_picture(dip.surface, dip.X_FO, dip.map, next),
+        "Stretch on the bowl, dipped " + way.people + "; hatched: no film."));
+    if (way.body != "bowl") continue;
+    HP_RETURN_IF_ERROR(
+        lab.show(out, key + "-film", plan->film,
+                 "The film image it would take: the floor's part has shrunk to a dot."));
+    HP_ASSIGN_OR_RETURN(const auto film, lab.texture(plan->film, next));
+    HP_RETURN_IF_ERROR(
+        lab.show(out, key + "-landed",
+                 image::predicted_picture(dip.surface, dip.X_FO, dip.map.tiles, film, next),
+                 "The bowl if the film held: what a film image can give at best."));
+  }
+  out.tables.push_back(std::move(table));
+
+  const Context last = steps.next();
+  HP_ASSIGN_OR_RETURN(const Body* body, lab.body("bowl", last));
+  pipeline::DipOptions options = lab.options(*body, Fineness::kUsual);
+  options.map.make_tiles = false;
+  HP_ASSIGN_OR_RETURN(const pipeline::Dip even, pipeline::dip(body->model, options, last));
+  const double floor =
+      summarise(values_where(even.surface, even.map.surface.stretch, is_bowl_floor)).p50;
+  const double exact = exact_floor_stretch(body->model);
+  out.figures.push_back({"floor_stretch", "median stretch on the floor, film without ink", "",
+                         floor, Limit{3, 1e300, "film tears at three times its length"}});
+  out.figures.push_back(
+      {"floor_stretch_to_exact", "the same over the exact solution for the bowl's outline", "",
+       floor / exact,
+       Limit{0.95, 1.05, "inside a ring the film grows evenly, as a formula has it"}});
+  return {};
+}
+
+}  // namespace hydroprint::validate

@@ -1,0 +1,89 @@
+#include <string>
+#include <vector>
+
+#include "sim/image/pictures.h"
+#include "sim/sample/painting.h"
+#include "sim/validate/experiments.h"
+#include "sim/validate/measure.h"
+#include "sim/validate/regions.h"
+
+namespace hydroprint::validate {
+namespace {
+
+constexpr double kBendFrom_mm = 72;  ///< height at which the U-shape's legs begin to bend
+
+image::RgbImage chessboard() {
+  return sample::draw(840, 1188, 0.25, 2, [](double x, double y) -> sample::Colour {
+    constexpr double kSquare_mm = 5;
+    if (sample::is_dark_square(x - 105, y - 148.5, kSquare_mm)) {
+      return x < 105 ? sample::Colour(0.09F, 0.25F, 0.53F) : sample::Colour(0.62F, 0.14F, 0.16F);
+    }
+    return {0.97F, 0.96F, 0.92F};
+  });
+}
+
+}  // namespace
+
+Status models(Laboratory& lab, Experiment& out, const Context& context) {
+  out.text = {
+      "A U-shaped tube goes in with its two feet first and its bend last. The film between the "
+      "legs "
+      "is drawn out all the way and then lands on the bend, where the paper finds that the viscous "
+      "sheet foretells a distortion that Stokes flow does not. Both are computed here at the usual "
+      "settings, for a film with a chessboard of 5 mm that is as thick everywhere.",
+      "The map shows by how much the two differ on the film: how far from one another they put the "
+      "colour for the same place on the object. There is no photograph to say which is right; what "
+      "can be judged is where they must differ most."};
+  Steps steps(context, out.name, 2);
+  HP_ASSIGN_OR_RETURN(const Body* body, lab.body("ubend", context));
+  pipeline::DipOptions options = lab.options(*body, Fineness::kUsual);
+  const Context first = steps.next();
+  HP_ASSIGN_OR_RETURN(const pipeline::Dip sheet, pipeline::dip(body->model, options, first));
+  options.film_model = pipeline::FilmModel::kStokes;
+  const Context second = steps.next();
+  HP_ASSIGN_OR_RETURN(const pipeline::Dip stokes, pipeline::dip(body->model, options, second));
+
+  const std::vector<double> differences = film_differences(sheet, stokes);
+  const Region legs = [](const Eigen::Vector3d& p) { return p.z() < kBendFrom_mm; };
+  const Region bend = [](const Eigen::Vector3d& p) { return p.z() >= kBendFrom_mm; };
+  Table table{"Difference on the film, and stretch",
+              {"region", "mean, mm", "95 %, mm", "largest, mm", "stretch of 95 %, Stokes",
+               "stretch of 95 %, sheet"},
+              {}};
+  for (const NamedRegion& named : {NamedRegion{"legs", legs}, NamedRegion{"bend", bend}}) {
+    const auto of = [&](const std::vector<double>& values) {
+      return summarise(values_where(sheet.surface, values, named.region));
+    };
+    const Summary s = of(differences);
+    table.rows.push_back({named.name, text_of(s.mean, 2), text_of(s.p95, 2), text_of(s.max, 2),
+                          text_of(of(stokes.map.surface.stretch).p95, 2),
+                          text_of(of(sheet.map.surface.stretch).p95, 2)});
+    out.figures.push_back({named.name + "_difference_mean_mm",
+                           named.name + ": mean difference on the film", "mm", s.mean,
+                           std::nullopt});
+  }
+  out.tables.push_back(std::move(table));
+  out.figures.push_back(
+      {"bend_to_legs_ratio", "mean difference on the bend over that on the legs", "",
+       out.figures[1].value / out.figures[0].value,
+       Limit{1, 1e300,
+             "as in Fig. 13, the bend is where the models part: the film's thickness has "
+             "had the whole dip to become uneven"}});
+
+  HP_ASSIGN_OR_RETURN(const auto film, lab.texture(chessboard(), second));
+  HP_RETURN_IF_ERROR(lab.show(
+      out, "stokes",
+      image::predicted_picture(stokes.surface, stokes.X_FO, stokes.map.tiles, film, second),
+      "The chessboard as Stokes flow lands it (Fig. 13 b)."));
+  HP_RETURN_IF_ERROR(
+      lab.show(out, "sheet",
+               image::predicted_picture(sheet.surface, sheet.X_FO, sheet.map.tiles, film, second),
+               "The same as the viscous sheet lands it (Fig. 13 c)."));
+  return lab.show(
+      out, "difference",
+      image::quantity_picture(sheet.surface, sheet.X_FO, sheet.map.tiles,
+                              quantity_of("on film mm", sheet.surface, differences), second),
+      "How far apart on the film the two models put the colour for the same place.");
+}
+
+}  // namespace hydroprint::validate
