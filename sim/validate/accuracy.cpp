@@ -194,8 +194,9 @@ Status accuracy(Laboratory& lab, Experiment& out, const Context& context) {
       "film that is dipped is not quite as thick as it was thought to be.",
       "That the fine computation deserves its part is tested where the answer is known exactly: a "
       "sphere in the middle of a circular film, as Stokes flow (the sheet's answer is the same "
-      "there). Errors shrink about with the square of the lengths, so that the fine computation "
-      "has itself about a third of the usual one's error."};
+      "there). What is left there at the fine settings is mostly due to the triangles that stand "
+      "for "
+      "the sphere."};
   Steps steps(context, out.name, 6);
   HP_RETURN_IF_ERROR(board(lab, out, steps));
   HP_RETURN_IF_ERROR(sphere(lab, out, steps));
