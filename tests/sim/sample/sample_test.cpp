@@ -149,23 +149,23 @@ TEST(Sample, TheBoardsLinesCrossAtVertices) {
 
 TEST(Sample, IsTheSameInMemoryAsInItsFiles) {
   const auto folder = std::filesystem::temp_directory_path() / "hydroprint-test-memory";
-  for (const auto& kind : kinds()) {
-    ASSERT_TRUE(write_sample(kind.name, folder));
-    const auto read = *mesh::read_model(folder / (kind.name + ".obj"), 1, {});
-    const auto made = make_model(kind.name);
+  for (const std::string kind : {"board", "bowl"}) {
+    ASSERT_TRUE(write_sample(kind, folder));
+    const auto read = *mesh::read_model(folder / (kind + ".obj"), 1, {});
+    const auto made = make_model(kind);
     ASSERT_TRUE(made);
-    ASSERT_EQ(made->vertices.size(), read.vertices.size()) << kind.name;
+    ASSERT_EQ(made->vertices.size(), read.vertices.size()) << kind;
     for (std::size_t v = 0; v < read.vertices.size(); ++v) {
-      ASSERT_LT((made->vertices[v] - read.vertices[v]).norm(), 1e-5) << kind.name;
+      ASSERT_LT((made->vertices[v] - read.vertices[v]).norm(), 1e-5) << kind;
     }
-    ASSERT_EQ(made->triangles, read.triangles) << kind.name;
+    ASSERT_EQ(made->triangles, read.triangles) << kind;
     ASSERT_EQ(made->corner_uvs.size(), read.corner_uvs.size());
     for (std::size_t t = 0; t < read.corner_uvs.size(); ++t) {
       for (int k = 0; k < 3; ++k) {
-        ASSERT_LT((made->corner_uvs[t][k] - read.corner_uvs[t][k]).norm(), 1e-6F) << kind.name;
+        ASSERT_LT((made->corner_uvs[t][k] - read.corner_uvs[t][k]).norm(), 1e-6F) << kind;
       }
     }
-    const std::string png = content(folder / (kind.name + ".png"));
+    const std::string png = content(folder / (kind + ".png"));
     EXPECT_EQ(std::string(made->materials[0].texture_bytes.begin(),
                           made->materials[0].texture_bytes.end()),
               png);

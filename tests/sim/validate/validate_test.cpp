@@ -58,7 +58,8 @@ class QuickReport : public ::testing::Test {
   static fs::path out() { return folder_->path() / "out"; }
   static json report() { return json::parse(content(out() / "report.json")); }
   static double value(const std::string& name) {
-    for (const json& experiment : report().at("experiments")) {
+    const json all = report();  // which the loop must not outlive
+    for (const json& experiment : all.at("experiments")) {
       for (const json& figure : experiment.at("figures")) {
         if (figure.at("name") == name) return figure.at("value");
       }
@@ -140,7 +141,8 @@ TEST_F(QuickReport, PageIsWellFormedAndItsLinksLeadSomewhere) {
     EXPECT_TRUE(link.starts_with("#") ? ids.contains(link.substr(1)) : fs::exists(out() / link))
         << link;
   }
-  for (const json& experiment : report().at("experiments")) {
+  const json all = report();  // which the loop must not outlive
+  for (const json& experiment : all.at("experiments")) {
     EXPECT_NE(page.find("<h2>" + experiment.at("title").get<std::string>() + "</h2>"),
               std::string::npos);
   }
@@ -148,7 +150,8 @@ TEST_F(QuickReport, PageIsWellFormedAndItsLinksLeadSomewhere) {
 
 TEST_F(QuickReport, CountsWhatPassed) {
   int passed = 0, failed = 0;
-  for (const json& experiment : report().at("experiments")) {
+  const json all = report();  // which the loop must not outlive
+  for (const json& experiment : all.at("experiments")) {
     for (const json& figure : experiment.at("figures")) {
       if (!figure.contains("limit")) continue;
       const double x = figure.at("value");
