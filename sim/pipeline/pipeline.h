@@ -33,6 +33,8 @@ struct DipOptions {
   std::optional<double> depth_mm;  ///< immersion at the end of the dip; none: full
   double dip_speed_mm_per_s = 5;
   FilmModel film_model = FilmModel::kSheet;
+  /// The sheet moves with inertia, as in Algorithm 1, not quasistatically: slower, the same answer.
+  bool inertia = false;
   ink::InkField ink;         ///< printed on the film; for the sheet alone
   waterline::Motion motion;  ///< sideways path as driven; empty: straight down
   // How finely: the defaults are both fast and accurate (tests/bench).

@@ -4,6 +4,7 @@
 
 #include "sim/flow/flow_map.h"
 #include "sim/mesh/make_surface.h"
+#include "sim/sheet/inertial_flow.h"
 #include "sim/sheet/sheet_flow.h"
 #include "sim/velocity/film_mesh.h"
 #include "sim/velocity/velocity.h"
@@ -74,10 +75,19 @@ Result<flow::DipField> sheet_field(const flow::DipField& first, const ink::InkFi
     return film::rest_thickness_mm(
         profile, ink.mean(printed(rest_mm[0]), printed(rest_mm[1]), printed(rest_mm[2])));
   };
-  sheet::SheetOptions sheet = options.sheet;
-  if (profile.drag_length_mm > 0) {
-    sheet.drag_per_mm = profile.thickness_mm / (profile.drag_length_mm * profile.drag_length_mm);
+  const double drag_per_mm =
+      profile.drag_length_mm > 0
+          ? profile.thickness_mm / (profile.drag_length_mm * profile.drag_length_mm)
+          : 0;
+  if (options.inertia) {
+    const sheet::InertialOptions inertial = {{profile.young_modulus_mpa, profile.poisson_ratio},
+                                             profile.density_kg_per_m3,
+                                             options.dip_speed_mm_per_s,
+                                             drag_per_mm};
+    return sheet::inertial_flow(first, rest_thickness, inertial, context);
   }
+  sheet::SheetOptions sheet = options.sheet;
+  sheet.drag_per_mm = drag_per_mm;
   HP_ASSIGN_OR_RETURN(sheet::SheetFlow flow,
                       sheet::sheet_flow(first, rest_thickness, sheet, context));
   return std::move(flow.field);

@@ -1,46 +1,17 @@
 #include "sim/sheet/sheet_flow.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "sim/sheet/dip_parts.h"
 #include "sim/velocity/sheet.h"
 
 namespace hydroprint::sheet {
 namespace {
 
-using Eigen::Vector2d;
 using velocity::VelocityField;
-
-/// The velocities at the film's edges, NaN at all other nodes.
-std::vector<Vector2d> prescribed(const VelocityField& field) {
-  const velocity::FilmMesh& mesh = field.mesh();
-  std::vector<Vector2d> fixed(mesh.node_count(),
-                              Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
-  const auto copy = [&](std::size_t node) { fixed[node] = field.nodes()[node]; };
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    if (mesh.edge_kind[e] == velocity::EdgeKind::kInner) continue;
-    copy(mesh.vertices_mm.size() + e);
-    for (const int v : mesh.edges[e]) copy(v);
-  }
-  return fixed;
-}
-
-/// Length of dip that a waterline stands for.
-double span_mm(const flow::DipField& dip, std::size_t k) {
-  const double before = k > 0 ? dip.immersion_mm[k - 1] : 0;
-  const double after = k + 1 < dip.immersion_mm.size() ? dip.immersion_mm[k + 1] : dip.depth_mm;
-  return 0.5 * (after - before);
-}
-
-double rms_change(const std::vector<Vector2d>& a, const std::vector<Vector2d>& b) {
-  double sum = 0;
-  for (std::size_t n = 0; n < a.size(); ++n) sum += (a[n] - b[n]).squaredNorm();
-  return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(a.size(), 1)));
-}
 
 /// So many waterlines are solved together: few, so that each window starts from what is known for
 /// certain; enough to keep the cores busy. Not a matter of how many cores there are, or the results
@@ -64,7 +35,8 @@ Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
     HP_RETURN_IF_ERROR(parallel_for(context, {}, count, [&](std::size_t i) -> Status {
       const std::size_t k = first + i;
       const VelocityField& before = flow.field.fields[k];
-      if (!sheets[i]) sheets[i].emplace(before.mesh(), options.drag_per_mm, prescribed(before));
+      if (!sheets[i])
+        sheets[i].emplace(before.mesh(), options.drag_per_mm, velocities_at_edges(before));
       HP_ASSIGN_OR_RETURN(auto nodes,
                           sheets[i]->solve(thickness_mm(flow.field, k, rest_thickness, known)));
       moves_mm[i] = span_mm(flow.field, k) * rms_change(nodes, before.nodes());

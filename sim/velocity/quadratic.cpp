@@ -27,6 +27,51 @@ double twice_area_mm2(const FilmMesh& mesh, std::size_t triangle) {
   return ab.x() * ac.y() - ab.y() * ac.x();
 }
 
+const std::array<QuadraturePoint, 6>& quadrature() {
+  static const std::array<QuadraturePoint, 6> points = [] {
+    // One of the three coordinates, the others being equal, and the weight.
+    constexpr std::array<std::array<double, 2>, 2> kOrbits = {
+        {{0.108103018168070, 0.223381589678011}, {0.816847572980459, 0.109951743655322}}};
+    std::array<QuadraturePoint, 6> out;
+    for (int i = 0; i < 6; ++i) {
+      const auto [apex, weight] = kOrbits[i / 3];
+      out[i] = {Eigen::Vector3d::Constant((1 - apex) / 2), weight};
+      out[i].barycentric[i % 3] = apex;
+    }
+    return out;
+  }();
+  return points;
+}
+
+Eigen::Matrix<double, 6, 1> shape_values(const Eigen::Vector3d& l) {
+  Eigen::Matrix<double, 6, 1> out;
+  for (int i = 0; i < 3; ++i) {
+    out[i] = l[i] * (2 * l[i] - 1);
+    out[3 + i] = 4 * l[(i + 1) % 3] * l[(i + 2) % 3];
+  }
+  return out;
+}
+
+Eigen::Matrix<double, 6, 2> shape_gradients(const FilmMesh& mesh, std::size_t triangle,
+                                            const Eigen::Vector3d& l) {
+  const Eigen::Vector3i& v = mesh.triangles[triangle];
+  const double twice_area = twice_area_mm2(mesh, triangle);
+  Eigen::Matrix<double, 3, 2> corner;  // gradients of the barycentric coordinates
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector2d along =
+        mesh.vertices_mm[v[(i + 2) % 3]] - mesh.vertices_mm[v[(i + 1) % 3]];
+    corner.row(i) << -along.y() / twice_area, along.x() / twice_area;
+  }
+  Eigen::Matrix<double, 6, 2> out;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    out.row(i) = (4 * l[i] - 1) * corner.row(i);
+    out.row(3 + i) = 4 * (l[j] * corner.row(k) + l[k] * corner.row(j));
+  }
+  return out;
+}
+
 std::vector<int> elimination_order(const FilmMesh& mesh) {
   const auto size = static_cast<int>(mesh.node_count());
   std::vector<Eigen::Triplet<double>> entries;

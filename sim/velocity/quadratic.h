@@ -17,6 +17,23 @@ namespace hydroprint::velocity {
 /// Twice the area of a triangle of the mesh, mm^2.
 [[nodiscard]] double twice_area_mm2(const FilmMesh& mesh, std::size_t triangle);
 
+/// A point to integrate at: where in the triangle, and its share of the triangle's area.
+struct QuadraturePoint {
+  Eigen::Vector3d barycentric;
+  double weight;
+};
+
+/// Integrates polynomials of the fourth degree over a triangle exactly (Dunavant's six points).
+[[nodiscard]] const std::array<QuadraturePoint, 6>& quadrature();
+
+/// The six shape functions at a point of a triangle.
+[[nodiscard]] Eigen::Matrix<double, 6, 1> shape_values(const Eigen::Vector3d& barycentric);
+
+/// Their gradients there, 1/mm, one a row.
+[[nodiscard]] Eigen::Matrix<double, 6, 2> shape_gradients(const FilmMesh& mesh,
+                                                          std::size_t triangle,
+                                                          const Eigen::Vector3d& barycentric);
+
 /// Nodes in an order of low fill for matrices on the six-node triangles (approximate minimum
 /// degree).
 [[nodiscard]] std::vector<int> elimination_order(const FilmMesh& mesh);

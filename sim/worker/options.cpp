@@ -104,6 +104,9 @@ void add_common(CLI::App& app, Typed& typed) {
                  "the film is stretched less than 1.3 times")
       ->capture_default_str()
       ->type_name("sheet|stokes");
+  app.add_flag("--inertia", o.inertia,
+               "The sheet moves with inertia (Young's modulus, density and Poisson's ratio of the "
+               "profile): slower, the same answer but for Poisson's ratio");
   app.add_option("--ink-passes", o.ink_passes,
                  "Passes that take the thickness of the image's own ink into account; 0: none. For "
                  "the sheet alone")
@@ -134,6 +137,9 @@ std::string usage_objection(const Typed& typed) {
   const Options& o = typed.options;
   if (typed.model != "stokes" && typed.model != "sheet") {
     return "--model: '" + typed.model + "' is unknown. Use sheet or stokes";
+  }
+  if (o.inertia && typed.model == "stokes") {
+    return "--inertia: Stokes flow has none. Use it with --model sheet";
   }
   if (o.ink_passes < 0 || o.ink_passes > kMaxInkPasses) {
     return "--ink-passes: out of range. Use 0 to " + std::to_string(kMaxInkPasses);

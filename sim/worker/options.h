@@ -28,6 +28,7 @@ struct Options {
   std::string film = "A4";
   double dpi = 300;
   pipeline::FilmModel film_model = pipeline::FilmModel::kSheet;
+  bool inertia = false;
   int ink_passes = 1;
   std::filesystem::path ink_image;  ///< empty: none
   std::optional<double> depth_mm;   ///< none: full

@@ -74,6 +74,7 @@ Json parameters_json(const Report& report) {
               {"dpi", o.dpi},
               {"film_image_px", report.film_image_px},
               {"model", is_sheet ? "sheet" : "stokes"},
+              {"inertia", o.inertia},
               {"ink_passes", is_sheet && o.ink_image.empty() ? o.ink_passes : 0},
               {"depth_mm", "full"},
               {"dip_speed_mm_per_s", o.dip_speed_mm_per_s},

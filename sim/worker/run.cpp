@@ -96,6 +96,7 @@ Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip,
     report.inputs.insert(report.inputs.end(), icc.begin(), icc.end());
   }
   dip.film_model = o.film_model;
+  dip.inertia = o.inertia;
   if (!o.ink_image.empty()) {
     HP_ASSIGN_OR_RETURN(dip.ink, ink::read_ink_image(o.ink_image, dip.outline,
                                                      {dip.profile.ink_icc_profile}, context));

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "sim/flow/trace.h"
+#include "sim/velocity/velocity.h"
+
+namespace hydroprint::sheet {
+
+/// Per node the velocity where it is prescribed, at the film's edges; NaN at all other nodes.
+[[nodiscard]] std::vector<Eigen::Vector2d> velocities_at_edges(
+    const velocity::VelocityField& field);
+
+/// Length of dip that waterline `k` stands for: halfway from the one before to the one after, mm.
+[[nodiscard]] double span_mm(const flow::DipField& dip, std::size_t k);
+
+/// Root mean square of the difference.
+[[nodiscard]] double rms_change(const std::vector<Eigen::Vector2d>& a,
+                                const std::vector<Eigen::Vector2d>& b);
+
+}  // namespace hydroprint::sheet

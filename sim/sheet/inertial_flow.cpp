@@ -1,0 +1,86 @@
+#include "sim/sheet/inertial_flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "sim/sheet/dip_parts.h"
+#include "sim/velocity/quadratic.h"
+#include "sim/velocity/sheet_step.h"
+
+namespace hydroprint::sheet {
+namespace {
+
+using Eigen::Vector2d;
+using velocity::VelocityField;
+using Velocities = std::vector<Vector2d>;
+
+constexpr double kMostDip_mm = 0.1;  ///< in one step
+
+Velocities scaled(Velocities velocities, double by) {
+  for (Vector2d& u : velocities) u *= by;
+  return velocities;
+}
+
+/// The velocity, mm/s, that film which is now at the nodes of waterline `k` had at the one before;
+/// where no film was near, that it has now.
+Velocities velocity_before(const flow::DipField& dip, std::size_t k, double speed_mm_per_s) {
+  const VelocityField& now = dip.fields[k];
+  Velocities before(now.nodes().size(), Vector2d::Zero());  // before first contact
+  if (k == 0) return before;
+  const double span_mm = dip.immersion_mm[k] - dip.immersion_mm[k - 1];
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    const Vector2d place = velocity::place_of(now.mesh(), n) - span_mm * now.nodes()[n];
+    Vector2d u = now.nodes()[n];
+    if (Vector2d found; dip.fields[k - 1].nearest(place, found) < VelocityField::kNoFilm_mm) {
+      u = found;
+    }
+    before[n] = speed_mm_per_s * u;
+  }
+  return before;
+}
+
+/// The velocities at waterline `k`, those before it being known and a first guess there.
+Result<Velocities> step(const flow::DipField& dip, std::size_t k,
+                        const std::vector<double>& thickness_mm, const InertialOptions& options) {
+  const double speed = options.dip_speed_mm_per_s;
+  const double span_s = span_mm(dip, k) / speed;
+  const double longest_s = std::min(options.step_s, kMostDip_mm / speed);
+  const double steps = std::max(1.0, std::ceil(span_s / longest_s));
+  const double step_s = span_s > 0 ? span_s / steps : longest_s;
+
+  velocity::StepFilm film;
+  film.elasticity = options.elasticity;
+  film.elasticity.young_modulus_mpa *= kYoungsModulusStep_s / step_s;
+  // All steps but the last having changed the velocity evenly, this one has its share left to do.
+  film.density_kg_per_m3 = options.density_kg_per_m3 / steps;
+  const double viscosity_mpa_s = options.elasticity.young_modulus_mpa * kYoungsModulusStep_s / 3;
+  film.drag_mpa_s_per_mm = viscosity_mpa_s * options.drag_per_mm;
+  HP_ASSIGN_OR_RETURN(Velocities out,
+                      velocity::sheet_step(dip.fields[k].mesh(), thickness_mm, film, step_s,
+                                           velocity_before(dip, k, speed),
+                                           scaled(velocities_at_edges(dip.fields[k]), speed)));
+  return scaled(std::move(out), 1 / speed);
+}
+
+}  // namespace
+
+Result<flow::DipField> inertial_flow(flow::DipField first, const RestThickness& rest_thickness,
+                                     const InertialOptions& options, const Context& context) {
+  flow::DipField dip = std::move(first);
+  const std::size_t count = dip.fields.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    for (int pass = 1; pass <= options.most_passes; ++pass) {
+      HP_RETURN_IF_ERROR(check_cancelled(context));
+      HP_ASSIGN_OR_RETURN(Velocities nodes,
+                          step(dip, k, thickness_mm(dip, k, rest_thickness), options));
+      const double move_mm = span_mm(dip, k) * rms_change(nodes, dip.fields[k].nodes());
+      dip.fields[k] = dip.fields[k].with(std::move(nodes));
+      if (move_mm < options.tolerance_mm) break;
+    }
+    context.progress("sheet", static_cast<double>(k + 1) / static_cast<double>(count));
+  }
+  return dip;
+}
+
+}  // namespace hydroprint::sheet
