@@ -15,7 +15,8 @@ using Eigen::Vector2d;
 using velocity::VelocityField;
 using Velocities = std::vector<Vector2d>;
 
-constexpr double kMostDip_mm = 0.1;  ///< in one step
+constexpr double kLeastSpan_mm = 1e-6;
+constexpr int kMostShortened = 6;  ///< times, to a quarter each
 
 Velocities scaled(Velocities velocities, double by) {
   for (Vector2d& u : velocities) u *= by;
@@ -40,15 +41,13 @@ Velocities velocity_before(const flow::DipField& dip, std::size_t k, double spee
   return before;
 }
 
-/// The velocities at waterline `k`, those before it being known and a first guess there.
-Result<Velocities> step(const flow::DipField& dip, std::size_t k,
-                        const std::vector<double>& thickness_mm, const InertialOptions& options) {
+/// The last of `steps` steps that the film takes at waterline `k`, the velocities before it being
+/// known.
+Result<Velocities> last_step(const flow::DipField& dip, std::size_t k, double steps,
+                             const std::vector<double>& thickness_mm,
+                             const InertialOptions& options) {
   const double speed = options.dip_speed_mm_per_s;
-  const double span_s = span_mm(dip, k) / speed;
-  const double longest_s = std::min(options.step_s, kMostDip_mm / speed);
-  const double steps = std::max(1.0, std::ceil(span_s / longest_s));
-  const double step_s = span_s > 0 ? span_s / steps : longest_s;
-
+  const double step_s = std::max(span_mm(dip, k), kLeastSpan_mm) / steps / speed;
   velocity::StepFilm film;
   film.elasticity = options.elasticity;
   film.elasticity.young_modulus_mpa *= kYoungsModulusStep_s / step_s;
@@ -61,6 +60,18 @@ Result<Velocities> step(const flow::DipField& dip, std::size_t k,
                                            velocity_before(dip, k, speed),
                                            scaled(velocities_at_edges(dip.fields[k]), speed)));
   return scaled(std::move(out), 1 / speed);
+}
+
+/// The velocities at waterline `k`, those before it being known and a first guess there. Steps are
+/// shortened where film is drawn through gaps that the usual ones overshoot.
+Result<Velocities> step(const flow::DipField& dip, std::size_t k,
+                        const std::vector<double>& thickness_mm, const InertialOptions& options) {
+  double steps = std::ceil(std::max(span_mm(dip, k), kLeastSpan_mm) / options.step_mm);
+  for (int shortened = 0;; ++shortened) {
+    auto out = last_step(dip, k, steps, thickness_mm, options);
+    if (out || shortened == kMostShortened) return out;
+    steps *= 4;
+  }
 }
 
 }  // namespace

@@ -17,9 +17,9 @@ struct InertialOptions {
   double density_kg_per_m3 = 0;
   double dip_speed_mm_per_s = 0;
   double drag_per_mm = 0;  ///< see velocity::Sheet
-  /// Longest step of Algorithm 1, s; and no longer than the dip takes for 0.1 mm, as much as with
-  /// the paper's step at its speed. The viscosity stays when steps are shorter.
-  double step_s = 0.02;
+  /// Longest step of Algorithm 1, as a length of dip. The paper's, 0.02 s at 5 mm/s, is 0.1 mm;
+  /// shorter ones cost no more here. The viscosity is the same whatever the step.
+  double step_mm = 0.01;
   /// At a waterline, thickness and velocity are settled when a pass moves the film by less.
   double tolerance_mm = 0.001;
   int most_passes = 6;
@@ -35,7 +35,7 @@ struct InertialOptions {
 /// the film forgets its velocity within a fraction of a step (README.md).
 /// @param first  any velocities, per unit of dip speed, on the dip's film meshes with the right
 ///               values at the edges: Stokes flow is a good start
-/// @return kInternal if a step does not converge
+/// @return kInternal if a step finds no balance however short
 [[nodiscard]] Result<flow::DipField> inertial_flow(flow::DipField first,
                                                    const RestThickness& rest_thickness,
                                                    const InertialOptions& options,
