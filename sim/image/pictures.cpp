@@ -211,13 +211,22 @@ Result<RgbImage> quantity_picture(const mesh::Surface& surface, const Pose& X_FO
 Result<RgbImage> stretch_picture(const mesh::Surface& surface, const Pose& X_FO,
                                  const flow::FlowMap& map, const Context& context) {
   const auto at_corners = [&](const flow::MappedTriangle& tile) {
-    auto values = tile_stretch(surface, map.surface, tile);
+    auto values = tile_stretch(surface, map.surface, tile, Stretch::kLargest);
     // Film that lands without having any area: stretched beyond measure.
     for (double& value : values) value = std::isfinite(value) ? value : HUGE_VAL;
     return values;
   };
   const Quantity stretch{"stretch", map.surface.stretch, 1, 0.1, at_corners};
   return quantity_picture(surface, X_FO, map.tiles, stretch, context);
+}
+
+Result<RgbImage> wrinkle_picture(const mesh::Surface& surface, const Pose& X_FO,
+                                 const flow::FlowMap& map, const Context& context) {
+  const auto at_corners = [&](const flow::MappedTriangle& tile) {
+    return tile_stretch(surface, map.surface, tile, Stretch::kLeast);
+  };
+  const Quantity least{"least stretch", map.surface.least_stretch, 1, 0.1, at_corners};
+  return quantity_picture(surface, X_FO, map.tiles, least, context);
 }
 
 Result<RgbImage> predicted_picture(const mesh::Surface& surface, const Pose& X_FO,

@@ -35,6 +35,10 @@ struct Quantity {
                                                 const std::vector<flow::MappedTriangle>& tiles,
                                                 const Quantity& quantity, const Context& context);
 
+/// The same views, coloured by the smaller singular value.
+[[nodiscard]] Result<RgbImage> wrinkle_picture(const mesh::Surface& surface, const Pose& X_FO,
+                                               const flow::FlowMap& map, const Context& context);
+
 /// The same views of the object as it will look: the film's colours where it lands, plain light
 /// grey elsewhere.
 [[nodiscard]] Result<RgbImage> predicted_picture(const mesh::Surface& surface, const Pose& X_FO,

@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <string>
 
@@ -53,6 +55,46 @@ std::string percent(double share) {
 
 std::string times(double stretch) { return std::to_string(stretch).substr(0, 4); }
 
+/// A number with two digits after the point.
+std::string fixed(double value) {
+  std::array<char, 32> text{};
+  const int length = std::snprintf(text.data(), text.size(), "%.2f", value);
+  return {text.data(), static_cast<std::size_t>(length)};
+}
+
+std::string where_of(const waterline::Trap& trap) {
+  return fixed(trap.immersion_mm) + " mm immersion, at (" + fixed(trap.place_mm.x()) + ", " +
+         fixed(trap.place_mm.y()) + ") mm";
+}
+
+std::string and_others(std::ptrdiff_t others) {
+  return others > 0 ? " (and " + std::to_string(others) + " smaller)" : "";
+}
+
+void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings) {
+  if (traps.empty()) return;
+  const waterline::Trap& largest = traps.front();
+  warnings.push_back(
+      {"film_trapped",
+       "the waterline closes round film, a piece of up to " + fixed(largest.area_mm2) + " mm2" +
+           and_others(static_cast<std::ptrdiff_t>(traps.size()) - 1) +
+           ", which from then on can only be stretched. Turn the object so that it goes in edge "
+           "first",
+       where_of(largest)});
+  const auto airy = [](const waterline::Trap& trap) { return trap.ceiling_mm.has_value(); };
+  const auto most = std::max_element(
+      traps.begin(), traps.end(),
+      [](const waterline::Trap& a, const waterline::Trap& b) { return a.air_mm3 < b.air_mm3; });
+  const auto count = std::count_if(traps.begin(), traps.end(), airy);
+  if (count == 0) return;
+  warnings.push_back({"air_trapped",
+                      "the object closes over " + fixed(most->air_mm3 / 1000) + " cm3 of air" +
+                          and_others(count - 1) +
+                          ", which keeps the water out of the hollow; the map in there is not to "
+                          "be trusted. Turn the object or drill a vent",
+                      where_of(*most)});
+}
+
 }  // namespace
 
 DipFigures figures_of(const Start& start, const flow::SurfaceMap& map,
@@ -60,6 +102,7 @@ DipFigures figures_of(const Start& start, const flow::SurfaceMap& map,
   DipFigures figures;
   figures.depth_mm = start.stokes.depth_mm;
   figures.stopped_at_edge = start.stopped_at_edge;
+  figures.traps = start.traps;
   figures.steps = static_cast<int>(start.stokes.fields.size());
   for (const velocity::VelocityField& field : start.stokes.fields) {
     const auto vertices = static_cast<int>(field.mesh().vertices_mm.size());
@@ -111,6 +154,7 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
                             "is not to be trusted",
                         "surface"});
   }
+  warn_of_traps(figures.traps, warnings);
   if (figures.coverage < 0.995) {
     warnings.push_back({"parts_not_reached",
                         "film reaches " + percent(figures.coverage) +

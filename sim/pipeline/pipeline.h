@@ -16,6 +16,7 @@
 #include "sim/velocity/film_mesh.h"
 #include "sim/waterline/motion.h"
 #include "sim/waterline/schedule.h"
+#include "sim/waterline/traps.h"
 
 namespace hydroprint::pipeline {
 
@@ -59,10 +60,11 @@ struct DipFigures {
   std::vector<InkPass> ink_passes;
   int film_vertices_max = 0;  ///< of the largest film mesh
   int film_triangles_max = 0;
-  double coverage = 0;        ///< share of the object's surface that film reaches
-  double clamped_share = 0;   ///< share of the surface with theta beyond 170 degrees
-  double wrinkled_share = 0;  ///< of the surface, the film gathered below wrinkle_stretch
-  double torn_share = 0;      ///< of the surface, the film stretched beyond tear_stretch
+  double coverage = 0;                 ///< share of the object's surface that film reaches
+  double clamped_share = 0;            ///< share of the surface with theta beyond 170 degrees
+  double wrinkled_share = 0;           ///< of the surface, the film gathered below wrinkle_stretch
+  double torn_share = 0;               ///< of the surface, the film stretched beyond tear_stretch
+  std::vector<waterline::Trap> traps;  ///< film and air closed in, largest first
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;  ///< where theta is not clamped
 };
 

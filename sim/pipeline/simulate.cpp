@@ -35,6 +35,10 @@ Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
                       image::film_map(dip.surface, dip.map, film, kFilmMapCell_mm, context));
   context.progress("pictures", 0.3);
   HP_ASSIGN_OR_RETURN(out.stretch, image::stretch_picture(dip.surface, dip.X_FO, dip.map, context));
+  if (dip.figures.wrinkled_share > 0) {
+    HP_ASSIGN_OR_RETURN(out.wrinkles,
+                        image::wrinkle_picture(dip.surface, dip.X_FO, dip.map, context));
+  }
   context.progress("pictures", 0.6);
   HP_ASSIGN_OR_RETURN(
       const image::FilmTexture printed,

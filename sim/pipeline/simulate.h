@@ -27,9 +27,11 @@ struct SimulateOptions {
 
 /// What is made to be printed and looked at.
 struct SimulatedImages {
-  image::RgbImage film;       ///< the image to print
-  image::FilmMap film_map;    ///< where the film's points land
-  image::RgbImage stretch;    ///< picture of the stretch on the object
+  image::RgbImage film;     ///< the image to print
+  image::FilmMap film_map;  ///< where the film's points land
+  image::RgbImage stretch;  ///< picture of the stretch on the object
+  /// Picture of how far the film is gathered; where that makes it wrinkle (film_wrinkled).
+  std::optional<image::RgbImage> wrinkles;
   image::RgbImage predicted;  ///< picture of the object as it will look
 };
 

@@ -55,6 +55,7 @@ Result<Start> start(const mesh::Model& model, const DipOptions& options, const C
                                                  options.depth_mm.value_or(out.body.height_mm),
                                                  options.motion, options.schedule, context));
   out.stopped_at_edge = waterlines.stopped_at_edge;
+  out.traps = waterlines.traps;
   out.stokes.depth_mm = waterlines.depth_mm;
   for (const waterline::Waterline& line : waterlines.lines) {
     out.stokes.immersion_mm.push_back(line.immersion_mm);

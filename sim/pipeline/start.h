@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "sim/base/context.h"
 #include "sim/base/result.h"
 #include "sim/flow/trace.h"
@@ -7,6 +9,7 @@
 #include "sim/mesh/surface.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/waterline/body.h"
+#include "sim/waterline/traps.h"
 
 namespace hydroprint::pipeline {
 
@@ -18,6 +21,7 @@ struct Start {
   waterline::Body body;  ///< the surface placed over the film
   flow::DipField stokes;
   bool stopped_at_edge = false;
+  std::vector<waterline::Trap> traps;  ///< film and air closed in, largest first
 };
 
 /// Mesh, pose, waterline, film mesh, velocity. Refuses what its stages refuse.

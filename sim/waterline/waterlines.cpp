@@ -180,6 +180,27 @@ void stop_at_edge(const Slicer& slicer, const Motion& motion, const film::Outlin
   waterlines.depth_mm = beyond;
 }
 
+/// What lies above the end of the dip, for those who ask whether a hole is closed up there.
+Result<std::vector<Waterline>> take_beyond(const Slicer& slicer, const Body& body, double depth_mm,
+                                           const Motion& motion, const ScheduleOptions& options,
+                                           const Context& context) {
+  std::vector<double> depths = schedule(body, body.height_mm, options);
+  depths.erase(depths.begin(), std::upper_bound(depths.begin(), depths.end(), depth_mm));
+  std::vector<Waterline> lines(depths.size());
+  HP_RETURN_IF_ERROR(parallel_for(context, {}, depths.size(), [&](std::size_t i) -> Status {
+    lines[i] = take(slicer, motion, depths[i]);
+    return {};
+  }));
+  return lines;
+}
+
+bool has_film_inside(const Waterline& line) {
+  for (std::size_t l = 0; l < line.section.size(); ++l) {
+    if (line.section[l].is_hole && line.bounds_film[l]) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Eigen::Vector2d offset_at(const Motion& motion, double immersion_mm) {
@@ -228,6 +249,12 @@ Result<Waterlines> take_waterlines(const Body& body, const film::Outline& outlin
   for (std::size_t i = 0; i < result.lines.size(); ++i) {
     carry_film(outline, i == 0 ? rest : result.lines[i - 1], result.lines[i]);
   }
+  std::vector<Waterline> beyond;
+  if (!result.lines.empty() && has_film_inside(result.lines.back())) {
+    HP_ASSIGN_OR_RETURN(beyond,
+                        take_beyond(slicer, body, result.depth_mm, motion, options, context));
+  }
+  result.traps = find_traps(result.lines, beyond);
   return result;
 }
 

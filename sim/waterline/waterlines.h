@@ -11,6 +11,7 @@
 #include "sim/waterline/motion.h"
 #include "sim/waterline/pull_index.h"
 #include "sim/waterline/schedule.h"
+#include "sim/waterline/traps.h"
 
 namespace hydroprint::waterline {
 
@@ -29,6 +30,7 @@ struct Waterlines {
   std::vector<Waterline> lines;
   double depth_mm = 0;           ///< immersion at which the dip ends
   bool stopped_at_edge = false;  ///< it ends there because the waterline reached the film's edge
+  std::vector<Trap> traps;       ///< film and air closed in on the way, largest first
 };
 
 /// Sideways offset of the object at an immersion, mm: linear between the motion's rows.

@@ -52,6 +52,7 @@ Result<std::vector<std::string>> write_artifacts(const std::filesystem::path& fo
       return image::write_film_map_exr(path, images.film_map);
     });
     tasks.push_back(picture("stretch.png", images.stretch, kScreenDpi));
+    if (images.wrinkles) tasks.push_back(picture("wrinkles.png", *images.wrinkles, kScreenDpi));
     tasks.push_back(picture("predicted.png", images.predicted, kScreenDpi));
   }
   return write_all(folder, tasks, context);

@@ -1,0 +1,224 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "sim/pipeline/pipeline.h"
+#include "sim/sample/icosphere.h"
+#include "tests/sim/support/bodies.h"
+
+// Each warning by a body made to provoke it, and beside it one that is like it but for that.
+
+namespace hydroprint::pipeline {
+namespace {
+
+namespace bodies = hydroprint::testing;
+
+DipOptions options_for(const std::string& film, FilmModel model = FilmModel::kStokes) {
+  DipOptions options;
+  options.outline = film::parse_outline(film).value();
+  options.film_model = model;
+  options.map.make_tiles = false;
+  return options;
+}
+
+Dip dipped(const mesh::Model& model, const DipOptions& options) {
+  Context context;
+  context.threads = 2;
+  auto result = dip(model, options, context);
+  EXPECT_TRUE(result) << result.error().message;
+  return result ? std::move(*result) : Dip{};
+}
+
+/// The warning of that code; empty code if there is none.
+Warning warning_of(const Dip& dip, const std::string& code) {
+  const auto it = std::find_if(dip.warnings.begin(), dip.warnings.end(),
+                               [&](const Warning& w) { return w.code == code; });
+  return it == dip.warnings.end() ? Warning{} : *it;
+}
+
+bool warns(const Dip& dip, const std::string& code) { return !warning_of(dip, code).code.empty(); }
+
+/// A sphere of 20 mm, dipped to this angle, in a film far larger than it.
+DipOptions to_angle(double theta_deg, FilmModel model = FilmModel::kStokes) {
+  DipOptions options = options_for("200x200", model);
+  options.depth_mm = 20 * (1 - std::cos(theta_deg * std::numbers::pi / 180));
+  return options;
+}
+
+TEST(Warnings, StretchBeyondStokesIsForStokesBeyondAStretchOfOnePointThree) {
+  // Along the meridian 1 / cos(theta / 2): 1.3 at 79 degrees (field notes, section 2).
+  const mesh::Model sphere = sample::icosphere(20, 4);
+  EXPECT_TRUE(warns(dipped(sphere, to_angle(95)), "stretch_beyond_stokes"));
+  EXPECT_FALSE(warns(dipped(sphere, to_angle(65)), "stretch_beyond_stokes"));
+  EXPECT_FALSE(warns(dipped(sphere, to_angle(95, FilmModel::kSheet)), "stretch_beyond_stokes"));
+}
+
+TEST(Warnings, FilmTornIsForMoreThanTheProfilesStretch) {
+  // 1 / cos(theta / 2) is 2 at 120 degrees.
+  const mesh::Model sphere = sample::icosphere(20, 4);
+  for (const FilmModel model : {FilmModel::kStokes, FilmModel::kSheet}) {
+    DipOptions options = to_angle(120, model);
+    EXPECT_FALSE(warns(dipped(sphere, options), "film_torn"));
+    options.profile.tear_stretch = 1.8;
+    const Dip torn = dipped(sphere, options);
+    EXPECT_TRUE(warns(torn, "film_torn"));
+    // In a film without end from 112.5 degrees on; the clamped edge makes it a little sooner.
+    const double share = (std::cos(1.9635) - std::cos(2 * std::numbers::pi / 3)) / 2;
+    EXPECT_GT(torn.figures.torn_share, 0.9 * share);
+    EXPECT_LT(torn.figures.torn_share, 2 * share);
+  }
+}
+
+TEST(Warnings, FilmWrinkledIsForLessThanTheProfilesStretch) {
+  // Round the sphere cos(theta / 2): 0.6 at 106 degrees.
+  const mesh::Model sphere = sample::icosphere(20, 4);
+  for (const FilmModel model : {FilmModel::kStokes, FilmModel::kSheet}) {
+    EXPECT_FALSE(warns(dipped(sphere, to_angle(95, model)), "film_wrinkled"));
+    EXPECT_TRUE(warns(dipped(sphere, to_angle(118, model)), "film_wrinkled"));
+  }
+}
+
+TEST(Warnings, ThetaClampedIsForFacesThatLookUp) {
+  // A cone's level top, and a spindle that is pointed at both ends.
+  EXPECT_TRUE(warns(dipped(bodies::cone(0.8, 12, 48), options_for("90x90")), "theta_clamped"));
+  const mesh::Model spindle = bodies::turned({{0, 0}, {12, 12}, {0, 24}}, 48);
+  EXPECT_FALSE(warns(dipped(spindle, options_for("90x90")), "theta_clamped"));
+}
+
+TEST(Warnings, PartsNotReachedIsForWhatTheWaterDoesNotTouch) {
+  const mesh::Model spindle = bodies::turned({{0, 0}, {12, 12}, {0, 24}}, 48);
+  DipOptions options = options_for("90x90");
+  EXPECT_FALSE(warns(dipped(spindle, options), "parts_not_reached"));
+  options.depth_mm = 12;
+  const Dip half = dipped(spindle, options);
+  EXPECT_TRUE(warns(half, "parts_not_reached"));
+  EXPECT_NEAR(half.figures.coverage, 0.5, 0.03);
+}
+
+TEST(Warnings, FilmEdgeReachedIsForObjectsWiderThanTheFilm) {
+  const mesh::Model cone = bodies::cone(std::numbers::pi / 4, 20, 48);
+  EXPECT_TRUE(warns(dipped(cone, options_for("30x80")), "film_edge_reached"));
+  EXPECT_FALSE(warns(dipped(cone, options_for("60x80")), "film_edge_reached"));
+}
+
+TEST(Warnings, DragIgnoredIsForStokes) {
+  const mesh::Model sphere = sample::icosphere(20, 3);
+  DipOptions with_drag = to_angle(40);
+  with_drag.profile.drag_length_mm = 30;
+  EXPECT_TRUE(warns(dipped(sphere, with_drag), "drag_ignored"));
+  EXPECT_FALSE(warns(dipped(sphere, to_angle(40)), "drag_ignored"));
+  with_drag.film_model = FilmModel::kSheet;
+  EXPECT_FALSE(warns(dipped(sphere, with_drag), "drag_ignored"));
+}
+
+// --- trapped film and air
+
+/// Area of a regular polygon of 64 corners.
+double round_area_mm2(double radius_mm) {
+  return 32 * radius_mm * radius_mm * std::sin(std::numbers::pi / 32);
+}
+
+TEST(Warnings, ARingTrapsFilmButNoAir) {
+  const Dip ring = dipped(bodies::torus(24, 7, 64, 32), options_for("100x90"));
+  EXPECT_TRUE(warns(ring, "film_trapped"));
+  EXPECT_FALSE(warns(ring, "air_trapped"));
+  ASSERT_EQ(ring.figures.traps.size(), 1U);
+  const waterline::Trap& trap = ring.figures.traps[0];
+  EXPECT_LT(trap.immersion_mm, 0.1);
+  // From the inner edge of the facet that it lies on.
+  const double area_mm2 = round_area_mm2(24 - 7 * std::sin(std::numbers::pi / 32));
+  EXPECT_NEAR(trap.area_mm2, area_mm2, 0.01 * area_mm2);
+  EXPECT_LT(trap.place_mm.norm(), 0.1);
+  EXPECT_FALSE(trap.ceiling_mm);
+}
+
+TEST(Warnings, ARingWithAGapTrapsNothing) {
+  const Dip open = dipped(bodies::blocks({-20, -12, 12, 20}, {-20, -12, 12, 20}, {0, 15},
+                                         [](int i, int j, int) {
+                                           const bool is_gap = i == 1 && j == 0;
+                                           return !is_gap && !(i == 1 && j == 1);
+                                         }),
+                          options_for("100x90"));
+  EXPECT_FALSE(warns(open, "film_trapped"));
+  EXPECT_FALSE(warns(open, "air_trapped"));
+}
+
+TEST(Warnings, ACupMouthDownTrapsFilmAndAir) {
+  // 14 mm inside, its ceiling 20 mm up.
+  const Dip down = dipped(bodies::cup(14, 18, 24, 4, false, 64), options_for("100x90"));
+  EXPECT_TRUE(warns(down, "film_trapped"));
+  EXPECT_TRUE(warns(down, "air_trapped"));
+  ASSERT_EQ(down.figures.traps.size(), 1U);
+  const waterline::Trap& trap = down.figures.traps[0];
+  EXPECT_NEAR(trap.area_mm2, round_area_mm2(14), 1);
+  ASSERT_TRUE(trap.ceiling_mm);
+  EXPECT_NEAR(*trap.ceiling_mm, 20, 0.05);
+  EXPECT_NEAR(trap.air_mm3, 20 * round_area_mm2(14), 20);
+  EXPECT_NE(warning_of(down, "air_trapped").message.find("12.29 cm3"), std::string::npos)
+      << warning_of(down, "air_trapped").message;
+  EXPECT_NE(warning_of(down, "air_trapped").where.find("mm immersion"), std::string::npos);
+}
+
+TEST(Warnings, ACupMouthUpOrWithAVentTrapsNoAir) {
+  const Dip up = dipped(bodies::cup(14, 18, 24, 4, true, 64), options_for("100x90"));
+  EXPECT_FALSE(warns(up, "film_trapped"));
+  EXPECT_FALSE(warns(up, "air_trapped"));
+  // A square cup mouth down with a hole in its bottom.
+  const Dip vented =
+      dipped(bodies::blocks({-18, -14, -3, 3, 14, 18}, {-18, -14, -3, 3, 14, 18}, {0, 20, 24},
+                            [](int i, int j, int k) {
+                              const bool is_wall = i == 0 || i == 4 || j == 0 || j == 4;
+                              return is_wall || (k == 1 && !(i == 2 && j == 2));
+                            }),
+             options_for("100x90"));
+  EXPECT_TRUE(warns(vented, "film_trapped"));
+  EXPECT_FALSE(warns(vented, "air_trapped"));
+}
+
+TEST(Warnings, AirIsTrappedEvenIfTheDipEndsBelowTheCeiling) {
+  DipOptions options = options_for("100x90");
+  options.depth_mm = 6;
+  const Dip cup = dipped(bodies::cup(14, 18, 24, 4, false, 64), options);
+  EXPECT_TRUE(warns(cup, "air_trapped"));
+  const Dip ring = dipped(bodies::torus(24, 7, 64, 32), options);
+  EXPECT_TRUE(warns(ring, "film_trapped"));
+  EXPECT_FALSE(warns(ring, "air_trapped"));
+}
+
+TEST(Warnings, AHollowThatClosesAboveTheRimIsToldByItsImmersion) {
+  // Four legs of 10 mm under a square cup mouth down: the waterline closes at the rim.
+  const Dip legs = dipped(bodies::blocks({-20, -14, 14, 20}, {-20, -14, 14, 20}, {0, 10, 16, 20},
+                                         [](int i, int j, int k) {
+                                           const bool is_leg = i != 1 && j != 1;
+                                           const bool is_wall = i != 1 || j != 1;
+                                           return k == 0 ? is_leg : k == 2 || is_wall;
+                                         }),
+                          options_for("100x90"));
+  EXPECT_TRUE(warns(legs, "air_trapped"));
+  ASSERT_FALSE(legs.figures.traps.empty());
+  EXPECT_NEAR(legs.figures.traps[0].immersion_mm, 10, 0.05);
+  EXPECT_NEAR(legs.figures.traps[0].air_mm3, 28 * 28 * 6, 0.02 * 28 * 28 * 6);
+  // The same without the rim: a table, whose top the air gets away under.
+  const Dip table =
+      dipped(bodies::blocks({-20, -14, 14, 20}, {-20, -14, 14, 20}, {0, 16, 20},
+                            [](int i, int j, int k) { return k == 1 || (i != 1 && j != 1); }),
+             options_for("100x90"));
+  EXPECT_FALSE(warns(table, "film_trapped"));
+  EXPECT_FALSE(warns(table, "air_trapped"));
+}
+
+TEST(Warnings, AClosedCavityIsNoTrap) {
+  // Inside the solid, neither film nor water ever come near it.
+  const Dip hollow =
+      dipped(bodies::together({bodies::box({-15, -15, 0}, {15, 15, 20}),
+                               bodies::inside_out(bodies::box({-8, -8, 5}, {8, 8, 15}))}),
+             options_for("100x90"));
+  EXPECT_FALSE(warns(hollow, "film_trapped"));
+  EXPECT_FALSE(warns(hollow, "air_trapped"));
+}
+
+}  // namespace
+}  // namespace hydroprint::pipeline
