@@ -53,8 +53,6 @@ std::string percent(double share) {
   return std::to_string(static_cast<int>(std::lround(1000 * share)) / 10.0).substr(0, 4) + " %";
 }
 
-std::string times(double stretch) { return std::to_string(stretch).substr(0, 4); }
-
 /// A number with two digits after the point.
 std::string fixed(double value) {
   std::array<char, 32> text{};
@@ -163,7 +161,7 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
   }
   if (options.film_model == FilmModel::kStokes && figures.stretch_max > kStokesStretch) {
     warnings.push_back({"stretch_beyond_stokes",
-                        "the film is stretched up to " + times(figures.stretch_max) +
+                        "the film is stretched up to " + fixed(figures.stretch_max) +
                             " times; beyond 1.3 Stokes flow alone is not accurate (section 4.4). "
                             "Use --model sheet",
                         "surface"});
@@ -177,7 +175,7 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
     warnings.push_back({"film_torn",
                         "on " + percent(figures.torn_share) +
                             " of the surface the film is stretched more than " +
-                            times(options.profile.tear_stretch) +
+                            fixed(options.profile.tear_stretch) +
                             " times, where it tears. Dip less deep, turn the object, or take a "
                             "larger film",
                         "surface"});
@@ -186,7 +184,7 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
     warnings.push_back({"film_wrinkled",
                         "on " + percent(figures.wrinkled_share) +
                             " of the surface the film is gathered to less than " +
-                            times(options.profile.wrinkle_stretch) +
+                            fixed(options.profile.wrinkle_stretch) +
                             " of its width and wrinkles. Turn the object or dip less deep",
                         "surface"});
   }

@@ -9,7 +9,7 @@ namespace hydroprint::sheet {
 using Eigen::Vector2d;
 using velocity::VelocityField;
 
-std::vector<Vector2d> velocities_at_edges(const VelocityField& field) {
+std::vector<Vector2d> prescribed(const VelocityField& field) {
   const velocity::FilmMesh& mesh = field.mesh();
   std::vector<Vector2d> fixed(mesh.node_count(),
                               Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));

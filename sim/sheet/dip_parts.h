@@ -10,8 +10,7 @@
 namespace hydroprint::sheet {
 
 /// Per node the velocity where it is prescribed, at the film's edges; NaN at all other nodes.
-[[nodiscard]] std::vector<Eigen::Vector2d> velocities_at_edges(
-    const velocity::VelocityField& field);
+[[nodiscard]] std::vector<Eigen::Vector2d> prescribed(const velocity::VelocityField& field);
 
 /// Length of dip that waterline `k` stands for: halfway from the one before to the one after, mm.
 [[nodiscard]] double span_mm(const flow::DipField& dip, std::size_t k);

@@ -58,7 +58,7 @@ Result<Velocities> last_step(const flow::DipField& dip, std::size_t k, double st
   HP_ASSIGN_OR_RETURN(Velocities out,
                       velocity::sheet_step(dip.fields[k].mesh(), thickness_mm, film, step_s,
                                            velocity_before(dip, k, speed),
-                                           scaled(velocities_at_edges(dip.fields[k]), speed)));
+                                           scaled(prescribed(dip.fields[k]), speed)));
   return scaled(std::move(out), 1 / speed);
 }
 

@@ -35,8 +35,7 @@ Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
     HP_RETURN_IF_ERROR(parallel_for(context, {}, count, [&](std::size_t i) -> Status {
       const std::size_t k = first + i;
       const VelocityField& before = flow.field.fields[k];
-      if (!sheets[i])
-        sheets[i].emplace(before.mesh(), options.drag_per_mm, velocities_at_edges(before));
+      if (!sheets[i]) sheets[i].emplace(before.mesh(), options.drag_per_mm, prescribed(before));
       HP_ASSIGN_OR_RETURN(auto nodes,
                           sheets[i]->solve(thickness_mm(flow.field, k, rest_thickness, known)));
       moves_mm[i] = span_mm(flow.field, k) * rms_change(nodes, before.nodes());

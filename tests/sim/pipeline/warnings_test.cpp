@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <string>
 
 #include "sim/pipeline/pipeline.h"
+#include "sim/pipeline/simulate.h"
 #include "sim/sample/icosphere.h"
 #include "tests/sim/support/bodies.h"
+#include "tests/support/temporary_folder.h"
 
 // Each warning by a body made to provoke it, and beside it one that is like it but for that.
 
@@ -78,6 +81,32 @@ TEST(Warnings, FilmWrinkledIsForLessThanTheProfilesStretch) {
   for (const FilmModel model : {FilmModel::kStokes, FilmModel::kSheet}) {
     EXPECT_FALSE(warns(dipped(sphere, to_angle(95, model)), "film_wrinkled"));
     EXPECT_TRUE(warns(dipped(sphere, to_angle(118, model)), "film_wrinkled"));
+  }
+}
+
+TEST(Warnings, FilmWrinkledComesWithAMapOfWhere) {
+  const testing::TemporaryFolder folder;
+  std::ostringstream obj;
+  const mesh::Model sphere = sample::icosphere(20, 3);
+  for (const Eigen::Vector3d& v : sphere.vertices) obj << "v " << v.transpose() << '\n';
+  for (const Eigen::Vector3i& t : sphere.triangles) {
+    obj << "f " << (t + Eigen::Vector3i::Ones()).transpose() << '\n';
+  }
+  SimulateOptions options;
+  options.mesh = folder.write("sphere.obj", obj.str());
+  options.dpi = 50;
+  for (const double theta_deg : {95.0, 118.0}) {
+    options.dip = to_angle(theta_deg);
+    options.dip.map.tolerance_mm = 0.5;  // coarse pictures will do
+    options.dip.map.least_edge_mm = 1;
+    const auto simulation = simulate(options, {});
+    ASSERT_TRUE(simulation) << simulation.error().message;
+    const auto& wrinkles = simulation->images->wrinkles;
+    EXPECT_EQ(wrinkles.has_value(), theta_deg > 106);
+    EXPECT_EQ(warns(simulation->dip, "film_wrinkled"), wrinkles.has_value());
+    if (!wrinkles) continue;
+    EXPECT_EQ(wrinkles->width, simulation->images->stretch.width);
+    EXPECT_NE(wrinkles->rgb, simulation->images->stretch.rgb);
   }
 }
 
