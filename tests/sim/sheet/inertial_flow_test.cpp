@@ -89,7 +89,7 @@ TEST(InertialFlow, AgreesWithTheQuasistaticSheetToTheFirstPowerOfItsStep) {
   const double at_20_ms = apart_mm(with_inertia(first, inertial_options(0.02)), slow);
   const double at_10_ms = apart_mm(with_inertia(first, inertial_options(0.01)), slow);
   EXPECT_LT(at_20_ms, 0.02 * bound_mm_per_s);
-  EXPECT_NEAR(std::log2(at_20_ms / at_10_ms), 1, 0.1);
+  EXPECT_NEAR(std::log2(at_20_ms / at_10_ms), 1, 0.2);
   const double by_default = InertialOptions().step_mm / kDipSpeed_mm_per_s;
   EXPECT_LT(apart_mm(with_inertia(first, inertial_options(by_default)), slow), 0.0025);
   // The thickness does matter: it is not by being both Stokes flow that they agree.
