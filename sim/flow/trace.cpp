@@ -107,9 +107,9 @@ std::vector<std::size_t> neighbours_in_turn(const std::vector<BackPath>& paths) 
   return order;
 }
 
-/// Follows paths back to rest, together from waterline to waterline, so that each film mesh is read
-/// once for all of them.
-/// @param first  the waterline at which they end; the first of all: they end at rest
+/// Follows paths back through the dip, together from waterline to waterline, so that each film mesh
+/// is read once for all of them.
+/// @param first  the waterline at which they end
 void follow_back(const DipField& dip, std::vector<BackPath>& paths, std::size_t first = 0) {
   std::size_t most = 0;
   for (const BackPath& path : paths) most = std::max(most, path.after);

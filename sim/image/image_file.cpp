@@ -12,6 +12,7 @@
 #include "sim/image/artifact_file.h"
 #include "sim/image/colour.h"
 #include "sim/image/image_header.h"
+#include "sim/image/png.h"
 
 namespace hydroprint::image {
 namespace {
@@ -192,21 +193,6 @@ Status write_image(const std::filesystem::path& path, const char* encoder, const
   return write_artifact(path, file);
 }
 
-ImageSpec png_spec(int width, int height, int channels) {
-  ImageSpec spec(width, height, channels, TypeDesc::UINT8);
-  spec.attribute("png:compressionLevel", 1);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  return spec;
-}
-
-ImageSpec png_spec(const RgbImage& image, double dpi) {
-  ImageSpec spec = png_spec(image.width, image.height, 3);
-  spec.attribute("XResolution", static_cast<float>(dpi));
-  spec.attribute("YResolution", static_cast<float>(dpi));
-  spec.attribute("ResolutionUnit", "in");
-  return spec;
-}
-
 }  // namespace
 
 Result<ReadImage> read_image(const std::filesystem::path& path, const Context& context) {
@@ -232,17 +218,17 @@ Result<ReadImage> read_image(const std::vector<unsigned char>& bytes, const std:
   return decode_safely(proxy, name, context);
 }
 
-Result<std::vector<unsigned char>> encode_png(const RgbImage& image, double dpi) {
-  return encode("image.png", "png", png_spec(image, dpi), TypeDesc::UINT8, image.rgb.data());
-}
-
-Status write_png(const std::filesystem::path& path, const RgbImage& image, double dpi) {
-  return write_image(path, "png", png_spec(image, dpi), TypeDesc::UINT8, image.rgb.data());
+Status write_png(const std::filesystem::path& path, const RgbImage& image, double dpi,
+                 const Context& context) {
+  HP_ASSIGN_OR_RETURN(const auto file, encode_png(image, dpi, context));
+  return write_artifact(path, file);
 }
 
 Status write_png_rgba(const std::filesystem::path& path, int width, int height,
                       const std::vector<std::uint8_t>& rgba) {
-  ImageSpec spec = png_spec(width, height, 4);
+  ImageSpec spec(width, height, 4, TypeDesc::UINT8);
+  spec.attribute("png:compressionLevel", 1);
+  spec.attribute("oiio:ColorSpace", "sRGB");
   spec.alpha_channel = 3;
   spec.attribute("oiio:UnassociatedAlpha", 1);
   return write_image(path, "png", spec, TypeDesc::UINT8, rgba.data());

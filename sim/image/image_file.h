@@ -45,14 +45,11 @@ inline constexpr std::int64_t kMaxImageArea_px = 200'000'000;
 [[nodiscard]] Result<ReadImage> read_image(const std::vector<unsigned char>& bytes,
                                            const std::string& name, const Context& context);
 
-/// A PNG file's bytes. Fails (kInternal) when memory does not suffice.
-[[nodiscard]] Result<std::vector<unsigned char>> encode_png(const RgbImage& image, double dpi);
-
-/// Writes a PNG with its resolution, under a temporary name that is renamed at the end.
-/// Refuses with kResourceExhausted (reason DISK_FULL) when the disk is full, kPermissionDenied or
-/// kNotFound when the place cannot be written to.
-[[nodiscard]] Status write_png(const std::filesystem::path& path, const RgbImage& image,
-                               double dpi);
+/// Writes a PNG with its resolution (encode_png), under a temporary name that is renamed at the
+/// end. Refuses with kResourceExhausted (reason DISK_FULL) when the disk is full, kPermissionDenied
+/// or kNotFound when the place cannot be written to.
+[[nodiscard]] Status write_png(const std::filesystem::path& path, const RgbImage& image, double dpi,
+                               const Context& context = {});
 
 /// The same with an alpha channel (unassociated); `rgba` holds width * height * 4 bytes.
 [[nodiscard]] Status write_png_rgba(const std::filesystem::path& path, int width, int height,

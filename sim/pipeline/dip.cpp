@@ -6,9 +6,11 @@
 
 namespace hydroprint::pipeline {
 
-Dip finish(const mesh::Model& model, Start start, flow::FlowMap map, const DipOptions& options) {
+Dip finish(const mesh::Model& model, Start start, flow::FlowMap map, double unsettled_mm,
+           const DipOptions& options) {
   Dip dip;
   dip.figures = figures_of(start, map.surface, options.profile);
+  dip.figures.unsettled_mm = unsettled_mm;
   dip.warnings = model.warnings;
   const auto add = [&](const Warnings& more) {
     dip.warnings.insert(dip.warnings.end(), more.begin(), more.end());
@@ -25,12 +27,12 @@ Result<Dip> dip(const mesh::Model& model, const DipOptions& options, const Conte
   HP_ASSIGN_OR_RETURN(Start begun, start(model, options, context));
   if (options.film_model == FilmModel::kStokes) {
     HP_ASSIGN_OR_RETURN(flow::FlowMap map, land(begun, begun.stokes, options, context));
-    return finish(model, std::move(begun), std::move(map), options);
+    return finish(model, std::move(begun), std::move(map), 0, options);
   }
-  HP_ASSIGN_OR_RETURN(const flow::DipField field,
+  HP_ASSIGN_OR_RETURN(const sheet::SheetFlow flow,
                       sheet_field(begun.stokes, options.ink, options, context));
-  HP_ASSIGN_OR_RETURN(flow::FlowMap map, land(begun, field, options, context));
-  return finish(model, std::move(begun), std::move(map), options);
+  HP_ASSIGN_OR_RETURN(flow::FlowMap map, land(begun, flow.field, options, context));
+  return finish(model, std::move(begun), std::move(map), flow.unsettled_mm, options);
 }
 
 }  // namespace hydroprint::pipeline

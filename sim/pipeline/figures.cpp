@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kStokesStretch = 1.3;  ///< the paper's 0.3 is stretch beyond rest (section 4.4)
 
+/// What a sheet may still move in the end, before there is a warning: about a pixel at 300 dpi.
+constexpr double kUnsettled_mm = 0.08;
+
 struct Face {
   double area_mm2;
   double theta_rad;  ///< contact angle
@@ -91,6 +94,29 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
                           ", which keeps the water out of the hollow; the map in there is not to "
                           "be trusted. Turn the object or drill a vent",
                       where_of(*most)});
+}
+
+/// Where the film is no sheet any more.
+void warn_of_strain(const DipFigures& figures, const film::Profile& profile, Warnings& warnings) {
+  const auto warn = [&](double share, const char* code, const std::string& message) {
+    if (share > 0) {
+      warnings.push_back({code, "on " + percent(share) + " of the surface " + message, "surface"});
+    }
+  };
+  warn(figures.torn_share, "film_torn",
+       "the film is stretched more than " + fixed(profile.tear_stretch) +
+           " times, where it tears. Dip less deep, turn the object, or take a larger film");
+  warn(figures.wrinkled_share, "film_wrinkled",
+       "the film is gathered to less than " + fixed(profile.wrinkle_stretch) +
+           " of its width and wrinkles. Turn the object or dip less deep");
+  if (figures.unsettled_mm <= kUnsettled_mm) return;
+  warnings.push_back({"sheet_unsettled",
+                      "the thickness of the film does not settle, as happens where it tears or "
+                      "folds; another sweep would still move it by " +
+                          fixed(figures.unsettled_mm) +
+                          " mm. Do not trust the map where the stretch is extreme (stretch.png); "
+                          "turn the object or dip less deep",
+                      "film"});
 }
 
 }  // namespace
@@ -171,23 +197,7 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
                         "Stokes flow knows no water drag (drag_length_mm). Use --model sheet",
                         "profile"});
   }
-  if (figures.torn_share > 0) {
-    warnings.push_back({"film_torn",
-                        "on " + percent(figures.torn_share) +
-                            " of the surface the film is stretched more than " +
-                            fixed(options.profile.tear_stretch) +
-                            " times, where it tears. Dip less deep, turn the object, or take a "
-                            "larger film",
-                        "surface"});
-  }
-  if (figures.wrinkled_share > 0) {
-    warnings.push_back({"film_wrinkled",
-                        "on " + percent(figures.wrinkled_share) +
-                            " of the surface the film is gathered to less than " +
-                            fixed(options.profile.wrinkle_stretch) +
-                            " of its width and wrinkles. Turn the object or dip less deep",
-                        "surface"});
-  }
+  warn_of_strain(figures, options.profile, warnings);
   return warnings;
 }
 

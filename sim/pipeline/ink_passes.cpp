@@ -6,6 +6,7 @@
 
 #include "sim/image/film_image.h"
 #include "sim/ink/ink_of.h"
+#include "sim/pipeline/start.h"
 
 namespace hydroprint::pipeline {
 namespace {
@@ -44,15 +45,20 @@ InkPass compare(const std::vector<Vector2d>& before, const std::vector<Vector2d>
   return pass;
 }
 
-}  // namespace
+/// The sheet that carries the ink of its own film image, and where it lands.
+struct InkedFlow {
+  sheet::SheetFlow flow;
+  flow::FlowMap map;
+  std::vector<InkPass> passes;
+};
 
 Result<InkedFlow> ink_passes(const Start& start, const image::Paint& paint, int most_passes,
                              double dpi, const DipOptions& options, const Context& context) {
   DipOptions rough = options;
   rough.map = coarse(options.map);
   rough.map.make_tiles = true;
-  InkedFlow out{start.stokes, {}, {}};
-  HP_ASSIGN_OR_RETURN(out.map, land(start, out.field, rough, context));
+  InkedFlow out{{start.stokes}, {}, {}};
+  HP_ASSIGN_OR_RETURN(out.map, land(start, out.flow.field, rough, context));
   for (int pass = 1; pass <= most_passes; ++pass) {
     HP_ASSIGN_OR_RETURN(
         const image::RgbImage film,
@@ -60,17 +66,29 @@ Result<InkedFlow> ink_passes(const Start& start, const image::Paint& paint, int 
     HP_ASSIGN_OR_RETURN(
         const ink::InkField ink,
         ink::ink_of(film, options.outline, {options.profile.ink_icc_profile}, context));
-    HP_ASSIGN_OR_RETURN(out.field, sheet_field(out.field, ink, options, context));
+    HP_ASSIGN_OR_RETURN(out.flow, sheet_field(out.flow.field, ink, options, context));
     const bool is_last = pass == most_passes;
     HP_ASSIGN_OR_RETURN(flow::FlowMap map,
-                        land(start, out.field, is_last ? options : rough, context));
+                        land(start, out.flow.field, is_last ? options : rough, context));
     out.passes.push_back(compare(out.map.surface.film_mm, map.surface.film_mm));
     out.map = std::move(map);
     if (is_last) return out;
     if (out.passes.back().moved_most_mm < 25.4 / dpi) break;
   }
-  HP_ASSIGN_OR_RETURN(out.map, land(start, out.field, options, context));
+  HP_ASSIGN_OR_RETURN(out.map, land(start, out.flow.field, options, context));
   return out;
+}
+
+}  // namespace
+
+Result<Dip> dip_inked(const mesh::Model& model, const image::Paint& paint, int most_passes,
+                      double dpi, const DipOptions& options, const Context& context) {
+  HP_ASSIGN_OR_RETURN(Start begun, start(model, options, context));
+  HP_ASSIGN_OR_RETURN(InkedFlow inked,
+                      ink_passes(begun, paint, most_passes, dpi, options, context));
+  Dip dip = finish(model, std::move(begun), std::move(inked.map), inked.flow.unsettled_mm, options);
+  dip.figures.ink_passes = std::move(inked.passes);
+  return dip;
 }
 
 }  // namespace hydroprint::pipeline

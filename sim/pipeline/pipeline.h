@@ -39,6 +39,7 @@ struct DipOptions {
   ink::InkField ink;         ///< printed on the film; for the sheet alone
   waterline::Motion motion;  ///< sideways path as driven; empty: straight down
   // How finely: the defaults are both fast and accurate (tests/bench).
+  double surface_edge_mm = 2;  ///< longer faces are subdivided (contract)
   waterline::ScheduleOptions schedule;
   velocity::MeshOptions mesh;
   sheet::SheetOptions sheet;  ///< drag is taken from the profile
@@ -60,10 +61,12 @@ struct DipFigures {
   std::vector<InkPass> ink_passes;
   int film_vertices_max = 0;  ///< of the largest film mesh
   int film_triangles_max = 0;
-  double coverage = 0;                 ///< share of the object's surface that film reaches
-  double clamped_share = 0;            ///< share of the surface with theta beyond 170 degrees
-  double wrinkled_share = 0;           ///< of the surface, the film gathered below wrinkle_stretch
-  double torn_share = 0;               ///< of the surface, the film stretched beyond tear_stretch
+  double coverage = 0;        ///< share of the object's surface that film reaches
+  double clamped_share = 0;   ///< share of the surface with theta beyond 170 degrees
+  double wrinkled_share = 0;  ///< of the surface, the film gathered below wrinkle_stretch
+  double torn_share = 0;      ///< of the surface, the film stretched beyond tear_stretch
+  /// By which further sweeps would move the sheet where it tears or folds; see sheet::SheetFlow.
+  double unsettled_mm = 0;
   std::vector<waterline::Trap> traps;  ///< film and air closed in, largest first
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;  ///< where theta is not clamped
 };

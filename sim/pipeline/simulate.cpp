@@ -48,16 +48,6 @@ Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
   return out;
 }
 
-/// The dip of a film that is printed with what it is to carry to the object.
-Result<Dip> dip_inked(const mesh::Model& model, const image::Paint& paint, int passes, double dpi,
-                      const DipOptions& options, const Context& context) {
-  HP_ASSIGN_OR_RETURN(Start begun, start(model, options, context));
-  HP_ASSIGN_OR_RETURN(InkedFlow inked, ink_passes(begun, paint, passes, dpi, options, context));
-  Dip dip = finish(model, std::move(begun), std::move(inked.map), options);
-  dip.figures.ink_passes = std::move(inked.passes);
-  return dip;
-}
-
 }  // namespace
 
 Result<Simulation> simulate(const SimulateOptions& options, const Context& context) {

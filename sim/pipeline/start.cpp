@@ -13,8 +13,6 @@
 namespace hydroprint::pipeline {
 namespace {
 
-constexpr double kSurfaceEdge_mm = 2;  ///< longer faces are subdivided (contract)
-
 /// The film as it floats: swollen, its clamped edge with it.
 film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   for (Eigen::Vector2d& p : outline.polygon) p = p.cwiseProduct(swelling);
@@ -45,7 +43,7 @@ Result<std::vector<velocity::VelocityField>> solve(const film::Outline& outline,
 
 Result<Start> start(const mesh::Model& model, const DipOptions& options, const Context& context) {
   Start out;
-  HP_ASSIGN_OR_RETURN(out.surface, mesh::make_surface(model, kSurfaceEdge_mm, context));
+  HP_ASSIGN_OR_RETURN(out.surface, mesh::make_surface(model, options.surface_edge_mm, context));
   out.X_FO = options.X_FO.value_or(waterline::centred_pose(out.surface));
   out.body = waterline::place(out.surface, out.X_FO);
   out.stokes.outline = floating(options.outline, options.profile.swelling);
@@ -65,8 +63,8 @@ Result<Start> start(const mesh::Model& model, const DipOptions& options, const C
   return out;
 }
 
-Result<flow::DipField> sheet_field(const flow::DipField& first, const ink::InkField& ink,
-                                   const DipOptions& options, const Context& context) {
+Result<sheet::SheetFlow> sheet_field(const flow::DipField& first, const ink::InkField& ink,
+                                     const DipOptions& options, const Context& context) {
   const film::Profile& profile = options.profile;
   const auto rest_thickness = [&](const std::array<Eigen::Vector2d, 3>& rest_mm) {
     // Swelling spreads a printed amount of film and ink alike; only relative thickness matters.
@@ -85,13 +83,13 @@ Result<flow::DipField> sheet_field(const flow::DipField& first, const ink::InkFi
                                              profile.density_kg_per_m3,
                                              options.dip_speed_mm_per_s,
                                              drag_per_mm};
-    return sheet::inertial_flow(first, rest_thickness, inertial, context);
+    HP_ASSIGN_OR_RETURN(flow::DipField field,
+                        sheet::inertial_flow(first, rest_thickness, inertial, context));
+    return sheet::SheetFlow{std::move(field)};
   }
   sheet::SheetOptions sheet = options.sheet;
   sheet.drag_per_mm = drag_per_mm;
-  HP_ASSIGN_OR_RETURN(sheet::SheetFlow flow,
-                      sheet::sheet_flow(first, rest_thickness, sheet, context));
-  return std::move(flow.field);
+  return sheet::sheet_flow(first, rest_thickness, sheet, context);
 }
 
 Result<flow::FlowMap> land(const Start& start, const flow::DipField& field,

@@ -30,16 +30,18 @@ struct Start {
 
 /// The flow of the viscous sheet (section 4.3) that carries this ink.
 /// @param first  the flow to start from: Stokes', or the sheet's with nearly the same ink
-[[nodiscard]] Result<flow::DipField> sheet_field(const flow::DipField& first,
-                                                 const ink::InkField& ink,
-                                                 const DipOptions& options, const Context& context);
+[[nodiscard]] Result<sheet::SheetFlow> sheet_field(const flow::DipField& first,
+                                                   const ink::InkField& ink,
+                                                   const DipOptions& options,
+                                                   const Context& context);
 
 /// Where the film lands that moves like this.
 [[nodiscard]] Result<flow::FlowMap> land(const Start& start, const flow::DipField& field,
                                          const DipOptions& options, const Context& context);
 
 /// The outcome, once it is known where the film lands.
+/// @param unsettled_mm  see DipFigures
 [[nodiscard]] Dip finish(const mesh::Model& model, Start start, flow::FlowMap map,
-                         const DipOptions& options);
+                         double unsettled_mm, const DipOptions& options);
 
 }  // namespace hydroprint::pipeline

@@ -6,6 +6,7 @@
 
 #include "sim/image/artifact_file.h"
 #include "sim/image/image_file.h"
+#include "sim/image/png.h"
 #include "sim/sample/textured_mesh.h"
 
 namespace hydroprint::sample {

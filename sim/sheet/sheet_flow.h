@@ -8,7 +8,7 @@
 namespace hydroprint::sheet {
 
 struct SheetOptions {
-  double drag_per_mm = 0;  ///< see velocity::solve_sheet
+  double drag_per_mm = 0;  ///< see velocity::Sheet
   /// Sweeps end when the next would move the film by less than this.
   double tolerance_mm = 0.003;
   int most_sweeps = 6;  ///< at least 2
@@ -16,8 +16,10 @@ struct SheetOptions {
 
 struct SheetFlow {
   flow::DipField field;
-  int sweeps = 0;           ///< over the waterlines that took most
-  double unsettled_mm = 0;  ///< by which further sweeps would move the film where it tears or folds
+  int sweeps = 0;  ///< over the waterlines that took most
+  /// By which another sweep would still move the film where it tears or folds (rms over the film of
+  /// a waterline, summed over the dip).
+  double unsettled_mm = 0;
 };
 
 /// The dip of a viscous sheet (section 4.3, quasistatic): velocity and thickness depend on one

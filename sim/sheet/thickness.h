@@ -19,6 +19,7 @@ using RestThickness = std::function<double(const std::array<Eigen::Vector2d, 3>&
 /// material carries its thickness, which is never interpolated from mesh to mesh.
 ///
 /// Area ratios beyond five, where film would long have wrinkled or torn, count as five.
+/// @param known  where the film was at rest at a waterline before; none: followed back all the way
 [[nodiscard]] std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
                                                const RestThickness& rest_thickness,
                                                const flow::RestMap* known = nullptr);

@@ -12,7 +12,6 @@
 #include "sim/image/pictures.h"
 #include "sim/ink/ink_of.h"
 #include "sim/pipeline/ink_passes.h"
-#include "sim/pipeline/start.h"
 #include "sim/sample/sample.h"
 
 namespace hydroprint::validate {
@@ -82,11 +81,8 @@ Result<Plan> make_plan(const Body& body, const pipeline::DipOptions& options, in
   if (ink_passes == 0) {
     HP_ASSIGN_OR_RETURN(plan.dip, pipeline::dip(body.model, options, context));
   } else {
-    HP_ASSIGN_OR_RETURN(pipeline::Start begun, pipeline::start(body.model, options, context));
-    HP_ASSIGN_OR_RETURN(pipeline::InkedFlow inked,
-                        pipeline::ink_passes(begun, body.paint, ink_passes, dpi, options, context));
-    plan.dip = pipeline::finish(body.model, std::move(begun), std::move(inked.map), options);
-    plan.dip.figures.ink_passes = std::move(inked.passes);
+    HP_ASSIGN_OR_RETURN(
+        plan.dip, pipeline::dip_inked(body.model, body.paint, ink_passes, dpi, options, context));
   }
   HP_ASSIGN_OR_RETURN(plan.film, image::film_image(plan.dip.surface, plan.dip.map.tiles, body.paint,
                                                    options.outline, dpi, context));

@@ -4,6 +4,7 @@
 
 #include "sim/image/image_file.h"
 #include "sim/image/pictures.h"
+#include "sim/image/png.h"
 #include "sim/sample/painting.h"
 #include "sim/validate/experiments.h"
 #include "sim/validate/measure.h"

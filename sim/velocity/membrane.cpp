@@ -4,8 +4,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "sim/velocity/quadratic.h"
-
 namespace hydroprint::velocity {
 namespace {
 

@@ -4,12 +4,9 @@
 #include <limits>
 
 #include "sim/velocity/film_mesh.h"
+#include "sim/velocity/quadratic.h"
 
 namespace hydroprint::velocity {
-
-/// x, y of a triangle's six nodes in turn (nodes_of), and one row and column for each.
-using ElementVector = Eigen::Matrix<double, 12, 1>;
-using ElementMatrix = Eigen::Matrix<double, 12, 12>;
 
 /// What makes energy (4) of a sheet: Y / (1 - nu^2) and nu.
 struct Elasticity {

@@ -72,6 +72,20 @@ Eigen::Matrix<double, 6, 2> shape_gradients(const FilmMesh& mesh, std::size_t tr
   return out;
 }
 
+const ElementMatrix& unit_mass() {
+  static const ElementMatrix mass = [] {
+    ElementMatrix m = ElementMatrix::Zero();
+    for (const QuadraturePoint& point : quadrature()) {
+      const auto n = shape_values(point.barycentric);
+      for (int i = 0; i < 12; ++i) {
+        for (int j = i % 2; j < 12; j += 2) m(i, j) += point.weight * n[i / 2] * n[j / 2];
+      }
+    }
+    return m;
+  }();
+  return mass;
+}
+
 std::vector<int> elimination_order(const FilmMesh& mesh) {
   const auto size = static_cast<int>(mesh.node_count());
   std::vector<Eigen::Triplet<double>> entries;

@@ -34,6 +34,13 @@ struct QuadraturePoint {
                                                           std::size_t triangle,
                                                           const Eigen::Vector3d& barycentric);
 
+/// x, y of a triangle's six nodes in turn (nodes_of), and one row and column for each.
+using ElementVector = Eigen::Matrix<double, 12, 1>;
+using ElementMatrix = Eigen::Matrix<double, 12, 12>;
+
+/// Integral of u . v over a triangle of unit area.
+[[nodiscard]] const ElementMatrix& unit_mass();
+
 /// Nodes in an order of low fill for matrices on the six-node triangles (approximate minimum
 /// degree).
 [[nodiscard]] std::vector<int> elimination_order(const FilmMesh& mesh);

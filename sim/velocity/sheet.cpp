@@ -11,48 +11,19 @@
 namespace hydroprint::velocity {
 namespace {
 
-/// Two rows and columns per node: x, y of node 0, x, y of node 1, ...
-using Local = Eigen::Matrix<double, 12, 12>;
-using Gradients = Eigen::Matrix<double, 6, 2>;
 using Matrix = Eigen::SparseMatrix<double>;
 // The unknowns are numbered in a good order already (FilmMesh::elimination_order).
 using Factor = Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
-/// Gradients of the corners' barycentric coordinates.
-Eigen::Matrix<double, 3, 2> corner_gradients(const FilmMesh& mesh, std::size_t t,
-                                             double twice_area) {
-  const Eigen::Vector3i& v = mesh.triangles[t];
-  Eigen::Matrix<double, 3, 2> out;
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2d along =
-        mesh.vertices_mm[v[(i + 2) % 3]] - mesh.vertices_mm[v[(i + 1) % 3]];
-    out.row(i) << -along.y() / twice_area, along.x() / twice_area;
-  }
-  return out;
-}
-
-/// Gradients of the six shape functions in the middle of the edge opposite corner `m`.
-Gradients gradients_at(const Eigen::Matrix<double, 3, 2>& corner, int m) {
-  Eigen::Vector3d l = Eigen::Vector3d::Constant(0.5);
-  l[m] = 0;
-  Gradients out;
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const int k = (i + 2) % 3;
-    out.row(i) = (4 * l[i] - 1) * corner.row(i);
-    out.row(3 + i) = 4 * (l[j] * corner.row(k) + l[k] * corner.row(j));
-  }
-  return out;
-}
-
 /// Integral of 2 (D(u) : D(v) + tr D(u) tr D(v)) over one triangle; the middles of its edges
 /// integrate quadratic functions exactly.
-Local stiffness(const FilmMesh& mesh, std::size_t t) {
+ElementMatrix stiffness(const FilmMesh& mesh, std::size_t t) {
   const double twice_area = twice_area_mm2(mesh, t);
-  const auto corner = corner_gradients(mesh, t, twice_area);
-  Local K = Local::Zero();
+  ElementMatrix K = ElementMatrix::Zero();
   for (int m = 0; m < 3; ++m) {
-    const Gradients g = gradients_at(corner, m);
+    Eigen::Vector3d middle = Eigen::Vector3d::Constant(0.5);
+    middle[m] = 0;
+    const auto g = shape_gradients(mesh, t, middle);
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j <= i; ++j) {
         const Eigen::Matrix2d cross = g.row(i).transpose() * g.row(j);
@@ -68,26 +39,6 @@ Local stiffness(const FilmMesh& mesh, std::size_t t) {
     }
   }
   return K;
-}
-
-/// Integral of u . v over a triangle of unit area.
-const Local& unit_mass() {
-  static const Local mass = [] {
-    Local m = Local::Zero();
-    const auto set = [&](int i, int j, double value) {
-      m(2 * i, 2 * j) = m(2 * i + 1, 2 * j + 1) = value / 180;
-    };
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        set(i, j, i == j ? 6 : -1);
-        set(3 + i, 3 + j, i == j ? 32 : 16);
-        set(i, 3 + j, i == j ? -4 : 0);
-        set(3 + i, j, i == j ? -4 : 0);
-      }
-    }
-    return m;
-  }();
-  return mass;
 }
 
 /// Takes a factor of a nearby matrix for a preconditioner: what Eigen's solver asks of one.
@@ -133,7 +84,7 @@ struct Sheet::State {
   double drag_per_mm;
   std::vector<Eigen::Vector2d> fixed;
   Unknowns unknowns;
-  std::vector<Local> element;  ///< per triangle, for unit thickness
+  std::vector<ElementMatrix> element;  ///< per triangle, for unit thickness
   /// Per triangle and entry of its element, its place among the matrix's values; -1: none.
   std::vector<std::array<int, 144>> place;
   Matrix matrix;  ///< lower triangle
@@ -200,7 +151,7 @@ void Sheet::State::assemble(const std::vector<double>& thickness_mm) {
   std::fill_n(matrix.valuePtr(), matrix.nonZeros(), 0.0);
   load = Eigen::VectorXd::Zero(matrix.rows());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    Local K = thickness_mm[t] * element[t];
+    ElementMatrix K = thickness_mm[t] * element[t];
     if (drag_per_mm > 0) K += 0.5 * twice_area_mm2(mesh, t) * drag_per_mm * unit_mass();
     for (int e = 0; e < 144; ++e) {
       if (place[t][e] >= 0) matrix.valuePtr()[place[t][e]] += K(e / 12, e % 12);

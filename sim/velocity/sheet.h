@@ -16,6 +16,7 @@ namespace hydroprint::velocity {
 /// elements, thickness constant on each triangle.
 class Sheet {
  public:
+  /// @param mesh         has to outlive the sheet
   /// @param drag_per_mm  k / mu = h0 / drag_length^2 (water drag on the film); 0: none
   /// @param fixed        per node the prescribed velocity, NaN where it is to be found
   Sheet(const FilmMesh& mesh, double drag_per_mm, std::vector<Eigen::Vector2d> fixed);

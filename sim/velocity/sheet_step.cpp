@@ -25,21 +25,6 @@ constexpr int kMostHalvings = 30;
 constexpr double kTolerance = 1e-7;
 constexpr double kLeastDecrease = 1e-4;  ///< of what the slope promises, for a step to count
 
-/// Integral of u . v over a triangle of unit area.
-const ElementMatrix& unit_mass() {
-  static const ElementMatrix mass = [] {
-    ElementMatrix m = ElementMatrix::Zero();
-    for (const QuadraturePoint& point : quadrature()) {
-      const auto n = shape_values(point.barycentric);
-      for (int i = 0; i < 12; ++i) {
-        for (int j = i % 2; j < 12; j += 2) m(i, j) += point.weight * n[i / 2] * n[j / 2];
-      }
-    }
-    return m;
-  }();
-  return mass;
-}
-
 /// What a step minimises, to second order in the velocities of the nodes that are free.
 struct Quadratic {
   double value = 0;

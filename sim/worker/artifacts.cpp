@@ -35,8 +35,11 @@ Task surface_map(const pipeline::Dip& dip) {
           }};
 }
 
-Task picture(const std::string& name, const image::RgbImage& image, double dpi) {
-  return {name, [&image, dpi](const Path& path) { return image::write_png(path, image, dpi); }};
+Task picture(const std::string& name, const image::RgbImage& image, double dpi,
+             const Context& context) {
+  return {name, [&image, dpi, &context](const Path& path) {
+            return image::write_png(path, image, dpi, context);
+          }};
 }
 
 }  // namespace
@@ -47,13 +50,14 @@ Result<std::vector<std::string>> write_artifacts(const std::filesystem::path& fo
   std::vector<Task> tasks = {surface_map(simulation.dip)};
   if (simulation.images) {
     const pipeline::SimulatedImages& images = *simulation.images;
-    tasks.push_back(picture("film.png", images.film, dpi));
+    tasks.push_back(picture("film.png", images.film, dpi, context));
     tasks.emplace_back("film_map.exr", [&images](const Path& path) {
       return image::write_film_map_exr(path, images.film_map);
     });
-    tasks.push_back(picture("stretch.png", images.stretch, kScreenDpi));
-    if (images.wrinkles) tasks.push_back(picture("wrinkles.png", *images.wrinkles, kScreenDpi));
-    tasks.push_back(picture("predicted.png", images.predicted, kScreenDpi));
+    tasks.push_back(picture("stretch.png", images.stretch, kScreenDpi, context));
+    if (images.wrinkles)
+      tasks.push_back(picture("wrinkles.png", *images.wrinkles, kScreenDpi, context));
+    tasks.push_back(picture("predicted.png", images.predicted, kScreenDpi, context));
   }
   return write_all(folder, tasks, context);
 }
@@ -72,7 +76,7 @@ Result<std::vector<std::string>> write_artifacts(const std::filesystem::path& fo
                                    images.texture->rgba);
     });
   }
-  tasks.push_back(picture("predicted.png", images.picture, kScreenDpi));
+  tasks.push_back(picture("predicted.png", images.picture, kScreenDpi, context));
   return write_all(folder, tasks, context);
 }
 

@@ -168,6 +168,7 @@ std::string report_json(const Report& report) {
                {"wrinkled_share", f.wrinkled_share},
                {"torn_share", f.torn_share},
                {"stretch", stretch_json(f)},
+               {"sheet_unsettled_mm", f.unsettled_mm},
                {"ink_passes", ink_passes_json(f.ink_passes)},
                {"stage_seconds", seconds_json(report.stage_seconds)},
                {"total_seconds", report.total_s},

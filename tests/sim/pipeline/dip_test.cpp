@@ -8,6 +8,7 @@
 
 #include "sim/pipeline/pipeline.h"
 #include "sim/sample/icosphere.h"
+#include "tests/sim/pipeline/dips.h"
 #include "tests/sim/support/bodies.h"
 
 namespace hydroprint::pipeline {
@@ -17,72 +18,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 namespace bodies = hydroprint::testing;
 
-DipOptions options_for(const std::string& film) {
-  DipOptions options;
-  options.outline = film::parse_outline(film).value();
-  options.map.make_tiles = false;
-  return options;
-}
-
-Context two_threads() {
-  Context context;
-  context.threads = 2;
-  return context;
-}
-
-/// Dips, and checks what holds for every dip: numbers or NaN, as documented.
-Dip dipped(const mesh::Model& model, const DipOptions& options) {
-  auto result = dip(model, options, two_threads());
-  if (!result) {
-    ADD_FAILURE() << result.error().message;
-    return {};
-  }
-  const flow::SurfaceMap& map = result->map.surface;
-  const std::size_t points = result->surface.points.size();
-  EXPECT_EQ(map.film_mm.size(), points);
-  EXPECT_EQ(map.contact_time_s.size(), points);
-  EXPECT_EQ(map.stretch.size(), points);
-  EXPECT_EQ(map.least_stretch.size(), points);
-  for (std::size_t v = 0; v < points; ++v) {
-    const bool reached = !std::isnan(map.film_mm[v].x());
-    EXPECT_EQ(map.film_mm[v].allFinite(), reached);
-    EXPECT_EQ(std::isfinite(map.contact_time_s[v]), reached);
-    EXPECT_FALSE(std::isinf(map.stretch[v]));
-    EXPECT_FALSE(std::isinf(map.least_stretch[v]));
-    if (reached) {
-      EXPECT_TRUE(film::contains(options.outline, map.film_mm[v]));
-    } else {
-      EXPECT_TRUE(std::isnan(map.stretch[v]) && std::isnan(map.least_stretch[v]));
-    }
-  }
-  const DipFigures& f = result->figures;
-  for (const double figure :
-       {f.depth_mm, f.coverage, f.clamped_share, f.stretch_p50, f.stretch_p95, f.stretch_max}) {
-    EXPECT_TRUE(std::isfinite(figure));
-  }
-  EXPECT_GE(f.coverage, 0);
-  EXPECT_LE(f.coverage, 1 + 1e-12);
-  EXPECT_LE(f.stretch_p50, f.stretch_p95);
-  EXPECT_LE(f.stretch_p95, f.stretch_max);
-  for (const Warning& w : result->warnings) {
-    EXPECT_FALSE(w.code.empty() || w.message.empty());
-    EXPECT_EQ(w.message.find('\n'), std::string::npos);
-  }
-  return std::move(*result);
-}
-
-bool warns(const Dip& dip, const std::string& code) {
-  return std::any_of(dip.warnings.begin(), dip.warnings.end(),
-                     [&](const Warning& w) { return w.code == code; });
-}
-
-/// Calls `visit` with each point as it lies in F, its immersion as z, and the film there.
-template <class Visit>
-void for_each_point(const Dip& dip, Visit&& visit) {
-  for (std::size_t v = 0; v < dip.surface.points.size(); ++v) {
-    visit(Vector3d(dip.X_FO * dip.surface.points[v]), dip.map.surface.film_mm[v]);
-  }
-}
+using testing::dipped;
+using testing::for_each_point;
+using testing::options_for;
+using testing::two_threads;
+using testing::warns;
 
 TEST(Dip, AFlatBottomMapsToItselfAndTheWallsAreReached) {
   const Dip d = dipped(bodies::box({-15, -10, 0}, {15, 10, 20}), options_for("100x90"));
@@ -312,8 +252,8 @@ TEST(Dip, TakesPartsThatAbutWithinRounding) {
     pipeline::DipOptions options;
     options.outline = film::parse_outline("80x80").value();
     options.map.make_tiles = false;
-    const auto dip = pipeline::dip(testing::together({testing::box({-10, -8, 0}, {0, 8, 6}),
-                                                      testing::box({gap_mm, -8, 0}, {10, 8, 6})}),
+    const auto dip = pipeline::dip(bodies::together({bodies::box({-10, -8, 0}, {0, 8, 6}),
+                                                     bodies::box({gap_mm, -8, 0}, {10, 8, 6})}),
                                    options, {});
     ASSERT_TRUE(dip) << gap_mm << ": " << dip.error().message;
     EXPECT_LT(dip->figures.film_vertices_max, 5000) << gap_mm;

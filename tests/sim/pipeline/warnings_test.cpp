@@ -9,6 +9,7 @@
 #include "sim/pipeline/pipeline.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/sample/icosphere.h"
+#include "tests/sim/pipeline/dips.h"
 #include "tests/sim/support/bodies.h"
 #include "tests/support/temporary_folder.h"
 
@@ -19,30 +20,13 @@ namespace {
 
 namespace bodies = hydroprint::testing;
 
+using testing::dipped;
+using testing::warning_of;
+using testing::warns;
+
 DipOptions options_for(const std::string& film, FilmModel model = FilmModel::kStokes) {
-  DipOptions options;
-  options.outline = film::parse_outline(film).value();
-  options.film_model = model;
-  options.map.make_tiles = false;
-  return options;
+  return testing::options_for(film, model);
 }
-
-Dip dipped(const mesh::Model& model, const DipOptions& options) {
-  Context context;
-  context.threads = 2;
-  auto result = dip(model, options, context);
-  EXPECT_TRUE(result) << result.error().message;
-  return result ? std::move(*result) : Dip{};
-}
-
-/// The warning of that code; empty code if there is none.
-Warning warning_of(const Dip& dip, const std::string& code) {
-  const auto it = std::find_if(dip.warnings.begin(), dip.warnings.end(),
-                               [&](const Warning& w) { return w.code == code; });
-  return it == dip.warnings.end() ? Warning{} : *it;
-}
-
-bool warns(const Dip& dip, const std::string& code) { return !warning_of(dip, code).code.empty(); }
 
 /// A sphere of 20 mm, dipped to this angle, in a film far larger than it.
 DipOptions to_angle(double theta_deg, FilmModel model = FilmModel::kStokes) {
@@ -85,7 +69,7 @@ TEST(Warnings, FilmWrinkledIsForLessThanTheProfilesStretch) {
 }
 
 TEST(Warnings, FilmWrinkledComesWithAMapOfWhere) {
-  const testing::TemporaryFolder folder;
+  const hydroprint::testing::TemporaryFolder folder;
   std::ostringstream obj;
   const mesh::Model sphere = sample::icosphere(20, 3);
   for (const Eigen::Vector3d& v : sphere.vertices) obj << "v " << v.transpose() << '\n';
@@ -118,13 +102,13 @@ TEST(Warnings, ThetaClampedIsForFacesThatLookUp) {
 }
 
 TEST(Warnings, PartsNotReachedIsForWhatTheWaterDoesNotTouch) {
-  const mesh::Model spindle = bodies::turned({{0, 0}, {12, 12}, {0, 24}}, 48);
-  DipOptions options = options_for("90x90");
+  const mesh::Model spindle = bodies::turned({{0, 0}, {24, 24}, {0, 48}}, 48);
+  DipOptions options = options_for("150x150");
   EXPECT_FALSE(warns(dipped(spindle, options), "parts_not_reached"));
-  options.depth_mm = 12;
+  options.depth_mm = 24;
   const Dip half = dipped(spindle, options);
   EXPECT_TRUE(warns(half, "parts_not_reached"));
-  EXPECT_NEAR(half.figures.coverage, 0.5, 0.05);
+  EXPECT_NEAR(half.figures.coverage, 0.5, 0.03);
 }
 
 TEST(Warnings, FilmEdgeReachedIsForObjectsWiderThanTheFilm) {

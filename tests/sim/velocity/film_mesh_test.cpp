@@ -77,7 +77,7 @@ void expect_sound(const film::Outline& film, const std::vector<Curve>& solids,
     for (const int e : edges) ++sides[e];
   }
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    const Vector2d middle = testing::place_of(mesh, mesh.vertices_mm.size() + e);
+    const Vector2d middle = place_of(mesh, mesh.vertices_mm.size() + e);
     double to_line = 1e300;
     for (const Curve& solid : solids) {
       to_line = std::min(to_line, testing::distance_to(solid, middle));

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/velocity/film_mesh.h"
+#include "sim/velocity/quadratic.h"
 #include "sim/waterline/cross_section.h"
 #include "sim/waterline/waterlines.h"
 
@@ -57,14 +58,6 @@ inline waterline::Waterline line_round(const std::vector<Curve>& solids) {
   line.bounds_film.assign(line.section.size(), 1);
   line.pulls = waterline::PullIndex(contours);
   return line;
-}
-
-/// Where a node of the mesh lies: a vertex or the middle of an edge.
-inline Eigen::Vector2d place_of(const FilmMesh& mesh, std::size_t node) {
-  const std::size_t vertices = mesh.vertices_mm.size();
-  if (node < vertices) return mesh.vertices_mm[node];
-  const auto& [a, b] = mesh.edges[node - vertices];
-  return 0.5 * (mesh.vertices_mm[a] + mesh.vertices_mm[b]);
 }
 
 inline double area_of(const FilmMesh& mesh, std::size_t triangle) {

@@ -79,7 +79,7 @@ TEST(Locator, FindsEveryVertexAndEdgeMiddle) {
   const FilmMesh mesh = mesh_of("70x60");
   const Locator locator(mesh);
   for (std::size_t n = 0; n < mesh.node_count(); ++n) {
-    const Locator::Place found = locator.find(testing::place_of(mesh, n));
+    const Locator::Place found = locator.find(place_of(mesh, n));
     ASSERT_GE(found.triangle, 0);
     EXPECT_LT(found.outside_mm, 1e-9);
   }
@@ -100,8 +100,7 @@ TEST(VelocityField, InterpolatesQuadraticsExactly) {
                     0.3 * p.x() * p.x() - 0.2 * p.y() * p.y() + p.y());
   };
   std::vector<Vector2d> nodes;
-  for (std::size_t n = 0; n < mesh.node_count(); ++n)
-    nodes.push_back(f(testing::place_of(mesh, n)));
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) nodes.push_back(f(place_of(mesh, n)));
   const VelocityField field(mesh, nodes);
   std::mt19937 random(2);
   std::uniform_real_distribution<double> place(-36, 36);
@@ -122,7 +121,7 @@ TEST(VelocityField, InterpolatesQuadraticsExactly) {
 TEST(VelocityField, ReachesOutsideTheFilmAsFarAsTold) {
   const FilmMesh mesh = mesh_of("70x60");
   std::vector<Vector2d> nodes;
-  for (std::size_t n = 0; n < mesh.node_count(); ++n) nodes.push_back(testing::place_of(mesh, n));
+  for (std::size_t n = 0; n < mesh.node_count(); ++n) nodes.push_back(place_of(mesh, n));
   const VelocityField field(mesh, nodes);
   Vector2d u;
   ASSERT_TRUE(field.at({35.3, 10}, 0.4, u));

@@ -22,7 +22,7 @@ std::vector<Vector2d> prescribed(const FilmMesh& mesh, const Function& f) {
   const std::size_t vertices = mesh.vertices_mm.size();
   for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
     if (mesh.edge_kind[e] == EdgeKind::kInner) continue;
-    fixed[vertices + e] = f(testing::place_of(mesh, vertices + e));
+    fixed[vertices + e] = f(place_of(mesh, vertices + e));
     for (const int v : mesh.edges[e]) fixed[v] = f(mesh.vertices_mm[v]);
   }
   return fixed;
@@ -34,7 +34,7 @@ double error_at_nodes(const FilmMesh& mesh, const Function& f) {
   if (!velocity) return std::numeric_limits<double>::infinity();
   double most = 0;
   for (std::size_t n = 0; n < mesh.node_count(); ++n) {
-    most = std::max(most, ((*velocity)[n] - f(testing::place_of(mesh, n))).norm());
+    most = std::max(most, ((*velocity)[n] - f(place_of(mesh, n))).norm());
   }
   return most;
 }
@@ -150,7 +150,7 @@ TEST(Stokes, OfACylinderIsTheRadialSolution) {
   const auto line = testing::line_round({testing::circle({0, 0}, a, 1500)});
   const auto velocity = solve_stokes(mesh, boundary_velocities(mesh, line.pulls)).value();
   for (std::size_t n = 0; n < mesh.node_count(); ++n) {
-    const Vector2d p = testing::place_of(mesh, n);
+    const Vector2d p = place_of(mesh, n);
     const double r = p.norm();
     const Vector2d expected = -c / (1 - c * c) * (vat / r - r / vat) * p / r;
     EXPECT_LT((velocity[n] - expected).norm(), 1e-3) << r;
@@ -169,7 +169,7 @@ TEST(BoundaryVelocities, AreThePullAtTheWaterlineAndZeroAtTheVat) {
     for (const std::size_t n : {vertices + e, static_cast<std::size_t>(mesh.edges[e][0]),
                                 static_cast<std::size_t>(mesh.edges[e][1])}) {
       at_edge[n] = 1;
-      const Vector2d p = testing::place_of(mesh, n);
+      const Vector2d p = place_of(mesh, n);
       const Vector2d expected = mesh.edge_kind[e] == EdgeKind::kVat
                                     ? Vector2d(0, 0)
                                     : Vector2d((Vector2d(4, 3) - p).normalized());
