@@ -1,5 +1,6 @@
 #include "sim/flow/tiles.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -33,6 +34,9 @@ struct Tile {
   std::array<Vector3d, 3> barycentric;
 };
 
+/// Takes steps on the film to steps on the surface.
+using SurfacePerFilm = Eigen::Matrix<double, 3, 2>;
+
 /// What is known of the edge between two nodes.
 enum class EdgeState : unsigned char { kLinear, kDivided, kBroken };
 
@@ -41,6 +45,16 @@ struct Edge {
   Landing middle = {};
   double film_per_surface = 0;
   Vector2d film_mm = Vector2d::Constant(kNaN);
+  /// Of the tiles on its two sides.
+  std::array<SurfacePerFilm, 2> side = {SurfacePerFilm::Zero(), SurfacePerFilm::Zero()};
+  int sides = 0;
+
+  /// How far off on the surface the film lands that is that far off on the film.
+  [[nodiscard]] double off_on_surface_mm(const Vector2d& off_mm) const {
+    double most = 0;
+    for (int i = 0; i < sides; ++i) most = std::max(most, (side[i] * off_mm).norm());
+    return most;
+  }
 };
 
 std::uint64_t key_of(int a, int b) {
@@ -130,9 +144,20 @@ class Tiler {
             landings_.on(tile.triangle, 0.5 * (tile.barycentric[j] + tile.barycentric[k]));
         edge.middle = is_new ? landing : shared(edge.middle, landing);
         edge.film_per_surface = std::max(edge.film_per_surface, tile.film_per_surface);
+        if (edge.sides < 2) edge.side[edge.sides++] = surface_per_film(tile);
       }
     }
     return edges;
+  }
+
+  [[nodiscard]] SurfacePerFilm surface_per_film(const Tile& tile) const {
+    const auto& [a, b, c] = tile.node;
+    SurfacePerFilm surface;
+    surface << nodes_[b].surface_mm - nodes_[a].surface_mm,
+        nodes_[c].surface_mm - nodes_[a].surface_mm;
+    Eigen::Matrix2d film;
+    film << nodes_[b].film_mm - nodes_[a].film_mm, nodes_[c].film_mm - nodes_[a].film_mm;
+    return surface * film.inverse();
   }
 
   Status trace_middles(std::vector<Edge>& edges, const Context& context) const {
@@ -151,14 +176,16 @@ class Tiler {
       const Node& a = nodes_[edge.a];
       const Node& b = nodes_[edge.b];
       const Node middle = {0.5 * (a.surface_mm + b.surface_mm), edge.film_mm};
-      const double off_mm = (middle.film_mm - 0.5 * (a.film_mm + b.film_mm)).norm();
+      const Vector2d off = middle.film_mm - 0.5 * (a.film_mm + b.film_mm);
+      const double off_mm = off.norm();
       const std::uint64_t key = key_of(edge.a, edge.b);
-      if (off_mm <= tolerance_mm_) {  // false if any of the three is NaN
+      const double surface_mm = (b.surface_mm - a.surface_mm).norm();
+      if (std::min(off_mm, edge.off_on_surface_mm(off)) <=
+          tolerance_mm_) {  // false if any of the three is NaN
         state_[key] = EdgeState::kLinear;
       } else if (!is_reached(a) && !is_reached(b) && !is_reached(middle)) {
         state_[key] = EdgeState::kLinear;  // nothing lands there at all
-      } else if (!may_divide || edge.film_per_surface * (b.surface_mm - a.surface_mm).norm() <=
-                                    options_.least_edge_mm) {
+      } else if (!may_divide || edge.film_per_surface * surface_mm <= options_.least_edge_mm) {
         state_[key] = EdgeState::kBroken;
       } else {
         state_[key] = EdgeState::kDivided;

@@ -58,27 +58,24 @@ Locator::Locator(const FilmMesh& mesh) {
   columns_ = static_cast<int>(size.x() / kCell_mm) + 1;
   rows_ = static_cast<int>(size.y() / kCell_mm) + 1;
 
-  triangles_.reserve(mesh.triangles.size());
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    Eigen::Matrix2d edges;
-    edges << mesh.vertices_mm[t[1]] - mesh.vertices_mm[t[0]],
-        mesh.vertices_mm[t[2]] - mesh.vertices_mm[t[0]];
-    triangles_.push_back({mesh.vertices_mm[t[0]], edges.inverse(), edges});
-  }
-
   std::vector<std::array<int, 2>> sides(mesh.edges.size(), {-1, -1});
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (const int e : mesh.triangle_edges[t])
       sides[e][sides[e][0] < 0 ? 0 : 1] = static_cast<int>(t);
   }
-  neighbours_.reserve(mesh.triangles.size());
+  triangles_.reserve(mesh.triangles.size());
+  edges_mm_.reserve(mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Eigen::Vector3i& v = mesh.triangles[t];
+    Eigen::Matrix2d& edges = edges_mm_.emplace_back();
+    edges << mesh.vertices_mm[v[1]] - mesh.vertices_mm[v[0]],
+        mesh.vertices_mm[v[2]] - mesh.vertices_mm[v[0]];
     Eigen::Vector3i across;
     for (int i = 0; i < 3; ++i) {
       const auto [a, b] = sides[mesh.triangle_edges[t][i]];
       across[i] = a == static_cast<int>(t) ? b : a;
     }
-    neighbours_.push_back(across);
+    triangles_.push_back({mesh.vertices_mm[v[0]], edges.inverse(), across});
   }
 
   const auto fill = [&](double margin_mm, const std::vector<int>& which, std::vector<int>& start,
@@ -120,7 +117,7 @@ bool Locator::walk(int triangle, const Eigen::Vector2d& point_mm, Place& place) 
     if (holds(triangle, point_mm, place)) return true;
     int outside = 0;
     place.barycentric.minCoeff(&outside);
-    triangle = neighbours_[triangle][outside];
+    triangle = triangles_[triangle].neighbours[outside];
   }
   return false;
 }
@@ -148,10 +145,9 @@ Locator::Place Locator::find_nearest(const Eigen::Vector2d& point_mm, int cell) 
   Place place;
   double best_mm2 = kReach_mm * kReach_mm;
   for (int i = near_start_[cell]; i < near_start_[cell + 1]; ++i) {
-    const Corners& corners = triangles_[near_[i]];
     double square_mm2 = 0;
     const Eigen::Vector3d barycentric =
-        nearest_in(point_mm, corners.origin_mm, corners.edges_mm, square_mm2);
+        nearest_in(point_mm, triangles_[near_[i]].origin_mm, edges_mm_[near_[i]], square_mm2);
     if (square_mm2 > best_mm2) continue;
     best_mm2 = square_mm2;
     place = {near_[i], barycentric, std::sqrt(square_mm2)};

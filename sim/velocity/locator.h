@@ -28,10 +28,11 @@ class Locator {
   [[nodiscard]] Place find(const Eigen::Vector2d& point_mm, int guess = -1) const;
 
  private:
-  struct Corners {
+  /// What a step of a walk reads, in one line of the cache.
+  struct alignas(64) Corners {
     Eigen::Vector2d origin_mm;
     Eigen::Matrix2d to_barycentric;  ///< (point - origin) to the coordinates of corners 1 and 2
-    Eigen::Matrix2d edges_mm;        ///< its inverse
+    Eigen::Vector3i neighbours;      ///< opposite each corner; -1: none
   };
 
   [[nodiscard]] bool holds(int triangle, const Eigen::Vector2d& point_mm, Place& place) const;
@@ -39,7 +40,7 @@ class Locator {
   [[nodiscard]] Place find_nearest(const Eigen::Vector2d& point_mm, int cell) const;
 
   std::vector<Corners> triangles_;
-  std::vector<Eigen::Vector3i> neighbours_;  ///< opposite each corner; -1: none
+  std::vector<Eigen::Matrix2d> edges_mm_;  ///< from corner 0 to the others
   Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();
   int columns_ = 0, rows_ = 0;
   /// Per cell the triangles that overlap it, then those that come within reach of it.
