@@ -66,14 +66,15 @@ bool is_part_of(const Names& some, const Names& all) {
 }
 
 TEST_F(Stages, OfASimulationComeAsListed) {
-  for (const Arguments& flags : {Arguments{},
-                                 {"--inertia", "--depth-mm", "6"},
-                                 {"--ink-passes", "0"},
-                                 {"--ink-passes", "2", "--dpi", "600"},
-                                 {"--ink-image", path("texture.png")},
-                                 {"--model", "stokes"},
-                                 {"--model", "stokes", "--ink-image", path("texture.png")},
-                                 {"--artifacts", "map"}}) {
+  for (const Arguments& flags :
+       {Arguments{},
+        {"--model", "stokes"},
+        {"--artifacts", "map"},
+        {"--artifacts", "map", "--inertia", "--depth-mm", "6"},
+        {"--artifacts", "map", "--ink-passes", "0"},
+        {"--artifacts", "map", "--ink-passes", "2", "--dpi", "600"},
+        {"--artifacts", "map", "--ink-image", path("texture.png")},
+        {"--artifacts", "map", "--model", "stokes", "--ink-image", path("texture.png")}}) {
     Arguments textured{"--texture", path("texture.png")};
     textured.insert(textured.end(), flags.begin(), flags.end());
     EXPECT_EQ(reported(simulate(textured)), listed(simulate(textured)))
@@ -83,18 +84,19 @@ TEST_F(Stages, OfASimulationComeAsListed) {
 
 TEST_F(Stages, OfAPredictionComeAsListed) {
   for (const Arguments& flags : {Arguments{},
-                                 {"--inertia", "--depth-mm", "6"},
-                                 {"--ink-passes", "0"},
-                                 {"--ink-image", path("texture.png")},
-                                 {"--model", "stokes"},
-                                 {"--artifacts", "map"}}) {
+                                 {"--artifacts", "map"},
+                                 {"--artifacts", "map", "--inertia", "--depth-mm", "6"},
+                                 {"--artifacts", "map", "--ink-passes", "0"},
+                                 {"--artifacts", "map", "--ink-image", path("texture.png")},
+                                 {"--artifacts", "map", "--model", "stokes"}}) {
     EXPECT_EQ(reported(predict(flags)), listed(predict(flags))) << ::testing::PrintToString(flags);
   }
 }
 
 TEST_F(Stages, ThatARunHasNoUseForAreLeftOut) {
-  const Arguments colourless = simulate();  // and so without ink
-  const Arguments patient = simulate({"--texture", path("texture.png"), "--ink-passes", "20"});
+  const Arguments colourless = simulate({"--artifacts", "map"});  // and so without ink
+  const Arguments patient =
+      simulate({"--artifacts", "map", "--texture", path("texture.png"), "--ink-passes", "20"});
   for (const Arguments& command : {colourless, patient}) {
     const Names some = reported(command), all = listed(command);
     EXPECT_LT(some.size(), all.size());
