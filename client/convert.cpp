@@ -90,6 +90,7 @@ Spec common_from_proto(const Message& message) {
   spec.film = given(message.has_film(), message.film());
   spec.dpi = given(message.has_dpi(), message.dpi());
   spec.model = from_proto(message.model());
+  spec.inertia = message.inertia();
   spec.ink_passes = given(message.has_ink_passes(), static_cast<int>(message.ink_passes()));
   spec.depth_mm = given(message.has_depth_mm(), message.depth_mm());
   spec.dip_speed_mm_per_s = given(message.has_dip_speed_mm_per_s(), message.dip_speed_mm_per_s());
@@ -166,6 +167,7 @@ Status common_to_proto(const Spec& spec, Message& message) {
   }
   if (spec.film) message.set_film(*spec.film);
   if (spec.dpi) message.set_dpi(*spec.dpi);
+  message.set_inertia(spec.inertia);
   if (spec.ink_passes) message.set_ink_passes(*spec.ink_passes);
   if (spec.depth_mm) message.set_depth_mm(*spec.depth_mm);
   if (spec.dip_speed_mm_per_s) message.set_dip_speed_mm_per_s(*spec.dip_speed_mm_per_s);

@@ -46,6 +46,7 @@ struct Spec {
   std::optional<std::string> film;
   std::optional<double> dpi;
   std::optional<std::string> model;  ///< "sheet" or "stokes"
+  bool inertia = false;              ///< of the sheet alone
   std::optional<int> ink_passes;
   std::optional<double> depth_mm;
   std::optional<double> dip_speed_mm_per_s;

@@ -148,6 +148,13 @@ void add_choices(WorkBuilder& builder, const Spec& spec) {
     }
     builder.flag("model", spec.model() == v1::MODEL_SHEET ? "sheet" : "stokes");
   }
+  if (spec.inertia()) {
+    if (spec.model() == v1::MODEL_STOKES) {
+      builder.require(invalid_field(
+          builder.path("inertia"), "Stokes flow has none; leave it out or let the model be sheet"));
+    }
+    builder.bare_flag("inertia");
+  }
   if (spec.artifacts() != v1::ARTIFACT_SET_UNSPECIFIED) {
     if (!v1::ArtifactSet_IsValid(spec.artifacts())) {
       builder.require(invalid_field(builder.path("artifacts"), "is not one of all, map"));

@@ -51,6 +51,7 @@ Json to_json(const client::Spec& spec) {
   put(json, "film", spec.film);
   put(json, "dpi", spec.dpi);
   put(json, "model", spec.model);
+  if (spec.inertia) json["inertia"] = true;
   put(json, "ink_passes", spec.ink_passes);
   put(json, "ink_image", spec.ink_image);
   put(json, "depth_mm", spec.depth_mm);

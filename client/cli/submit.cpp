@@ -69,6 +69,7 @@ void add_worker_flags(CLI::App& command, SubmitOptions& options) {
   command.add_option("--model", spec.model, "How the film moves")
       ->type_name("MODEL")
       ->check(CLI::IsMember({"sheet", "stokes"}));
+  command.add_flag("--inertia", spec.inertia, "The sheet moves with inertia; slower");
   command.add_option("--ink-passes", spec.ink_passes, "Passes that take the ink into account")
       ->type_name("N");
   add_file(command, "--ink-image", options.ink_image, "Ink given directly, as a film image");

@@ -5,6 +5,7 @@
 
 #include "sim/sample/painting.h"
 #include "sim/sample/textured_mesh.h"
+#include "sim/sample/turned.h"
 
 namespace hydroprint::sample {
 namespace {
@@ -19,54 +20,20 @@ constexpr double kRimMm = 50;   // radius outside at the rim
 constexpr double kFilletMm = 3;
 constexpr int kAround = 180;
 
-/// A place on the outline: radius and height, and the way along it from the middle of the bottom.
-struct Place {
-  double radius_mm;
-  double z_mm;
-  double arc_mm;
-};
-
 /// From the middle of the bottom outward, up, over the rim and down inside to the middle again.
-class Outline {
- public:
-  Outline() {
-    places_.push_back({0, 0, 0});
-    line(kFootMm - kFilletMm, 0, 22);
-    arc(kFootMm - kFilletMm, kFilletMm, kFilletMm, -pi / 2, 0, 6);
-    const double rim_z = kHeightMm - kWallMm / 2;
-    line(kRimMm, rim_z, 36);
-    arc(kRimMm - kWallMm / 2, rim_z, kWallMm / 2, 0, pi, 8);
-    const double inside_mm = kFootMm - kWallMm;
-    line(inside_mm, kFloorMm + kFilletMm, 34);
-    arc(inside_mm - kFilletMm, kFloorMm + kFilletMm, kFilletMm, 0, -pi / 2, 6);
-    line(0, kFloorMm, 22);
-  }
-
-  [[nodiscard]] const std::vector<Place>& places() const { return places_; }
-  [[nodiscard]] double length_mm() const { return places_.back().arc_mm; }
-
- private:
-  void add(double radius_mm, double z_mm) {
-    const Place& last = places_.back();
-    places_.push_back(
-        {radius_mm, z_mm, last.arc_mm + std::hypot(radius_mm - last.radius_mm, z_mm - last.z_mm)});
-  }
-  void line(double radius_mm, double z_mm, int steps) {
-    const Place from = places_.back();
-    for (int i = 1; i <= steps; ++i) {
-      const double t = static_cast<double>(i) / steps;
-      add(from.radius_mm + t * (radius_mm - from.radius_mm), from.z_mm + t * (z_mm - from.z_mm));
-    }
-  }
-  void arc(double radius_mm, double z_mm, double bend_mm, double from, double to, int steps) {
-    for (int i = 1; i <= steps; ++i) {
-      const double angle = from + (to - from) * i / steps;
-      add(radius_mm + bend_mm * std::cos(angle), z_mm + bend_mm * std::sin(angle));
-    }
-  }
-
-  std::vector<Place> places_;
-};
+Outline make_outline() {
+  Outline out(1);
+  add_line(out, kFootMm - kFilletMm, 0, 22);
+  add_arc(out, kFootMm - kFilletMm, kFilletMm, kFilletMm, -pi / 2, 0, 6);
+  const double rim_z = kHeightMm - kWallMm / 2;
+  add_line(out, kRimMm, rim_z, 36);
+  add_arc(out, kRimMm - kWallMm / 2, rim_z, kWallMm / 2, 0, pi, 8);
+  const double inside_mm = kFootMm - kWallMm;
+  add_line(out, inside_mm, kFloorMm + kFilletMm, 34);
+  add_arc(out, inside_mm - kFilletMm, kFloorMm + kFilletMm, kFilletMm, 0, -pi / 2, 6);
+  add_line(out, 0, kFloorMm, 22);
+  return out;
+}
 
 /// Sectors of 15 degrees and rings of 12 mm; green outside, red inside.
 Colour colour_at(double turn, double arc_mm, double rim_arc_mm) {
@@ -79,20 +46,20 @@ Colour colour_at(double turn, double arc_mm, double rim_arc_mm) {
 }  // namespace
 
 Sample make_bowl() {
-  const Outline outline;
-  const auto& places = outline.places();
+  const Outline places = make_outline();
   const std::size_t last = places.size() - 1;
+  const double length_mm = places.back().arc_mm;
   Sample sample;
   TexturedMesh& mesh = sample.mesh;
   std::vector<int> ring, uv;  // first vertex and first texture coordinate of each place
-  for (const Place& p : places) {
+  for (const OutlinePoint& p : places) {
     const bool is_middle = &p == &places.front() || &p == &places.back();
     ring.push_back(mesh.add_vertex({p.radius_mm, 0, p.z_mm}));
     for (int i = 1; i < kAround && !is_middle; ++i) {
       const double angle = 2 * pi * i / kAround;
       mesh.add_vertex({p.radius_mm * std::cos(angle), p.radius_mm * std::sin(angle), p.z_mm});
     }
-    const double v = p.arc_mm / outline.length_mm();
+    const double v = p.arc_mm / length_mm;
     uv.push_back(mesh.add_uv({is_middle ? 0.5 / kAround : 0, v}));
     for (int i = 1; i <= kAround; ++i) {  // those of a middle lie between the others
       mesh.add_uv({std::min<double>(kAround, is_middle ? i + 0.5 : i) / kAround, v});
@@ -112,8 +79,8 @@ Sample make_bowl() {
   }
   sample.px_per_mm = 7;
   const int width_px = static_cast<int>(std::lround(2 * pi * kRimMm * sample.px_per_mm));
-  const int height_px = static_cast<int>(std::lround(outline.length_mm() * sample.px_per_mm));
-  const double rim_arc_mm = outline.length_mm() / 2;
+  const int height_px = static_cast<int>(std::lround(length_mm * sample.px_per_mm));
+  const double rim_arc_mm = length_mm / 2;
   sample.texture = draw(width_px, height_px, 1 / sample.px_per_mm, 2, [&](double x, double y) {
     return colour_at(x * sample.px_per_mm / width_px, y, rim_arc_mm);
   });

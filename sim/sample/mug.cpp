@@ -6,6 +6,7 @@
 
 #include "sim/sample/chart.h"
 #include "sim/sample/textured_mesh.h"
+#include "sim/sample/turned.h"
 
 namespace hydroprint::sample {
 namespace {
@@ -23,60 +24,28 @@ constexpr double kRoundMm = 2 * pi * kRadiusMm;
 /// Parts of the outline from the middle of the bottom outward, up, over the rim and down inside.
 enum Part : std::size_t { kBottom, kOuter, kInner, kFloor, kHandle };
 
-struct OutlinePoint {
-  double radius_mm;
-  double z_mm;
-  double arc_mm;  ///< from where its part begins
-};
-
 /// The outline by parts; a part begins with the last point of the one before.
-class Outline {
- public:
-  Outline() {
-    begin({0, 0, 0});
-    line(kRadiusMm - kFilletMm, 0, 24);
-    arc(kRadiusMm - kFilletMm, kFilletMm, kFilletMm, -pi / 2, 0, 7);
-    next();
-    line(kRadiusMm, kHeightMm - kWallMm / 2, 62);
-    arc(kRadiusMm - kWallMm / 2, kHeightMm - kWallMm / 2, kWallMm / 2, 0, pi, 8);
-    next();
-    line(kRadiusMm - kWallMm, kFloorMm + kFilletMm, 56);
-    next();
-    arc(kRadiusMm - kWallMm - kFilletMm, kFloorMm + kFilletMm, kFilletMm, 0, -pi / 2, 7);
-    line(0, kFloorMm, 22);
-  }
-
-  [[nodiscard]] const std::vector<OutlinePoint>& part(std::size_t i) const { return parts_[i]; }
-  [[nodiscard]] double length_mm(std::size_t i) const { return parts_[i].back().arc_mm; }
-
- private:
-  void begin(const OutlinePoint& p) { parts_.push_back({p}); }
-  void next() {
-    OutlinePoint p = parts_.back().back();
+std::vector<Outline> make_parts() {
+  std::vector<Outline> parts(1, Outline(1));
+  const auto next = [&] {
+    OutlinePoint p = parts.back().back();
     p.arc_mm = 0;
-    begin(p);
-  }
-  void add(double radius_mm, double z_mm) {
-    const auto& last = parts_.back().back();
-    parts_.back().push_back(
-        {radius_mm, z_mm, last.arc_mm + std::hypot(radius_mm - last.radius_mm, z_mm - last.z_mm)});
-  }
-  void line(double radius_mm, double z_mm, int steps) {
-    const OutlinePoint from = parts_.back().back();
-    for (int i = 1; i <= steps; ++i) {
-      const double t = static_cast<double>(i) / steps;
-      add(from.radius_mm + t * (radius_mm - from.radius_mm), from.z_mm + t * (z_mm - from.z_mm));
-    }
-  }
-  void arc(double radius_mm, double z_mm, double bend_mm, double from, double to, int steps) {
-    for (int i = 1; i <= steps; ++i) {
-      const double angle = from + (to - from) * i / steps;
-      add(radius_mm + bend_mm * std::cos(angle), z_mm + bend_mm * std::sin(angle));
-    }
-  }
-
-  std::vector<std::vector<OutlinePoint>> parts_;
-};
+    parts.push_back({p});
+  };
+  add_line(parts.back(), kRadiusMm - kFilletMm, 0, 24);
+  add_arc(parts.back(), kRadiusMm - kFilletMm, kFilletMm, kFilletMm, -pi / 2, 0, 7);
+  next();
+  const double rim_z = kHeightMm - kWallMm / 2;
+  add_line(parts.back(), kRadiusMm, rim_z, 62);
+  add_arc(parts.back(), kRadiusMm - kWallMm / 2, rim_z, kWallMm / 2, 0, pi, 8);
+  next();
+  const double inside_mm = kRadiusMm - kWallMm;
+  add_line(parts.back(), inside_mm, kFloorMm + kFilletMm, 56);
+  next();
+  add_arc(parts.back(), inside_mm - kFilletMm, kFloorMm + kFilletMm, kFilletMm, 0, -pi / 2, 7);
+  add_line(parts.back(), 0, kFloorMm, 22);
+  return parts;
+}
 
 // The handle leaves and meets the wall where 8 x 10 of the wall's cells are left out.
 constexpr int kHoleHalf = 4;   // cells to either side of the handle's plane
@@ -98,10 +67,10 @@ bool in_hole(int i, std::size_t row) {
 class MugMaker {
  public:
   MugMaker() {
-    const double bottom = outline_.length_mm(kBottom);
-    const double floor = outline_.length_mm(kFloor);
-    const double outer = outline_.length_mm(kOuter);
-    const double inner = outline_.length_mm(kInner);
+    const double bottom = length_mm(kBottom);
+    const double floor = length_mm(kFloor);
+    const double outer = length_mm(kOuter);
+    const double inner = length_mm(kInner);
     const double discs_y = outer + inner + 15;
     sheet_.size_mm = {kRoundMm + 10, discs_y + 2 * bottom + 5};
     sheet_.charts = {
@@ -134,12 +103,14 @@ class MugMaker {
   static constexpr double kHandleWidthMm = 40;
   static constexpr double kHandleLengthMm = 75;
 
+  [[nodiscard]] double length_mm(std::size_t part) const { return parts_[part].back().arc_mm; }
+
   // --- the body ---
 
   /// First vertex of each outline point's ring; the two middles are single vertices.
   int ring_of(std::size_t part, std::size_t row) {
     if (row == 0 && part != kBottom) return last_ring_;
-    const auto& p = outline_.part(part)[row];
+    const auto& p = parts_[part][row];
     const auto position = [&](int i) {
       const double angle = 2 * pi * i / kAround;
       return Eigen::Vector3d(p.radius_mm * std::cos(angle), p.radius_mm * std::sin(angle), p.z_mm);
@@ -152,7 +123,7 @@ class MugMaker {
 
   [[nodiscard]] Eigen::Vector2d place(std::size_t part, double arc_mm, double i) const {
     const double angle = 2 * pi * i / kAround;
-    const double length = outline_.length_mm(part);
+    const double length = length_mm(part);
     const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
     if (part == kBottom)  // seen from below
       return Eigen::Vector2d(length, length) +
@@ -163,7 +134,7 @@ class MugMaker {
   }
 
   void add_part(std::size_t part) {
-    const auto& points = outline_.part(part);
+    const auto& points = parts_[part];
     std::vector<int> rings;
     for (std::size_t row = 0; row < points.size(); ++row) rings.push_back(ring_of(part, row));
     if (part == kOuter) wall_ = rings;
@@ -206,7 +177,7 @@ class MugMaker {
   }
 
   [[nodiscard]] double row_z(int row) const {
-    return outline_.part(kOuter)[static_cast<std::size_t>(row)].z_mm;
+    return parts_[kOuter][static_cast<std::size_t>(row)].z_mm;
   }
 
   /// Half an ellipse from the upper hole to the lower one. @param t  0 to 1
@@ -308,7 +279,7 @@ class MugMaker {
     return on ? Colour(0.80F, 0.36F, 0.22F) : Colour(0.13F, 0.30F, 0.47F);
   }
 
-  Outline outline_;
+  const std::vector<Outline> parts_ = make_parts();
   Sheet sheet_;
   TexturedMesh mesh_;
   int last_ring_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace hydroprint::worker {
 namespace {
@@ -16,6 +17,12 @@ double& seconds_of(std::vector<std::pair<std::string, double>>& seconds, const s
                                   [&](const auto& entry) { return entry.first == stage; });
   if (found != seconds.end()) return found->second;
   return seconds.emplace_back(stage, 0).second;
+}
+
+double weight_of(std::span<const Stage> stages) {
+  double sum = 0;
+  for (const Stage& stage : stages) sum += stage.weight;
+  return sum;
 }
 
 }  // namespace
@@ -35,9 +42,8 @@ void Progress::update(std::string_view stage, double fraction) {
   const bool new_stage = stage != stage_;
   if (new_stage) {
     if (!stage_.empty()) seconds_of(seconds_, stage_) += now - stage_start_s_;
-    stage_ = stage;
+    enter(stage);
     stage_start_s_ = now;
-    fraction_ = 0;
   }
   const bool was_done = fraction_ >= 1;
   fraction_ = std::clamp(fraction, fraction_, 1.0);
@@ -47,19 +53,22 @@ void Progress::update(std::string_view stage, double fraction) {
   if (sink_) sink_(report(now));
 }
 
+void Progress::enter(std::string_view stage) {
+  stage_ = stage;
+  fraction_ = 0;
+  weight_ = 0;
+  const auto ahead = stages_.begin() + static_cast<std::ptrdiff_t>(next_);
+  const auto found =
+      std::find_if(ahead, stages_.end(), [&](const Stage& s) { return s.name == stage_; });
+  if (found == stages_.end()) return;
+  next_ = static_cast<std::size_t>(found - stages_.begin()) + 1;
+  before_ = weight_of(std::span(stages_.begin(), found));
+  weight_ = found->weight;
+}
+
 ProgressReport Progress::report(double now_s) {
-  double before = 0;
-  double current = 0;
-  double all = 0;
-  for (const Stage& stage : stages_) {
-    if (stage.name == stage_) {
-      before = all;
-      current = stage.weight;
-    }
-    all += stage.weight;
-  }
-  if (all > 0) {
-    total_fraction_ = std::clamp((before + fraction_ * current) / all, total_fraction_, 1.0);
+  if (const double all = weight_of(stages_); all > 0) {
+    total_fraction_ = std::clamp((before_ + fraction_ * weight_) / all, total_fraction_, 1.0);
   }
   ProgressReport out{stage_, fraction_, total_fraction_, std::nullopt};
   const double elapsed_s = now_s - start_s_;

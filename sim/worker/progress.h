@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -28,7 +29,8 @@ struct ProgressReport {
 /// which the simulation has none of.
 class Progress {
  public:
-  /// @param stages  in the order of work; a stage not among them counts for nothing in the total
+  /// @param stages  in the order of work, one that comes back as often as it does; left out stages
+  ///                count as done, and a stage not ahead among them for nothing in the total
   /// @param now_s   a clock that never goes back
   /// @param sink    told of changes: beginning and end of a stage, and at most ten times a second
   ///                in between
@@ -42,6 +44,7 @@ class Progress {
   [[nodiscard]] double total_s() const { return now_s_() - start_s_; }
 
  private:
+  void enter(std::string_view stage);
   [[nodiscard]] ProgressReport report(double now_s);
 
   std::vector<Stage> stages_;
@@ -50,6 +53,9 @@ class Progress {
   double start_s_;
   mutable std::mutex mutex_;
   std::string stage_;
+  std::size_t next_ = 0;  ///< in stages_: the first that is still ahead
+  double before_ = 0;     ///< weight of the stages before the present one
+  double weight_ = 0;     ///< of the present one
   double fraction_ = 0;
   double stage_start_s_;
   double last_told_s_;

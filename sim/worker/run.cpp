@@ -21,26 +21,13 @@
 #include "sim/worker/progress.h"
 #include "sim/worker/progress_sinks.h"
 #include "sim/worker/report.h"
+#include "sim/worker/stages.h"
 #include "sim/worker/validate.h"
 
 namespace hydroprint::worker {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Rough shares of the whole, for a time left that is believable; how they are in truth depends on
-// the job.
-std::vector<Stage> stages(const Options& options) {
-  if (options.verb == Verb::kValidate) return validation_stages(options);
-  std::vector<Stage> out = {{"inputs", 1},    {"reading", 3},   {"surface", 2},
-                            {"waterline", 8}, {"velocity", 25}, {"flow map", 25}};
-  if (!options.map_only) {
-    if (options.verb == Verb::kSimulate) out.push_back({"film image", 20});
-    out.push_back({"pictures", 12});
-  }
-  out.push_back({"writing", 8});
-  return out;
-}
 
 double seconds_now() {
   const auto now = std::chrono::steady_clock::now().time_since_epoch();

@@ -146,6 +146,24 @@ TEST_F(Cli, PredictTakesTheFilmImageAndTheMotion) {
   EXPECT_EQ(job.at("predict").at("motion").at("name"), "film.csv");
 }
 
+TEST_F(Cli, InertiaReachesTheWorkerAndIsRefusedWithStokes) {
+  start();
+  const std::string film = folder_.write("film.png", "film").string();
+  for (const std::string verb : {"simulate", "predict"}) {
+    Arguments flags{"submit", verb, "--mesh", mesh("sleep 0.1"), "--inertia"};
+    if (verb == "predict") flags.insert(flags.end(), {"--film-image", film});
+    Arguments stokes = flags;
+    stokes.insert(stokes.end(), {"--model", "stokes"});
+    expect_error(stokes, 3, verb + ".inertia: ");
+    flags.insert(flags.end(), {"--out", out().string()});
+    EXPECT_EQ(client_json(flags).at(verb).at("inertia"), true);
+    const std::string given = content_of(out() / "report.json");
+    EXPECT_NE(given.find("--inertia\n"), std::string::npos) << given;
+  }
+  const json without = client_json({"submit", "simulate", "--mesh", mesh("sleep 0.1")});
+  EXPECT_FALSE(without.at("simulate").contains("inertia"));
+}
+
 TEST_F(Cli, ValidateNeedsNoFiles) {
   start();
   const json job = client_json({"submit", "validate", "--only", "repeatability,bowl", "--quick",
@@ -353,6 +371,7 @@ TEST_F(Cli, CompletionScriptsAreValidAndComplete) {
   };
   EXPECT_EQ(complete("wat", 1), "watch\n");
   EXPECT_EQ(complete("submit simulate --mod", 3), "--model\n");
+  EXPECT_EQ(complete("submit predict --ine", 3), "--inertia\n");
   EXPECT_EQ(complete("--owner me submit simulate --model st", 6), "stokes\n");
   EXPECT_EQ(complete("queue pa", 2), "pause\n");
   for (const char* shell : {"zsh", "fish"}) {

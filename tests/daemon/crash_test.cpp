@@ -67,6 +67,7 @@ TEST_F(Crash, JobThatIsThereEachTimeTheDaemonIsLostFailsAtTheThirdLoss) {
 }
 
 TEST_F(Crash, WorkersDieWithTheDaemon) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   const std::string name = client->simulate("stubborn").name();
   client->wait(name, [](const v1::Job& job) { return job.phase() == "velocity"; });
   const auto workers = daemon.workers();

@@ -70,6 +70,33 @@ TEST(Spec, UnsetFieldsLeaveTheirFlagsOut) {
   EXPECT_TRUE(made->work.pose_json.empty());
 }
 
+template <class SpecOfAVerb>
+void expect_inertia_for_the_sheet_alone(v1::Job& job, SpecOfAVerb& spec, const std::string& field) {
+  const auto has_flag = [&] {
+    const auto made = check_job(job);
+    EXPECT_TRUE(made) << made.error().message;
+    return made && std::count(made->work.flags.begin(), made->work.flags.end(), "--inertia") == 1;
+  };
+  EXPECT_FALSE(has_flag());
+  spec.set_inertia(true);
+  EXPECT_TRUE(has_flag()) << "the worker's default is the sheet";
+  spec.set_model(v1::MODEL_SHEET);
+  EXPECT_TRUE(has_flag());
+  spec.set_model(v1::MODEL_STOKES);
+  EXPECT_EQ(refused_field(job), field);
+  spec.set_inertia(false);
+  EXPECT_FALSE(has_flag());
+}
+
+TEST(Spec, InertiaGoesWithTheSheetAlone) {
+  v1::Job simulate = job_with_mesh();
+  expect_inertia_for_the_sheet_alone(simulate, *simulate.mutable_simulate(), "simulate.inertia");
+  v1::Job predict;
+  set_file(*predict.mutable_predict()->mutable_mesh(), "spot.obj");
+  set_file(*predict.mutable_predict()->mutable_film_image(), "film.png");
+  expect_inertia_for_the_sheet_alone(predict, *predict.mutable_predict(), "predict.inertia");
+}
+
 TEST(Spec, PoseBecomesTheFileOfTheContract) {
   v1::Job job = job_with_mesh();
   auto& pose = *job.mutable_simulate()->mutable_pose();
@@ -204,6 +231,9 @@ TEST(Digest, DependsOnAllThatMattersAndOnNothingElse) {
   EXPECT_EQ(input_digest(check_job(job)->work, "w"), digest);
   EXPECT_NE(input_digest(check_job(job)->work, "v"), digest);
   job.mutable_simulate()->set_dpi(301);
+  EXPECT_NE(input_digest(check_job(job)->work, "w"), digest);
+  job = job_with_mesh();
+  job.mutable_simulate()->set_inertia(true);
   EXPECT_NE(input_digest(check_job(job)->work, "w"), digest);
   job = job_with_mesh();
   job.mutable_simulate()->mutable_mesh()->set_asset("assets/" + std::string(64, 'b'));

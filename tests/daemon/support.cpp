@@ -65,6 +65,8 @@ int wait_for_exit(pid_t pid) {
 
 }  // namespace
 
+bool proc_is_mounted() { return std::filesystem::exists("/proc/self/task"); }
+
 Ended run_daemon(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "out", err = folder.path() / "err";

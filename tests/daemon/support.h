@@ -21,6 +21,11 @@ namespace hydroprint::tests {
 
 using hydroprint::testing::TemporaryFolder;
 
+/// Whether /proc is mounted, where alone other processes can be looked at; bare chroots have none.
+[[nodiscard]] bool proc_is_mounted();
+/// Why a test is skipped without.
+constexpr const char* kNeedsProc = "/proc is not mounted: the daemon's workers cannot be seen";
+
 /// How a program ended and what it said.
 struct Ended {
   int status = -1;    ///< exit status; -signal if killed
@@ -65,7 +70,7 @@ class DaemonProcess {
   [[nodiscard]] const std::string& address() const { return address_; }
   [[nodiscard]] std::filesystem::path state() const { return folder_ / "state"; }
   [[nodiscard]] std::filesystem::path config() const { return folder_ / "hydroprintd.toml"; }
-  /// Processes that the daemon started and that are alive.
+  /// Processes that the daemon started and that are alive. Needs /proc.
   [[nodiscard]] std::vector<pid_t> workers() const;
 
  private:

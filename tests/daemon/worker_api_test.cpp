@@ -64,6 +64,7 @@ TEST_F(Workers, EachWayToFailHasItsError) {
 }
 
 TEST_F(Workers, KilledWorkerFailsItsJobAlone) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   start(DaemonProcess::fake());
   const v1::Job job = client->simulate("sleep 60");
   client->wait_for(job.name(), v1::Job::RUNNING);
@@ -76,6 +77,7 @@ TEST_F(Workers, KilledWorkerFailsItsJobAlone) {
 }
 
 TEST_F(Workers, RunningJobIsCancelledAndItsWorkerEnded) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   start(DaemonProcess::fake());
   const v1::Job job = client->simulate("sleep 60");
   client->wait_for(job.name(), v1::Job::RUNNING);
@@ -87,6 +89,7 @@ TEST_F(Workers, RunningJobIsCancelledAndItsWorkerEnded) {
 }
 
 TEST_F(Workers, StubbornWorkerIsKilled) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   start(DaemonProcess::fake());
   const v1::Job job = client->simulate("stubborn");
   client->wait(job.name(), [](const v1::Job& now) { return now.phase() == "velocity"; });
@@ -151,6 +154,7 @@ TEST_F(Workers, ReadTheirOwnInputsAndChangeNothingOutsideTheirFolder) {
 }
 
 TEST_F(Workers, ChildrenTheyLeaveBehindAreEnded) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   start(DaemonProcess::fake());
   EXPECT_EQ(run("orphan").state(), v1::Job::SUCCEEDED);
   EXPECT_TRUE(daemon->workers().empty());

@@ -9,10 +9,10 @@ namespace {
 
 /// Progress with a clock that the test moves.
 struct Bench {
+  std::vector<Stage> stages = {{"reading", 1}, {"velocity", 3}};
   double now_s = 100;
-  std::vector<ProgressReport> told;
-  Progress progress{{{"reading", 1}, {"velocity", 3}},
-                    [this] { return now_s; },
+  std::vector<ProgressReport> told = {};
+  Progress progress{stages, [this] { return now_s; },
                     [this](const ProgressReport& report) { told.push_back(report); }};
 
   void update(double s, const char* stage, double fraction) {
@@ -45,6 +45,20 @@ TEST(Progress, NeitherFractionNorTotalEverFalls) {
   }
   EXPECT_EQ(bench.told[1].fraction, 0.8);
   EXPECT_EQ(bench.told[3].fraction, 1);
+}
+
+TEST(Progress, AStageThatComesBackIsTheNextOfItsNameAndOneLeftOutCountsAsDone) {
+  Bench bench{{{"reading", 1}, {"flow map", 2}, {"sheet", 3}, {"flow map", 4}}};
+  const auto total_at = [&](const char* stage, double fraction) {
+    bench.update(0, stage, fraction);
+    return bench.told.back().total_fraction;
+  };
+  EXPECT_DOUBLE_EQ(total_at("flow map", 0.5), 0.2);
+  EXPECT_DOUBLE_EQ(total_at("sheet", 0), 0.3);
+  EXPECT_DOUBLE_EQ(total_at("flow map", 0.5), 0.8);
+  EXPECT_DOUBLE_EQ(total_at("flow map", 1), 1);
+  bench.update(1, "sheet", 0);
+  EXPECT_DOUBLE_EQ(bench.told.back().total_fraction, 1);
 }
 
 TEST(Progress, TimeLeftIsProportionalAndNotGuessedTooEarly) {

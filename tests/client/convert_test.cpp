@@ -1,0 +1,107 @@
+#include "client/convert.h"
+
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+namespace hydroprint::client {
+namespace {
+
+namespace v1 = ::hydroprint::v1;
+using google::protobuf::util::MessageDifferencer;
+
+InputFile file(const std::string& name) { return {name, "assets/" + name}; }
+
+/// Every field that simulate and predict share.
+Spec full_spec(Verb verb) {
+  Spec spec;
+  spec.verb = verb;
+  spec.mesh = file("spot.obj");
+  spec.extra_files = {file("spot.mtl"), file("film.json")};
+  spec.profile = file("film.toml");
+  spec.ink_image = file("ink.png");
+  spec.scale = 50;
+  spec.pose = PoseSpec{{0.6, 0, 0, 0.8}, {1.5, -2, 3}};
+  spec.film = "polygon:film.json";
+  spec.dpi = 600.5;
+  spec.model = "sheet";
+  spec.inertia = true;
+  spec.ink_passes = 2;
+  spec.depth_mm = 12.25;
+  spec.dip_speed_mm_per_s = 0.1;
+  spec.threads = 4;
+  spec.artifacts = "map";
+  return spec;
+}
+
+v1::Job message_of(const Spec& spec) {
+  v1::Job job;
+  const Status status = to_proto(spec, job);
+  EXPECT_TRUE(status) << status.error().message;
+  return job;
+}
+
+/// Fails unless all fields of the message are set, and the way through Spec loses none of them.
+void expect_round_trip(const v1::Job& job, const google::protobuf::Message& message) {
+  const auto& fields = *message.GetDescriptor();
+  for (int i = 0; i < fields.field_count(); ++i) {
+    const auto* field = fields.field(i);
+    const auto& reflection = *message.GetReflection();
+    EXPECT_TRUE(field->is_repeated() ? reflection.FieldSize(message, field) > 0
+                                     : reflection.HasField(message, field))
+        << field->full_name() << " is lost";
+  }
+  const Job back = from_proto(job);
+  ASSERT_TRUE(back.spec);
+  EXPECT_TRUE(MessageDifferencer::Equals(message_of(*back.spec), job))
+      << message_of(*back.spec).DebugString() << job.DebugString();
+}
+
+TEST(Convert, EveryFieldOfSimulateGoesToTheMessageAndBack) {
+  Spec spec = full_spec(Verb::kSimulate);
+  spec.texture = file("spot.png");
+  const v1::Job job = message_of(spec);
+  expect_round_trip(job, job.simulate());
+  EXPECT_TRUE(job.simulate().inertia());
+}
+
+TEST(Convert, EveryFieldOfPredictGoesToTheMessageAndBack) {
+  Spec spec = full_spec(Verb::kPredict);
+  spec.film_image = file("film.png");
+  spec.motion = file("driven.csv");
+  const v1::Job job = message_of(spec);
+  expect_round_trip(job, job.predict());
+  EXPECT_TRUE(job.predict().inertia());
+}
+
+TEST(Convert, EveryFieldOfValidateGoesToTheMessageAndBack) {
+  Spec spec;
+  spec.verb = Verb::kValidate;
+  spec.only = {"bowl", "accuracy"};
+  spec.quick = true;
+  spec.threads = 2;
+  const v1::Job job = message_of(spec);
+  expect_round_trip(job, job.validate());
+}
+
+TEST(Convert, WhatIsNotSetStaysUnset) {
+  Spec spec;
+  spec.mesh = file("spot.obj");
+  const v1::Job job = message_of(spec);
+  v1::Job mesh_alone;
+  mesh_alone.mutable_simulate()->mutable_mesh()->set_name("spot.obj");
+  mesh_alone.mutable_simulate()->mutable_mesh()->set_asset("assets/spot.obj");
+  EXPECT_TRUE(MessageDifferencer::Equals(job, mesh_alone)) << job.DebugString();
+}
+
+TEST(Convert, NamesThatThereAreNotAreRefused) {
+  Spec spec = full_spec(Verb::kSimulate);
+  v1::Job job;
+  spec.model = "honey";
+  EXPECT_EQ(to_proto(spec, job).error().code, Code::kInvalidArgument);
+  spec = full_spec(Verb::kSimulate);
+  spec.artifacts = "some";
+  EXPECT_EQ(to_proto(spec, job).error().code, Code::kInvalidArgument);
+}
+
+}  // namespace
+}  // namespace hydroprint::client

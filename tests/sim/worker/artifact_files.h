@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hydroprint::worker {
+
+/// surface_map.ply: x, y, z, film_x, film_y, contact_time, stretch per vertex.
+struct Ply {
+  std::string header;
+  std::vector<std::array<double, 7>> vertices;
+  std::vector<std::array<std::int32_t, 3>> faces;
+};
+
+/// Fails the test if the file's size is not what its header says.
+[[nodiscard]] Ply read_ply(const std::filesystem::path& path);
+
+/// A vertex of landed.ply.
+struct LandedVertex {
+  std::array<double, 3> xyz;
+  std::array<std::uint8_t, 4> rgb_landed;
+};
+
+[[nodiscard]] std::vector<LandedVertex> read_landed(const std::filesystem::path& path);
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,174 @@
+// What the program makes: the artifact folder and what stands in its files.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "sim/image/image_file.h"
+#include "tests/sim/worker/artifact_files.h"
+#include "tests/sim/worker/bodies.h"
+#include "tests/sim/worker/worker_fixture.h"
+
+namespace hydroprint::worker {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_F(Worker, SimulateMakesTheArtifactsOfTheContract) {
+  const Ended ended = testing::run(simulate({"--texture", path("texture.png")}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(names_in(out()),
+            (std::set<std::string>{"film.png", "film_map.exr", "predicted.png", "report.json",
+                                   "stretch.png", "surface_map.ply", "wrinkles.png"}))
+      << "the sphere gathers the film at its top, so there is a picture of that, too";
+  EXPECT_NE(ended.out.find(out()), std::string::npos);
+  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"out", "sphere.obj", "texture.png"}));
+}
+
+TEST_F(Worker, FilmImageHasTheFilmsSizeAndIsNotJustWhite) {
+  ASSERT_EQ(testing::run(simulate({"--texture", path("texture.png"), "--dpi", "254"})).status, 0);
+  const auto film = image::read_image(out() + "/film.png", {});
+  ASSERT_TRUE(film) << film.error().message;
+  EXPECT_EQ(film->image.width, 600);
+  EXPECT_EQ(film->image.height, 700);
+  const auto& texels = film->image.texels;
+  const auto coloured = std::count_if(texels.begin(), texels.end(),
+                                      [](const image::Texel& t) { return t.r != 65535; });
+  // The lower half of the sphere alone takes a disc of film of at least its own size.
+  EXPECT_GT(static_cast<double>(coloured), 3.1 * 120 * 120);
+  EXPECT_EQ(texels.front().r, 65535);
+}
+
+TEST_F(Worker, MapOnlyMakesTheMapAndTheReport) {
+  const Ended ended = testing::run(simulate({"--artifacts", "map"}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(names_in(out()), (std::set<std::string>{"report.json", "surface_map.ply"}));
+}
+
+TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
+  const std::string obj = sphere_obj(12, 12);
+  ASSERT_EQ(testing::run(simulate({"--artifacts", "map", "--depth-mm", "9"})).status, 0);
+  const Ply ply = read_ply(out() + "/surface_map.ply");
+  EXPECT_NE(ply.header.find("format binary_little_endian 1.0"), std::string::npos);
+  EXPECT_NE(ply.header.find("property double x\nproperty double y\nproperty double z\n"
+                            "property double film_x\nproperty double film_y\n"
+                            "property double contact_time\nproperty double stretch\n"),
+            std::string::npos);
+  std::istringstream lines(obj);
+  std::size_t index = 0;
+  for (std::string word; lines >> word && word == "v"; ++index) {
+    Eigen::Vector3d expected;
+    lines >> expected.x() >> expected.y() >> expected.z();
+    ASSERT_LT(index, ply.vertices.size());
+    const auto& vertex = ply.vertices[index];
+    EXPECT_NEAR((Eigen::Vector3d(vertex[0], vertex[1], vertex[2]) - expected).norm(), 0, 1e-9)
+        << index;
+    const bool under_water = expected.z() < -12 + 9 - 0.01;
+    const bool above = expected.z() > -12 + 9 + 0.01;
+    for (int k = 3; k < 7; ++k) {
+      if (above) {
+        EXPECT_TRUE(std::isnan(vertex[k])) << index;
+      }
+      if (under_water) {
+        EXPECT_TRUE(std::isfinite(vertex[k])) << index;
+      }
+    }
+    if (under_water) {
+      EXPECT_GE(vertex[6], 0.99) << "film is never squeezed both ways";
+      EXPECT_NEAR(vertex[5], (expected.z() + 12) / 5, 0.02) << "5 mm/s";
+    }
+  }
+  EXPECT_GT(ply.vertices.size(), index) << "3 mm faces are subdivided";
+  for (const auto& face : ply.faces) {
+    for (const std::int32_t corner : face) {
+      ASSERT_GE(corner, 0);
+      ASSERT_LT(static_cast<std::size_t>(corner), ply.vertices.size());
+    }
+  }
+}
+
+TEST_F(Worker, ReportTellsInputsParametersAndFigures) {
+  folder.write("pose.json", R"({"rotation_wxyz": [2, 0, 0, 0], "translation_mm": [3, -4, 99]})");
+  folder.write("film.toml", "thickness_mm = 0.25\n");
+  const Ended ended =
+      testing::run(simulate({"--texture", path("texture.png"), "--pose", path("pose.json"),
+                             "--profile", path("film.toml"), "--depth-mm", "10", "--json"}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const auto report = nlohmann::json::parse(content(out() + "/report.json"));
+  EXPECT_EQ(report["program"], "hydroprint-worker");
+  EXPECT_EQ(report["verb"], "simulate");
+  std::map<std::string, nlohmann::json> inputs;
+  for (const auto& input : report["inputs"]) inputs[input["role"]] = input;
+  for (const std::string role : {"mesh", "texture", "pose", "profile"}) {
+    ASSERT_TRUE(inputs.count(role)) << role;
+    EXPECT_EQ(inputs[role]["sha256"].get<std::string>().size(), 64u);
+    EXPECT_EQ(inputs[role]["size_bytes"], fs::file_size(inputs[role]["path"]));
+  }
+  const auto& parameters = report["parameters"];
+  EXPECT_EQ(parameters["dpi"], 100);
+  EXPECT_EQ(parameters["depth_mm"], 10);
+  EXPECT_EQ(parameters["model"], "sheet");
+  EXPECT_EQ(parameters["profile"]["thickness_mm"], 0.25);
+  EXPECT_EQ(parameters["film"]["name"], "60x70");
+  EXPECT_EQ(parameters["pose"]["rotation_wxyz"], (std::vector<double>{1, 0, 0, 0}));
+  EXPECT_EQ(parameters["pose"]["translation_mm"][0], 3);
+  EXPECT_EQ(parameters["pose"]["translation_mm"][1], -4);
+  EXPECT_NEAR(parameters["pose"]["translation_mm"][2].get<double>(), 12, 1e-5);
+  EXPECT_EQ(report["mesh"]["triangles"], 2 * 24 * 11);
+  EXPECT_GT(report["steps"], 5);
+  EXPECT_GT(report["peak_memory_bytes"], 1 << 20);
+  EXPECT_NEAR(report["depth_mm"].get<double>(), 10, 1e-9);
+  EXPECT_NEAR(report["coverage"].get<double>(), 10.0 / 24, 0.05) << "Archimedes' hat box";
+  EXPECT_GE(report["stretch"]["max"], report["stretch"]["p95"]);
+  EXPECT_GE(report["stretch"]["p95"], report["stretch"]["p50"]);
+  double seconds = 0;
+  for (const auto& [stage, value] : report["stage_seconds"].items()) seconds += value.get<double>();
+  EXPECT_NEAR(seconds, report["total_seconds"].get<double>(), 0.05);
+  for (const auto& warning : report["warnings"]) {
+    EXPECT_TRUE(warning.contains("code") && warning.contains("message") &&
+                warning.contains("where"));
+  }
+  const auto summary = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(summary["out"], out());
+  EXPECT_EQ(summary["coverage"], report["coverage"]);
+}
+
+TEST_F(Worker, ThreadsDoNotChangeTheArtifacts) {
+  const Arguments flags = {"--texture", path("texture.png")};
+  std::map<std::string, std::string> first;
+  for (const std::string threads : {"1", "2"}) {
+    Arguments command = simulate(flags);
+    *std::next(std::find(command.begin(), command.end(), "--threads")) = threads;
+    const Ended ended = testing::run(command);
+    ASSERT_EQ(ended.status, 0) << ended.err;
+    for (const std::string& name : names_in(out())) {
+      if (name == "report.json") continue;
+      const std::string bytes = content(out() + "/" + name);
+      if (threads == "1") first[name] = bytes;
+      EXPECT_TRUE(first[name] == bytes) << name;
+    }
+    // Files that tell when they were written would differ.
+    if (threads == "1") std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  }
+  EXPECT_GE(first.size(), 5U);
+}
+
+TEST_F(Worker, AnEarlierRunIsReplacedAndStrangersAreNot) {
+  ASSERT_EQ(testing::run(simulate()).status, 0);
+  ASSERT_EQ(testing::run(simulate({"--artifacts", "map"})).status, 0);
+  EXPECT_EQ(names_in(out()), (std::set<std::string>{"report.json", "surface_map.ply"}));
+  std::ofstream(out() + "/notes.txt") << "mine";
+  expect_refusal(3, simulate(), {"out: holds notes.txt", "--out"});
+  EXPECT_EQ(content(out() + "/notes.txt"), "mine");
+}
+
+}  // namespace
+}  // namespace hydroprint::worker

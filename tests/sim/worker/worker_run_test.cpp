@@ -1,0 +1,132 @@
+// Progress, cancel and trouble on the way.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <thread>
+
+#include "tests/sim/worker/bodies.h"
+#include "tests/sim/worker/worker_fixture.h"
+
+namespace hydroprint::worker {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST_F(Worker, ProgressOnAPipeRisesToTheEnd) {
+  ProcessOptions options;
+  options.files = {{5, folder.path() / "progress"}};
+  ASSERT_EQ(
+      testing::run(simulate({"--progress-fd", "5", "--texture", path("texture.png")}), options)
+          .status,
+      0);
+  std::ifstream lines(path("progress"));
+  double last = 0;
+  std::set<std::string> stages;
+  for (std::string line; std::getline(lines, line);) {
+    const auto progress = nlohmann::json::parse(line);
+    stages.insert(progress["stage"]);
+    EXPECT_GE(progress["fraction"], 0);
+    EXPECT_LE(progress["fraction"], 1);
+    EXPECT_GE(progress["total_fraction"], last);
+    EXPECT_TRUE(progress["eta_s"].is_null() || progress["eta_s"] >= 0);
+    last = progress["total_fraction"];
+  }
+  EXPECT_EQ(last, 1);
+  for (const char* stage : {"reading", "waterline", "velocity", "flow map", "film image"}) {
+    EXPECT_TRUE(stages.count(stage)) << stage;
+  }
+}
+
+TEST_F(Worker, AProgressReaderThatGoesAwayOrSleepsChangesNothing) {
+  std::array<int, 2> pipe_ends{};
+  ASSERT_EQ(::pipe2(pipe_ends.data(), O_CLOEXEC), 0);
+  ProcessOptions options;
+  options.inherited = {{5, pipe_ends[1]}};
+  // Nobody reads; the pipe is full from the start.
+  ASSERT_EQ(::fcntl(pipe_ends[1], F_SETPIPE_SZ, 4096), 4096);
+  const std::string filling(4096, ' ');
+  ASSERT_EQ(::write(pipe_ends[1], filling.data(), filling.size()), 4096);
+  EXPECT_EQ(testing::run(simulate({"--progress-fd", "5"}), options).status, 0);
+  ::close(pipe_ends[0]);
+  const Ended ended = testing::run(simulate({"--progress-fd", "5"}), options);
+  EXPECT_EQ(ended.status, 0) << "signal " << ended.signal;
+  ::close(pipe_ends[1]);
+}
+
+TEST_F(Worker, AClosedStdoutIsNoTrouble) {
+  ProcessOptions options;
+  options.close_stdout = true;
+  const Ended ended = testing::run(simulate({"--json"}), options);
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  const auto report = nlohmann::json::parse(content(out() + "/report.json"));
+  EXPECT_EQ(report["verb"], "simulate") << "the summary went into no artifact";
+}
+
+/// A run that takes long, started and seen at work.
+class LongRun : public Worker {
+ protected:
+  void start() {
+    folder.write("big.obj", sphere_obj(60, 300));
+    ProcessOptions options;
+    options.files = {{5, folder.path() / "progress"}};
+    process.emplace(simulate({"--mesh", path("big.obj"), "--film", "A4", "--progress-fd", "5",
+                              "--texture", path("texture.png")},
+                             false),
+                    options);
+    while (content(path("progress")).find("velocity") == std::string::npos && process->running()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ASSERT_TRUE(process->running());
+  }
+
+  std::optional<Process> process;
+};
+
+TEST_F(LongRun, SigtermCancelsAndLeavesNothing) {
+  start();
+  process->signal(SIGTERM);
+  const Ended ended = process->wait();
+  EXPECT_EQ(ended.status, 130) << "signal " << ended.signal;
+  EXPECT_EQ(ended.err, "hydroprint-worker: cancelled\n");
+  EXPECT_EQ(names_in(folder.path()),
+            (std::set<std::string>{"big.obj", "progress", "sphere.obj", "texture.png"}));
+}
+
+TEST_F(LongRun, SigintCancelsToo) {
+  start();
+  process->signal(SIGINT);
+  EXPECT_EQ(process->wait().status, 130);
+}
+
+TEST_F(LongRun, KilledOutrightItLeavesNoFolderOfThatName) {
+  start();
+  process->signal(SIGKILL);
+  EXPECT_EQ(process->wait().signal, SIGKILL);
+  EXPECT_FALSE(fs::exists(out()));
+}
+
+TEST_F(Worker, OutOfMemoryIsAnErrorLikeAnother) {
+  if (!kAddressSpaceIsOurs) GTEST_SKIP() << "address space cannot be limited";
+  folder.write("big.obj", sphere_obj(60, 700));
+  ProcessOptions options;
+  options.limits = {{RLIMIT_AS, rlim_t{600} << 20}};
+  const auto before = names_in(folder.path());
+  const Ended ended =
+      testing::run(simulate({"--mesh", path("big.obj"), "--film", "A4"}, false), options);
+  EXPECT_EQ(ended.status, 4) << "signal " << ended.signal << " " << ended.err;
+  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  EXPECT_NE(ended.err.find("out of memory"), std::string::npos) << ended.err;
+  EXPECT_EQ(names_in(folder.path()), before);
+}
+
+}  // namespace
+}  // namespace hydroprint::worker

@@ -1,0 +1,108 @@
+// The stages that runs report, against those that the time left is reckoned with.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "sim/worker/options.h"
+#include "sim/worker/stages.h"
+#include "tests/sim/worker/worker_fixture.h"
+
+namespace hydroprint::worker {
+namespace {
+
+using Names = std::vector<std::string>;
+
+class Stages : public Worker {
+ protected:
+  void SetUp() override {
+    Worker::SetUp();
+    std::filesystem::copy_file(path("texture.png"), path("film.png"));
+  }
+
+  /// The stages of a run, one after the other, from its progress pipe.
+  [[nodiscard]] Names reported(Arguments command) const {
+    ProcessOptions options;
+    options.files = {{5, folder.path() / "progress"}};
+    command.insert(command.end(), {"--progress-fd", "5"});
+    const Ended ended = testing::run(command, options);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    Names names;
+    std::ifstream lines(path("progress"));
+    for (std::string line; std::getline(lines, line);) {
+      const std::string stage = nlohmann::json::parse(line)["stage"];
+      if (names.empty() || names.back() != stage) names.push_back(stage);
+    }
+    std::filesystem::remove(path("progress"));
+    return names;
+  }
+};
+
+Names listed(const Arguments& command) {
+  std::vector<const char*> argv;
+  for (const std::string& argument : command) argv.push_back(argument.c_str());
+  const CommandLine parsed = parse_command_line(static_cast<int>(argv.size()), argv.data());
+  EXPECT_EQ(parsed.action, CommandLine::Action::kRun) << parsed.error.message;
+  Names names;
+  for (const Stage& stage : stages(parsed.options)) {
+    EXPECT_GT(stage.weight, 0) << stage.name;
+    names.push_back(stage.name);
+  }
+  return names;
+}
+
+/// Whether `some` is `all` with names left out.
+bool is_part_of(const Names& some, const Names& all) {
+  auto next = all.begin();
+  for (const std::string& name : some) {
+    next = std::find(next, all.end(), name);
+    if (next == all.end()) return false;
+    ++next;
+  }
+  return true;
+}
+
+TEST_F(Stages, OfASimulationComeAsListed) {
+  for (const Arguments& flags :
+       {Arguments{},
+        {"--model", "stokes"},
+        {"--artifacts", "map"},
+        {"--artifacts", "map", "--inertia", "--depth-mm", "6"},
+        {"--artifacts", "map", "--ink-passes", "0"},
+        {"--artifacts", "map", "--ink-passes", "2", "--dpi", "600"},
+        {"--artifacts", "map", "--ink-image", path("texture.png")},
+        {"--artifacts", "map", "--model", "stokes", "--ink-image", path("texture.png")}}) {
+    Arguments textured{"--texture", path("texture.png")};
+    textured.insert(textured.end(), flags.begin(), flags.end());
+    EXPECT_EQ(reported(simulate(textured)), listed(simulate(textured)))
+        << ::testing::PrintToString(flags);
+  }
+}
+
+TEST_F(Stages, OfAPredictionComeAsListed) {
+  for (const Arguments& flags : {Arguments{},
+                                 {"--artifacts", "map"},
+                                 {"--artifacts", "map", "--inertia", "--depth-mm", "6"},
+                                 {"--artifacts", "map", "--ink-passes", "0"},
+                                 {"--artifacts", "map", "--ink-image", path("texture.png")},
+                                 {"--artifacts", "map", "--model", "stokes"}}) {
+    EXPECT_EQ(reported(predict(flags)), listed(predict(flags))) << ::testing::PrintToString(flags);
+  }
+}
+
+TEST_F(Stages, ThatARunHasNoUseForAreLeftOut) {
+  const Arguments colourless = simulate({"--artifacts", "map"});  // and so without ink
+  const Arguments patient =
+      simulate({"--artifacts", "map", "--texture", path("texture.png"), "--ink-passes", "20"});
+  for (const Arguments& command : {colourless, patient}) {
+    const Names some = reported(command), all = listed(command);
+    EXPECT_LT(some.size(), all.size());
+    EXPECT_TRUE(is_part_of(some, all)) << ::testing::PrintToString(some);
+  }
+}
+
+}  // namespace
+}  // namespace hydroprint::worker
