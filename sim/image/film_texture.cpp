@@ -10,7 +10,7 @@ namespace hydroprint::image {
 namespace {
 
 /// Means over blocks of `factor` by `factor` pixels, in linear light; the last ones may be smaller.
-Texels reduce(const RgbImage& image, int factor) {
+Result<Texels> reduce(const RgbImage& image, int factor, const Context& context) {
   Texels out;
   out.width = (image.width + factor - 1) / factor;
   out.height = (image.height + factor - 1) / factor;
@@ -19,7 +19,9 @@ Texels reduce(const RgbImage& image, int factor) {
   for (std::uint32_t i = 0; i < 256; ++i) {
     linear[i] = linear16_from_srgb16(static_cast<std::uint16_t>(i * 257));
   }
-  for (int y = 0; y < out.height; ++y) {
+  const auto rows = static_cast<std::size_t>(out.height);
+  HP_RETURN_IF_ERROR(parallel_for(context, {}, rows, [&](std::size_t row) -> Status {
+    const auto y = static_cast<int>(row);
     for (int x = 0; x < out.width; ++x) {
       std::array<std::uint64_t, 3> sum{};
       std::uint64_t count = 0;
@@ -33,7 +35,8 @@ Texels reduce(const RgbImage& image, int factor) {
       texel.g = static_cast<std::uint16_t>(sum[1] / count);
       texel.b = static_cast<std::uint16_t>(sum[2] / count);
     }
-  }
+    return {};
+  }));
   return out;
 }
 
@@ -64,7 +67,7 @@ Result<FilmTexture> FilmTexture::from_image(const RgbImage& image, const film::O
                                             int max_side_px, const Context& context) {
   const auto [low, size] = image_extent(image.width, image.height, outline);
   const int factor = (std::max(image.width, image.height) + max_side_px - 1) / max_side_px;
-  Texels texels = reduce(image, factor);
+  HP_ASSIGN_OR_RETURN(Texels texels, reduce(image, factor, context));
   // Whole texels: the last column and row may reach beyond the image.
   const Eigen::Vector2d whole(size.x() * texels.width * factor / image.width,
                               size.y() * texels.height * factor / image.height);

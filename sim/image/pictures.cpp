@@ -45,6 +45,19 @@ Eigen::Vector3f scale_colour(double t) {
   return point(kScale[i]) * (1 - share) + point(kScale[i + 1]) * share;
 }
 
+/// The same in linear light, by table: it is asked for every sample.
+const Eigen::Vector3f& linear_scale_colour(double t) {
+  constexpr int kLast = 1023;
+  static const std::vector<Eigen::Vector3f> table = [] {
+    std::vector<Eigen::Vector3f> colours;
+    for (int i = 0; i <= kLast; ++i) {
+      colours.push_back(linear_from_srgb(scale_colour(static_cast<double>(i) / kLast)));
+    }
+    return colours;
+  }();
+  return table[static_cast<std::size_t>(std::clamp(t, 0.0, 1.0) * kLast + 0.5)];
+}
+
 /// Diagonal stripes in two greys.
 Eigen::Vector3f hatch(int x, int y) {
   constexpr int kPeriod = 18, kStripe = 4;  // in samples
@@ -192,17 +205,18 @@ Result<RgbImage> quantity_picture(const mesh::Surface& surface, const Pose& X_FO
   const Range range = range_of(quantity);
   const auto colour_of = [&](const flow::MappedTriangle& tile, const Corners&) {
     const auto values = quantity.at_corners(tile);
-    return [values, &range](int x, int y, const Eigen::Vector3d& b) {
+    return [values, &range](int x, int y, const Eigen::Vector3d& b) -> Eigen::Vector3f {
       const double value = b[0] * values[0] + b[1] * values[1] + b[2] * values[2];
       if (std::isnan(value)) return hatch(x, y);
       const double t = (value - range.low) / (range.high - range.low);
-      return linear_from_srgb(scale_colour(t));
+      return linear_scale_colour(t);
     };
   };
   HP_ASSIGN_OR_RETURN(RgbImage sheet,
                       draw_sheet(surface, X_FO, kLegend_px, context, [&](ViewDrawing& drawing) {
-                        drawing.draw_surface(hatch);
+                        drawing.place_surface();
                         drawing.draw_tiles(tiles, colour_of);
+                        drawing.draw_bare(hatch);
                       }));
   draw_legend(sheet, quantity.label, range);
   return sheet;
@@ -238,8 +252,9 @@ Result<RgbImage> predicted_picture(const mesh::Surface& surface, const Pose& X_F
     };
   };
   return draw_sheet(surface, X_FO, 0, context, [&](ViewDrawing& drawing) {
-    drawing.draw_surface([](int, int) { return kBareObject; });
+    drawing.place_surface();
     drawing.draw_tiles(tiles, colour_of);
+    drawing.draw_bare([](int, int) { return kBareObject; });
   });
 }
 

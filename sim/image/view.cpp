@@ -41,6 +41,35 @@ Box box_in(const mesh::Surface& surface, const Eigen::Matrix3d& rotation) {
   return box;
 }
 
+/// How bright a surface with that normal is, seen along z.
+float light(Eigen::Vector3d normal) {
+  static const Eigen::Vector3d key = Eigen::Vector3d(-0.45, 0.65, 0.9).normalized();
+  const double length = normal.norm();
+  if (!(length > 0)) return 1;
+  normal /= normal.z() < 0 ? -length : length;  // faces turned inside out are lit as well
+  const double lit = std::max(0.0, normal.dot(key));
+  return static_cast<float>(std::min(1.0, 0.5 + 0.08 * normal.y() + 0.47 * lit));
+}
+
+/// Calls visit(x, y, towards, map) for every sample inside a triangle, with its place along the
+/// view.
+/// @param corners  x and y in samples, z along the view
+template <class Visit>
+void for_each_place(const std::array<Eigen::Vector3d, 3>& corners, const Window& window,
+                    Visit&& visit) {
+  const BarycentricMap map({corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()});
+  const Eigen::Vector3d depth(corners[0].z(), corners[1].z(), corners[2].z());
+  const double origin = map.at(0.5, 0.5).dot(depth);
+  const double per_x = map.per_x().dot(depth), per_y = map.per_y().dot(depth);
+  for_each_span({corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()}, window,
+                [&](int y, int begin, int end) {
+                  const double row = origin + per_y * y;
+                  for (int x = begin; x < end; ++x) {
+                    visit(x, y, static_cast<float>(row + per_x * x), map);
+                  }
+                });
+}
+
 }  // namespace
 
 std::vector<View> standard_views() {
@@ -73,63 +102,65 @@ Eigen::Vector3d ViewDrawing::project(const Eigen::Vector3d& point_O) const {
   return {0.5 * width_ + p.x() * samples_per_mm_, 0.5 * height_ - p.y() * samples_per_mm_, p.z()};
 }
 
-float ViewDrawing::light(const Eigen::Vector3d& normal_O) const {
-  static const Eigen::Vector3d key = Eigen::Vector3d(-0.45, 0.65, 0.9).normalized();
-  Eigen::Vector3d normal = (X_VO_.linear() * normal_O).normalized();
-  if (!normal.allFinite()) return 1;
-  if (normal.z() < 0) normal = -normal;  // faces turned inside out are lit as well
-  const double lit = std::max(0.0, normal.dot(key));
-  return static_cast<float>(std::min(1.0, 0.5 + 0.08 * normal.y() + 0.47 * lit));
+std::array<Eigen::Vector3d, 3> ViewDrawing::project(
+    const std::array<Eigen::Vector3d, 3>& points_O) const {
+  std::array<Eigen::Vector3d, 3> out;
+  std::transform(points_O.begin(), points_O.end(), out.begin(),
+                 [&](const Eigen::Vector3d& p) { return project(p); });
+  return out;
 }
 
-void ViewDrawing::draw_surface(const Colour& colour) {
-  const Window window{0, 0, width_, height_};
+std::array<Eigen::Vector3d, 3> ViewDrawing::corners_of(std::size_t triangle) const {
+  const Eigen::Vector3i& v = surface_.triangles[triangle];
+  return project({surface_.points[v[0]], surface_.points[v[1]], surface_.points[v[2]]});
+}
+
+Eigen::Matrix3d ViewDrawing::normals_of(std::size_t triangle) const {
+  const auto& n = surface_.corner_normals[triangle];
+  Eigen::Matrix3d out;
+  out << n[0], n[1], n[2];
+  return X_VO_.linear() * out;
+}
+
+void ViewDrawing::place_surface() {
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-    Corners at;
-    Eigen::Vector3d depth;
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d p = project(surface_.points[surface_.triangles[t][i]]);
-      at[i] = p.head<2>();
-      depth[i] = p.z();
-    }
-    const auto& n = surface_.corner_normals[t];
-    for_each_sample(at, window, [&](int x, int y, const Eigen::Vector3d& b) {
-      Sample& sample = this->at(x, y);
-      const auto towards = static_cast<float>(b.dot(depth));
-      if (towards <= sample.towards) return;
-      sample.towards = towards;
-      sample.colour = colour(x, y) * light(b[0] * n[0] + b[1] * n[1] + b[2] * n[2]);
+    for_each_place(corners_of(t), window(), [&](int x, int y, float towards, const auto&) {
+      at(x, y).towards = std::max(at(x, y).towards, towards);
     });
   }
 }
 
 void ViewDrawing::draw_tiles(const std::vector<flow::MappedTriangle>& tiles,
                              const TileColourMaker& colour_of) {
-  const Window window{0, 0, width_, height_};
   const float behind_mm = static_cast<float>(0.02 * depth_step_mm_);
   for (const flow::MappedTriangle& tile : tiles) {
-    const auto points = tile_points(surface_, tile);
-    Corners at;
-    Eigen::Vector3d depth;
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d p = project(points[i]);
-      at[i] = p.head<2>();
-      depth[i] = p.z();
-    }
-    const auto& corner_normals = surface_.corner_normals[tile.triangle];
-    std::array<Eigen::Vector3d, 3> n;
-    for (int i = 0; i < 3; ++i) {
-      n[i].setZero();
-      for (int k = 0; k < 3; ++k) {
-        n[i] += static_cast<double>(tile.barycentric[i][k]) * corner_normals[k];
-      }
-    }
+    const auto corners = project(tile_points(surface_, tile));
+    Eigen::Matrix3d normals;
     TileColour colour;  // made when the first sample turns out to be visible
-    for_each_sample(at, window, [&](int x, int y, const Eigen::Vector3d& b) {
-      Sample& sample = this->at(x, y);
-      if (static_cast<float>(b.dot(depth)) < sample.towards - behind_mm) return;
-      if (!colour) colour = colour_of(tile, at);
-      sample.colour = colour(x, y, b) * light(b[0] * n[0] + b[1] * n[1] + b[2] * n[2]);
+    for_each_place(corners, window(), [&](int x, int y, float towards, const auto& map) {
+      Sample& sample = at(x, y);
+      if (towards < sample.towards - behind_mm) return;
+      if (!colour) {
+        colour =
+            colour_of(tile, {corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()});
+        Eigen::Matrix3d barycentric;
+        for (int i = 0; i < 3; ++i) {
+          for (int k = 0; k < 3; ++k) barycentric(k, i) = tile.barycentric[i][k];
+        }
+        normals = normals_of(static_cast<std::size_t>(tile.triangle)) * barycentric;
+      }
+      const Eigen::Vector3d b = map.at(x + 0.5, y + 0.5);
+      sample.colour = colour(x, y, b) * light(normals * b);
+    });
+  }
+}
+
+void ViewDrawing::draw_bare(const Colour& colour) {
+  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
+    for_each_place(corners_of(t), window(), [&](int x, int y, float towards, const auto& map) {
+      Sample& sample = at(x, y);
+      if (towards != sample.towards || !std::isnan(sample.colour.x())) return;
+      sample.colour = colour(x, y) * light(normals_of(t) * map.at(x + 0.5, y + 0.5));
     });
   }
 }
@@ -145,24 +176,28 @@ bool ViewDrawing::is_outline(int x, int y) const {
 }
 
 void ViewDrawing::put_on(RgbImage& picture, int left_px, int top_px) const {
-  constexpr float kShare = 1.0F / (kSupersample * kSupersample);
+  constexpr int kSamples = kSupersample * kSupersample;
   for (int y = 0; y < height_ / kSupersample; ++y) {
     for (int x = 0; x < width_ / kSupersample; ++x) {
-      std::uint8_t* out = picture.at(left_px + x, top_px + y);
-      const Eigen::Vector3f behind =
-          linear_from_srgb(Eigen::Vector3f(Eigen::Vector3f(out[0], out[1], out[2]) / 255.0F));
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-      for (int s = 0; s < kSupersample * kSupersample; ++s) {
+      int behind = 0;
+      for (int s = 0; s < kSamples; ++s) {
         const int sx = kSupersample * x + s % kSupersample;
         const int sy = kSupersample * y + s / kSupersample;
         const Sample& sample = at(sx, sy);
         if (sample.towards == -HUGE_VALF) {
-          sum += behind;
+          ++behind;
         } else {
           sum += sample.colour * (is_outline(sx, sy) ? kOutlineShade : 1.0F);
         }
       }
-      for (int c = 0; c < 3; ++c) out[c] = srgb8_from_linear(sum[c] * kShare);
+      if (behind == kSamples) continue;
+      std::uint8_t* out = picture.at(left_px + x, top_px + y);
+      if (behind > 0) {
+        const Eigen::Vector3f coded = Eigen::Vector3f(out[0], out[1], out[2]) / 255.0F;
+        sum += static_cast<float>(behind) * linear_from_srgb(coded);
+      }
+      for (int c = 0; c < 3; ++c) out[c] = srgb8_from_linear(sum[c] / kSamples);
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -38,26 +39,35 @@ class ViewDrawing {
   /// Linear colour, before light, of a sample; x and y in samples.
   using Colour = std::function<Eigen::Vector3f(int x, int y)>;
 
-  /// Draws the whole surface in colours of the place on the picture.
-  void draw_surface(const Colour& colour);
+  /// Finds what can be seen of the surface; before anything is drawn on it.
+  void place_surface();
 
-  /// Draws tiles over the surface. `colour_of` is asked once a tile with its corners on the grid of
+  /// Draws tiles on the surface. `colour_of` is asked once a tile with its corners on the grid of
   /// samples and returns the linear colour at a sample from its barycentric coordinates.
   using TileColour = std::function<Eigen::Vector3f(int x, int y, const Eigen::Vector3d&)>;
   using TileColourMaker =
       std::function<TileColour(const flow::MappedTriangle& tile, const Corners& at)>;
   void draw_tiles(const std::vector<flow::MappedTriangle>& tiles, const TileColourMaker& colour_of);
 
+  /// Draws the rest of the surface in colours of the place on the picture.
+  void draw_bare(const Colour& colour);
+
   /// Puts the drawing, with its outlines, on a picture whose pixels there are background.
   void put_on(RgbImage& picture, int left_px, int top_px) const;
 
  private:
   struct Sample {
-    Eigen::Vector3f colour = Eigen::Vector3f::Zero();
+    Eigen::Vector3f colour = Eigen::Vector3f::Constant(NAN);  ///< NaN: nothing drawn yet
     float towards = -HUGE_VALF;  ///< place along the view, mm; -infinity: background
   };
+  [[nodiscard]] Window window() const { return {0, 0, width_, height_}; }
+  /// x and y in samples, z along the view.
   [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& point_O) const;
-  [[nodiscard]] float light(const Eigen::Vector3d& normal_O) const;
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> project(
+      const std::array<Eigen::Vector3d, 3>& points_O) const;
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> corners_of(std::size_t triangle) const;
+  /// Of its corners, one a column, as seen.
+  [[nodiscard]] Eigen::Matrix3d normals_of(std::size_t triangle) const;
   [[nodiscard]] bool is_outline(int x, int y) const;
   [[nodiscard]] Sample& at(int x, int y) {
     return samples_[static_cast<std::size_t>(y) * width_ + x];
