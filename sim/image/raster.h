@@ -38,13 +38,29 @@ template <class Int>
 struct Edge {
   Int ax, ay, dx, dy;
   Int threshold;  ///< 0 for top and left edges, which own the samples exactly on them, else 1
+  Int per_row;    ///< what `dy` comes to over a sample, without its sign
+  double reciprocal;
 
   Edge(Int ax_, Int ay_, Int bx, Int by)
       : ax(ax_),
         ay(ay_),
         dx(bx - ax_),
         dy(by - ay_),
-        threshold(dy < 0 || (dy == 0 && dx > 0) ? 0 : 1) {}
+        threshold(dy < 0 || (dy == 0 && dx > 0) ? 0 : 1),
+        per_row((dy < 0 ? -dy : dy) * kOne),
+        reciprocal(1 / static_cast<double>(per_row)) {}
+
+  /// Exactly floor(k / per_row). Processors divide 64-bit integers slowly: what the reciprocal
+  /// gives is off by one at most.
+  Int rows(Int k) const {
+    if constexpr (sizeof(Int) > sizeof(std::int64_t)) {
+      return floor_div<Int>(k, per_row);
+    } else {
+      const Int guess = static_cast<Int>(static_cast<double>(k) * reciprocal);
+      const Int rest = k - guess * per_row;
+      return guess + (rest >= per_row ? 1 : 0) - (rest < 0 ? 1 : 0);
+    }
+  }
 
   /// Narrows [begin, end) to the samples of row y on the inner side.
   void narrow(Int y, Int& begin, Int& end) const {
@@ -53,9 +69,9 @@ struct Edge {
     if (dy == 0) {
       if (k < 0) end = begin;
     } else if (dy > 0) {
-      end = std::min(end, floor_div<Int>(k, dy * kOne) + 1);
+      end = std::min(end, rows(k) + 1);
     } else {
-      begin = std::max(begin, -floor_div<Int>(k, -dy * kOne));
+      begin = std::max(begin, -rows(k));
     }
   }
 };
