@@ -28,6 +28,8 @@ Result<const ImageCodecs*> codecs() {
 
 }  // namespace
 
+void load_image_libraries() { (void)codecs(); }
+
 Result<ReadImage> read_image(const std::filesystem::path& path, const Context& context) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);

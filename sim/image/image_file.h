@@ -32,6 +32,10 @@ struct ReadImage {
 inline constexpr int kMaxImageSide_px = 16384;
 inline constexpr std::int64_t kMaxImageArea_px = 200'000'000;
 
+/// Loads the image libraries, which else happens when the first image is read and takes a third of
+/// a second then. For a thread of its own, ahead of time.
+void load_image_libraries();
+
 /// Reads PNG, JPEG or TIFF (told by their first bytes, not by their name): grey, RGB, palette, with
 /// or without alpha (laid over white in linear light), 8 or 16 bits or floats. Integers are taken
 /// as sRGB-coded, floats as linear.

@@ -14,7 +14,7 @@
 namespace hydroprint::image {
 namespace {
 
-constexpr int kSheetWidth_px = 1600;
+constexpr int kSheetWidth_px = 1360;
 constexpr int kMargin_px = 40;
 constexpr int kCaption_px = 44;
 constexpr int kLegend_px = 110;
@@ -120,7 +120,7 @@ Layout lay_out(const mesh::Surface& surface, const Pose& X_FO, int legend_px) {
     layout.columns = columns;
     layout.rows = 4 / columns;
     layout.cell_width = (kSheetWidth_px - (columns + 1) * kMargin_px) / columns;
-    const double limit = (columns == 4 ? 900.0 : 1200.0) / layout.rows;
+    const double limit = (columns == 4 ? 765.0 : 1020.0) / layout.rows;
     layout.px_per_mm =
         std::min((layout.cell_width - 8) / (2 * half.x()), (limit - 8) / (2 * half.y()));
     layout.cell_height = static_cast<int>(2 * half.y() * layout.px_per_mm) + 9;

@@ -108,6 +108,11 @@ Taps taps_at(double position, int size, bool wraps) {
   return taps;
 }
 
+Eigen::Array4f lerp(const Texel& a, const Texel& b, float blend) {
+  const Eigen::Array4f from(a.r, a.g, a.b, 0), to(b.r, b.g, b.b, 0);
+  return from + blend * (to - from);
+}
+
 }  // namespace
 
 Result<Texture> Texture::build(Texels texels, mesh::Wrap wrap_u, mesh::Wrap wrap_v,
@@ -158,15 +163,21 @@ Texture::Sum Texture::bilinear(const Eigen::Vector2d& folded, int level, const C
   const bool wraps_v = wrap_[1] == mesh::Wrap::kRepeat && !chart.in_one_tile[1];
   const Taps x = taps_at(folded.x() * width() * scale - 0.5, image.width, wraps_u);
   const Taps y = taps_at((1 - folded.y()) * height() * scale - 0.5, image.height, wraps_v);
+  const Texel* upper = &image.texels[static_cast<std::size_t>(y.first) * image.width];
+  const Texel* lower = &image.texels[static_cast<std::size_t>(y.second) * image.width];
+  if (chart.id == 0) {
+    const Eigen::Array4f above = lerp(upper[x.first], upper[x.second], x.blend);
+    const Eigen::Array4f below = lerp(lower[x.first], lower[x.second], x.blend);
+    const Eigen::Array4f mean = above + y.blend * (below - above);
+    return {mean.head<3>().matrix(), 1};
+  }
   Sum sum;
   const auto add = [&](int column, const Texel* row, float weight) {
     const Texel& texel = row[column];
-    if (chart.id != 0 && texel.chart != chart.id) return;
+    if (texel.chart != chart.id) return;
     sum.colour += weight * Eigen::Vector3f(texel.r, texel.g, texel.b);
     sum.weight += weight;
   };
-  const Texel* upper = &image.texels[static_cast<std::size_t>(y.first) * image.width];
-  const Texel* lower = &image.texels[static_cast<std::size_t>(y.second) * image.width];
   add(x.first, upper, (1 - x.blend) * (1 - y.blend));
   add(x.second, upper, x.blend * (1 - y.blend));
   add(x.first, lower, (1 - x.blend) * y.blend);

@@ -125,7 +125,10 @@ Eigen::Matrix3d ViewDrawing::normals_of(std::size_t triangle) const {
 void ViewDrawing::place_surface() {
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
     for_each_place(corners_of(t), window(), [&](int x, int y, float towards, const auto&) {
-      at(x, y).towards = std::max(at(x, y).towards, towards);
+      Sample& sample = at(x, y);
+      if (towards <= sample.towards) return;
+      sample.towards = towards;
+      sample.triangle = static_cast<int>(t);
     });
   }
 }
@@ -156,12 +159,15 @@ void ViewDrawing::draw_tiles(const std::vector<flow::MappedTriangle>& tiles,
 }
 
 void ViewDrawing::draw_bare(const Colour& colour) {
-  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-    for_each_place(corners_of(t), window(), [&](int x, int y, float towards, const auto& map) {
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
       Sample& sample = at(x, y);
-      if (towards != sample.towards || !std::isnan(sample.colour.x())) return;
-      sample.colour = colour(x, y) * light(normals_of(t) * map.at(x + 0.5, y + 0.5));
-    });
+      if (sample.triangle < 0 || !std::isnan(sample.colour.x())) continue;
+      const auto triangle = static_cast<std::size_t>(sample.triangle);
+      const auto corners = corners_of(triangle);
+      const BarycentricMap map({corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()});
+      sample.colour = colour(x, y) * light(normals_of(triangle) * map.at(x + 0.5, y + 0.5));
+    }
   }
 }
 

@@ -58,6 +58,7 @@ class ViewDrawing {
  private:
   struct Sample {
     Eigen::Vector3f colour = Eigen::Vector3f::Constant(NAN);  ///< NaN: nothing drawn yet
+    int triangle = -1;           ///< of the surface, that is seen there; -1: background
     float towards = -HUGE_VALF;  ///< place along the view, mm; -infinity: background
   };
   [[nodiscard]] Window window() const { return {0, 0, width_, height_}; }

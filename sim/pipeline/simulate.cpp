@@ -1,9 +1,11 @@
 #include "sim/pipeline/simulate.h"
 
+#include <future>
 #include <utility>
 
 #include "sim/image/film_image.h"
 #include "sim/image/film_texture.h"
+#include "sim/image/image_file.h"
 #include "sim/image/paint.h"
 #include "sim/image/pictures.h"
 #include "sim/mesh/read_model.h"
@@ -53,13 +55,16 @@ Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
 Result<Simulation> simulate(const SimulateOptions& options, const Context& context) {
   Simulation out;
   context.progress("reading", 0);
+  const int passes = options.dip.film_model == FilmModel::kSheet ? options.ink_passes : 0;
+  const bool takes_colours = options.images || passes > 0;  // else nobody asks for them
+  std::future<void> ahead;
+  if (takes_colours) ahead = std::async(std::launch::async, image::load_image_libraries);
   HP_ASSIGN_OR_RETURN(out.model, mesh::read_model(options.mesh, options.scale, context));
   DipOptions dip_options = options.dip;
   dip_options.map.make_tiles = options.images;
   if (options.images && !options.texture) HP_RETURN_IF_ERROR(check_materials(out.model));
-  const int passes = dip_options.film_model == FilmModel::kSheet ? options.ink_passes : 0;
-  std::optional<image::Paint> paint;  // without images and ink nobody asks for the colours
-  if (options.images || passes > 0) {
+  std::optional<image::Paint> paint;
+  if (takes_colours) {
     HP_ASSIGN_OR_RETURN(paint, image::load_paint(out.model, options.texture, context));
   }
   if (passes > 0 && paint->has_colour()) {

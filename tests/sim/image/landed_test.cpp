@@ -141,7 +141,7 @@ TEST(Pictures, ShowTheObjectWithAndWithoutFilmOnAnySide) {
   map.surface.stretch.assign(printed.surface.points.size(), 1.5);
   const auto stretch = stretch_picture(printed.surface, X_FO, map, {});
   ASSERT_TRUE(stretch);
-  EXPECT_EQ(stretch->width, 1600);
+  EXPECT_EQ(stretch->width, 1360);
   EXPECT_LT(stretch->height, 1800);
   const auto with = predicted_picture(printed.surface, X_FO, map.tiles, *film, {});
   const auto without = predicted_picture(printed.surface, X_FO, {}, *film, {});
