@@ -1,0 +1,66 @@
+// A sphere off the centre of an A4 film, in both models, against the finest run there is time for,
+// and how the error falls with the mesh size: README.md.
+#include <cmath>
+#include <string>
+
+#include "sim/sample/icosphere.h"
+#include "tests/bench/figures.h"
+
+namespace hydroprint::bench {
+namespace {
+
+using pipeline::Dip;
+using pipeline::DipOptions;
+
+Dip dipped(const mesh::Model& model, const DipOptions& options) {
+  return value_of(pipeline::dip(model, options, two_threads()));
+}
+
+testing::Errors apart(const Dip& a, const Dip& b) {
+  return testing::errors_to(120, a.surface, validate::film_differences(a, b));
+}
+
+void against_finest(const std::string& row, const mesh::Model& model, DipOptions options) {
+  const Dip usual = dipped(model, options);
+  testing::scale_all(options, 0.5);
+  options.schedule.swept_mm *= 2.0 / 3;
+  const Dip finest = dipped(model, options);
+  Json figures = json_of(apart(usual, finest));
+  figures["waterlines"] = usual.figures.steps;
+  figures["waterlines_finest"] = finest.figures.steps;
+  figures["film_vertices"] = usual.figures.film_vertices_max;
+  figures["film_vertices_finest"] = finest.figures.film_vertices_max;
+  print(row, figures);
+}
+
+/// The steps are the same in all runs, so that what is left is the mesh's.
+void slope(const std::string& row, const mesh::Model& model, const DipOptions& usual) {
+  const auto with_mesh = [&](double factor) {
+    DipOptions options = usual;
+    testing::scale_mesh(options, factor);
+    return dipped(model, options);
+  };
+  const Dip finest = with_mesh(0.5);
+  const auto error = [&](double factor) { return apart(with_mesh(factor), finest).summary.rms; };
+  const double coarse = error(4), middle = error(2), usual_error = error(1);
+  print(row, {{"slope", std::log2(coarse / middle)},
+              {"rms_mm_at_4", coarse},
+              {"rms_mm_at_2", middle},
+              {"rms_mm_at_1", usual_error},
+              {"slope_2_to_1", std::log2(middle / usual_error)}});
+}
+
+}  // namespace
+}  // namespace hydroprint::bench
+
+int main(int argc, char** argv) {
+  using namespace hydroprint;
+  const bool with_slope = argc < 2 || std::string(argv[1]) != "--quick";
+  const mesh::Model model = sample::icosphere(testing::kOffCentreRadius_mm, 6);
+  for (const auto& [name, film_model] : {std::pair("stokes", pipeline::FilmModel::kStokes),
+                                         std::pair("sheet", pipeline::FilmModel::kSheet)}) {
+    const auto options = testing::off_centre_options(film_model);
+    bench::against_finest(std::string("off-centre-") + name, model, options);
+    if (with_slope) bench::slope(std::string("slope-") + name, model, options);
+  }
+}
