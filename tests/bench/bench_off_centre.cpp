@@ -1,7 +1,7 @@
 // A sphere off the centre of an A4 film, in both models, against the finest run there is time for,
 // and how the error falls with the mesh size: README.md.
-#include <cmath>
 #include <string>
+#include <utility>
 
 #include "sim/sample/icosphere.h"
 #include "tests/bench/figures.h"
@@ -33,21 +33,12 @@ void against_finest(const std::string& row, const mesh::Model& model, DipOptions
   print(row, figures);
 }
 
-/// The steps are the same in all runs, so that what is left is the mesh's.
-void slope(const std::string& row, const mesh::Model& model, const DipOptions& usual) {
-  const auto with_mesh = [&](double factor) {
-    DipOptions options = usual;
-    testing::scale_mesh(options, factor);
-    return dipped(model, options);
-  };
-  const Dip finest = with_mesh(0.5);
-  const auto error = [&](double factor) { return apart(with_mesh(factor), finest).summary.rms; };
-  const double coarse = error(4), middle = error(2), usual_error = error(1);
-  print(row, {{"slope", std::log2(coarse / middle)},
-              {"rms_mm_at_4", coarse},
-              {"rms_mm_at_2", middle},
-              {"rms_mm_at_1", usual_error},
-              {"slope_2_to_1", std::log2(middle / usual_error)}});
+void slope(const std::string& row, const mesh::Model& model, const DipOptions& options) {
+  const auto found = value_of(testing::mesh_slope(model, options, two_threads()));
+  print(row, {{"slope", found.slope},
+              {"rms_mm_at_4", found.rms_mm_at_4},
+              {"rms_mm_at_2", found.rms_mm_at_2},
+              {"rms_mm_at_1", found.rms_mm_at_1}});
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ using flow::testing::PixelMap;
 
 constexpr double kDpi = 600;
 constexpr double kTolerance_mm = 0.04;
-constexpr double kStep_mm = 0.05;  ///< of the particles, in depth
+constexpr double kStep_mm = 0.1;  ///< of the particles, in depth
 constexpr unsigned kSeed = 5;
 constexpr int kMostTries = 50'000'000;  ///< at finding a pixel at a jump
 

@@ -68,4 +68,27 @@ Errors errors_to(double theta_deg, const mesh::Surface& surface,
   return out;
 }
 
+Result<MeshSlope> mesh_slope(const mesh::Model& model, pipeline::DipOptions options,
+                             const Context& context) {
+  // What the sheet's sweeps leave is no matter of the mesh.
+  options.sheet.tolerance_mm = 1e-4;
+  options.sheet.most_sweeps = 20;
+  const auto with_mesh = [&](double factor) {
+    pipeline::DipOptions scaled = options;
+    scale_mesh(scaled, factor);
+    return pipeline::dip(model, scaled, context);
+  };
+  HP_ASSIGN_OR_RETURN(const pipeline::Dip finest, with_mesh(0.4));
+  const auto error = [&](double factor) -> Result<double> {
+    HP_ASSIGN_OR_RETURN(const pipeline::Dip dip, with_mesh(factor));
+    return errors_to(120, dip.surface, validate::film_differences(dip, finest)).summary.rms;
+  };
+  MeshSlope out;
+  HP_ASSIGN_OR_RETURN(out.rms_mm_at_4, error(4));
+  HP_ASSIGN_OR_RETURN(out.rms_mm_at_2, error(2));
+  HP_ASSIGN_OR_RETURN(out.rms_mm_at_1, error(1));
+  out.slope = std::log2(out.rms_mm_at_4 / out.rms_mm_at_1) / 2;  // the line that fits three best
+  return out;
+}
+
 }  // namespace hydroprint::testing

@@ -22,6 +22,16 @@ inline constexpr double kOffCentreRadius_mm = 45;
 /// Every length by which the film is meshed times `factor`.
 void scale_mesh(pipeline::DipOptions& options, double factor);
 
+/// The order in which the error of a dip falls with the lengths of its mesh: that of the film
+/// points of vertices to 120 degrees from a mesh of 0.4 times the lengths, over lengths from four
+/// times to once, steps and all else being the same.
+struct MeshSlope {
+  double slope = 0;
+  double rms_mm_at_4 = 0, rms_mm_at_2 = 0, rms_mm_at_1 = 0;
+};
+[[nodiscard]] Result<MeshSlope> mesh_slope(const mesh::Model& model, pipeline::DipOptions options,
+                                           const Context& context);
+
 /// All that a dip is divided into times `factor`: steps, mesh and, of second order, tolerances.
 void scale_all(pipeline::DipOptions& options, double factor);
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <utility>
 
 #include "sim/flow/flow_map.h"
 #include "sim/sample/icosphere.h"

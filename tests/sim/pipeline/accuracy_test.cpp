@@ -2,8 +2,6 @@
 // the same figures against finer runs than there is time for here.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "sim/sample/icosphere.h"
 #include "tests/support/exact_sphere.h"
 #include "tests/support/sphere_dips.h"
@@ -13,10 +11,14 @@ namespace {
 
 using testing::Errors;
 
-Dip dipped(const mesh::Model& model, const DipOptions& options) {
+Context two_threads() {
   Context context;
   context.threads = 2;
-  return dip(model, options, context).value();
+  return context;
+}
+
+Dip dipped(const mesh::Model& model, const DipOptions& options) {
+  return dip(model, options, two_threads()).value();
 }
 
 Errors apart(const Dip& a, const Dip& b) {
@@ -51,17 +53,11 @@ TEST_P(Accuracy, OfAnOffCentreSphereIsTwoHundredthsOfAMillimetre) {
 }
 
 TEST_P(Accuracy, IsOfSecondOrderInMeshSize) {
-  const mesh::Model model = sample::icosphere(testing::kOffCentreRadius_mm, 5);
-  // The steps stay as they are, so that what is left is the mesh's.
-  const auto with_mesh = [&](double factor) {
-    DipOptions options = testing::off_centre_options(GetParam());
-    testing::scale_mesh(options, factor);
-    return dipped(model, options);
-  };
-  const Dip fine = with_mesh(0.7);
-  const double coarse = apart(with_mesh(4), fine).summary.rms;
-  const double middle = apart(with_mesh(2), fine).summary.rms;
-  EXPECT_GT(std::log2(coarse / middle), 1.9) << coarse << ' ' << middle;
+  const auto found = testing::mesh_slope(sample::icosphere(testing::kOffCentreRadius_mm, 5),
+                                         testing::off_centre_options(GetParam()), two_threads());
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_GT(found->slope, 1.8) << found->rms_mm_at_4 << ' ' << found->rms_mm_at_2 << ' '
+                               << found->rms_mm_at_1;
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Accuracy, ::testing::Values(FilmModel::kStokes, FilmModel::kSheet),
