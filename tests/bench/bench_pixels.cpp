@@ -141,7 +141,7 @@ class Trial {
         {"jump_pixels", distances.size()},
         {"jump_share_within", static_cast<double>(within) /
                                   static_cast<double>(std::max<std::size_t>(distances.size(), 1))},
-        {"jump_most_mm", std::isinf(most) ? 1e9 : most}};
+        {"jump_most_mm", most}};
   }
 
  private:
