@@ -61,8 +61,8 @@ TEST_P(Accuracy, IsOfSecondOrderInMeshSize) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Accuracy, ::testing::Values(FilmModel::kStokes, FilmModel::kSheet),
-                         [](const auto& info) {
-                           return info.param == FilmModel::kStokes ? "Stokes" : "Sheet";
+                         [](const auto& model) {
+                           return model.param == FilmModel::kStokes ? "Stokes" : "Sheet";
                          });
 
 }  // namespace
