@@ -77,9 +77,9 @@ std::optional<std::string> from_proto(v1::ArtifactSet artifacts) {
   return std::nullopt;
 }
 
-// The fields that SimulateSpec and PredictSpec share.
+// The fields that SimulateSpec, PredictSpec and FitSpec share.
 template <class Message>
-Spec common_from_proto(const Message& message) {
+Spec dip_from_proto(const Message& message) {
   Spec spec;
   spec.mesh = from_proto(message.mesh());
   for (const auto& file : message.extra_files()) spec.extra_files.push_back(from_proto(file));
@@ -88,13 +88,20 @@ Spec common_from_proto(const Message& message) {
   spec.scale = given(message.has_scale(), message.scale());
   spec.pose = from_proto(message.has_pose(), message.pose());
   spec.film = given(message.has_film(), message.film());
+  spec.depth_mm = given(message.has_depth_mm(), message.depth_mm());
+  spec.dip_speed_mm_per_s = given(message.has_dip_speed_mm_per_s(), message.dip_speed_mm_per_s());
+  spec.threads = given(message.has_threads(), static_cast<int>(message.threads()));
+  return spec;
+}
+
+// Those that SimulateSpec and PredictSpec share.
+template <class Message>
+Spec common_from_proto(const Message& message) {
+  Spec spec = dip_from_proto(message);
   spec.dpi = given(message.has_dpi(), message.dpi());
   spec.model = from_proto(message.model());
   spec.inertia = message.inertia();
   spec.ink_passes = given(message.has_ink_passes(), static_cast<int>(message.ink_passes()));
-  spec.depth_mm = given(message.has_depth_mm(), message.depth_mm());
-  spec.dip_speed_mm_per_s = given(message.has_dip_speed_mm_per_s(), message.dip_speed_mm_per_s());
-  spec.threads = given(message.has_threads(), static_cast<int>(message.threads()));
   spec.artifacts = from_proto(message.artifacts());
   return spec;
 }
@@ -110,6 +117,15 @@ std::optional<Spec> spec_from_proto(const v1::Job& job) {
     spec.verb = Verb::kPredict;
     spec.film_image = from_proto(job.predict().has_film_image(), job.predict().film_image());
     spec.motion = from_proto(job.predict().has_motion(), job.predict().motion());
+    return spec;
+  }
+  if (job.has_fit()) {
+    const v1::FitSpec& message = job.fit();
+    Spec spec = dip_from_proto(message);
+    spec.verb = Verb::kFit;
+    spec.points = from_proto(message.has_points(), message.points());
+    spec.free.assign(message.free().begin(), message.free().end());
+    spec.drop_outliers = message.drop_outliers();
     return spec;
   }
   if (job.has_validate()) {
@@ -155,7 +171,7 @@ Status names_to_proto(const Spec& spec, Message& message) {
 }
 
 template <class Message>
-Status common_to_proto(const Spec& spec, Message& message) {
+void dip_to_proto(const Spec& spec, Message& message) {
   to_proto(spec.mesh, message.mutable_mesh());
   for (const InputFile& file : spec.extra_files) to_proto(file, message.add_extra_files());
   if (spec.profile) to_proto(*spec.profile, message.mutable_profile());
@@ -166,12 +182,17 @@ Status common_to_proto(const Spec& spec, Message& message) {
     for (const double x : spec.pose->translation_mm) message.mutable_pose()->add_translation_mm(x);
   }
   if (spec.film) message.set_film(*spec.film);
-  if (spec.dpi) message.set_dpi(*spec.dpi);
-  message.set_inertia(spec.inertia);
-  if (spec.ink_passes) message.set_ink_passes(*spec.ink_passes);
   if (spec.depth_mm) message.set_depth_mm(*spec.depth_mm);
   if (spec.dip_speed_mm_per_s) message.set_dip_speed_mm_per_s(*spec.dip_speed_mm_per_s);
   if (spec.threads) message.set_threads(*spec.threads);
+}
+
+template <class Message>
+Status common_to_proto(const Spec& spec, Message& message) {
+  dip_to_proto(spec, message);
+  if (spec.dpi) message.set_dpi(*spec.dpi);
+  message.set_inertia(spec.inertia);
+  if (spec.ink_passes) message.set_ink_passes(*spec.ink_passes);
   return names_to_proto(spec, message);
 }
 
@@ -241,6 +262,14 @@ Status to_proto(const Spec& spec, v1::Job& job) {
     auto& message = *job.mutable_simulate();
     if (spec.texture) to_proto(*spec.texture, message.mutable_texture());
     return common_to_proto(spec, message);
+  }
+  if (spec.verb == Verb::kFit) {
+    auto& message = *job.mutable_fit();
+    dip_to_proto(spec, message);
+    if (spec.points) to_proto(*spec.points, message.mutable_points());
+    for (const std::string& name : spec.free) message.add_free(name);
+    message.set_drop_outliers(spec.drop_outliers);
+    return {};
   }
   if (spec.verb == Verb::kValidate) {
     auto& message = *job.mutable_validate();

@@ -31,6 +31,8 @@ std::string_view name_of(Verb verb) {
       return "simulate";
     case Verb::kPredict:
       return "predict";
+    case Verb::kFit:
+      return "fit";
     case Verb::kValidate:
       return "validate";
   }

@@ -14,7 +14,7 @@ namespace hydroprint::client {
 using Time = std::chrono::system_clock::time_point;
 
 /// The kinds of computation, as the worker's verbs.
-enum class Verb { kSimulate, kPredict, kValidate };
+enum class Verb { kSimulate, kPredict, kFit, kValidate };
 
 /// "simulate", "predict", ... as the worker and the API's Job have them.
 [[nodiscard]] std::string_view name_of(Verb verb);
@@ -39,6 +39,7 @@ struct Spec {
   std::optional<InputFile> texture;     ///< simulate only
   std::optional<InputFile> film_image;  ///< predict only, and needed there
   std::optional<InputFile> motion;      ///< predict only
+  std::optional<InputFile> points;      ///< fit only, and needed there
   std::optional<InputFile> profile;
   std::optional<InputFile> ink_image;
   std::optional<double> scale;
@@ -54,6 +55,8 @@ struct Spec {
   std::optional<std::string> artifacts;  ///< "all" or "map"
   std::vector<std::string> only;         ///< validate only: names of experiments; none: all
   bool quick = false;                    ///< validate only
+  std::vector<std::string> free;         ///< fit only: what to fit; none: all that can be
+  bool drop_outliers = false;            ///< fit only
 };
 
 enum class JobState {

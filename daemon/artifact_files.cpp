@@ -22,7 +22,7 @@ tl::unexpected<Error> unusable(const std::string& what) {
 }  // namespace
 
 std::string media_type(const std::string& name) {
-  static constexpr std::array<std::array<const char*, 2>, 10> kTypes{{
+  static constexpr std::array<std::array<const char*, 2>, 11> kTypes{{
       {".png", "image/png"},
       {".json", "application/json"},
       {".html", "text/html"},
@@ -32,6 +32,7 @@ std::string media_type(const std::string& name) {
       {".tiff", "image/tiff"},
       {".csv", "text/csv"},
       {".txt", "text/plain"},
+      {".toml", "application/toml"},
       {".obj", "model/obj"},
   }};
   for (const auto& [extension, type] : kTypes) {

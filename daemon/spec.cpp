@@ -12,7 +12,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr int kMostExtraFiles = 256;
-constexpr int kMostExperiments = 32;
+constexpr int kMostNames = 32;
 
 // The shortest text that reads back as the same number.
 std::string text_of(double value) {
@@ -168,9 +168,9 @@ void add_threads(WorkBuilder& builder, std::int32_t threads, NewJob& made) {
   made.threads = threads;
 }
 
-// What simulate and predict have in common.
+// What goes in which way through which film.
 template <class Spec>
-void add_common(WorkBuilder& builder, const Spec& spec, NewJob& made) {
+void add_dip(WorkBuilder& builder, const Spec& spec, NewJob& made) {
   if (!spec.has_mesh()) builder.require(invalid_field(builder.path("mesh"), "is missing"));
   if (spec.has_mesh()) builder.file("mesh", "mesh", spec.mesh());
   if (spec.extra_files_size() > kMostExtraFiles) {
@@ -183,33 +183,54 @@ void add_common(WorkBuilder& builder, const Spec& spec, NewJob& made) {
   if (spec.has_scale()) builder.number("scale", "scale", spec.scale(), 1e9);
   if (spec.has_pose()) add_pose(builder, spec.pose());
   if (spec.has_film()) add_film(builder, spec.film());
-  if (spec.has_dpi()) builder.number("dpi", "dpi", spec.dpi(), 2400, 20);
-  if (spec.has_ink_passes()) builder.whole("ink_passes", "ink-passes", spec.ink_passes(), 0, 10);
   if (spec.has_depth_mm()) builder.number("depth_mm", "depth-mm", spec.depth_mm(), 1e6);
   if (spec.has_dip_speed_mm_per_s()) {
     builder.number("dip_speed_mm_per_s", "dip-speed-mm-per-s", spec.dip_speed_mm_per_s(), 1000);
   }
   if (spec.has_threads()) add_threads(builder, spec.threads(), made);
+}
+
+// What simulate and predict have in common.
+template <class Spec>
+void add_common(WorkBuilder& builder, const Spec& spec, NewJob& made) {
+  add_dip(builder, spec, made);
+  if (spec.has_dpi()) builder.number("dpi", "dpi", spec.dpi(), 2400, 20);
+  if (spec.has_ink_passes()) builder.whole("ink_passes", "ink-passes", spec.ink_passes(), 0, 10);
   add_choices(builder, spec);
 }
 
-void add_validation(WorkBuilder& builder, const v1::ValidateSpec& spec, NewJob& made) {
-  if (spec.only_size() > kMostExperiments) {
-    builder.require(invalid_field(builder.path("only"), "has more than 32 names"));
+// A flag with names made of letters and a joint ("-" or "_"), which the worker knows or refuses.
+void add_names(WorkBuilder& builder, const std::string& field,
+               const google::protobuf::RepeatedPtrField<std::string>& given, char joint) {
+  if (given.size() > kMostNames) {
+    builder.require(invalid_field(builder.path(field), "has more than 32 names"));
     return;
   }
   std::string names;
-  for (const std::string& name : spec.only()) {
+  for (const std::string& name : given) {
     const bool is_name = !name.empty() && name.size() <= 64 &&
-                         std::all_of(name.begin(), name.end(),
-                                     [](char c) { return (c >= 'a' && c <= 'z') || c == '-'; });
+                         std::all_of(name.begin(), name.end(), [joint](char c) {
+                           return (c >= 'a' && c <= 'z') || c == joint;
+                         });
     if (!is_name) {
-      builder.require(
-          invalid_field(builder.path("only"), "must be names of experiments: a to z and -"));
+      builder.require(invalid_field(builder.path(field),
+                                    std::string("must be names made of a to z and ") + joint));
     }
     names += (names.empty() ? "" : ",") + name;
   }
-  if (!names.empty()) builder.flag("only", names);
+  if (!names.empty()) builder.flag(field, names);
+}
+
+void add_fit(WorkBuilder& builder, const v1::FitSpec& spec, NewJob& made) {
+  add_dip(builder, spec, made);
+  if (!spec.has_points()) builder.require(invalid_field(builder.path("points"), "is missing"));
+  if (spec.has_points()) builder.file("points", "points", spec.points());
+  add_names(builder, "free", spec.free(), '_');
+  if (spec.drop_outliers()) builder.bare_flag("drop-outliers");
+}
+
+void add_validation(WorkBuilder& builder, const v1::ValidateSpec& spec, NewJob& made) {
+  add_names(builder, "only", spec.only(), '-');
   if (spec.quick()) builder.bare_flag("quick");
   if (spec.has_threads()) add_threads(builder, spec.threads(), made);
 }
@@ -233,12 +254,17 @@ Result<Work> work_of(const v1::Job& job, NewJob& made) {
     if (spec.has_motion()) builder.file("motion", "motion", spec.motion());
     return builder.build();
   }
+  if (job.has_fit()) {
+    WorkBuilder builder("fit");
+    add_fit(builder, job.fit(), made);
+    return builder.build();
+  }
   if (job.has_validate()) {
     WorkBuilder builder("validate");
     add_validation(builder, job.validate(), made);
     return builder.build();
   }
-  return invalid_field("job", "has no spec; set simulate, predict or validate");
+  return invalid_field("job", "has no spec; set simulate, predict, fit or validate");
 }
 
 Status check_labels(const v1::Job& job) {
@@ -258,6 +284,7 @@ std::string body_of(const v1::Job& job) {
   *body.mutable_labels() = job.labels();
   if (job.has_simulate()) *body.mutable_simulate() = job.simulate();
   if (job.has_predict()) *body.mutable_predict() = job.predict();
+  if (job.has_fit()) *body.mutable_fit() = job.fit();
   if (job.has_validate()) *body.mutable_validate() = job.validate();
   return body.SerializeAsString();
 }

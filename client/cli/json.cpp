@@ -44,6 +44,7 @@ Json to_json(const client::Spec& spec) {
   put(json, "texture", spec.texture);
   put(json, "film_image", spec.film_image);
   put(json, "motion", spec.motion);
+  put(json, "points", spec.points);
   for (const auto& file : spec.extra_files) json["extra_files"].push_back(value_of(file));
   put(json, "profile", spec.profile);
   put(json, "scale", spec.scale);
@@ -60,6 +61,8 @@ Json to_json(const client::Spec& spec) {
   put(json, "artifacts", spec.artifacts);
   if (!spec.only.empty()) json["only"] = spec.only;
   if (spec.quick) json["quick"] = true;
+  if (!spec.free.empty()) json["free"] = spec.free;
+  if (spec.drop_outliers) json["drop_outliers"] = true;
   return json;
 }
 

@@ -17,7 +17,7 @@ namespace {
 // The flags of `submit VERB`; those of the worker under their own names.
 struct SubmitOptions {
   client::Spec spec;  // what needs no upload goes here at once
-  std::string mesh, texture, film_image, motion, profile, ink_image, pose, film;
+  std::string mesh, texture, film_image, motion, points, profile, ink_image, pose, film;
   std::optional<std::string> depth;
   client::JobOptions job;
   bool wait = false;
@@ -41,11 +41,45 @@ void add_validation_flags(CLI::App& command, client::Spec& spec) {
   add_threads_flag(command, spec);
 }
 
-void add_worker_flags(CLI::App& command, SubmitOptions& options) {
+// What goes in which way through which film.
+void add_dip_flags(CLI::App& command, SubmitOptions& options) {
   client::Spec& spec = options.spec;
   command.add_option("--mesh", options.mesh, "The object: OBJ, STL, PLY, glTF or GLB")
       ->type_name("FILE")
       ->required();
+  command.add_option("--scale", spec.scale, "Model units to mm")->type_name("FACTOR");
+  add_file(command, "--pose", options.pose,
+           R"({"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]}; default: centred on the film)");
+  add_file(command, "--profile", options.profile, "Film profile, TOML");
+  command
+      .add_option("--film", options.film,
+                  "A4, A3, letter, WxH, circle:RADIUS or polygon:FILE.json, in mm; default A4")
+      ->type_name("FILM");
+  command.add_option("--depth-mm", options.depth, "Immersion at the end of the dip, or full")
+      ->type_name("D");
+  command.add_option("--dip-speed-mm-per-s", spec.dip_speed_mm_per_s, "Speed of the dip")
+      ->type_name("V");
+  add_threads_flag(command, spec);
+}
+
+void add_fit_flags(CLI::App& command, SubmitOptions& options) {
+  add_dip_flags(command, options);
+  command.add_option("--points", options.points, "Measured landing points, CSV")
+      ->type_name("FILE")
+      ->required();
+  add_file(command, "--ink-image", options.ink_image,
+           "What was printed on the film; without it the ink ratio cannot be fitted");
+  command
+      .add_option("--free", options.spec.free,
+                  "What to fit: ink_ratio, drag, swelling; default: all that can be")
+      ->delimiter(',')
+      ->type_name("NAME[,NAME]");
+  command.add_flag("--drop-outliers", options.spec.drop_outliers, "Leave out outliers");
+}
+
+void add_worker_flags(CLI::App& command, SubmitOptions& options) {
+  client::Spec& spec = options.spec;
+  add_dip_flags(command, options);
   if (spec.verb == client::Verb::kSimulate) {
     add_file(
         command, "--texture", options.texture,
@@ -57,14 +91,6 @@ void add_worker_flags(CLI::App& command, SubmitOptions& options) {
     add_file(command, "--motion", options.motion,
              "The path as driven: CSV with t_s, x_mm, y_mm, z_mm");
   }
-  command.add_option("--scale", spec.scale, "Model units to mm")->type_name("FACTOR");
-  add_file(command, "--pose", options.pose,
-           R"({"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]}; default: centred on the film)");
-  add_file(command, "--profile", options.profile, "Film profile, TOML");
-  command
-      .add_option("--film", options.film,
-                  "A4, A3, letter, WxH, circle:RADIUS or polygon:FILE.json, in mm; default A4")
-      ->type_name("FILM");
   command.add_option("--dpi", spec.dpi, "Resolution of the film image")->type_name("DPI");
   command.add_option("--model", spec.model, "How the film moves")
       ->type_name("MODEL")
@@ -73,11 +99,6 @@ void add_worker_flags(CLI::App& command, SubmitOptions& options) {
   command.add_option("--ink-passes", spec.ink_passes, "Passes that take the ink into account")
       ->type_name("N");
   add_file(command, "--ink-image", options.ink_image, "Ink given directly, as a film image");
-  command.add_option("--depth-mm", options.depth, "Immersion at the end of the dip, or full")
-      ->type_name("D");
-  command.add_option("--dip-speed-mm-per-s", spec.dip_speed_mm_per_s, "Speed of the dip")
-      ->type_name("V");
-  add_threads_flag(command, spec);
   command.add_option("--artifacts", spec.artifacts, "map: surface_map.ply and report.json only")
       ->type_name("SET")
       ->check(CLI::IsMember({"all", "map"}));
@@ -118,6 +139,7 @@ Result<client::Spec> upload_inputs(Program& program, const SubmitOptions& option
   HP_ASSIGN_OR_RETURN(spec.texture, inputs.add(options.texture));
   HP_ASSIGN_OR_RETURN(spec.film_image, inputs.add(options.film_image));
   HP_ASSIGN_OR_RETURN(spec.motion, inputs.add(options.motion));
+  HP_ASSIGN_OR_RETURN(spec.points, inputs.add(options.points));
   HP_ASSIGN_OR_RETURN(spec.profile, inputs.add(options.profile));
   HP_ASSIGN_OR_RETURN(spec.ink_image, inputs.add(options.ink_image));
   if (!options.film.empty()) {
@@ -167,6 +189,8 @@ void add_verb(CLI::App& parent, Program& program, client::Verb verb, const char*
   CLI::App* command = parent.add_subcommand(std::string(client::name_of(verb)), help);
   if (verb == client::Verb::kValidate) {
     add_validation_flags(*command, options->spec);
+  } else if (verb == client::Verb::kFit) {
+    add_fit_flags(*command, *options);
   } else {
     add_worker_flags(*command, *options);
   }
@@ -189,6 +213,11 @@ void add_submit(CLI::App& app, Program& program) {
            "From a film image to the colours that land on the object",
            "Example:\n"
            "  hydroprint submit predict --mesh spot.obj --film-image film.png --scale 50 --wait");
+  add_verb(*command, program, client::Verb::kFit,
+           "From measured landing points to the film profile that explains them",
+           "Example:\n"
+           "  hydroprint submit fit --mesh ball.ply --points measured.csv --ink-image film.png "
+           "--out fitted");
   add_verb(*command, program, client::Verb::kValidate,
            "The paper's experiments in silico, as a report with pictures",
            "Example:\n  hydroprint submit validate --out validation");

@@ -3,6 +3,7 @@
 #include <toml++/toml.h>
 
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -55,6 +56,12 @@ std::string known_keys() {
 std::string place(const std::filesystem::path& path, const toml::source_region& region,
                   std::string_view key) {
   return path.string() + ": line " + std::to_string(region.begin.line) + ": " + std::string(key);
+}
+
+/// The shortest text that reads back as the same number.
+std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
 }
 
 Result<double> read_number(const std::string& where, const toml::node& node, const Range& range) {
@@ -132,6 +139,21 @@ Result<Profile> read_profile(const std::filesystem::path& path) {
     HP_RETURN_IF_ERROR(read_key(path, name, node, profile));
   }
   return profile;
+}
+
+std::string profile_toml(const Profile& profile) {
+  std::string out;
+  for (const Key& key : kKeys) {
+    out.append(key.name).append(" = ").append(number_text(profile.*key.member)).append("\n");
+  }
+  out.append(kSwelling).append(" = [").append(number_text(profile.swelling.x())).append(", ");
+  out.append(number_text(profile.swelling.y())).append("]\n");
+  if (!profile.ink_icc_profile.empty()) {
+    std::ostringstream quoted;
+    quoted << toml::value<std::string>(std::filesystem::absolute(profile.ink_icc_profile).string());
+    out.append(kInkIccProfile).append(" = ").append(quoted.str()).append("\n");
+  }
+  return out;
 }
 
 double rest_thickness_mm(const Profile& profile, double t) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <string>
 
 #include "sim/base/result.h"
 
@@ -33,6 +34,10 @@ struct Profile {
 /// Reads and checks a profile. Refuses, naming file, line and remedy: unknown keys, wrong types,
 /// values out of range. Whether the ICC profile can be used is found where it is.
 [[nodiscard]] Result<Profile> read_profile(const std::filesystem::path& path);
+
+/// The profile as a file that read_profile reads back as the same, number for number. The ICC
+/// profile is named by its absolute path.
+[[nodiscard]] std::string profile_toml(const Profile& profile);
 
 /// Thickness, at rest, of film that carries the ink amount t in [0, 4] (section 4.3):
 /// h0 + ink_ratio t, mm.

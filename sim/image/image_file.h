@@ -32,8 +32,8 @@ struct ReadImage {
 inline constexpr int kMaxImageSide_px = 16384;
 inline constexpr std::int64_t kMaxImageArea_px = 200'000'000;
 
-/// Loads the image libraries, which else happens when the first image is read and takes a third of
-/// a second then. For a thread of its own, ahead of time.
+/// Loads the image libraries, which else happens when the first image is read. Ahead of what takes
+/// much memory: they end the program where they find none.
 void load_image_libraries();
 
 /// Reads PNG, JPEG or TIFF (told by their first bytes, not by their name): grey, RGB, palette, with

@@ -5,6 +5,8 @@
 #include <map>
 #include <vector>
 
+#include "sim/image/strokes.h"
+
 namespace hydroprint::image {
 namespace {
 
@@ -99,14 +101,6 @@ const Glyph* glyph(char c) {
   return found == letters.end() ? nullptr : &found->second;
 }
 
-double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
-                           const Eigen::Vector2d& b) {
-  const Eigen::Vector2d along = b - a;
-  const double square = along.squaredNorm();
-  const double t = square > 0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0;
-  return (p - a - t * along).norm();
-}
-
 /// How much ink a letter puts on a pixel, from 0 to 1.
 double ink(const Glyph& letter, const Eigen::Vector2d& at, double size_px) {
   double nearest = HUGE_VAL;
@@ -128,11 +122,7 @@ void draw_letter(RgbImage& image, const Glyph& letter, double left_px, double ba
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
       const Eigen::Vector2d at((x + 0.5 - left_px) / size_px, (baseline_px - y - 0.5) / size_px);
-      const double share = ink(letter, at, size_px);
-      for (int c = 0; c < 3; ++c) {
-        std::uint8_t& value = image.at(x, y)[c];
-        value = static_cast<std::uint8_t>(std::lround(value + share * (colour[c] - value)));
-      }
+      mix_in(image.at(x, y), colour, ink(letter, at, size_px));
     }
   }
 }

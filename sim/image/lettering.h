@@ -1,15 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
-#include <cstdint>
 #include <string_view>
 
 #include "sim/image/picture.h"
 
 namespace hydroprint::image {
-
-using Rgb8 = std::array<std::uint8_t, 3>;
 
 /// Draws text with strokes of its own, so that pictures need no font on the machine: lower-case
 /// letters, digits, space and "+-.". Other characters leave a gap.

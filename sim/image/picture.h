@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace hydroprint::image {
+
+using Rgb8 = std::array<std::uint8_t, 3>;
 
 /// 8-bit sRGB, row 0 on top, pixels R G B without padding.
 struct RgbImage {

@@ -6,6 +6,18 @@
 
 namespace hydroprint::pipeline {
 
+DipOptions scaled_resolution(DipOptions options, double factor) {
+  options.schedule.swept_mm *= factor;
+  options.mesh.size.at_waterline_mm *= factor;
+  options.mesh.size.growth *= factor;
+  options.mesh.size.most_mm *= factor;
+  options.mesh.spacing_mm *= factor;
+  options.mesh.tolerance_mm *= factor;
+  options.sheet.tolerance_mm *= factor;
+  if (factor < 1) options.sheet.most_sweeps += 2;
+  return options;
+}
+
 Dip finish(const mesh::Model& model, Start start, flow::FlowMap map, double unsettled_mm,
            const DipOptions& options) {
   Dip dip;

@@ -46,6 +46,10 @@ struct DipOptions {
   flow::MapOptions map;       ///< speed and swelling are taken from above
 };
 
+/// The same dip with all lengths that say how finely it is computed multiplied: below 1 it is
+/// finer.
+[[nodiscard]] DipOptions scaled_resolution(DipOptions options, double factor);
+
 /// How far an ink pass moved where the film lands, from the pass before it.
 struct InkPass {
   double moved_rms_mm = 0;

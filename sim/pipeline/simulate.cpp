@@ -1,6 +1,5 @@
 #include "sim/pipeline/simulate.h"
 
-#include <future>
 #include <utility>
 
 #include "sim/image/film_image.h"
@@ -57,8 +56,7 @@ Result<Simulation> simulate(const SimulateOptions& options, const Context& conte
   context.progress("reading", 0);
   const int passes = options.dip.film_model == FilmModel::kSheet ? options.ink_passes : 0;
   const bool takes_colours = options.images || passes > 0;  // else nobody asks for them
-  std::future<void> ahead;
-  if (takes_colours) ahead = std::async(std::launch::async, image::load_image_libraries);
+  if (takes_colours) image::load_image_libraries();         // before the model takes the memory
   HP_ASSIGN_OR_RETURN(out.model, mesh::read_model(options.mesh, options.scale, context));
   DipOptions dip_options = options.dip;
   dip_options.map.make_tiles = options.images;

@@ -35,19 +35,6 @@ Pose centred(const mesh::Model& model, const Eigen::AngleAxisd& rotation) {
   return X_FO;
 }
 
-/// All lengths that say how finely, times a factor.
-pipeline::DipOptions scaled(pipeline::DipOptions o, double factor) {
-  o.schedule.swept_mm *= factor;
-  o.mesh.size.at_waterline_mm *= factor;
-  o.mesh.size.growth *= factor;
-  o.mesh.size.most_mm *= factor;
-  o.mesh.spacing_mm *= factor;
-  o.mesh.tolerance_mm *= factor;
-  o.sheet.tolerance_mm *= factor;
-  if (factor < 1) o.sheet.most_sweeps += 2;
-  return o;
-}
-
 }  // namespace
 
 Result<const Body*> Laboratory::body(const std::string& name, const Context& context) {
@@ -72,7 +59,7 @@ pipeline::DipOptions Laboratory::options(const Body& body, Fineness fineness) co
   o.map.tolerance_mm = quick_ ? 0.1 : 0.04;
   o.map.least_edge_mm = quick_ ? 0.3 : 0.15;
   const double fine = fineness == Fineness::kFine ? kFineFactor : 1;
-  return scaled(std::move(o), fine * (quick_ ? kQuickFactor : 1));
+  return pipeline::scaled_resolution(std::move(o), fine * (quick_ ? kQuickFactor : 1));
 }
 
 Result<Plan> make_plan(const Body& body, const pipeline::DipOptions& options, int ink_passes,

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "sim/film/outline.h"
 #include "sim/image/film_image.h"
@@ -33,6 +34,18 @@ constexpr const char* kPredictExamples = R"(Examples:
 
 Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
 
+constexpr const char* kFitExamples =
+    R"(The measured points: film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm, a header and then one point a line: where it was printed on
+the film, and where it was found on the object (mesh coordinates after --scale). What the points cannot tell keeps the
+value of --profile, and report.json says why.
+
+Examples:
+  hydroprint-worker fit --mesh ball.ply --film circle:105 --points measured.csv --ink-image film.png --out fitted
+  hydroprint-worker fit --mesh ball.ply --points measured.csv --profile film.toml --free drag,swelling --out fitted
+  hydroprint-worker simulate --mesh spot.obj --profile fitted/film_profile.toml --out spot
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
 constexpr const char* kValidateExamples = R"(Examples:
   hydroprint-worker validate --out validation                         # then open validation/report.html
   hydroprint-worker validate --only accuracy,bowl --quick --out glance
@@ -45,6 +58,7 @@ struct Typed {
   std::string depth = "full";
   std::string model = "sheet";
   std::string artifacts = "all";
+  std::vector<std::string> free;
 };
 
 int all_cores() {
@@ -85,7 +99,8 @@ void add_validate(CLI::App& app, Options& o) {
   app.footer(kValidateExamples);
 }
 
-void add_common(CLI::App& app, Typed& typed) {
+/// What goes in which way through which film.
+void add_dip(CLI::App& app, Typed& typed) {
   Options& o = typed.options;
   add_run(app, o);
   add_path(app, "--mesh", o.mesh, "Model: OBJ, STL, PLY, glTF or GLB")->required();
@@ -98,6 +113,17 @@ void add_common(CLI::App& app, Typed& typed) {
   app.add_option("--film", o.film, "A4, A3, letter, WxH, circle:RADIUS (mm) or polygon:FILE.json")
       ->capture_default_str()
       ->type_name("FILM");
+  app.add_option("--depth-mm", typed.depth, "Immersion at the end of the dip")
+      ->capture_default_str()
+      ->type_name("D|full");
+  app.add_option("--dip-speed-mm-per-s", o.dip_speed_mm_per_s, "Speed of the dip")
+      ->capture_default_str();
+}
+
+/// What simulate and predict have in common.
+void add_common(CLI::App& app, Typed& typed) {
+  Options& o = typed.options;
+  add_dip(app, typed);
   app.add_option("--dpi", o.dpi, "Resolution of the film image")->capture_default_str();
   app.add_option("--model", typed.model,
                  "How the film moves: as a viscous sheet or as Stokes flow, faster and good while "
@@ -113,14 +139,26 @@ void add_common(CLI::App& app, Typed& typed) {
       ->capture_default_str();
   add_path(app, "--ink-image", o.ink_image,
            "What is printed on the film, in place of --ink-passes: an RGB film image", "FILE.png");
-  app.add_option("--depth-mm", typed.depth, "Immersion at the end of the dip")
-      ->capture_default_str()
-      ->type_name("D|full");
-  app.add_option("--dip-speed-mm-per-s", o.dip_speed_mm_per_s, "Speed of the dip")
-      ->capture_default_str();
   app.add_option("--artifacts", typed.artifacts, "map: the map and report.json only")
       ->capture_default_str()
       ->check(CLI::IsMember({"all", "map"}));
+}
+
+void add_fit(CLI::App& app, Typed& typed) {
+  Options& o = typed.options;
+  add_dip(app, typed);
+  add_path(app, "--points", o.points, "Measured landing points", "FILE.csv")->required();
+  add_path(app, "--ink-image", o.ink_image,
+           "What was printed on the film: an RGB film image. Without it the ink ratio cannot be "
+           "fitted",
+           "FILE.png");
+  app.add_option("--free", typed.free,
+                 "What to fit: ink_ratio, drag, swelling; default: all that the points determine")
+      ->delimiter(',')
+      ->type_name("NAME[,NAME]");
+  app.add_flag("--drop-outliers", o.fit.drop_outliers,
+               "Leave out points beyond 4 robust standard deviations; else they are only named");
+  app.footer(kFitExamples);
 }
 
 CommandLine refuse(const Options& options, ExitStatus status, Code code, std::string message) {
@@ -153,6 +191,10 @@ std::string usage_objection(const Typed& typed) {
   if (o.mesh.empty() && o.verb != Verb::kValidate) return "--mesh: empty. Name a file";
   if (const Status known = validate::check(o.validate); !known) {
     return "--only: " + known.error().message;
+  }
+  if (o.verb == Verb::kFit && o.points.empty()) return "--points: empty. Name a file";
+  if (const auto free = fit::parse_parameters(typed.free); !free) {
+    return "--free: " + free.error().message;
   }
   if (o.out.empty()) return "--out: empty. Name a folder";
   return {};
@@ -207,6 +249,8 @@ CommandLine settle(Typed& typed) {
                   "--depth-mm: '" + typed.depth + "' is not a number. Give mm, or full");
   }
   typed.options.map_only = typed.artifacts == "map";
+  typed.options.fit.free = fit::parse_parameters(typed.free).value();
+  typed.options.fit.points_name = o.points.string();
   typed.options.film_model =
       typed.model == "sheet" ? pipeline::FilmModel::kSheet : pipeline::FilmModel::kStokes;
   if (const std::string what = range_objection(o); !what.empty()) {
@@ -250,6 +294,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
            "FILE.csv");
   predict->footer(kPredictExamples);
 
+  CLI::App* fit = app.add_subcommand(
+      "fit", "From measured landing points to the film profile that explains them");
+  add_fit(*fit, typed);
+
   CLI::App* validate = app.add_subcommand(
       "validate", "The paper's experiments in silico, as a report with pictures");
   add_validate(*validate, typed.options);
@@ -269,6 +317,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
                   std::string(error.what()) + ". See --help");
   }
   typed.options.verb = predict->parsed() ? Verb::kPredict : Verb::kSimulate;
+  if (fit->parsed()) typed.options.verb = Verb::kFit;
   if (validate->parsed()) typed.options.verb = Verb::kValidate;
   return settle(typed);
 }

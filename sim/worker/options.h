@@ -5,12 +5,13 @@
 #include <string>
 
 #include "sim/base/result.h"
+#include "sim/fit/fit.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/validate/validate.h"
 
 namespace hydroprint::worker {
 
-enum class Verb { kSimulate, kPredict, kValidate };
+enum class Verb { kSimulate, kPredict, kFit, kValidate };
 
 /// What the command line asks for (contract, "hydroprint-worker simulate" and "predict"), checked
 /// as far as that goes without opening a file.
@@ -21,6 +22,8 @@ struct Options {
   std::filesystem::path film_image;  ///< predict
   std::filesystem::path motion;      ///< predict; empty: straight down
   validate::Options validate;        ///< validate
+  std::filesystem::path points;      ///< fit
+  fit::Options fit;                  ///< fit
   std::filesystem::path out;
   std::filesystem::path pose;     ///< empty: as in the file, centred
   std::filesystem::path profile;  ///< empty: the defaults of film::Profile

@@ -21,9 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 10> kArtifacts = {
-    "film.png",    "film_map.exr", "landed.ply",  "landed.png",      "predicted.png",
-    "report.html", "report.json",  "stretch.png", "surface_map.ply", "wrinkles.png"};
+constexpr std::array<std::string_view, 13> kArtifacts = {
+    "film.png",      "film_map.exr",    "film_profile.toml", "landed.ply",    "landed.png",
+    "predicted.png", "report.html",     "report.json",       "residuals.csv", "residuals.png",
+    "stretch.png",   "surface_map.ply", "wrinkles.png"};
 
 /// Whether a run may leave a file of that name.
 bool is_artifact_name(std::string_view name) {

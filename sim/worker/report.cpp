@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "sim/worker/fit_json.h"
 #include "sim/worker/validate_json.h"
 
 namespace hydroprint::worker {
@@ -64,23 +65,29 @@ Json inputs_json(const std::vector<Input>& inputs) {
   return out;
 }
 
-Json parameters_json(const Report& report) {
+Json dip_parameters_json(const Report& report) {
   const Options& o = report.options;
-  const bool is_sheet = o.film_model == pipeline::FilmModel::kSheet;
   Json out = {{"scale", o.scale},
               {"pose", pose_json(report.X_FO)},
               {"film", film_json(report.outline)},
               {"profile", profile_json(report.profile)},
-              {"dpi", o.dpi},
+              {"depth_mm", "full"},
+              {"dip_speed_mm_per_s", o.dip_speed_mm_per_s},
+              {"threads", o.threads}};
+  if (o.depth_mm) out["depth_mm"] = *o.depth_mm;
+  return out;
+}
+
+Json parameters_json(const Report& report) {
+  const Options& o = report.options;
+  const bool is_sheet = o.film_model == pipeline::FilmModel::kSheet;
+  Json out = dip_parameters_json(report);
+  out.update({{"dpi", o.dpi},
               {"film_image_px", report.film_image_px},
               {"model", is_sheet ? "sheet" : "stokes"},
               {"inertia", o.inertia},
               {"ink_passes", is_sheet && o.ink_image.empty() ? o.ink_passes : 0},
-              {"depth_mm", "full"},
-              {"dip_speed_mm_per_s", o.dip_speed_mm_per_s},
-              {"threads", o.threads},
-              {"artifacts", o.map_only ? "map" : "all"}};
-  if (o.depth_mm) out["depth_mm"] = *o.depth_mm;
+              {"artifacts", o.map_only ? "map" : "all"}});
   return out;
 }
 
@@ -123,6 +130,8 @@ const char* verb_name(Verb verb) {
       return "simulate";
     case Verb::kPredict:
       return "predict";
+    case Verb::kFit:
+      return "fit";
     case Verb::kValidate:
       return "validate";
   }
@@ -145,6 +154,23 @@ std::string report_json(const Report& report) {
                  {"peak_memory_bytes", peak_memory_bytes()},
                  {"artifacts", report.artifacts}},
                 2);
+  }
+  if (report.fit) {
+    return dump(
+        {{"program", "hydroprint-worker"},
+         {"version", HYDROPRINT_VERSION},
+         {"verb", verb_name(report.options.verb)},
+         {"inputs", inputs_json(report.inputs)},
+         {"parameters", dip_parameters_json(report)},
+         {"mesh", {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}}},
+         {"fit", fit_json(*report.fit, report.options.fit)},
+         {"profile", profile_json(report.fit->profile)},
+         {"stage_seconds", seconds_json(report.stage_seconds)},
+         {"total_seconds", report.total_s},
+         {"peak_memory_bytes", peak_memory_bytes()},
+         {"warnings", warnings_json(report.warnings)},
+         {"artifacts", report.artifacts}},
+        2);
   }
   const pipeline::DipFigures& f = report.figures;
   return dump({{"program", "hydroprint-worker"},
@@ -187,6 +213,12 @@ std::string summary_json(const Report& report, const std::filesystem::path& dir)
                  {"seconds", report.total_s}},
                 -1);
   }
+  if (report.fit) {
+    Json out = {{"out", dir.string()}, {"artifacts", report.artifacts}};
+    out.update(fit_summary_json(*report.fit));
+    out.update({{"seconds", report.total_s}, {"warnings", warnings_json(report.warnings)}});
+    return dump(out, -1);
+  }
   return dump({{"out", dir.string()},
                {"artifacts", report.artifacts},
                {"coverage", report.figures.coverage},
@@ -199,6 +231,7 @@ std::string summary_json(const Report& report, const std::filesystem::path& dir)
 
 std::string summary_text(const Report& report, const std::filesystem::path& dir) {
   if (report.validation) return validation_text(*report.validation, dir);
+  if (report.fit) return fit_text(*report.fit, dir);
   std::string files;
   for (const std::string& name : report.artifacts) files += name + " ";
   std::array<char, 200> figures;

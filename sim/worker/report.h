@@ -12,6 +12,7 @@
 #include "sim/base/result.h"
 #include "sim/film/outline.h"
 #include "sim/film/profile.h"
+#include "sim/fit/fit.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/validate/validate.h"
 #include "sim/worker/options.h"
@@ -38,6 +39,7 @@ struct Report {
   bool closed = false;
   pipeline::DipFigures figures;
   std::optional<validate::Report> validation;  ///< of `validate`, which has none of the above
+  std::optional<fit::Outcome> fit;             ///< of `fit`, which has no figures
   std::vector<std::pair<std::string, double>> stage_seconds;
   double total_s = 0;
   Warnings warnings;

@@ -16,6 +16,7 @@
 #include "sim/pipeline/predict.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/worker/artifacts.h"
+#include "sim/worker/fit.h"
 #include "sim/worker/motion_file.h"
 #include "sim/worker/out_folder.h"
 #include "sim/worker/progress.h"
@@ -68,7 +69,8 @@ Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip,
                                                   {"profile", o.profile},
                                                   {"ink_image", o.ink_image},
                                                   {"film", film::polygon_file(o.film).value_or("")},
-                                                  {"motion", o.motion}}));
+                                                  {"motion", o.motion},
+                                                  {"points", o.points}}));
   HP_ASSIGN_OR_RETURN(dip.outline, film::parse_outline(o.film));
   if (o.verb == Verb::kSimulate && !o.map_only) {
     HP_RETURN_IF_ERROR(check_film_image(dip.outline, o.dpi));
@@ -164,6 +166,8 @@ Status run_verb(const Options& o, pipeline::DipOptions dip, OutFolder& folder, R
       return run_simulate(o, std::move(dip), folder, report, context);
     case Verb::kPredict:
       return run_predict(o, std::move(dip), folder, report, context);
+    case Verb::kFit:
+      return run_fit(o, dip, folder, report, context);
     case Verb::kValidate:
       return run_validate(o, folder, report, context);
   }

@@ -1,5 +1,6 @@
 #include "sim/worker/stages.h"
 
+#include "sim/worker/fit.h"
 #include "sim/worker/validate.h"
 
 namespace hydroprint::worker {
@@ -15,6 +16,7 @@ void append(std::vector<Stage>& stages, const std::vector<Stage>& more) {
 // with inertia, the sheet takes some three times as long (sim/sheet/README.md).
 std::vector<Stage> stages(const Options& options) {
   if (options.verb == Verb::kValidate) return validation_stages(options);
+  if (options.verb == Verb::kFit) return fit_stages();
   const bool is_sheet = options.film_model == pipeline::FilmModel::kSheet;
   const bool is_simulation = options.verb == Verb::kSimulate;
   const int passes = is_sheet && options.ink_image.empty() ? options.ink_passes : 0;

@@ -164,6 +164,25 @@ TEST_F(Cli, InertiaReachesTheWorkerAndIsRefusedWithStokes) {
   EXPECT_FALSE(without.at("simulate").contains("inertia"));
 }
 
+TEST_F(Cli, FitTakesTheMeasuredPoints) {
+  start();
+  const json job =
+      client_json({"submit", "fit", "--mesh", mesh("sleep 0.1"), "--points",
+                   folder_.write("measured.csv", "points").string(), "--free", "drag,swelling",
+                   "--drop-outliers", "--depth-mm", "30", "--out", out().string()});
+  EXPECT_EQ(job.at("state"), "SUCCEEDED");
+  const json& spec = job.at("fit");
+  EXPECT_EQ(spec.at("points").at("name"), "measured.csv");
+  EXPECT_EQ(spec.at("free"), (json{"drag", "swelling"}));
+  EXPECT_EQ(spec.at("drop_outliers"), true);
+  const std::string flags = content_of(out() / "report.json");
+  EXPECT_NE(flags.find("--points=measured.csv"), std::string::npos) << flags;
+  EXPECT_NE(flags.find("--free=drag,swelling\n--drop-outliers\n"), std::string::npos) << flags;
+  const Outcome ended = client({"submit", "fit", "--mesh", mesh("sleep 0.1")});
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.err.find("--points"), std::string::npos) << ended.err;
+}
+
 TEST_F(Cli, ValidateNeedsNoFiles) {
   start();
   const json job = client_json({"submit", "validate", "--only", "repeatability,bowl", "--quick",

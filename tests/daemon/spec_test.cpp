@@ -119,6 +119,39 @@ TEST(Spec, PredictHasItsOwnFiles) {
                                                         "--motion=path.csv"}));
 }
 
+TEST(Spec, FitHasPointsAndNamesWhatIsFree) {
+  v1::Job job;
+  auto& spec = *job.mutable_fit();
+  set_file(*spec.mutable_mesh(), "ball.ply");
+  EXPECT_EQ(refused_field(job), "fit.points");
+  set_file(*spec.mutable_points(), "measured.csv");
+  set_file(*spec.mutable_ink_image(), "film.png");
+  spec.set_film("circle:80");
+  spec.set_depth_mm(40);
+  spec.add_free("drag");
+  spec.add_free("ink_ratio");
+  spec.set_drop_outliers(true);
+  spec.set_threads(2);
+  const auto made = check_job(job);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->work.verb, "fit");
+  EXPECT_EQ(made->work.flags,
+            (std::vector<std::string>{"--mesh=ball.ply", "--ink-image=film.png", "--film=circle:80",
+                                      "--depth-mm=40", "--points=measured.csv",
+                                      "--free=drag,ink_ratio", "--drop-outliers"}));
+  EXPECT_EQ(made->work.inputs.size(), 3U);
+  EXPECT_EQ(made->threads, 2);
+  EXPECT_EQ(made->display_name, "fit ball.ply");
+
+  for (const char* bad : {"", "a,b", "--out=x", "Drag", "ink-ratio"}) {
+    spec.set_free(0, bad);
+    EXPECT_EQ(refused_field(job), "fit.free") << bad;
+  }
+  spec.set_free(0, "drag");
+  spec.set_depth_mm(-1);
+  EXPECT_EQ(refused_field(job), "fit.depth_mm");
+}
+
 TEST(Spec, ValidateNeedsNoFiles) {
   v1::Job job;
   auto& spec = *job.mutable_validate();

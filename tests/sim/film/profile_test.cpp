@@ -150,5 +150,27 @@ TEST(Profile, FilesThatCannotBeReadAreRefused) {
   EXPECT_EQ(read_profile("/").error().code, Code::kInvalidArgument);
 }
 
+TEST(Profile, WhatIsWrittenReadsBackAsTheSame) {
+  Profile odd;
+  odd.thickness_mm = 0.1 + 0.2;
+  odd.ink_ratio_mm = 1.0 / 3;
+  odd.ink_icc_profile = "/icc/a \"quoted\" \\ printer.icc";
+  odd.swelling = {1 + 1e-15, 1.0 / 0.9};
+  odd.drag_length_mm = 1e-5;
+  odd.tear_stretch = 2.5;
+  odd.wrinkle_stretch = 0.7;
+  odd.young_modulus_mpa = 1e-6;
+  odd.density_kg_per_m3 = 1234.5;
+  odd.poisson_ratio = 0.45;
+  odd.activator_ml_per_m2 = 17;
+  odd.soak_s = 55;
+  odd.activator_wait_s = 15;
+  for (const Profile& written : {odd, Profile{}}) {
+    const auto read = profile(profile_toml(written));
+    ASSERT_TRUE(read) << read.error().message;
+    expect_equal(*read, written);
+  }
+}
+
 }  // namespace
 }  // namespace hydroprint::film

@@ -1,0 +1,115 @@
+#include "sim/fit/estimates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace hydroprint::fit {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kTwoSided = 0.5 + 0.5 * kConfidence;
+
+std::string text(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.3g", value);
+  return buffer.data();
+}
+
+struct Interval {
+  double low, high;
+  bool is_one_sided;
+};
+
+/// An interval within the domain. At a bound it begins there and has the other end of a one-sided
+/// one, counted from where the data alone would put the estimate if that is inside.
+Interval interval_of(double value, double unbounded, double error, double low, double high,
+                     double degrees) {
+  constexpr double kAt = 1e-9;
+  const double one_sided = student_t(kConfidence, degrees) * error;
+  if (value <= low + kAt) return {low, std::min(high, std::max(unbounded, low) + one_sided), true};
+  if (value >= high - kAt) {
+    return {std::max(low, std::min(unbounded, high) - one_sided), high, true};
+  }
+  const double half = student_t(kTwoSided, degrees) * error;
+  return {std::max(low, value - half), std::min(high, value + half), false};
+}
+
+/// The standard error in the profile's terms, to first order.
+double natural_error(Parameter parameter, double scaled, double error,
+                     const film::Profile& profile) {
+  if (parameter != Parameter::kDrag) {
+    return natural_value(parameter, error, profile) - natural_value(parameter, 0, profile);
+  }
+  // length = scaled^(-1/2), but for a factor.
+  const double length_mm = natural_value(parameter, scaled, profile);
+  if (!std::isfinite(length_mm)) return std::numeric_limits<double>::quiet_NaN();
+  return 0.5 * length_mm * error / scaled;
+}
+
+}  // namespace
+
+std::vector<Estimate> estimates_of(const std::vector<Parameter>& free, const film::Profile& start,
+                                   const VectorXd& u, const Domain& domain, const Linearised& at,
+                                   double floor_mm, const VectorXd& discretisation) {
+  const MatrixXd covariance = jackknife_covariance(at, floor_mm);
+  const VectorXd unbounded = u - gain(at.jacobian) * at.residuals;
+  const double degrees = degrees_of_freedom(at);
+  std::vector<Estimate> out;
+  for (Index j = 0; j < u.size(); ++j) {
+    const Parameter parameter = free[j];
+    const double error = std::hypot(std::sqrt(covariance(j, j)), discretisation[j]);
+    const Interval interval =
+        interval_of(u[j], unbounded[j], error, domain.low[j], domain.high[j], degrees);
+    const auto natural = [&](double scaled) { return natural_value(parameter, scaled, start); };
+    const auto [low, high] = std::minmax({natural(interval.low), natural(interval.high)});
+    out.push_back({parameter, describe(parameter, start).name,
+                   natural(scaled_value(parameter, start)), natural(u[j]),
+                   natural_error(parameter, u[j], error, start), low, high, interval.is_one_sided,
+                   u[j], error, discretisation[j]});
+  }
+  return out;
+}
+
+MatrixXd correlation_of(const MatrixXd& covariance) {
+  const VectorXd inverse = covariance.diagonal().cwiseSqrt().cwiseInverse();
+  return inverse.asDiagonal() * covariance * inverse.asDiagonal();
+}
+
+int degrees_of_freedom(const Linearised& known) {
+  return static_cast<int>(std::max<Index>(1, known.jacobian.rows() - known.jacobian.cols()));
+}
+
+Undetermined explain(const Unknown& unknown, const std::vector<Parameter>& free,
+                     const film::Profile& start, double residual_mm) {
+  const Description what = describe(free[unknown.parameter], start);
+  std::string reason;
+  if (unknown.taken_for < 0) {
+    reason = "between the ends of what is plausible (" + what.plausible +
+             ") it moves the measured points by " + text(unknown.moves_mm) +
+             " mm, too little against residuals of " + text(residual_mm) +
+             " mm. Measure more points, where the film was stretched most";
+  } else {
+    reason =
+        "these points cannot tell it from " + describe(free[unknown.taken_for], start).name +
+        ": both move them alike, and its interval would be wider than all that is plausible (" +
+        what.plausible + "). Measure points spread farther over the film, or hold the other";
+  }
+  return {what.name, reason};
+}
+
+std::vector<Undetermined> never_determined() {
+  const std::string boundary =
+      "with the velocity given all along the film's edges it drops out of the quasistatic sheet, "
+      "and no landing point depends on it";
+  return {{"young_modulus_mpa", boundary},
+          {"density_kg_per_m3", boundary},
+          {"thickness_mm", "only the ratio of ink_ratio_mm to it matters to where film lands"}};
+}
+
+}  // namespace hydroprint::fit

@@ -1,0 +1,38 @@
+#include "sim/fit/predictor.h"
+
+#include <utility>
+
+#include "sim/flow/landing.h"
+#include "sim/flow/trace.h"
+
+namespace hydroprint::fit {
+
+Result<const pipeline::Start*> Predictor::start(const Eigen::Vector2d& swelling,
+                                                const Context& context) {
+  if (!start_ || swelling != swelling_) {
+    start_.reset();
+    options_.profile.swelling = swelling;
+    HP_ASSIGN_OR_RETURN(start_, pipeline::start(model_, options_, context));
+    swelling_ = swelling;
+  }
+  return &*start_;
+}
+
+Result<std::vector<Eigen::Vector2d>> Predictor::predict(const film::Profile& profile,
+                                                        const std::vector<Spot>& spots,
+                                                        const Context& context) {
+  HP_ASSIGN_OR_RETURN(const pipeline::Start* begun, start(profile.swelling, context));
+  options_.profile = profile;
+  HP_ASSIGN_OR_RETURN(const sheet::SheetFlow moving,
+                      pipeline::sheet_field(begun->stokes, options_.ink, options_, context));
+  const flow::Landings landings(begun->body, options_.motion);
+  std::vector<flow::Landing> at;
+  at.reserve(spots.size());
+  for (const Spot& spot : spots) at.push_back(landings.on(spot.triangle, spot.barycentric));
+  HP_ASSIGN_OR_RETURN(std::vector<Eigen::Vector2d> film_mm,
+                      flow::trace_back(moving.field, at, {}, context));
+  for (Eigen::Vector2d& p : film_mm) p = p.cwiseQuotient(profile.swelling).eval();
+  return film_mm;
+}
+
+}  // namespace hydroprint::fit

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/fit/spots.h"
+#include "sim/mesh/model.h"
+#include "sim/pipeline/start.h"
+
+namespace hydroprint::fit {
+
+/// Says for a profile which printed points of the film land on given spots of a body: a dip of the
+/// sheet, in which the film is followed back from those spots alone.
+class Predictor {
+ public:
+  /// @param options  all but the profile
+  /// The model must outlive the predictor.
+  Predictor(const mesh::Model& model, pipeline::DipOptions options)
+      : model_(model), options_(std::move(options)) {}
+
+  /// What does not depend on ink and drag, kept for the swelling it was last made for.
+  [[nodiscard]] Result<const pipeline::Start*> start(const Eigen::Vector2d& swelling,
+                                                     const Context& context);
+
+  /// Per spot the printed point, mm, in F; NaN where no film arrives.
+  [[nodiscard]] Result<std::vector<Eigen::Vector2d>> predict(const film::Profile& profile,
+                                                             const std::vector<Spot>& spots,
+                                                             const Context& context);
+
+ private:
+  const mesh::Model& model_;
+  pipeline::DipOptions options_;
+  std::optional<pipeline::Start> start_;
+  Eigen::Vector2d swelling_ = Eigen::Vector2d::Zero();  ///< of start_
+};
+
+}  // namespace hydroprint::fit

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "sim/film/outline.h"
+#include "sim/fit/fit.h"
+#include "sim/image/picture.h"
+
+namespace hydroprint::fit {
+
+/// Two pictures of the film seen from above, before the fit and after it: its outline, the measured
+/// points (grey: left out, red: outliers) and from each an arrow to where the prediction has it,
+/// enlarged by a factor that stands above. About 1600 pixels wide.
+[[nodiscard]] image::RgbImage residual_picture(const film::Outline& outline,
+                                               const Outcome& outcome);
+
+}  // namespace hydroprint::fit

@@ -1,0 +1,101 @@
+#include "sim/fit/selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace hydroprint::fit {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kOffSurface_mm = 1;
+constexpr double kApart_mm = 1;
+constexpr std::size_t kLeastPlaces = 4;
+constexpr double kOutlierSigmas = 4;
+/// Median of the absolute value of what is normally distributed with standard deviation 1.
+constexpr double kNormalMedian = 0.6744897501960817;
+
+/// The first used points that lie apart from one another, as many as are needed.
+std::size_t places(const std::vector<PointResult>& points) {
+  std::vector<Vector2d> apart;
+  for (const PointResult& p : points) {
+    if (!p.is_used()) continue;
+    const bool is_new = std::none_of(apart.begin(), apart.end(), [&](const Vector2d& other) {
+      return (other - p.point.film_mm).norm() < kApart_mm;
+    });
+    if (is_new) apart.push_back(p.point.film_mm);
+    if (apart.size() == kLeastPlaces) break;
+  }
+  return apart.size();
+}
+
+/// The most frequent reason, empty if there is none.
+std::string main_reason(const std::vector<PointResult>& points) {
+  std::map<std::string, int> counts;
+  for (const PointResult& p : points) {
+    if (!p.is_used()) ++counts[p.left_out];
+  }
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? std::string() : most->first;
+}
+
+}  // namespace
+
+std::string geometric_objection(const Point& point, const Spot& spot, const waterline::Body& body,
+                                const film::Outline& outline) {
+  if (!(spot.distance_mm <= kOffSurface_mm)) {
+    return "it lies more than 1 mm off the object's surface";
+  }
+  if (!film::contains(outline, point.film_mm)) return "its printed point lies beyond the film";
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    normal += spot.barycentric[i] * body.corner_normals[spot.triangle][i];
+  }
+  if (-normal.normalized().z() < std::cos(waterline::kThetaLimit_rad)) {
+    return "the surface there is steeper than 170 degrees to the water, where eq. (1) is clamped";
+  }
+  return {};
+}
+
+Status check_enough(const std::vector<PointResult>& points, const std::string& name) {
+  const std::size_t found = places(points);
+  if (found >= kLeastPlaces) return {};
+  const auto used =
+      std::count_if(points.begin(), points.end(), [](const PointResult& p) { return p.is_used(); });
+  std::string what = name + ": " + std::to_string(used) + " of " + std::to_string(points.size()) +
+                     " points can be used, at " + std::to_string(found) +
+                     " places 1 mm apart on the film, which determine nothing";
+  if (const std::string why = main_reason(points); !why.empty()) {
+    what += " (most of the others: " + why + ")";
+  }
+  return fail(Code::kInvalidArgument,
+              what + ". Measure at least 4 points, better dozens, all over the printed part",
+              "TOO_FEW_POINTS");
+}
+
+int mark_outliers(std::vector<PointResult>& points, double floor_mm) {
+  std::vector<double> sizes;
+  for (const PointResult& p : points) {
+    if (!p.is_used()) continue;
+    const Vector2d r = p.after_mm - p.point.film_mm;
+    sizes.push_back(std::abs(r.x()));
+    sizes.push_back(std::abs(r.y()));
+  }
+  if (sizes.empty()) return 0;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  const double most = kOutlierSigmas * std::hypot(*middle / kNormalMedian, floor_mm);
+  int found = 0;
+  for (PointResult& p : points) {
+    if (!p.is_used()) continue;
+    const bool is_outlier = (p.after_mm - p.point.film_mm).norm() > most;
+    if (is_outlier && !p.is_outlier) ++found;
+    p.is_outlier = is_outlier;
+  }
+  return found;
+}
+
+}  // namespace hydroprint::fit

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/mesh/surface.h"
+
+namespace hydroprint::fit {
+
+/// A point of a surface.
+struct Spot {
+  int triangle = 0;
+  Eigen::Vector3d barycentric = Eigen::Vector3d::UnitX();  ///< of its corners 0, 1, 2
+  double distance_mm = 0;                                  ///< from the point that was asked for
+};
+
+/// Per point (O, mm) the nearest one of the surface; of several triangles the first.
+[[nodiscard]] Result<std::vector<Spot>> nearest_spots(const mesh::Surface& surface,
+                                                      const std::vector<Eigen::Vector3d>& points_mm,
+                                                      const Context& context);
+
+}  // namespace hydroprint::fit

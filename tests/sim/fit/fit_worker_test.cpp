@@ -1,0 +1,277 @@
+// `hydroprint-worker fit` as its users see it.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include "sim/image/image_file.h"
+#include "sim/ink/ink_of.h"
+#include "tests/sim/fit/scene.h"
+#include "tests/support/process.h"
+
+namespace hydroprint::fit {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::Ended;
+using Arguments = std::vector<std::string>;
+
+std::string content(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::set<std::string> names_in(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename());
+  return names;
+}
+
+std::string obj_of(const mesh::Model& model) {
+  std::ostringstream out;
+  out.precision(17);
+  for (const auto& v : model.vertices) out << "v " << v.x() << ' ' << v.y() << ' ' << v.z() << '\n';
+  for (const auto& t : model.triangles) {
+    out << "f " << t[0] + 1 << ' ' << t[1] + 1 << ' ' << t[2] + 1 << '\n';
+  }
+  return out.str();
+}
+
+std::string csv_of(const std::vector<Point>& points) {
+  std::ostringstream out;
+  out.precision(17);
+  out << "film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm\n";
+  for (const Point& p : points) {
+    out << p.film_mm.x() << ',' << p.film_mm.y() << ',' << p.surface_mm.x() << ','
+        << p.surface_mm.y() << ',' << p.surface_mm.z() << '\n';
+  }
+  return out.str();
+}
+
+film::Profile truth() {
+  film::Profile profile;
+  profile.swelling = {1.05, 1.02};
+  profile.drag_length_mm = 30;
+  return profile;
+}
+
+/// Small enough that the program's usual settings take no time: a ball of 12 mm in a film of 60 mm
+/// by 70, dipped to its equator, half of it black.
+class FitWorker : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    testing::Scene scene{sample::icosphere(12, 3), {}};
+    scene.dip.outline = film::parse_outline("60x70").value();
+    scene.dip.depth_mm = 14;
+    image::RgbImage film{60, 70, std::vector<std::uint8_t>(3 * 60 * 70, 255)};
+    for (int y = 0; y < film.height; ++y) {
+      for (int x = 32; x < film.width; ++x) std::fill_n(film.at(x, y), 3, std::uint8_t{0});
+    }
+    scene.dip.ink = ink::ink_of(film, scene.dip.outline, {}, {}).value();
+    inputs = new testing::TemporaryFolder;
+    inputs->write("ball.obj", obj_of(scene.model));
+    inputs->write("measured.csv", csv_of(testing::measured(scene, truth(), 0.7, 0.05, 3, 2.5)));
+    ASSERT_TRUE(image::write_png(inputs->path() / "film.png", film, 25.4));
+  }
+  static void TearDownTestSuite() { delete inputs; }
+
+  [[nodiscard]] static std::string input(const std::string& name) { return inputs->path() / name; }
+  [[nodiscard]] std::string out(const std::string& name = "out") const {
+    return folder.path() / name;
+  }
+  [[nodiscard]] Arguments fit(const Arguments& more = {}, bool with_points = true) const {
+    Arguments all = {HYDROPRINT_BIN_DIR "/hydroprint-worker",
+                     "fit",
+                     "--mesh",
+                     input("ball.obj"),
+                     "--film",
+                     "60x70",
+                     "--depth-mm",
+                     "14",
+                     "--threads",
+                     "2"};
+    if (with_points) all.insert(all.end(), {"--points", input("measured.csv")});
+    const auto is_there = [&](const char* flag) {
+      return std::find(more.begin(), more.end(), flag) != more.end();
+    };
+    if (!is_there("--out")) all.insert(all.end(), {"--out", out()});
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  [[nodiscard]] json report(const std::string& name = "out") const {
+    return json::parse(content(out(name) + "/report.json"));
+  }
+  void expect_refusal(int status, const Arguments& command, const std::string& words) const {
+    const auto before = names_in(folder.path());
+    const Ended ended = testing::run(command);
+    EXPECT_EQ(ended.status, status) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+    EXPECT_NE(ended.err.find(words), std::string::npos) << words << " in " << ended.err;
+    EXPECT_EQ(names_in(folder.path()), before);
+  }
+
+  static testing::TemporaryFolder* inputs;
+  testing::TemporaryFolder folder;
+};
+
+testing::TemporaryFolder* FitWorker::inputs = nullptr;
+
+json named(const json& list, const std::string& name) {
+  for (const json& entry : list) {
+    if (entry.at("name") == name) return entry;
+  }
+  return {};
+}
+
+TEST_F(FitWorker, MakesAProfileThatItReadsBackAndThatExplainsThePoints) {
+  const Ended ended =
+      testing::run(fit({"--free", "drag,swelling", "--ink-image", input("film.png"), "--json"}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_EQ(names_in(out()), (std::set<std::string>{"film_profile.toml", "report.json",
+                                                    "residuals.csv", "residuals.png"}));
+  const json found = report();
+  EXPECT_EQ(found.at("verb"), "fit");
+  const json& fit_found = found.at("fit");
+  ASSERT_EQ(fit_found.at("estimates").size(), 3u);
+  const film::Profile profile = film::read_profile(out() + "/film_profile.toml").value();
+  EXPECT_EQ(profile.swelling.x(),
+            named(fit_found["estimates"], "swelling_x").at("value").get<double>());
+  EXPECT_EQ(profile.drag_length_mm,
+            named(fit_found["estimates"], "drag_length_mm").at("value").get<double>());
+  EXPECT_EQ(profile.ink_ratio_mm, 0.05) << "held, as it was not free";
+  const auto lies_within = [&](const std::string& name, double value) {
+    const json interval = named(fit_found["estimates"], name).at("interval");
+    const double high = interval[1].is_null() ? HUGE_VAL : interval[1].get<double>();
+    return interval[0].get<double>() <= value && value <= high;
+  };
+  EXPECT_TRUE(lies_within("swelling_x", 1.05)) << fit_found;
+  EXPECT_TRUE(lies_within("swelling_y", 1.02)) << fit_found;
+  EXPECT_TRUE(lies_within("drag_length_mm", 30)) << fit_found;
+  for (const char* name : {"young_modulus_mpa", "density_kg_per_m3"}) {
+    EXPECT_FALSE(named(fit_found.at("undetermined"), name).is_null()) << name;
+  }
+  EXPECT_EQ(json::parse(ended.out).at("estimates"), fit_found.at("estimates"));
+  // Given back as the start, it leaves nothing to do.
+  ASSERT_EQ(testing::run(fit({"--free", "drag,swelling", "--ink-image", input("film.png"),
+                              "--profile", out() + "/film_profile.toml", "--out", out("again")}))
+                .status,
+            0);
+  const json again = report("again").at("fit");
+  EXPECT_NEAR(again.at("rms_before_mm").get<double>(), again.at("rms_after_mm").get<double>(),
+              5e-3);
+  EXPECT_LT(again.at("rms_after_mm").get<double>(), fit_found.at("rms_before_mm").get<double>());
+}
+
+TEST_F(FitWorker, TellsOfEveryPointBeforeAndAfter) {
+  ASSERT_EQ(testing::run(fit({"--free", "swelling"})).status, 0);
+  std::istringstream lines(content(out() + "/residuals.csv"));
+  std::string header;
+  std::getline(lines, header);
+  EXPECT_TRUE(header.starts_with("film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm,before_x_mm")) << header;
+  int rows = 0, used = 0;
+  double before = 0, after = 0;
+  for (std::string line; std::getline(lines, line); ++rows) {
+    std::vector<std::string> cells;
+    std::istringstream in(line);
+    for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
+    ASSERT_GE(cells.size(), 13u) << line;
+    if (cells[11] == "0") {
+      EXPECT_GE(cells.size(), 14u) << "with a reason: " << line;
+      continue;
+    }
+    const auto number = [&](int i) { return std::stod(cells[i]); };
+    EXPECT_NEAR(number(7), std::hypot(number(5) - number(0), number(6) - number(1)), 1e-9);
+    before += number(7) * number(7);
+    after += number(10) * number(10);
+    ++used;
+  }
+  const json found = report().at("fit");
+  EXPECT_EQ(rows, found.at("points").at("given"));
+  EXPECT_EQ(used, found.at("points").at("used"));
+  EXPECT_NEAR(std::sqrt(before / used), found.at("rms_before_mm").get<double>(), 1e-9);
+  EXPECT_NEAR(std::sqrt(after / used), found.at("rms_after_mm").get<double>(), 1e-9);
+  EXPECT_LT(after, before);
+  const auto picture = image::read_image(out() + "/residuals.png", {});
+  ASSERT_TRUE(picture) << picture.error().message;
+  EXPECT_GT(picture->image.width, 1000);
+}
+
+TEST_F(FitWorker, WithoutAnInkImageItSaysWhyTheInkRatioIsHeld) {
+  const Ended ended = testing::run(fit({"--free", "ink_ratio"}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const json ink = named(report().at("fit").at("undetermined"), "ink_ratio_mm");
+  EXPECT_NE(ink.at("reason").get<std::string>().find("--ink-image"), std::string::npos);
+  EXPECT_NE(ended.out.find("ink_ratio_mm is not determined"), std::string::npos) << ended.out;
+  EXPECT_EQ(report().at("warnings").at(0).at("code"), "nothing_determined");
+}
+
+TEST_F(FitWorker, ThreadsDoNotChangeTheArtifacts) {
+  for (const std::string threads : {"1", "2"}) {
+    Arguments command = fit({"--free", "drag", "--out", out(threads)});
+    *std::next(std::find(command.begin(), command.end(), "--threads")) = threads;
+    ASSERT_EQ(testing::run(command).status, 0);
+  }
+  for (const char* name : {"film_profile.toml", "residuals.csv", "residuals.png"}) {
+    EXPECT_TRUE(content(out("1") + "/" + name) == content(out("2") + "/" + name)) << name;
+  }
+  EXPECT_EQ(report("1").at("fit"), report("2").at("fit"));
+}
+
+TEST_F(FitWorker, BadPointsAreRefusedByLineWithARemedy) {
+  const std::string header = "film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm\n";
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"film_x_mm,film_y_mm,X_mm,Y_mm\n1,2,3,4\n",
+       "bad.csv: line 1: not the header: no column Z_mm"},
+      {header + "1,2,3,nan,5\n",
+       "bad.csv: line 2: not 5 finite numbers: Y_mm is 'nan'. Write film_x_mm"},
+      {header + "1,2,3,4,5\n1,2,x,4,5\n", "bad.csv: line 3: not 5 finite numbers: X_mm is 'x'"},
+      {"", "bad.csv: line 1: not the header"},
+      {header, "bad.csv: line 2: no points"},
+      {header + "0,0,0,0,-12\n", "bad.csv: 1 of 1 points can be used"},
+      {header + "0,0,0,0,-120\n", "more than 1 mm off the object's surface"},
+  };
+  for (const auto& [csv, words] : files) {
+    folder.write("bad.csv", csv);
+    expect_refusal(3, fit({"--points", (folder.path() / "bad.csv").string()}, false), words);
+  }
+  std::string many = header;
+  for (std::size_t i = 0; i <= kMostPoints; ++i) many += "0,0,0,0,-12\n";
+  folder.write("many.csv", many);
+  expect_refusal(3, fit({"--points", (folder.path() / "many.csv").string()}, false),
+                 "many.csv: line 20002: too many rows. Use at most 20000");
+  expect_refusal(3, fit({"--points", out("absent.csv")}, false), "absent.csv: no such file");
+}
+
+TEST_F(FitWorker, BadFlagsAreUsageErrors) {
+  expect_refusal(2, fit({}, false), "--points is required");
+  expect_refusal(2, fit({"--free", "drag,young_modulus"}), "--free: 'young_modulus'");
+  expect_refusal(2, fit({"--model", "stokes"}), "--model");
+}
+
+TEST_F(FitWorker, SigtermCancelsAndLeavesNothing) {
+  testing::ProcessOptions options;
+  options.files = {{5, folder.path() / "progress"}};
+  testing::Process process(fit({"--progress-fd", "5"}), options);
+  while (content(folder.path() / "progress").find("\"fit\"") == std::string::npos &&
+         process.running()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ASSERT_TRUE(process.running());
+  process.signal(SIGTERM);
+  const Ended ended = process.wait();
+  EXPECT_EQ(ended.status, 130) << ended.err;
+  EXPECT_EQ(ended.err, "hydroprint-worker: cancelled\n");
+  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"progress"}));
+}
+
+}  // namespace
+}  // namespace hydroprint::fit
