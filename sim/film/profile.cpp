@@ -1,7 +1,5 @@
 #include "sim/film/profile.h"
 
-#include <toml++/toml.h>
-
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -9,12 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "sim/base/input_file.h"
+#include "sim/base/toml_reader.h"
 
 namespace hydroprint::film {
 namespace {
-
-constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 struct Range {
   double least;
@@ -120,20 +116,10 @@ Status read_key(const std::filesystem::path& path, const toml::key& name, const 
   return fail(Code::kInvalidArgument, where + " is not a known key. Use " + known_keys());
 }
 
-Result<toml::table> parse(const std::filesystem::path& path, const std::string& text) {
-  try {
-    return toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    return fail(Code::kInvalidArgument,
-                place(path, error.source(), error.description()) + ". Correct the TOML there");
-  }
-}
-
 }  // namespace
 
 Result<Profile> read_profile(const std::filesystem::path& path) {
-  HP_ASSIGN_OR_RETURN(const std::string text, read_text_file(path, kMaxBytes));
-  HP_ASSIGN_OR_RETURN(const toml::table table, parse(path, text));
+  HP_ASSIGN_OR_RETURN(const toml::table table, read_toml_file(path));
   Profile profile;
   for (const auto& [name, node] : table) {
     HP_RETURN_IF_ERROR(read_key(path, name, node, profile));

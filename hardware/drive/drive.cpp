@@ -1,0 +1,205 @@
+#include "hardware/drive/drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+#include "hardware/drive/codec.h"
+#include "hardware/drive/polled.h"
+#include "hardware/drive/write.h"
+
+namespace hydroprint::drive {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+std::string hex(unsigned value) {
+  std::ostringstream out;
+  out << "0x" << std::hex << std::setw(4) << std::setfill('0') << value;
+  return out.str();
+}
+
+Error unsafe(const std::string& what) {
+  return {Code::kFailedPrecondition, what, "DRIVE_CONFIG_UNSAFE", {}};
+}
+
+std::string seconds(double value_s) {
+  std::ostringstream out;
+  out << value_s << " s";
+  return out.str();
+}
+
+/// Whether the drive is still in step with us after such an error: it answered, if with a refusal.
+bool is_answer(const Error& error) {
+  return error.reason == "DRIVE_REFUSED" || error.reason == "DRIVE_BUSY" ||
+         error.reason == "LIMIT_EXCEEDED";
+}
+
+std::optional<Error> judge_time(const DriveProfile& profile, double time_s) {
+  const std::string remedy = ". Set it to at most " + seconds(profile.watchdog->largest_time_s) +
+                             " in register " + hex(profile.watchdog->time.address);
+  if (time_s == 0)
+    return unsafe("the communication watchdog of " + profile.name + " is off" + remedy);
+  if (time_s <= profile.watchdog->largest_time_s) return std::nullopt;
+  return unsafe("the communication watchdog of " + profile.name + " waits " + seconds(time_s) +
+                remedy);
+}
+
+}  // namespace
+
+Drive::Drive(DriveProfile profile, std::shared_ptr<Link> link)
+    : profile_(std::move(profile)), link_(std::move(link)) {}
+
+template <class T>
+Result<T> Drive::noted(Result<T> result) {
+  if (!result && !is_answer(result.error())) known_ = false;
+  return result;
+}
+
+Result<std::vector<std::uint16_t>> Drive::read(Space space, std::uint16_t address,
+                                               std::uint16_t count) {
+  const Function function =
+      space == Space::kHolding ? Function::kReadHolding : Function::kReadInput;
+  return noted(link_->transact({profile_.unit, function, address, count, {}}));
+}
+
+Result<Inspection> Drive::connect() {
+  known_ = false;
+  unsafe_.reset();
+  HP_RETURN_IF_ERROR(link_->connect());
+  connection_ = link_->connections();
+  auto found = check_identity().and_then([this] { return inspect_watchdog(); });
+  if (!found) {
+    disconnect();
+    return found;
+  }
+  unsafe_ = found->unsafe;
+  return found;
+}
+
+void Drive::disconnect() {
+  known_ = false;
+  link_->close();
+}
+
+bool Drive::connected() const { return link_->is_open() && link_->connections() == connection_; }
+
+Status Drive::check_identity() {
+  for (const Mark& mark : profile_.identity) {
+    const auto words = read(mark.space, mark.address, 1);
+    if (!words && words.error().reason != "DRIVE_REFUSED") return tl::unexpected(words.error());
+    if (words && ((*words)[0] & mark.mask) == mark.value) continue;
+    const std::string found = words ? "holds " + hex((*words)[0]) : "does not exist";
+    return tl::unexpected(unsafe("register " + hex(mark.address) + " (" + mark.meaning + ") " +
+                                 found + ", not " + hex(mark.value) + ": this is no " +
+                                 profile_.name + ". Give the profile of the drive that is there"));
+  }
+  return {};
+}
+
+Result<Inspection> Drive::inspect_watchdog() {
+  Inspection out{profile_.name, 0, {}};
+  if (!profile_.watchdog) {
+    out.unsafe = unsafe(profile_.name +
+                        " has no communication watchdog: it would run on without us. Use another "
+                        "drive");
+    return out;
+  }
+  const Watchdog& watchdog = *profile_.watchdog;
+  const auto count = static_cast<std::uint16_t>(watchdog.time.format.words);
+  HP_ASSIGN_OR_RETURN(const auto time, read(watchdog.time.space, watchdog.time.address, count));
+  out.watchdog_s = decode(watchdog.time.format, time);
+  out.unsafe = judge_time(profile_, out.watchdog_s);
+  if (!watchdog.action) return out;
+  HP_ASSIGN_OR_RETURN(const auto action, read(watchdog.action->space, watchdog.action->address, 1));
+  const auto& stopping = watchdog.stopping;
+  if (!out.unsafe && std::find(stopping.begin(), stopping.end(), action[0]) == stopping.end()) {
+    out.unsafe = unsafe("the communication watchdog of " + profile_.name +
+                        " does not stop the axis: its action, register " +
+                        hex(watchdog.action->address) + ", is " + std::to_string(action[0]) +
+                        ". Set an action that stops, see the drive's manual");
+  }
+  return out;
+}
+
+Result<DriveState> Drive::poll() {
+  if (!connected()) {
+    known_ = false;
+    return fail(Code::kUnavailable, profile_.name + " is not connected. Connect", "RIG_OFFLINE");
+  }
+  std::vector<std::vector<std::uint16_t>> blocks;
+  Clock::time_point time;
+  Clock::duration spread{};
+  for (const Block& block : profile_.blocks) {
+    const auto sent = Clock::now();
+    HP_ASSIGN_OR_RETURN(auto words, read(block.space, block.address, block.count));
+    const auto got = Clock::now();
+    if ((words[block.mark.address - block.address] & block.mark.mask) != block.mark.value) {
+      known_ = false;
+      link_->distrust();
+      return fail(Code::kDataLoss,
+                  "a reply of " + profile_.name + " lacks its mark (" + block.mark.meaning +
+                      ", register " + hex(block.mark.address) +
+                      "): it is another request's. Poll again",
+                  "REPLY_INVALID");
+    }
+    if (holds(block, profile_.position)) {
+      time = sent + (got - sent) / 2;
+      spread = (got - sent) / 2;
+    }
+    blocks.push_back(std::move(words));
+  }
+  DriveState state = decode_state(profile_, blocks);
+  state.time = time;
+  state.time_error = spread;
+  known_ = true;
+  return state;
+}
+
+Status Drive::may_move() const {
+  if (unsafe_) return tl::unexpected(*unsafe_);
+  if (known_ && connected()) return {};
+  return fail(Code::kUnavailable,
+              "the state of " + profile_.name + " is not known after a failure. Poll it first",
+              "RIG_OFFLINE");
+}
+
+Status Drive::command(Command which, double position_mm, double speed_mm_per_s) {
+  HP_ASSIGN_OR_RETURN(const auto requests,
+                      requests_for(profile_, which, position_mm, speed_mm_per_s));
+  for (const Request& request : requests) {
+    HP_RETURN_IF_ERROR(noted(link_->transact(request)));
+  }
+  return {};
+}
+
+Status Drive::enable() {
+  HP_RETURN_IF_ERROR(may_move());
+  return command(Command::kEnable, 0, 0);
+}
+
+Status Drive::disable() { return command(Command::kDisable, 0, 0); }
+
+Status Drive::home() {
+  HP_RETURN_IF_ERROR(may_move());
+  return command(Command::kHome, 0, 0);
+}
+
+Status Drive::move_to(double position_mm, double speed_mm_per_s) {
+  HP_RETURN_IF_ERROR(may_move());
+  return command(Command::kMove, position_mm, speed_mm_per_s);
+}
+
+Status Drive::jog(double speed_mm_per_s) {
+  HP_RETURN_IF_ERROR(may_move());
+  return command(speed_mm_per_s < 0 ? Command::kJogNegative : Command::kJogPositive, 0,
+                 std::abs(speed_mm_per_s));
+}
+
+Status Drive::stop() { return command(Command::kStop, 0, 0); }
+
+Status Drive::reset_fault() { return command(Command::kResetFault, 0, 0); }
+
+}  // namespace hydroprint::drive

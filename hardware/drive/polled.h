@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "hardware/drive/drive.h"
+
+namespace hydroprint::drive {
+
+/// Whether a block holds all of a field.
+[[nodiscard]] bool holds(const Block& block, const Field& field);
+
+/// What the polled blocks, in the profile's order, say; without the time.
+[[nodiscard]] DriveState decode_state(const DriveProfile& profile,
+                                      const std::vector<std::vector<std::uint16_t>>& blocks);
+
+}  // namespace hydroprint::drive

@@ -1,0 +1,99 @@
+#include "hardware/rig/controller.h"
+
+#include <thread>
+#include <utility>
+
+#include "hardware/rig/owner.h"
+
+namespace hydroprint::rig {
+namespace {
+
+using Kind = Event::Kind;
+
+constexpr std::chrono::milliseconds kConnect{200};
+
+}  // namespace
+
+struct Controller::Impl {
+  Impl(const RigConfig& c, drive::DriveProfile profile, std::shared_ptr<drive::Link> link)
+      : config(c),
+        drive(std::move(profile), std::move(link)),
+        stopper(drive),
+        owner(config, drive, stopper, desk),
+        thread([this] { owner.run(); }) {}
+
+  RigConfig config;
+  Desk desk;
+  drive::Drive drive;
+  Stopper stopper;
+  Owner owner;
+  std::thread thread;
+};
+
+Controller::Controller() = default;
+
+Controller::~Controller() {
+  if (!impl_) return;
+  impl_->desk.end = true;
+  impl_->thread.join();
+}
+
+Result<std::unique_ptr<Controller>> Controller::make(const RigConfig& config,
+                                                     drive::DriveProfile profile,
+                                                     drive::Endpoint endpoint) {
+  HP_RETURN_IF_ERROR(check(config, profile));
+  const drive::LinkTiming timing{kConnect, profile.response_timeout, profile.worst_delay};
+  auto link = std::make_shared<drive::Link>(std::move(endpoint), timing);
+  std::unique_ptr<Controller> out(new Controller);
+  out->impl_ = std::make_unique<Impl>(config, std::move(profile), std::move(link));
+  return out;
+}
+
+std::future<Answer> Controller::order(Event::Kind kind, Plan plan) {
+  Order order{kind, std::move(plan), std::chrono::steady_clock::now(), impl_->desk.stops, {}};
+  std::future<Answer> answer = order.answer.get_future();
+  if (!impl_->desk.orders.put(order)) {
+    order.answer.set_value(fail(Code::kResourceExhausted,
+                                "too many orders wait for the rig; order it again in a moment",
+                                "QUEUE_FULL"));
+  }
+  return answer;
+}
+
+std::future<Answer> Controller::arm() { return order(Kind::kArm); }
+std::future<Answer> Controller::disarm() { return order(Kind::kDisarm); }
+std::future<Answer> Controller::reset() { return order(Kind::kReset); }
+std::future<Answer> Controller::home() { return order(Kind::kHome, {Motion::kHome}); }
+
+std::future<Answer> Controller::move_to(double position_mm, double speed_mm_per_s) {
+  return order(Kind::kMove, {Motion::kMove, {{position_mm, speed_mm_per_s}}});
+}
+
+std::future<Answer> Controller::jog(double speed_mm_per_s) {
+  return order(Kind::kJog, {Motion::kJog, {}, speed_mm_per_s});
+}
+
+std::future<Answer> Controller::dip(std::vector<Leg> legs) {
+  return order(Kind::kDip, {Motion::kDip, std::move(legs)});
+}
+
+void Controller::stop() noexcept {
+  ++impl_->desk.stops;
+  impl_->stopper.stop();
+}
+
+Snapshot Controller::snapshot() const { return impl_->desk.board.snapshot.load(); }
+std::optional<Error> Controller::trouble() const { return impl_->desk.board.trouble(); }
+
+std::optional<MotionReport> Controller::motion(std::uint64_t number) const {
+  return impl_->desk.board.motion(number);
+}
+
+std::vector<Sample> Controller::samples(std::uint64_t first, std::uint64_t last) const {
+  return impl_->desk.board.samples.copy(first, last);
+}
+
+const RigConfig& Controller::config() const { return impl_->config; }
+const drive::DriveProfile& Controller::profile() const { return impl_->drive.profile(); }
+
+}  // namespace hydroprint::rig

@@ -1,0 +1,186 @@
+#include "hardware/virtual/faults.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+namespace hydroprint::virtual_rig {
+namespace {
+
+using std::chrono::milliseconds;
+using Words = std::vector<std::string>;
+
+constexpr std::array<std::pair<std::string_view, ReplyFault>, 8> kFaults = {{
+    {"late", ReplyFault::kLate},
+    {"drop", ReplyFault::kDrop},
+    {"truncate", ReplyFault::kTruncate},
+    {"wrong-id", ReplyFault::kWrongId},
+    {"wrong-function", ReplyFault::kWrongFunction},
+    {"wrong-crc", ReplyFault::kWrongCrc},
+    {"wrong-length", ReplyFault::kWrongLength},
+    {"busy", ReplyFault::kBusy},
+}};
+constexpr std::array<std::pair<std::string_view, Action::Input>, 5> kInputs = {{
+    {"stop", Action::Input::kStopButton},
+    {"positive-end", Action::Input::kPositiveEnd},
+    {"negative-end", Action::Input::kNegativeEnd},
+    {"stall", Action::Input::kStall},
+    {"freeze", Action::Input::kFreeze},
+}};
+constexpr std::array<std::pair<std::string_view, Action::Kind>, 6> kPlain = {{
+    {"clear", Action::Kind::kClear},
+    {"unplug", Action::Kind::kUnplug},
+    {"replug", Action::Kind::kReplug},
+    {"reboot", Action::Kind::kReboot},
+    {"state", Action::Kind::kState},
+    {"help", Action::Kind::kHelp},
+}};
+constexpr milliseconds kBootTime{1000};
+constexpr std::int64_t kLongest_ms = 3'600'000;
+
+template <class T, std::size_t N>
+std::optional<T> look_up(const std::array<std::pair<std::string_view, T>, N>& all,
+                         std::string_view name) {
+  for (const auto& [word, value] : all) {
+    if (word == name) return value;
+  }
+  return std::nullopt;
+}
+
+Words split(std::string_view text, std::string_view separators) {
+  Words out;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(separators), text.size());
+    if (end > 0) out.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return out;
+}
+
+std::optional<std::int64_t> read_number(std::string_view text) {
+  std::int64_t out = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return out;
+}
+
+/// "700ms" or "2s".
+std::optional<milliseconds> read_duration(std::string_view text) {
+  const bool in_ms = text.ends_with("ms");
+  if (!in_ms && !text.ends_with("s")) return std::nullopt;
+  text.remove_suffix(in_ms ? 2 : 1);
+  const auto number = read_number(text);
+  const std::int64_t unit = in_ms ? 1 : 1000;
+  if (!number || *number < 0 || *number > kLongest_ms / unit) return std::nullopt;
+  return milliseconds(*number * unit);
+}
+
+tl::unexpected<Error> refuse(std::string_view line) {
+  return fail(Code::kInvalidArgument,
+              "\"" + std::string(line.substr(0, 80)) +
+                  "\" is nothing that can be done. There is: " + std::string(action_help()));
+}
+
+/// COUNT at words[at], if there is one.
+bool take_count(const Words& words, std::size_t at, Strike& strike) {
+  if (words.size() == at) return true;
+  if (words.size() > at + 1) return false;
+  const auto number = words[at] == "all" ? std::optional<std::int64_t>(-1) : read_number(words[at]);
+  if (!number || *number == 0 || *number < -1 || *number > 1'000'000) return false;
+  strike.count = static_cast<int>(*number);
+  return true;
+}
+
+std::optional<Action> parse_strike(const Words& words) {
+  Action out;
+  out.kind = Action::Kind::kStrike;
+  if (words.size() == 1 && words[0] == "silent") {
+    out.strike = {ReplyFault::kDeaf, milliseconds(0), -1};
+    return out;
+  }
+  const auto fault = look_up(kFaults, words[0]);
+  if (!fault) return std::nullopt;
+  out.strike.fault = *fault;
+  std::size_t at = 1;
+  if (*fault == ReplyFault::kLate) {
+    const auto delay = words.size() > 1 ? read_duration(words[1]) : std::nullopt;
+    if (!delay) return std::nullopt;
+    out.strike.delay = *delay;
+    at = 2;
+  }
+  if (!take_count(words, at, out.strike)) return std::nullopt;
+  return out;
+}
+
+std::optional<Action> parse_input(const Words& words) {
+  Action out;
+  out.kind = words[0] == "release" ? Action::Kind::kRelease : Action::Kind::kPress;
+  const bool has_verb = words[0] == "press" || words[0] == "release";
+  if (words.size() != (has_verb ? 2U : 1U)) return std::nullopt;
+  const auto input = look_up(kInputs, words.back());
+  if (!input || (!has_verb && *input < Action::Input::kStall)) return std::nullopt;
+  out.input = *input;
+  return out;
+}
+
+std::optional<Action> parse_plain(const Words& words) {
+  const auto kind = look_up(kPlain, words[0]);
+  if (!kind) return std::nullopt;
+  Action out;
+  out.kind = *kind;
+  out.pause = kBootTime;
+  if (words.size() == 1) return out;
+  const auto pause = read_duration(words[1]);
+  if (words.size() > 2 || !pause || out.kind != Action::Kind::kReboot) return std::nullopt;
+  out.pause = *pause;
+  return out;
+}
+
+std::optional<Action> parse_words(Words words) {
+  if (words.empty()) return std::nullopt;
+  if (words[0] == "fault") {
+    words.erase(words.begin());
+    return words.empty() ? std::nullopt : parse_strike(words);
+  }
+  if (auto out = parse_plain(words)) return out;
+  if (auto out = parse_input(words)) return out;
+  return parse_strike(words);
+}
+
+}  // namespace
+
+std::string_view action_help() {
+  return "[fault] late DURATION [COUNT|all], [fault] "
+         "drop|truncate|wrong-id|wrong-function|wrong-crc|"
+         "wrong-length|busy [COUNT|all], silent, press|release "
+         "stop|positive-end|negative-end|stall|"
+         "freeze, stall, freeze, unplug, replug, reboot [DURATION], clear, state, help "
+         "(a DURATION is 700ms or 2s)";
+}
+
+Result<Action> parse_action(std::string_view line) {
+  if (const auto action = parse_words(split(line, " \t\r"))) return *action;
+  return refuse(line);
+}
+
+Result<std::vector<TimedAction>> parse_timed_actions(std::string_view text) {
+  std::vector<TimedAction> out;
+  for (const std::string& part : split(text, ",")) {
+    TimedAction timed;
+    const std::size_t sign = part.find('@');
+    if (sign != std::string::npos) {
+      const auto at = read_duration(std::string_view(part).substr(sign + 1));
+      if (!at) return refuse(part);
+      timed.at = *at;
+    }
+    const auto action = parse_words(split(part.substr(0, sign), " \t="));
+    if (!action) return refuse(part);
+    timed.action = *action;
+    out.push_back(timed);
+  }
+  return out;
+}
+
+}  // namespace hydroprint::virtual_rig

@@ -1,0 +1,142 @@
+#include "hardware/drive/profile.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/base/input_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace hydroprint::drive {
+namespace {
+
+std::string virtual_profile() {
+  return *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
+}
+
+Result<DriveProfile> profile(const std::string& toml) {
+  const testing::TemporaryFolder folder;
+  return read_drive_profile(folder.write("drive.toml", toml));
+}
+
+/// The virtual drive's profile with `from` turned into `to`, which must stand there.
+std::string changed(const std::string& from, const std::string& to) {
+  std::string text = virtual_profile();
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(DriveProfile, VirtualDriveIsReadAsWritten) {
+  const auto read = profile(virtual_profile());
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->name, "virtual drive");
+  EXPECT_EQ(read->unit, 1);
+  EXPECT_EQ(read->max_speed_mm_per_s, 20);
+  EXPECT_EQ(read->response_timeout, std::chrono::milliseconds(100));
+  ASSERT_EQ(read->identity.size(), 2U);
+  EXPECT_EQ(read->identity[1].mask, 0xff00);
+  ASSERT_EQ(read->blocks.size(), 1U);
+  EXPECT_EQ(read->blocks[0].count, 9);
+  EXPECT_EQ(read->blocks[0].mark.value, 0xa55a);
+  EXPECT_EQ(read->position.address, 0x0103);
+  EXPECT_TRUE(read->position.format.is_signed);
+  ASSERT_TRUE(read->bit(StatusBit::kStopInput));
+  EXPECT_TRUE(read->bit(StatusBit::kStopInput)->inverted);
+  ASSERT_EQ(read->command(Command::kMove).size(), 1U);
+  EXPECT_EQ(read->command(Command::kMove)[0].values.size(), 4U);
+  ASSERT_TRUE(read->watchdog);
+  EXPECT_EQ(read->watchdog->stopping, std::vector<std::uint16_t>({1}));
+  EXPECT_EQ(read->alarms.at(0x30).text.substr(0, 21), "communication timeout");
+}
+
+TEST(DriveProfile, StoppingDistanceIsThatOfTheNotes) {
+  DriveProfile drive;
+  drive.stopping_deceleration_mm_per_s2 = 200;
+  // Daemon notes 3.6: 20 mm/s, 0.25 s + 0.5 s, 200 mm/s^2: 15 + 1 mm.
+  EXPECT_DOUBLE_EQ(stopping_distance_mm(drive, 20, 0.75), 16);
+  EXPECT_DOUBLE_EQ(stopping_distance_mm(drive, -20, 0.75), 16);
+}
+
+struct Wrong {
+  const char* from;
+  const char* to;
+  const char* what;  ///< what the message must say besides file and line
+};
+
+class WrongProfile : public ::testing::TestWithParam<Wrong> {};
+
+TEST_P(WrongProfile, IsRefusedWithFileLineAndRemedy) {
+  const Wrong& wrong = GetParam();
+  const std::string text = changed(wrong.from, wrong.to);
+  const auto read = profile(text);
+  ASSERT_FALSE(read);
+  const std::string& message = read.error().message;
+  EXPECT_NE(message.find("drive.toml: line "), std::string::npos) << message;
+  EXPECT_NE(message.find(wrong.what), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WrongProfile,
+    ::testing::Values(
+        Wrong{"unit = 1 ", "unit = 0 ",
+              "unit is no whole number in range. Give a whole number from 1 to 247"},
+        Wrong{"unit = 1 ", "unit = \"1\" ", "unit is no whole number"},
+        Wrong{"unit = 1 ", "units = 1 ", "units is not a known key here. Use "},
+        Wrong{"name = \"virtual drive\"", "", "name is missing. Add it"},
+        Wrong{"max_speed_mm_per_s = 20.0", "max_speed_mm_per_s = 0", "motion.max_speed_mm_per_s"},
+        Wrong{"max_speed_mm_per_s = 20.0", "max_speed_mm_per_s = nan", "motion.max_speed_mm_per_s"},
+        Wrong{"jog_dead_man_s = 0.2", "jog_dead_man_s = 0.02", "Refresh more often"},
+        Wrong{"worst_delay_s = 0.25", "worst_delay_s = \"long\"", "timing.worst_delay_s"},
+        Wrong{"address = 0x0001", "address = 0x10000", "identity.address"},
+        Wrong{"mask = 0xff00", "mask = 0xff00\nvalue2 = 1", "not a known key"},
+        Wrong{"value = 0x0100\nmask", "value = 0x0101\nmask", "leaves out bits of the value"},
+        Wrong{"count = 9", "count = 126", "block.count"},
+        Wrong{"count = 9", "count = 8", "demand lies in no block"},
+        Wrong{"address = 0x0100, value", "address = 0x0109, value", "lies outside of its block"},
+        Wrong{"words = 2                     #", "words = 3 #", "position.words"},
+        Wrong{"counts_per_mm = 10000.0       #", "counts_per_mm = 0 #", "position.counts_per_mm"},
+        Wrong{"space = \"input\"\naddress = 0x0103", "space = \"coil\"\naddress = 0x0103",
+              "\"holding\", \"input\""},
+        Wrong{"alarm = { space", "alarms = { space", "status.alarm is missing"},
+        Wrong{"bit = 2 }", "bit = 16 }", "status.moving.bit"},
+        Wrong{"[4, \"position\", \"speed\"", "[4, \"position\", \"spede\"", "commands.move.values"},
+        Wrong{"values = [7]", "values = []", "commands.stop.values"},
+        Wrong{"stop = [{ address = 0x0300, values = [7] }]", "stop = []", "commands.stop is empty"},
+        Wrong{"largest_time_s = 0.25", "largest_time_s = 0", "watchdog.largest_time_s"},
+        Wrong{"stopping_actions = [1]", "stopping_actions = [\"halt\"]",
+              "watchdog.stopping_actions"},
+        Wrong{"code = 0x20", "code = 0x10", "stands here twice"},
+        Wrong{"[motion]", "[motion", "Correct the TOML there"}));
+
+TEST(DriveProfile, TwoBlocksOfOneLengthAreRefused) {
+  const auto read = profile(virtual_profile() +
+                            "\n[[block]]\nspace = \"input\"\naddress = 0x0400\ncount = 9\n"
+                            "mark = { address = 0x0400, value = 1 }\n");
+  ASSERT_FALSE(read);
+  EXPECT_NE(read.error().message.find("late replies could be mistaken"), std::string::npos);
+}
+
+TEST(DriveProfile, LineIsThatOfTheKey) {
+  const std::string text = changed("bit = 2 }", "bit = 16 }");
+  const auto line =
+      1 + std::count(text.begin(),
+                     text.begin() + static_cast<std::ptrdiff_t>(text.find("bit = 16")), '\n');
+  EXPECT_NE(profile(text).error().message.find("line " + std::to_string(line) + ":"),
+            std::string::npos);
+}
+
+TEST(DriveProfile, AllThatAreShippedAreReadAndSayWhetherTheyWereTried) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(HYDROPRINT_PROFILES)) {
+    const auto read = read_drive_profile(entry.path());
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_FALSE(read->tried_on_hardware);
+    ++count;
+  }
+  EXPECT_EQ(count, 3);
+}
+
+}  // namespace
+}  // namespace hydroprint::drive

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "hardware/drive/profile.h"
+#include "hardware/rig/config.h"
+
+namespace hydroprint::rig {
+
+/// What the tests compute with: round numbers.
+inline drive::DriveProfile test_profile() {
+  drive::DriveProfile profile;
+  profile.name = "test drive";
+  profile.max_speed_mm_per_s = 20;
+  profile.acceleration_mm_per_s2 = 100;
+  profile.stopping_deceleration_mm_per_s2 = 200;
+  profile.watchdog.emplace();
+  profile.watchdog->largest_time_s = 0.5;
+  return profile;
+}
+
+inline RigConfig test_config() {
+  RigConfig config;
+  config.end_low_mm = -20;
+  config.end_high_mm = 320;
+  config.keep_out_mm = 20;
+  return config;
+}
+
+}  // namespace hydroprint::rig

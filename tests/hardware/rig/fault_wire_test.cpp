@@ -1,0 +1,260 @@
+// The event table of hardware/rig/README.md, each row over the wire.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "hardware/rig/limits.h"
+#include "tests/hardware/rig/wired_rig.h"
+
+namespace hydroprint::rig {
+namespace {
+
+using virtual_rig::Clock;
+using Outcome = MotionReport::Outcome;
+
+class Fault : public virtual_rig::OnBothWires {};
+HP_ON_BOTH_WIRES(Fault);
+
+/// After a fault: nothing moves until reset, armed and homed, in this order.
+void expect_the_long_way_back(WiredRig& rig) {
+  ASSERT_TRUE(rig.becomes(State::kFault));
+  EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_FAULTED");
+  EXPECT_EQ(refusal(rig->home()), "RIG_FAULTED");
+  EXPECT_EQ(refusal(rig->arm()), "RIG_FAULTED");
+  const double at_mm = rig.drive().position_mm();
+  ASSERT_EQ(refusal(rig->reset()), "");
+  EXPECT_EQ(rig.state(), State::kDisarmed);
+  EXPECT_EQ(refusal(rig->move_to(20, 5)), "STATE_FORBIDS");
+  ASSERT_EQ(refusal(rig->arm()), "");
+  EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_NOT_HOMED");
+  EXPECT_EQ(rig.drive().position_mm(), at_mm) << "a reset restarts nothing";
+  const Answer home = rig->home().get();
+  ASSERT_TRUE(home);
+  EXPECT_EQ(rig.finish(*home).outcome, Outcome::kDone);
+  EXPECT_TRUE(rig.becomes(State::kIdle));
+}
+
+TEST_P(Fault, ALostLinkStopsTheAxisWithinItsStoppingDistance) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const std::uint64_t motion = rig.start_move(100, 10);
+  const double lost_mm = rig.drive().position_mm();
+  rig.drive().act("unplug");
+  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  EXPECT_LE(rig.drive().position_mm() - lost_mm,
+            stopping_distance_mm(rig->config(), rig->profile(), 10));
+  ASSERT_TRUE(rig.becomes(State::kOffline));
+  EXPECT_EQ(rig.report(motion).outcome, Outcome::kFailed);
+  EXPECT_EQ(rig.report(motion).cause, Cause::kLinkLost);
+  EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_OFFLINE");
+  const std::uint64_t ticks = rig->snapshot().jitter.ticks;
+  EXPECT_TRUE(wait_for([&] { return rig->snapshot().jitter.ticks > ticks + 10; }))
+      << "it goes on looking";
+  rig.drive().act("replug");
+  expect_the_long_way_back(rig);
+}
+
+TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItAnswersAgain) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const std::uint64_t motion = rig.start_move(100, 10);
+  const auto begun = Clock::now();
+  rig.drive().act("silent");
+  ASSERT_TRUE(wait_for([&] { return !in_motion(rig.state()); }));
+  EXPECT_LT(seconds_since(begun), 1);
+  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  rig.drive().act("clear");
+  EXPECT_EQ(rig.finish(motion).cause, Cause::kLinkLost);
+  expect_the_long_way_back(rig);
+}
+
+TEST_P(Fault, OneReplyThatIsNoneLetsADipGoOn) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const Answer dip = rig->dip({{20, 10, 0}}).get();
+  ASSERT_TRUE(dip);
+  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() > 9.9; }));
+  rig.drive().act("fault busy 1");
+  ASSERT_TRUE(wait_for([&] { return rig->snapshot().missed_polls > 0; }));
+  EXPECT_EQ(rig.finish(*dip).outcome, Outcome::kDone);
+}
+
+TEST_P(Fault, ThreeRepliesThatAreNoneStopIt) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const std::uint64_t motion = rig.start_move(100, 10);
+  rig.drive().act("fault busy all");
+  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  EXPECT_EQ(rig.report(motion).cause, Cause::kLinkLost);
+  rig.drive().act("clear");
+  expect_the_long_way_back(rig);
+}
+
+TEST_P(Fault, AStopGetsThroughWhileRepliesHang) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  (void)rig.start_move(100, 10);
+  rig.drive().act("fault drop all");  // heard and obeyed, never answered
+  std::this_thread::sleep_for(std::chrono::milliseconds(40));
+  const auto asked = Clock::now();
+  rig->stop();
+  EXPECT_LT(seconds_since(asked), 0.05);
+  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  // RTU: the line may be waiting for a reply (response_timeout); then 0.05 s of braking.
+  EXPECT_LT(seconds_since(asked), 0.25);
+}
+
+TEST_P(Fault, APowerCycleAtRestWantsResetArmingAndHoming) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  rig.drive().act("reboot 600ms");
+  ASSERT_TRUE(wait_for([&] { return rig.state() != State::kIdle; }));
+  expect_the_long_way_back(rig);
+}
+
+TEST_P(Fault, APowerCycleInMotionStopsAndNothingGoesOnAfterwards) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const std::uint64_t motion = rig.start_move(100, 10);
+  rig.drive().act("reboot 100ms");
+  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  const double rest_mm = rig.drive().position_mm();
+  EXPECT_EQ(rig.finish(motion).outcome, Outcome::kFailed);
+  ASSERT_TRUE(rig.becomes(State::kFault));
+  EXPECT_EQ(rig.drive().position_mm(), rest_mm);
+  expect_the_long_way_back(rig);
+}
+
+TEST_P(Fault, TheStopButtonLatchesUntilReleasedResetArmedAndHomed) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const std::uint64_t motion = rig.start_move(100, 10);
+  rig.drive().act("press stop");
+  ASSERT_TRUE(rig.becomes(State::kEstopped, 1));
+  EXPECT_EQ(rig.finish(motion).cause, Cause::kStopButton);
+  EXPECT_EQ(refusal(rig->reset()), "STATE_FORBIDS") << "still pressed";
+  EXPECT_EQ(refusal(rig->arm()), "STATE_FORBIDS");
+  EXPECT_EQ(refusal(rig->move_to(20, 5)), "STATE_FORBIDS");
+  const double rest_mm = rig.drive().position_mm();
+  rig.drive().act("release stop");
+  ASSERT_TRUE(wait_for([&] { return !rig->snapshot().bits.button; }));
+  EXPECT_EQ(rig.state(), State::kEstopped) << "released is not reset";
+  ASSERT_EQ(refusal(rig->reset()), "");
+  EXPECT_EQ(rig.state(), State::kDisarmed);
+  ASSERT_EQ(refusal(rig->arm()), "");
+  EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_NOT_HOMED");
+  EXPECT_EQ(rig.drive().position_mm(), rest_mm);
+  ASSERT_EQ(refusal(rig->home()), "");
+  EXPECT_TRUE(rig.becomes(State::kIdle, 30));
+}
+
+TEST_P(Fault, AnEndSwitchStopsIt) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const std::uint64_t motion = rig.start_move(100, 10);
+  rig.drive().act("press positive-end");
+  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  EXPECT_EQ(rig.finish(motion).cause, Cause::kLimit);
+  rig.drive().act("release positive-end");
+  expect_the_long_way_back(rig);
+}
+
+TEST_P(Fault, AStalledAxisIsStopped) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const std::uint64_t motion = rig.start_move(100, 10);
+  rig.drive().act("press stall");
+  ASSERT_TRUE(wait_for([&] { return !in_motion(rig.state()); }, 2));
+  rig.drive().act("release stall");
+  const MotionReport report = rig.finish(motion);
+  EXPECT_EQ(report.outcome, Outcome::kFailed);
+  EXPECT_TRUE(report.cause == Cause::kAlarm || report.cause == Cause::kFollowingError);
+  expect_the_long_way_back(rig);
+}
+
+TEST_P(Fault, AFrozenPositionIsAFollowingError) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  const std::uint64_t motion = rig.start_move(100, 10);
+  rig.drive().act("press freeze");
+  const double frozen_mm = rig.drive().position_mm();
+  ASSERT_TRUE(wait_for([&] { return !in_motion(rig.state()); }, 2));
+  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  const double band_mm = following_band_mm(rig->config(), 10);
+  EXPECT_LE(rig.drive().position_mm() - frozen_mm, band_mm + 1.5);
+  rig.drive().act("release freeze");
+  EXPECT_EQ(rig.finish(motion).cause, Cause::kFollowingError);
+  expect_the_long_way_back(rig);
+}
+
+TEST_P(Fault, ALateReplyIsNeverTakenForAnother) {
+  WiredRig rig(GetParam());
+  rig.make_ready();
+  for (int i = 0; i < 3; ++i) {
+    rig.drive().act("fault late 200ms 1");
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  }
+  // At rest all along: whatever was read says so.
+  const auto samples = rig->samples(rig.report(rig->snapshot().motion).last_sample + 1, UINT64_MAX);
+  ASSERT_FALSE(samples.empty());
+  for (const Sample& sample : samples) EXPECT_NEAR(sample.position_mm, 0, 0.01);
+  EXPECT_NE(rig.state(), State::kMoving);
+}
+
+TEST_P(Fault, AnotherDriveThanThePlannedOneIsNotArmedAndNotCommanded) {
+  WiredDrive drive(GetParam());
+  drive::DriveProfile other = drive.profile();
+  other.identity.back().value = static_cast<std::uint16_t>(other.identity.back().value + 0x0100);
+  const auto controller = Controller::make({}, other, drive.endpoint());
+  ASSERT_TRUE(controller);
+  ASSERT_TRUE(wait_for([&] { return (*controller)->trouble().has_value(); }));
+  EXPECT_EQ((*controller)->trouble()->reason, "DRIVE_CONFIG_UNSAFE");
+  EXPECT_EQ((*controller)->snapshot().condition.state, State::kOffline);
+  EXPECT_EQ(refusal((*controller)->arm()), "DRIVE_CONFIG_UNSAFE");
+  EXPECT_EQ(drive.mode(), "off");
+}
+
+TEST_P(Fault, AWatchdogThatIsOffTooSlowOrDoesNotStopPreventsArming) {
+  virtual_rig::BenchOptions off, slow, idle;
+  off.watchdog_s = 0;
+  slow.watchdog_s = 5;
+  idle.watchdog_action = 0;
+  for (const auto& unsafe : {off, slow, idle}) {
+    WiredRig rig(GetParam(), unsafe);
+    ASSERT_TRUE(rig.becomes(State::kDisarmed));
+    EXPECT_EQ(refusal(rig->arm()), "DRIVE_CONFIG_UNSAFE");
+    EXPECT_EQ(rig->trouble().value_or(Error{}).reason, "DRIVE_CONFIG_UNSAFE");
+    EXPECT_EQ(rig.drive().mode(), "off");
+  }
+}
+
+TEST(FaultOfOne, ADriveThatIsNotThereYetIsFoundLater) {
+  WiredDrive drive("tcp");
+  drive.act("unplug");
+  const auto controller = Controller::make({}, drive.profile(), drive.endpoint());
+  ASSERT_TRUE(controller) << "the controller runs all the same";
+  ASSERT_TRUE(wait_for([&] { return (*controller)->trouble().has_value(); }));
+  const auto asked = Clock::now();
+  EXPECT_EQ(refusal((*controller)->arm()), "RIG_OFFLINE");
+  EXPECT_LT(seconds_since(asked), 1);
+  drive.act("replug");
+  EXPECT_TRUE(
+      wait_for([&] { return (*controller)->snapshot().condition.state == State::kDisarmed; }));
+  EXPECT_FALSE((*controller)->trouble());
+}
+
+TEST(FaultOfOne, MotionThatSomebodyElseCommandsIsStopped) {
+  WiredRig rig("tcp");
+  rig.make_ready();
+  drive::Drive& intruder = rig.drive().drive();
+  ASSERT_TRUE(intruder.connect());
+  ASSERT_TRUE(intruder.poll());
+  ASSERT_TRUE(intruder.move_to(50, 5));
+  ASSERT_TRUE(rig.becomes(State::kFault));
+  EXPECT_EQ(rig.cause(), Cause::kUnexpectedMotion);
+  EXPECT_LT(rig.drive().position_mm(), 5);
+}
+
+}  // namespace
+}  // namespace hydroprint::rig

@@ -1,0 +1,126 @@
+// Whoever owns the drive dies or hangs in the middle of a dip: the drive has to stop by itself.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "hardware/rig/limits.h"
+#include "hardware/rig/stopper.h"
+#include "sim/base/input_file.h"
+#include "tests/hardware/rig/wired_rig.h"
+#include "tests/support/process.h"
+
+namespace hydroprint::rig {
+namespace {
+
+using virtual_rig::Clock;
+
+constexpr double kSpeed_mm_per_s = 10;
+
+class LostOwner : public virtual_rig::OnBothWires {};
+HP_ON_BOTH_WIRES(LostOwner);
+
+testing::Process own(WiredDrive& drive) {
+  return testing::Process({std::string(HYDROPRINT_BIN_DIR) + "/rig_owner", drive.endpoint().text(),
+                           HYDROPRINT_PROFILES "/virtual.toml"});
+}
+
+bool is_dipping(WiredDrive& drive) {
+  return drive.speed_mm_per_s() > 0.99 * kSpeed_mm_per_s && drive.position_mm() > 2;
+}
+
+/// The drive stands still within its own watchdog's time and way, counted from now.
+void expect_to_stop_by_itself(WiredDrive& drive) {
+  const drive::DriveProfile& profile = drive.profile();
+  const double watchdog_s = profile.watchdog->largest_time_s;
+  const double brake_s = kSpeed_mm_per_s / profile.stopping_deceleration_mm_per_s2;
+  const double from_mm = drive.position_mm();
+  const auto begun = Clock::now();
+  ASSERT_TRUE(wait_for([&] { return drive.speed_mm_per_s() == 0; }, 3));
+  EXPECT_LT(seconds_since(begun), watchdog_s + brake_s + 0.1);
+  EXPECT_LE(drive.position_mm() - from_mm,
+            drive::stopping_distance_mm(profile, kSpeed_mm_per_s, watchdog_s) + 0.2);
+  EXPECT_LE(drive.position_mm() - from_mm, RigConfig{}.keep_out_mm);
+}
+
+/// A new owner moves nothing and wants it reset, armed and homed.
+void expect_a_cold_start(WiredDrive& drive) {
+  const double rest_mm = drive.position_mm();
+  const auto next = Controller::make({}, drive.profile(), drive.endpoint());
+  ASSERT_TRUE(next);
+  const auto condition = [&] { return (*next)->snapshot().condition; };
+  ASSERT_TRUE(wait_for([&] { return condition().link == Link::kSafe; }))
+      << (*next)->trouble().value_or(Error{}).message;
+  // FAULT by the drive's own alarm; DISARMED if the owner had stopped it before.
+  const std::string refused = refusal((*next)->move_to(20, 5));
+  EXPECT_TRUE(refused == "RIG_FAULTED" || refused == "STATE_FORBIDS") << refused;
+  EXPECT_EQ(refusal((*next)->reset()), "");
+  EXPECT_EQ(refusal((*next)->arm()), "");
+  EXPECT_EQ(refusal((*next)->move_to(20, 5)), "RIG_NOT_HOMED");
+  EXPECT_EQ(drive.position_mm(), rest_mm);
+}
+
+TEST_P(LostOwner, KilledAtAnyMomentTheDriveStopsByItself) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> moment_ms(0, 700);
+  for (int i = 0; i < 5; ++i) {
+    WiredDrive drive(GetParam());
+    testing::Process owner = own(drive);
+    ASSERT_TRUE(wait_for([&] { return is_dipping(drive); }, 20));
+    std::this_thread::sleep_for(std::chrono::milliseconds(moment_ms(random)));
+    owner.signal(SIGKILL);
+    expect_to_stop_by_itself(drive);
+    owner.wait();
+    expect_a_cold_start(drive);
+  }
+}
+
+TEST_P(LostOwner, HungTheDriveStopsByItselfAndNothingGoesOnWhenItWakes) {
+  WiredDrive drive(GetParam());
+  testing::Process owner = own(drive);
+  ASSERT_TRUE(wait_for([&] { return is_dipping(drive); }, 20));
+  owner.signal(SIGSTOP);
+  expect_to_stop_by_itself(drive);
+  const double rest_mm = drive.position_mm();
+  owner.signal(SIGCONT);
+  std::this_thread::sleep_for(std::chrono::seconds(1));
+  EXPECT_TRUE(owner.running());
+  EXPECT_EQ(drive.position_mm(), rest_mm);
+  EXPECT_EQ(drive.speed_mm_per_s(), 0);
+  owner.signal(SIGKILL);
+  owner.wait();
+  expect_a_cold_start(drive);
+}
+
+TEST(Stopper, StopsADriveWhoseOwnerDoesNotLookAnyMore) {
+  // The drive's own watchdog is slow here, so it is the stopper that is seen to act.
+  const testing::TemporaryFolder folder;
+  virtual_rig::BenchOptions options;
+  std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
+  const std::string good = "largest_time_s = 0.25";
+  ASSERT_NE(profile.find(good), std::string::npos);
+  options.start_mm = 3;
+  options.profile = folder.write(
+      "slow.toml", profile.replace(profile.find(good), good.size(), "largest_time_s = 5.0"));
+  WiredDrive drive("tcp", options);
+  drive.make_ready();
+  drive::Drive& owned = drive.drive();
+  ASSERT_TRUE(owned.home());
+  ASSERT_TRUE(wait_for([&] { return drive.mode() == "hold"; }));
+  ASSERT_TRUE(owned.poll());
+  Stopper stopper(owned);
+  ASSERT_TRUE(owned.move_to(100, kSpeed_mm_per_s));
+  const auto clean = Clock::now();
+  stopper.watch(true, clean);
+  ASSERT_TRUE(wait_for([&] { return drive.speed_mm_per_s() > 9.9; }));
+  ASSERT_TRUE(wait_for([&] { return drive.speed_mm_per_s() == 0; }, 2));
+  EXPECT_GT(seconds_since(clean), kStale_s);
+  EXPECT_LT(seconds_since(clean), kStale_s + 0.2);
+  EXPECT_EQ(drive.mode(), "hold") << "stopped, not tripped";
+  EXPECT_TRUE(stopper.take_trip());
+  EXPECT_FALSE(stopper.take_trip());
+}
+
+}  // namespace
+}  // namespace hydroprint::rig

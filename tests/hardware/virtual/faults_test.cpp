@@ -1,0 +1,80 @@
+#include "hardware/virtual/faults.h"
+
+#include <gtest/gtest.h>
+
+#include "hardware/virtual/wire.h"
+
+namespace hydroprint::virtual_rig {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+using std::chrono::milliseconds;
+
+TEST(Faults, LinesOfTheControlSocketAreUnderstood) {
+  const auto late = parse_action("fault late 700ms 3");
+  ASSERT_TRUE(late) << late.error().message;
+  EXPECT_EQ(late->kind, Action::Kind::kStrike);
+  EXPECT_EQ(late->strike.fault, ReplyFault::kLate);
+  EXPECT_EQ(late->strike.delay, milliseconds(700));
+  EXPECT_EQ(late->strike.count, 3);
+  EXPECT_EQ(parse_action("fault drop")->strike.count, 1);
+  EXPECT_EQ(parse_action("drop all")->strike.count, -1);
+  EXPECT_EQ(parse_action("silent")->strike.fault, ReplyFault::kDeaf);
+  EXPECT_EQ(parse_action("press stop")->input, Action::Input::kStopButton);
+  EXPECT_EQ(parse_action("release positive-end")->kind, Action::Kind::kRelease);
+  EXPECT_EQ(parse_action("stall")->kind, Action::Kind::kPress);
+  EXPECT_EQ(parse_action("release stall")->input, Action::Input::kStall);
+  EXPECT_EQ(parse_action("reboot 2s")->pause, milliseconds(2000));
+  EXPECT_EQ(parse_action("unplug\r")->kind, Action::Kind::kUnplug);
+}
+
+TEST(Faults, OtherLinesAreRefusedWithWhatThereIs) {
+  for (const char* line :
+       {"", " ", "fault", "fault late", "fault late 5", "fault late 5m", "drop 0", "drop x",
+        "drop 1 2", "press", "press all", "stop", "reboot soon", "unplug 1s", "fault late -1s",
+        "late 99999s", "silent 3"}) {
+    const auto action = parse_action(line);
+    ASSERT_FALSE(action) << line;
+    EXPECT_NE(action.error().message.find("There is: "), std::string::npos);
+  }
+}
+
+TEST(Faults, CommandLineSaysWhen) {
+  const auto actions = parse_timed_actions("late=700ms@5s,press=stop@8s,stall");
+  ASSERT_TRUE(actions) << actions.error().message;
+  ASSERT_EQ(actions->size(), 3U);
+  EXPECT_EQ((*actions)[0].at, milliseconds(5000));
+  EXPECT_EQ((*actions)[0].action.strike.delay, milliseconds(700));
+  EXPECT_EQ((*actions)[1].action.input, Action::Input::kStopButton);
+  EXPECT_EQ((*actions)[2].at, milliseconds(0));
+  EXPECT_TRUE(parse_timed_actions("")->empty());
+  for (const char* text : {"late@5s", "drop@5", "drop@", "drop,nonsense"}) {
+    EXPECT_FALSE(parse_timed_actions(text)) << text;
+  }
+}
+
+// The reply of the Modbus specification's serial line guide: unit 2, function 7; CRC 12 41.
+TEST(Wire, ChecksumIsThatOfTheSpecification) {
+  EXPECT_EQ(serial_frame({0x02, 0x07}, ReplyFault::kNone), Bytes({0x02, 0x07, 0x41, 0x12}));
+}
+
+TEST(Wire, EveryFaultChangesWhatItSays) {
+  const Bytes reply = {1, 3, 4, 0xab, 0xcd, 0x12, 0x34};
+  const Bytes header = {0, 7, 0, 0, 0, 6};
+  const Bytes tcp = tcp_frame(header, reply, ReplyFault::kNone);
+  EXPECT_EQ(tcp, Bytes({0, 7, 0, 0, 0, 7, 1, 3, 4, 0xab, 0xcd, 0x12, 0x34}));
+  const Bytes rtu = serial_frame(reply, ReplyFault::kNone);
+  EXPECT_TRUE(serial_frame(reply, ReplyFault::kDrop).empty());
+  EXPECT_EQ(serial_frame(reply, ReplyFault::kTruncate), Bytes(rtu.begin(), rtu.begin() + 4));
+  EXPECT_EQ(serial_frame(reply, ReplyFault::kWrongId)[0], 0);
+  EXPECT_EQ(serial_frame(reply, ReplyFault::kWrongFunction)[1], 4);
+  EXPECT_EQ(serial_frame(reply, ReplyFault::kWrongLength).size(), rtu.size() - 2);
+  const Bytes wrong_crc = serial_frame(reply, ReplyFault::kWrongCrc);
+  EXPECT_EQ(Bytes(wrong_crc.begin(), wrong_crc.end() - 2), reply);
+  EXPECT_NE(wrong_crc, rtu);
+  EXPECT_EQ(tcp_frame(header, reply, ReplyFault::kWrongCrc)[1], 6) << "transaction id";
+  EXPECT_EQ(tcp_frame(header, reply, ReplyFault::kLate), tcp);
+}
+
+}  // namespace
+}  // namespace hydroprint::virtual_rig
