@@ -85,12 +85,12 @@ TEST_P(Extremes, AlongALongThinFilmTheMapIsTheSameEverywhere) {
   int reached = 0;
   for (std::size_t v = 0; v < middle.surface.points.size(); ++v) {
     const Vector2d here = middle.map.surface.film_mm[v];
-    if (!here.allFinite() || middle.X_FO.translation().z() > 1e9) continue;
+    if (!here.allFinite()) continue;
     const double z = (middle.X_FO * middle.surface.points[v]).z();
     if (z > depth_at(4, 120)) continue;
     const Vector2d there = aside.map.surface.film_mm[v] - Vector2d(150.3, 0);
     EXPECT_LT((here - there).norm(), 0.02) << middle.surface.points[v].transpose();
-    // And it is symmetric: drawn in from far along the film, from no farther than its edge across.
+    // Across, there is no film beyond the edge to draw in.
     EXPECT_LT(std::abs(here.y()), 6);
     ++reached;
   }
