@@ -13,7 +13,7 @@ namespace hydroprint::ink {
 /// The most ink there can be: C, M, Y and K in full (section 4.3).
 inline constexpr double kMostInk = 4;
 
-inline constexpr double kInkCell_mm = 0.5;
+inline constexpr double kInkCell_mm = 1;
 
 /// Equal cells that cover a film's bounding box exactly. Cell (i, j) begins at
 /// low_mm + (i, j) cell_mm: row 0 is the lowest, y up.

@@ -15,14 +15,14 @@ using Eigen::Vector2d;
 
 /// Resolution of film images that are only made to know their ink: finer than the cells over which
 /// the ink is averaged.
-constexpr double kInkDpi = 100;
+constexpr double kInkDpi = 60;
 /// Share of the points that must have come to rest: at the map's jumps a few may leap for ever.
 constexpr double kMostPoints = 0.999;
 
 /// How finely the map is tiled for such an image: to a fraction of its pixels.
 flow::MapOptions coarse(flow::MapOptions map) {
-  map.tolerance_mm = 0.1;
-  map.least_edge_mm = 0.25;
+  map.tolerance_mm = 0.25;
+  map.least_edge_mm = 0.5;
   return map;
 }
 

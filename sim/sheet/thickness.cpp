@@ -33,14 +33,22 @@ double mean_thickness_mm(const std::array<Vector2d, 6>& node, double twice_area_
                          const RestThickness& rest_thickness) {
   constexpr double kLarge_mm2 = 8;
   if (std::abs(twice_area_mm2) < kLarge_mm2) return rest_thickness({node[0], node[1], node[2]});
-  double volume = 0, area = 0;
-  for (const auto& [a, b, c] : {std::array{0, 5, 4}, {5, 1, 3}, {4, 3, 2}, {3, 4, 5}}) {
-    const double quarter = cross(node[b] - node[a], node[c] - node[a]);
-    volume += quarter * rest_thickness({node[a], node[b], node[c]});
-    area += quarter;
-  }
+  constexpr std::array<std::array<int, 3>, 4> kQuarters = {
+      {{0, 5, 4}, {5, 1, 3}, {4, 3, 2}, {3, 4, 5}}};
+  const auto area_of = [&](const std::array<int, 3>& quarter) {
+    const auto& [a, b, c] = quarter;
+    return cross(node[b] - node[a], node[c] - node[a]);
+  };
+  double area = 0;
+  for (const auto& quarter : kQuarters) area += area_of(quarter);
   const bool is_folded = !(area > 0.5 * twice_area_mm2 && area < 2 * twice_area_mm2);
-  return is_folded ? rest_thickness({node[0], node[1], node[2]}) : volume / area;
+  if (is_folded) return rest_thickness({node[0], node[1], node[2]});
+  double volume = 0;
+  for (const auto& quarter : kQuarters) {
+    const auto& [a, b, c] = quarter;
+    volume += area_of(quarter) * rest_thickness({node[a], node[b], node[c]});
+  }
+  return volume / area;
 }
 
 }  // namespace

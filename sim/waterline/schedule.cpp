@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <unordered_map>
 
@@ -17,6 +18,8 @@ constexpr double kCreaseCosine = 0.8;    ///< corner normals further apart make 
 /// Along an upright crease eq. (1) turns at once, and the film with it: steps are this much
 /// shorter.
 constexpr double kCreaseSteps = 2;
+/// Bends of a smaller radius are swept in shorter steps; the sharpest that count.
+constexpr double kBend_mm = 20, kSharpest_mm = 1;
 
 struct Triangle {
   double low_mm, high_mm, area_mm2, sine, cosine;
@@ -36,6 +39,7 @@ Triangle measure(const Body& body, const Eigen::Vector3i& t) {
 struct Bins {
   std::vector<double> wetted_mm2;  ///< surface wetted, weighed
   std::vector<double> length_mm;   ///< mean waterline length
+  std::vector<double> smallness;   ///< mean over it, by how the surface bends upward
   std::vector<char> has_crease;    ///< the waterline crosses creases
 };
 
@@ -44,6 +48,38 @@ struct Bins {
 double weight(double cosine) {
   const double tangent = std::sqrt(std::max(0.0, 1 - cosine) / std::max(1e-12, 1 + cosine));
   return std::clamp(2 * tangent, 0.3, 1.0);
+}
+
+/// How much less may be swept where a radius is smaller than the one that the steps are meant for,
+/// so that the error in mm stays about the same (ScheduleOptions::swept_mm).
+double smallness(double radius_mm, double meant_for_mm) {
+  return std::min(1.0, std::pow(radius_mm / meant_for_mm, 2.0 / 3));
+}
+
+/// For a whole body: that of a sphere with as much surface.
+double smallness(const Body& body) {
+  double area_mm2 = 0;
+  for (const Eigen::Vector3i& t : body.triangles) area_mm2 += measure(body, t).area_mm2;
+  return smallness(std::sqrt(area_mm2 / (4 * std::numbers::pi)), ScheduleOptions::kLarge_mm);
+}
+
+/// Radius with which the surface bends upward on a triangle: how theta changes along the steepest
+/// way, from the corners' normals; infinite where it does not.
+double bend_mm(const Body& body, std::size_t triangle) {
+  const Eigen::Vector3i& t = body.triangles[triangle];
+  const auto point = [&](int i) { return body.points_mm[t[i % 3]]; };
+  const Eigen::Vector3d normal = (point(1) - point(0)).cross(point(2) - point(0));
+  const Eigen::Vector3d n = normal.normalized();
+  const Eigen::Vector3d uphill = (Eigen::Vector3d::UnitZ() - n.z() * n).normalized();
+  double per_mm = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double theta_rad =
+        std::acos(std::clamp(-body.corner_normals[triangle][i].z(), -1.0, 1.0));
+    per_mm += theta_rad * uphill.dot(n.cross(point(i + 2) - point(i + 1))) / normal.norm();
+  }
+  const double radius_mm = 1 / std::abs(per_mm);
+  return std::isfinite(per_mm) ? std::max(radius_mm, kSharpest_mm)
+                               : std::numeric_limits<double>::infinity();
 }
 
 /// Per point, whether the surface is sharp there.
@@ -69,7 +105,8 @@ Bins collect(const Body& body, double shelf_slope_rad) {
   const double bin_mm = body.height_mm / kBins;
   // Densities enter as differences at the ends of each triangle's range, with the two end bins
   // filled in part; a running sum then gives every bin.
-  std::vector<double> area(kBins + 2, 0), length(kBins + 2, 0), crease(kBins + 2, 0);
+  std::vector<double> area(kBins + 2, 0), length(kBins + 2, 0), small(kBins + 2, 0),
+      crease(kBins + 2, 0);
   const std::vector<char> is_crease = crease_points(body);
   const auto spread = [&](std::vector<double>& bins, double low, double high, double density) {
     const auto step_up = [&](double z, double rise) {  // density from z on, as bin averages
@@ -82,35 +119,33 @@ Bins collect(const Body& body, double shelf_slope_rad) {
     step_up(low, density);
     step_up(high, -density);
   };
-  for (const Eigen::Vector3i& t : body.triangles) {
+  for (std::size_t i = 0; i < body.triangles.size(); ++i) {
+    const Eigen::Vector3i& t = body.triangles[i];
     const Triangle m = measure(body, t);
     if (m.sine < shelf_slope_rad) continue;
     const double range_mm = std::max(m.high_mm - m.low_mm, 1e-9);
+    const double length_mm = m.area_mm2 * m.sine / range_mm;
     spread(area, m.low_mm, m.high_mm, weight(m.cosine) * m.area_mm2 / range_mm);
-    spread(length, m.low_mm, m.high_mm, m.area_mm2 * m.sine / range_mm);
+    spread(length, m.low_mm, m.high_mm, length_mm);
+    spread(small, m.low_mm, m.high_mm, length_mm * smallness(bend_mm(body, i), kBend_mm));
     if (is_crease[t[0]] + is_crease[t[1]] + is_crease[t[2]] > 1) {
       spread(crease, m.low_mm, m.high_mm, 1);
     }
   }
-  Bins bins{std::vector<double>(kBins), std::vector<double>(kBins), std::vector<char>(kBins)};
-  double running_area = 0, running_length = 0, running_crease = 0;
+  Bins bins{std::vector<double>(kBins), std::vector<double>(kBins), std::vector<double>(kBins, 1),
+            std::vector<char>(kBins)};
+  double running_area = 0, running_length = 0, running_small = 0, running_crease = 0;
   for (int b = 0; b < kBins; ++b) {
     running_area += area[b];
     running_length += length[b];
+    running_small += small[b];
     running_crease += crease[b];
     bins.has_crease[b] = running_crease > 1e-6;
     bins.wetted_mm2[b] = std::max(0.0, running_area) * bin_mm;
     bins.length_mm[b] = std::max(0.0, running_length);
+    if (running_length > 1e-6) bins.smallness[b] = running_small / running_length;
   }
   return bins;
-}
-
-/// One for large bodies, less for smaller ones (ScheduleOptions::swept_mm).
-double smallness(const Body& body) {
-  double area_mm2 = 0;
-  for (const Eigen::Vector3i& t : body.triangles) area_mm2 += measure(body, t).area_mm2;
-  const double radius_mm = std::sqrt(area_mm2 / (4 * std::numbers::pi));
-  return std::min(1.0, std::pow(radius_mm / ScheduleOptions::kLarge_mm, 2.0 / 3));
 }
 
 /// Levels at which at least `least` of the given weighted heights gather within 1e-3 mm.
@@ -171,10 +206,11 @@ std::vector<double> schedule(const Body& body, double depth_mm, const ScheduleOp
   std::vector<double> depths = {gap_mm, depth_mm - gap_mm};
 
   const Bins bins = collect(body, options.shelf_slope_rad);
-  const double swept_mm = options.swept_mm * smallness(body);
+  const double small = smallness(body);
   double steps = 0, next = 1;
   for (int b = 0; b < kBins; ++b) {
     if (bins.length_mm[b] <= 0) continue;
+    const double swept_mm = options.swept_mm * std::min(small, bins.smallness[b]);
     const double width_mm = bins.has_crease[b] != 0 ? swept_mm / kCreaseSteps : swept_mm;
     const double here = std::min(bins.wetted_mm2[b] / (width_mm * bins.length_mm[b]), 4.0);
     while (steps + here >= next) {

@@ -10,8 +10,9 @@ namespace hydroprint::waterline {
 struct ScheduleOptions {
   /// Surface wetted between two waterlines, as a width: swept area over waterline length. A sphere
   /// is thus divided evenly in theta. This for bodies with at least the surface of a sphere of
-  /// radius kLarge_mm; less, by the power 2/3 of that radius, for smaller ones, so that the error
-  /// in mm stays about the same; half as much where the waterline crosses creases.
+  /// radius kLarge_mm; less, by the power 2/3 of that radius, for smaller ones, and likewise where
+  /// the surface bends sharply as it comes up, so that the error in mm stays about the same; half
+  /// as much where the waterline crosses creases.
   double swept_mm = 3.2;
   static constexpr double kLarge_mm = 42;
   /// Faces nearer than this to parallel with the water touch it all at once: the dip is divided

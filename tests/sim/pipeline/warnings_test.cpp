@@ -127,6 +127,13 @@ TEST(Warnings, DragIgnoredIsForStokes) {
   EXPECT_FALSE(warns(dipped(sphere, with_drag), "drag_ignored"));
 }
 
+TEST(Warnings, SheetUnsettledIsForFilmThatFolds) {
+  // Where a sphere's top goes under, the film is drawn together from all sides.
+  const mesh::Model sphere = sample::icosphere(20, 4);
+  EXPECT_TRUE(warns(dipped(sphere, to_angle(180, FilmModel::kSheet)), "sheet_unsettled"));
+  EXPECT_FALSE(warns(dipped(sphere, to_angle(120, FilmModel::kSheet)), "sheet_unsettled"));
+}
+
 // --- trapped film and air
 
 /// Area of a regular polygon of 64 corners.

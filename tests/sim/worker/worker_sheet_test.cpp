@@ -26,6 +26,21 @@ TEST_F(Worker, InkPassesAreReportedWithHowFarTheyMovedTheFilm) {
   EXPECT_LT(passes[1]["moved_rms_mm"], 0.2 * passes[0]["moved_rms_mm"].get<double>());
 }
 
+TEST_F(Worker, InkPassesEndWhenTheFilmMovesByLessThanAPixel) {
+  constexpr double kPixel_mm = 25.4 / 50;
+  ASSERT_EQ(testing::run(
+                simulate({"--texture", path("texture.png"), "--ink-passes", "9", "--dpi", "50"}))
+                .status,
+            0);
+  const auto passes = nlohmann::json::parse(content(out() + "/report.json"))["ink_passes"];
+  ASSERT_GE(passes.size(), 1u);
+  EXPECT_LT(passes.size(), 9u);
+  for (std::size_t i = 0; i < passes.size(); ++i) {
+    const bool is_last = i + 1 == passes.size();
+    EXPECT_EQ(passes[i]["moved_p999_mm"] < kPixel_mm, is_last) << i;
+  }
+}
+
 TEST_F(Worker, InkGivenDirectlyTakesThePlaceOfPasses) {
   ASSERT_EQ(testing::run(simulate({"--ink-image", path("texture.png")})).status, 0);
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
