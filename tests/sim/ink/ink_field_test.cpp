@@ -79,8 +79,8 @@ TEST(InkGrid, CoversTheBoundingBoxExactlyInCellsOfAboutTheSizeAskedFor) {
     EXPECT_EQ(grid.low_mm, outline.min_mm) << film;
     EXPECT_LE(grid.count(), std::size_t{2048} * 2048) << film;
     if (outline.size_mm().maxCoeff() < 1000) {
-      EXPECT_NEAR(grid.cell_mm.x(), 0.5, 0.02) << film;
-      EXPECT_NEAR(grid.cell_mm.y(), 0.5, 0.02) << film;
+      EXPECT_NEAR(grid.cell_mm.x(), kInkCell_mm, 0.04 * kInkCell_mm) << film;
+      EXPECT_NEAR(grid.cell_mm.y(), kInkCell_mm, 0.04 * kInkCell_mm) << film;
     }
   }
   EXPECT_EQ(ink_grid(outline_of("10x10"), 1e9).count(), 1u);

@@ -9,6 +9,7 @@
 #include "sim/pipeline/pipeline.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/sample/icosphere.h"
+#include "sim/sample/sample.h"
 #include "tests/sim/pipeline/dips.h"
 #include "tests/sim/support/bodies.h"
 #include "tests/support/temporary_folder.h"
@@ -128,10 +129,13 @@ TEST(Warnings, DragIgnoredIsForStokes) {
 }
 
 TEST(Warnings, SheetUnsettledIsForFilmThatFolds) {
-  // Where a sphere's top goes under, the film is drawn together from all sides.
-  const mesh::Model sphere = sample::icosphere(20, 4);
-  EXPECT_TRUE(warns(dipped(sphere, to_angle(180, FilmModel::kSheet)), "sheet_unsettled"));
-  EXPECT_FALSE(warns(dipped(sphere, to_angle(120, FilmModel::kSheet)), "sheet_unsettled"));
+  // Two legs that come together below: film between them is drawn both ways until it folds.
+  const Result<mesh::Model> bend = sample::make_model("ubend");
+  ASSERT_TRUE(bend) << bend.error().message;
+  DipOptions options = options_for("A4", FilmModel::kSheet);
+  EXPECT_TRUE(warns(dipped(*bend, options), "sheet_unsettled"));
+  options.depth_mm = 20;
+  EXPECT_FALSE(warns(dipped(*bend, options), "sheet_unsettled"));
 }
 
 // --- trapped film and air
