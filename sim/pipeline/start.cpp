@@ -1,5 +1,7 @@
 #include "sim/pipeline/start.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "sim/flow/flow_map.h"
@@ -21,21 +23,36 @@ film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   return outline;
 }
 
+/// Waterlines whose film cannot be meshed, since two of their curves just touch, are passed over;
+/// more of them than this share are an error.
+constexpr double kMostPassedOver = 0.2;
+
 /// Stokes has no memory: every waterline is meshed and solved by itself, all in parallel.
-Result<std::vector<velocity::VelocityField>> solve(const film::Outline& outline,
-                                                   waterline::Waterlines& waterlines,
-                                                   const velocity::MeshOptions& options,
-                                                   const Context& context) {
-  std::vector<velocity::VelocityField> fields(waterlines.lines.size());
+/// @return no field for a waterline that is passed over
+Result<std::vector<std::optional<velocity::VelocityField>>> solve(
+    const film::Outline& outline, waterline::Waterlines& waterlines,
+    const velocity::MeshOptions& options, const Context& context) {
+  std::vector<std::optional<velocity::VelocityField>> fields(waterlines.lines.size());
+  std::vector<Status> refusals(fields.size());
   HP_RETURN_IF_ERROR(parallel_for(context, "velocity", fields.size(), [&](std::size_t k) -> Status {
     waterline::Waterline& line = waterlines.lines[k];
-    HP_ASSIGN_OR_RETURN(velocity::FilmMesh mesh, velocity::mesh_film(outline, line, options));
-    const auto fixed = velocity::boundary_velocities(mesh, line.pulls);
-    HP_ASSIGN_OR_RETURN(auto nodes, velocity::solve_stokes(mesh, fixed));
-    fields[k] = velocity::VelocityField(std::move(mesh), std::move(nodes));
+    auto mesh = velocity::mesh_film(outline, line, options);
+    if (!mesh && mesh.error().reason == velocity::kMeshUnbounded) {
+      refusals[k] = tl::unexpected(std::move(mesh.error()));
+      return {};
+    }
+    if (!mesh) return tl::unexpected(std::move(mesh.error()));
+    const auto fixed = velocity::boundary_velocities(*mesh, line.pulls);
+    HP_ASSIGN_OR_RETURN(auto nodes, velocity::solve_stokes(*mesh, fixed));
+    fields[k] = velocity::VelocityField(std::move(*mesh), std::move(nodes));
     line = {line.immersion_mm, {}, {}, {}};  // its curves are not needed any more
     return {};
   }));
+  const auto is_refused = [](const Status& status) { return !status; };
+  const auto refused = std::count_if(refusals.begin(), refusals.end(), is_refused);
+  if (static_cast<double>(refused) > kMostPassedOver * static_cast<double>(fields.size())) {
+    return tl::unexpected(std::find_if(refusals.begin(), refusals.end(), is_refused)->error());
+  }
   return fields;
 }
 
@@ -55,11 +72,12 @@ Result<Start> start(const mesh::Model& model, const DipOptions& options, const C
   out.stopped_at_edge = waterlines.stopped_at_edge;
   out.traps = waterlines.traps;
   out.stokes.depth_mm = waterlines.depth_mm;
-  for (const waterline::Waterline& line : waterlines.lines) {
-    out.stokes.immersion_mm.push_back(line.immersion_mm);
+  HP_ASSIGN_OR_RETURN(auto fields, solve(out.stokes.outline, waterlines, options.mesh, context));
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    if (!fields[k]) continue;
+    out.stokes.immersion_mm.push_back(waterlines.lines[k].immersion_mm);
+    out.stokes.fields.push_back(std::move(*fields[k]));
   }
-  HP_ASSIGN_OR_RETURN(out.stokes.fields,
-                      solve(out.stokes.outline, waterlines, options.mesh, context));
   return out;
 }
 

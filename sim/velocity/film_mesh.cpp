@@ -28,7 +28,6 @@ using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 using Point = Kernel::Point_2;
 
-constexpr std::size_t kMostVertices = 400000;
 constexpr double kSquaredSine = 0.25;  ///< of the smallest angle: 30 degrees
 
 /// Triangles with shorter edges are left as they are: where waterlines nearly touch, the gap would
@@ -145,6 +144,18 @@ bool lies_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d&
   return false;
 }
 
+/// Far more vertices than the sizes asked for need. Where two waterlines touch, the mesher would
+/// divide their edges for ever.
+std::size_t most_vertices(const film::Outline& outline,
+                          const std::vector<std::vector<Eigen::Vector2d>>& waterlines,
+                          const Sizing::Options& size) {
+  constexpr double kSome = 5000, kPerPoint = 100, kPerCoarsest = 8;
+  double points = 0;
+  for (const auto& loop : waterlines) points += static_cast<double>(loop.size());
+  const double coarsest = outline.size_mm().prod() / (size.most_mm * size.most_mm);
+  return static_cast<std::size_t>(kSome + kPerPoint * points + kPerCoarsest * coarsest);
+}
+
 FilmMesh extract(const Triangulation& triangulation, const film::Outline& outline) {
   FilmMesh mesh;
   CGAL::Unique_hash_map<Triangulation::Vertex_handle, int> index(-1);
@@ -205,11 +216,14 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
     mark_film(triangulation);
     CGAL::Delaunay_mesher_2<Triangulation, Criteria> mesher(triangulation, Criteria(&sizing));
     mesher.init(true);
+    const std::size_t most = most_vertices(outline, waterlines, options.size);
     while (mesher.step_by_step_refine_mesh()) {
-      if (triangulation.number_of_vertices() > kMostVertices) {
-        return fail(Code::kInternal, "film mesh at immersion " + std::to_string(line.immersion_mm) +
-                                         " mm needs more than " + std::to_string(kMostVertices) +
-                                         " vertices; smooth the model or dip another part of it");
+      if (triangulation.number_of_vertices() > most) {
+        return fail(Code::kInternal,
+                    "film mesh at immersion " + std::to_string(line.immersion_mm) +
+                        " mm needs more than " + std::to_string(most) +
+                        " vertices; smooth the model or dip another part of it",
+                    kMeshUnbounded);
       }
     }
     FilmMesh mesh = extract(triangulation, outline);

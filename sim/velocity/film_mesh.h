@@ -40,9 +40,12 @@ struct MeshOptions {
   double least_mm = 0.1;       ///< waterline features smaller than this are smoothed over
 };
 
+inline constexpr const char* kMeshUnbounded = "MESH_UNBOUNDED";
+
 /// Meshes the film between its edge and the waterline: constrained Delaunay triangulation refined
 /// to angles of 30 degrees (where the boundary permits) and to the sizing field.
-/// @return fails with kInternal if the mesh would need more than 400,000 vertices
+/// @return fails with kInternal, kMeshUnbounded if the mesh would need far more vertices than these
+///   sizes do, which happens where two curves of the waterline just touch
 [[nodiscard]] Result<FilmMesh> mesh_film(const film::Outline& outline,
                                          const waterline::Waterline& line,
                                          const MeshOptions& options);

@@ -218,5 +218,26 @@ TEST(FilmMesh, LeavesOutWhatHoldsNoFilm) {
   EXPECT_NEAR(total_area(meshed(film, line)), 8000 - kPi * 900, 3);
 }
 
+TEST(FilmMesh, OfCurvesThatAllButTouchIsRefusedBeforeItGrowsWithoutBound) {
+  // A disc whose rim passes by the corner of another solid, ever closer.
+  const film::Outline film = outline_of("100x100");
+  const auto solids = [](double gap_mm) {
+    Curve disc;
+    for (int i = 0; i < 64; ++i) {
+      const double angle = 2 * std::numbers::pi * i / 64;
+      disc.emplace_back(10 * std::cos(angle), 10 * std::sin(angle));
+    }
+    const double x = 10 + gap_mm;
+    return testing::line_round({disc, {{x, 0}, {x + 10, -5}, {x + 10, 5}}});
+  };
+  EXPECT_TRUE(mesh_film(film, solids(0.1), {}));
+  const auto mesh = mesh_film(film, solids(1e-7), {});
+  if (mesh) {
+    EXPECT_LT(mesh->vertices_mm.size(), 20000u);
+  } else {
+    EXPECT_EQ(mesh.error().reason, kMeshUnbounded);
+  }
+}
+
 }  // namespace
 }  // namespace hydroprint::velocity

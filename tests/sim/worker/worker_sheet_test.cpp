@@ -28,10 +28,10 @@ TEST_F(Worker, InkPassesAreReportedWithHowFarTheyMovedTheFilm) {
 
 TEST_F(Worker, InkPassesEndWhenTheFilmMovesByLessThanAPixel) {
   constexpr double kPixel_mm = 25.4 / 50;
-  ASSERT_EQ(testing::run(
-                simulate({"--texture", path("texture.png"), "--ink-passes", "9", "--dpi", "50"}))
-                .status,
-            0);
+  ASSERT_EQ(
+      testing::run(simulate({"--texture", path("texture.png"), "--ink-passes", "9", "--dpi", "50"}))
+          .status,
+      0);
   const auto passes = nlohmann::json::parse(content(out() + "/report.json"))["ink_passes"];
   ASSERT_GE(passes.size(), 1u);
   EXPECT_LT(passes.size(), 9u);
