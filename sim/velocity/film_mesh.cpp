@@ -149,7 +149,7 @@ bool lies_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d&
 std::size_t most_vertices(const film::Outline& outline,
                           const std::vector<std::vector<Eigen::Vector2d>>& waterlines,
                           const Sizing::Options& size) {
-  constexpr double kSome = 5000, kPerPoint = 100, kPerCoarsest = 8;
+  constexpr double kSome = 50000, kPerPoint = 100, kPerCoarsest = 8;
   double points = 0;
   for (const auto& loop : waterlines) points += static_cast<double>(loop.size());
   const double coarsest = outline.size_mm().prod() / (size.most_mm * size.most_mm);
