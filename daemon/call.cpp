@@ -4,7 +4,7 @@
 
 namespace hydroprint::daemon {
 
-Result<std::string> owner_of(const grpc::ServerContext& context) {
+Result<std::string> owner_of(const grpc::ServerContextBase& context) {
   const auto& metadata = context.client_metadata();
   const auto found = metadata.find("hydroprint-owner");
   if (found == metadata.end()) return std::string("anonymous");
@@ -27,6 +27,11 @@ Status check_serving(const Backend& backend) {
   if (!backend.stopping) return {};
   return fail(Code::kUnavailable, "the daemon is shutting down; try again when it is back",
               "SHUTTING_DOWN");
+}
+
+Error never_again(Error error) {
+  if (error.code == Code::kUnavailable || error.reason == "DRIVE_BUSY") error.code = Code::kAborted;
+  return error;
 }
 
 tl::unexpected<Error> bad_page_token() {

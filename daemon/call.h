@@ -8,16 +8,21 @@
 #include <string>
 
 #include "daemon/asset_store.h"
+#include "daemon/dip_runner.h"
 #include "daemon/job_store.h"
 #include "daemon/pool.h"
+#include "daemon/rig_desk.h"
 
 namespace hydroprint::daemon {
 
 /// What the services work on.
 struct Backend {
+  Database& database;
   JobStore& jobs;
   AssetStore& assets;
   WorkerPool& pool;
+  RigDesk& desk;
+  DipRunner& dips;
   Layout layout;
   std::int64_t min_free_bytes = 0;
   /// True from the moment the daemon goes down: streams end, nothing new begins.
@@ -27,13 +32,17 @@ struct Backend {
 /// Who calls: the metadata "hydroprint-owner", "anonymous" without it. A claim, trusted for
 /// fairness between owners alone. Refuses (SPEC_INVALID) more than 64 bytes or anything but
 /// printable ASCII.
-[[nodiscard]] Result<std::string> owner_of(const grpc::ServerContext& context);
+[[nodiscard]] Result<std::string> owner_of(const grpc::ServerContextBase& context);
 
 /// Size of a page: the default for 0, at most 1000; negative sizes are refused (SPEC_INVALID).
 [[nodiscard]] Result<int> page_size(std::int32_t asked, int otherwise);
 
 /// kUnavailable, SHUTTING_DOWN once the daemon goes down.
 [[nodiscard]] Status check_serving(const Backend& backend);
+
+/// Clients try again by themselves what is UNAVAILABLE: for calls that may move the rig, the same
+/// error as kAborted, and so is a drive that was busy.
+[[nodiscard]] Error never_again(Error error);
 
 /// kInvalidArgument, PAGE_TOKEN_INVALID.
 [[nodiscard]] tl::unexpected<Error> bad_page_token();

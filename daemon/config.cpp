@@ -12,6 +12,8 @@
 #include <sstream>
 #include <variant>
 
+#include "hardware/drive/link.h"
+
 namespace hydroprint::daemon {
 namespace {
 
@@ -22,6 +24,10 @@ struct Text {
 struct Flag {
   bool Config::*member;
 };
+struct Real {
+  double rig::RigConfig::*member;
+  double min, max;
+};
 struct Number {
   std::int64_t Config::*member;
   std::int64_t min, max;
@@ -30,13 +36,13 @@ struct Number {
 
 struct Key {
   std::string_view section, name;
-  std::variant<Text, Flag, Number> kind;
+  std::variant<Text, Flag, Number, Real> kind;
 
   [[nodiscard]] std::string full() const { return std::string(section) + "." + std::string(name); }
 };
 
-const std::vector<Key>& keys() {
-  static const std::vector<Key> all{
+std::vector<Key> make_keys() {
+  std::vector<Key> all{
       {"server", "grpc", Text{&Config::server_grpc}},
       {"server", "reflection", Flag{&Config::server_reflection}},
       {"store", "state_dir", Text{&Config::store_state_dir}},
@@ -52,15 +58,30 @@ const std::vector<Key>& keys() {
       {"workers", "memory_mib", Number{&Config::workers_memory_mib, 0, 1 << 24, "MiB"}},
       {"workers", "time_limit_s", Number{&Config::workers_time_limit_s, 1, 2592000, "seconds"}},
       {"workers", "file_mib", Number{&Config::workers_file_mib, 1, 1 << 24, "MiB"}},
-      {"log", "level", Text{&Config::log_level, {"debug", "info", "warning", "error"}}},
-      {"log", "file", Text{&Config::log_file}},
+      {"rig", "drive", Text{&Config::rig_drive}},
+      {"rig", "profile", Text{&Config::rig_profile}},
   };
+  for (const rig::RigConfigKey& key : rig::rig_config_keys()) {
+    all.push_back({"rig", key.name, Real{key.member, key.least, key.most}});
+  }
+  all.push_back({"log", "level", Text{&Config::log_level, {"debug", "info", "warning", "error"}}});
+  all.push_back({"log", "file", Text{&Config::log_file}});
+  return all;
+}
+
+const std::vector<Key>& keys() {
+  static const std::vector<Key> all = make_keys();
   return all;
 }
 
 std::string remedy(const Number& number) {
   return "a whole number of " + std::string(number.unit) + " from " + std::to_string(number.min) +
          " to " + std::to_string(number.max) + ", without quotes or unit";
+}
+std::string remedy(const Real& real) {
+  std::ostringstream out;
+  out << "a number from " << real.min << " to " << real.max << ", without quotes or unit";
+  return out.str();
 }
 std::string remedy(const Flag&) { return "true or false"; }
 std::string remedy(const Text& text) {
@@ -74,6 +95,12 @@ bool accept(const Number& kind, const toml::node& node, Config& config) {
   const auto* number = node.as_integer();
   if (number == nullptr || number->get() < kind.min || number->get() > kind.max) return false;
   config.*kind.member = number->get();
+  return true;
+}
+bool accept(const Real& kind, const toml::node& node, Config& config) {
+  const auto number = node.value<double>();  // whole numbers as well
+  if (!node.is_number() || !(*number >= kind.min && *number <= kind.max)) return false;
+  config.rig.*kind.member = *number;
   return true;
 }
 bool accept(const Flag& kind, const toml::node& node, Config& config) {
@@ -154,6 +181,11 @@ Status check_values(const Config& config, const std::string& name, const toml::t
     return refuse(name, root["server"]["grpc"].node()->source(),
                   "server.grpc: " + endpoint.error().message);
   }
+  if (config.rig_drive.empty()) return {};
+  if (const auto endpoint = drive::parse_endpoint(config.rig_drive); !endpoint) {
+    return refuse(name, root["rig"]["drive"].node()->source(),
+                  "rig.drive: " + endpoint.error().message);
+  }
   return {};
 }
 
@@ -176,9 +208,10 @@ Result<Config> parse_config(std::string_view text, const std::string& name) {
                                      [&](const Key& key) { return key.section == section.str(); });
       const toml::table* table = entry.second.as_table();
       if (!known || table == nullptr) {
-        return refuse(name, section.source(),
-                      "unknown section \"" + std::string(section.str()) +
-                          "\"; there are [server], [store], [assets], [queue], [workers], [log]");
+        return refuse(
+            name, section.source(),
+            "unknown section \"" + std::string(section.str()) +
+                "\"; there are [server], [store], [assets], [queue], [workers], [rig], [log]");
       }
       HP_RETURN_IF_ERROR(read_section(name, section.str(), *table, config));
     }

@@ -22,7 +22,7 @@ void set_times(const Job& job, v1::Job& out) {
   if (job.purge_ms > 0) *out.mutable_purge_time() = time_of(job.purge_ms);
   if (job.progress.eta_ms > 0 && job.state == JobState::kRunning) {
     *out.mutable_eta_time() = time_of(job.progress.eta_ms);
-    out.set_eta_origin(v1::Job::WORKER);
+    out.set_eta_origin(moves_the_rig(job.made.work.verb) ? v1::Job::DIP : v1::Job::WORKER);
   }
 }
 
@@ -53,6 +53,7 @@ v1::Job to_message(const Job& job) {
   if (job.made.retry_of != 0) out.set_retry_of(job_name(job.made.retry_of));
   out.set_input_digest(job.made.digest);
   out.set_cache_hit(job.cache_hit);
+  if (!job.dip_status.empty()) out.mutable_dip_status()->ParseFromString(job.dip_status);
   return out;
 }
 

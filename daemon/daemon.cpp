@@ -6,6 +6,7 @@
 
 #include "daemon/file_fence.h"
 #include "daemon/log.h"
+#include "daemon/rig_setup.h"
 #include "daemon/schema.h"
 
 namespace hydroprint::daemon {
@@ -49,6 +50,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config) {
   HP_ASSIGN_OR_RETURN(daemon->layout_.root, state_dir(config));
   HP_ASSIGN_OR_RETURN(daemon->lock_, lock_state(daemon->layout_));
   HP_RETURN_IF_ERROR(daemon->open_store(config));
+  HP_RETURN_IF_ERROR(daemon->open_rig(config));
   HP_RETURN_IF_ERROR(daemon->start_serving(config));
   return daemon;
 }
@@ -65,16 +67,32 @@ Status Daemon::open_store(const Config& config) {
                         config.assets_upload_expires_h * kHourMs, config.store_min_free_mib * kMiB},
       system_clock_ms);
   HP_RETURN_IF_ERROR(jobs_->sweep());  // first: it may make the room that the next one needs
+  HP_RETURN_IF_ERROR(end_lost_dips(*jobs_, layout_));
   HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss));
   HP_RETURN_IF_ERROR(assets_->sweep());
   clean_up();
   return {};
 }
 
+// The drive need not be there: it is looked for from here on.
+Status Daemon::open_rig(const Config& config) {
+  HP_ASSIGN_OR_RETURN(auto setup, read_rig_setup(config));
+  if (setup) {
+    HP_ASSIGN_OR_RETURN(rig_, rig::Controller::make(setup->config, std::move(setup->profile),
+                                                    std::move(setup->endpoint)));
+  }
+  leases_ = std::make_unique<LeaseKeeper>(*database_, system_clock_ms);
+  HP_RETURN_IF_ERROR(leases_->load());
+  desk_ = std::make_unique<RigDesk>(rig_.get(), *leases_);
+  dips_ = std::make_unique<DipRunner>(DipSurroundings{*desk_, *jobs_, layout_, system_clock_ms});
+  return {};
+}
+
 Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(pool_,
                       WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
-  const Backend backend{*jobs_,   *assets_, *pool_, layout_, config.store_min_free_mib * kMiB,
+  const Backend backend{*database_, *jobs_, *assets_, *pool_,
+                        *desk_,     *dips_, layout_,  config.store_min_free_mib * kMiB,
                         stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
@@ -83,6 +101,8 @@ Status Daemon::start_serving(const Config& config) {
         {{"message", "this kernel has no Landlock: workers see all files of this user"}});
   }
   pool_->start();
+  guard_ =
+      std::make_unique<RigGuard>(*desk_, [this](bool works) { server_->set_rig_serving(works); });
   return {};
 }
 
@@ -96,8 +116,12 @@ void Daemon::clean_up() {
 void Daemon::stop() {
   if (stopping_.exchange(true) || !server_) return;
   jobs_->bell().ring();
+  dips_->stop();
+  if (rig_) rig_->stop();
   pool_->stop();
+  guard_.reset();
   server_->stop(kPatience);
+  rig_.reset();  // brings the axis to rest
   log_failure("jobs_not_queued_again", jobs_->interrupt_all(Interruption::kShutdown));
 }
 

@@ -6,8 +6,12 @@
 #include "daemon/asset_store.h"
 #include "daemon/config.h"
 #include "daemon/database.h"
+#include "daemon/dip_runner.h"
 #include "daemon/job_store.h"
+#include "daemon/lease.h"
 #include "daemon/pool.h"
+#include "daemon/rig_desk.h"
+#include "daemon/rig_guard.h"
 #include "daemon/server.h"
 #include "daemon/state_lock.h"
 
@@ -36,6 +40,7 @@ class Daemon {
  private:
   Daemon() = default;
   [[nodiscard]] Status open_store(const Config& config);
+  [[nodiscard]] Status open_rig(const Config& config);
   [[nodiscard]] Status start_serving(const Config& config);
 
   Layout layout_;
@@ -43,8 +48,13 @@ class Daemon {
   std::unique_ptr<Database> database_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<AssetStore> assets_;
+  std::unique_ptr<rig::Controller> rig_;  // null: none is configured
+  std::unique_ptr<LeaseKeeper> leases_;
+  std::unique_ptr<RigDesk> desk_;
+  std::unique_ptr<DipRunner> dips_;
   std::unique_ptr<WorkerPool> pool_;
   std::unique_ptr<Server> server_;
+  std::unique_ptr<RigGuard> guard_;
   std::atomic<bool> stopping_{false};
 };
 

@@ -10,6 +10,8 @@ const char* name_of(JobState state) {
   switch (state) {
     case JobState::kQueued:
       return "QUEUED";
+    case JobState::kWaitingForOperator:
+      return "WAITING_FOR_OPERATOR";
     case JobState::kRunning:
       return "RUNNING";
     case JobState::kCancelling:

@@ -13,6 +13,7 @@ namespace hydroprint::daemon {
 /// explained.
 enum class JobState : std::int8_t {
   kQueued = 1,
+  kWaitingForOperator = 2,
   kRunning = 3,
   kCancelling = 4,
   kSucceeded = 5,
@@ -24,10 +25,11 @@ enum class JobState : std::int8_t {
 /// "RUNNING".
 [[nodiscard]] const char* name_of(JobState state);
 
-/// True once nothing more will happen to the job.
+/// True once nothing more will happen to the job. (A computation is INTERRUPTED in its history
+/// only, a dip for good.)
 [[nodiscard]] constexpr bool is_finished(JobState state) {
   return state == JobState::kSucceeded || state == JobState::kFailed ||
-         state == JobState::kCancelled;
+         state == JobState::kCancelled || state == JobState::kInterrupted;
 }
 
 /// Kinds of event; numbers as in hydroprint.v1.JobEvent.Kind.
@@ -48,9 +50,10 @@ struct Work {
   std::string pose_json;  ///< content of the file for --pose; empty: none
 };
 
-/// Whether a job of this verb moves the rig. Such a job would not be queued again by itself after
-/// the daemon was lost, as the film may be gone and the object may hang anywhere; computations are.
-[[nodiscard]] constexpr bool moves_the_rig(const std::string& /*verb*/) { return false; }
+/// Whether a job of this verb moves the rig: a dip. Such a job is never queued, and stays
+/// INTERRUPTED once the daemon was lost, as the film may be gone and the object may hang anywhere;
+/// computations are queued again.
+[[nodiscard]] inline bool moves_the_rig(const std::string& verb) { return verb == "dip"; }
 
 /// SHA-256 of all that determines the outcome of a work; `worker` identifies the program.
 [[nodiscard]] std::string input_digest(const Work& work, const std::string& worker);
@@ -73,6 +76,7 @@ struct NewJob {
   std::int64_t retry_of = 0;  ///< 0: none
   bool use_cache = true;
   std::int32_t threads = 0;  ///< 0: the pool decides
+  std::string dip_status;    ///< of a dip: where it begins, a hydroprint.v1.DipStatus, serialised
 };
 
 /// Why a job failed; see hydroprint.v1.JobError.
@@ -101,6 +105,7 @@ struct Job {
   std::int64_t version = 0;  ///< increases with every change
   bool cache_hit = false;
   std::optional<JobFailure> failure;
+  std::string dip_status;  ///< of a dip: where it stands, as NewJob::dip_status
 };
 
 /// Something that happened to a job, as it is stored.

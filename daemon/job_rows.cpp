@@ -11,7 +11,7 @@ constexpr const char* kJobColumns =
     "SELECT id, uid, display_name, owner, priority, body, verb, flags, threads, digest, retry_of, "
     "use_cache, cache_hit, state, fraction, phase, phase_fraction, eta_ms, create_ms, start_ms, "
     "end_ms, update_ms, purge_ms, version, error_code, error_reason, error_message, exit_status, "
-    "signal, pose FROM jobs ";
+    "signal, pose, (SELECT status FROM dips WHERE job=jobs.id) FROM jobs ";
 
 std::vector<std::string> split_lines(const std::string& text) {
   std::vector<std::string> lines;
@@ -56,6 +56,7 @@ Job read_job(const DbRow& row) {
   job.purge_ms = row.integer(22);
   job.version = row.integer(23);
   job.failure = read_failure(row);
+  job.dip_status = row.text(30);
   return job;
 }
 

@@ -1,4 +1,5 @@
 #include "daemon/convert.h"
+#include "daemon/dip_spec.h"
 #include "daemon/log.h"
 #include "daemon/names.h"
 #include "daemon/services.h"
@@ -39,8 +40,17 @@ class JobService final : public v1::JobService::Service {
 
   grpc::Status CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request,
                          v1::Job* reply) override {
-    const auto job = with_job(request->name(), [&](auto id) { return backend_.jobs.cancel(id); });
+    const auto job = with_job(request->name(), [&](auto id) {
+      return id == backend_.desk.dip() ? backend_.dips.cancel(id) : backend_.jobs.cancel(id);
+    });
     backend_.pool.wake();
+    return answer(job, reply);
+  }
+
+  grpc::Status ConfirmStep(grpc::ServerContext*, const v1::ConfirmStepRequest* request,
+                           v1::Job* reply) override {
+    auto job = confirm(*request);
+    if (!job) return to_grpc(never_again(std::move(job).error()));
     return answer(job, reply);
   }
 
@@ -84,12 +94,54 @@ class JobService final : public v1::JobService::Service {
     HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
     HP_ASSIGN_OR_RETURN(NewJob made, check_job(request.job()));
     HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
+    if (request.job().has_dip()) return create_dip(std::move(made), request);
     if (!request.validate_only()) return store(std::move(made), request_key("CreateJob", request));
     HP_RETURN_IF_ERROR(backend_.jobs.check_inputs(made.work.inputs));
     HP_ASSIGN_OR_RETURN(made.digest, digest_of(made.work));
     Job job;
     job.made = std::move(made);
     return job;
+  }
+
+  Result<Job> create_dip(NewJob made, const v1::CreateJobRequest& request) {
+    HP_ASSIGN_OR_RETURN(const Lease lease, backend_.desk.leases().require(request.lease_id()));
+    HP_ASSIGN_OR_RETURN(const dip::Plan plan,
+                        plan_of(request.job().dip(), backend_.jobs, backend_.layout));
+    made.use_cache = false;
+    if (request.validate_only()) {
+      HP_RETURN_IF_ERROR(backend_.dips.check(plan));
+      Job job;
+      job.dip_status = first_dip_status(plan);
+      job.state = JobState::kWaitingForOperator;
+      job.made = std::move(made);
+      return job;
+    }
+    HP_RETURN_IF_ERROR(check_free_space(backend_.layout.root, backend_.min_free_bytes));
+    HP_ASSIGN_OR_RETURN(
+        Job job, backend_.dips.create(std::move(made), request_key("CreateJob", request), plan,
+                                      lease.holder));
+    log_created(job);
+    return job;
+  }
+
+  Result<Job> confirm(const v1::ConfirmStepRequest& request) {
+    HP_RETURN_IF_ERROR(check_serving(backend_));
+    HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.name()));
+    if (!v1::DipStatus::Step_IsValid(request.step()) ||
+        request.step() == v1::DipStatus::STEP_UNSPECIFIED) {
+      return invalid_field("step", "is no step of a dip");
+    }
+    HP_ASSIGN_OR_RETURN(const Lease lease, backend_.desk.leases().require(request.lease_id()));
+    return backend_.dips.confirm(id, static_cast<dip::Step>(request.step()), lease.holder);
+  }
+
+  static void log_created(const Job& job) {
+    log(LogLevel::kInfo, "job_created",
+        {{"job", job.id},
+         {"owner", job.made.owner},
+         {"verb", job.made.work.verb},
+         {"state", name_of(job.state)},
+         {"name", job.made.display_name}});
   }
 
   Result<std::string> digest_of(const Work& work) const {
@@ -102,12 +154,7 @@ class JobService final : public v1::JobService::Service {
     HP_RETURN_IF_ERROR(check_free_space(backend_.layout.root, backend_.min_free_bytes));
     HP_ASSIGN_OR_RETURN(Job job, backend_.jobs.create(made, key));
     backend_.pool.wake();
-    log(LogLevel::kInfo, "job_created",
-        {{"job", job.id},
-         {"owner", job.made.owner},
-         {"verb", job.made.work.verb},
-         {"state", name_of(job.state)},
-         {"name", job.made.display_name}});
+    log_created(job);
     return job;
   }
 
@@ -119,6 +166,11 @@ class JobService final : public v1::JobService::Service {
     if (!is_finished(old.state)) {
       return fail(Code::kFailedPrecondition,
                   job_name(id) + " is " + name_of(old.state) + "; wait for its end or cancel it",
+                  "STATE_FORBIDS");
+    }
+    if (moves_the_rig(old.made.work.verb)) {
+      return fail(Code::kFailedPrecondition,
+                  job_name(id) + " is a dip, which wants a new film; create a new one",
                   "STATE_FORBIDS");
     }
     NewJob made = old.made;

@@ -52,7 +52,7 @@ Status JobStore::check_inputs(const std::vector<InputFile>& inputs) {
   return {};
 }
 
-Result<std::int64_t> JobStore::insert(const NewJob& made) {
+Status JobStore::check_queue() {
   HP_ASSIGN_OR_RETURN(const auto queued,
                       select_numbers(database_, "SELECT count(*) FROM jobs WHERE state=?",
                                      {number(JobState::kQueued)}));
@@ -62,17 +62,23 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
                     " jobs); try again when some are done",
                 "QUEUE_FULL");
   }
+  return {};
+}
+
+Result<std::int64_t> JobStore::insert(const NewJob& made) {
+  const bool is_dip = moves_the_rig(made.work.verb);
+  const JobState state = is_dip ? JobState::kWaitingForOperator : JobState::kQueued;
+  HP_RETURN_IF_ERROR(is_dip ? check_no_dip() : check_queue());
   HP_RETURN_IF_ERROR(check_inputs(made.work.inputs));
   const std::int64_t now = clock_();
-  HP_RETURN_IF_ERROR(
-      database_.run("INSERT INTO jobs(uid, display_name, owner, priority, rank, body, verb, flags, "
-                    "pose, threads, "
-                    "digest, retry_of, use_cache, state, create_ms, update_ms) "
-                    "VALUES (?,?,?,?,0,?,?,?,?,?,?,?,?,?,?,?)",
-                    {make_uuid(), made.display_name, made.owner, std::int64_t{made.priority},
-                     made.body, made.work.verb, join_lines(made.work.flags), made.work.pose_json,
-                     std::int64_t{made.threads}, made.digest, made.retry_of,
-                     std::int64_t{made.use_cache}, number(JobState::kQueued), now, now}));
+  HP_RETURN_IF_ERROR(database_.run(
+      "INSERT INTO jobs(uid, display_name, owner, priority, rank, body, verb, flags, "
+      "pose, threads, "
+      "digest, retry_of, use_cache, state, create_ms, update_ms) "
+      "VALUES (?,?,?,?,0,?,?,?,?,?,?,?,?,?,?,?)",
+      {make_uuid(), made.display_name, made.owner, std::int64_t{made.priority}, made.body,
+       made.work.verb, join_lines(made.work.flags), made.work.pose_json, std::int64_t{made.threads},
+       made.digest, made.retry_of, std::int64_t{made.use_cache}, number(state), now, now}));
   const std::int64_t id = database_.last_id();
   // Later jobs rank behind earlier ones; moving permutes ranks.
   HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET rank=id WHERE id=?", {id}));
@@ -80,6 +86,7 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
     HP_RETURN_IF_ERROR(
         database_.run("INSERT INTO job_inputs VALUES (?,?,?)", {id, input.name, input.sha256}));
   }
+  if (is_dip) HP_RETURN_IF_ERROR(store_dip_status(id, made.dip_status));
   HP_RETURN_IF_ERROR(add_event(id, EventKind::kStateChanged, ""));
   return id;
 }
@@ -96,7 +103,7 @@ Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
     HP_ASSIGN_OR_RETURN(inserted, insert(made));
     id = inserted;
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-    HP_RETURN_IF_ERROR(adopt_cached(job));
+    if (!moves_the_rig(made.work.verb)) HP_RETURN_IF_ERROR(adopt_cached(job));
     return remember_result(database_, made.owner, request, std::to_string(id), clock_());
   });
   if (!done && inserted != 0) discard_unowned(inserted);
@@ -231,6 +238,7 @@ Result<Job> JobStore::cancel(std::int64_t id) {
     switch (job.state) {
       case JobState::kQueued:
         return finish(id, JobState::kCancelled, "");
+      case JobState::kWaitingForOperator:
       case JobState::kRunning:
         return change(id, JobState::kCancelling, "");
       case JobState::kCancelling:
@@ -333,11 +341,15 @@ Status JobStore::interrupt_all(Interruption why) {
       why == Interruption::kLoss ? "the daemon was restarted" : "the daemon was shut down";
   const Status done = database_.transaction([&]() -> Status {
     const auto cancelled = [&](std::int64_t id) { return finish(id, JobState::kCancelled, words); };
+    const auto interrupted = [&](std::int64_t id) {
+      return finish(id, JobState::kInterrupted, words);
+    };
     HP_RETURN_IF_ERROR(change_running(JobState::kCancelling, cancelled));
+    HP_RETURN_IF_ERROR(change_running(JobState::kWaitingForOperator, interrupted));
     return change_running(JobState::kRunning, [&](std::int64_t id) -> Status {
       HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
+      if (moves_the_rig(job.made.work.verb)) return interrupted(id);
       HP_RETURN_IF_ERROR(change(id, JobState::kInterrupted, words));
-      if (moves_the_rig(job.made.work.verb)) return {};
       return queue_again(id, why);
     });
   });
@@ -402,7 +414,8 @@ Status JobStore::sweep() {
   discard(layout_.runs());
   HP_RETURN_IF_ERROR(make_folder(layout_.runs()));
   HP_RETURN_IF_ERROR(make_folder(layout_.artifacts()));
-  HP_ASSIGN_OR_RETURN(const auto done, ids_in_state(JobState::kSucceeded));
+  HP_ASSIGN_OR_RETURN(const auto done,
+                      select_numbers(database_, "SELECT DISTINCT job FROM artifacts", {}));
   const std::set<std::int64_t> owned(done.begin(), done.end());
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(layout_.artifacts(), ignored)) {

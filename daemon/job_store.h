@@ -53,6 +53,9 @@ enum class Interruption { kShutdown, kLoss };
 /// QUEUED -> RUNNING -> SUCCEEDED | FAILED, QUEUED -> CANCELLED, RUNNING -> CANCELLING ->
 /// CANCELLED; RUNNING -> INTERRUPTED -> QUEUED when the daemon went down or was lost, but -> FAILED
 /// (DAEMON_LOST) when it was lost for the third time; QUEUED -> SUCCEEDED from the cache.
+/// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED, both -> CANCELLING -> CANCELLED,
+/// both
+/// -> INTERRUPTED.
 ///
 /// Where a job is named that is not there: kNotFound, JOB_NOT_FOUND. Where its state does not allow
 /// the change: kFailedPrecondition, STATE_FORBIDS. Where the disk fails: see Database::run().
@@ -62,9 +65,15 @@ class JobStore {
 
   /// Stores a job, or returns the one that the same request made before. A job with the inputs of
   /// one that succeeded gets that one's artifacts and is finished at once.
-  /// @return kResourceExhausted, QUEUE_FULL; kFailedPrecondition, ASSET_MISSING; kInvalidArgument,
-  ///   REQUEST_ID_REUSED
+  /// A dip is WAITING_FOR_OPERATOR.
+  /// @return kResourceExhausted, QUEUE_FULL; kFailedPrecondition, ASSET_MISSING, or STATE_FORBIDS
+  /// for
+  ///   a dip while another one is not finished; kInvalidArgument, REQUEST_ID_REUSED
   [[nodiscard]] Result<Job> create(const NewJob& made, const RequestKey& request);
+  /// The job that the same request made before, if one did. REQUEST_ID_REUSED; JOB_NOT_FOUND if it
+  /// was deleted.
+  [[nodiscard]] Result<std::optional<Job>> repeated(const std::string& owner,
+                                                    const RequestKey& request);
   /// Refuses (ASSET_MISSING) inputs that are not here.
   [[nodiscard]] Status check_inputs(const std::vector<InputFile>& inputs);
 
@@ -73,7 +82,8 @@ class JobStore {
   [[nodiscard]] Result<std::vector<Job>> list(const JobFilter& filter);
   /// Deletes a finished job with all that belongs to it.
   [[nodiscard]] Status remove(std::int64_t id);
-  /// QUEUED -> CANCELLED, RUNNING -> CANCELLING; CANCELLING and CANCELLED stay.
+  /// QUEUED -> CANCELLED, RUNNING or WAITING_FOR_OPERATOR -> CANCELLING; CANCELLING and CANCELLED
+  /// stay.
   [[nodiscard]] Result<Job> cancel(std::int64_t id);
 
   /// QUEUED -> RUNNING, or -> SUCCEEDED if an equal job has finished meanwhile.
@@ -84,6 +94,19 @@ class JobStore {
   [[nodiscard]] Result<Job> succeed(std::int64_t id, const std::vector<Artifact>& artifacts);
   /// RUNNING -> FAILED, CANCELLING -> CANCELLED.
   [[nodiscard]] Result<Job> give_up(std::int64_t id, const JobFailure& failure);
+  /// A dip that is not finished: WAITING_FOR_OPERATOR or RUNNING, where it stands now, and how far
+  /// it is. Does nothing to one that is CANCELLING.
+  [[nodiscard]] Status advance_dip(std::int64_t id, JobState state, const std::string& dip_status,
+                                   const Progress& progress, const std::string& message);
+  /// The end of a dip with its record: SUCCEEDED, FAILED (with `failure`, which says it all),
+  /// CANCELLED or INTERRUPTED.
+  [[nodiscard]] Result<Job> end_dip(std::int64_t id, JobState state,
+                                    const std::optional<JobFailure>& failure,
+                                    const std::string& dip_status,
+                                    const std::vector<Artifact>& record,
+                                    const std::string& message);
+  /// Dips that are not finished; at most one, but for what a crash left.
+  [[nodiscard]] Result<std::vector<std::int64_t>> open_dips();
   /// RUNNING -> INTERRUPTED -> QUEUED (or FAILED, see above), CANCELLING -> CANCELLED, for all: to
   /// be called when no worker runs any more. Says why in the event.
   [[nodiscard]] Status interrupt_all(Interruption why);
@@ -118,6 +141,9 @@ class JobStore {
 
  private:
   [[nodiscard]] Result<std::int64_t> insert(const NewJob& made);
+  [[nodiscard]] Status check_queue();
+  [[nodiscard]] Status check_no_dip();
+  [[nodiscard]] Status store_dip_status(std::int64_t id, const std::string& dip_status);
   [[nodiscard]] Result<bool> adopt_cached(const Job& job);
   void discard_unowned(std::int64_t id);
   [[nodiscard]] Status store_artifacts(std::int64_t id, const std::vector<Artifact>& artifacts);

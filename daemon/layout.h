@@ -31,6 +31,11 @@ struct Layout {
   [[nodiscard]] std::filesystem::path run_pose(std::int64_t job) const {
     return run_work(job) / "pose.json";
   }
+  /// Records of dips that are not finished.
+  [[nodiscard]] std::filesystem::path dips() const { return root / "dips"; }
+  [[nodiscard]] std::filesystem::path dip(std::int64_t job) const {
+    return dips() / std::to_string(job);
+  }
   [[nodiscard]] std::filesystem::path artifacts() const { return root / "artifacts"; }
   [[nodiscard]] std::filesystem::path artifacts(std::int64_t job) const {
     return artifacts() / std::to_string(job);

@@ -13,6 +13,7 @@
 #include "daemon/daemon.h"
 #include "daemon/log.h"
 #include "daemon/own_program.h"
+#include "daemon/rig_setup.h"
 
 namespace {
 
@@ -26,6 +27,8 @@ struct Options {
   bool check_config = false;
   std::string state_dir;
   std::string grpc;
+  std::string rig;
+  std::string rig_profile;
 };
 
 int refuse(const Error& error, ExitStatus status) {
@@ -52,10 +55,13 @@ Result<Config> configure(const Options& options, const char* argv0) {
   }
   if (!options.state_dir.empty()) config.store_state_dir = options.state_dir;
   if (!options.grpc.empty()) config.server_grpc = options.grpc;
+  if (!options.rig.empty()) config.rig_drive = options.rig;
+  if (!options.rig_profile.empty()) config.rig_profile = options.rig_profile;
   if (config.workers_program.empty()) config.workers_program = worker_beside(argv0);
   if (const auto endpoint = parse_endpoint(config.server_grpc); !endpoint) {
     return fail(Code::kInvalidArgument, "--grpc: " + endpoint.error().message);
   }
+  HP_RETURN_IF_ERROR(read_rig_setup(config));
   return config;
 }
 
@@ -125,6 +131,10 @@ int obey(int argc, char** argv) {
   app.add_option("--grpc", options.grpc,
                  "Loopback address and port to listen at; default 127.0.0.1:50051; port 0: any")
       ->type_name("HOST:PORT");
+  app.add_option("--rig", options.rig,
+                 "Where the motor's drive is, like tcp:127.0.0.1:1502; default: there is no rig")
+      ->type_name("ENDPOINT");
+  app.add_option("--rig-profile", options.rig_profile, "Profile of that drive")->type_name("FILE");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

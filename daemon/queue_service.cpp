@@ -49,7 +49,9 @@ class QueueService final : public v1::QueueService::Service {
     reply.set_queued_count(static_cast<std::int32_t>(queued.size()));
     for (const JobState state : {JobState::kRunning, JobState::kCancelling}) {
       HP_ASSIGN_OR_RETURN(const auto ids, backend_.jobs.ids_in_state(state));
-      for (const std::int64_t id : ids) reply.add_running_jobs(job_name(id));
+      for (const std::int64_t id : ids) {
+        if (id != backend_.desk.dip()) reply.add_running_jobs(job_name(id));
+      }
     }
     reply.set_worker_slots(backend_.pool.slots());
     reply.set_daemon_version(HYDROPRINT_VERSION);

@@ -28,6 +28,25 @@ Status remember_result(Database& database, const std::string& owner, const Reque
                       {owner, key.method, key.id, key.digest, result, now_ms});
 }
 
+Result<bool> first_time(Database& database, const std::string& owner, const RequestKey& key,
+                        std::int64_t now_ms) {
+  bool is_new = true;
+  if (key.id.empty()) return is_new;
+  const Status done = database.transaction([&]() -> Status {
+    HP_ASSIGN_OR_RETURN(const auto earlier, earlier_result(database, owner, key, now_ms));
+    is_new = !earlier;
+    return is_new ? remember_result(database, owner, key, "", now_ms) : Status();
+  });
+  HP_RETURN_IF_ERROR(done);
+  return is_new;
+}
+
+Status forget_request(Database& database, const std::string& owner, const RequestKey& key) {
+  if (key.id.empty()) return {};
+  return database.run("DELETE FROM requests WHERE owner=? AND method=? AND id=?",
+                      {owner, key.method, key.id});
+}
+
 Status forget_old_requests(Database& database, std::int64_t now_ms) {
   return database.run("DELETE FROM requests WHERE time_ms<=?", {now_ms - kRequestMemoryMs});
 }

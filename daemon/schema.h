@@ -3,7 +3,8 @@
 namespace hydroprint::daemon {
 
 /// Tables of the store. `jobs.flags` holds one flag a line; `jobs.body` is a serialised message;
-/// `losses.count` says how often the daemon was lost while the job ran.
+/// `losses.count` says how often the daemon was lost while the job ran; `dips.status` is a
+/// serialised message; `lease` has one row or none.
 inline constexpr const char* kSchema = R"sql(
 CREATE TABLE IF NOT EXISTS settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 INSERT OR IGNORE INTO settings VALUES ('schema', '1');
@@ -41,6 +42,11 @@ CREATE TABLE IF NOT EXISTS uploads(
   expire_ms INTEGER NOT NULL) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS losses(
   job INTEGER PRIMARY KEY REFERENCES jobs(id) ON DELETE CASCADE, count INTEGER NOT NULL);
+CREATE TABLE IF NOT EXISTS dips(
+  job INTEGER PRIMARY KEY REFERENCES jobs(id) ON DELETE CASCADE, status BLOB NOT NULL);
+CREATE TABLE IF NOT EXISTS lease(
+  one INTEGER PRIMARY KEY CHECK(one=1), id TEXT NOT NULL, holder TEXT NOT NULL,
+  purpose TEXT NOT NULL, acquire_ms INTEGER NOT NULL, expire_ms INTEGER NOT NULL);
 CREATE TABLE IF NOT EXISTS requests(
   owner TEXT NOT NULL, method TEXT NOT NULL, id TEXT NOT NULL, digest TEXT NOT NULL,
   result TEXT NOT NULL, time_ms INTEGER NOT NULL, PRIMARY KEY(owner, method, id)) WITHOUT ROWID;

@@ -13,8 +13,13 @@ namespace {
 // Every watch and every running transfer holds a thread.
 constexpr int kMostThreads = 256;
 
-constexpr const char* kServices[] = {"", "hydroprint.v1.JobService", "hydroprint.v1.QueueService",
-                                     "hydroprint.v1.AssetService", "hydroprint.v1.ArtifactService"};
+constexpr const char* kRigService = "hydroprint.v1.RigService";  // serves while the rig works
+constexpr const char* kServices[] = {"",
+                                     "hydroprint.v1.JobService",
+                                     "hydroprint.v1.QueueService",
+                                     "hydroprint.v1.AssetService",
+                                     "hydroprint.v1.ArtifactService",
+                                     "hydroprint.v1.LeaseService"};
 
 }  // namespace
 
@@ -23,10 +28,14 @@ struct Server::Impl {
   std::vector<std::unique_ptr<grpc::Service>> services;
   std::unique_ptr<grpc::Server> server;
 
+  void set_rig_serving(bool serving) const {
+    server->GetHealthCheckService()->SetServingStatus(kRigService, serving);
+  }
   void set_serving(bool serving) const {
     for (const char* service : kServices) {
       server->GetHealthCheckService()->SetServingStatus(service, serving);
     }
+    if (!serving) set_rig_serving(false);
   }
 };
 
@@ -43,6 +52,8 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   impl.services.push_back(make_queue_service(backend));
   impl.services.push_back(make_asset_service(backend));
   impl.services.push_back(make_artifact_service(backend));
+  impl.services.push_back(make_rig_service(backend));
+  impl.services.push_back(make_lease_service(backend));
 
   grpc::ServerBuilder builder;
   // Without this a second daemon would silently share the port.
@@ -59,11 +70,14 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
                     "port with --grpc");
   }
   impl.endpoint = {endpoint.host, port};
+  impl.set_rig_serving(false);
   impl.set_serving(true);
   return made;
 }
 
 const Endpoint& Server::endpoint() const { return impl_->endpoint; }
+
+void Server::set_rig_serving(bool serving) { impl_->set_rig_serving(serving); }
 
 void Server::stop(std::chrono::milliseconds patience) {
   impl_->set_serving(false);

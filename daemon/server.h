@@ -9,7 +9,7 @@
 
 namespace hydroprint::daemon {
 
-/// The gRPC server: the four services, health for each of them, reflection if wanted.
+/// The gRPC server: the services, health for each of them, reflection if wanted.
 class Server {
  public:
   /// Listens; calls are answered from here on.
@@ -23,6 +23,8 @@ class Server {
 
   /// Where it listens, with the real port.
   [[nodiscard]] const Endpoint& endpoint() const;
+  /// What health says of the RigService; false at first.
+  void set_rig_serving(bool serving);
   /// Reports "not serving", takes no more calls, and waits for those that run; after `patience`
   /// they are broken off.
   void stop(std::chrono::milliseconds patience);

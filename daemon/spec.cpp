@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "daemon/dip_spec.h"
 #include "daemon/names.h"
 #include "hydroprint/v1/job.pb.h"
 
@@ -264,7 +265,11 @@ Result<Work> work_of(const v1::Job& job, NewJob& made) {
     add_validation(builder, job.validate(), made);
     return builder.build();
   }
-  return invalid_field("job", "has no spec; set simulate, predict, fit or validate");
+  if (job.has_dip()) {
+    HP_RETURN_IF_ERROR(check_dip_spec(job.dip()));
+    return WorkBuilder("dip").build();
+  }
+  return invalid_field("job", "has no spec; set simulate, predict, fit, validate or dip");
 }
 
 Status check_labels(const v1::Job& job) {
@@ -286,6 +291,7 @@ std::string body_of(const v1::Job& job) {
   if (job.has_predict()) *body.mutable_predict() = job.predict();
   if (job.has_fit()) *body.mutable_fit() = job.fit();
   if (job.has_validate()) *body.mutable_validate() = job.validate();
+  if (job.has_dip()) *body.mutable_dip() = job.dip();
   return body.SerializeAsString();
 }
 
@@ -304,6 +310,7 @@ Result<NewJob> check_job(const v1::Job& job) {
   if (made.display_name.empty()) {
     made.display_name = made.work.verb;
     if (!made.work.inputs.empty()) made.display_name += " " + made.work.inputs.front().name;
+    if (!job.dip().simulate_job().empty()) made.display_name += " " + job.dip().simulate_job();
   }
   made.body = body_of(job);
   return made;

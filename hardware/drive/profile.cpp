@@ -251,6 +251,7 @@ Result<DriveProfile> read_drive_profile(const std::filesystem::path& path) {
   DriveProfile profile;
   profile.name = top.text("name");
   profile.tried_on_hardware = top.flag("tried_on_hardware");
+  profile.is_virtual = top.flag("virtual", false);
   profile.unit = static_cast<int>(top.integer("unit", 1, 247, 1));
   profile.single_writes_by_fc16 = top.flag("single_writes_by_fc16", false);
   read_motion(top.table("motion"), profile);

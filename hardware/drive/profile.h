@@ -127,6 +127,7 @@ struct Watchdog {
 struct DriveProfile {
   std::string name;
   bool tried_on_hardware = false;
+  bool is_virtual = false;             ///< hydroprint-virtual-rig plays it: nobody can be hurt
   int unit = 1;                        ///< Modbus unit (slave) id, 1 to 247
   bool single_writes_by_fc16 = false;  ///< one word is written by function 16 as well, not by 6
 

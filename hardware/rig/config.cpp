@@ -2,21 +2,13 @@
 
 #include <array>
 #include <sstream>
-#include <string_view>
 
 #include "hardware/rig/limits.h"
 
 namespace hydroprint::rig {
 namespace {
 
-struct Key {
-  std::string_view name;
-  double RigConfig::*member;
-  double least;
-  double most;
-};
-
-constexpr std::array<Key, 10> kKeys = {{
+constexpr std::array<RigConfigKey, 10> kKeys = {{
     {"end_low_mm", &RigConfig::end_low_mm, -5000, 5000},
     {"end_high_mm", &RigConfig::end_high_mm, -5000, 5000},
     {"keep_out_mm", &RigConfig::keep_out_mm, 0, 1000},
@@ -39,8 +31,10 @@ tl::unexpected<Error> refuse(const Parts&... parts) {
 
 }  // namespace
 
+std::span<const RigConfigKey> rig_config_keys() { return kKeys; }
+
 Status check(const RigConfig& config, const drive::DriveProfile& profile) {
-  for (const Key& key : kKeys) {
+  for (const RigConfigKey& key : kKeys) {
     const double value = config.*key.member;
     if (value >= key.least && value <= key.most) continue;  // not so for NaN
     return refuse(key.name, " is ", value, "; it must be from ", key.least, " to ", key.most);

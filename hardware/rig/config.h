@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <string_view>
+
 #include "hardware/drive/profile.h"
 #include "sim/base/result.h"
 
@@ -18,7 +21,20 @@ struct RigConfig {
   double following_error_s = 0.25;  ///< and this times its speed more
   double arrival_mm = 0.1;          ///< at rest this close to its target, a move is done
   double home_timeout_s = 120;
+
+  bool operator==(const RigConfig&) const = default;
 };
+
+/// One member of RigConfig: its name and what it may be.
+struct RigConfigKey {
+  std::string_view name;
+  double RigConfig::*member;
+  double least;
+  double most;
+};
+
+/// All of them, in their order.
+[[nodiscard]] std::span<const RigConfigKey> rig_config_keys();
 
 /// Without a clean look at the drive for this long, or this many polls in a row, it counts as lost.
 inline constexpr double kStale_s = 0.25;

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "daemon/rig_setup.h"
+
 namespace hydroprint::daemon {
 namespace {
 
@@ -88,6 +90,43 @@ TEST(Config, OnlyLoopbackAddressesAreAccepted) {
     EXPECT_FALSE(parse_endpoint(bad)) << bad;
   }
   EXPECT_TRUE(says(problem("[server]\ngrpc = \"0.0.0.0:1\"\n"), "d.toml:2:"));
+}
+
+TEST(Config, KeysOfTheRigAreThoseOfRigConfigWithTheirRanges) {
+  const auto config = parse_config("[rig]\nkeep_out_mm = 12\nslack_mm = 1.5\n", "d.toml");
+  ASSERT_TRUE(config) << config.error().message;
+  EXPECT_EQ(config->rig.keep_out_mm, 12);
+  EXPECT_EQ(config->rig.slack_mm, 1.5);
+  EXPECT_TRUE(says(problem("[rig]\n\npoll_period_s = 0.5\n"),
+                   "d.toml:3: rig.poll_period_s must be a number from 0.002 to 0.02"));
+  EXPECT_TRUE(says(problem("[rig]\nslack_mm = \"1\"\n"), "must be a number"));
+  EXPECT_TRUE(says(problem("[rig]\nslack_mm = nan\n"), "must be a number"));
+  EXPECT_TRUE(says(problem("[rig]\ndrive = \"usb\"\n"), "d.toml:2: rig.drive: "));
+  EXPECT_TRUE(says(problem("[rig]\nkeep_out = 3\n"), "did you mean \"rig.keep_out_mm\""));
+}
+
+std::string rig_problem(const Config& config) {
+  const auto setup = read_rig_setup(config);
+  return setup ? "accepted" : setup.error().message;
+}
+
+TEST(Config, RigThatCannotBeDrivenSafelyIsRefusedByTheKeysName) {
+  Config config;
+  EXPECT_FALSE(read_rig_setup(config)->has_value()) << "no drive, no rig";
+  config.rig_drive = "tcp:127.0.0.1:1502";
+  EXPECT_TRUE(says(rig_problem(config), "rig.profile is empty"));
+  config.rig_profile = HYDROPRINT_PROFILES "/virtual.toml";
+  ASSERT_TRUE(read_rig_setup(config));
+  EXPECT_TRUE((*read_rig_setup(config))->profile.is_virtual);
+  config.rig.keep_out_mm = 3;
+  EXPECT_TRUE(says(rig_problem(config), "rig.keep_out_mm is 3; it must be at least"));
+  config.rig_profile = HYDROPRINT_PROFILES "/leadshine_em2rs.toml";
+  config.rig.keep_out_mm = 30;
+  const auto real = read_rig_setup(config);
+  ASSERT_TRUE(real) << real.error().message;
+  EXPECT_FALSE((*real)->profile.is_virtual);
+  config.rig_drive = "tcp:nowhere:1502";
+  EXPECT_TRUE(says(rig_problem(config), "rig.drive: "));
 }
 
 }  // namespace

@@ -298,5 +298,56 @@ TEST_F(JobStoreTest, FailedTransactionLeavesNothing) {
   EXPECT_EQ(rows, 0);
 }
 
+NewJob new_dip() {
+  NewJob made;
+  made.owner = "ann";
+  made.work.verb = "dip";
+  made.use_cache = false;
+  made.dip_status = "first";
+  return made;
+}
+
+TEST_F(JobStoreTest, ADipIsNeverQueuedAndThereIsOneAtATime) {
+  const Job dip = jobs->create(new_dip(), {}).value();
+  EXPECT_EQ(dip.state, JobState::kWaitingForOperator);
+  EXPECT_EQ(dip.dip_status, "first");
+  EXPECT_TRUE(jobs->waiting()->empty());
+  const auto second = jobs->create(new_dip(), {});
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().reason, "STATE_FORBIDS");
+  for (int i = 0; i < 5; ++i) add(std::to_string(i));  // the queue is full
+  ASSERT_TRUE(jobs->end_dip(dip.id, JobState::kCancelled, {}, "", {}, ""));
+  EXPECT_TRUE(jobs->create(new_dip(), {}));
+}
+
+TEST_F(JobStoreTest, ADipWhoseDaemonWasLostStaysInterrupted) {
+  const Job dip = jobs->create(new_dip(), {}).value();
+  ASSERT_TRUE(jobs->advance_dip(dip.id, JobState::kRunning, "soak", {0.5, "SOAK", 0, 0}, "soaks"));
+  open();
+  const Job lost = jobs->get(dip.id).value();
+  EXPECT_EQ(lost.state, JobState::kInterrupted);
+  EXPECT_GT(lost.end_ms, 0);
+  EXPECT_EQ(lost.dip_status, "soak");
+  EXPECT_TRUE(is_finished(lost.state));
+  EXPECT_TRUE(jobs->remove(dip.id));
+}
+
+TEST_F(JobStoreTest, TheRecordOfADipIsKeptHoweverItEnded) {
+  const Job dip = jobs->create(new_dip(), {}).value();
+  ASSERT_TRUE(jobs->cancel(dip.id));
+  ASSERT_TRUE(jobs->advance_dip(dip.id, JobState::kRunning, "soak", {}, ""));
+  EXPECT_EQ(jobs->get(dip.id)->state, JobState::kCancelling) << "and nothing else";
+  std::filesystem::create_directories(layout.artifacts(dip.id));
+  std::ofstream(layout.artifacts(dip.id) / "report.json") << "{}";
+  const JobFailure failure{{Code::kFailedPrecondition, "stalled", "RIG_FAULTED", {}}, {}, {}};
+  ASSERT_TRUE(jobs->end_dip(dip.id, JobState::kFailed, failure, "end",
+                            {{"report.json", 2, "", "application/json"}}, ""));
+  open();
+  EXPECT_EQ(jobs->get(dip.id)->state, JobState::kFailed);
+  EXPECT_EQ(jobs->get(dip.id)->failure->error.reason, "RIG_FAULTED");
+  EXPECT_TRUE(jobs->artifact(dip.id, "report.json"));
+  EXPECT_TRUE(std::filesystem::exists(layout.artifacts(dip.id) / "report.json"));
+}
+
 }  // namespace
 }  // namespace hydroprint::daemon

@@ -293,7 +293,8 @@ v1::CreateJobRequest simulate_request(const std::string& asset, const std::strin
 
 bool finished(const v1::Job& job) {
   return job.state() == v1::Job::SUCCEEDED || job.state() == v1::Job::FAILED ||
-         job.state() == v1::Job::CANCELLED;
+         job.state() == v1::Job::CANCELLED ||
+         (job.has_dip() && job.state() == v1::Job::INTERRUPTED);
 }
 
 }  // namespace hydroprint::tests
