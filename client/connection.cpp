@@ -26,7 +26,9 @@ Connection::Impl::Impl(ConnectionOptions connection_options)
       artifacts(v1::ArtifactService::NewStub(channel)),
       assets(v1::AssetService::NewStub(channel)),
       jobs(v1::JobService::NewStub(channel)),
-      queue(v1::QueueService::NewStub(channel)) {}
+      leases(v1::LeaseService::NewStub(channel)),
+      queue(v1::QueueService::NewStub(channel)),
+      rig(v1::RigService::NewStub(channel)) {}
 
 Connection::Connection(ConnectionOptions options)
     : impl_(std::make_unique<Impl>(std::move(options))) {}

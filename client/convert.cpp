@@ -11,16 +11,12 @@ namespace {
 
 namespace v1 = ::hydroprint::v1;
 
-std::optional<Time> from_proto(bool is_set, const google::protobuf::Timestamp& time) {
-  if (!is_set) return std::nullopt;
-  return Time(std::chrono::duration_cast<Time::duration>(
-      std::chrono::nanoseconds(google::protobuf::util::TimeUtil::TimestampToNanoseconds(time))));
-}
-
 JobState from_proto(v1::Job::State state) {
   switch (state) {
     case v1::Job::QUEUED:
       return JobState::kQueued;
+    case v1::Job::WAITING_FOR_OPERATOR:
+      return JobState::kWaitingForOperator;
     case v1::Job::RUNNING:
       return JobState::kRunning;
     case v1::Job::CANCELLING:
@@ -198,6 +194,12 @@ Status common_to_proto(const Spec& spec, Message& message) {
 
 }  // namespace
 
+std::optional<Time> from_proto(bool is_set, const google::protobuf::Timestamp& time) {
+  if (!is_set) return std::nullopt;
+  return Time(std::chrono::duration_cast<Time::duration>(
+      std::chrono::nanoseconds(google::protobuf::util::TimeUtil::TimestampToNanoseconds(time))));
+}
+
 Job from_proto(const v1::Job& message) {
   Job job;
   job.name = message.name();
@@ -218,6 +220,8 @@ Job from_proto(const v1::Job& message) {
   job.input_digest = message.input_digest();
   job.cache_hit = message.cache_hit();
   job.spec = spec_from_proto(message);
+  if (message.has_dip()) job.dip = from_proto(message.dip());
+  if (message.has_dip_status()) job.dip_status = from_proto(message.dip_status());
   return job;
 }
 

@@ -7,11 +7,14 @@
 #include "client/artifacts.h"
 #include "client/assets.h"
 #include "client/job.h"
+#include "client/lease.h"
 #include "client/queue.h"
+#include "client/rig.h"
 #include "hydroprint/v1/artifact_service.pb.h"
 #include "hydroprint/v1/asset_service.pb.h"
 #include "hydroprint/v1/job.pb.h"
 #include "hydroprint/v1/queue_service.pb.h"
+#include "hydroprint/v1/rig.pb.h"
 
 namespace hydroprint::client {
 
@@ -20,10 +23,21 @@ namespace hydroprint::client {
 [[nodiscard]] Queue from_proto(const ::hydroprint::v1::Queue& message);
 [[nodiscard]] Asset from_proto(const ::hydroprint::v1::Asset& message);
 [[nodiscard]] Artifact from_proto(const ::hydroprint::v1::Artifact& message);
+[[nodiscard]] DipSpec from_proto(const ::hydroprint::v1::DipSpec& message);
+[[nodiscard]] DipStatus from_proto(const ::hydroprint::v1::DipStatus& message);
+[[nodiscard]] Lease from_proto(const ::hydroprint::v1::Lease& message);
+[[nodiscard]] Rig from_proto(const ::hydroprint::v1::Rig& message);
+
+/// A time that is set, in the clock's resolution; nothing for one that is not.
+[[nodiscard]] std::optional<Time> from_proto(bool is_set,
+                                             const ::google::protobuf::Timestamp& time);
 
 /// Sets the job's spec. @return kInvalidArgument for a model or artifact set that has no such name
 [[nodiscard]] Status to_proto(const Spec& spec, ::hydroprint::v1::Job& job);
 
 [[nodiscard]] ::hydroprint::v1::Job::State to_proto(JobState state);
+
+[[nodiscard]] ::hydroprint::v1::DipSpec to_proto(const DipSpec& spec);
+[[nodiscard]] ::hydroprint::v1::DipStatus::Step to_proto(DipStep step);
 
 }  // namespace hydroprint::client

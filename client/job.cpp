@@ -6,9 +6,10 @@
 namespace hydroprint::client {
 namespace {
 
-constexpr std::array<std::pair<JobState, std::string_view>, 8> kNames{{
+constexpr std::array<std::pair<JobState, std::string_view>, 9> kNames{{
     {JobState::kUnknown, "UNKNOWN"},
     {JobState::kQueued, "QUEUED"},
+    {JobState::kWaitingForOperator, "WAITING_FOR_OPERATOR"},
     {JobState::kRunning, "RUNNING"},
     {JobState::kCancelling, "CANCELLING"},
     {JobState::kSucceeded, "SUCCEEDED"},
@@ -42,6 +43,10 @@ std::string_view name_of(Verb verb) {
 bool is_finished(JobState state) {
   return state == JobState::kSucceeded || state == JobState::kFailed ||
          state == JobState::kCancelled;
+}
+
+bool is_finished(const Job& job) {
+  return is_finished(job.state) || (job.dip && job.state == JobState::kInterrupted);
 }
 
 }  // namespace hydroprint::client

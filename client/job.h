@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -9,9 +8,10 @@
 #include <string_view>
 #include <vector>
 
-namespace hydroprint::client {
+#include "client/dip.h"
+#include "client/time.h"
 
-using Time = std::chrono::system_clock::time_point;
+namespace hydroprint::client {
 
 /// The kinds of computation, as the worker's verbs.
 enum class Verb { kSimulate, kPredict, kFit, kValidate };
@@ -62,6 +62,7 @@ struct Spec {
 enum class JobState {
   kUnknown,
   kQueued,
+  kWaitingForOperator,
   kRunning,
   kCancelling,
   kSucceeded,
@@ -72,9 +73,6 @@ enum class JobState {
 
 /// "QUEUED", "RUNNING", ... as in the API; "UNKNOWN" for what this client does not know.
 [[nodiscard]] std::string_view name_of(JobState state);
-
-/// Whether the job's state will not change any more.
-[[nodiscard]] bool is_finished(JobState state);
 
 /// Why a job failed.
 struct JobError {
@@ -104,8 +102,16 @@ struct Job {
   std::string retry_of;
   std::string input_digest;
   bool cache_hit = false;
-  std::optional<Spec> spec;  ///< none if the job is of a kind that this client does not know
+  std::optional<Spec> spec;  ///< of a computation; none if of a kind that this client does not know
+  std::optional<DipSpec> dip;           ///< of a dip
+  std::optional<DipStatus> dip_status;  ///< of an open dip
 };
+
+/// Whether the job's state will not change any more.
+[[nodiscard]] bool is_finished(const Job& job);
+
+/// Whether this is so of every job in that state: INTERRUPTED is the end of a dip alone.
+[[nodiscard]] bool is_finished(JobState state);
 
 /// Something that happened to a job.
 struct JobEvent {

@@ -27,6 +27,15 @@ Request named(const std::string& name) {
   return request;
 }
 
+v1::CreateJobRequest creation(const JobOptions& options) {
+  v1::CreateJobRequest request;
+  request.mutable_job()->set_display_name(options.display_name);
+  request.mutable_job()->set_priority(options.priority);
+  request.set_request_id(make_uuid());
+  request.set_validate_only(options.validate_only);
+  return request;
+}
+
 // Follows one job over as many streams as it takes.
 class Watcher {
  public:
@@ -39,7 +48,7 @@ class Watcher {
   Result<Job> run(const std::function<void(const Error&)>& lost) {
     for (;;) {
       const grpc::Status status = follow();
-      if (is_finished(last_.state)) return last_;
+      if (is_finished(last_)) return last_;
       // The daemon may end a stream in good order, when it shuts down.
       const Error error = status.ok() ? Error{Code::kUnavailable, "the daemon ended the stream", {}}
                                       : to_error(connection_, status);
@@ -88,13 +97,25 @@ class Watcher {
 }  // namespace
 
 Result<Job> create_job(Connection& connection, const Spec& spec, const JobOptions& options) {
-  v1::CreateJobRequest request;
+  v1::CreateJobRequest request = creation(options);
   HP_RETURN_IF_ERROR(to_proto(spec, *request.mutable_job()));
-  request.mutable_job()->set_display_name(options.display_name);
-  request.mutable_job()->set_priority(options.priority);
-  request.set_request_id(make_uuid());
-  request.set_validate_only(options.validate_only);
   return to_job(call(connection, *connection.impl().jobs, &Stub::CreateJob, request));
+}
+
+Result<Job> create_dip(Connection& connection, const DipSpec& spec, const std::string& lease_id,
+                       const JobOptions& options) {
+  v1::CreateJobRequest request = creation(options);
+  *request.mutable_job()->mutable_dip() = to_proto(spec);
+  request.set_lease_id(lease_id);
+  return to_job(call_once(connection, *connection.impl().jobs, &Stub::CreateJob, request));
+}
+
+Result<Job> confirm_step(Connection& connection, const std::string& name, DipStep step,
+                         const std::string& lease_id) {
+  auto request = named<v1::ConfirmStepRequest>(name);
+  request.set_step(to_proto(step));
+  request.set_lease_id(lease_id);
+  return to_job(call_once(connection, *connection.impl().jobs, &Stub::ConfirmStep, request));
 }
 
 Result<Job> get_job(Connection& connection, const std::string& name) {

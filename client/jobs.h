@@ -22,6 +22,17 @@ struct JobOptions {
 [[nodiscard]] Result<Job> create_job(Connection& connection, const Spec& spec,
                                      const JobOptions& options = {});
 
+/// Creates a dip, which is WAITING_FOR_OPERATOR at once. Sent once, since with `yes_to_all` it
+/// moves: if the answer is lost (kUnavailable), see list_jobs before another attempt.
+/// @param lease_id  the caller's lease of the rig
+[[nodiscard]] Result<Job> create_dip(Connection& connection, const DipSpec& spec,
+                                     const std::string& lease_id, const JobOptions& options = {});
+
+/// Says that the operator has done what the dip waits for. Sent once, as the rig may move next; if
+/// the answer is lost, see get_job.
+[[nodiscard]] Result<Job> confirm_step(Connection& connection, const std::string& name,
+                                       DipStep step, const std::string& lease_id);
+
 [[nodiscard]] Result<Job> get_job(Connection& connection, const std::string& name);
 
 /// Which jobs are listed.

@@ -75,7 +75,7 @@ Call::Call(Connection& connection)
     context_.AddMetadata("hydroprint-owner", connection.options().owner);
 }
 
-Call::Call(Connection& connection, std::chrono::seconds limit) : Call(connection) {
+Call::Call(Connection& connection, std::chrono::milliseconds limit) : Call(connection) {
   context_.set_deadline(std::chrono::system_clock::now() + limit);
 }
 

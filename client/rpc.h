@@ -14,7 +14,9 @@
 #include "hydroprint/v1/artifact_service.grpc.pb.h"
 #include "hydroprint/v1/asset_service.grpc.pb.h"
 #include "hydroprint/v1/job_service.grpc.pb.h"
+#include "hydroprint/v1/lease_service.grpc.pb.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
+#include "hydroprint/v1/rig_service.grpc.pb.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::client {
@@ -29,7 +31,9 @@ struct Connection::Impl {
   std::unique_ptr<v1::ArtifactService::Stub> artifacts;
   std::unique_ptr<v1::AssetService::Stub> assets;
   std::unique_ptr<v1::JobService::Stub> jobs;
+  std::unique_ptr<v1::LeaseService::Stub> leases;
   std::unique_ptr<v1::QueueService::Stub> queue;
+  std::unique_ptr<v1::RigService::Stub> rig;
 };
 
 /// What every call carries: the owner, a time limit, and an end when the connection is to stop.
@@ -37,7 +41,7 @@ class Call {
  public:
   explicit Call(Connection& connection);
   /// As above, and ends after `limit`.
-  Call(Connection& connection, std::chrono::seconds limit);
+  Call(Connection& connection, std::chrono::milliseconds limit);
 
   [[nodiscard]] grpc::ClientContext* context() { return &context_; }
 
@@ -71,6 +75,20 @@ template <class Stub, class Request, class Response>
     response.Clear();
     return (stub.*method)(one.context(), request, &response);
   });
+  if (!status.ok()) return tl::unexpected(to_error(connection, status));
+  return response;
+}
+
+/// One call that is never repeated: whoever moves the rig has to see first what became of it.
+template <class Stub, class Request, class Response>
+[[nodiscard]] Result<Response> call_once(Connection& connection, Stub& stub,
+                                         grpc::Status (Stub::*method)(grpc::ClientContext*,
+                                                                      const Request&, Response*),
+                                         const Request& request,
+                                         std::chrono::milliseconds limit = kAnswerLimit) {
+  Response response;
+  Call one(connection, limit);
+  const grpc::Status status = (stub.*method)(one.context(), request, &response);
   if (!status.ok()) return tl::unexpected(to_error(connection, status));
   return response;
 }

@@ -24,6 +24,12 @@ void add_download(CLI::App& app, Program& program);
 void add_assets(CLI::App& app, Program& program);
 void add_queue(CLI::App& app, Program& program);
 void add_status(CLI::App& app, Program& program);
+void add_rig(CLI::App& app, Program& program);
+void add_dip(CLI::App& app, Program& program);
+void add_confirm(CLI::App& app, Program& program);
 void add_completion(CLI::App& app, Program& program);
+
+/// Adds `rig lease` to `rig`.
+void add_lease(CLI::App& parent, Program& program);
 
 }  // namespace hydroprint::cli

@@ -25,7 +25,8 @@ struct Command {
   std::vector<std::string> words;
   std::vector<std::string> helps;  // of words
   std::vector<Flag> flags;
-  bool takes_file = false;  // its arguments are files
+  bool takes_file = false;           // its arguments are files
+  std::vector<std::string> choices;  // or one of these
 };
 
 // CLI11 keeps the choices of IsMember in the type's name, as "STATE:{A,B}".
@@ -54,12 +55,15 @@ Flag describe(const CLI::Option& option) {
 void walk(const CLI::App& app, Command command, std::vector<Command>& commands) {
   command.path += (command.path.empty() ? "" : " ") + app.get_name();
   for (const CLI::Option* option : app.get_options()) {
-    if (option->get_positional())
-      command.takes_file = command.takes_file || is_path(option->get_type_name());
-    else
+    if (!option->get_positional()) {
       command.flags.push_back(describe(*option));
+      continue;
+    }
+    const auto choices = choices_of(option->get_type_name());
+    command.choices.insert(command.choices.end(), choices.begin(), choices.end());
+    command.takes_file = command.takes_file || is_path(option->get_type_name());
   }
-  Command below{command.path, {}, {}, command.flags, false};
+  Command below{command.path, {}, {}, command.flags, false, {}};
   std::erase_if(below.flags, [](const Flag& flag) {  // each command has these of its own
     return flag.names.back() == "--help" || flag.names.back() == "--version";
   });
@@ -85,6 +89,7 @@ std::string quote(const std::string& text) {
 
 std::string all_words(const Command& command) {
   std::vector<std::string> words = command.words;
+  words.insert(words.end(), command.choices.begin(), command.choices.end());
   for (const Flag& flag : command.flags)
     words.insert(words.end(), flag.names.begin(), flag.names.end());
   return join(words);
@@ -181,6 +186,7 @@ std::string fish_script(const std::vector<Command>& commands) {
     for (std::size_t i = 0; i < command.words.size(); ++i)
       text += head + " -a " + command.words[i] + " -d " + quote(command.helps[i]) + "\n";
     if (command.takes_file) text += head + " -F\n";
+    if (!command.choices.empty()) text += head + " -a " + quote(join(command.choices)) + "\n";
     for (const Flag& flag : command.flags) text += head + fish_flag(flag) + "\n";
   }
   return text;

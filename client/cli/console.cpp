@@ -77,29 +77,39 @@ std::string format_rfc3339(std::chrono::system_clock::time_point time) {
   return format_calendar("%Y-%m-%dT%H:%M:%S", utc) + format(".%03dZ", part);
 }
 
-ProgressLine::ProgressLine(int descriptor)
+std::string format_fixed(double value) { return format("%.2f", value); }
+
+LiveLine::LiveLine(int descriptor)
     : descriptor_(descriptor), is_terminal_(isatty(descriptor) == 1) {}
 
-void ProgressLine::show(const std::string& label, double fraction, const std::string& text) {
+void LiveLine::show(const std::string& text) {
   if (!is_terminal_) return;
-  const double share = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0;
-  const auto full = static_cast<std::size_t>(std::lround(share * kBarCells));
-  std::string line = printable(label) + " [" + std::string(full, '#') +
-                     std::string(kBarCells - full, '-') + "]" + format(" %3.0f%%", 100 * share) +
-                     "  " + printable(text);
+  std::string line = printable(text);
   line.resize(std::min(line.size(), columns(descriptor_) - 1));
   write("\r" + line + "\x1b[K");
   shown_ = true;
 }
 
-void ProgressLine::clear() {
+void LiveLine::clear() {
   if (shown_) write("\r\x1b[K");
   shown_ = false;
 }
 
-void ProgressLine::write(const std::string& text) const {
+void LiveLine::say(const std::string& text) {
+  clear();
+  write(printable(text) + "\n");
+}
+
+void LiveLine::write(const std::string& text) const {
   // A terminal that is gone is no reason to stop.
   [[maybe_unused]] const auto written = ::write(descriptor_, text.data(), text.size());
+}
+
+void ProgressLine::show(const std::string& label, double fraction, const std::string& text) {
+  const double share = std::isfinite(fraction) ? std::clamp(fraction, 0.0, 1.0) : 0;
+  const auto full = static_cast<std::size_t>(std::lround(share * kBarCells));
+  line_.show(label + " [" + std::string(full, '#') + std::string(kBarCells - full, '-') + "]" +
+             format(" %3.0f%%", 100 * share) + "  " + text);
 }
 
 }  // namespace hydroprint::cli

@@ -24,20 +24,24 @@ namespace hydroprint::cli {
 /// UTC, RFC 3339, for JSON.
 [[nodiscard]] std::string format_rfc3339(std::chrono::system_clock::time_point time);
 
-/// One line at the bottom of a terminal that is written over again and again, with a bar.
-class ProgressLine {
+/// "0.05", "-12.30": for millimetres, and millimetres per second.
+[[nodiscard]] std::string format_fixed(double value);
+
+/// One line at the bottom of a terminal that is written over again and again.
+class LiveLine {
  public:
   /// @param descriptor  of the terminal; if it is none, nothing is ever shown
-  explicit ProgressLine(int descriptor);
-  ~ProgressLine() { clear(); }
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
+  explicit LiveLine(int descriptor);
+  ~LiveLine() { clear(); }
+  LiveLine(const LiveLine&) = delete;
+  LiveLine& operator=(const LiveLine&) = delete;
 
   [[nodiscard]] bool is_terminal() const { return is_terminal_; }
-  /// "label [####----]  48%  text"
-  void show(const std::string& label, double fraction, const std::string& text);
+  void show(const std::string& text);
   /// Takes the line away.
   void clear();
+  /// A line that stays, above the live one; shown wherever the descriptor leads.
+  void say(const std::string& text);
 
  private:
   void write(const std::string& text) const;
@@ -45,6 +49,23 @@ class ProgressLine {
   int descriptor_;
   bool is_terminal_;
   bool shown_ = false;
+};
+
+/// A live line with a bar.
+class ProgressLine {
+ public:
+  explicit ProgressLine(int descriptor) : line_(descriptor) {}
+
+  [[nodiscard]] bool is_terminal() const { return line_.is_terminal(); }
+  /// "label [####----]  48%  text"
+  void show(const std::string& label, double fraction, const std::string& text);
+  /// Takes the line away.
+  void clear() { line_.clear(); }
+  /// A line that stays, above the live one; shown wherever the descriptor leads.
+  void say(const std::string& text) { line_.say(text); }
+
+ private:
+  LiveLine line_;
 };
 
 }  // namespace hydroprint::cli

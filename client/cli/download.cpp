@@ -26,7 +26,8 @@ std::string default_folder(const std::string& job) {
 Status download(Program& program, const DownloadOptions& options) {
   const std::string job = job_name(options.job);
   const std::string folder = options.out.empty() ? default_folder(job) : options.out;
-  HP_ASSIGN_OR_RETURN(const auto files, download_all(program, job, options.artifacts, folder));
+  HP_ASSIGN_OR_RETURN(const auto files,
+                      download_all(program.daemon(), job, options.artifacts, folder));
   if (program.json()) {
     print({{"files", to_json(files)}});
     return {};

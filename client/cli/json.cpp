@@ -36,6 +36,36 @@ Json to_json(const client::JobError& error) {
   return json;
 }
 
+Json to_json(const client::Motion& motion) {
+  Json json{{"number", motion.number},
+            {"kind", motion.kind},
+            {"outcome", client::name_of(motion.outcome)}};
+  put(json, "cause", motion.cause);
+  json["at_rest"] = motion.at_rest;
+  json["begin_mm"] = motion.begin_mm;
+  json["end_mm"] = motion.end_mm;
+  return json;
+}
+
+Json to_json(const client::Axis& axis) {
+  return {{"drive", axis.drive},
+          {"is_virtual", axis.is_virtual},
+          {"min_mm", axis.min_mm},
+          {"max_mm", axis.max_mm},
+          {"max_speed_mm_per_s", axis.max_speed_mm_per_s},
+          {"stopping_distance_mm", axis.stopping_distance_mm},
+          {"watchdog_s", axis.watchdog_s}};
+}
+
+Json to_json(const client::LinkQuality& link) {
+  return {{"missed_polls", link.missed_polls},
+          {"connects", link.connects},
+          {"polls", link.polls},
+          {"skipped_polls", link.skipped_polls},
+          {"largest_lateness_s", link.largest_lateness_s},
+          {"rms_lateness_s", link.rms_lateness_s}};
+}
+
 }  // namespace
 
 Json to_json(const client::Spec& spec) {
@@ -86,6 +116,8 @@ Json to_json(const client::Job& job) {
   put(json, "input_digest", job.input_digest);
   json["cache_hit"] = job.cache_hit;
   if (job.spec) json[std::string(client::name_of(job.spec->verb))] = to_json(*job.spec);
+  if (job.dip) json["dip"] = to_json(*job.dip);
+  if (job.dip_status) json["dip_status"] = to_json(*job.dip_status);
   return json;
 }
 
@@ -98,6 +130,64 @@ Json to_json(const client::JobEvent& event) {
   json["phase_fraction"] = event.phase_fraction;
   put(json, "eta_time", event.eta_time);
   put(json, "message", event.message);
+  return json;
+}
+
+Json to_json(const client::DipSpec& spec) {
+  Json json = Json::object();
+  put(json, "simulate_job", spec.simulate_job);
+  put(json, "depth_mm", spec.depth_mm);
+  put(json, "speed_mm_per_s", spec.speed_mm_per_s);
+  put(json, "hold_s", spec.hold_s);
+  put(json, "retract_speed_mm_per_s", spec.retract_speed_mm_per_s);
+  put(json, "clearance_mm", spec.clearance_mm);
+  put(json, "film_area_mm2", spec.film_area_mm2);
+  put(json, "activator_ml_per_m2", spec.activator_ml_per_m2);
+  put(json, "soak_s", spec.soak_s);
+  put(json, "activator_wait_s", spec.activator_wait_s);
+  put(json, "activation_window_s", spec.activation_window_s);
+  put(json, "water_temperature_c", spec.water_temperature_c);
+  if (spec.yes_to_all) json["yes_to_all"] = true;
+  return json;
+}
+
+Json to_json(const client::DipStatus& status) {
+  Json json{{"step", client::name_of(status.step)}};
+  put(json, "instruction", status.instruction);
+  put(json, "step_end_time", status.step_end_time);
+  put(json, "activation_end_time", status.activation_end_time);
+  put(json, "contact_mm", status.contact_mm);
+  if (!status.warnings.empty()) json["warnings"] = status.warnings;
+  return json;
+}
+
+Json to_json(const client::Lease& lease) {
+  Json json = Json::object();
+  put(json, "lease_id", lease.lease_id);
+  put(json, "holder", lease.holder);
+  put(json, "purpose", lease.purpose);
+  put(json, "acquire_time", lease.acquire_time);
+  put(json, "expire_time", lease.expire_time);
+  return json;
+}
+
+Json to_json(const client::Rig& rig) {
+  Json json{{"state", client::name_of(rig.state)}};
+  put(json, "cause", rig.cause);
+  put(json, "trouble", rig.trouble);
+  json["homed"] = rig.homed;
+  json["stop_button"] = rig.stop_button;
+  json["enabled"] = rig.enabled;
+  put(json, "position_mm", rig.position_mm);
+  put(json, "velocity_mm_per_s", rig.velocity_mm_per_s);
+  if (rig.alarm_code != 0) json["alarm_code"] = rig.alarm_code;
+  put(json, "alarm_text", rig.alarm_text);
+  put(json, "sample_time", rig.sample_time);
+  if (rig.motion) json["motion"] = to_json(*rig.motion);
+  if (rig.axis) json["axis"] = to_json(*rig.axis);
+  json["link_quality"] = to_json(rig.link_quality);
+  if (rig.lease) json["lease"] = to_json(*rig.lease);
+  put(json, "dip", rig.dip);
   return json;
 }
 

@@ -5,7 +5,9 @@
 #include "client/artifacts.h"
 #include "client/assets.h"
 #include "client/job.h"
+#include "client/lease.h"
 #include "client/queue.h"
+#include "client/rig.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::cli {
@@ -15,7 +17,11 @@ using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json to_json(const client::Spec& spec);
 [[nodiscard]] Json to_json(const client::Job& job);
+[[nodiscard]] Json to_json(const client::DipSpec& spec);
+[[nodiscard]] Json to_json(const client::DipStatus& status);
 [[nodiscard]] Json to_json(const client::JobEvent& event);
+[[nodiscard]] Json to_json(const client::Lease& lease);
+[[nodiscard]] Json to_json(const client::Rig& rig);
 [[nodiscard]] Json to_json(const client::Queue& queue);
 [[nodiscard]] Json to_json(const client::Asset& asset);
 [[nodiscard]] Json to_json(const client::Artifact& artifact);

@@ -25,8 +25,8 @@ const std::map<std::string, client::JobState>& states_by_name() {
   using enum client::JobState;
   static const auto kStates = [] {
     std::map<std::string, client::JobState> states;
-    for (const auto state :
-         {kQueued, kRunning, kCancelling, kSucceeded, kFailed, kCancelled, kInterrupted})
+    for (const auto state : {kQueued, kWaitingForOperator, kRunning, kCancelling, kSucceeded,
+                             kFailed, kCancelled, kInterrupted})
       states.emplace(client::name_of(state), state);
     return states;
   }();
@@ -34,12 +34,12 @@ const std::map<std::string, client::JobState>& states_by_name() {
 }
 
 void print_table(const std::vector<client::Job>& jobs) {
-  std::cout << std::left << std::setw(12) << "JOB" << std::setw(12) << "STATE" << std::setw(6)
+  std::cout << std::left << std::setw(12) << "JOB" << std::setw(22) << "STATE" << std::setw(6)
             << "DONE" << std::setw(21) << "CREATED" << std::setw(14) << "OWNER"
             << "NAME\n";
   for (const client::Job& job : jobs) {
     const auto done = std::to_string(std::lround(100 * job.progress_fraction)) + "%";
-    std::cout << std::setw(12) << job.name << std::setw(12) << client::name_of(job.state)
+    std::cout << std::setw(12) << job.name << std::setw(22) << client::name_of(job.state)
               << std::setw(6) << done << std::setw(21) << format_time(job.create_time)
               << std::setw(14) << printable(job.owner) << printable(job.display_name) << "\n";
   }

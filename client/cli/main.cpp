@@ -6,6 +6,7 @@
 
 #include "client/cli/commands.h"
 #include "client/cli/console.h"
+#include "client/cli/held_lease.h"
 #include "client/cli/json.h"
 #include "client/cli/program.h"
 
@@ -17,6 +18,8 @@ constexpr char kFooter[] = R"(Examples:
   hydroprint submit simulate --mesh sample/globe.obj --texture sample/globe.png --out result
   hydroprint list --state RUNNING
   hydroprint show 7 --json
+  hydroprint rig status
+  hydroprint dip --simulate-job 7 --out result
 
 Exit status: 0 done; 2 wrong usage; 3 bad input, or refused by the daemon; 4 failed,
 or bytes arrived damaged; 5 no daemon answers; 130 cancelled.)";
@@ -55,6 +58,9 @@ void add_commands(CLI::App& app, Program& program) {
   add_download(app, program);
   add_assets(app, program);
   add_queue(app, program);
+  add_rig(app, program);
+  add_dip(app, program);
+  add_confirm(app, program);
   add_status(app, program);
   add_completion(app, program);
 }
@@ -80,7 +86,7 @@ int run(int argc, char** argv) {
   }
   const Status status = program.run();
   if (!status) {
-    report(program, status.error());
+    report(program, in_our_words(status.error()));
     return exit_code(status.error());
   }
   if (std::cout.flush()) return 0;

@@ -27,6 +27,10 @@ class Program {
   [[nodiscard]] const std::string& owner() const { return owner_; }
   /// The daemon; from the first call on, Ctrl-C ends its calls with kCancelled.
   [[nodiscard]] client::Connection& daemon();
+  /// Whether Ctrl-C came since then.
+  [[nodiscard]] bool is_interrupted() const {
+    return interrupt_ && interrupt_->token().stop_requested();
+  }
   /// Another connection, which Ctrl-C does not end.
   [[nodiscard]] client::Connection uninterrupted() const;
 

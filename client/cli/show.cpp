@@ -13,14 +13,22 @@
 namespace hydroprint::cli {
 namespace {
 
+std::string text_of(const Json& value) {
+  return printable(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
 void print_tree(const Json& json, const std::string& indent) {
   for (const auto& [key, value] : json.items()) {
     std::cout << indent << std::left << std::setw(20) << key;
     if (value.is_object()) {
       std::cout << "\n";
       print_tree(value, indent + "  ");
+    } else if (value.is_array() && !value.empty() && value.front().is_string()) {
+      for (const Json& line : value)  // one below the other
+        std::cout << (&line == &value.front() ? "" : indent + std::string(20, ' ')) << text_of(line)
+                  << "\n";
     } else {
-      std::cout << printable(value.is_string() ? value.get<std::string>() : value.dump()) << "\n";
+      std::cout << text_of(value) << "\n";
     }
   }
 }

@@ -161,7 +161,7 @@ Status wait_and_fetch(Program& program, const std::string& name, const SubmitOpt
   HP_ASSIGN_OR_RETURN(const client::Job job, wait_for(program, name, options.wait_options));
   std::vector<Downloaded> files;
   if (!options.out.empty()) {
-    HP_ASSIGN_OR_RETURN(files, download_all(program, name, {}, options.out));
+    HP_ASSIGN_OR_RETURN(files, download_all(program.daemon(), name, {}, options.out));
   }
   if (program.json()) {
     Json json = to_json(job);

@@ -26,14 +26,6 @@ Error interrupted(Program& program, const std::string& job, const WaitOptions& o
   return {Code::kCancelled, job + " is being cancelled", {}};
 }
 
-Error why(const client::Job& job) {
-  if (job.state == client::JobState::kCancelled)
-    return {Code::kCancelled, job.name + " was cancelled", {}};
-  const client::JobError error = job.error.value_or(client::JobError{});
-  const Code code = error.code == "INVALID_ARGUMENT" ? Code::kInvalidArgument : Code::kInternal;
-  return {code, job.name + " failed: " + error.message, error.reason, {{"job", job.name}}};
-}
-
 std::string summary(const client::Job& job) {
   if (job.cache_hit) return job.name + ": done, from an earlier job with the same inputs";
   if (!job.start_time || !job.end_time) return job.name + ": done";
@@ -48,21 +40,6 @@ void print_update(const client::JobUpdate& update) {
   print(json);
 }
 
-Result<client::Job> follow(Program& program, const std::string& job, const WaitOptions& options) {
-  JobDisplay display(job, options.descriptor);
-  auto finished = client::watch_job(
-      program.daemon(), job,
-      [&](const client::JobUpdate& update) {
-        options.json_lines ? print_update(update) : display.update(update);
-      },
-      [&](const Error& error) {
-        if (!options.json_lines) display.say("hydroprint: " + error.message + "; trying again");
-      });
-  if (finished && finished->state == client::JobState::kSucceeded && !options.json_lines)
-    display.say(summary(*finished));
-  return finished;
-}
-
 Result<client::Artifact> find(const std::vector<client::Artifact>& artifacts,
                               const std::string& job, const std::string& name) {
   std::string known;
@@ -73,11 +50,11 @@ Result<client::Artifact> find(const std::vector<client::Artifact>& artifacts,
   return fail(Code::kNotFound, job + " has no artifact '" + name + "'; it has" + known);
 }
 
-Result<std::vector<client::Artifact>> choose(Program& program, const std::string& job,
+Result<std::vector<client::Artifact>> choose(client::Connection& daemon, const std::string& job,
                                              const std::vector<std::string>& names) {
-  HP_ASSIGN_OR_RETURN(auto artifacts, client::list_artifacts(program.daemon(), job));
+  HP_ASSIGN_OR_RETURN(auto artifacts, client::list_artifacts(daemon, job));
   if (artifacts.empty()) {
-    HP_ASSIGN_OR_RETURN(const client::Job found, client::get_job(program.daemon(), job));
+    HP_ASSIGN_OR_RETURN(const client::Job found, client::get_job(daemon, job));
     return fail(Code::kFailedPrecondition,
                 job + " is " + std::string(client::name_of(found.state)) +
                     " and has no artifacts; only a job that SUCCEEDED has");
@@ -98,8 +75,40 @@ void add_wait_flags(CLI::App& command, WaitOptions& options) {
                    "Let Ctrl-C cancel the job; without this it goes on");
 }
 
+Error why(const client::Job& job) {
+  const client::JobError error = job.error.value_or(client::JobError{});
+  Error why{error.code == "INVALID_ARGUMENT" ? Code::kInvalidArgument : Code::kInternal,
+            job.name + " failed: " + error.message,
+            error.reason,
+            {{"job", job.name}}};
+  if (job.state == client::JobState::kCancelled)
+    why = {Code::kCancelled, job.name + " was cancelled", {}};
+  if (job.state == client::JobState::kInterrupted)
+    why = {Code::kInternal, job.name + " was interrupted: the daemon was lost during the dip", {}};
+  // Of a dip that ended early: what to do with film and object.
+  const std::string advice = job.dip_status ? job.dip_status->instruction : "";
+  if (why.message.find(advice) == std::string::npos) why.message += "; " + advice;
+  return why;
+}
+
+Result<client::Job> follow_job(Program& program, const std::string& job,
+                               const WaitOptions& options) {
+  JobDisplay display(job, options.descriptor);
+  auto finished = client::watch_job(
+      program.daemon(), job,
+      [&](const client::JobUpdate& update) {
+        options.json_lines ? print_update(update) : display.update(update);
+      },
+      [&](const Error& error) {
+        if (!options.json_lines) display.say("hydroprint: " + error.message + "; trying again");
+      });
+  if (finished && finished->state == client::JobState::kSucceeded && !options.json_lines)
+    display.say(summary(*finished));
+  return finished;
+}
+
 Result<client::Job> wait_for(Program& program, const std::string& job, const WaitOptions& options) {
-  auto finished = follow(program, job, options);
+  auto finished = follow_job(program, job, options);
   if (!finished && finished.error().code == Code::kCancelled)
     return tl::unexpected(interrupted(program, job, options));
   if (finished && finished->state != client::JobState::kSucceeded)
@@ -107,15 +116,15 @@ Result<client::Job> wait_for(Program& program, const std::string& job, const Wai
   return finished;
 }
 
-Result<std::vector<Downloaded>> download_all(Program& program, const std::string& job,
+Result<std::vector<Downloaded>> download_all(client::Connection& daemon, const std::string& job,
                                              const std::vector<std::string>& names,
                                              const std::filesystem::path& folder) {
-  HP_ASSIGN_OR_RETURN(const auto artifacts, choose(program, job, names));
+  HP_ASSIGN_OR_RETURN(const auto artifacts, choose(daemon, job, names));
   ProgressLine line(STDERR_FILENO);
   std::vector<Downloaded> files;
   for (const client::Artifact& artifact : artifacts) {
-    auto path = client::download(
-        program.daemon(), artifact, folder, [&](std::int64_t done, std::int64_t total) {
+    auto path =
+        client::download(daemon, artifact, folder, [&](std::int64_t done, std::int64_t total) {
           line.show(
               "downloading " + artifact.file_name(),
               static_cast<double>(done) / static_cast<double>(std::max<std::int64_t>(total, 1)),

@@ -26,6 +26,14 @@ void add_wait_flags(CLI::App& command, WaitOptions& options);
 [[nodiscard]] Result<client::Job> wait_for(Program& program, const std::string& job,
                                            const WaitOptions& options);
 
+/// Follows a job to its end and shows it. @return the job as it ended, however it did; kCancelled
+/// on Ctrl-C
+[[nodiscard]] Result<client::Job> follow_job(Program& program, const std::string& job,
+                                             const WaitOptions& options);
+
+/// Why a job that ended did not succeed; of a dip also what to do with film and object.
+[[nodiscard]] Error why(const client::Job& job);
+
 /// A file that was downloaded.
 struct Downloaded {
   std::filesystem::path path;
@@ -33,7 +41,8 @@ struct Downloaded {
 };
 
 /// Downloads the named artifacts of a job (none named: all of them) into `folder`.
-[[nodiscard]] Result<std::vector<Downloaded>> download_all(Program& program, const std::string& job,
+[[nodiscard]] Result<std::vector<Downloaded>> download_all(client::Connection& daemon,
+                                                           const std::string& job,
                                                            const std::vector<std::string>& names,
                                                            const std::filesystem::path& folder);
 

@@ -393,6 +393,10 @@ TEST_F(Cli, CompletionScriptsAreValidAndComplete) {
   EXPECT_EQ(complete("submit predict --ine", 3), "--inertia\n");
   EXPECT_EQ(complete("--owner me submit simulate --model st", 6), "stokes\n");
   EXPECT_EQ(complete("queue pa", 2), "pause\n");
+  EXPECT_EQ(complete("rig lease acq", 3), "acquire\n");
+  EXPECT_EQ(complete("rig move 10 --sp", 4), "--speed\n");
+  EXPECT_EQ(complete("dip --simu", 2), "--simulate-job\n");
+  EXPECT_EQ(complete("confirm 7 LAY", 3), "LAY_FILM\n");
   for (const char* shell : {"zsh", "fish"}) {
     const Outcome ended = client({"completion", shell});
     EXPECT_EQ(ended.status, 0);

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+
+namespace hydroprint::cli {
+
+/// Adds a flag that takes a time, "90", "90s", "1.5h", "10min" or "500ms", as seconds; at least 1
+/// ms.
+void add_duration(CLI::App& command, const char* flag, std::optional<double>& time_s,
+                  const char* help);
+
+}  // namespace hydroprint::cli

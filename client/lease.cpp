@@ -1,0 +1,63 @@
+#include "client/lease.h"
+
+#include <utility>
+
+#include "client/convert.h"
+#include "client/rpc.h"
+#include "client/uuid.h"
+
+namespace hydroprint::client {
+namespace {
+
+using Stub = v1::LeaseService::Stub;
+
+Result<Lease> to_lease(Result<v1::Lease> answer) {
+  return std::move(answer).map([](const v1::Lease& lease) { return from_proto(lease); });
+}
+
+// All of these may be sent twice: acquiring carries a request_id.
+template <class Request, class Response>
+Result<Response> ask(Connection& connection,
+                     grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                     const Request& request) {
+  return call(connection, *connection.impl().leases, method, request);
+}
+
+}  // namespace
+
+Result<Lease> get_lease(Connection& connection) {
+  return to_lease(ask(connection, &Stub::GetLease, v1::GetLeaseRequest()));
+}
+
+Result<Lease> acquire_lease(Connection& connection, const std::string& purpose,
+                            std::chrono::seconds ttl) {
+  v1::AcquireLeaseRequest request;
+  request.set_purpose(purpose);
+  request.mutable_ttl()->set_seconds(ttl.count());
+  request.set_request_id(make_uuid());
+  return to_lease(ask(connection, &Stub::AcquireLease, request));
+}
+
+Result<Lease> renew_lease(Connection& connection, const std::string& lease_id,
+                          std::chrono::seconds ttl) {
+  v1::RenewLeaseRequest request;
+  request.set_lease_id(lease_id);
+  request.mutable_ttl()->set_seconds(ttl.count());
+  return to_lease(ask(connection, &Stub::RenewLease, request));
+}
+
+Status release_lease(Connection& connection, const std::string& lease_id) {
+  v1::ReleaseLeaseRequest request;
+  request.set_lease_id(lease_id);
+  HP_RETURN_IF_ERROR(ask(connection, &Stub::ReleaseLease, request));
+  return {};
+}
+
+Status break_lease(Connection& connection, const std::string& reason) {
+  v1::BreakLeaseRequest request;
+  request.set_reason(reason);
+  HP_RETURN_IF_ERROR(ask(connection, &Stub::BreakLease, request));
+  return {};
+}
+
+}  // namespace hydroprint::client

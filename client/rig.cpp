@@ -1,0 +1,113 @@
+#include "client/rig.h"
+
+#include <array>
+#include <chrono>
+#include <utility>
+
+#include "client/convert.h"
+#include "client/rpc.h"
+#include "client/uuid.h"
+
+namespace hydroprint::client {
+namespace {
+
+using Stub = v1::RigService::Stub;
+
+// The next one follows in 100 ms, so one that hangs must not be obeyed late.
+constexpr std::chrono::milliseconds kJogAnswerLimit{250};
+
+Result<Rig> to_rig(Result<v1::Rig> answer) {
+  return std::move(answer).map([](const v1::Rig& rig) { return from_proto(rig); });
+}
+
+template <class Request>
+Request leased(const std::string& lease_id) {
+  Request request;
+  request.set_lease_id(lease_id);
+  return request;
+}
+
+template <class Request>
+Result<Rig> command(Connection& connection,
+                    grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, v1::Rig*),
+                    const Request& request, std::chrono::milliseconds limit = kAnswerLimit) {
+  return to_rig(call_once(connection, *connection.impl().rig, method, request, limit));
+}
+
+}  // namespace
+
+std::string_view name_of(RigState state) {
+  static constexpr std::array<std::string_view, 10> kNames{
+      "UNKNOWN", "OFFLINE", "DISARMED", "UNHOMED", "IDLE",
+      "MOVING",  "DIPPING", "STOPPING", "FAULT",   "ESTOPPED"};
+  return kNames.at(static_cast<std::size_t>(state));
+}
+
+std::string_view name_of(MotionOutcome outcome) {
+  static constexpr std::array<std::string_view, 5> kNames{"UNKNOWN", "RUNNING", "DONE", "STOPPED",
+                                                          "FAILED"};
+  return kNames.at(static_cast<std::size_t>(outcome));
+}
+
+Result<Rig> get_rig(Connection& connection) {
+  return to_rig(call(connection, *connection.impl().rig, &Stub::GetRig, v1::GetRigRequest()));
+}
+
+Status watch_rig(Connection& connection, double max_rate_hz,
+                 const std::function<bool(const Rig&)>& update) {
+  v1::WatchRigRequest request;
+  request.set_max_rate_hz(max_rate_hz);
+  Call one(connection);
+  auto stream = connection.impl().rig->WatchRig(one.context(), request);
+  v1::Rig rig;
+  while (stream->Read(&rig)) {
+    if (update(from_proto(rig))) continue;
+    one.context()->TryCancel();
+    while (stream->Read(&rig)) continue;
+    static_cast<void>(stream->Finish());
+    return {};
+  }
+  const grpc::Status status = stream->Finish();
+  if (!status.ok()) return tl::unexpected(to_error(connection, status));
+  return fail(Code::kUnavailable, "the daemon ended the stream");
+}
+
+Result<Rig> arm_rig(Connection& connection, const std::string& lease_id) {
+  return command(connection, &Stub::Arm, leased<v1::ArmRequest>(lease_id));
+}
+
+Result<Rig> disarm_rig(Connection& connection, const std::string& lease_id) {
+  return command(connection, &Stub::Disarm, leased<v1::DisarmRequest>(lease_id));
+}
+
+Result<Rig> home_rig(Connection& connection, const std::string& lease_id) {
+  auto request = leased<v1::HomeRequest>(lease_id);
+  request.set_request_id(make_uuid());
+  return command(connection, &Stub::Home, request);
+}
+
+Result<Rig> move_rig(Connection& connection, const std::string& lease_id, double position_mm,
+                     std::optional<double> speed_mm_per_s) {
+  auto request = leased<v1::MoveToRequest>(lease_id);
+  request.set_position_mm(position_mm);
+  if (speed_mm_per_s) request.set_speed_mm_per_s(*speed_mm_per_s);
+  request.set_request_id(make_uuid());
+  return command(connection, &Stub::MoveTo, request);
+}
+
+Result<Rig> jog_rig(Connection& connection, const std::string& lease_id, double speed_mm_per_s) {
+  auto request = leased<v1::JogRequest>(lease_id);
+  request.set_speed_mm_per_s(speed_mm_per_s);
+  return command(connection, &Stub::Jog, request, kJogAnswerLimit);
+}
+
+Result<Rig> reset_rig(Connection& connection, const std::string& lease_id) {
+  return command(connection, &Stub::ResetFault, leased<v1::ResetFaultRequest>(lease_id));
+}
+
+Result<Rig> stop_rig(Connection& connection) {
+  return to_rig(
+      call(connection, *connection.impl().rig, &Stub::StopMotion, v1::StopMotionRequest()));
+}
+
+}  // namespace hydroprint::client

@@ -1,0 +1,268 @@
+// `hydroprint rig` as users run it: against the real daemon and the virtual rig.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+
+#include <cmath>
+#include <thread>
+
+#include "tests/client/rig_programs.h"
+#include "tests/support/terminal.h"
+
+namespace hydroprint::tests {
+namespace {
+
+using namespace std::chrono_literals;
+using hydroprint::testing::Process;
+using hydroprint::testing::Terminal;
+using Clock = std::chrono::steady_clock;
+using nlohmann::json;
+
+constexpr double kSettled_mm = 0.1;  // the rig's arrival_mm
+
+class RigCli : public ::testing::Test {
+ protected:
+  /// One line on stderr, with these words in it.
+  void expect_error(const std::vector<std::string>& arguments, int status,
+                    const std::vector<std::string>& words,
+                    const std::string& user = "tester") const {
+    const auto ended = programs_.client(arguments, user);
+    EXPECT_EQ(ended.status, status) << ended.err;
+    for (const std::string& word : words)
+      EXPECT_NE(ended.err.find(word), std::string::npos) << word << " is not in: " << ended.err;
+    EXPECT_EQ(ended.err.find('\n'), ended.err.size() - 1) << ended.err;
+  }
+
+  std::filesystem::path lease_file() const {
+    for (const auto& file : std::filesystem::directory_iterator(programs_.runtime() / "hydroprint"))
+      return file.path();
+    return {};
+  }
+
+  /// Time until the axis rests, from now on.
+  double seconds_to_rest() {
+    const auto begin = Clock::now();
+    EXPECT_TRUE(programs_.rests());
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+  }
+
+  RigPrograms programs_;
+};
+
+TEST_F(RigCli, TheLeaseIsKeptWhereOnlyItsOwnerReadsIt) {
+  const json lease = programs_.client_json({"rig", "lease", "acquire", "--purpose", "a mug"});
+  EXPECT_EQ(lease.at("holder"), "tester");
+  EXPECT_EQ(lease.at("purpose"), "a mug");
+  struct stat status {};
+  ASSERT_EQ(::stat(lease_file().c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0600U);
+  ASSERT_EQ(::stat(lease_file().parent_path().c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777, 0700U);
+  EXPECT_EQ(programs_.client({"rig", "arm"}).status, 0) << "the next command finds it";
+  EXPECT_EQ(programs_.client({"rig", "lease", "release"}).status, 0);
+  EXPECT_TRUE(lease_file().empty());
+  expect_error({"rig", "arm"}, 3, {"hydroprint rig lease acquire --purpose"});
+}
+
+TEST_F(RigCli, WhoIsRefusedReadsWhoHasTheLeaseAndWhatFor) {
+  programs_.client({"rig", "lease", "acquire", "--purpose", "a mug"}, "alice");
+  const json lease = programs_.client_json({"rig", "lease", "show"});
+  EXPECT_FALSE(lease.contains("lease_id")) << "it is a secret";
+  const std::vector<std::string> words{"alice", "a mug", "until 20", "lease break --reason"};
+  expect_error({"rig", "lease", "acquire", "--purpose", "mine"}, 4, words);
+  expect_error({"rig", "arm"}, 3, words);
+  expect_error({"rig", "arm", "--with-lease", "mine"}, 4, words);
+  expect_error({"rig", "jog", "--speed", "1", "--for", "1s"}, 3, words);
+  EXPECT_EQ(programs_.client({"rig", "lease", "break", "--reason", "lunch"}).status, 0);
+  EXPECT_EQ(programs_.client({"rig", "arm", "--with-lease", "mine"}).status, 0);
+  expect_error({"rig", "arm"}, 3, {"not yours"}, "alice");
+}
+
+TEST_F(RigCli, ALeaseIsRenewedAndNoLongerThanAskedFor) {
+  programs_.client({"rig", "lease", "acquire", "--purpose", "x", "--for", "1.5h"});
+  const auto left = [&] { return programs_.client_json({"rig", "lease", "show"}); };
+  const std::string long_one = left().at("expire_time");
+  programs_.client({"rig", "lease", "renew", "--for", "30min"});
+  EXPECT_LT(left().at("expire_time").get<std::string>(), long_one);
+  expect_error({"rig", "lease", "renew", "--for", "9h"}, 3, {"ttl"});
+  expect_error({"rig", "lease", "renew", "--for", "soon"}, 2, {"--for"});
+}
+
+TEST_F(RigCli, ArmsHomesAndGoesThere) {
+  const auto one = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), {"--with-lease", "a test"});
+    return programs_.client_json(std::move(arguments));
+  };
+  EXPECT_EQ(one({"rig", "arm"}).at("state"), "UNHOMED");
+  EXPECT_EQ(one({"rig", "home"}).at("state"), "IDLE");
+  const json rig = one({"rig", "move", "12.5", "--speed", "10"});
+  EXPECT_EQ(rig.at("motion").at("outcome"), "DONE");
+  EXPECT_NEAR(rig.at("position_mm"), 12.5, kSettled_mm);
+  EXPECT_NEAR(programs_.rig.position_mm(), 12.5, kSettled_mm);
+  EXPECT_EQ(one({"rig", "disarm"}).at("state"), "DISARMED");
+  EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease")) << "each gave it back";
+}
+
+TEST_F(RigCli, WhatTheRigRefusesIsSaidInOneLine) {
+  programs_.client({"rig", "lease", "acquire", "--purpose", "a test"});
+  expect_error({"rig", "home"}, 3, {"arm it"});
+  programs_.client({"rig", "arm"});
+  expect_error({"rig", "move", "20"}, 3, {"home it first"});
+  programs_.client({"rig", "home"});
+  expect_error({"rig", "move", "2000"}, 3, {"2000"});
+  expect_error({"rig", "move", "20", "--speed", "99"}, 3, {"99"});
+  expect_error({"rig", "move"}, 2, {"position"});
+  expect_error({"rig", "jog"}, 3, {"--speed"});
+  EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
+}
+
+TEST_F(RigCli, CtrlCInAMoveStopsTheAxis) {
+  programs_.make_ready(10);
+  Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
+  ASSERT_TRUE(programs_.moves());
+  std::this_thread::sleep_for(500ms);
+  move.signal(SIGINT);
+  const auto ended = move.wait();
+  EXPECT_EQ(ended.status, 130);
+  EXPECT_NE(ended.err.find("the axis was stopped at"), std::string::npos) << ended.err;
+  EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
+  EXPECT_EQ(programs_.state(), "IDLE");
+}
+
+TEST_F(RigCli, StopNeedsNoLeaseAndAMoveThatItEndsDoesNotEndWith0) {
+  programs_.make_ready(10);
+  Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
+  ASSERT_TRUE(programs_.moves());
+  EXPECT_EQ(programs_.client({"rig", "stop"}, "passer-by").status, 0);
+  EXPECT_LT(seconds_to_rest(), 0.5);
+  const auto ended = move.wait();
+  EXPECT_EQ(ended.status, 4);
+  EXPECT_NE(ended.err.find("stopped"), std::string::npos) << ended.err;
+}
+
+TEST_F(RigCli, AMoveThatFailsSaysWhy) {
+  programs_.make_ready(10);
+  Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
+  ASSERT_TRUE(programs_.moves());
+  programs_.rig.act("press stop");
+  const auto ended = move.wait();
+  EXPECT_EQ(ended.status, 4);
+  EXPECT_NE(ended.err.find("stop button"), std::string::npos) << ended.err;
+}
+
+TEST_F(RigCli, NoWaitReturnsWhileTheAxisMoves) {
+  programs_.make_ready(10);
+  const json rig = programs_.client_json({"rig", "move", "100", "--no-wait"});
+  EXPECT_EQ(rig.at("motion").at("outcome"), "RUNNING");
+  EXPECT_TRUE(programs_.moves());
+  programs_.client({"rig", "stop"});
+}
+
+TEST_F(RigCli, WatchTellsEveryChange) {
+  Process watch(programs_.command({"rig", "watch", "--json"}));
+  std::this_thread::sleep_for(500ms);
+  programs_.make_ready(10);
+  std::this_thread::sleep_for(300ms);
+  watch.signal(SIGINT);
+  const auto ended = watch.wait();
+  EXPECT_EQ(ended.status, 130);
+  for (const char* state : {"DISARMED", "UNHOMED", "MOVING", "IDLE"})
+    EXPECT_NE(ended.out.find(std::string("\"state\":\"") + state), std::string::npos) << state;
+}
+
+TEST_F(RigCli, AJogForATimeGoesThatFar) {
+  programs_.make_ready(10);
+  const double begin_mm = programs_.rig.position_mm();
+  EXPECT_EQ(programs_.client({"rig", "jog", "--speed", "5", "--for", "1s"}).status, 0);
+  EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
+  // What it goes on after the last sign: an exchange with the drive, and its ramp.
+  EXPECT_NEAR(programs_.rig.position_mm() - begin_mm, 5, 1);
+}
+
+TEST_F(RigCli, AKilledJogIsAtRestWithinHalfASecond) {
+  programs_.make_ready(10);
+  for (int i = 0; i < 3; ++i) {
+    Process jog(programs_.command({"rig", "jog", "--speed", "5", "--for", "30s"}));
+    ASSERT_TRUE(programs_.moves());
+    std::this_thread::sleep_for(330ms + i * 37ms);
+    jog.signal(SIGKILL);
+    EXPECT_LT(seconds_to_rest(), 0.5);
+  }
+}
+
+TEST_F(RigCli, AJogEndsWithTheLease) {
+  programs_.make_ready(10);
+  Process jog(programs_.command({"rig", "jog", "--speed", "5", "--for", "30s"}));
+  ASSERT_TRUE(programs_.moves());
+  programs_.client({"rig", "lease", "break", "--reason", "a test"}, "alice");
+  EXPECT_LT(seconds_to_rest(), 0.5);
+  EXPECT_EQ(jog.wait().status, 3);
+}
+
+TEST_F(RigCli, AKeyThatIsHeldMovesTheAxisAndOneThatIsLetGoStopsIt) {
+  programs_.make_ready(10);
+  Terminal jog(programs_.command({"rig", "jog", "--speed", "5"}));
+  ASSERT_TRUE(jog.shows("IDLE")) << jog.screen();
+  EXPECT_FALSE(jog.is_cooked());
+  const double begin_mm = programs_.rig.position_mm();
+  jog.hold("j", 1000ms);
+  EXPECT_GT(programs_.rig.speed_mm_per_s(), 0);
+  EXPECT_GT(programs_.rig.position_mm(), begin_mm + 3);
+  EXPECT_LT(seconds_to_rest(), 0.5);
+  const double low_mm = programs_.rig.position_mm();
+  jog.hold("\x1b[A", 600ms);
+  jog.type(" ");
+  EXPECT_LT(seconds_to_rest(), 0.3);
+  EXPECT_LT(programs_.rig.position_mm(), low_mm - 1);
+  jog.type("q");
+  EXPECT_EQ(jog.wait(), 0) << jog.screen();
+  EXPECT_TRUE(jog.is_cooked());
+}
+
+TEST_F(RigCli, ATapIsAShortStep) {
+  programs_.make_ready(10);
+  Terminal jog(programs_.command({"rig", "jog", "--speed", "5"}));
+  ASSERT_TRUE(jog.shows("IDLE")) << jog.screen();
+  const double begin_mm = programs_.rig.position_mm();
+  jog.type("j");
+  ASSERT_TRUE(programs_.moves());
+  ASSERT_TRUE(programs_.rests());
+  EXPECT_GT(programs_.rig.position_mm(), begin_mm + 0.2);
+  EXPECT_LT(programs_.rig.position_mm(), begin_mm + 2.5);
+}
+
+TEST_F(RigCli, TheTerminalIsPutBackHoweverAJogEnds) {
+  programs_.make_ready(10);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    Terminal jog(programs_.command({"rig", "jog", "--speed", "5"}));
+    ASSERT_TRUE(jog.shows("IDLE")) << jog.screen();
+    jog.hold("j", 300ms);
+    ::kill(jog.pid(), signal);
+    EXPECT_EQ(jog.wait(), signal == SIGHUP ? 128 + SIGHUP : 130);
+    EXPECT_TRUE(jog.is_cooked()) << signal;
+    EXPECT_LT(seconds_to_rest(), 0.5);
+  }
+}
+
+TEST_F(RigCli, CtrlCOnATerminalStopsAHoming) {
+  programs_.make_ready(100);
+  Terminal home(programs_.command({"rig", "home"}));
+  ASSERT_TRUE(home.shows("MOVING")) << home.screen();
+  home.type("\x03");
+  EXPECT_EQ(home.wait(), 130);
+  EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
+}
+
+TEST_F(RigCli, ThePythonExampleTellsTheStateAndStops) {
+  programs_.make_ready(10);
+  programs_.client({"rig", "move", "200", "--no-wait"});
+  const auto ended = hydroprint::testing::run(
+      {"/usr/bin/env", "PYTHONPATH=" PYTHON_STUBS, "PYTHONDONTWRITEBYTECODE=1", "/usr/bin/python3",
+       PYTHON_RIG_EXAMPLE, "--stop", "--server", programs_.daemon.address()});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find("lease: tester (a test)"), std::string::npos) << ended.out;
+  EXPECT_TRUE(programs_.rests());
+}
+
+}  // namespace
+}  // namespace hydroprint::tests

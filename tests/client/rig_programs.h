@@ -1,0 +1,48 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/daemon/rig_support.h"
+
+namespace hydroprint::tests {
+
+/// A virtual rig, a daemon that knows it, and the client.
+class RigPrograms {
+ public:
+  /// Waits until the daemon has found the rig.
+  RigPrograms();
+
+  /// Arguments that run `hydroprint` as a user of this name, with a folder of its own for the
+  /// lease.
+  [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& arguments,
+                                                 const std::string& user = "tester") const;
+  /// Runs it to its end.
+  hydroprint::testing::Ended client(const std::vector<std::string>& arguments,
+                                    const std::string& user = "tester") const;
+  /// What --json printed; fails the test unless the exit status is 0 and it is one JSON value.
+  [[nodiscard]] nlohmann::json client_json(std::vector<std::string> arguments,
+                                           const std::string& user = "tester") const;
+  /// Acquires the lease, arms, homes and goes there.
+  void make_ready(double position_mm) const;
+  [[nodiscard]] std::string state() const { return client_json({"rig", "status"}).at("state"); }
+  /// Where that user's lease is kept.
+  [[nodiscard]] std::filesystem::path runtime(const std::string& user = "tester") const;
+  /// Waits until the axis moves, or rests.
+  [[nodiscard]] bool moves() {
+    return wait_until([&] { return rig.speed_mm_per_s() > 0; });
+  }
+  [[nodiscard]] bool rests() {
+    return wait_until([&] { return rig.speed_mm_per_s() == 0; });
+  }
+
+  TemporaryFolder folder;
+  VirtualRigProcess rig;
+  DaemonProcess daemon;
+};
+
+}  // namespace hydroprint::tests
