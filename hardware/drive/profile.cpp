@@ -17,6 +17,7 @@ constexpr std::array<std::string_view, kCommands> kCommandNames = {
     "enable", "disable", "home", "move", "jog_positive", "jog_negative", "stop", "reset_fault"};
 constexpr std::array<std::string_view, 5> kQuantityNames = {"position", "speed", "-speed",
                                                             "acceleration", "deceleration"};
+constexpr double kLeastPerUnit = 1e-9;
 constexpr double kMostPerUnit = 1e9;
 
 Space read_space(TomlReader& table) {
@@ -36,7 +37,9 @@ Format read_format(TomlReader& table, std::string_view per_unit) {
   format.low_word_first = table.flag("low_word_first", false);
   format.inverse = table.flag("inverse", false);
   format.per_unit = table.number(per_unit, -kMostPerUnit, kMostPerUnit);
-  if (format.per_unit == 0) table.refuse(per_unit, "is 0. Give the counts of one unit");
+  if (std::abs(format.per_unit) < kLeastPerUnit) {
+    table.refuse(per_unit, "is 0, or next to it. Give the counts of one unit");
+  }
   return format;
 }
 

@@ -10,6 +10,10 @@ namespace hydroprint::rig {
 
 /// A value that one thread writes without ever waiting and any thread reads whole: a reader that
 /// met the writer half way reads again.
+///
+/// Every access is atomic, and ordered by release and acquire alone, no fence: a reader that gets a
+/// word of a later value acquires with it the odd turn that was stored before it, so its second
+/// look at the turn differs from the first, which had acquired all words of its own value.
 template <class T>
 class Seqlock {
   static_assert(std::is_trivially_copyable_v<T>);

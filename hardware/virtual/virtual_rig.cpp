@@ -88,7 +88,9 @@ void VirtualRig::unplug() {
 // A drive that boots keeps its serial line, whose adapter has power, and loses its connections.
 void VirtualRig::boot() {
   body_.power_on();
-  if (const Status plugged = plug(); !plugged) boots_at_ = Clock::now() + kTick;
+  if (plug()) return;
+  const std::scoped_lock lock(plugs_);
+  boots_at_ = Clock::now() + kTick;
 }
 
 Result<std::string> VirtualRig::perform(const Action& action) {

@@ -107,6 +107,7 @@ TEST_F(FullDisk, UploadThatFillsItIsRefusedAndLeavesNothing) {
 }
 
 TEST_F(FullDisk, RealJobWhoseArtifactsDoNotFitFailsAndLeavesNothing) {
+  if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
   DaemonProcess::Options real = DaemonProcess::fake();
   real.worker.clear();
   start(real);

@@ -67,6 +67,10 @@ int wait_for_exit(pid_t pid) {
 
 bool proc_is_mounted() { return std::filesystem::exists("/proc/self/task"); }
 
+bool real_worker_is_built() {
+  return std::filesystem::exists(std::string(HYDROPRINT_BIN_DIR) + "/hydroprint-worker");
+}
+
 Ended run_daemon(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "out", err = folder.path() / "err";

@@ -26,6 +26,11 @@ using hydroprint::testing::TemporaryFolder;
 /// Why a test is skipped without.
 constexpr const char* kNeedsProc = "/proc is not mounted: the daemon's workers cannot be seen";
 
+/// Whether hydroprint-worker was built, which not every build has.
+[[nodiscard]] bool real_worker_is_built();
+/// Why a test is skipped without.
+constexpr const char* kNeedsRealWorker = "hydroprint-worker is not built";
+
 /// How a program ended and what it said.
 struct Ended {
   int status = -1;    ///< exit status; -signal if killed

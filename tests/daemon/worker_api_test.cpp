@@ -209,9 +209,7 @@ std::string ball_obj() {
 class RealWorker : public Workers {
  protected:
   void SetUp() override {
-    if (!std::filesystem::exists(std::string(HYDROPRINT_BIN_DIR) + "/hydroprint-worker")) {
-      GTEST_SKIP() << "hydroprint-worker is not built";
-    }
+    if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
     start({});
   }
 };
