@@ -18,16 +18,15 @@ using nlohmann::json;
 using Arguments = std::vector<std::string>;
 
 // Small and fast, with clocks that are seen to run.
-const Arguments kSmall{"--depth-mm", "5",   "--speed",        "5", "--hold-s",           "0",
-                       "--soak-s",   "1.5", "--clearance-mm", "5", "--activator-wait-s", "1.5",
-                       "--out"};
+const Arguments kSmall{"--speed",        "5", "--hold-s",           "0",   "--soak-s", "1.5",
+                       "--clearance-mm", "5", "--activator-wait-s", "1.5", "--out"};
 
 class DipCli : public ::testing::Test {
  protected:
   DipCli() { programs_.make_ready(30); }
 
-  Arguments dip(const Arguments& flags) const {
-    Arguments arguments{"dip"};
+  Arguments dip(const Arguments& flags, const std::string& depth_mm = "5") const {
+    Arguments arguments{"dip", "--depth-mm", depth_mm};
     arguments.insert(arguments.end(), kSmall.begin(), kSmall.end());
     arguments.push_back(out().string());
     arguments.insert(arguments.end(), flags.begin(), flags.end());
@@ -106,7 +105,7 @@ TEST_F(DipCli, CtrlCAbortsItAndSaysWhatToDo) {
 }
 
 TEST_F(DipCli, CtrlCInTheDescentStopsTheAxis) {
-  Terminal dip_at(programs_.command(dip({"--yes-to-all", "--depth-mm", "100"})));
+  Terminal dip_at(programs_.command(dip({"--yes-to-all"}, "100")));
   ASSERT_TRUE(dip_at.shows("DESCEND:")) << dip_at.screen();
   ASSERT_TRUE(programs_.moves());
   dip_at.type("\x03");

@@ -196,7 +196,9 @@ TEST_F(RigCli, AJogEndsWithTheLease) {
   ASSERT_TRUE(programs_.moves());
   programs_.client({"rig", "lease", "break", "--reason", "a test"}, "alice");
   EXPECT_LT(seconds_to_rest(), 0.5);
-  EXPECT_EQ(jog.wait().status, 3);
+  // LEASE_REQUIRED, or MOTION_IN_PROGRESS for a call that was on its way when the stop came.
+  const int status = jog.wait().status;
+  EXPECT_TRUE(status == 3 || status == 4) << status;
 }
 
 TEST_F(RigCli, AKeyThatIsHeldMovesTheAxisAndOneThatIsLetGoStopsIt) {
