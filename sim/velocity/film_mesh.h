@@ -40,7 +40,7 @@ struct MeshOptions {
   double least_mm = 0.1;       ///< waterline features smaller than this are smoothed over
 };
 
-inline constexpr const char* kMeshUnbounded = "MESH_UNBOUNDED";
+inline constexpr const char* kMeshUnbounded = "MESH_UNBOUNDED";  ///< reason of a refusal
 
 /// Meshes the film between its edge and the waterline: constrained Delaunay triangulation refined
 /// to angles of 30 degrees (where the boundary permits) and to the sizing field.

@@ -40,6 +40,30 @@ TEST(Schedule, DividesASphereEvenlyInTheta) {
   EXPECT_GT(tested, 20);
 }
 
+TEST(Schedule, IsCloserWhereTheSurfaceBendsSharply) {
+  // A drum whose rim is rounded: from flat to upright within a quarter circle.
+  const double bend = 6, radius = 40;
+  std::vector<Eigen::Vector2d> profile{{0, 0}};
+  for (int i = 0; i <= 18; ++i) {
+    const double theta = i * std::numbers::pi / 36;
+    profile.emplace_back(radius - bend + bend * std::sin(theta), bend * (1 - std::cos(theta)));
+  }
+  profile.emplace_back(radius, 80);
+  profile.emplace_back(0, 80);
+  const Body body = testing::body_of(testing::turned(profile, 96));
+  const ScheduleOptions options;
+  const auto depths = schedule(body, body.height_mm, options);
+  int tested = 0;
+  for (std::size_t i = 1; i < depths.size(); ++i) {
+    const double before = std::acos(std::clamp(1 - depths[i - 1] / bend, -1.0, 1.0));
+    const double after = std::acos(std::clamp(1 - depths[i] / bend, -1.0, 1.0));
+    if (before < 60 * std::numbers::pi / 180 || depths[i] > bend) continue;
+    EXPECT_LT((after - before) * bend, 0.6 * options.swept_mm) << depths[i];
+    ++tested;
+  }
+  EXPECT_GE(tested, 1);
+}
+
 TEST(Schedule, StartsJustAfterContactAndEndsJustBeforeTheTop) {
   const Body body = testing::body_of(sample::icosphere(40, 4));
   const ScheduleOptions options;
