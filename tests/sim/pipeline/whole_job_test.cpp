@@ -135,13 +135,13 @@ INSTANTIATE_TEST_SUITE_P(Samples, WholeJobOf,
                                            Body{"mug", {}, 1, 0, 0.4}));
 INSTANTIATE_TEST_SUITE_P(
     Models, WholeJobOf,
-    ::testing::Values(Body{"spot", kModels / "spot/spot_triangulated.obj", 50, kUpright, 0.97},
-                      Body{"spot_quads", kModels / "spot/spot_quadrangulated.obj", 50, 0, 0.97},
-                      Body{"bunny", kModels / "bunny/bunny_with_uv.obj", 500, kUpright, 0.8},
-                      Body{"head", kModels / "head/LeePerrySmith_converted.obj", 12, kUpright, 0.6},
-                      Body{"mug_scan", kModels / "mug/mug.obj", 10, kUpright, 0.4},
+    ::testing::Values(Body{"spot", kModels / "spot/spot_triangulated.obj", 30, kUpright, 0.97},
+                      Body{"spot_quads", kModels / "spot/spot_quadrangulated.obj", 25, 0, 0.97},
+                      Body{"bunny", kModels / "bunny/bunny_with_uv.obj", 300, kUpright, 0.8},
+                      Body{"head", kModels / "head/LeePerrySmith_converted.obj", 7, kUpright, 0.6},
+                      Body{"mug_scan", kModels / "mug/mug.obj", 6, kUpright, 0.4},
                       // Three open shells that meet in rings, where film lands on either.
-                      Body{"bottle", kModels / "bottle/WaterBottle.gltf", 400, kUpright, 0.6,
+                      Body{"bottle", kModels / "bottle/WaterBottle.gltf", 250, kUpright, 0.6,
                            0.94}));
 
 TEST(WholeJob, OfAModelWithoutColourIsAWhiteFilm) {
@@ -149,10 +149,10 @@ TEST(WholeJob, OfAModelWithoutColourIsAWhiteFilm) {
   if (!fs::exists(cat)) GTEST_SKIP() << cat << " is not here";
   SimulateOptions options;
   options.mesh = cat;
-  options.scale = 20;
+  options.scale = 10;
   options.dpi = 50;
   options.dip.outline = film::parse_outline("A4").value();
-  options.dip.depth_mm = 10;
+  options.dip.depth_mm = 5;
   const auto simulation = simulate(options, {});
   ASSERT_TRUE(simulation) << simulation.error().message;
   for (const std::uint8_t value : simulation->images->film.rgb) ASSERT_EQ(value, 255);
