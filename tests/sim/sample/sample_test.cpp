@@ -1,11 +1,11 @@
 #include "sim/sample/sample.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <tuple>
@@ -13,30 +13,35 @@
 #include "sim/mesh/make_surface.h"
 #include "sim/mesh/read_model.h"
 #include "sim/mesh/uv_warnings.h"
+#include "tests/support/temporary_folder.h"
 
 namespace hydroprint::sample {
 namespace {
 
-class EverySample : public testing::TestWithParam<std::string> {
- protected:
-  void SetUp() override {
-    std::string name = (std::filesystem::temp_directory_path() / "hydroprint-test-XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  void TearDown() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
+/// What write_sample leaves.
+struct Written {
+  hydroprint::testing::TemporaryFolder folder;
+  mesh::Model model;  ///< as read again
+};
 
-  [[nodiscard]] mesh::Model make() const {
-    const auto written = write_sample(GetParam(), folder_);
-    EXPECT_TRUE(written) << written.error().message;
-    auto model = mesh::read_model(folder_ / (GetParam() + ".obj"), 1, {});
+/// Each kind is written and read once for all tests of this program.
+const Written& written(const std::string& kind) {
+  static std::map<std::string, Written> all;
+  const auto [place, is_new] = all.try_emplace(kind);
+  if (is_new) {
+    const auto status = write_sample(kind, place->second.folder.path());
+    EXPECT_TRUE(status) << status.error().message;
+    auto model = mesh::read_model(place->second.folder.path() / (kind + ".obj"), 1, {});
     EXPECT_TRUE(model) << model.error().message;
-    return model ? *model : mesh::Model();
+    if (model) place->second.model = *std::move(model);
   }
+  return place->second;
+}
 
-  std::filesystem::path folder_;
+class EverySample : public ::testing::TestWithParam<std::string> {
+ protected:
+  const mesh::Model& model = written(GetParam()).model;
+  const std::filesystem::path folder = written(GetParam()).folder.path();
 };
 
 std::string content(const std::filesystem::path& path) {
@@ -45,7 +50,6 @@ std::string content(const std::filesystem::path& path) {
 }
 
 TEST_P(EverySample, IsAClosedManifoldThatLooksOutward) {
-  const mesh::Model model = make();
   EXPECT_TRUE(model.warnings.empty());
   const auto surface = mesh::make_surface(model, mesh::kMaxEdgeMm, {});
   ASSERT_TRUE(surface);
@@ -54,7 +58,6 @@ TEST_P(EverySample, IsAClosedManifoldThatLooksOutward) {
 }
 
 TEST_P(EverySample, HasTextureCoordinatesInTheUnitSquareThatAreNotMirrored) {
-  const mesh::Model model = make();
   ASSERT_EQ(model.corner_uvs.size(), model.triangles.size());
   for (const auto& uvs : model.corner_uvs) {
     for (const auto& uv : uvs) {
@@ -69,26 +72,24 @@ TEST_P(EverySample, HasTextureCoordinatesInTheUnitSquareThatAreNotMirrored) {
 }
 
 TEST_P(EverySample, NamesItsOwnTexture) {
-  const mesh::Model model = make();
   ASSERT_EQ(model.materials.size(), 1U);
-  EXPECT_EQ(model.materials[0].texture, folder_ / (GetParam() + ".png"));
+  EXPECT_EQ(model.materials[0].texture, folder / (GetParam() + ".png"));
   EXPECT_GT(std::filesystem::file_size(model.materials[0].texture), 10000U);
 }
 
 TEST_P(EverySample, FitsOnA4AndStandsOnItsFeet) {
   Eigen::AlignedBox3d box;
-  for (const auto& v : make().vertices) box.extend(v);
+  for (const auto& v : model.vertices) box.extend(v);
   EXPECT_LT(box.sizes().x(), 190);
   EXPECT_LT(box.sizes().y(), 190);
   EXPECT_GT(box.sizes().maxCoeff(), 50);
 }
 
 TEST_P(EverySample, IsTheSameBytesEveryTime) {
-  (void)make();
-  const auto again = folder_ / "again" / "deeper";
+  const auto again = folder / "again" / "deeper";
   ASSERT_TRUE(write_sample(GetParam(), again));
   for (const std::string ending : {".obj", ".mtl", ".png"})
-    EXPECT_EQ(content(folder_ / (GetParam() + ending)), content(again / (GetParam() + ending)));
+    EXPECT_EQ(content(folder / (GetParam() + ending)), content(again / (GetParam() + ending)));
 }
 
 std::vector<std::string> names() {
@@ -97,31 +98,23 @@ std::vector<std::string> names() {
   return result;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EverySample, testing::ValuesIn(names()),
+INSTANTIATE_TEST_SUITE_P(All, EverySample, ::testing::ValuesIn(names()),
                          [](const auto& test) { return test.param; });
 
 TEST(Sample, SizesAreThePapersOwn) {
   EXPECT_EQ(names(),
             (std::vector<std::string>{"globe", "sphere80", "board", "ubend", "mug", "bowl"}));
-  const auto folder = std::filesystem::temp_directory_path() / "hydroprint-test-sizes";
-  const auto read = [&](const std::string& name) {
-    EXPECT_TRUE(write_sample(name, folder));
-    return *mesh::read_model(folder / (name + ".obj"), 1, {});
-  };
-  const auto globe = read("globe");
+  const mesh::Model& globe = written("globe").model;
   EXPECT_GE(globe.triangles.size(), 80000U);
   for (const auto& v : globe.vertices) EXPECT_NEAR(v.norm(), 60, 1e-5);
-  for (const auto& v : read("sphere80").vertices) EXPECT_NEAR(v.norm(), 80, 1e-5);
+  for (const auto& v : written("sphere80").model.vertices) EXPECT_NEAR(v.norm(), 80, 1e-5);
   Eigen::AlignedBox3d box;
-  for (const auto& v : read("board").vertices) box.extend(v);
+  for (const auto& v : written("board").model.vertices) box.extend(v);
   EXPECT_LT((box.sizes() - Eigen::Vector3d(120, 120, 10)).norm(), 1e-5);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Sample, TheGlobesMapRunsEastFromTheAntimeridian) {
-  const auto folder = std::filesystem::temp_directory_path() / "hydroprint-test-map";
-  ASSERT_TRUE(write_sample("globe", folder));
-  const auto globe = *mesh::read_model(folder / "globe.obj", 1, {});
+  const mesh::Model& globe = written("globe").model;
   for (std::size_t t = 0; t < globe.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
       const auto& p = globe.vertices[globe.triangles[t][k]];
@@ -131,7 +124,6 @@ TEST(Sample, TheGlobesMapRunsEastFromTheAntimeridian) {
       EXPECT_NEAR(p.x(), across * std::cos(2 * M_PI * (uv.x() - 0.5)), 1e-4);
       EXPECT_NEAR(p.y(), across * std::sin(2 * M_PI * (uv.x() - 0.5)), 1e-4);
     }
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Sample, TheBoardsLinesCrossAtVertices) {
@@ -148,10 +140,8 @@ TEST(Sample, TheBoardsLinesCrossAtVertices) {
 }
 
 TEST(Sample, IsTheSameInMemoryAsInItsFiles) {
-  const auto folder = std::filesystem::temp_directory_path() / "hydroprint-test-memory";
   for (const std::string kind : {"board", "bowl"}) {
-    ASSERT_TRUE(write_sample(kind, folder));
-    const auto read = *mesh::read_model(folder / (kind + ".obj"), 1, {});
+    const mesh::Model& read = written(kind).model;
     const auto made = make_model(kind);
     ASSERT_TRUE(made);
     ASSERT_EQ(made->vertices.size(), read.vertices.size()) << kind;
@@ -165,20 +155,19 @@ TEST(Sample, IsTheSameInMemoryAsInItsFiles) {
         ASSERT_LT((made->corner_uvs[t][k] - read.corner_uvs[t][k]).norm(), 1e-6F) << kind;
       }
     }
-    const std::string png = content(folder / (kind + ".png"));
+    const std::string png = content(written(kind).folder.path() / (kind + ".png"));
     EXPECT_EQ(std::string(made->materials[0].texture_bytes.begin(),
                           made->materials[0].texture_bytes.end()),
               png);
   }
-  std::filesystem::remove_all(folder);
   EXPECT_FALSE(make_model("teapot"));
 }
 
 TEST(Sample, UnknownKindsAreRefusedWithTheKnownOnes) {
-  const auto written = write_sample("teapot", "/tmp");
-  ASSERT_FALSE(written);
-  EXPECT_EQ(written.error().code, Code::kInvalidArgument);
-  EXPECT_NE(written.error().message.find("globe, sphere80, board, ubend, mug, bowl"),
+  const auto refused = write_sample("teapot", "/tmp");
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::kInvalidArgument);
+  EXPECT_NE(refused.error().message.find("globe, sphere80, board, ubend, mug, bowl"),
             std::string::npos);
 }
 
