@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Body{"head", kModels / "head/LeePerrySmith_converted.obj", 7, kUpright, 0.6},
                       Body{"mug_scan", kModels / "mug/mug.obj", 6, kUpright, 0.4},
                       // Three open shells that meet in rings, where film lands on either.
-                      Body{"bottle", kModels / "bottle/WaterBottle.gltf", 250, kUpright, 0.6,
+                      Body{"bottle", kModels / "bottle/WaterBottle.gltf", 400, kUpright, 0.6,
                            0.94}));
 
 TEST(WholeJob, OfAModelWithoutColourIsAWhiteFilm) {
