@@ -2,13 +2,13 @@
 
 #include <google/protobuf/any.pb.h>
 
-#include <algorithm>
 #include <array>
 #include <condition_variable>
 #include <mutex>
 
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "sim/base/one_line.h"
 
 namespace hydroprint::client {
 namespace {
@@ -59,12 +59,6 @@ void take_error_info(const grpc::Status& status, Error& error) {
     error.reason = info.reason();
     error.metadata = {info.metadata().begin(), info.metadata().end()};
   }
-}
-
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  return text;
 }
 
 }  // namespace

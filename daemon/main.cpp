@@ -14,6 +14,7 @@
 #include "daemon/log.h"
 #include "daemon/own_program.h"
 #include "daemon/rig_setup.h"
+#include "sim/base/one_line.h"
 
 namespace {
 
@@ -31,8 +32,8 @@ struct Options {
   std::string rig_profile;
 };
 
-int refuse(const Error& error, ExitStatus status) {
-  std::cerr << "hydroprintd: " << error.message << '\n';
+int refuse(const std::string& message, ExitStatus status) {
+  std::cerr << "hydroprintd: " << one_line(message) << '\n';
   return static_cast<int>(status);
 }
 
@@ -101,10 +102,10 @@ int run(const Config& config) {
   umask(077);
   if (const Status started = start_logging(log_level(config.log_level), config.log_file);
       !started) {
-    return refuse(started.error(), ExitStatus::kBadInput);
+    return refuse(started.error().message, ExitStatus::kBadInput);
   }
   const auto daemon = Daemon::start(config);
-  if (!daemon) return refuse(daemon.error(), ExitStatus::kFailed);
+  if (!daemon) return refuse(daemon.error().message, ExitStatus::kFailed);
   const std::string address = (*daemon)->endpoint().text();
   log(LogLevel::kInfo, "ready",
       {{"grpc", address}, {"state_dir", (*daemon)->layout().root.string()}});
@@ -141,7 +142,7 @@ int obey(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitStatus::kUsage);
   }
   const auto config = configure(options, argv[0]);
-  if (!config) return refuse(config.error(), ExitStatus::kBadInput);
+  if (!config) return refuse(config.error().message, ExitStatus::kBadInput);
   if (!options.check_config) return run(*config);
   std::cout << "the configuration is good\n";
   return 0;
@@ -153,7 +154,6 @@ int main(int argc, char** argv) {
   try {
     return obey(argc, argv);
   } catch (const std::exception& error) {
-    std::cerr << "hydroprintd: " << error.what() << std::endl;
-    return static_cast<int>(ExitStatus::kFailed);
+    return refuse(error.what(), ExitStatus::kFailed);
   }
 }

@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <ctime>
 
+#include "sim/base/one_line.h"
+
 namespace hydroprint::cli {
 namespace {
 
@@ -34,12 +36,7 @@ std::size_t columns(int descriptor) {
 
 }  // namespace
 
-std::string printable(std::string_view text) {
-  std::string result(text);
-  std::replace_if(
-      result.begin(), result.end(), [](unsigned char c) { return c < ' ' || c == 127; }, ' ');
-  return result;
-}
+std::string printable(std::string_view text) { return one_line(std::string(text)); }
 
 std::string format_duration(std::chrono::seconds time) {
   const auto seconds = std::max<std::int64_t>(time.count(), 0);

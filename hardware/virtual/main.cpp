@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hardware/virtual/virtual_rig.h"
+#include "sim/base/one_line.h"
 
 namespace hydroprint::virtual_rig {
 namespace {
@@ -32,10 +33,12 @@ struct Arguments {
   bool json = false;
 };
 
-int refuse(const Error& error) {
-  std::cerr << "hydroprint-virtual-rig: " << error.message << std::endl;
-  return static_cast<int>(exit_status(error));
+int refuse(const std::string& message, ExitStatus status) {
+  std::cerr << "hydroprint-virtual-rig: " << one_line(message) << std::endl;
+  return static_cast<int>(status);
 }
+
+int refuse(const Error& error) { return refuse(error.message, exit_status(error)); }
 
 sigset_t block_signals() {
   sigset_t set;
@@ -147,7 +150,6 @@ int main(int argc, char** argv) {
   try {
     return hydroprint::virtual_rig::run_program(argc, argv);
   } catch (const std::exception& error) {
-    std::cerr << "hydroprint-virtual-rig: " << error.what() << std::endl;
-    return static_cast<int>(hydroprint::ExitStatus::kFailed);
+    return hydroprint::virtual_rig::refuse(error.what(), hydroprint::ExitStatus::kFailed);
   }
 }

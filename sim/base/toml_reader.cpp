@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/base/input_file.h"
+#include "sim/base/one_line.h"
 
 namespace hydroprint {
 namespace {
@@ -40,9 +41,9 @@ Result<toml::table> read_toml_file(const std::filesystem::path& path) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    return fail(Code::kInvalidArgument, place(path, error.source()) +
-                                            std::string(error.description()) +
-                                            ". Correct the TOML there");
+    return fail(Code::kInvalidArgument,
+                one_line(place(path, error.source()) + std::string(error.description()) +
+                         ". Correct the TOML there"));
   }
 }
 
@@ -81,7 +82,7 @@ void TomlReader::refuse(std::string_view key, const std::string& what) {
   const toml::source_region& region =
       entry == table_->end() ? table_->source() : entry->first.source();
   shared_->error = Error{Code::kInvalidArgument,
-                         place(shared_->path, region) + full(key) + " " + what,
+                         one_line(place(shared_->path, region) + full(key) + " " + what),
                          "CONFIG_INVALID",
                          {}};
 }
@@ -199,8 +200,8 @@ Status TomlReader::finish() const {
   }
   if (unknown == nullptr) return {};
   return fail(Code::kInvalidArgument,
-              place(shared_->path, unknown->source()) + std::string(unknown->str()) +
-                  " is not a known key here. Use " + known,
+              one_line(place(shared_->path, unknown->source()) + std::string(unknown->str()) +
+                       " is not a known key here. Use " + known),
               "CONFIG_INVALID");
 }
 

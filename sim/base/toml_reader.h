@@ -16,6 +16,7 @@ namespace hydroprint {
 
 /// Reads a TOML file of at most 1 MiB. For inclusion in .cpp files only.
 /// Refuses what read_text_file refuses, and with kInvalidArgument what is no TOML, naming the line.
+/// Every refusal from here is one line, whatever the file holds.
 [[nodiscard]] Result<toml::table> read_toml_file(const std::filesystem::path& path);
 
 /// Takes values out of a TOML file that may hold nothing else. The first thing wrong is kept, by

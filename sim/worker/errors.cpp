@@ -3,14 +3,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-namespace hydroprint::worker {
+#include "sim/base/one_line.h"
 
-std::string one_line(std::string text) {
-  for (char& c : text) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  }
-  return text;
-}
+namespace hydroprint::worker {
 
 void tell(const Error& error, ExitStatus status, bool json) {
   const std::string message = one_line(error.message);

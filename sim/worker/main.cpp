@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 
+#include "sim/base/one_line.h"
 #include "sim/worker/ending.h"
 #include "sim/worker/errors.h"
 #include "sim/worker/options.h"

@@ -48,6 +48,15 @@ TEST(NoRig, AConfigurationThatIsNotSafeIsRefusedInOneLine) {
                                    HYDROPRINT_PROFILES "/none.toml", "--check-config"});
   EXPECT_EQ(refused.status, 3) << refused.words;
   const TemporaryFolder folder;
+  const auto torn = folder.write("torn.toml", "[rig]\n\"a\\nb\" = 2\n");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"--config", torn, "--check-config"},
+        {"--rig", "tcp:127.0.0.1:1502", "--rig-profile", torn, "--check-config"},
+        {"--config", "no\nne.toml", "--check-config"}}) {
+    const auto told = run_daemon(arguments);
+    EXPECT_EQ(told.status, 3) << told.words;
+    EXPECT_EQ(std::count(told.words.begin(), told.words.end(), '\n'), 1) << told.words;
+  }
   const auto config = folder.write("d.toml", "[rig]\nkeep_out_mm = 2\n");
   const auto unsafe =
       run_daemon({"--rig", "tcp:127.0.0.1:1502", "--rig-profile",

@@ -118,6 +118,18 @@ TEST(DriveProfile, TwoBlocksOfOneLengthAreRefused) {
   EXPECT_NE(read.error().message.find("late replies could be mistaken"), std::string::npos);
 }
 
+TEST(DriveProfile, ARefusalIsOneLineWhateverTheFilesKeysHold) {
+  for (const std::string& text :
+       {"\"a\\nb\" = 1\n" + virtual_profile(), changed("[timing]", "[timing]\n\"x\\u001by\" = 1"),
+        std::string("name = \"\\q\n")}) {
+    const auto read = profile(text);
+    ASSERT_FALSE(read);
+    EXPECT_TRUE(std::all_of(read.error().message.begin(), read.error().message.end(),
+                            [](unsigned char c) { return c >= ' ' && c != 0x7f; }))
+        << read.error().message;
+  }
+}
+
 TEST(DriveProfile, LineIsThatOfTheKey) {
   const std::string text = changed("bit = 2 }", "bit = 16 }");
   const auto line =

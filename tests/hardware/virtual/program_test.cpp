@@ -85,12 +85,15 @@ TEST(Program, FaultsOfTheCommandLineHappen) {
 TEST(Program, RefusalsAreOneLineAndTheContractsExitStatus) {
   const testing::TemporaryFolder folder;
   const auto bad = folder.write("bad.toml", "name = 3\n").string();
+  const auto torn = folder.write("torn.toml", "\"a\\nb\" = 3\n").string();
   const auto scene = folder.write("scene.toml", "[water]\nat = 3\n").string();
   const std::vector<std::pair<std::vector<std::string>, int>> cases = {
       {{}, 2},
       {{"--profile", kProfile, "--tcp", "70000"}, 2},
       {{"--profile", "none.toml"}, 3},
       {{"--profile", bad}, 3},
+      {{"--profile", torn}, 3},
+      {{"--profile", "no\nne.toml"}, 3},
       {{"--profile", kProfile, "--scene", scene}, 3},
       {{"--profile", kProfile, "--fault", "dance@3s"}, 3},
       {{"--profile", kProfile, "--tcp", "0", "--control", "/nowhere/at/all"}, 3},
