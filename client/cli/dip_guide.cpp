@@ -24,6 +24,7 @@ using client::Time;
 
 constexpr double kJogSpeed_mm_per_s = 2;
 constexpr auto kLookAtRigEvery = 200ms;
+constexpr auto kRedrawEvery = 250ms;
 constexpr char kJogKeys[] = "  hold Down/j or Up/k to jog, + and - for the speed";
 constexpr char kConfirmKey[] = "  Enter when that is done; Ctrl-C aborts the dip";
 
@@ -132,6 +133,7 @@ class Guide {
   void begin(const client::DipStatus& status) {
     Keyboard::forget();
     begun_ = std::chrono::system_clock::now();
+    drawn_ = {};
     line_.say("");
     line_.say(std::string(client::name_of(status.step)) + ": " + status.instruction);
     jogger_.reset();
@@ -143,6 +145,8 @@ class Guide {
   }
 
   void show_clock(const client::Job& job) {
+    if (Clock::now() - drawn_ < kRedrawEvery) return;
+    drawn_ = Clock::now();
     const client::DipStatus& status = *job.dip_status;
     const std::string name(client::name_of(status.step));
     const Time now = std::chrono::system_clock::now();
@@ -210,6 +214,7 @@ class Guide {
   std::optional<Jogger> jogger_;
   client::Rig rig_;
   Clock::time_point looked_;
+  Clock::time_point drawn_;  // the live line; what stays is told at once, and a new step drawn
 };
 
 }  // namespace

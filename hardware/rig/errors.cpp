@@ -38,7 +38,7 @@ Words words(Cause cause) {
       return {"the drive's watchdog would not stop it any more", "set up its watchdog",
               "DRIVE_CONFIG_UNSAFE"};
     case Cause::kStopButton:
-      return {"the stop button was pressed", "release it", "STATE_FORBIDS"};
+      return {"the stop button was pressed", "release it", "STOP_BUTTON"};
     case Cause::kNone:
       break;
   }

@@ -332,7 +332,7 @@ TEST_P(DipFault, WhileTheFilmSoaksEndsItToo) {
 
 INSTANTIATE_TEST_SUITE_P(All, DipFault,
                          ::testing::Values(Fault{"Unplug", "unplug", "RIG_OFFLINE"},
-                                           Fault{"StopButton", "press stop", "STATE_FORBIDS"},
+                                           Fault{"StopButton", "press stop", "STOP_BUTTON"},
                                            Fault{"Reboot", "reboot 100ms", "RIG_OFFLINE"},
                                            Fault{"Stall", "stall", "RIG_FAULTED"}),
                          [](const auto& fault) { return fault.param.name; });

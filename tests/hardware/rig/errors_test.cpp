@@ -19,6 +19,10 @@ TEST(Errors, EveryCauseHasItsNameItsReasonAndARemedy) {
   }
 }
 
+TEST(Errors, TheStopButtonHasAReasonOfItsOwn) {
+  EXPECT_EQ(failed(Cause::kStopButton).reason, "STOP_BUTTON");
+}
+
 TEST(Errors, NoRefusalInvitesToTryAgainBlindly) {
   for (int i = 0; i <= static_cast<int>(Refusal::kConfigUnsafe); ++i) {
     const auto refusal = static_cast<Refusal>(i);
