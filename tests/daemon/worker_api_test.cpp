@@ -1,7 +1,9 @@
 // What becomes of jobs whose workers misbehave, and the main round trip with the real worker.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <sstream>
@@ -74,6 +76,20 @@ TEST_F(Workers, KilledWorkerFailsItsJobAlone) {
   EXPECT_EQ(ended.error().reason(), "WORKER_KILLED");
   EXPECT_EQ(ended.error().signal(), SIGKILL);
   EXPECT_EQ(run("").state(), v1::Job::SUCCEEDED);
+}
+
+TEST_F(Workers, GiveWayToTheDaemon) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
+  start(DaemonProcess::fake());
+  client->simulate("sleep 60");
+  const pid_t worker = wait_for_worker();
+  // It is the daemon's child a moment before it is a worker.
+  const int least = std::max(10, ::getpriority(PRIO_PROCESS, 0));
+  for (int i = 0; i < 500 && ::getpriority(PRIO_PROCESS, worker) < least; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, worker), least);
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, daemon->pid()), ::getpriority(PRIO_PROCESS, 0));
 }
 
 TEST_F(Workers, RunningJobIsCancelledAndItsWorkerEnded) {
