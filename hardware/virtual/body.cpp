@@ -213,6 +213,7 @@ std::string Body::state_json() {
                                       {"enabled", model_.enabled()},
                                       {"homed", model_.homed},
                                       {"moving", model_.moving()},
+                                      {"rested_s", model_.rested_s},
                                       {"alarm_code", model_.alarm},
                                       {"positive_end", at_positive_end(machine_, model_, inputs_)},
                                       {"negative_end", at_negative_end(machine_, model_, inputs_)},

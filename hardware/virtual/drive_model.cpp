@@ -128,6 +128,7 @@ void finish(Model& model) {
 
 void scan(const Machine& machine, Model& model, const Inputs& inputs, double dt_s) {
   const double before_mm = model.actual.x_mm;
+  const bool moved = model.actual.v_mm_per_s != 0;
   model.time_s += dt_s;
   if (model.mode != Mode::kOff) move_carriage(machine, model, inputs, dt_s);
   if (!inputs.frozen) model.frozen_mm = model.actual.x_mm;
@@ -139,6 +140,7 @@ void scan(const Machine& machine, Model& model, const Inputs& inputs, double dt_
     raise(machine, model, kFollowingError);
   }
   finish(model);
+  if (moved && model.actual.v_mm_per_s == 0) model.rested_s = model.time_s;
   const bool may_enable = model.alarm == kNoAlarm && !inputs.stop_button;
   if (machine.enables_itself && model.mode == Mode::kOff && may_enable) model.mode = Mode::kHold;
 }

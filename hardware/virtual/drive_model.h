@@ -73,6 +73,7 @@ struct Model {
   double heard_s = 0;    ///< when the last request came
   double jogged_s = 0;   ///< when the last jog command came
   double frozen_mm = 0;  ///< what the encoder said last
+  double rested_s = 0;   ///< when the carriage last came to rest
 
   [[nodiscard]] bool enabled() const { return mode != Mode::kOff && mode != Mode::kStopToOff; }
   [[nodiscard]] bool moving() const { return mode != Mode::kOff && mode != Mode::kHold; }

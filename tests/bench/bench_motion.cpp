@@ -146,7 +146,7 @@ double Bench::stop_to_standstill() {
   const json still = look_until([](double speed) { return speed == 0; });
   call.join();
   check(sent);
-  return time_of(still) - before_s - kSpeed_mm_per_s / acceleration_;
+  return still.at("rested_s").get<double>() - before_s - kSpeed_mm_per_s / acceleration_;
 }
 
 void Bench::take_latencies() {

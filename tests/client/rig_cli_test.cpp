@@ -15,7 +15,6 @@ namespace {
 using namespace std::chrono_literals;
 using hydroprint::testing::Process;
 using hydroprint::testing::Terminal;
-using Clock = std::chrono::steady_clock;
 using nlohmann::json;
 
 constexpr double kSettled_mm = 0.1;  // the rig's arrival_mm
@@ -39,11 +38,10 @@ class RigCli : public ::testing::Test {
     return {};
   }
 
-  /// Time until the axis rests, from now on.
+  /// Time until the axis rests, by its own clock; not above 0 if it does already.
   double seconds_to_rest() {
-    const auto begin = Clock::now();
-    EXPECT_TRUE(programs_.rests());
-    return std::chrono::duration<double>(Clock::now() - begin).count();
+    const double begin_s = programs_.rig.now_s();
+    return programs_.rig.rested_s() - begin_s;
   }
 
   RigPrograms programs_;
@@ -117,10 +115,10 @@ TEST_F(RigCli, WhatTheRigRefusesIsSaidInOneLine) {
 }
 
 TEST_F(RigCli, CtrlCInAMoveStopsTheAxis) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
   ASSERT_TRUE(programs_.moves());
-  std::this_thread::sleep_for(500ms);
+  ASSERT_TRUE(wait_until([&] { return programs_.rig.position_mm() > 8; }));
   move.signal(SIGINT);
   const auto ended = move.wait();
   EXPECT_EQ(ended.status, 130);
@@ -130,7 +128,7 @@ TEST_F(RigCli, CtrlCInAMoveStopsTheAxis) {
 }
 
 TEST_F(RigCli, StopNeedsNoLeaseAndAMoveThatItEndsDoesNotEndWith0) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
   ASSERT_TRUE(programs_.moves());
   EXPECT_EQ(programs_.client({"rig", "stop"}, "passer-by").status, 0);
@@ -141,7 +139,7 @@ TEST_F(RigCli, StopNeedsNoLeaseAndAMoveThatItEndsDoesNotEndWith0) {
 }
 
 TEST_F(RigCli, AMoveThatFailsSaysWhy) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
   ASSERT_TRUE(programs_.moves());
   programs_.rig.act("press stop");
@@ -151,7 +149,7 @@ TEST_F(RigCli, AMoveThatFailsSaysWhy) {
 }
 
 TEST_F(RigCli, NoWaitReturnsWhileTheAxisMoves) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   const json rig = programs_.client_json({"rig", "move", "100", "--no-wait"});
   EXPECT_EQ(rig.at("motion").at("outcome"), "RUNNING");
   EXPECT_TRUE(programs_.moves());
@@ -161,7 +159,7 @@ TEST_F(RigCli, NoWaitReturnsWhileTheAxisMoves) {
 TEST_F(RigCli, WatchTellsEveryChange) {
   Process watch(programs_.command({"rig", "watch", "--json"}));
   std::this_thread::sleep_for(500ms);
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   std::this_thread::sleep_for(300ms);
   watch.signal(SIGINT);
   const auto ended = watch.wait();
@@ -171,7 +169,7 @@ TEST_F(RigCli, WatchTellsEveryChange) {
 }
 
 TEST_F(RigCli, AJogForATimeGoesThatFar) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   const double begin_mm = programs_.rig.position_mm();
   EXPECT_EQ(programs_.client({"rig", "jog", "--speed", "5", "--for", "1s"}).status, 0);
   EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
@@ -180,7 +178,7 @@ TEST_F(RigCli, AJogForATimeGoesThatFar) {
 }
 
 TEST_F(RigCli, AKilledJogIsAtRestWithinHalfASecond) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   for (int i = 0; i < 3; ++i) {
     Process jog(programs_.command({"rig", "jog", "--speed", "5", "--for", "30s"}));
     ASSERT_TRUE(programs_.moves());
@@ -191,7 +189,7 @@ TEST_F(RigCli, AKilledJogIsAtRestWithinHalfASecond) {
 }
 
 TEST_F(RigCli, AJogEndsWithTheLease) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   Process jog(programs_.command({"rig", "jog", "--speed", "5", "--for", "30s"}));
   ASSERT_TRUE(programs_.moves());
   programs_.client({"rig", "lease", "break", "--reason", "a test"}, "alice");
@@ -202,7 +200,7 @@ TEST_F(RigCli, AJogEndsWithTheLease) {
 }
 
 TEST_F(RigCli, AKeyThatIsHeldMovesTheAxisAndOneThatIsLetGoStopsIt) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   Terminal jog(programs_.command({"rig", "jog", "--speed", "5"}));
   ASSERT_TRUE(jog.shows("IDLE")) << jog.screen();
   EXPECT_FALSE(jog.is_cooked());
@@ -222,7 +220,7 @@ TEST_F(RigCli, AKeyThatIsHeldMovesTheAxisAndOneThatIsLetGoStopsIt) {
 }
 
 TEST_F(RigCli, ATapIsAShortStep) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   Terminal jog(programs_.command({"rig", "jog", "--speed", "5"}));
   ASSERT_TRUE(jog.shows("IDLE")) << jog.screen();
   const double begin_mm = programs_.rig.position_mm();
@@ -234,7 +232,7 @@ TEST_F(RigCli, ATapIsAShortStep) {
 }
 
 TEST_F(RigCli, TheTerminalIsPutBackHoweverAJogEnds) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     Terminal jog(programs_.command({"rig", "jog", "--speed", "5"}));
     ASSERT_TRUE(jog.shows("IDLE")) << jog.screen();
@@ -247,7 +245,7 @@ TEST_F(RigCli, TheTerminalIsPutBackHoweverAJogEnds) {
 }
 
 TEST_F(RigCli, CtrlCOnATerminalStopsAHoming) {
-  programs_.make_ready(100);
+  programs_.make_ready(30);
   Terminal home(programs_.command({"rig", "home"}));
   ASSERT_TRUE(home.shows("MOVING")) << home.screen();
   home.type("\x03");
@@ -256,7 +254,7 @@ TEST_F(RigCli, CtrlCOnATerminalStopsAHoming) {
 }
 
 TEST_F(RigCli, ThePythonExampleTellsTheStateAndStops) {
-  programs_.make_ready(10);
+  programs_.make_ready(6);
   programs_.client({"rig", "move", "200", "--no-wait"});
   const auto ended = hydroprint::testing::run(
       {"/usr/bin/env", "PYTHONPATH=" PYTHON_STUBS, "PYTHONDONTWRITEBYTECODE=1", "/usr/bin/python3",

@@ -1,5 +1,7 @@
 // The dip as operators go through it, with hydroprintd and hydroprint-virtual-rig.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sqlite3.h>
 
 #include <cmath>
 #include <fstream>
@@ -14,8 +16,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr double kContact_mm = 15;
-constexpr double kClearance_mm = 5;  // of short_dip()
+constexpr double kContact_mm = 8;
+constexpr double kClearance_mm = 3;  // of short_dip()
 
 class DipApi : public RigTest {
  protected:
@@ -24,12 +26,13 @@ class DipApi : public RigTest {
     ann.go_to(kContact_mm);
   }
   /// A dip that is in the middle of its descent.
-  std::string descending(v1::DipSpec spec = short_dip()) {
-    spec.set_depth_mm(40);
+  std::string descending(double depth_mm = 40) {
+    v1::DipSpec spec = short_dip();
+    spec.set_depth_mm(depth_mm);
     const std::string name = ann.dip(spec).name();
     EXPECT_EQ(ann.guide_to(name, v1::DipStatus::DESCEND).dip_status().step(),
               v1::DipStatus::DESCEND);
-    EXPECT_TRUE(wait_until([&] { return rig.position_mm() > kContact_mm + 6; }));
+    EXPECT_TRUE(wait_until([&] { return rig.position_mm() > kContact_mm + 3; }));
     return name;
   }
   std::vector<v1::DipStatus::Step> steps(const std::string& name) {
@@ -44,7 +47,7 @@ class DipApi : public RigTest {
   void expect_rest() {
     EXPECT_EQ(rig.speed_mm_per_s(), 0);
     const double rest_mm = rig.position_mm();
-    std::this_thread::sleep_for(milliseconds(300));
+    std::this_thread::sleep_for(milliseconds(100));
     EXPECT_EQ(rig.position_mm(), rest_mm);
   }
 };
@@ -70,7 +73,7 @@ std::vector<std::vector<double>> positions(const std::string& csv) {
 
 TEST_F(DipApi, GuidesAnOperatorThroughAWholeDipAndKeepsItsRecord) {
   v1::DipSpec spec = short_dip();
-  spec.set_depth_mm(20);
+  spec.set_depth_mm(12);
   spec.set_soak_s(1);
   spec.set_water_temperature_c(25.5);
   const v1::Job made = ann.dip(spec);
@@ -106,10 +109,10 @@ TEST_F(DipApi, GuidesAnOperatorThroughAWholeDipAndKeepsItsRecord) {
   EXPECT_EQ(report.at("outcome"), "SUCCEEDED");
   EXPECT_EQ(report.at("lease_holder"), "ann");
   EXPECT_EQ(report.at("water_temperature_c"), 25.5);
-  EXPECT_NEAR(report.at("depth_reached_mm"), 20, 0.1);
+  EXPECT_NEAR(report.at("depth_reached_mm"), 12, 0.1);
   EXPECT_NEAR(report.at("descent").at("speed_mm_per_s"), 10, 0.01);
   EXPECT_LT(report.at("descent").at("largest_deviation_share"), 0.02);
-  EXPECT_GT(report.at("descent").at("samples"), 50);
+  EXPECT_GT(report.at("descent").at("samples"), 30);
   const auto& soak = report.at("steps").at(5);
   EXPECT_EQ(soak.at("step"), "SOAK");
   EXPECT_EQ(soak.at("planned_s"), 1);
@@ -117,15 +120,15 @@ TEST_F(DipApi, GuidesAnOperatorThroughAWholeDipAndKeepsItsRecord) {
   EXPECT_EQ(report.at("steps").at(4).at("confirmed_by"), "ann");
 
   const auto rows = positions(ann.download(name + "/artifacts/positions.csv"));
-  // 25 mm down, 0.3 s, 25 mm up at 10 mm/s, at 20 Hz or better.
-  EXPECT_GT(rows.size(), 20 * 5U);
+  // 15 mm down, 0.3 s, 15 mm up at 10 mm/s, at 20 Hz or better.
+  EXPECT_GT(rows.size(), 20 * 3U);
   double deepest_mm = 0, longest_s = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_NEAR(rows[i][1], rows[i][2] - kContact_mm, 0.11);
     deepest_mm = std::max(deepest_mm, rows[i][1]);
     if (i > 0) longest_s = std::max(longest_s, rows[i][0] - rows[i - 1][0]);
   }
-  EXPECT_NEAR(deepest_mm, 20, 0.1);
+  EXPECT_NEAR(deepest_mm, 12, 0.1);
   EXPECT_LT(longest_s, 0.1) << "between two samples";
 }
 
@@ -138,7 +141,7 @@ TEST_F(DipApi, WithoutConfirmationsAndClocksOnTheVirtualRig) {
   ASSERT_EQ(ended.state(), v1::Job::SUCCEEDED) << ended.error().message();
   EXPECT_NEAR(ended.dip_status().contact_mm(), kContact_mm, 0.1);
   EXPECT_NEAR(rig.position_mm(), kContact_mm - kClearance_mm, 0.1);
-  EXPECT_NEAR(ann.report(name).at("depth_reached_mm"), 10, 0.1);
+  EXPECT_NEAR(ann.report(name).at("depth_reached_mm"), 5, 0.1);
 }
 
 TEST_F(DipApi, WhatCannotBeDippedIsRefusedBeforeAnythingMoves) {
@@ -176,7 +179,7 @@ TEST_F(DipApi, WhatCannotBeDippedIsRefusedBeforeAnythingMoves) {
 
 TEST_F(DipApi, FirstContactFromWhichTheDepthIsOutOfReachIsRefusedAndTheDipGoesOnWaiting) {
   v1::DipSpec spec = short_dip();
-  spec.set_depth_mm(290);
+  spec.set_depth_mm(292);
   const std::string name = ann.dip(spec).name();
   ann.guide_to(name, v1::DipStatus::FIND_CONTACT);
   const auto refused = ann.confirm(name, v1::DipStatus::FIND_CONTACT);
@@ -184,7 +187,7 @@ TEST_F(DipApi, FirstContactFromWhichTheDepthIsOutOfReachIsRefusedAndTheDipGoesOn
   EXPECT_EQ(reason_of(refused), "LIMIT_EXCEEDED");
   EXPECT_EQ(error_info(refused).metadata().at("max"), "298");
   EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::FIND_CONTACT);
-  ann.go_to(7);  // the object was hung lower
+  ann.go_to(5.5);  // the object was hung lower
   EXPECT_TRUE(ann.confirm(name, v1::DipStatus::FIND_CONTACT).ok());
   ann.wait_for_step(name, v1::DipStatus::LAY_FILM);
 }
@@ -204,9 +207,9 @@ TEST_F(DipApi, AConfirmationCountsForItsStepAlone) {
 TEST_F(DipApi, TheOperatorJogsToFirstContactAndNobodyMovesTheRigFromThenOn) {
   const std::string name = ann.dip(short_dip()).name();
   ann.guide_to(name, v1::DipStatus::FIND_CONTACT);
-  for (int i = 0; i < 5; ++i) {
+  while (rig.position_mm() < kContact_mm + 1.5) {
     ASSERT_TRUE(ann.jog(5).ok());
-    std::this_thread::sleep_for(milliseconds(100));
+    std::this_thread::sleep_for(milliseconds(50));
   }
   EXPECT_EQ(reason_of(ann.confirm(name, v1::DipStatus::FIND_CONTACT)), "MOTION_IN_PROGRESS");
   ASSERT_TRUE(ann.becomes(v1::Rig::IDLE));
@@ -246,9 +249,13 @@ TEST_F(DipApi, CancelledAtAnyStepItSaysWhatToDoAndKeepsItsRecord) {
     if (ann.rig().state() != v1::Rig::IDLE) ann.make_ready();
     ann.go_to(kContact_mm);
     v1::DipSpec spec = short_dip();
-    spec.set_hold_s(0.6);
-    spec.set_soak_s(0.6);
-    spec.set_activator_wait_s(0.6);
+    // Where it is cancelled there has to be time for it.
+    if (step == v1::DipStatus::SOAK) spec.set_soak_s(5);
+    if (step == v1::DipStatus::ACTIVATE) spec.set_activator_wait_s(5);
+    if (step == v1::DipStatus::HOLD) spec.set_hold_s(5);
+    const bool rises = step == v1::DipStatus::CLEAR || step == v1::DipStatus::RETRACT;
+    spec.set_retract_speed_mm_per_s(rises ? 2 : 10);
+    if (step == v1::DipStatus::DESCEND) spec.set_speed_mm_per_s(2);
     const std::string name = ann.dip(spec).name();
     ASSERT_EQ(ann.guide_to(name, step).dip_status().step(), step);
     ann.cancel(name);
@@ -282,11 +289,11 @@ TEST_F(DipApi, AStopWhileNothingMovesDoesItNoHarm) {
 }
 
 TEST_F(DipApi, ItGoesOnWhenItsOperatorAndTheLeaseAreGone) {
-  const std::string name = descending();
+  const std::string name = descending(12);
   RigClient bob(daemon.address(), "bob");
   ASSERT_TRUE(bob.break_lease("the operator is gone").ok());
   EXPECT_EQ(bob.wait_for_end(name).state(), v1::Job::SUCCEEDED);
-  EXPECT_NEAR(bob.report(name).at("depth_reached_mm"), 40, 0.1);
+  EXPECT_NEAR(bob.report(name).at("depth_reached_mm"), 12, 0.1);
 }
 
 struct Fault {
@@ -309,8 +316,9 @@ TEST_P(DipFault, InTheDescentFailsItWithTheReasonAndKeepsTheRecord) {
   const auto report = ann.report(name);
   EXPECT_EQ(report.at("outcome"), "FAILED");
   EXPECT_EQ(report.at("reason"), GetParam().reason);
-  EXPECT_GT(report.at("depth_reached_mm"), 5);
-  EXPECT_GT(positions(ann.download(name + "/artifacts/positions.csv")).size(), 30U);
+  EXPECT_GT(report.at("depth_reached_mm"), 2.5);
+  // 6 mm and more at 10 mm/s, at 20 Hz or better.
+  EXPECT_GT(positions(ann.download(name + "/artifacts/positions.csv")).size(), 12U);
   EXPECT_EQ(ann.rig().dip(), "");
 }
 
@@ -375,7 +383,8 @@ TEST_F(DipApi, ADaemonKilledInTheDescentLeavesItInterruptedAndTheRigAtRest) {
   const auto report = again.report(name);
   EXPECT_EQ(report.at("outcome"), "INTERRUPTED");
   EXPECT_EQ(report.at("step"), "DESCEND");
-  EXPECT_GT(positions(again.download(name + "/artifacts/positions.csv")).size(), 30U);
+  EXPECT_GT(positions(again.download(name + "/artifacts/positions.csv")).size(), 8U)
+      << "all but the last quarter of a second";
   std::this_thread::sleep_for(milliseconds(500));
   EXPECT_EQ(again.job(name).state(), v1::Job::INTERRUPTED) << "it stays so";
   EXPECT_EQ(rig.position_mm(), rest_mm);
@@ -385,6 +394,56 @@ TEST_F(DipApi, ADaemonKilledInTheDescentLeavesItInterruptedAndTheRigAtRest) {
   v1::DipSpec spec = short_dip();
   spec.set_yes_to_all(true);
   EXPECT_EQ(again.wait_for_end(again.dip(spec).name()).state(), v1::Job::SUCCEEDED);
+}
+
+/// Holds the right to write to a daemon's store, so that it waits for its disk.
+class HeldStore {
+ public:
+  explicit HeldStore(const std::filesystem::path& database) {
+    EXPECT_EQ(sqlite3_open(database.c_str(), &store_), SQLITE_OK);
+    EXPECT_EQ(sqlite3_busy_timeout(store_, 5000), SQLITE_OK);
+    EXPECT_EQ(sqlite3_exec(store_, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+  }
+  ~HeldStore() { sqlite3_close(store_); }
+  HeldStore(const HeldStore&) = delete;
+  HeldStore& operator=(const HeldStore&) = delete;
+
+ private:
+  sqlite3* store_ = nullptr;
+};
+
+TEST_F(DipApi, AStoreThatHangsHoldsUpNeitherItsMotionNorAStop) {
+  const std::string name = descending();
+  {
+    const HeldStore held(daemon.state() / "hydroprint.db");
+    const double held_s = rig.now_s();
+    EXPECT_TRUE(wait_until([&] { return rig.now_s() > held_s + 1; }));
+    EXPECT_EQ(rig.speed_mm_per_s(), 10);
+    const double asked_s = rig.now_s();
+    EXPECT_TRUE(ann.stop().ok());
+    EXPECT_LT(rig.rested_s() - asked_s, 0.3);
+  }
+  EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::CANCELLED);
+  EXPECT_GT(ann.report(name).at("depth_reached_mm"), 10);
+}
+
+TEST_F(DipApi, ADaemonThatHangsInTheDescentHasItStoppedByTheDriveAndGoesOnWithNothing) {
+  const std::string name = descending();
+  ::kill(daemon.pid(), SIGSTOP);
+  const double hung_s = rig.now_s(), hung_mm = rig.position_mm();
+  // The drive's watchdog time and its way, as in its profile.
+  EXPECT_LT(rig.rested_s() - hung_s, 0.25 + 10.0 / 200 + 0.1);
+  const double rest_mm = rig.position_mm();
+  EXPECT_LT(rest_mm - hung_mm, 10 * (0.25 + 0.1) + 10.0 * 10 / (2 * 200));
+  ::kill(daemon.pid(), SIGCONT);
+  const v1::Job ended = ann.wait_for_end(name);
+  EXPECT_EQ(ended.state(), v1::Job::FAILED);
+  const std::string reason = ended.error().reason();
+  EXPECT_TRUE(reason == "RIG_FAULTED" || reason == "RIG_OFFLINE") << reason;
+  EXPECT_EQ(ann.report(name).at("outcome"), "FAILED");
+  EXPECT_TRUE(ann.becomes(v1::Rig::FAULT));
+  EXPECT_FALSE(ann.rig().homed());
+  EXPECT_EQ(rig.position_mm(), rest_mm);
 }
 
 TEST_F(DipApi, ADaemonShutDownInTheDescentBringsTheAxisToRestFirst) {
@@ -416,6 +475,55 @@ TEST_F(DipApi, AQueueThatRunsAndPausesHasNothingToDoWithIt) {
   ann.guide_to(name, v1::DipStatus::DESCEND);
   EXPECT_EQ(ann.queue().running_jobs_size(), 0);
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::SUCCEEDED);
+}
+
+TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
+  if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
+  const TemporaryFolder folder;
+  VirtualRigProcess rig;
+  DaemonProcess::Options options;
+  options.extra = rig.section();
+  const DaemonProcess daemon(folder.path(), options);
+  RigClient ann(daemon.address());
+  // A pyramid, point down.
+  v1::CreateJobRequest request =
+      simulate_request(ann.upload("v 0 0 -12\nv 9 0 0\nv 0 9 0\nv -9 0 0\nv 0 -9 0\n"
+                                  "f 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4 5\n"),
+                       "pyramid.obj");
+  v1::SimulateSpec& spec = *request.mutable_job()->mutable_simulate();
+  spec.set_film("circle:50");
+  spec.set_dpi(50);
+  spec.set_model(v1::MODEL_STOKES);
+  spec.set_depth_mm(6.5);
+  spec.set_dip_speed_mm_per_s(9);
+  v1::InputFile& profile = *spec.mutable_profile();
+  profile.set_name("film.toml");
+  profile.set_asset(ann.upload("soak_s = 0.2\nactivator_wait_s = 0.3\nactivator_ml_per_m2 = 20\n"));
+  v1::Job simulated;
+  ASSERT_TRUE(ann.create(request, simulated).ok());
+  ann.make_ready();
+  ann.go_to(kContact_mm);
+  simulated = ann.wait_for_end(simulated.name());
+  ASSERT_EQ(simulated.state(), v1::Job::SUCCEEDED) << simulated.error().message();
+  v1::DipSpec dip;
+  dip.set_simulate_job(simulated.name());
+  dip.set_clearance_mm(kClearance_mm);
+  dip.set_hold_s(0.1);
+  const std::string name = ann.dip(dip).name();
+  EXPECT_NE(ann.job(name).dip_status().instruction().find(simulated.name()), std::string::npos);
+  const v1::Job spraying = ann.guide_to(name, v1::DipStatus::SPRAY_ACTIVATOR);
+  // 20 ml/m2 on a circle of 50 mm.
+  EXPECT_NE(spraying.dip_status().instruction().find("spray 0.2 ml"), std::string::npos)
+      << spraying.dip_status().instruction();
+  ann.guide_to(name, v1::DipStatus::DESCEND);
+  ASSERT_EQ(ann.wait_for_end(name).state(), v1::Job::SUCCEEDED);
+  const auto report = ann.report(name);
+  EXPECT_EQ(report.at("simulate_job"), simulated.name());
+  EXPECT_NEAR(report.at("depth_reached_mm"), 6.5, 0.1);
+  EXPECT_NEAR(report.at("descent").at("speed_mm_per_s"), 9, 0.1);
+  EXPECT_NEAR(report.at("parameters").at("film_area_mm2"), M_PI * 50 * 50, 0.1);
+  EXPECT_EQ(report.at("parameters").at("soak_s"), 0.2);
+  EXPECT_EQ(report.at("parameters").at("activator_wait_s"), 0.3);
 }
 
 TEST(DipOnARealDrive, IsNeverWithoutItsOperator) {

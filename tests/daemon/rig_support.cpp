@@ -27,7 +27,7 @@ void check(const grpc::Status& status, const std::string& call) {
 }
 
 std::vector<std::string> arguments(const TemporaryFolder& folder) {
-  const auto scene = folder.write("scene.toml", "[axis]\nstart_mm = 3.0\n");
+  const auto scene = folder.write("scene.toml", "[axis]\nstart_mm = 1.0\n");
   return {kRig,      "--profile", kProfile,
           "--scene", scene,       "--tcp",
           "0",       "--control", folder.path() / "control",
@@ -96,6 +96,13 @@ double VirtualRigProcess::speed_mm_per_s() {
 
 bool VirtualRigProcess::gets_to(double wanted, double seconds) {
   return wait_until([&] { return std::abs(speed_mm_per_s() - wanted) < 0.01; }, seconds);
+}
+
+double VirtualRigProcess::rested_s() {
+  if (!wait_until([&] { return speed_mm_per_s() == 0; })) {
+    throw std::runtime_error("the axis goes on");
+  }
+  return truth().at("rested_s");
 }
 
 std::string VirtualRigProcess::section() const {
@@ -283,10 +290,10 @@ std::string health_of(const Client& client, const std::string& service) {
 
 v1::DipSpec short_dip() {
   v1::DipSpec spec;
-  spec.set_depth_mm(10);
+  spec.set_depth_mm(5);
   spec.set_speed_mm_per_s(10);
   spec.set_hold_s(0.3);
-  spec.set_clearance_mm(5);
+  spec.set_clearance_mm(3);
   spec.set_soak_s(0.1);
   spec.set_activator_wait_s(0.1);
   return spec;

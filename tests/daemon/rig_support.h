@@ -31,6 +31,10 @@ class VirtualRigProcess {
   [[nodiscard]] double speed_mm_per_s();
   /// True once it moves as fast as that, or does not move.
   [[nodiscard]] bool gets_to(double speed_mm_per_s, double seconds = 10);
+  /// Time by the drive's own clock, which does not depend on when a test gets to look.
+  [[nodiscard]] double now_s() { return truth().at("time_s"); }
+  /// Waits until it rests: since when, by that clock. Throws if it goes on.
+  [[nodiscard]] double rested_s();
 
   /// Lines of a daemon's configuration that name it.
   [[nodiscard]] std::string section() const;
@@ -90,7 +94,7 @@ class RigClient : public Client {
 /// What grpc.health.v1 says of a service: "SERVING" or "NOT_SERVING".
 [[nodiscard]] std::string health_of(const Client& client, const std::string& service);
 
-/// A short dip: 10 mm deep from 5 mm above at 10 mm/s, clocks of a tenth of a second.
+/// A short dip: 5 mm deep from 3 mm above at 10 mm/s, clocks of a tenth of a second.
 [[nodiscard]] v1::DipSpec short_dip();
 
 /// A daemon and the rig that it drives.

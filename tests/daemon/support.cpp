@@ -148,6 +148,8 @@ int DaemonProcess::terminate() {
   return status;
 }
 
+std::string DaemonProcess::log() const { return content(folder_ / "err"); }
+
 std::vector<pid_t> DaemonProcess::workers() const {
   std::vector<pid_t> out;
   for (const auto& entry :

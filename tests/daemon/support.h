@@ -75,6 +75,8 @@ class DaemonProcess {
   [[nodiscard]] const std::string& address() const { return address_; }
   [[nodiscard]] std::filesystem::path state() const { return folder_ / "state"; }
   [[nodiscard]] std::filesystem::path config() const { return folder_ / "hydroprintd.toml"; }
+  /// What it logged.
+  [[nodiscard]] std::string log() const;
   /// Processes that the daemon started and that are alive. Needs /proc.
   [[nodiscard]] std::vector<pid_t> workers() const;
 

@@ -63,7 +63,7 @@ void Terminal::look(std::chrono::milliseconds limit) {
   if (count <= 0) std::this_thread::sleep_for(limit);  // it has ended: nothing more will come
 }
 
-bool Terminal::shows(const std::string& words, std::chrono::seconds limit) {
+bool Terminal::shows(const std::string& words, std::chrono::milliseconds limit) {
   for (const auto end = Clock::now() + limit; Clock::now() < end; look(20ms)) {
     const auto found = screen_.find(words, seen_);
     if (found == std::string::npos) continue;

@@ -24,7 +24,7 @@ class Terminal {
             std::chrono::milliseconds repeat = std::chrono::milliseconds(30));
   /// Waits until these words appeared since the last of this that was found; false after `limit`.
   [[nodiscard]] bool shows(const std::string& words,
-                           std::chrono::seconds limit = std::chrono::seconds(20));
+                           std::chrono::milliseconds limit = std::chrono::seconds(20));
   /// Waits for the end; exit status, -1 if it does not end within `limit`.
   int wait(std::chrono::seconds limit = std::chrono::seconds(20));
   /// Whether what is typed is shown and comes by lines, as a shell wants it.

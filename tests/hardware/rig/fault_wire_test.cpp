@@ -59,11 +59,11 @@ TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItAnswersAgain) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
-  const auto begun = Clock::now();
+  const double begun_s = rig.drive().now_s();
   rig.drive().act("silent");
   ASSERT_TRUE(wait_for([&] { return !in_motion(rig.state()); }));
-  EXPECT_LT(seconds_since(begun), 1);
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  EXPECT_LT(rig.drive().now_s() - begun_s, 1);
+  EXPECT_LT(rig.drive().rested_s() - begun_s, stopping_time_s(rig->config(), rig->profile()));
   rig.drive().act("clear");
   EXPECT_EQ(rig.finish(motion).cause, Cause::kLinkLost);
   expect_the_long_way_back(rig);
@@ -72,7 +72,7 @@ TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItAnswersAgain) {
 TEST_P(Fault, OneReplyThatIsNoneLetsADipGoOn) {
   WiredRig rig(GetParam());
   rig.make_ready();
-  const Answer dip = rig->dip({{20, 10, 0}}).get();
+  const Answer dip = rig->dip({{12, 10, 0}}).get();
   ASSERT_TRUE(dip);
   ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() > 9.9; }));
   rig.drive().act("fault busy 1");
@@ -98,17 +98,17 @@ TEST_P(Fault, AStopGetsThroughWhileRepliesHang) {
   rig.drive().act("fault drop all");  // heard and obeyed, never answered
   std::this_thread::sleep_for(std::chrono::milliseconds(40));
   const auto asked = Clock::now();
+  const double asked_s = rig.drive().now_s();
   rig->stop();
   EXPECT_LT(seconds_since(asked), 0.05);
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
   // RTU: the line may be waiting for a reply (response_timeout); then 0.05 s of braking.
-  EXPECT_LT(seconds_since(asked), 0.25);
+  EXPECT_LT(rig.drive().rested_s() - asked_s, 0.25);
 }
 
 TEST_P(Fault, APowerCycleAtRestWantsResetArmingAndHoming) {
   WiredRig rig(GetParam());
   rig.make_ready();
-  rig.drive().act("reboot 600ms");
+  rig.drive().act("reboot 300ms");
   ASSERT_TRUE(wait_for([&] { return rig.state() != State::kIdle; }));
   expect_the_long_way_back(rig);
 }
@@ -193,7 +193,9 @@ TEST_P(Fault, ALateReplyIsNeverTakenForAnother) {
   rig.make_ready();
   for (int i = 0; i < 3; ++i) {
     rig.drive().act("fault late 200ms 1");
-    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    ASSERT_TRUE(wait_for([&] { return rig->snapshot().missed_polls > 0; }));
+    ASSERT_TRUE(wait_for([&] { return rig->snapshot().missed_polls == 0; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));  // by now it has come
   }
   // At rest all along: whatever was read says so.
   const auto samples = rig->samples(rig.report(rig->snapshot().motion).last_sample + 1, UINT64_MAX);

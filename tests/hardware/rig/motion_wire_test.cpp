@@ -26,18 +26,18 @@ TEST_P(Wired, NothingMovesBeforeArmingAndOnlyHomingBeforeHoming) {
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_NOT_HOMED");
   EXPECT_EQ(refusal(rig->jog(5)), "RIG_NOT_HOMED");
   EXPECT_EQ(refusal(rig->dip({{20, 5, 0}})), "RIG_NOT_HOMED");
-  EXPECT_EQ(rig.drive().position_mm(), 3);
+  EXPECT_EQ(rig.drive().position_mm(), 1);
 }
 
 TEST_P(Wired, AMoveEndsAtItsTargetAndIsRecordedAllTheWay) {
   WiredRig rig(GetParam());
   rig.make_ready();
-  const MotionReport done = rig.finish(rig.start_move(20, 10));
+  const MotionReport done = rig.finish(rig.start_move(12, 10));
   EXPECT_EQ(done.outcome, Outcome::kDone);
-  EXPECT_NEAR(rig.drive().position_mm(), 20, 0.01);
-  EXPECT_NEAR(done.end_mm, 20, 0.01);
+  EXPECT_NEAR(rig.drive().position_mm(), 12, 0.01);
+  EXPECT_NEAR(done.end_mm, 12, 0.01);
   const auto samples = rig->samples(done.first_sample, done.last_sample);
-  ASSERT_GT(samples.size(), 20 * 2.0) << "20 Hz";
+  ASSERT_GT(samples.size(), 20 * 1.2) << "20 Hz";
   for (const Sample& sample : samples) {
     EXPECT_EQ(sample.motion, done.number);
     if (!std::isfinite(sample.expected_mm)) continue;  // the first, before the order was sent
@@ -48,7 +48,7 @@ TEST_P(Wired, AMoveEndsAtItsTargetAndIsRecordedAllTheWay) {
 TEST_P(Wired, ADipIsAtConstantSpeedHoldsAndComesBack) {
   WiredRig rig(GetParam());
   rig.make_ready();
-  const Answer dip = rig->dip({{30, 5, 0.5}, {5, 10, 0}}).get();
+  const Answer dip = rig->dip({{15, 5, 0.3}, {5, 10, 0}}).get();
   ASSERT_TRUE(dip) << dip.error().message;
   EXPECT_EQ(rig.state(), State::kDipping);
   const MotionReport done = rig.finish(*dip);
@@ -56,7 +56,7 @@ TEST_P(Wired, ADipIsAtConstantSpeedHoldsAndComesBack) {
   EXPECT_NEAR(rig.drive().position_mm(), 5, 0.01);
   const auto samples = rig->samples(done.first_sample, done.last_sample);
   const ConstantSpeed down = constant_speed(samples, *dip, 0);
-  EXPECT_GT(down.samples, 100);
+  EXPECT_GT(down.samples, 20 * 2.8) << "20 Hz";
   EXPECT_NEAR(down.speed_mm_per_s, 5, 0.05);
   EXPECT_LT(down.largest_way_mm, 0.2);
   const ConstantSpeed up = constant_speed(samples, *dip, 1);
@@ -68,7 +68,7 @@ TEST_P(Wired, ADipIsAtConstantSpeedHoldsAndComesBack) {
 TEST_P(Wired, ASecondCommandIsRefusedAndTheFirstGoesOn) {
   WiredRig rig(GetParam());
   rig.make_ready();
-  const std::uint64_t first = rig.start_move(20, 10);
+  const std::uint64_t first = rig.start_move(12, 10);
   EXPECT_EQ(refusal(rig->move_to(5, 5)), "MOTION_IN_PROGRESS");
   EXPECT_EQ(refusal(rig->home()), "MOTION_IN_PROGRESS");
   EXPECT_EQ(refusal(rig->jog(5)), "MOTION_IN_PROGRESS");
@@ -76,7 +76,7 @@ TEST_P(Wired, ASecondCommandIsRefusedAndTheFirstGoesOn) {
   EXPECT_EQ(refusal(rig->disarm()), "MOTION_IN_PROGRESS");
   EXPECT_EQ(refusal(rig->reset()), "MOTION_IN_PROGRESS");
   EXPECT_EQ(rig.finish(first).outcome, Outcome::kDone);
-  EXPECT_NEAR(rig.drive().position_mm(), 20, 0.01);
+  EXPECT_NEAR(rig.drive().position_mm(), 12, 0.01);
 }
 
 TEST_P(Wired, WhatIsOutOfReachIsRefusedBeforeItMoves) {
@@ -98,16 +98,16 @@ TEST_P(Wired, AJogGoesOnWhileItIsHeldAndStopsWithin500MsOfItsLoss) {
   rig.make_ready();
   const auto begun = Clock::now();
   std::uint64_t motion = 0;
-  while (seconds_since(begun) < 1.5) {
+  double last_s = 0;
+  while (seconds_since(begun) < 1) {
+    last_s = rig.drive().now_s();
     const Answer answer = rig->jog(10).get();
     ASSERT_TRUE(answer) << answer.error().message;
     motion = *answer;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
   EXPECT_GT(rig.drive().speed_mm_per_s(), 9.9);
-  const auto last = Clock::now() - std::chrono::milliseconds(100);
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
-  EXPECT_LT(seconds_since(last), 0.5);
+  EXPECT_LT(rig.drive().rested_s() - last_s, 0.5);
   EXPECT_EQ(rig.finish(motion).outcome, Outcome::kStopped);
   EXPECT_TRUE(rig.becomes(State::kIdle));
 }
@@ -115,7 +115,7 @@ TEST_P(Wired, AJogGoesOnWhileItIsHeldAndStopsWithin500MsOfItsLoss) {
 TEST_P(Wired, AHeldJogComesToRestBeforeTheSoftLimit) {
   WiredRig rig(GetParam());
   rig.make_ready();
-  ASSERT_EQ(rig.finish(rig.start_move(12, 10)).outcome, Outcome::kDone);
+  ASSERT_EQ(rig.finish(rig.start_move(8, 10)).outcome, Outcome::kDone);
   while (refusal(rig->jog(-10)).empty()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -134,11 +134,11 @@ TEST_P(Wired, AStopBringsToRestAndIsAcceptedInEveryState) {
   rig->stop();
   const std::uint64_t motion = rig.start_move(100, 10);
   const auto asked = Clock::now();
+  const double asked_s = rig.drive().now_s();
   rig->stop();
   rig->stop();
   EXPECT_LT(seconds_since(asked), 0.05) << "returns at once";
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
-  const double rest_s = seconds_since(asked);
+  const double rest_s = rig.drive().rested_s() - asked_s;
   EXPECT_LT(rest_s, 0.25) << "10 mm/s at 200 mm/s^2 take 0.05 s";
   EXPECT_EQ(rig.finish(motion).outcome, Outcome::kStopped);
   EXPECT_TRUE(rig.becomes(State::kIdle)) << "homed as before";
@@ -148,12 +148,13 @@ TEST_P(Wired, AStopBringsToRestAndIsAcceptedInEveryState) {
 TEST_P(Wired, AMoveGivenBeforeAStopDoesNotBeginAfterIt) {
   WiredRig rig(GetParam());
   rig.make_ready();
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 12; ++i) {
     auto answer = rig->move_to(i % 2 == 0 ? 100 : 50, 10);
     rig->stop();
     (void)answer.get();
     ASSERT_TRUE(rig.becomes(State::kIdle));
-    std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    const std::uint64_t looks = rig->snapshot().jitter.ticks + 2;
+    ASSERT_TRUE(wait_for([&] { return rig->snapshot().jitter.ticks > looks; }));
     EXPECT_EQ(rig.state(), State::kIdle);
     EXPECT_EQ(rig.drive().mode(), "hold");
   }

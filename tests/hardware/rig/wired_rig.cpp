@@ -17,6 +17,11 @@ virtual_rig::BenchOptions starting_at(double start_mm) {
 
 double WiredDrive::speed_mm_per_s() { return std::abs(truth("velocity_mm_per_s")); }
 
+double WiredDrive::rested_s() {
+  if (!wait_for([&] { return speed_mm_per_s() == 0; })) throw std::runtime_error("it goes on");
+  return truth("rested_s");
+}
+
 double seconds_since(Clock::time_point time) {
   return std::chrono::duration<double>(Clock::now() - time).count();
 }

@@ -17,12 +17,16 @@ namespace hydroprint::rig {
 class WiredDrive : public virtual_rig::BenchRig {
  public:
   explicit WiredDrive(const std::string& wire,
-                      const virtual_rig::BenchOptions& options = starting_at(3))
+                      const virtual_rig::BenchOptions& options = starting_at(1))
       : BenchRig(wire, options) {}
 
   /// Where it really is, and how fast, whatever it tells.
   [[nodiscard]] double position_mm() { return truth("position_mm"); }
   [[nodiscard]] double speed_mm_per_s();
+  /// Time by the drive's own clock, which does not depend on when a test gets to look.
+  [[nodiscard]] double now_s() { return truth("time_s"); }
+  /// Waits until it rests: since when, by that clock. Throws if it goes on.
+  [[nodiscard]] double rested_s();
 };
 
 /// Waits, looking every few ms; false if `until` did not come true in time.
@@ -35,7 +39,7 @@ class WiredDrive : public virtual_rig::BenchRig {
 class WiredRig {
  public:
   explicit WiredRig(const std::string& wire,
-                    const virtual_rig::BenchOptions& options = starting_at(3));
+                    const virtual_rig::BenchOptions& options = starting_at(1));
 
   WiredDrive& drive() { return drive_; }
   Controller* operator->() { return controller_.get(); }
