@@ -6,7 +6,6 @@
 #include <thread>
 
 #include "hardware/rig/limits.h"
-#include "hardware/rig/urgency.h"
 
 namespace hydroprint::rig {
 namespace {
@@ -39,7 +38,6 @@ Owner::Owner(const RigConfig& config, drive::Drive& drive, Stopper& stopper, Des
       log_(desk.board) {}
 
 void Owner::run() {
-  go_first();
   const auto period = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(config_.poll_period_s));
   TimePoint due = Clock::now();

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include "hardware/rig/config.h"
-#include "hardware/rig/urgency.h"
 
 namespace hydroprint::rig {
 namespace {
@@ -52,7 +51,6 @@ bool Stopper::owner_is_late() const {
 }
 
 void Stopper::run() {
-  go_first();
   while (!end_ || stop_) {
     pollfd bell{bell_, POLLIN, 0};
     ::poll(&bell, 1, in_motion_ ? kTick_ms : -1);
