@@ -494,6 +494,7 @@ TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
   spec.set_film("circle:50");
   spec.set_dpi(50);
   spec.set_model(v1::MODEL_STOKES);
+  spec.set_artifacts(v1::ARTIFACT_SET_MAP);
   spec.set_depth_mm(6.5);
   spec.set_dip_speed_mm_per_s(9);
   v1::InputFile& profile = *spec.mutable_profile();
@@ -503,7 +504,11 @@ TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
   ASSERT_TRUE(ann.create(request, simulated).ok());
   ann.make_ready();
   ann.go_to(kContact_mm);
-  simulated = ann.wait_for_end(simulated.name());
+  const auto computed = [&] {
+    simulated = ann.job(simulated.name());
+    return finished(simulated);
+  };
+  ASSERT_TRUE(wait_until(computed, 200)) << "a worker gives way to all others";
   ASSERT_EQ(simulated.state(), v1::Job::SUCCEEDED) << simulated.error().message();
   v1::DipSpec dip;
   dip.set_simulate_job(simulated.name());
