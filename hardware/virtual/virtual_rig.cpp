@@ -69,9 +69,8 @@ Status VirtualRig::plug() {
   const std::scoped_lock lock(plugs_);
   if (options_.tcp_port && !tcp_) {
     // Once a port was found, the same again.
-    const int port = tcp_port_ > 0 ? tcp_port_ : *options_.tcp_port;
-    HP_ASSIGN_OR_RETURN(tcp_, serve_tcp(body_, port));
-    tcp_port_ = tcp_->port();
+    HP_ASSIGN_OR_RETURN(tcp_, serve_tcp(body_, tcp_port_ > 0 ? tcp_port_ : *options_.tcp_port));
+    if (tcp_port_ == 0) tcp_port_ = tcp_->port();
   }
   if (options_.line && !serial_) {
     HP_ASSIGN_OR_RETURN(serial_, SerialServer::start(body_, *options_.line));

@@ -63,8 +63,8 @@ class VirtualRig {
 
   Options options_;
   Body body_;
+  int tcp_port_ = 0;  // found before any thread of its own begins, and kept
   std::mutex plugs_;  // of what follows
-  int tcp_port_ = 0;
   std::unique_ptr<Listener> tcp_;
   std::unique_ptr<SerialServer> serial_;
   std::optional<std::chrono::steady_clock::time_point> boots_at_;
