@@ -3,10 +3,9 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <unordered_map>
 
+#include "sim/flow/edge_table.h"
 #include "sim/flow/jacobian.h"
 
 namespace hydroprint::flow {
@@ -57,11 +56,6 @@ struct Edge {
   }
 };
 
-std::uint64_t key_of(int a, int b) {
-  const auto [low, high] = std::minmax(a, b);
-  return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
-}
-
 bool is_reached(const Node& node) { return !std::isnan(node.film_mm.x()); }
 
 class Tiler {
@@ -93,6 +87,7 @@ class Tiler {
                          {v[0], v[1], v[2]},
                          {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()}});
     }
+    state_ = EdgeTable<EdgeState>(3 * active_.size() / 2);
     trust_smooth_edges(gradient);
   }
 
@@ -123,23 +118,28 @@ class Tiler {
         if (!is_reached(nodes_[a]) || !is_reached(nodes_[b])) continue;
         const Vector3d along = nodes_[b].surface_mm - nodes_[a].surface_mm;
         const double bow_mm = ((gradient[a] - gradient[b]) * along).norm() / 8;
-        if (bow_mm < 0.5 * options_.tolerance_mm) state_[key_of(a, b)] = EdgeState::kLinear;
+        if (bow_mm < 0.5 * options_.tolerance_mm) state_.set(a, b, EdgeState::kLinear);
       }
     }
   }
 
   std::vector<Edge> untested_edges() {
     std::vector<Edge> edges;
-    std::unordered_map<std::uint64_t, std::size_t> index;
+    EdgeTable<std::size_t> index;
     for (const Tile& tile : active_) {
       for (int i = 0; i < 3; ++i) {
         const int j = (i + 1) % 3;
         const int k = (i + 2) % 3;
-        const std::uint64_t key = key_of(tile.node[j], tile.node[k]);
-        if (state_.contains(key)) continue;
-        const auto [it, is_new] = index.try_emplace(key, edges.size());
-        if (is_new) edges.push_back({tile.node[j], tile.node[k]});
-        Edge& edge = edges[it->second];
+        const int a = tile.node[j], b = tile.node[k];
+        if (state_.find(a, b) != nullptr) continue;
+        const std::size_t* known = index.find(a, b);
+        const bool is_new = known == nullptr;
+        const std::size_t at = is_new ? edges.size() : *known;
+        if (is_new) {
+          index.set(a, b, at);
+          edges.push_back({a, b});
+        }
+        Edge& edge = edges[at];
         const Landing landing =
             landings_.on(tile.triangle, 0.5 * (tile.barycentric[j] + tile.barycentric[k]));
         edge.middle = is_new ? landing : shared(edge.middle, landing);
@@ -178,20 +178,21 @@ class Tiler {
       const Node middle = {0.5 * (a.surface_mm + b.surface_mm), edge.film_mm};
       const Vector2d off = middle.film_mm - 0.5 * (a.film_mm + b.film_mm);
       const double off_mm = off.norm();
-      const std::uint64_t key = key_of(edge.a, edge.b);
+      EdgeState state = EdgeState::kLinear;
       const double surface_mm = (b.surface_mm - a.surface_mm).norm();
       if (std::min(off_mm, edge.off_on_surface_mm(off)) <=
           tolerance_mm_) {  // false if any of the three is NaN
-        state_[key] = EdgeState::kLinear;
+        state = EdgeState::kLinear;
       } else if (!is_reached(a) && !is_reached(b) && !is_reached(middle)) {
-        state_[key] = EdgeState::kLinear;  // nothing lands there at all
+        state = EdgeState::kLinear;  // nothing lands there at all
       } else if (!may_divide || edge.film_per_surface * surface_mm <= options_.least_edge_mm) {
-        state_[key] = EdgeState::kBroken;
+        state = EdgeState::kBroken;
       } else {
-        state_[key] = EdgeState::kDivided;
-        middle_[key] = static_cast<int>(nodes_.size());
+        state = EdgeState::kDivided;
+        middle_.set(edge.a, edge.b, static_cast<int>(nodes_.size()));
         nodes_.push_back(middle);
       }
+      state_.set(edge.a, edge.b, state);
     }
   }
 
@@ -201,9 +202,9 @@ class Tiler {
       std::array<int, 3> middle = {-1, -1, -1};
       bool is_divided = false;
       for (int i = 0; i < 3; ++i) {
-        const std::uint64_t key = key_of(tile.node[(i + 1) % 3], tile.node[(i + 2) % 3]);
-        if (state_.at(key) != EdgeState::kDivided) continue;
-        middle[i] = middle_.at(key);
+        const int a = tile.node[(i + 1) % 3], b = tile.node[(i + 2) % 3];
+        if (*state_.find(a, b) != EdgeState::kDivided) continue;
+        middle[i] = *middle_.find(a, b);
         is_divided = true;
       }
       if (is_divided) {
@@ -258,8 +259,9 @@ class Tiler {
   void finish(const Tile& tile) {
     for (int i = 0; i < 3; ++i) {
       if (!is_reached(nodes_[tile.node[i]])) return;
-      const std::uint64_t key = key_of(tile.node[(i + 1) % 3], tile.node[(i + 2) % 3]);
-      if (state_.at(key) == EdgeState::kBroken) return;
+      if (*state_.find(tile.node[(i + 1) % 3], tile.node[(i + 2) % 3]) == EdgeState::kBroken) {
+        return;
+      }
     }
     MappedTriangle mapped;
     mapped.triangle = tile.triangle;
@@ -287,8 +289,8 @@ class Tiler {
   std::vector<Node> nodes_;
   std::vector<Tile> active_;
   std::vector<MappedTriangle> done_;
-  std::unordered_map<std::uint64_t, EdgeState> state_;
-  std::unordered_map<std::uint64_t, int> middle_;
+  EdgeTable<EdgeState> state_;
+  EdgeTable<int> middle_;  ///< of those divided
 };
 
 }  // namespace
