@@ -20,6 +20,9 @@ constexpr int kCaption_px = 44;
 constexpr int kLegend_px = 110;
 constexpr double kLetter_px = 13;  ///< height of an x
 constexpr Rgb8 kPaper = {250, 250, 249}, kInk = {60, 64, 70};
+/// Differences of stretch beyond it say nothing: film tears at about 3. The poles of spheres, where
+/// it is hundreds, would take the whole scale.
+constexpr double kMostStretch = 4;
 const Eigen::Vector3f kBareObject(0.72F, 0.72F, 0.71F);  // linear
 
 /// From dark to light at an even pace, and apart for every kind of colour vision: control points of
@@ -230,7 +233,11 @@ Result<RgbImage> stretch_picture(const mesh::Surface& surface, const Pose& X_FO,
     for (double& value : values) value = std::isfinite(value) ? value : HUGE_VAL;
     return values;
   };
-  const Quantity stretch{"stretch", map.surface.stretch, 1, 0.1, at_corners};
+  std::vector<double> shown = map.surface.stretch;
+  for (double& value : shown) {
+    if (value > kMostStretch) value = kMostStretch;
+  }
+  const Quantity stretch{"stretch", shown, 1, 0.1, at_corners};
   return quantity_picture(surface, X_FO, map.tiles, stretch, context);
 }
 
