@@ -193,6 +193,7 @@ class Fitting {
   /// A last step by a finer computation, whose own error is smaller and can be told.
   Status refine() {
     discretisation_ = VectorXd::Zero(u_.size());
+    motion_warnings_ = predictor_.warnings();
     if (free_.empty()) return {};
     Predictor fine(model_, pipeline::scaled_resolution(dip_, kFineFactor));
     const auto fine_residuals = [&](Places& predicted) -> Result<VectorXd> {
@@ -210,6 +211,7 @@ class Fitting {
     out_.discretisation_mm = std::sqrt(2 * mean_square(difference.residuals));
     u_ += bounded_step(at_.of_known(), u_, domain_of(free_, dip_.profile), 0, 1);
     HP_ASSIGN_OR_RETURN(at_.residuals, fine_residuals(after));
+    motion_warnings_ = fine.warnings();
     for (std::size_t i = 0; i < after.size(); ++i) {
       PointResult& p = out_.points[i];
       p.after_mm = after[i];
@@ -237,6 +239,7 @@ class Fitting {
     out_.degrees_of_freedom = std::max(1, 2 * used - static_cast<int>(free_.size()));
     out_.residual_sigma_mm = std::sqrt(after / out_.degrees_of_freedom);
     out_.t_quantile = student_t(0.5 + 0.5 * kConfidence, out_.degrees_of_freedom);
+    out_.warnings.insert(out_.warnings.end(), motion_warnings_.begin(), motion_warnings_.end());
     if (free_.empty()) {
       out_.warnings.push_back({"nothing_determined",
                                "the points determine none of the parameters; the profile is the "
@@ -280,7 +283,8 @@ class Fitting {
   Linearised at_;            ///< at u_
   VectorXd discretisation_;  ///< standard errors of u_ by the computation's own error
   std::vector<Spot> spots_;
-  double work_ = 0;  ///< dips, finer ones more
+  Warnings motion_warnings_;  ///< of the last prediction
+  double work_ = 0;           ///< dips, finer ones more
   Outcome out_;
 };
 

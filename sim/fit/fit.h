@@ -53,6 +53,7 @@ struct Outcome {
 /// The profile by which the sheet (section 4.3, quasistatic) brings the measured points' film to
 /// where it was found: least squares of (predicted - measured) printed point, mm, with 95 %
 /// intervals. What the points do not tell keeps its value in `dip.profile` and is listed.
+/// Warns where the dip is one whose motion is not to be trusted (pipeline::warnings_of_motion).
 /// @param dip  the dip that was measured; its profile is where the fit starts
 /// Refuses what the dip refuses and (kInvalidArgument) fewer than four usable points 1 mm apart.
 [[nodiscard]] Result<Outcome> fit(const mesh::Model& model, const pipeline::DipOptions& dip,

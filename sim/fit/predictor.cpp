@@ -4,6 +4,7 @@
 
 #include "sim/flow/landing.h"
 #include "sim/flow/trace.h"
+#include "sim/pipeline/figures.h"
 
 namespace hydroprint::fit {
 
@@ -25,6 +26,8 @@ Result<std::vector<Eigen::Vector2d>> Predictor::predict(const film::Profile& pro
   options_.profile = profile;
   HP_ASSIGN_OR_RETURN(const sheet::SheetFlow moving,
                       pipeline::sheet_field(begun->stokes, options_.ink, options_, context));
+  warnings_ = pipeline::warnings_of_motion(static_cast<int>(begun->stokes.fields.size()),
+                                           begun->passed_over_mm, moving.unsettled_mm);
   const flow::Landings landings(begun->body, options_.motion);
   std::vector<flow::Landing> at;
   at.reserve(spots.size());

@@ -30,10 +30,14 @@ class Predictor {
                                                              const std::vector<Spot>& spots,
                                                              const Context& context);
 
+  /// What makes the last prediction's motion untrustworthy (pipeline::warnings_of_motion).
+  [[nodiscard]] const Warnings& warnings() const { return warnings_; }
+
  private:
   const mesh::Model& model_;
   pipeline::DipOptions options_;
   std::optional<pipeline::Start> start_;
+  Warnings warnings_;
   Eigen::Vector2d swelling_ = Eigen::Vector2d::Zero();  ///< of start_
 };
 

@@ -109,14 +109,6 @@ void warn_of_strain(const DipFigures& figures, const film::Profile& profile, War
   warn(figures.wrinkled_share, "film_wrinkled",
        "the film is gathered to less than " + fixed(profile.wrinkle_stretch) +
            " of its width and wrinkles. Turn the object or dip less deep");
-  if (figures.unsettled_mm <= kUnsettled_mm) return;
-  warnings.push_back({"sheet_unsettled",
-                      "the thickness of the film does not settle, as happens where it tears or "
-                      "folds; another sweep would still move it by " +
-                          fixed(figures.unsettled_mm) +
-                          " mm. Do not trust the map where the stretch is extreme (stretch.png); "
-                          "turn the object or dip less deep",
-                      "film"});
 }
 
 }  // namespace
@@ -127,6 +119,7 @@ DipFigures figures_of(const Start& start, const flow::SurfaceMap& map,
   figures.depth_mm = start.stokes.depth_mm;
   figures.stopped_at_edge = start.stopped_at_edge;
   figures.traps = start.traps;
+  figures.passed_over_mm = start.passed_over_mm;
   figures.steps = static_cast<int>(start.stokes.fields.size());
   for (const velocity::VelocityField& field : start.stokes.fields) {
     const auto vertices = static_cast<int>(field.mesh().vertices_mm.size());
@@ -198,6 +191,33 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
                         "profile"});
   }
   warn_of_strain(figures, options.profile, warnings);
+  const Warnings motion =
+      warnings_of_motion(figures.steps, figures.passed_over_mm, figures.unsettled_mm);
+  warnings.insert(warnings.end(), motion.begin(), motion.end());
+  return warnings;
+}
+
+Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm,
+                            double unsettled_mm) {
+  Warnings warnings;
+  if (!passed_over_mm.empty()) {
+    const std::size_t all = passed_over_mm.size() + static_cast<std::size_t>(steps);
+    warnings.push_back({"waterlines_passed_over",
+                        std::to_string(passed_over_mm.size()) + " of " + std::to_string(all) +
+                            " waterlines are passed over, since two of their curves all but touch; "
+                            "between them the film moves as before and after. Widen or close such "
+                            "gaps of the model",
+                        fixed(passed_over_mm.front()) + " mm immersion"});
+  }
+  if (unsettled_mm > kUnsettled_mm) {
+    warnings.push_back({"sheet_unsettled",
+                        "the thickness of the film does not settle, as happens where it tears or "
+                        "folds; another sweep would still move it by " +
+                            fixed(unsettled_mm) +
+                            " mm. Do not trust what lands where the stretch is extreme; turn the "
+                            "object or dip less deep",
+                        "film"});
+  }
   return warnings;
 }
 

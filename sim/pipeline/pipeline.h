@@ -62,6 +62,8 @@ struct DipFigures {
   double depth_mm = 0;           ///< immersion reached
   bool stopped_at_edge = false;  ///< the waterline reached the film's edge before `depth_mm`
   int steps = 0;                 ///< waterlines solved
+  /// Waterlines that were not, since two of their curves all but touch: their immersions.
+  std::vector<double> passed_over_mm;
   std::vector<InkPass> ink_passes;
   int film_vertices_max = 0;  ///< of the largest film mesh
   int film_triangles_max = 0;

@@ -74,8 +74,12 @@ Result<Start> start(const mesh::Model& model, const DipOptions& options, const C
   out.stokes.depth_mm = waterlines.depth_mm;
   HP_ASSIGN_OR_RETURN(auto fields, solve(out.stokes.outline, waterlines, options.mesh, context));
   for (std::size_t k = 0; k < fields.size(); ++k) {
-    if (!fields[k]) continue;
-    out.stokes.immersion_mm.push_back(waterlines.lines[k].immersion_mm);
+    const double immersion_mm = waterlines.lines[k].immersion_mm;
+    if (!fields[k]) {
+      out.passed_over_mm.push_back(immersion_mm);
+      continue;
+    }
+    out.stokes.immersion_mm.push_back(immersion_mm);
     out.stokes.fields.push_back(std::move(*fields[k]));
   }
   return out;

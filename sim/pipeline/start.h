@@ -20,6 +20,7 @@ struct Start {
   Pose X_FO;             ///< as used: lowest point on the water, z = 0
   waterline::Body body;  ///< the surface placed over the film
   flow::DipField stokes;
+  std::vector<double> passed_over_mm;  ///< see DipFigures
   bool stopped_at_edge = false;
   std::vector<waterline::Trap> traps;  ///< film and air closed in, largest first
 };

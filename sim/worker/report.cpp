@@ -187,6 +187,7 @@ std::string report_json(const Report& report) {
                  {"film_vertices_max", f.film_vertices_max},
                  {"film_triangles_max", f.film_triangles_max}}},
                {"steps", f.steps},
+               {"waterlines_passed_over", f.passed_over_mm.size()},
                {"depth_mm", f.depth_mm},
                {"stopped_at_film_edge", f.stopped_at_edge},
                {"coverage", f.coverage},
