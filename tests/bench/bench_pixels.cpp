@@ -25,7 +25,8 @@ using flow::testing::PixelMap;
 
 constexpr double kDpi = 600;
 constexpr double kTolerance_mm = 0.04;
-constexpr double kStep_mm = 0.1;  ///< of the particles, in depth
+constexpr double kStep_mm = 0.1;      ///< of the particles, in depth
+constexpr double kSettled_mm = 0.01;  ///< by which half of it may move them, on the film
 constexpr unsigned kSeed = 5;
 constexpr int kMostTries = 50'000'000;  ///< at finding a pixel at a jump
 
@@ -82,6 +83,7 @@ class Trial {
         map_(start_.body, fast_.tiles, image::film_grid(body.options.outline, 25.4 / kDpi)),
         reference_(reference_of(body)),
         particles_(start_.body, reference_, kStep_mm),
+        finer_(start_.body, reference_, kStep_mm / 2),
         comparison_(map_, start_.body, particles_) {}
 
   /// Random pixels of those on which something lands by map or particle.
@@ -90,14 +92,20 @@ class Trial {
     std::vector<Pixel> chosen;
     for (int i = 0; i < count; ++i) chosen.push_back(any_pixel(random));
     std::vector<PixelError> errors(chosen.size());
-    for_each(chosen.size(), [&](std::size_t i) { errors[i] = comparison_.at(chosen[i]); });
-    std::size_t landed = 0, within = 0, ruled = 0, one_sided = 0;
-    for (const PixelError& error : errors) {
+    std::vector<double> moved_mm(chosen.size());
+    for_each(chosen.size(), [&](std::size_t i) {
+      errors[i] = comparison_.at(chosen[i]);
+      moved_mm[i] = comparison_.moved_mm(chosen[i], finer_);
+    });
+    std::size_t landed = 0, within = 0, ruled = 0, one_sided = 0, settled = 0;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      const PixelError& error = errors[i];
       ruled += error.is_ruled;
       if (!error.lands || error.is_ruled) continue;
       ++landed;
       within += error.error_mm <= kTolerance_mm;
       one_sided += std::isinf(error.error_mm);
+      settled += moved_mm[i] <= kSettled_mm;
     }
     report_worst(chosen, errors);
     const auto share = [&](std::size_t n) {
@@ -106,6 +114,7 @@ class Trial {
     return {{"share_within", share(within)},
             {"pixels", landed},
             {"share_of_one_only", share(one_sided)},
+            {"share_of_particles_settled", share(settled)},
             {"not_counted_by_rule", ruled}};
   }
 
@@ -174,7 +183,7 @@ class Trial {
   flow::FlowMap fast_;
   PixelMap map_;
   flow::DipField reference_;
-  flow::testing::Particles particles_;
+  flow::testing::Particles particles_, finer_;
   PixelComparison comparison_;
 };
 

@@ -60,18 +60,22 @@ std::optional<Particles::Contact> Particles::contact(const Vector3d& from,
 }
 
 std::optional<Particles::Contact> Particles::follow(Vector2d p) const {
+  std::size_t next = 0;  // waterline
   for (double depth = 0; depth < dip_.depth_mm;) {
-    // No step over a millimetre of height, so that one layer holds all it can touch.
-    const double to_layer = std::floor(depth) + 1 - depth;
-    const double h = std::min({step_mm_, to_layer, dip_.depth_mm - depth});
+    // No step over a millimetre of height, so that one layer holds all it can touch, nor over a
+    // waterline, where the velocity bends, or all but jumps where two enclose an edge.
+    double end = std::min({depth + step_mm_, std::floor(depth) + 1, dip_.depth_mm});
+    while (next < dip_.immersion_mm.size() && dip_.immersion_mm[next] <= depth) ++next;
+    if (next < dip_.immersion_mm.size()) end = std::min(end, dip_.immersion_mm[next]);
+    const double h = end - depth;
     const Vector2d k1 = velocity(p, depth);
     const Vector2d k2 = velocity(p + 0.5 * h * k1, depth + 0.5 * h);
     const Vector2d k3 = velocity(p + 0.5 * h * k2, depth + 0.5 * h);
     const Vector2d k4 = velocity(p + h * k3, depth + h);
-    const Vector2d next = p + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
-    if (auto found = contact({p.x(), p.y(), depth}, {next.x(), next.y(), depth + h})) return found;
-    p = next;
-    depth = h == to_layer ? std::floor(depth) + 1 : depth + h;
+    const Vector2d to = p + h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+    if (auto found = contact({p.x(), p.y(), depth}, {to.x(), to.y(), end})) return found;
+    p = to;
+    depth = end;
   }
   return std::nullopt;
 }

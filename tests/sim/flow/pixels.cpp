@@ -136,6 +136,17 @@ PixelError PixelComparison::at(const Pixel& pixel) const {
   return compare(map_.at(pixel), particles_.follow(map_.film_mm(pixel)), Vector2d::Zero());
 }
 
+double PixelComparison::moved_mm(const Pixel& pixel, const Particles& others) const {
+  const Vector2d film = map_.film_mm(pixel);
+  const auto here = particles_.follow(film), there = others.follow(film);
+  if (!here && !there) return 0;
+  const auto spot = map_.at(pixel);
+  if (!here || !there || !spot) return kInfinite;
+  const Vector3d step = point_in(body_, there->triangle, there->barycentric) -
+                        point_in(body_, here->triangle, here->barycentric);
+  return film_distance_mm(*spot, normal_of(body_, spot->triangle), step, Vector2d::Zero());
+}
+
 double PixelComparison::jump_distance_mm(const Pixel& pixel) const {
   const auto spot = map_.at(pixel);
   const Vector2d film = map_.film_mm(pixel);

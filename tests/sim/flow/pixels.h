@@ -65,6 +65,10 @@ class PixelComparison {
 
   [[nodiscard]] PixelError at(const Pixel& pixel) const;
 
+  /// How far on the film other particles land from these; 0 where neither lands, infinite where one
+  /// of them does or the map knows of no film there.
+  [[nodiscard]] double moved_mm(const Pixel& pixel, const Particles& others) const;
+
   /// By how much the map misplaces a jump at this pixel, on the film: the distance to the nearest
   /// particle that does what the map says of the pixel (up to half a pixel), or that lands apart
   /// from where the pixel's own does: the particles' jump lies between the two then. Looked for on
