@@ -29,7 +29,7 @@ inline double patches(const Eigen::Vector2d& p) {
 }
 
 /// A ball a little off the middle of a round film, to 110 degrees, computed coarsely.
-inline Scene ball(double coarseness = 1.6) {
+inline Scene ball(double coarseness = 2.5) {
   Scene scene{sample::icosphere(30, 4), {}};
   scene.dip.outline = film::parse_outline("circle:80").value();
   scene.dip.X_FO = Pose(Eigen::Translation3d(6, -4, 0));
