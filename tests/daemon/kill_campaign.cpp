@@ -37,7 +37,7 @@ constexpr double kNearest_mm = 3;
 constexpr double kFarthest_mm = 12;
 constexpr double kFastest_mm_per_s = 10;  // also the virtual drive's homing
 constexpr double kSlowest_mm_per_s = 1;
-// Beyond the drive's own bounds, and beside how sure the moment of the kill is: the signal's way.
+// Beyond the drive's own bounds: how sure the moment of the kill is, and the signal's way.
 constexpr double kSlack_s = 0.05;
 constexpr milliseconds kBetweenCalls{40};
 constexpr milliseconds kLookAgain{20};
@@ -93,7 +93,6 @@ std::string text(int round, const Plan& plan) {
 struct Standstill {
   bool happened = false;
   bool was_moving = false;
-  double unsure_s = 0;  ///< between which moments it was killed
   double seconds = 0;
   double way_mm = 0;
   double position_mm = 0;
@@ -106,8 +105,7 @@ bool stands(const json& truth) {
 }
 
 /// @param killed  the drive just before
-/// @param after_s  when it was over, by the drive's clock
-Standstill watch_it_stop(VirtualRigProcess& drive, const json& killed, double after_s) {
+Standstill watch_it_stop(VirtualRigProcess& drive, const json& killed) {
   json first;
   const auto rests = [&] {
     first = drive.truth();
@@ -120,7 +118,6 @@ Standstill watch_it_stop(VirtualRigProcess& drive, const json& killed, double af
   Standstill out;
   out.was_moving = number(killed, "velocity_mm_per_s") != 0;
   out.happened = wait_until(rests, 3);
-  out.unsure_s = after_s - number(killed, "time_s");
   // 0 if it rested all along.
   out.seconds = std::max(number(first, "rested_s") - number(killed, "time_s"), 0.0);
   out.position_mm = number(first, "position_mm");
@@ -261,9 +258,8 @@ void Campaign::move_until_killed(const Plan& plan) {
     std::this_thread::sleep_for(duration<double>(plan.after_s));
     const json before = drive_.truth();
     ::kill(pid, SIGKILL);
-    const double after_s = drive_.now_s();
     killed.set_value();
-    stop_ = watch_it_stop(drive_, before, after_s);
+    stop_ = watch_it_stop(drive_, before);
   });
   keep_busy(plan);
   killed.get_future().wait();
@@ -290,8 +286,8 @@ void Campaign::expect_stopped_in_time(const Plan& plan, const Standstill& stop) 
   const double in_s = watchdog_s + speed / profile->stopping_deceleration_mm_per_s2;
   const double in_mm = drive::stopping_distance_mm(*profile, speed, watchdog_s);
   ASSERT_TRUE(stop.happened) << "it still moves";
-  EXPECT_LE(stop.seconds, in_s + stop.unsure_s + kSlack_s);
-  EXPECT_LE(stop.way_mm, in_mm + speed * (stop.unsure_s + kSlack_s));
+  EXPECT_LE(stop.seconds, in_s + kSlack_s);
+  EXPECT_LE(stop.way_mm, in_mm + speed * kSlack_s);
   const rig::RigConfig config;
   EXPECT_GE(stop.position_mm, config.end_low_mm);
   EXPECT_LE(in_mm, rig::stopping_distance_mm(config, *profile, speed))
