@@ -39,7 +39,8 @@ std::string dip_summary(const client::Job& job, const std::vector<Downloaded>& f
   return job.name + ": dipped" + told(report, "/depth_reached_mm", " ", " mm deep") +
          told(report, "/descent/speed_mm_per_s", " at ", " mm/s") +
          told(report, "/descent/largest_deviation_share", ", constant within ", " %", 100) +
-         told(report, "/descent/largest_deviation_mm", " and ", " mm");
+         told(report, "/descent/largest_deviation_mm", " and ", " mm") +
+         told(report, "/descent/deviation_uncertainty_mm", " (known to ", " mm)");
 }
 
 }  // namespace hydroprint::cli

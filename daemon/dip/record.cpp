@@ -62,6 +62,7 @@ Json descent_json(const Facts& facts) {
           {"speed_mm_per_s", was.speed_mm_per_s},
           {"largest_deviation_share", was.largest_share},
           {"largest_deviation_mm", was.largest_way_mm},
+          {"deviation_uncertainty_mm", was.way_uncertainty_mm},
           {"window_s", was.window_s},
           {"samples", was.samples}};
 }

@@ -16,18 +16,27 @@ double seconds(const Sample& sample, const Sample& first) {
   return std::chrono::duration<double>(sample.time - first.time).count();
 }
 
+// A late reply tells little: samples count by how well their times are known, up to this.
+constexpr double kBestTimeError_s = 2e-4;
+
+double weight(const Sample& sample) {
+  const double error_s = std::max(sample.time_error_s, kBestTimeError_s);
+  return 1 / (error_s * error_s);
+}
+
 Line fit(std::span<const Sample> samples) {
-  const double n = static_cast<double>(samples.size());
+  double all = 0;
+  for (const Sample& s : samples) all += weight(s);
   Line line;
   for (const Sample& s : samples) {
-    line.mean_s += seconds(s, samples.front()) / n;
-    line.at_mm += s.position_mm / n;
+    line.mean_s += weight(s) / all * seconds(s, samples.front());
+    line.at_mm += weight(s) / all * s.position_mm;
   }
   double above = 0, below = 0;
   for (const Sample& s : samples) {
     const double t = seconds(s, samples.front()) - line.mean_s;
-    above += t * (s.position_mm - line.at_mm);
-    below += t * t;
+    above += weight(s) * t * (s.position_mm - line.at_mm);
+    below += weight(s) * t * t;
   }
   line.slope = below > 0 ? above / below : 0;
   return line;
@@ -41,7 +50,8 @@ double largest_share(std::span<const Sample> samples, double slope, double windo
     const double t = seconds(samples[to], samples[from]);
     if (t < window_s) continue;
     const double v = (samples[to].position_mm - samples[from].position_mm) / t;
-    largest = std::max(largest, std::abs(v / slope - 1));
+    const double unsure = (samples[to].time_error_s + samples[from].time_error_s) / t;
+    largest = std::max(largest, std::abs(v / slope - 1) - unsure);
   }
   return largest;
 }
@@ -82,7 +92,10 @@ ConstantSpeed constant_speed(std::span<const Sample> samples, std::uint64_t moti
   out.speed_mm_per_s = line.slope;
   for (const Sample& s : used) {
     const double on_line_mm = line.at_mm + line.slope * (seconds(s, used.front()) - line.mean_s);
-    out.largest_way_mm = std::max(out.largest_way_mm, std::abs(s.position_mm - on_line_mm));
+    const double unsure_mm = std::abs(line.slope) * s.time_error_s;
+    out.largest_way_mm =
+        std::max(out.largest_way_mm, std::abs(s.position_mm - on_line_mm) - unsure_mm);
+    out.way_uncertainty_mm = std::max(out.way_uncertainty_mm, unsure_mm);
   }
   out.largest_share = largest_share(used, line.slope, window_s);
   return out;

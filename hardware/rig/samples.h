@@ -46,12 +46,14 @@ class SampleRing {
   std::atomic<std::uint64_t> newest_{0};
 };
 
-/// How constant a speed was.
+/// How constant a speed was. A deviation is what the samples' time errors cannot explain: whatever
+/// the times were within those, the axis was off by that much at least.
 struct ConstantSpeed {
   int samples = 0;
-  double speed_mm_per_s = 0;  ///< slope of the line through the positions (least squares)
-  double largest_way_mm = 0;  ///< farthest that a position lies from that line
-  double largest_share = 0;   ///< largest |v / v_line - 1| between samples a window apart
+  double speed_mm_per_s = 0;      ///< slope of the line through the positions (least squares)
+  double largest_way_mm = 0;      ///< farthest that a position lies from that line
+  double largest_share = 0;       ///< largest |v / v_line - 1| between samples a window apart
+  double way_uncertainty_mm = 0;  ///< the way in the largest time error: more can hide in it
   double window_s = 0;
 };
 

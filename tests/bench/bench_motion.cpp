@@ -174,6 +174,7 @@ void Bench::take_dip() {
   std::cout << ordered_json{{"row", "motion-dip-" + mode_},
                             {"deviation_share", descent.at("largest_deviation_share")},
                             {"deviation_mm", descent.at("largest_deviation_mm")},
+                            {"uncertainty_mm", descent.at("deviation_uncertainty_mm")},
                             {"speed_mm_per_s", descent.at("speed_mm_per_s")},
                             {"samples", descent.at("samples")}}
                    .dump()

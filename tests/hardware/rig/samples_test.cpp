@@ -101,6 +101,41 @@ TEST(ConstantSpeed, FindsASineOfKnownSize) {
   EXPECT_NEAR(speed.largest_share, 2 * amplitude_mm / (period_s / 2) / 5, 2e-3);
 }
 
+TEST(ConstantSpeed, ErrorsInTimeAreNoDeviation) {
+  // A constant 5 mm/s whose samples have times that are wrong by anything up to what they state, a
+  // few of them by a lot.
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> share(-1, 1);
+  std::vector<Sample> samples;
+  for (int i = 0; i < 400; ++i) {
+    const double error_s = i % 50 == 7 ? 0.02 : 0.0005;
+    samples.push_back(at(0.02 * i + error_s * share(random), 5 * 0.02 * i));
+    samples.back().time_error_s = error_s;
+  }
+  const ConstantSpeed speed = constant_speed(samples, 1, 0);
+  EXPECT_NEAR(speed.speed_mm_per_s, 5, 1e-3);
+  EXPECT_LT(speed.largest_way_mm, 5e-4);
+  EXPECT_LT(speed.largest_share, 1e-3);
+  EXPECT_NEAR(speed.way_uncertainty_mm, 5 * 0.02, 1e-4);
+}
+
+TEST(ConstantSpeed, ADeviationIsFoundAmongErrorsInTime) {
+  // The axis hangs back by 0.08 mm for a second in eight; all times are within 1 ms.
+  std::mt19937_64 random(2);
+  std::uniform_real_distribution<double> share(-1, 1);
+  std::vector<Sample> samples;
+  for (int i = 0; i < 400; ++i) {
+    const double t_s = 0.02 * i;
+    const double back_mm = t_s > 3 && t_s < 4 ? 0.08 : 0;
+    samples.push_back(at(t_s + 0.001 * share(random), 5 * t_s - back_mm));
+    samples.back().time_error_s = 0.001;
+  }
+  const ConstantSpeed speed = constant_speed(samples, 1, 0);
+  EXPECT_GT(speed.largest_way_mm, 0.06);  // the line gives way by an eighth, a time by 0.005 mm
+  EXPECT_LT(speed.largest_way_mm, 0.08);
+  EXPECT_GT(speed.largest_share, 0.06);  // 0.08 mm of the 1 mm in 0.2 s
+}
+
 TEST(ConstantSpeed, LeavesOutRampsAndOtherMotions) {
   std::vector<Sample> samples;
   for (int i = 0; i < 50; ++i) samples.push_back(at(0.02 * i, 0.1 * i));
