@@ -14,11 +14,7 @@
 namespace hydroprint::client {
 namespace {
 
-using Stub = v1::ArtifactService::Stub;
-
-constexpr int kPageSize = 1000;
-constexpr int kAttemptsWithoutProgress = 5;
-constexpr std::chrono::milliseconds kTryAgainAfter{500};
+using ArtifactStub = v1::ArtifactService::Stub;
 
 tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int error_number) {
   return fail(error_number == ENOSPC ? Code::kResourceExhausted : Code::kPermissionDenied,
@@ -157,7 +153,7 @@ Result<std::vector<Artifact>> list_artifacts(Connection& connection, const std::
   std::vector<Artifact> artifacts;
   do {
     HP_ASSIGN_OR_RETURN(const auto page, call(connection, *connection.impl().artifacts,
-                                              &Stub::ListArtifacts, request));
+                                              &ArtifactStub::ListArtifacts, request));
     for (const auto& artifact : page.artifacts()) artifacts.push_back(from_proto(artifact));
     request.set_page_token(page.next_page_token());
   } while (!request.page_token().empty());

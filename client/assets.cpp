@@ -9,11 +9,7 @@
 namespace hydroprint::client {
 namespace {
 
-using Stub = v1::AssetService::Stub;
-
-constexpr int kPageSize = 1000;
-constexpr int kAttemptsWithoutProgress = 5;
-constexpr std::chrono::milliseconds kTryAgainAfter{500};
+using AssetStub = v1::AssetService::Stub;
 
 std::string media_type(const std::filesystem::path& path) {
   const std::string extension = path.extension().string();
@@ -62,8 +58,8 @@ class Uploader {
     request.set_sha256(digest_.sha256);
     request.set_media_type(media_type(path_));
     request.set_request_id(make_uuid());
-    HP_ASSIGN_OR_RETURN(const auto answer,
-                        call(connection_, *connection_.impl().assets, &Stub::StartUpload, request));
+    HP_ASSIGN_OR_RETURN(const auto answer, call(connection_, *connection_.impl().assets,
+                                                &AssetStub::StartUpload, request));
     if (answer.has_asset()) return std::optional(from_proto(answer.asset()));
     upload_ = answer.upload().name();
     received_ = answer.upload().received_bytes();
@@ -74,7 +70,8 @@ class Uploader {
   Result<std::optional<Asset>> find_out() {
     v1::GetUploadRequest request;
     request.set_name(upload_);
-    const auto upload = call(connection_, *connection_.impl().assets, &Stub::GetUpload, request);
+    const auto upload =
+        call(connection_, *connection_.impl().assets, &AssetStub::GetUpload, request);
     if (upload) {
       received_ = upload->received_bytes();
       return std::optional<Asset>();
@@ -146,8 +143,8 @@ Result<std::vector<Asset>> list_assets(Connection& connection) {
   request.set_page_size(kPageSize);
   std::vector<Asset> assets;
   do {
-    HP_ASSIGN_OR_RETURN(const auto page,
-                        call(connection, *connection.impl().assets, &Stub::ListAssets, request));
+    HP_ASSIGN_OR_RETURN(const auto page, call(connection, *connection.impl().assets,
+                                              &AssetStub::ListAssets, request));
     for (const auto& asset : page.assets()) assets.push_back(from_proto(asset));
     request.set_page_token(page.next_page_token());
   } while (!request.page_token().empty());
@@ -157,7 +154,7 @@ Result<std::vector<Asset>> list_assets(Connection& connection) {
 Status delete_asset(Connection& connection, const std::string& name) {
   v1::DeleteAssetRequest request;
   request.set_name(name);
-  HP_RETURN_IF_ERROR(call(connection, *connection.impl().assets, &Stub::DeleteAsset, request));
+  HP_RETURN_IF_ERROR(call(connection, *connection.impl().assets, &AssetStub::DeleteAsset, request));
   return {};
 }
 

@@ -46,11 +46,6 @@ void to_proto(const InputFile& file, v1::InputFile* message) {
   message->set_asset(file.asset);
 }
 
-template <class T>
-std::optional<T> given(bool is_set, const T& value) {
-  return is_set ? std::optional<T>(value) : std::nullopt;
-}
-
 std::optional<PoseSpec> from_proto(bool is_set, const v1::Pose& pose) {
   PoseSpec result;
   if (!is_set || pose.rotation_wxyz_size() != 4 || pose.translation_mm_size() != 3)

@@ -18,6 +18,12 @@
 
 namespace hydroprint::client {
 
+/// An optional field as a value.
+template <class T>
+[[nodiscard]] std::optional<T> given(bool is_set, const T& value) {
+  return is_set ? std::optional<T>(value) : std::nullopt;
+}
+
 [[nodiscard]] Job from_proto(const ::hydroprint::v1::Job& message);
 [[nodiscard]] JobEvent from_proto(const ::hydroprint::v1::JobEvent& message);
 [[nodiscard]] Queue from_proto(const ::hydroprint::v1::Queue& message);

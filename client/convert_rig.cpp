@@ -8,11 +8,6 @@ namespace {
 
 namespace v1 = ::hydroprint::v1;
 
-template <class T>
-std::optional<T> given(bool is_set, const T& value) {
-  return is_set ? std::optional<T>(value) : std::nullopt;
-}
-
 RigState from_proto(v1::Rig::State state) {
   const int number = v1::Rig::State_IsValid(state) ? static_cast<int>(state) : 0;
   return static_cast<RigState>(number);

@@ -10,11 +10,10 @@
 namespace hydroprint::client {
 namespace {
 
-using Stub = v1::JobService::Stub;
+using JobStub = v1::JobService::Stub;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kGiveUpAfter{60};
-constexpr std::chrono::milliseconds kTryAgainAfter{500};
 
 Result<Job> to_job(Result<v1::Job> answer) {
   return std::move(answer).map([](const v1::Job& job) { return from_proto(job); });
@@ -99,7 +98,7 @@ class Watcher {
 Result<Job> create_job(Connection& connection, const Spec& spec, const JobOptions& options) {
   v1::CreateJobRequest request = creation(options);
   HP_RETURN_IF_ERROR(to_proto(spec, *request.mutable_job()));
-  return to_job(call(connection, *connection.impl().jobs, &Stub::CreateJob, request));
+  return to_job(call(connection, *connection.impl().jobs, &JobStub::CreateJob, request));
 }
 
 Result<Job> create_dip(Connection& connection, const DipSpec& spec, const std::string& lease_id,
@@ -107,7 +106,7 @@ Result<Job> create_dip(Connection& connection, const DipSpec& spec, const std::s
   v1::CreateJobRequest request = creation(options);
   *request.mutable_job()->mutable_dip() = to_proto(spec);
   request.set_lease_id(lease_id);
-  return to_job(call_once(connection, *connection.impl().jobs, &Stub::CreateJob, request));
+  return to_job(call_once(connection, *connection.impl().jobs, &JobStub::CreateJob, request));
 }
 
 Result<Job> confirm_step(Connection& connection, const std::string& name, DipStep step,
@@ -115,12 +114,12 @@ Result<Job> confirm_step(Connection& connection, const std::string& name, DipSte
   auto request = named<v1::ConfirmStepRequest>(name);
   request.set_step(to_proto(step));
   request.set_lease_id(lease_id);
-  return to_job(call_once(connection, *connection.impl().jobs, &Stub::ConfirmStep, request));
+  return to_job(call_once(connection, *connection.impl().jobs, &JobStub::ConfirmStep, request));
 }
 
 Result<Job> get_job(Connection& connection, const std::string& name) {
   return to_job(
-      call(connection, *connection.impl().jobs, &Stub::GetJob, named<v1::GetJobRequest>(name)));
+      call(connection, *connection.impl().jobs, &JobStub::GetJob, named<v1::GetJobRequest>(name)));
 }
 
 Result<std::vector<Job>> list_jobs(Connection& connection, const JobFilter& filter) {
@@ -131,7 +130,7 @@ Result<std::vector<Job>> list_jobs(Connection& connection, const JobFilter& filt
   do {
     request.set_page_size(filter.limit - static_cast<int>(jobs.size()));
     HP_ASSIGN_OR_RETURN(const auto page,
-                        call(connection, *connection.impl().jobs, &Stub::ListJobs, request));
+                        call(connection, *connection.impl().jobs, &JobStub::ListJobs, request));
     for (const auto& job : page.jobs()) jobs.push_back(from_proto(job));
     request.set_page_token(page.next_page_token());
   } while (!request.page_token().empty() && std::ssize(jobs) < filter.limit);
@@ -139,18 +138,18 @@ Result<std::vector<Job>> list_jobs(Connection& connection, const JobFilter& filt
 }
 
 Result<Job> cancel_job(Connection& connection, const std::string& name) {
-  return to_job(call(connection, *connection.impl().jobs, &Stub::CancelJob,
+  return to_job(call(connection, *connection.impl().jobs, &JobStub::CancelJob,
                      named<v1::CancelJobRequest>(name)));
 }
 
 Result<Job> retry_job(Connection& connection, const std::string& name) {
   auto request = named<v1::RetryJobRequest>(name);
   request.set_request_id(make_uuid());
-  return to_job(call(connection, *connection.impl().jobs, &Stub::RetryJob, request));
+  return to_job(call(connection, *connection.impl().jobs, &JobStub::RetryJob, request));
 }
 
 Status delete_job(Connection& connection, const std::string& name) {
-  HP_RETURN_IF_ERROR(call(connection, *connection.impl().jobs, &Stub::DeleteJob,
+  HP_RETURN_IF_ERROR(call(connection, *connection.impl().jobs, &JobStub::DeleteJob,
                           named<v1::DeleteJobRequest>(name)));
   return {};
 }
@@ -161,8 +160,8 @@ Result<std::vector<JobEvent>> list_job_events(Connection& connection, const std:
   request.set_page_size(1000);
   std::vector<JobEvent> events;
   do {
-    HP_ASSIGN_OR_RETURN(const auto page,
-                        call(connection, *connection.impl().jobs, &Stub::ListJobEvents, request));
+    HP_ASSIGN_OR_RETURN(const auto page, call(connection, *connection.impl().jobs,
+                                              &JobStub::ListJobEvents, request));
     for (const auto& event : page.events()) events.push_back(from_proto(event));
     request.set_page_token(page.next_page_token());
   } while (!request.page_token().empty());

@@ -9,7 +9,7 @@
 namespace hydroprint::client {
 namespace {
 
-using Stub = v1::LeaseService::Stub;
+using LeaseStub = v1::LeaseService::Stub;
 
 Result<Lease> to_lease(Result<v1::Lease> answer) {
   return std::move(answer).map([](const v1::Lease& lease) { return from_proto(lease); });
@@ -18,7 +18,8 @@ Result<Lease> to_lease(Result<v1::Lease> answer) {
 // All of these may be sent twice: acquiring carries a request_id.
 template <class Request, class Response>
 Result<Response> ask(Connection& connection,
-                     grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
+                     grpc::Status (LeaseStub::*method)(grpc::ClientContext*, const Request&,
+                                                       Response*),
                      const Request& request) {
   return call(connection, *connection.impl().leases, method, request);
 }
@@ -26,7 +27,7 @@ Result<Response> ask(Connection& connection,
 }  // namespace
 
 Result<Lease> get_lease(Connection& connection) {
-  return to_lease(ask(connection, &Stub::GetLease, v1::GetLeaseRequest()));
+  return to_lease(ask(connection, &LeaseStub::GetLease, v1::GetLeaseRequest()));
 }
 
 Result<Lease> acquire_lease(Connection& connection, const std::string& purpose,
@@ -35,7 +36,7 @@ Result<Lease> acquire_lease(Connection& connection, const std::string& purpose,
   request.set_purpose(purpose);
   request.mutable_ttl()->set_seconds(ttl.count());
   request.set_request_id(make_uuid());
-  return to_lease(ask(connection, &Stub::AcquireLease, request));
+  return to_lease(ask(connection, &LeaseStub::AcquireLease, request));
 }
 
 Result<Lease> renew_lease(Connection& connection, const std::string& lease_id,
@@ -43,20 +44,20 @@ Result<Lease> renew_lease(Connection& connection, const std::string& lease_id,
   v1::RenewLeaseRequest request;
   request.set_lease_id(lease_id);
   request.mutable_ttl()->set_seconds(ttl.count());
-  return to_lease(ask(connection, &Stub::RenewLease, request));
+  return to_lease(ask(connection, &LeaseStub::RenewLease, request));
 }
 
 Status release_lease(Connection& connection, const std::string& lease_id) {
   v1::ReleaseLeaseRequest request;
   request.set_lease_id(lease_id);
-  HP_RETURN_IF_ERROR(ask(connection, &Stub::ReleaseLease, request));
+  HP_RETURN_IF_ERROR(ask(connection, &LeaseStub::ReleaseLease, request));
   return {};
 }
 
 Status break_lease(Connection& connection, const std::string& reason) {
   v1::BreakLeaseRequest request;
   request.set_reason(reason);
-  HP_RETURN_IF_ERROR(ask(connection, &Stub::BreakLease, request));
+  HP_RETURN_IF_ERROR(ask(connection, &LeaseStub::BreakLease, request));
   return {};
 }
 

@@ -11,7 +11,7 @@
 namespace hydroprint::client {
 namespace {
 
-using Stub = v1::RigService::Stub;
+using RigStub = v1::RigService::Stub;
 
 // The next one follows in 100 ms, so one that hangs must not be obeyed late.
 constexpr std::chrono::milliseconds kJogAnswerLimit{250};
@@ -29,7 +29,7 @@ Request leased(const std::string& lease_id) {
 
 template <class Request>
 Result<Rig> command(Connection& connection,
-                    grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, v1::Rig*),
+                    grpc::Status (RigStub::*method)(grpc::ClientContext*, const Request&, v1::Rig*),
                     const Request& request, std::chrono::milliseconds limit = kAnswerLimit) {
   return to_rig(call_once(connection, *connection.impl().rig, method, request, limit));
 }
@@ -50,7 +50,7 @@ std::string_view name_of(MotionOutcome outcome) {
 }
 
 Result<Rig> get_rig(Connection& connection) {
-  return to_rig(call(connection, *connection.impl().rig, &Stub::GetRig, v1::GetRigRequest()));
+  return to_rig(call(connection, *connection.impl().rig, &RigStub::GetRig, v1::GetRigRequest()));
 }
 
 Status watch_rig(Connection& connection, double max_rate_hz,
@@ -73,17 +73,17 @@ Status watch_rig(Connection& connection, double max_rate_hz,
 }
 
 Result<Rig> arm_rig(Connection& connection, const std::string& lease_id) {
-  return command(connection, &Stub::Arm, leased<v1::ArmRequest>(lease_id));
+  return command(connection, &RigStub::Arm, leased<v1::ArmRequest>(lease_id));
 }
 
 Result<Rig> disarm_rig(Connection& connection, const std::string& lease_id) {
-  return command(connection, &Stub::Disarm, leased<v1::DisarmRequest>(lease_id));
+  return command(connection, &RigStub::Disarm, leased<v1::DisarmRequest>(lease_id));
 }
 
 Result<Rig> home_rig(Connection& connection, const std::string& lease_id) {
   auto request = leased<v1::HomeRequest>(lease_id);
   request.set_request_id(make_uuid());
-  return command(connection, &Stub::Home, request);
+  return command(connection, &RigStub::Home, request);
 }
 
 Result<Rig> move_rig(Connection& connection, const std::string& lease_id, double position_mm,
@@ -92,22 +92,22 @@ Result<Rig> move_rig(Connection& connection, const std::string& lease_id, double
   request.set_position_mm(position_mm);
   if (speed_mm_per_s) request.set_speed_mm_per_s(*speed_mm_per_s);
   request.set_request_id(make_uuid());
-  return command(connection, &Stub::MoveTo, request);
+  return command(connection, &RigStub::MoveTo, request);
 }
 
 Result<Rig> jog_rig(Connection& connection, const std::string& lease_id, double speed_mm_per_s) {
   auto request = leased<v1::JogRequest>(lease_id);
   request.set_speed_mm_per_s(speed_mm_per_s);
-  return command(connection, &Stub::Jog, request, kJogAnswerLimit);
+  return command(connection, &RigStub::Jog, request, kJogAnswerLimit);
 }
 
 Result<Rig> reset_rig(Connection& connection, const std::string& lease_id) {
-  return command(connection, &Stub::ResetFault, leased<v1::ResetFaultRequest>(lease_id));
+  return command(connection, &RigStub::ResetFault, leased<v1::ResetFaultRequest>(lease_id));
 }
 
 Result<Rig> stop_rig(Connection& connection) {
   return to_rig(
-      call(connection, *connection.impl().rig, &Stub::StopMotion, v1::StopMotionRequest()));
+      call(connection, *connection.impl().rig, &RigStub::StopMotion, v1::StopMotionRequest()));
 }
 
 }  // namespace hydroprint::client

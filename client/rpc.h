@@ -52,6 +52,12 @@ class Call {
 
 /// Time within which a call that does not stream must be answered.
 inline constexpr std::chrono::seconds kAnswerLimit{30};
+/// Between attempts at a stream that broke off.
+inline constexpr std::chrono::milliseconds kTryAgainAfter{500};
+/// After which a transfer in which nothing arrives is given up.
+inline constexpr int kAttemptsWithoutProgress = 5;
+/// What a list is asked for at once.
+inline constexpr int kPageSize = 1000;
 
 /// The error that a failed call means, with the reason from its google.rpc.ErrorInfo.
 [[nodiscard]] Error to_error(const Connection& connection, const grpc::Status& status);

@@ -10,10 +10,6 @@
 namespace hydroprint::daemon {
 namespace {
 
-google::protobuf::Timestamp time_of(std::int64_t ms) {
-  return google::protobuf::util::TimeUtil::MillisecondsToTimestamp(ms);
-}
-
 void set_times(const Job& job, v1::Job& out) {
   *out.mutable_create_time() = time_of(job.create_ms);
   *out.mutable_update_time() = time_of(job.update_ms);
@@ -35,6 +31,14 @@ void set_error(const JobFailure& failure, v1::JobError& out) {
 }
 
 }  // namespace
+
+google::protobuf::Timestamp time_of(std::int64_t ms) {
+  return google::protobuf::util::TimeUtil::MillisecondsToTimestamp(ms);
+}
+
+std::string time_text(std::int64_t ms) {
+  return google::protobuf::util::TimeUtil::ToString(time_of(ms));
+}
 
 v1::Job to_message(const Job& job) {
   v1::Job out;

@@ -13,6 +13,11 @@
 
 namespace hydroprint::daemon {
 
+/// A wall clock's milliseconds since 1970 as the API shows them, and as text
+/// ("2026-11-22T02:05:39Z").
+[[nodiscard]] google::protobuf::Timestamp time_of(std::int64_t ms);
+[[nodiscard]] std::string time_text(std::int64_t ms);
+
 /// What is stored as the API shows it.
 [[nodiscard]] v1::Job to_message(const Job& job);
 [[nodiscard]] v1::JobEvent to_message(const JobEvent& event);

@@ -1,11 +1,10 @@
 #include "daemon/dip_run.h"
 
-#include <google/protobuf/util/time_util.h>
-
 #include <algorithm>
 #include <utility>
 
 #include "daemon/artifact_files.h"
+#include "daemon/convert.h"
 #include "daemon/dip/words.h"
 #include "daemon/files.h"
 #include "daemon/log.h"
@@ -26,16 +25,11 @@ using std::chrono::milliseconds;
 // Each report is a transaction on disk.
 constexpr milliseconds kProgressInterval{250};
 constexpr milliseconds kFlushInterval{250};
-constexpr std::chrono::seconds kTryAgainAfter{1};
+constexpr std::chrono::seconds kStoreAgainAfter{1};
 // After the computed time, an axis that nobody sees at rest is not waited for any longer.
 constexpr double kRestMargin_s = 1;
 constexpr std::size_t kMostSamples = 500'000;  // of the descent, for its speed
-constexpr std::size_t kLargestReport = 16 << 20;
-
-std::string time_text(std::int64_t ms) {
-  using google::protobuf::util::TimeUtil;
-  return TimeUtil::ToString(TimeUtil::MillisecondsToTimestamp(ms));
-}
+constexpr std::size_t kLargestRecord = 16 << 20;
 
 JobState job_state(const dip::Stand& stand) {
   return dip::awaits(stand.step) == dip::Awaits::kOperator ? JobState::kWaitingForOperator
@@ -319,18 +313,16 @@ std::string DipRun::words() const {
 }
 
 std::string DipRun::status() const {
-  using google::protobuf::util::TimeUtil;
   const bool ended = stand_.ending != Ending::kNone;
   v1::DipStatus out = status_of(stand_.step, words());
   const auto& planned_s = facts_.steps.back().planned_s;
   if (planned_s && !ended) {
-    *out.mutable_step_end_time() =
-        TimeUtil::MillisecondsToTimestamp(wall_ms(stand_.since_s + *planned_s));
+    *out.mutable_step_end_time() = time_of(wall_ms(stand_.since_s + *planned_s));
   }
   if (stand_.sprayed_s) {
     const dip::Clocks& clocks = facts_.plan.clocks;
-    *out.mutable_activation_end_time() = TimeUtil::MillisecondsToTimestamp(
-        wall_ms(*stand_.sprayed_s + clocks.activator_wait_s + clocks.activation_window_s));
+    *out.mutable_activation_end_time() =
+        time_of(wall_ms(*stand_.sprayed_s + clocks.activator_wait_s + clocks.activation_window_s));
   }
   if (stand_.contact_mm) out.set_contact_mm(*stand_.contact_mm);
   for (const Warning& warning : facts_.warnings) out.add_warnings(warning.message);
@@ -404,7 +396,7 @@ bool DipRun::finish() {
   }
   const auto ended = around_.jobs.end_dip(job_, state, failure, status(), *record_, end_words());
   if (!ended) {
-    next_end_ = SteadyClock::now() + kTryAgainAfter;
+    next_end_ = SteadyClock::now() + kStoreAgainAfter;
     log(LogLevel::kError, "job_end_lost", {{"job", job_}, {"message", ended.error().message}});
     return false;
   }
@@ -427,7 +419,7 @@ Status end_lost_dips(JobStore& jobs, const Layout& layout) {
     status.clear_step_end_time();
     std::vector<Artifact> record;
     const auto folder = layout.dip(id);
-    if (const auto report = read_text_file(folder / dip::kReportName, kLargestReport)) {
+    if (const auto report = read_text_file(folder / dip::kReportName, kLargestRecord)) {
       const Status written = dip::write_report(folder, dip::interrupted_report(*report, words));
       log_failure("record_not_written", id, written);
       if (auto published = publish_artifacts(folder, layout.artifacts(id))) record = *published;

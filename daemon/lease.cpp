@@ -1,19 +1,13 @@
 #include "daemon/lease.h"
 
-#include <google/protobuf/util/time_util.h>
-
 #include <utility>
 
+#include "daemon/convert.h"
 #include "daemon/names.h"
 #include "daemon/requests.h"
 
 namespace hydroprint::daemon {
 namespace {
-
-std::string time_text(std::int64_t ms) {
-  using google::protobuf::util::TimeUtil;
-  return TimeUtil::ToString(TimeUtil::MillisecondsToTimestamp(ms));
-}
 
 void describe(const Lease& lease, Error& error) {
   error.metadata["holder"] = lease.holder;

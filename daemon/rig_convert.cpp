@@ -1,7 +1,6 @@
 #include "daemon/rig_convert.h"
 
-#include <google/protobuf/util/time_util.h>
-
+#include "daemon/convert.h"
 #include "daemon/names.h"
 #include "hardware/rig/errors.h"
 #include "hardware/rig/limits.h"
@@ -9,12 +8,8 @@
 namespace hydroprint::daemon {
 namespace {
 
-google::protobuf::Timestamp time_of(std::int64_t ms) {
-  return google::protobuf::util::TimeUtil::MillisecondsToTimestamp(ms);
-}
-
 // The steady clock's time as the wall shows it.
-google::protobuf::Timestamp time_of(rig::TimePoint time) {
+google::protobuf::Timestamp wall_time(rig::TimePoint time) {
   using namespace std::chrono;
   const auto ago = duration_cast<milliseconds>(steady_clock::now() - time);
   return time_of(system_clock_ms() - ago.count());
@@ -136,7 +131,7 @@ void set_drive(const rig::Controller& controller, v1::Rig& out) {
     out.set_position_mm(now.position_mm);
     out.set_velocity_mm_per_s(now.velocity_mm_per_s);
     set_alarm(controller.profile(), now.alarm_code, out);
-    *out.mutable_sample_time() = time_of(now.time);
+    *out.mutable_sample_time() = wall_time(now.time);
   }
   if (const auto motion = controller.motion(now.motion)) set_motion(*motion, *out.mutable_motion());
   set_axis(controller, now.watchdog_s, *out.mutable_axis());

@@ -22,11 +22,11 @@ using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
 // With JobService's, far fewer than the server has threads.
-constexpr int kMostWatches = 32;
+constexpr int kMostRigWatches = 32;
 constexpr double kSlowestRate_hz = 0.1;
 constexpr double kFastestRate_hz = 10;
 constexpr std::chrono::seconds kQuietest{2};
-constexpr milliseconds kLook{100};
+constexpr milliseconds kWatchLook{100};
 constexpr double kDefaultSpeed_mm_per_s = 5;
 
 Status check_number(const char* field, bool is_there, double value) {
@@ -69,7 +69,7 @@ class RigService final
                         grpc::ServerWriter<v1::Rig>* writer) override {
     const int before = watches_.fetch_add(1);
     const Status status =
-        before < kMostWatches
+        before < kMostRigWatches
             ? watch(*context, *request, *writer)
             : fail(Code::kResourceExhausted,
                    "too many watches are open; get the rig instead, or try again later",
@@ -204,12 +204,12 @@ class RigService final
     const auto quietest = std::max<SteadyClock::duration>(kQuietest, period);
     v1::Rig sent;
     SteadyClock::time_point sent_at;
-    for (bool first = true;; std::this_thread::sleep_for(kLook)) {
+    for (bool first = true;; std::this_thread::sleep_for(kWatchLook)) {
       HP_RETURN_IF_ERROR(check_serving(backend_));
       if (context.IsCancelled()) return fail(Code::kCancelled, "the client left");
       const auto since = SteadyClock::now() - sent_at;
       // A sleep may be short by a little, and the rate must not halve for it.
-      if (!first && since < period - kLook / 10) continue;
+      if (!first && since < period - kWatchLook / 10) continue;
       v1::Rig now = rig_message(backend_.desk);
       if (!first && since < quietest && same(now, sent)) continue;
       if (!writer.Write(now)) return fail(Code::kCancelled, "the client left");

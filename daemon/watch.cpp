@@ -4,7 +4,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr int kBatch = 100;
-constexpr std::chrono::milliseconds kPatience{250};
+constexpr std::chrono::milliseconds kLongestNap{250};
 
 tl::unexpected<Error> client_gone() { return fail(Code::kCancelled, "the client left"); }
 
@@ -45,7 +45,7 @@ Status watch_job(const Backend& backend, std::int64_t id, std::optional<std::int
     if (is_finished(job.state)) return {};
     HP_RETURN_IF_ERROR(check_serving(backend));
     if (gone()) return client_gone();
-    backend.jobs.bell().wait(rings, kPatience);
+    backend.jobs.bell().wait(rings, kLongestNap);
   }
 }
 

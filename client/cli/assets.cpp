@@ -13,7 +13,7 @@
 namespace hydroprint::cli {
 namespace {
 
-Status list(Program& program) {
+Status list_assets(Program& program) {
   HP_ASSIGN_OR_RETURN(const auto assets, client::list_assets(program.daemon()));
   if (program.json()) {
     print({{"assets", to_json(assets)}});
@@ -25,7 +25,7 @@ Status list(Program& program) {
   return {};
 }
 
-Status delete_all(Program& program, const std::vector<std::string>& names) {
+Status delete_assets(Program& program, const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     HP_RETURN_IF_ERROR(client::delete_asset(program.daemon(), name));
     if (!program.json()) std::cout << name << " deleted" << std::endl;
@@ -40,11 +40,11 @@ void add_assets(CLI::App& app, Program& program) {
   CLI::App* command = app.add_subcommand("assets", "List or delete uploaded files");
   command->require_subcommand(1);
   CLI::App* lister = command->add_subcommand("list", "List them, in the order of their hashes");
-  program.on(*lister, [&program] { return list(program); });
+  program.on(*lister, [&program] { return list_assets(program); });
   auto names = std::make_shared<std::vector<std::string>>();
   CLI::App* deleter = command->add_subcommand("delete", "Delete what no unfinished job needs");
   deleter->add_option("asset", *names, "assets/SHA256")->type_name("ASSET")->required();
-  program.on(*deleter, [&program, names] { return delete_all(program, *names); });
+  program.on(*deleter, [&program, names] { return delete_assets(program, *names); });
 }
 
 }  // namespace hydroprint::cli

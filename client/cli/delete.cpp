@@ -11,7 +11,7 @@
 namespace hydroprint::cli {
 namespace {
 
-Status delete_all(Program& program, const std::vector<std::string>& names) {
+Status delete_jobs(Program& program, const std::vector<std::string>& names) {
   Json deleted = Json::array();
   for (const std::string& text : names) {
     const std::string name = job_name(text);
@@ -30,7 +30,7 @@ void add_delete(CLI::App& app, Program& program) {
   CLI::App* command =
       app.add_subcommand("delete", "Delete finished jobs with their events and artifacts");
   command->add_option("job", *jobs, "The jobs: jobs/7, or 7")->type_name("JOB")->required();
-  program.on(*command, [&program, jobs] { return delete_all(program, *jobs); });
+  program.on(*command, [&program, jobs] { return delete_jobs(program, *jobs); });
 }
 
 }  // namespace hydroprint::cli

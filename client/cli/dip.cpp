@@ -155,7 +155,7 @@ void add_motion_flags(CLI::App& command, client::DipSpec& spec) {
       ->type_name("MM");
 }
 
-constexpr char kFooter[] =
+constexpr char kDipFooter[] =
     "Needs an armed and homed rig. Takes the lease ('hydroprint rig lease') unless you have it, "
     "and\n"
     "keeps it while the dip lasts. On a terminal it shows each step, what to do, and its clock;\n"
@@ -189,7 +189,7 @@ void add_dip(CLI::App& app, Program& program) {
   command->add_flag("--yes-to-all", options->spec.yes_to_all,
                     "Skip confirmations and clocks; on the virtual rig only");
   command->add_flag("--validate-only", options->job.validate_only, "Check, but create nothing");
-  command->footer(kFooter);
+  command->footer(kDipFooter);
   program.on(*command, [&program, options] { return dip(program, *options); });
 }
 

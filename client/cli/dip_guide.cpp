@@ -88,7 +88,7 @@ class WatchedJob {
   std::thread watcher_;  // the last: it uses all the others
 };
 
-double seconds(auto time) { return std::chrono::duration<double>(time).count(); }
+double to_seconds(auto time) { return std::chrono::duration<double>(time).count(); }
 
 bool waits(const client::Job& job) {
   return job.state == client::JobState::kWaitingForOperator && job.dip_status &&
@@ -156,9 +156,9 @@ class Guide {
     if (status.activation_end_time) text += "  " + film_age(*status.activation_end_time - now);
     if (!status.step_end_time) return line_.show(name, job.progress_fraction, text);
     const auto left = *status.step_end_time - now;
-    const double whole_s = seconds(*status.step_end_time - begun_);
+    const double whole_s = to_seconds(*status.step_end_time - begun_);
     text = format_duration(std::chrono::ceil<std::chrono::seconds>(left)) + " left  " + text;
-    line_.show(name, whole_s > 0 ? 1 - seconds(left) / whole_s : 1, text);
+    line_.show(name, whole_s > 0 ? 1 - to_seconds(left) / whole_s : 1, text);
   }
 
   static std::string film_age(Time::duration left) {

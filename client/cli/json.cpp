@@ -29,14 +29,14 @@ void put(Json& json, const char* key, const std::string& value) {
   if (!value.empty()) json[key] = value;
 }
 
-Json to_json(const client::JobError& error) {
+Json error_json(const client::JobError& error) {
   Json json{{"code", error.code}, {"reason", error.reason}, {"message", error.message}};
   put(json, "exit_status", error.exit_status);
   put(json, "signal", error.signal);
   return json;
 }
 
-Json to_json(const client::Motion& motion) {
+Json motion_json(const client::Motion& motion) {
   Json json{{"number", motion.number},
             {"kind", motion.kind},
             {"outcome", client::name_of(motion.outcome)}};
@@ -47,7 +47,7 @@ Json to_json(const client::Motion& motion) {
   return json;
 }
 
-Json to_json(const client::Axis& axis) {
+Json axis_json(const client::Axis& axis) {
   return {{"drive", axis.drive},
           {"is_virtual", axis.is_virtual},
           {"min_mm", axis.min_mm},
@@ -57,7 +57,7 @@ Json to_json(const client::Axis& axis) {
           {"watchdog_s", axis.watchdog_s}};
 }
 
-Json to_json(const client::LinkQuality& link) {
+Json link_json(const client::LinkQuality& link) {
   return {{"missed_polls", link.missed_polls},
           {"connects", link.connects},
           {"polls", link.polls},
@@ -68,7 +68,7 @@ Json to_json(const client::LinkQuality& link) {
 
 }  // namespace
 
-Json to_json(const client::Spec& spec) {
+Json spec_json(const client::Spec& spec) {
   Json json = Json::object();
   if (!spec.mesh.name.empty()) json["mesh"] = value_of(spec.mesh);
   put(json, "texture", spec.texture);
@@ -111,11 +111,11 @@ Json to_json(const client::Job& job) {
   put(json, "create_time", job.create_time);
   put(json, "start_time", job.start_time);
   put(json, "end_time", job.end_time);
-  if (job.error) json["error"] = to_json(*job.error);
+  if (job.error) json["error"] = error_json(*job.error);
   put(json, "retry_of", job.retry_of);
   put(json, "input_digest", job.input_digest);
   json["cache_hit"] = job.cache_hit;
-  if (job.spec) json[std::string(client::name_of(job.spec->verb))] = to_json(*job.spec);
+  if (job.spec) json[std::string(client::name_of(job.spec->verb))] = spec_json(*job.spec);
   if (job.dip) json["dip"] = to_json(*job.dip);
   if (job.dip_status) json["dip_status"] = to_json(*job.dip_status);
   return json;
@@ -183,9 +183,9 @@ Json to_json(const client::Rig& rig) {
   if (rig.alarm_code != 0) json["alarm_code"] = rig.alarm_code;
   put(json, "alarm_text", rig.alarm_text);
   put(json, "sample_time", rig.sample_time);
-  if (rig.motion) json["motion"] = to_json(*rig.motion);
-  if (rig.axis) json["axis"] = to_json(*rig.axis);
-  json["link_quality"] = to_json(rig.link_quality);
+  if (rig.motion) json["motion"] = motion_json(*rig.motion);
+  if (rig.axis) json["axis"] = axis_json(*rig.axis);
+  json["link_quality"] = link_json(rig.link_quality);
   if (rig.lease) json["lease"] = to_json(*rig.lease);
   put(json, "dip", rig.dip);
   return json;

@@ -117,7 +117,7 @@ void add_home(CLI::App& parent, Program& program) {
   program.on(*command, [&program, options] { return drive(program, *options, client::home_rig); });
 }
 
-void add_move(CLI::App& parent, Program& program) {
+void add_rig_move(CLI::App& parent, Program& program) {
   auto options = std::make_shared<CommandOptions>();
   CLI::App* command = parent.add_subcommand("move", "Go to a place");
   command->add_option("position", options->position_mm, "Where to: 0 is home, positive is down")
@@ -178,7 +178,7 @@ void add_rig(CLI::App& app, Program& program) {
             "Where the axis is, is not known afterwards. A vertical axis without a brake sinks.",
             client::disarm_rig);
   add_home(*command, program);
-  add_move(*command, program);
+  add_rig_move(*command, program);
   add_jog(*command, program);
   add_stop(*command, program);
   add_order(*command, program, "reset", "After a fault or the stop button: clear the alarm",

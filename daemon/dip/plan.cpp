@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "daemon/dip/text.h"
 #include "hardware/rig/limits.h"
 #include "hardware/rig/travel.h"
 
@@ -12,13 +12,6 @@ namespace {
 
 // What an operator's step counts for in the share that is done.
 constexpr double kOperator_s = 15;
-
-template <class... Parts>
-std::string text(const Parts&... parts) {
-  std::ostringstream out;
-  (out << ... << parts);
-  return out.str();
-}
 
 tl::unexpected<Error> out_of_reach(const std::string& message, double value_mm, rig::Range range) {
   return tl::unexpected(Error{Code::kOutOfRange,

@@ -4,15 +4,10 @@
 #include <iomanip>
 #include <sstream>
 
+#include "daemon/dip/text.h"
+
 namespace hydroprint::dip {
 namespace {
-
-template <class... Parts>
-std::string text(const Parts&... parts) {
-  std::ostringstream out;
-  (out << ... << parts);
-  return out.str();
-}
 
 std::string spray(const Plan& plan) {
   std::ostringstream out;

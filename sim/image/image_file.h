@@ -49,6 +49,9 @@ void load_image_libraries();
 [[nodiscard]] Result<ReadImage> read_image(const std::vector<unsigned char>& bytes,
                                            const std::string& name, const Context& context);
 
+/// Resolution stated in pictures that are to be looked at, not printed.
+inline constexpr double kScreenDpi = 96;
+
 /// Writes a PNG with its resolution (encode_png), under a temporary name that is renamed at the
 /// end. Refuses with kResourceExhausted (reason DISK_FULL) when the disk is full, kPermissionDenied
 /// or kNotFound when the place cannot be written to.

@@ -14,8 +14,6 @@ using Path = std::filesystem::path;
 /// A file to write: its name and how.
 using Task = std::pair<std::string, std::function<Status(const Path&)>>;
 
-constexpr double kScreenDpi = 96;  // of pictures to be looked at
-
 Result<std::vector<std::string>> write_all(const std::filesystem::path& folder,
                                            const std::vector<Task>& tasks, const Context& context) {
   std::vector<std::string> names;
@@ -54,10 +52,10 @@ Result<std::vector<std::string>> write_artifacts(const std::filesystem::path& fo
     tasks.emplace_back("film_map.exr", [&images](const Path& path) {
       return image::write_film_map_exr(path, images.film_map);
     });
-    tasks.push_back(picture("stretch.png", images.stretch, kScreenDpi, context));
+    tasks.push_back(picture("stretch.png", images.stretch, image::kScreenDpi, context));
     if (images.wrinkles)
-      tasks.push_back(picture("wrinkles.png", *images.wrinkles, kScreenDpi, context));
-    tasks.push_back(picture("predicted.png", images.predicted, kScreenDpi, context));
+      tasks.push_back(picture("wrinkles.png", *images.wrinkles, image::kScreenDpi, context));
+    tasks.push_back(picture("predicted.png", images.predicted, image::kScreenDpi, context));
   }
   return write_all(folder, tasks, context);
 }
@@ -76,7 +74,7 @@ Result<std::vector<std::string>> write_artifacts(const std::filesystem::path& fo
                                    images.texture->rgba);
     });
   }
-  tasks.push_back(picture("predicted.png", images.picture, kScreenDpi, context));
+  tasks.push_back(picture("predicted.png", images.picture, image::kScreenDpi, context));
   return write_all(folder, tasks, context);
 }
 

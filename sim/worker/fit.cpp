@@ -17,8 +17,6 @@
 namespace hydroprint::worker {
 namespace {
 
-constexpr double kScreenDpi = 96;
-
 /// The shortest text that reads back as the same number; empty if there is none.
 std::string cell(double value) {
   if (!std::isfinite(value)) return {};
@@ -71,8 +69,8 @@ Status run_fit(const Options& options, const pipeline::DipOptions& dip, OutFolde
   const std::filesystem::path& to = folder.partial();
   HP_RETURN_IF_ERROR(write_text(to / "film_profile.toml", film::profile_toml(report.fit->profile)));
   HP_RETURN_IF_ERROR(write_text(to / "residuals.csv", residuals_csv(report.fit->points)));
-  HP_RETURN_IF_ERROR(image::write_png(to / "residuals.png",
-                                      fit::residual_picture(dip.outline, *report.fit), kScreenDpi));
+  HP_RETURN_IF_ERROR(image::write_png(
+      to / "residuals.png", fit::residual_picture(dip.outline, *report.fit), image::kScreenDpi));
   report.artifacts = {"film_profile.toml", "residuals.csv", "residuals.png"};
   return {};
 }

@@ -27,9 +27,8 @@ Status run_validate(const Options& options, OutFolder& folder, Report& report,
                     const Context& context) {
   HP_RETURN_IF_ERROR(folder.create());
   const auto write_picture = [&](const std::string& file, const image::RgbImage& picture) {
-    constexpr double kScreenDpi = 96;
     report.artifacts.push_back(file);
-    return image::write_png(folder.partial() / file, picture, kScreenDpi);
+    return image::write_png(folder.partial() / file, picture, image::kScreenDpi);
   };
   HP_ASSIGN_OR_RETURN(report.validation,
                       validate::validate(options.validate, write_picture, context));

@@ -18,10 +18,10 @@
 namespace hydroprint::bench {
 namespace {
 
-using flow::testing::Pixel;
-using flow::testing::PixelComparison;
-using flow::testing::PixelError;
-using flow::testing::PixelMap;
+using flow::reference::Pixel;
+using flow::reference::PixelComparison;
+using flow::reference::PixelError;
+using flow::reference::PixelMap;
 
 constexpr double kDpi = 600;
 constexpr double kTolerance_mm = 0.04;
@@ -183,7 +183,7 @@ class Trial {
   flow::FlowMap fast_;
   PixelMap map_;
   flow::DipField reference_;
-  flow::testing::Particles particles_, finer_;
+  flow::reference::Particles particles_, finer_;
   PixelComparison comparison_;
 };
 

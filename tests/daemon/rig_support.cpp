@@ -40,11 +40,6 @@ testing::ProcessOptions to_file(const std::filesystem::path& out) {
   return options;
 }
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 }  // namespace
 
 bool wait_until(const std::function<bool()>& until, double seconds) {

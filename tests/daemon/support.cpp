@@ -52,11 +52,6 @@ pid_t spawn_daemon(const std::vector<std::string>& arguments, const std::filesys
   return pid;
 }
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 int wait_for_exit(pid_t pid) {
   int status = 0;
   ::waitpid(pid, &status, 0);
@@ -64,6 +59,11 @@ int wait_for_exit(pid_t pid) {
 }
 
 }  // namespace
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
 
 bool proc_is_mounted() { return std::filesystem::exists("/proc/self/task"); }
 

@@ -19,6 +19,9 @@
 
 namespace hydroprint::tests {
 
+/// All of a file; nothing where there is none.
+[[nodiscard]] std::string content(const std::filesystem::path& path);
+
 using hydroprint::testing::TemporaryFolder;
 
 /// Whether /proc is mounted, where alone other processes can be looked at; bare chroots have none.

@@ -22,7 +22,7 @@ void expect_round_trips(const mesh::Model& model, const hydroprint::testing::Dip
   hydroprint::testing::DipSetting close = setting;
   close.schedule.swept_mm = 1;
   const auto dip = hydroprint::testing::solve_dip(model, close);
-  const testing::Particles particles(dip.body, dip.field, 0.05);
+  const reference::Particles particles(dip.body, dip.field, 0.05);
   const waterline::Motion straight;
   const Landings landings(dip.body, straight);
   std::mt19937 random(17);

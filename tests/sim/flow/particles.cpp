@@ -3,7 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-namespace hydroprint::flow::testing {
+namespace hydroprint::flow::reference {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -80,4 +80,4 @@ std::optional<Particles::Contact> Particles::follow(Vector2d p) const {
   return std::nullopt;
 }
 
-}  // namespace hydroprint::flow::testing
+}  // namespace hydroprint::flow::reference

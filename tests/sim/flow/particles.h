@@ -7,7 +7,7 @@
 #include "sim/flow/trace.h"
 #include "sim/waterline/body.h"
 
-namespace hydroprint::flow::testing {
+namespace hydroprint::flow::reference {
 
 /// The paper's way (section 4.5), as plainly as possible: film points advected with the velocity
 /// field, interpolated linearly in depth, by small steps of the fourth-order Runge-Kutta rule,
@@ -35,4 +35,4 @@ class Particles {
   std::vector<std::vector<int>> layers_;  ///< triangles per millimetre of height
 };
 
-}  // namespace hydroprint::flow::testing
+}  // namespace hydroprint::flow::reference

@@ -8,7 +8,7 @@
 
 #include "sim/image/raster.h"
 
-namespace hydroprint::flow::testing {
+namespace hydroprint::flow::reference {
 namespace {
 
 using Eigen::Vector2d;
@@ -168,4 +168,4 @@ double PixelComparison::jump_distance_mm(const Pixel& pixel) const {
   return kInfinite;
 }
 
-}  // namespace hydroprint::flow::testing
+}  // namespace hydroprint::flow::reference

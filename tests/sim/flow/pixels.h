@@ -10,7 +10,7 @@
 #include "sim/waterline/body.h"
 #include "tests/sim/flow/particles.h"
 
-namespace hydroprint::flow::testing {
+namespace hydroprint::flow::reference {
 
 using Pixel = Eigen::Vector2i;  ///< column and row of a film image
 
@@ -88,4 +88,4 @@ class PixelComparison {
   const Particles& particles_;
 };
 
-}  // namespace hydroprint::flow::testing
+}  // namespace hydroprint::flow::reference

@@ -12,7 +12,7 @@
 #include "tests/sim/support/bodies.h"
 #include "tests/sim/support/dips.h"
 
-namespace hydroprint::flow::testing {
+namespace hydroprint::flow::reference {
 namespace {
 
 using hydroprint::testing::DipSetting;
@@ -107,4 +107,4 @@ TEST(Pixels, OfTwoFeetAreWhereParticlesLand) {
 }
 
 }  // namespace
-}  // namespace hydroprint::flow::testing
+}  // namespace hydroprint::flow::reference

@@ -82,7 +82,7 @@ class Raster {
   std::vector<int> count_;
 };
 
-FlowMap mapped(const SolvedDip& dip, const MapOptions& options = {}) {
+FlowMap tiled(const SolvedDip& dip, const MapOptions& options = {}) {
   Context context;
   context.threads = 2;
   return make_flow_map(dip.surface, dip.body, dip.field, {}, options, context).value();
@@ -152,7 +152,7 @@ TEST(Tiles, OfASphereCoverTheDiscThatItTakes) {
   setting.depth_mm = 25 * (1 - std::cos(2.1));
   const SolvedDip dip = testing::solve_dip(sample::icosphere(25, 5), setting);
   const MapOptions options;
-  const FlowMap map = mapped(dip, options);
+  const FlowMap map = tiled(dip, options);
   expect_sound(dip, map);
   expect_linear(dip, map, options);
   const double radius = exact::film_radius_mm(25, 60, 2.1);
@@ -182,7 +182,7 @@ TEST(Tiles, OfTwoFeetAndTheirBridgeOverlapLittle) {
                                          [](int i, int, int k) { return k == 1 || i != 1; }),
                          setting);
   const MapOptions options;
-  const FlowMap map = mapped(dip, options);
+  const FlowMap map = tiled(dip, options);
   expect_sound(dip, map);
   // Along sharp upright edges eq. (1) turns at once by a right angle, and so does the map.
   expect_linear(dip, map, options, 0.15, 0.4);
@@ -199,7 +199,7 @@ TEST(Tiles, OfASphereOnAStalkOverlapLittle) {
                                             testing::moved(sample::icosphere(18, 4), {0, 0, 30})}),
                          setting);
   const MapOptions options;
-  const FlowMap map = mapped(dip, options);
+  const FlowMap map = tiled(dip, options);
   expect_sound(dip, map, 0.015);
   expect_linear(dip, map, options, 0.02, 0.25);
 }
@@ -211,9 +211,9 @@ TEST(Tiles, KeepToAFinerTolerance) {
   const SolvedDip dip =
       testing::solve_dip(testing::moved(sample::icosphere(16, 4), {4, -3, 0}), setting);
   MapOptions options;
-  const std::size_t coarse = mapped(dip, options).tiles.size();
+  const std::size_t coarse = tiled(dip, options).tiles.size();
   options.tolerance_mm = 0.004;
-  const FlowMap map = mapped(dip, options);
+  const FlowMap map = tiled(dip, options);
   EXPECT_GT(map.tiles.size(), coarse);
   expect_linear(dip, map, options);
 }
@@ -227,7 +227,7 @@ TEST(Tiles, CarryTheTimeOfContact) {
   options.dip_speed_mm_per_s = 2.5;
   const waterline::Motion straight;
   const Landings landings(dip.body, straight);
-  for (const MappedTriangle& tile : mapped(dip, options).tiles) {
+  for (const MappedTriangle& tile : tiled(dip, options).tiles) {
     for (int i = 0; i < 3; ++i) {
       const Landing landing = landings.on(tile.triangle, tile.barycentric[i].cast<double>());
       EXPECT_NEAR(tile.contact_time_s[i], landing.immersion_mm / 2.5, 1e-5);

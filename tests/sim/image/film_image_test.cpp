@@ -39,9 +39,6 @@ bool is(const RgbImage& image, int x, int y, std::array<int, 3> colour) {
   return p[0] == colour[0] && p[1] == colour[1] && p[2] == colour[2];
 }
 
-constexpr std::array<int, 3> kWhite = {255, 255, 255}, kRed = {255, 0, 0}, kGreen = {0, 255, 0},
-                             kBlue = {0, 0, 255}, kGrey = {128, 128, 128};
-
 TEST(FilmImage, SizesAreThoseOfTheContract) {
   const FilmGrid a4 = film_grid(rectangle(210, 297), 25.4 / 600);
   EXPECT_EQ(a4.columns, 4961);

@@ -10,9 +10,6 @@ namespace {
 
 using namespace testing;
 
-constexpr std::array<int, 3> kRed = {255, 0, 0}, kBlue = {0, 0, 255}, kBlack = {0, 0, 0},
-                             kWhite = {255, 255, 255};
-
 bool has_warning(const Paint& paint, const std::string& code) {
   for (const auto& warning : paint.warnings()) {
     if (warning.code == code) return true;

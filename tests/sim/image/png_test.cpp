@@ -27,7 +27,7 @@ RgbImage noise(int width, int height) {
   return image;
 }
 
-RgbImage gradient(int width, int height) {
+RgbImage ramp(int width, int height) {
   return testing::make_image(width, height, [](int x, int y) {
     return std::array<int, 3>{x & 255, y & 255, (x + y) / 2 & 255};
   });
@@ -51,7 +51,7 @@ TEST(EncodePng, IsReadBackAsItWasWhateverTheSizeOfTheImage) {
   // One pixel, one row, one column, one band of rows and several, a row longer than a band.
   for (const auto& [width, height] :
        {std::pair{1, 1}, {700, 1}, {1, 700}, {300, 200}, {2480, 500}, {400000, 3}}) {
-    for (const RgbImage& image : {gradient(width, height), noise(width, height)}) {
+    for (const RgbImage& image : {ramp(width, height), noise(width, height)}) {
       const auto file = encode_png(image, 300);
       ASSERT_TRUE(file);
       int w = 0, h = 0;
@@ -63,14 +63,14 @@ TEST(EncodePng, IsReadBackAsItWasWhateverTheSizeOfTheImage) {
 }
 
 TEST(EncodePng, GivesTheSameBytesForAnyNumberOfThreads) {
-  const RgbImage image = gradient(2480, 1200);
+  const RgbImage image = ramp(2480, 1200);
   Context one, three;
   three.threads = 3;
   EXPECT_EQ(*encode_png(image, 300, one), *encode_png(image, 300, three));
 }
 
 TEST(EncodePng, CompressesWhatIsEven) {
-  RgbImage white = gradient(2480, 1200);
+  RgbImage white = ramp(2480, 1200);
   const std::size_t bytes = white.rgb.size();
   EXPECT_LT(encode_png(white, 300)->size(), bytes / 20);
   white.rgb.assign(bytes, 255);
@@ -81,7 +81,7 @@ TEST(EncodePng, CompressesWhatIsEven) {
 TEST(EncodePng, StopsWhenCancelled) {
   Context context;
   context.cancelled = [] { return true; };
-  const auto file = encode_png(gradient(2480, 1200), 300, context);
+  const auto file = encode_png(ramp(2480, 1200), 300, context);
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().code, Code::kCancelled);
 }

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +18,10 @@
 #include "sim/mesh/surface.h"
 
 namespace hydroprint::image::testing {
+
+inline constexpr std::array<int, 3> kWhite = {255, 255, 255}, kBlack = {0, 0, 0},
+                                    kGrey = {128, 128, 128}, kRed = {255, 0, 0},
+                                    kGreen = {0, 255, 0}, kBlue = {0, 0, 255};
 
 /// A folder of its own for each test, gone at the end.
 class TemporaryFolder {

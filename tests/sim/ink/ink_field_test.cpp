@@ -8,13 +8,13 @@
 #include <numbers>
 #include <random>
 
+#include "tests/sim/ink/films.h"
+
 namespace hydroprint::ink {
 namespace {
 
 using Eigen::Vector2d;
 using Triangle = std::array<Vector2d, 3>;
-
-film::Outline outline_of(const std::string& text) { return *film::parse_outline(text); }
 
 InkField field_of(const film::Outline& outline, const std::function<double(const Vector2d&)>& t,
                   double cell_mm = kInkCell_mm) {

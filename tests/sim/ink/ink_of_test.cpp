@@ -8,6 +8,7 @@
 
 #include "sim/image/image_file.h"
 #include "sim/ink/separation.h"
+#include "tests/sim/ink/films.h"
 #include "tests/sim/ink/printers.h"
 #include "tests/support/temporary_folder.h"
 
@@ -15,8 +16,6 @@ namespace hydroprint::ink {
 namespace {
 
 using Eigen::Vector2d;
-
-film::Outline outline_of(const std::string& text) { return *film::parse_outline(text); }
 
 image::RgbImage picture(int width, int height,
                         const std::function<std::array<int, 3>(int x, int y)>& colour) {

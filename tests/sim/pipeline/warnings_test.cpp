@@ -25,13 +25,13 @@ using testing::dipped;
 using testing::warning_of;
 using testing::warns;
 
-DipOptions options_for(const std::string& film, FilmModel model = FilmModel::kStokes) {
+DipOptions options_on(const std::string& film, FilmModel model = FilmModel::kStokes) {
   return testing::options_for(film, model);
 }
 
 /// A sphere of 20 mm, dipped to this angle, in a film far larger than it.
 DipOptions to_angle(double theta_deg, FilmModel model = FilmModel::kStokes) {
-  DipOptions options = options_for("200x200", model);
+  DipOptions options = options_on("200x200", model);
   options.depth_mm = 20 * (1 - std::cos(theta_deg * std::numbers::pi / 180));
   return options;
 }
@@ -97,14 +97,14 @@ TEST(Warnings, FilmWrinkledComesWithAMapOfWhere) {
 
 TEST(Warnings, ThetaClampedIsForFacesThatLookUp) {
   // A cone's level top, and a spindle that is pointed at both ends.
-  EXPECT_TRUE(warns(dipped(bodies::cone(0.8, 12, 48), options_for("90x90")), "theta_clamped"));
+  EXPECT_TRUE(warns(dipped(bodies::cone(0.8, 12, 48), options_on("90x90")), "theta_clamped"));
   const mesh::Model spindle = bodies::turned({{0, 0}, {12, 12}, {0, 24}}, 48);
-  EXPECT_FALSE(warns(dipped(spindle, options_for("90x90")), "theta_clamped"));
+  EXPECT_FALSE(warns(dipped(spindle, options_on("90x90")), "theta_clamped"));
 }
 
 TEST(Warnings, PartsNotReachedIsForWhatTheWaterDoesNotTouch) {
   const mesh::Model spindle = bodies::turned({{0, 0}, {24, 24}, {0, 48}}, 48);
-  DipOptions options = options_for("150x150");
+  DipOptions options = options_on("150x150");
   EXPECT_FALSE(warns(dipped(spindle, options), "parts_not_reached"));
   options.depth_mm = 24;
   const Dip half = dipped(spindle, options);
@@ -114,8 +114,8 @@ TEST(Warnings, PartsNotReachedIsForWhatTheWaterDoesNotTouch) {
 
 TEST(Warnings, FilmEdgeReachedIsForObjectsWiderThanTheFilm) {
   const mesh::Model cone = bodies::cone(std::numbers::pi / 4, 20, 48);
-  EXPECT_TRUE(warns(dipped(cone, options_for("30x80")), "film_edge_reached"));
-  EXPECT_FALSE(warns(dipped(cone, options_for("60x80")), "film_edge_reached"));
+  EXPECT_TRUE(warns(dipped(cone, options_on("30x80")), "film_edge_reached"));
+  EXPECT_FALSE(warns(dipped(cone, options_on("60x80")), "film_edge_reached"));
 }
 
 TEST(Warnings, DragIgnoredIsForStokes) {
@@ -132,7 +132,7 @@ TEST(Warnings, SheetUnsettledIsForFilmThatFolds) {
   // Two legs that come together below: film between them is drawn both ways until it folds.
   const Result<mesh::Model> bend = sample::make_model("ubend");
   ASSERT_TRUE(bend) << bend.error().message;
-  DipOptions options = options_for("A4", FilmModel::kSheet);
+  DipOptions options = options_on("A4", FilmModel::kSheet);
   EXPECT_TRUE(warns(dipped(*bend, options), "sheet_unsettled"));
   options.depth_mm = 20;
   EXPECT_FALSE(warns(dipped(*bend, options), "sheet_unsettled"));
@@ -146,7 +146,7 @@ double round_area_mm2(double radius_mm) {
 }
 
 TEST(Warnings, ARingTrapsFilmButNoAir) {
-  const Dip ring = dipped(bodies::torus(24, 7, 64, 32), options_for("100x90"));
+  const Dip ring = dipped(bodies::torus(24, 7, 64, 32), options_on("100x90"));
   EXPECT_TRUE(warns(ring, "film_trapped"));
   EXPECT_FALSE(warns(ring, "air_trapped"));
   ASSERT_EQ(ring.figures.traps.size(), 1U);
@@ -165,14 +165,14 @@ TEST(Warnings, ARingWithAGapTrapsNothing) {
                                            const bool is_gap = i == 1 && j == 0;
                                            return !is_gap && !(i == 1 && j == 1);
                                          }),
-                          options_for("100x90"));
+                          options_on("100x90"));
   EXPECT_FALSE(warns(open, "film_trapped"));
   EXPECT_FALSE(warns(open, "air_trapped"));
 }
 
 TEST(Warnings, ACupMouthDownTrapsFilmAndAir) {
   // 14 mm inside, its ceiling 20 mm up.
-  const Dip down = dipped(bodies::cup(14, 18, 24, 4, false, 64), options_for("100x90"));
+  const Dip down = dipped(bodies::cup(14, 18, 24, 4, false, 64), options_on("100x90"));
   EXPECT_TRUE(warns(down, "film_trapped"));
   EXPECT_TRUE(warns(down, "air_trapped"));
   ASSERT_EQ(down.figures.traps.size(), 1U);
@@ -187,7 +187,7 @@ TEST(Warnings, ACupMouthDownTrapsFilmAndAir) {
 }
 
 TEST(Warnings, ACupMouthUpOrWithAVentTrapsNoAir) {
-  const Dip up = dipped(bodies::cup(14, 18, 24, 4, true, 64), options_for("100x90"));
+  const Dip up = dipped(bodies::cup(14, 18, 24, 4, true, 64), options_on("100x90"));
   EXPECT_FALSE(warns(up, "film_trapped"));
   EXPECT_FALSE(warns(up, "air_trapped"));
   // A square cup mouth down with a hole in its bottom.
@@ -197,13 +197,13 @@ TEST(Warnings, ACupMouthUpOrWithAVentTrapsNoAir) {
                               const bool is_wall = i == 0 || i == 4 || j == 0 || j == 4;
                               return is_wall || (k == 1 && !(i == 2 && j == 2));
                             }),
-             options_for("100x90"));
+             options_on("100x90"));
   EXPECT_TRUE(warns(vented, "film_trapped"));
   EXPECT_FALSE(warns(vented, "air_trapped"));
 }
 
 TEST(Warnings, AirIsTrappedEvenIfTheDipEndsBelowTheCeiling) {
-  DipOptions options = options_for("100x90");
+  DipOptions options = options_on("100x90");
   options.depth_mm = 6;
   const Dip cup = dipped(bodies::cup(14, 18, 24, 4, false, 64), options);
   EXPECT_TRUE(warns(cup, "air_trapped"));
@@ -220,7 +220,7 @@ TEST(Warnings, AHollowThatClosesAboveTheRimIsToldByItsImmersion) {
                                            const bool is_wall = i != 1 || j != 1;
                                            return k == 0 ? is_leg : k == 2 || is_wall;
                                          }),
-                          options_for("100x90"));
+                          options_on("100x90"));
   EXPECT_TRUE(warns(legs, "air_trapped"));
   ASSERT_FALSE(legs.figures.traps.empty());
   EXPECT_NEAR(legs.figures.traps[0].immersion_mm, 10, 0.05);
@@ -229,7 +229,7 @@ TEST(Warnings, AHollowThatClosesAboveTheRimIsToldByItsImmersion) {
   const Dip table =
       dipped(bodies::blocks({-20, -14, 14, 20}, {-20, -14, 14, 20}, {0, 16, 20},
                             [](int i, int j, int k) { return k == 1 || (i != 1 && j != 1); }),
-             options_for("100x90"));
+             options_on("100x90"));
   EXPECT_FALSE(warns(table, "film_trapped"));
   EXPECT_FALSE(warns(table, "air_trapped"));
 }
@@ -239,7 +239,7 @@ TEST(Warnings, AClosedCavityIsNoTrap) {
   const Dip hollow =
       dipped(bodies::together({bodies::box({-15, -15, 0}, {15, 15, 20}),
                                bodies::inside_out(bodies::box({-8, -8, 5}, {8, 8, 15}))}),
-             options_for("100x90"));
+             options_on("100x90"));
   EXPECT_FALSE(warns(hollow, "film_trapped"));
   EXPECT_FALSE(warns(hollow, "air_trapped"));
 }

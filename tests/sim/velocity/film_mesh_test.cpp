@@ -16,8 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 using testing::Curve;
-
-film::Outline outline_of(const std::string& text) { return film::parse_outline(text).value(); }
+using testing::outline_of;
 
 FilmMesh meshed(const film::Outline& film, const waterline::Waterline& line,
                 const MeshOptions& options = {}) {

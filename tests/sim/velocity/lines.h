@@ -2,9 +2,13 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numbers>
+#include <string>
 #include <vector>
 
+#include "sim/film/outline.h"
 #include "sim/velocity/film_mesh.h"
 #include "sim/velocity/quadratic.h"
 #include "sim/waterline/cross_section.h"
@@ -76,6 +80,33 @@ inline double distance_to(const Curve& curve, const Eigen::Vector2d& p) {
     least = std::min(least, (a + t * along - p).norm());
   }
   return least;
+}
+
+using Function = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
+
+inline film::Outline outline_of(const std::string& text) {
+  return film::parse_outline(text).value();
+}
+
+/// A function's values at the nodes of the film's edges, NaN inside.
+inline std::vector<Eigen::Vector2d> prescribed(const FilmMesh& mesh, const Function& f) {
+  std::vector<Eigen::Vector2d> fixed(
+      mesh.node_count(), Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  const std::size_t vertices = mesh.vertices_mm.size();
+  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
+    if (mesh.edge_kind[e] == EdgeKind::kInner) continue;
+    fixed[vertices + e] = f(place_of(mesh, vertices + e));
+    for (const int v : mesh.edges[e]) fixed[v] = f(mesh.vertices_mm[v]);
+  }
+  return fixed;
+}
+
+/// A film with a bean and a quadrilateral in it, no two triangles alike.
+inline FilmMesh irregular_mesh() {
+  return mesh_film(outline_of("100x80"),
+                   line_round({bean({-12, 5}, 15), {{15, -20}, {30, -22}, {33, -5}, {20, -12}}}),
+                   {})
+      .value();
 }
 
 }  // namespace hydroprint::velocity::testing

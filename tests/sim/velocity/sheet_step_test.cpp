@@ -21,7 +21,9 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Velocities = std::vector<Vector2d>;
-using Function = std::function<Vector2d(const Vector2d&)>;
+using testing::Function;
+using testing::irregular_mesh;
+using testing::prescribed;
 
 constexpr double kViscosity_mpa_s = 1.82 * 0.02 / 3;  ///< the paper's Y at its time step
 constexpr double kDensity_kg_per_m3 = 1300;
@@ -196,12 +198,6 @@ ElementVector drawn(std::mt19937& random, double most) {
   return out;
 }
 
-FilmMesh irregular_mesh() {
-  return mesh_film(film::parse_outline("100x80").value(),
-                   testing::line_round({testing::bean({-12, 5}, 15)}), {})
-      .value();
-}
-
 constexpr Elasticity kElasticity = {1.82, 0.4};
 
 TEST(MembraneEnergy, HasItsForcesForGradientAndTheirsForHessian) {
@@ -277,17 +273,6 @@ TEST(MembraneEnergy, HasAPositiveHessianToFallBackOnWhereTheTrueOneIsNot) {
 }
 
 // --- whole films
-
-Velocities prescribed(const FilmMesh& mesh, const Function& f) {
-  Velocities fixed(mesh.node_count(), kUnknown);
-  const std::size_t vertices = mesh.vertices_mm.size();
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    if (mesh.edge_kind[e] == EdgeKind::kInner) continue;
-    fixed[vertices + e] = f(place_of(mesh, vertices + e));
-    for (const int v : mesh.edges[e]) fixed[v] = f(mesh.vertices_mm[v]);
-  }
-  return fixed;
-}
 
 Velocities everywhere(const FilmMesh& mesh, const Function& f) {
   Velocities out;

@@ -13,27 +13,9 @@ namespace hydroprint::velocity {
 namespace {
 
 using Eigen::Vector2d;
-using Function = std::function<Vector2d(const Vector2d&)>;
-
-FilmMesh irregular_mesh() {
-  return mesh_film(film::parse_outline("100x80").value(),
-                   testing::line_round(
-                       {testing::bean({-12, 5}, 15), {{15, -20}, {30, -22}, {33, -5}, {20, -12}}}),
-                   {})
-      .value();
-}
-
-std::vector<Vector2d> prescribed(const FilmMesh& mesh, const Function& f) {
-  std::vector<Vector2d> fixed(mesh.node_count(),
-                              Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    if (mesh.edge_kind[e] == EdgeKind::kInner) continue;
-    const std::size_t middle = mesh.vertices_mm.size() + e;
-    fixed[middle] = f(place_of(mesh, middle));
-    for (const int v : mesh.edges[e]) fixed[v] = f(mesh.vertices_mm[v]);
-  }
-  return fixed;
-}
+using testing::Function;
+using testing::irregular_mesh;
+using testing::prescribed;
 
 double error_of(const FilmMesh& mesh, const std::vector<double>& thickness, const Function& f) {
   Sheet sheet(mesh, 0, prescribed(mesh, f));

@@ -11,22 +11,10 @@ namespace hydroprint::velocity {
 namespace {
 
 using Eigen::Vector2d;
-using Function = std::function<Vector2d(const Vector2d&)>;
-
-film::Outline outline_of(const std::string& text) { return film::parse_outline(text).value(); }
-
-/// A function's values at the nodes of the film's edges, NaN inside.
-std::vector<Vector2d> prescribed(const FilmMesh& mesh, const Function& f) {
-  std::vector<Vector2d> fixed(mesh.node_count(),
-                              Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
-  const std::size_t vertices = mesh.vertices_mm.size();
-  for (std::size_t e = 0; e < mesh.edges.size(); ++e) {
-    if (mesh.edge_kind[e] == EdgeKind::kInner) continue;
-    fixed[vertices + e] = f(place_of(mesh, vertices + e));
-    for (const int v : mesh.edges[e]) fixed[v] = f(mesh.vertices_mm[v]);
-  }
-  return fixed;
-}
+using testing::Function;
+using testing::irregular_mesh;
+using testing::outline_of;
+using testing::prescribed;
 
 /// Largest error at any node when only the film's edges are given.
 double error_at_nodes(const FilmMesh& mesh, const Function& f) {
@@ -37,14 +25,6 @@ double error_at_nodes(const FilmMesh& mesh, const Function& f) {
     most = std::max(most, ((*velocity)[n] - f(place_of(mesh, n))).norm());
   }
   return most;
-}
-
-FilmMesh irregular_mesh() {
-  return mesh_film(outline_of("100x80"),
-                   testing::line_round(
-                       {testing::bean({-12, 5}, 15), {{15, -20}, {30, -22}, {33, -5}, {20, -12}}}),
-                   {})
-      .value();
 }
 
 TEST(Stokes, ReproducesLinearFields) {

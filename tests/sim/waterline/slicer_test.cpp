@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDegree_rad = std::numbers::pi / 180;
 
 bool is_closed(const Contour& contour) {
   for (std::size_t i = 0; i < contour.size(); ++i) {
@@ -84,7 +84,7 @@ TEST(Slicer, CutOfASphereIsACirclePulledByTheTangentOfHalfTheta) {
   const Body body = testing::body_of(sample::icosphere(radius, 5));
   const Slicer slicer(body);
   for (const double degrees : {5.0, 30.0, 60.0, 90.0, 120.0, 150.0, 165.0}) {
-    const double theta = degrees * kDegree;
+    const double theta = degrees * kDegree_rad;
     const auto contours = slicer.cut(radius * (1 - std::cos(theta)));
     ASSERT_EQ(contours.size(), 1U);
     ASSERT_TRUE(is_closed(contours[0]));
@@ -99,9 +99,9 @@ TEST(Slicer, CutOfASphereIsACirclePulledByTheTangentOfHalfTheta) {
 
 TEST(Slicer, SurfacesBeyond170DegreesPullNoHarderThanAt170) {
   const Body body = testing::body_of(sample::icosphere(20, 5));
-  const double most = std::tan(85 * kDegree);
+  const double most = std::tan(85 * kDegree_rad);
   for (const double degrees : {171.0, 175.0, 178.0}) {
-    for (const Contour& contour : Slicer(body).cut(20 * (1 - std::cos(degrees * kDegree)))) {
+    for (const Contour& contour : Slicer(body).cut(20 * (1 - std::cos(degrees * kDegree_rad)))) {
       for (const Segment& s : contour) {
         EXPECT_LT(s.pull_a.norm(), most * (1 + 1e-12));
         EXPECT_GT(s.pull_a.norm(), 0.9 * most);
