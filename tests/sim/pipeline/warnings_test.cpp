@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "sim/pipeline/figures.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/sample/icosphere.h"
@@ -126,6 +127,17 @@ TEST(Warnings, DragIgnoredIsForStokes) {
   EXPECT_FALSE(warns(dipped(sphere, to_angle(40)), "drag_ignored"));
   with_drag.film_model = FilmModel::kSheet;
   EXPECT_FALSE(warns(dipped(sphere, with_drag), "drag_ignored"));
+}
+
+// By figures: slits too narrow to mesh are closed before, so bodies that still get here are few and
+// odd.
+TEST(Warnings, WaterlinesPassedOverAreCountedAndTheFirstIsNamed) {
+  EXPECT_TRUE(warnings_of_motion(20, {}, 0).empty());
+  const Warnings some = warnings_of_motion(18, {3.5, 7}, 0);
+  ASSERT_EQ(some.size(), 1U);
+  EXPECT_EQ(some[0].code, "waterlines_passed_over");
+  EXPECT_TRUE(some[0].message.starts_with("2 of 20 waterlines")) << some[0].message;
+  EXPECT_TRUE(some[0].where.starts_with("3.5")) << some[0].where;
 }
 
 TEST(Warnings, SheetUnsettledIsForFilmThatFolds) {
