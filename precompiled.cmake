@@ -25,7 +25,7 @@ function(hydroprint_precompiled name)
 endfunction()
 
 # hydroprint_use_precompiled(folder name): has the programs and static libraries of the folder use it, and those below.
-# Modules do not: their code can be moved (-fPIC), so it is compiled otherwise.
+# Modules, and what goes into them, do not: their code can be moved (-fPIC), so it is compiled otherwise.
 function(hydroprint_use_precompiled folder name)
   cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${CMAKE_SOURCE_DIR} OUTPUT_VARIABLE place)
   if(place MATCHES "daemon/dip$")
@@ -40,7 +40,8 @@ function(hydroprint_use_precompiled folder name)
   foreach(target ${targets})
     get_target_property(type ${target} TYPE)
     get_target_property(libs ${target} LINK_LIBRARIES)
-    if(NOT type MATCHES "^(EXECUTABLE|STATIC_LIBRARY)$" OR NOT libs)
+    get_target_property(is_movable ${target} POSITION_INDEPENDENT_CODE)
+    if(NOT type MATCHES "^(EXECUTABLE|STATIC_LIBRARY)$" OR NOT libs OR is_movable)
       continue()
     endif()
     if(place MATCHES "^(client|daemon|tests)" OR place MATCHES "^sim/(fit|image|mesh|pipeline|validate|worker)")
