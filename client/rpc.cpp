@@ -89,14 +89,22 @@ Error to_error(const Connection& connection, const grpc::Status& status) {
   return error;
 }
 
-grpc::Status with_retries(const Connection& connection,
-                          const std::function<grpc::Status()>& attempt) {
+grpc::Status with_retries(Connection& connection, const std::function<grpc::Status()>& attempt) {
   for (const auto& time : kPauses) {
     grpc::Status status = attempt();
     if (status.error_code() != grpc::StatusCode::UNAVAILABLE) return status;
-    pause(connection, time);
+    if (connection.options().stop.stop_requested()) return status;
+    if (connection.impl().channel->GetState(true) == GRPC_CHANNEL_READY) {
+      pause(connection, time);
+    } else {
+      wait_for_connection(connection, time);
+    }
   }
   return attempt();
+}
+
+void wait_for_connection(Connection& connection, std::chrono::milliseconds time) {
+  connection.impl().channel->WaitForConnected(std::chrono::system_clock::now() + time);
 }
 
 void pause(const Connection& connection, std::chrono::milliseconds time) {

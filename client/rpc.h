@@ -52,6 +52,8 @@ class Call {
 
 /// Time within which a call that does not stream must be answered.
 inline constexpr std::chrono::seconds kAnswerLimit{30};
+/// Time within which there must be a connection for a call that is not repeated.
+inline constexpr std::chrono::seconds kConnectLimit{1};
 /// Between attempts at a stream that broke off.
 inline constexpr std::chrono::milliseconds kTryAgainAfter{500};
 /// After which a transfer in which nothing arrives is given up.
@@ -63,8 +65,12 @@ inline constexpr int kPageSize = 1000;
 [[nodiscard]] Error to_error(const Connection& connection, const grpc::Status& status);
 
 /// Runs `attempt` until it answers anything but UNAVAILABLE, a few times with growing pauses.
-[[nodiscard]] grpc::Status with_retries(const Connection& connection,
+[[nodiscard]] grpc::Status with_retries(Connection& connection,
                                         const std::function<grpc::Status()>& attempt);
+
+/// Waits until there is a connection, or that long. (gRPC goes on with a connection that it has
+/// begun only while somebody waits for it; calls alone, which fail at once, never get to see it.)
+void wait_for_connection(Connection& connection, std::chrono::milliseconds time);
 
 /// Waits that long, or until the connection is to stop.
 void pause(const Connection& connection, std::chrono::milliseconds time);
@@ -93,6 +99,7 @@ template <class Stub, class Request, class Response>
                                          const Request& request,
                                          std::chrono::milliseconds limit = kAnswerLimit) {
   Response response;
+  wait_for_connection(connection, kConnectLimit);
   Call one(connection, limit);
   const grpc::Status status = (stub.*method)(one.context(), request, &response);
   if (!status.ok()) return tl::unexpected(to_error(connection, status));

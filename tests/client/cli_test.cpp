@@ -280,6 +280,18 @@ TEST_F(Cli, SaysWhereNoDaemonAnswers) {
   EXPECT_EQ(json::parse(ended.out, nullptr, false).at("error").at("code"), "UNAVAILABLE");
 }
 
+TEST_F(Cli, FindsADaemonThatStartsAMomentLater) {
+  start();
+  const std::string address = daemon_->address();
+  EXPECT_EQ(daemon_->terminate(), 0);
+  Process early({kClient, "--server", address, "status"});
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));  // it has been refused by then
+  Process daemon({HYDROPRINT_BIN_DIR "/hydroprintd", "--grpc", address, "--state-dir",
+                  (folder_.path() / "another").string()});
+  const Outcome ended = early.wait();
+  EXPECT_EQ(ended.status, 0) << ended.err;
+}
+
 TEST_F(Cli, CtrlCWhileWaitingLeavesTheJobRunning) {
   start();
   const std::string job = submit("sleep 30");
