@@ -26,9 +26,10 @@ class DipApi : public RigTest {
     ann.go_to(kContact_mm);
   }
   /// A dip that is in the middle of its descent.
-  std::string descending(double depth_mm = 40) {
+  std::string descending(double depth_mm = 40, double speed_mm_per_s = 10) {
     v1::DipSpec spec = short_dip();
     spec.set_depth_mm(depth_mm);
+    spec.set_speed_mm_per_s(speed_mm_per_s);
     const std::string name = ann.dip(spec).name();
     EXPECT_EQ(ann.guide_to(name, v1::DipStatus::DESCEND).dip_status().step(),
               v1::DipStatus::DESCEND);
@@ -413,18 +414,19 @@ class HeldStore {
 };
 
 TEST_F(DipApi, AStoreThatHangsHoldsUpNeitherItsMotionNorAStop) {
-  const std::string name = descending();
+  // So slow that it goes on however long the store takes to be held.
+  const std::string name = descending(60, 2);
   {
     const HeldStore held(daemon.state() / "hydroprint.db");
     const double held_s = rig.now_s();
     EXPECT_TRUE(wait_until([&] { return rig.now_s() > held_s + 1; }));
-    EXPECT_EQ(rig.speed_mm_per_s(), 10);
+    EXPECT_EQ(rig.speed_mm_per_s(), 2);
     const double asked_s = rig.now_s();
     EXPECT_TRUE(ann.stop().ok());
-    EXPECT_LT(rig.rested_s() - asked_s, 0.3);
+    EXPECT_LT(rig.rested_s() - asked_s, 1) << "whatever waits for the store waits five times that";
   }
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::CANCELLED);
-  EXPECT_GT(ann.report(name).at("depth_reached_mm"), 10);
+  EXPECT_GT(ann.report(name).at("depth_reached_mm"), 4);
 }
 
 TEST_F(DipApi, ADaemonThatHangsInTheDescentHasItStoppedByTheDriveAndGoesOnWithNothing) {

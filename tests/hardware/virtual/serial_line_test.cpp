@@ -14,32 +14,34 @@ namespace {
 /// (8E1), and a gap behind either.
 double arithmetic_s(double baud, double gap_s) { return (8 + 23) * 11 / baud + 2 * gap_s; }
 
-double measured_s(int baud) {
+/// The least of many polls, for the machine's own delays only add: until one is as fast as the
+/// wire lets it be, or 5 s are over.
+double measured_s(int baud, double expected_s) {
   BenchOptions options;
   options.baud = baud;
   BenchRig bench("rtu", options);
   EXPECT_TRUE(bench.drive().connect());
-  constexpr int kPolls = 8;
-  double least_s = 1;  // the machine's own delays only add
-  for (int i = 0; i < kPolls; ++i) {
+  const Clock::time_point begun = Clock::now();
+  double least_s = 1;
+  do {
     // Two at a time, for the gap behind a frame is waited out before the next.
     const double two_s = seconds_of([&] {
       EXPECT_TRUE(bench.drive().poll());
       EXPECT_TRUE(bench.drive().poll());
     });
     least_s = std::min(least_s, two_s / 2);
-  }
+  } while (least_s > 1.2 * expected_s && Clock::now() - begun < std::chrono::seconds(5));
   return least_s;
 }
 
 TEST(SerialLine, TakesTheTimeOfItsWireAt9600) {
   const double expected_s = arithmetic_s(9600, 3.5 * 11 / 9600.0);
-  EXPECT_NEAR(measured_s(9600), expected_s, 0.2 * expected_s);
+  EXPECT_NEAR(measured_s(9600, expected_s), expected_s, 0.2 * expected_s);
 }
 
 TEST(SerialLine, TakesTheTimeOfItsWireAt115200) {
   const double expected_s = arithmetic_s(115200, 1.75e-3);
-  EXPECT_NEAR(measured_s(115200), expected_s, 0.2 * expected_s);
+  EXPECT_NEAR(measured_s(115200, expected_s), expected_s, 0.2 * expected_s);
 }
 
 TEST(SerialLine, IsOnePrograms) {
