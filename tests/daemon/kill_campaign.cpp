@@ -1,16 +1,16 @@
 // kill -9 of the daemon, which owns the rig, at random moments of random motions: the drive stands
 // still in time, and what was acknowledged is there when the daemon is back.
 //
-//   kill_campaign [--rounds 25] [--seed 1]
-//
-// The seed makes the motions and the moments, so that a round that failed can be run again; the
-// last line is a summary as JSON.
+// The environment may say how many rounds (HYDROPRINT_KILLS=25) and which (HYDROPRINT_SEED=1): the
+// seed makes the motions and the moments, so that a round that failed can be run again. The line
+// that begins with {"row" is a summary.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sqlite3.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <future>
 #include <iostream>
 #include <map>
@@ -29,15 +29,20 @@ using nlohmann::json;
 using std::chrono::duration;
 using std::chrono::milliseconds;
 
-int rounds = 25;
-int seed = 1;
+int number_of(const char* variable, int otherwise) {
+  const char* const text = std::getenv(variable);
+  return text == nullptr ? otherwise : std::atoi(text);
+}
+
+const int rounds = number_of("HYDROPRINT_KILLS", 25);
+const int seed = number_of("HYDROPRINT_SEED", 1);
 
 // Near the home switch, so that homing is short; the soft limit is at 2 mm.
 constexpr double kNearest_mm = 3;
 constexpr double kFarthest_mm = 12;
 constexpr double kFastest_mm_per_s = 10;  // also the virtual drive's homing
 constexpr double kSlowest_mm_per_s = 1;
-// Beyond the drive's own bounds: how sure the moment of the kill is, and the signal's way.
+// Beyond the drive's own bounds: the signal's way, and what was on the wire.
 constexpr double kSlack_s = 0.05;
 constexpr milliseconds kBetweenCalls{40};
 constexpr milliseconds kLookAgain{20};
@@ -94,6 +99,7 @@ struct Standstill {
   bool happened = false;
   bool was_moving = false;
   double seconds = 0;
+  double unsure_s = 0;  ///< by how much the kill may have been sooner
   double way_mm = 0;
   double position_mm = 0;
 };
@@ -104,8 +110,8 @@ bool stands(const json& truth) {
   return number(truth, "velocity_mm_per_s") == 0 && !truth.at("moving").get<bool>();
 }
 
-/// @param killed  the drive just before
-Standstill watch_it_stop(VirtualRigProcess& drive, const json& killed) {
+/// @param before, after  the drive just before and after the kill
+Standstill watch_it_stop(VirtualRigProcess& drive, const json& before, const json& after) {
   json first;
   const auto rests = [&] {
     first = drive.truth();
@@ -116,12 +122,13 @@ Standstill watch_it_stop(VirtualRigProcess& drive, const json& killed) {
     return stands(second) && second.at("position_mm") == first.at("position_mm");
   };
   Standstill out;
-  out.was_moving = number(killed, "velocity_mm_per_s") != 0;
+  out.was_moving = number(before, "velocity_mm_per_s") != 0;
   out.happened = wait_until(rests, 3);
-  // 0 if it rested all along.
-  out.seconds = std::max(number(first, "rested_s") - number(killed, "time_s"), 0.0);
+  // 0 if it rested all along. The kill was no later than `after`.
+  out.seconds = std::max(number(first, "rested_s") - number(after, "time_s"), 0.0);
+  out.unsure_s = number(after, "time_s") - number(before, "time_s");
   out.position_mm = number(first, "position_mm");
-  out.way_mm = std::abs(out.position_mm - number(killed, "position_mm"));
+  out.way_mm = std::abs(out.position_mm - number(after, "position_mm"));
   return out;
 }
 
@@ -187,6 +194,7 @@ class Campaign {
   void prepare(const Plan& plan);
   void move_until_killed(const Plan& plan);
   void keep_busy(const Plan& plan);
+  void expect_obeyed(const grpc::Status& sent);
   void restart();
   void note_acknowledged(const v1::Job& job) { acknowledged_.push_back(job.name()); }
   void expect_stopped_in_time(const Plan& plan, const Standstill& stop);
@@ -205,8 +213,8 @@ class Campaign {
   std::string dip_;                             // of this round, if it was acknowledged
   std::map<std::string, v1::Job::State> dips_;  // how those of earlier rounds ended
   Standstill stop_;
-  int moving_ = 0, in_dips_ = 0;
-  double most_time_share_ = 0, most_way_share_ = 0, longest_start_s_ = 0;
+  int moving_ = 0, in_dips_ = 0, late_replies_ = 0;
+  double most_time_share_ = 0, most_way_share_ = 0, most_unsure_s_ = 0, longest_start_s_ = 0;
 };
 
 void Campaign::meet_daemon() {
@@ -222,6 +230,14 @@ void Campaign::prepare(const Plan& plan) {
   if (plan.kind == Kind::kDip) client_->go_to(plan.target_mm);
 }
 
+/// Unless the daemon is gone, or the drive was late to answer it: on a machine that is busy a reply
+/// may take longer than a drive is given, and what is killed then is a daemon that stops the axis.
+void Campaign::expect_obeyed(const grpc::Status& sent) {
+  if (sent.ok() || sent.error_code() == grpc::UNAVAILABLE) return;
+  EXPECT_EQ(reason_of(sent), "RIG_OFFLINE") << sent.error_message();
+  ++late_replies_;
+}
+
 /// The order, and then calls that are acknowledged or not, until there is no daemon any more.
 void Campaign::keep_busy(const Plan& plan) {
   client_->patient = false;
@@ -235,15 +251,10 @@ void Campaign::keep_busy(const Plan& plan) {
     dip_ = job.name();
   }
   // A refusal would be another motion than was planned.
-  if (sent.error_code() != grpc::UNAVAILABLE) {
-    EXPECT_TRUE(sent.ok()) << sent.error_message();
-  }
+  expect_obeyed(sent);
   while (sent.ok()) {
     if (plan.kind == Kind::kJog) sent = client_->jog(plan.speed_mm_per_s);
-    if (!sent.ok()) {
-      EXPECT_TRUE(sent.error_code() == grpc::UNAVAILABLE || sent.error_code() == grpc::OUT_OF_RANGE)
-          << sent.error_message();
-    }
+    if (sent.error_code() != grpc::OUT_OF_RANGE && !sent.ok()) return expect_obeyed(sent);
     auto request = simulate_request(asset_);
     sent = client_->create(request, job);
     if (sent.ok()) note_acknowledged(job);
@@ -258,8 +269,9 @@ void Campaign::move_until_killed(const Plan& plan) {
     std::this_thread::sleep_for(duration<double>(plan.after_s));
     const json before = drive_.truth();
     ::kill(pid, SIGKILL);
+    const json after = drive_.truth();
     killed.set_value();
-    stop_ = watch_it_stop(drive_, before);
+    stop_ = watch_it_stop(drive_, before, after);
   });
   keep_busy(plan);
   killed.get_future().wait();
@@ -293,6 +305,7 @@ void Campaign::expect_stopped_in_time(const Plan& plan, const Standstill& stop) 
   EXPECT_LE(in_mm, rig::stopping_distance_mm(config, *profile, speed))
       << "what the keep-out is for";
   if (!stop.was_moving) return;
+  most_unsure_s_ = std::max(most_unsure_s_, stop.unsure_s);
   most_time_share_ = std::max(most_time_share_, stop.seconds / in_s);
   most_way_share_ = std::max(most_way_share_, stop.way_mm / in_mm);
 }
@@ -373,6 +386,7 @@ void Campaign::run() {
     expect_jobs();
     if (::testing::Test::HasFailure()) return;
   }
+  EXPECT_LE(late_replies_, rounds / 10) << "too few rounds were as planned";
 }
 
 nlohmann::ordered_json Campaign::summary() const {
@@ -385,6 +399,8 @@ nlohmann::ordered_json Campaign::summary() const {
           {"acknowledged_jobs", acknowledged_.size()},
           {"most_time_share", most_time_share_},
           {"most_way_share", most_way_share_},
+          {"most_unsure_s", most_unsure_s_},
+          {"late_replies", late_replies_},
           {"longest_start_s", longest_start_s_}};
 }
 
@@ -396,17 +412,3 @@ TEST(Killed, AtAnyMomentTheDriveStopsTheStoreIsWholeAndTheRigWantsHoming) {
 
 }  // namespace
 }  // namespace hydroprint::tests
-
-int main(int argc, char** argv) {
-  ::testing::InitGoogleTest(&argc, argv);
-  for (int i = 1; i < argc; i += 2) {
-    const std::string name = argv[i];
-    const bool is_rounds = name == "--rounds";
-    if (i + 1 == argc || (!is_rounds && name != "--seed")) {
-      std::cerr << "usage: kill_campaign [--rounds N] [--seed N]\n";
-      return 2;
-    }
-    (is_rounds ? hydroprint::tests::rounds : hydroprint::tests::seed) = std::atoi(argv[i + 1]);
-  }
-  return RUN_ALL_TESTS();
-}
