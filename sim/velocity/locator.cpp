@@ -115,8 +115,8 @@ Locator::Locator(const FilmMesh& mesh) {
 bool Locator::walk(int triangle, const Eigen::Vector2d& point_mm, Place& place) const {
   for (int step = 0; step < kMostSteps && triangle >= 0; ++step) {
     if (holds(triangle, point_mm, place)) return true;
-    int outside = 0;
-    place.barycentric.minCoeff(&outside);
+    const Eigen::Vector3d& b = place.barycentric;
+    const int outside = b[0] <= b[1] ? (b[0] <= b[2] ? 0 : 2) : (b[1] <= b[2] ? 1 : 2);
     triangle = triangles_[triangle].neighbours[outside];
   }
   return false;
@@ -125,8 +125,13 @@ bool Locator::walk(int triangle, const Eigen::Vector2d& point_mm, Place& place) 
 bool Locator::holds(int triangle, const Eigen::Vector2d& point_mm, Place& place) const {
   const Corners& corners = triangles_[triangle];
   const Eigen::Vector2d b = corners.to_barycentric * (point_mm - corners.origin_mm);
-  place = {triangle, {1 - b.x() - b.y(), b.x(), b.y()}, 0};
-  return place.barycentric.minCoeff() >= -1e-10;
+  const double first = 1 - b.x() - b.y();
+  place.triangle = triangle;
+  place.barycentric = {first, b.x(), b.y()};
+  place.outside_mm = 0;
+  // The innermost question of a simulation: Eigen's minCoeff() is a call here.
+  constexpr double kSlack = -1e-10;
+  return (first >= kSlack) & (b.x() >= kSlack) & (b.y() >= kSlack);
 }
 
 Locator::Place Locator::find(const Eigen::Vector2d& point_mm, int guess) const {

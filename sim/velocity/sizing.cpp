@@ -2,11 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace hydroprint::velocity {
 namespace {
 
 constexpr double kCell_mm = 1.0;
+constexpr float kStep_mm = kCell_mm;
+constexpr float kDiagonal_mm = std::numbers::sqrt2_v<float> * kStep_mm;
+constexpr float kFar_mm = 1e6F;
+
+/// Half a pass of the chamfer transform: what a row has from the one beside it.
+void relax_from_row(const float* beside, float* here, int columns) {
+  for (int c = 0; c < columns; ++c) {
+    const float diagonal = std::min(beside[c - 1], beside[c + 1]) + kDiagonal_mm;
+    here[c] = std::min({here[c], beside[c] + kStep_mm, diagonal});
+  }
+}
 
 }  // namespace
 
@@ -17,48 +29,34 @@ Sizing::Sizing(const film::Outline& outline,
   options_.most_mm = std::max(options.most_mm, 0.05 * outline.size_mm().minCoeff());
   columns_ = static_cast<int>(std::ceil(outline.size_mm().x() / kCell_mm)) + 1;
   rows_ = static_cast<int>(std::ceil(outline.size_mm().y() / kCell_mm)) + 1;
-  distance_mm_.assign(static_cast<std::size_t>(columns_) * rows_, 1e6F);
-  const auto cell = [&](int column, int row) -> float& {
-    return distance_mm_[static_cast<std::size_t>(row) * columns_ + column];
-  };
+  distance_mm_.assign(static_cast<std::size_t>(columns_ + 2) * (rows_ + 2), kFar_mm);
   for (const auto& waterline : waterlines) {
-    for (const Eigen::Vector2d& p : waterline) {
-      const Eigen::Vector2d at = (p - origin_mm_) / kCell_mm;
-      cell(std::clamp(static_cast<int>(std::lround(at.x())), 0, columns_ - 1),
-           std::clamp(static_cast<int>(std::lround(at.y())), 0, rows_ - 1)) = 0;
-    }
+    for (const Eigen::Vector2d& p : waterline) distance_mm_[cell_at(p)] = 0;
   }
-  // Two-pass chamfer: each cell from the neighbours already visited.
-  const auto relax = [&](float& here, int column, int row, double step) {
-    if (column < 0 || row < 0 || column >= columns_ || row >= rows_) return;
-    here = std::min(here, cell(column, row) + static_cast<float>(step * kCell_mm));
+  const auto row = [&](int r) {
+    return distance_mm_.data() + static_cast<std::size_t>(r + 1) * (columns_ + 2) + 1;
   };
-  const double diagonal = std::sqrt(2.0);
   for (int r = 0; r < rows_; ++r) {
-    for (int c = 0; c < columns_; ++c) {
-      float& here = cell(c, r);
-      relax(here, c - 1, r, 1);
-      relax(here, c - 1, r - 1, diagonal);
-      relax(here, c, r - 1, 1);
-      relax(here, c + 1, r - 1, diagonal);
-    }
+    relax_from_row(row(r - 1), row(r), columns_);
+    float* const here = row(r);
+    for (int c = 0; c < columns_; ++c) here[c] = std::min(here[c], here[c - 1] + kStep_mm);
   }
   for (int r = rows_ - 1; r >= 0; --r) {
-    for (int c = columns_ - 1; c >= 0; --c) {
-      float& here = cell(c, r);
-      relax(here, c + 1, r, 1);
-      relax(here, c + 1, r + 1, diagonal);
-      relax(here, c, r + 1, 1);
-      relax(here, c - 1, r + 1, diagonal);
-    }
+    relax_from_row(row(r + 1), row(r), columns_);
+    float* const here = row(r);
+    for (int c = columns_ - 1; c >= 0; --c) here[c] = std::min(here[c], here[c + 1] + kStep_mm);
   }
 }
 
-double Sizing::at(const Eigen::Vector2d& point_mm) const {
+std::size_t Sizing::cell_at(const Eigen::Vector2d& point_mm) const {
   const Eigen::Vector2d at = (point_mm - origin_mm_) / kCell_mm;
   const int column = std::clamp(static_cast<int>(std::lround(at.x())), 0, columns_ - 1);
   const int row = std::clamp(static_cast<int>(std::lround(at.y())), 0, rows_ - 1);
-  const double distance = distance_mm_[static_cast<std::size_t>(row) * columns_ + column];
+  return static_cast<std::size_t>(row + 1) * (columns_ + 2) + column + 1;
+}
+
+double Sizing::at(const Eigen::Vector2d& point_mm) const {
+  const double distance = distance_mm_[cell_at(point_mm)];
   return std::min(options_.most_mm, options_.at_waterline_mm + options_.growth * distance);
 }
 

@@ -24,10 +24,12 @@ class Sizing {
   [[nodiscard]] double at(const Eigen::Vector2d& point_mm) const;
 
  private:
+  [[nodiscard]] std::size_t cell_at(const Eigen::Vector2d& point_mm) const;
+
   Options options_;
   Eigen::Vector2d origin_mm_;
   int columns_ = 0, rows_ = 0;
-  std::vector<float> distance_mm_;
+  std::vector<float> distance_mm_;  ///< of the cells, and of a margin of one cell around them
 };
 
 }  // namespace hydroprint::velocity
