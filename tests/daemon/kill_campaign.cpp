@@ -191,6 +191,7 @@ class Campaign {
     return options;
   }
   void meet_daemon();
+  [[nodiscard]] bool is_prepared(const Plan& plan);
   void prepare(const Plan& plan);
   void move_until_killed(const Plan& plan);
   void keep_busy(const Plan& plan);
@@ -213,7 +214,7 @@ class Campaign {
   std::string dip_;                             // of this round, if it was acknowledged
   std::map<std::string, v1::Job::State> dips_;  // how those of earlier rounds ended
   Standstill stop_;
-  int moving_ = 0, in_dips_ = 0, late_replies_ = 0;
+  int moving_ = 0, in_dips_ = 0, spoilt_ = 0;
   double most_time_share_ = 0, most_way_share_ = 0, most_unsure_s_ = 0, longest_start_s_ = 0;
 };
 
@@ -222,20 +223,32 @@ void Campaign::meet_daemon() {
   client_->lease_id = lease_id_;
 }
 
-void Campaign::prepare(const Plan& plan) {
-  ASSERT_TRUE(gets_armed(*client_));
-  if (plan.kind == Kind::kHome) return;
-  ASSERT_TRUE(client_->home().ok());
-  ASSERT_TRUE(client_->becomes(v1::Rig::IDLE));
-  if (plan.kind == Kind::kDip) client_->go_to(plan.target_mm);
+/// Armed and, where that is wanted, homed and where the motion begins.
+bool Campaign::is_prepared(const Plan& plan) {
+  if (!gets_armed(*client_)) return false;
+  if (plan.kind == Kind::kHome) return true;
+  if (!client_->home().ok() || !client_->becomes(v1::Rig::IDLE)) return false;
+  if (plan.kind != Kind::kDip) return true;
+  return client_->move_to(plan.target_mm).ok() && client_->becomes(v1::Rig::IDLE) &&
+         client_->rig().motion().outcome() == v1::Motion::DONE;
 }
 
-/// Unless the daemon is gone, or the drive was late to answer it: on a machine that is busy a reply
-/// may take longer than a drive is given, and what is killed then is a daemon that stops the axis.
+void Campaign::prepare(const Plan& plan) {
+  for (int spoilt = 0; spoilt < 3; ++spoilt, ++spoilt_) {
+    if (is_prepared(plan)) return;
+    (void)client_->stop();
+    (void)client_->disarm();
+  }
+  FAIL() << "the rig does not get ready: " << client_->rig().trouble();
+}
+
+/// On a machine that is busy the drive may answer too late, or a call of a jog come too late: the
+/// daemon then stops the axis, and says so to whoever commands it. What is killed is another motion
+/// than was planned.
 void Campaign::expect_obeyed(const grpc::Status& sent) {
   if (sent.ok() || sent.error_code() == grpc::UNAVAILABLE) return;
-  EXPECT_EQ(reason_of(sent), "RIG_OFFLINE") << sent.error_message();
-  ++late_replies_;
+  ++spoilt_;
+  std::cout << "not as planned: " << reason_of(sent) << ": " << sent.error_message() << std::endl;
 }
 
 /// The order, and then calls that are acknowledged or not, until there is no daemon any more.
@@ -250,7 +263,6 @@ void Campaign::keep_busy(const Plan& plan) {
     if (sent.ok()) note_acknowledged(job);
     dip_ = job.name();
   }
-  // A refusal would be another motion than was planned.
   expect_obeyed(sent);
   while (sent.ok()) {
     if (plan.kind == Kind::kJog) sent = client_->jog(plan.speed_mm_per_s);
@@ -386,7 +398,7 @@ void Campaign::run() {
     expect_jobs();
     if (::testing::Test::HasFailure()) return;
   }
-  EXPECT_LE(late_replies_, rounds / 10) << "too few rounds were as planned";
+  EXPECT_LE(spoilt_, 1 + rounds / 20) << "too few rounds were as planned";
 }
 
 nlohmann::ordered_json Campaign::summary() const {
@@ -400,7 +412,7 @@ nlohmann::ordered_json Campaign::summary() const {
           {"most_time_share", most_time_share_},
           {"most_way_share", most_way_share_},
           {"most_unsure_s", most_unsure_s_},
-          {"late_replies", late_replies_},
+          {"spoilt", spoilt_},
           {"longest_start_s", longest_start_s_}};
 }
 
