@@ -161,7 +161,8 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   if (work.triangles.size() != before) edges = Edges(work.triangles, work.weld);
 
   context.progress("surface", 0.8);
-  surface.corner_normals = corner_normals(work.points, work.triangles, work.weld, edges);
+  HP_ASSIGN_OR_RETURN(surface.corner_normals,
+                      corner_normals(work.points, work.triangles, work.weld, edges, context));
   surface.points = std::move(work.points);
   surface.triangles = std::move(work.triangles);
   surface.source_triangle = std::move(work.source_triangle);

@@ -1,6 +1,7 @@
 #include "sim/mesh/normals.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "sim/mesh/groups.h"
@@ -14,15 +15,40 @@ const Eigen::Vector3d& at(const std::vector<Eigen::Vector3d>& points, int i) {
   return points[static_cast<std::size_t>(i)];
 }
 
-std::vector<Eigen::Vector3d> face_normals(const std::vector<Eigen::Vector3d>& points,
-                                          const std::vector<Eigen::Vector3i>& triangles) {
+constexpr std::size_t kChunk = 8192;  ///< faces looked at together
+
+/// Of each face its normal and the angles at its corners.
+struct Faces {
   std::vector<Eigen::Vector3d> normals;
-  normals.reserve(triangles.size());
-  for (const auto& t : triangles) {
-    const auto& a = at(points, t[0]);
-    normals.push_back((at(points, t[1]) - a).cross(at(points, t[2]) - a).stableNormalized());
-  }
-  return normals;
+  std::vector<std::array<double, 3>> angles_rad;
+};
+
+double angle(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+  return std::atan2(u.cross(v).norm(), u.dot(v));
+}
+
+Result<Faces> measure(const std::vector<Eigen::Vector3d>& points,
+                      const std::vector<Eigen::Vector3i>& triangles, const Context& context) {
+  Faces faces;
+  faces.normals.resize(triangles.size());
+  faces.angles_rad.resize(triangles.size());
+  const std::size_t chunks = (triangles.size() + kChunk - 1) / kChunk;
+  HP_RETURN_IF_ERROR(parallel_for(context, "", chunks, [&](std::size_t c) -> Status {
+    const std::size_t last = std::min((c + 1) * kChunk, triangles.size());
+    for (std::size_t t = c * kChunk; t < last; ++t) {
+      const Eigen::Vector3i& corners = triangles[t];
+      const auto& a = at(points, corners[0]);
+      const std::array<Eigen::Vector3d, 3> side = {at(points, corners[1]) - a,
+                                                   at(points, corners[2]) - at(points, corners[1]),
+                                                   a - at(points, corners[2])};
+      faces.normals[t] = side[0].cross(-side[2]).stableNormalized();
+      for (std::size_t k = 0; k < 3; ++k) {
+        faces.angles_rad[t][k] = angle(side[k], -side[(k + 2) % 3]);
+      }
+    }
+    return {};
+  }));
+  return faces;
 }
 
 /// Corners that share a normal. A corner has the number of the side that begins at it.
@@ -46,25 +72,19 @@ Groups smooth_corners(const std::vector<Eigen::Vector3i>& triangles, const std::
   return groups;
 }
 
-double angle(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
-  return std::atan2(u.cross(v).norm(), u.dot(v));
-}
-
 }  // namespace
 
-std::vector<std::array<Eigen::Vector3d, 3>> corner_normals(
+Result<std::vector<std::array<Eigen::Vector3d, 3>>> corner_normals(
     const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
-    const std::vector<int>& weld, const Edges& edges) {
-  const auto normals = face_normals(points, triangles);
+    const std::vector<int>& weld, const Edges& edges, const Context& context) {
+  HP_ASSIGN_OR_RETURN(const Faces faces, measure(points, triangles, context));
+  const auto& normals = faces.normals;
   auto groups = smooth_corners(triangles, weld, edges, normals);
 
   std::vector<Eigen::Vector3d> sums(3 * triangles.size(), Eigen::Vector3d::Zero());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const auto& p = at(points, triangles[t][k]);
-      const Eigen::Vector3d u = at(points, triangles[t][(k + 1) % 3]) - p;
-      const Eigen::Vector3d v = at(points, triangles[t][(k + 2) % 3]) - p;
-      sums[groups.find(3 * t + static_cast<std::size_t>(k))] += angle(u, v) * normals[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      sums[groups.find(3 * t + k)] += faces.angles_rad[t][k] * normals[t];
     }
   }
 

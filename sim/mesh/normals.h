@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "sim/base/context.h"
+#include "sim/base/result.h"
 #include "sim/mesh/edges.h"
 
 namespace hydroprint::mesh {
@@ -12,8 +14,9 @@ namespace hydroprint::mesh {
 /// angles there, that can be reached from the corner's own face without crossing a crease (dihedral
 /// angle of 30 degrees or more), a boundary, or an edge of more than two faces.
 /// Linear in the number of triangles, however many meet at a point.
-[[nodiscard]] std::vector<std::array<Eigen::Vector3d, 3>> corner_normals(
+/// @return kCancelled if the context says so
+[[nodiscard]] Result<std::vector<std::array<Eigen::Vector3d, 3>>> corner_normals(
     const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
-    const std::vector<int>& weld, const Edges& edges);
+    const std::vector<int>& weld, const Edges& edges, const Context& context);
 
 }  // namespace hydroprint::mesh
