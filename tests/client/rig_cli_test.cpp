@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <thread>
@@ -157,15 +158,24 @@ TEST_F(RigCli, NoWaitReturnsWhileTheAxisMoves) {
 }
 
 TEST_F(RigCli, WatchTellsEveryChange) {
-  Process watch(programs_.command({"rig", "watch", "--json"}));
-  std::this_thread::sleep_for(500ms);
-  programs_.make_ready(6);
-  std::this_thread::sleep_for(300ms);
+  const TemporaryFolder folder;
+  const auto told = folder.path() / "told";
+  testing::ProcessOptions options;
+  options.files = {{STDOUT_FILENO, told}};
+  Process watch(programs_.command({"rig", "watch", "--json"}), options);
+  const auto tells = [&](const std::string& state) {
+    return wait_until(
+        [&] { return content(told).find("\"state\":\"" + state) < std::string::npos; });
+  };
+  EXPECT_TRUE(tells("DISARMED"));
+  EXPECT_EQ(programs_.client({"rig", "lease", "acquire", "--purpose", "a test"}).status, 0);
+  EXPECT_EQ(programs_.client({"rig", "arm"}).status, 0);
+  EXPECT_TRUE(tells("UNHOMED"));
+  EXPECT_EQ(programs_.client({"rig", "home"}).status, 0);
+  EXPECT_TRUE(tells("MOVING"));
+  EXPECT_TRUE(tells("IDLE"));
   watch.signal(SIGINT);
-  const auto ended = watch.wait();
-  EXPECT_EQ(ended.status, 130);
-  for (const char* state : {"DISARMED", "UNHOMED", "MOVING", "IDLE"})
-    EXPECT_NE(ended.out.find(std::string("\"state\":\"") + state), std::string::npos) << state;
+  EXPECT_EQ(watch.wait().status, 130);
 }
 
 TEST_F(RigCli, AJogForATimeGoesThatFar) {
