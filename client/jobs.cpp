@@ -45,6 +45,7 @@ class Watcher {
   }
 
   Result<Job> run(const std::function<void(const Error&)>& lost) {
+    wait_for_connection(connection_, kConnectLimit);
     for (;;) {
       const grpc::Status status = follow();
       if (is_finished(last_)) return last_;

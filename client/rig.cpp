@@ -58,6 +58,7 @@ Status watch_rig(Connection& connection, double max_rate_hz,
   v1::WatchRigRequest request;
   request.set_max_rate_hz(max_rate_hz);
   Call one(connection);
+  wait_for_connection(connection, kConnectLimit);
   auto stream = connection.impl().rig->WatchRig(one.context(), request);
   v1::Rig rig;
   while (stream->Read(&rig)) {

@@ -52,7 +52,7 @@ class Call {
 
 /// Time within which a call that does not stream must be answered.
 inline constexpr std::chrono::seconds kAnswerLimit{30};
-/// Time within which there must be a connection for a call that is not repeated.
+/// Time within which there must be a connection for a call or a stream that is not repeated.
 inline constexpr std::chrono::seconds kConnectLimit{1};
 /// Between attempts at a stream that broke off.
 inline constexpr std::chrono::milliseconds kTryAgainAfter{500};

@@ -285,11 +285,14 @@ TEST_F(Cli, FindsADaemonThatStartsAMomentLater) {
   const std::string address = daemon_->address();
   EXPECT_EQ(daemon_->terminate(), 0);
   Process early({kClient, "--server", address, "status"});
+  Process watch({kClient, "--server", address, "watch", "jobs/1"});
   std::this_thread::sleep_for(std::chrono::milliseconds(150));  // it has been refused by then
   Process daemon({HYDROPRINT_BIN_DIR "/hydroprintd", "--grpc", address, "--state-dir",
                   (folder_.path() / "another").string()});
   const Outcome ended = early.wait();
   EXPECT_EQ(ended.status, 0) << ended.err;
+  const Outcome watched = watch.wait();
+  EXPECT_NE(watched.err.find("jobs/1"), std::string::npos) << "answered: " << watched.err;
 }
 
 TEST_F(Cli, CtrlCWhileWaitingLeavesTheJobRunning) {
