@@ -42,7 +42,7 @@ constexpr double kNearest_mm = 3;
 constexpr double kFarthest_mm = 12;
 constexpr double kFastest_mm_per_s = 10;  // also the virtual drive's homing
 constexpr double kSlowest_mm_per_s = 1;
-// Beyond the drive's own bounds: the signal's way, and what was on the wire.
+// Beyond the drive's own bounds: how sure the moment of the kill is, and the signal's way.
 constexpr double kSlack_s = 0.05;
 constexpr milliseconds kBetweenCalls{40};
 constexpr milliseconds kLookAgain{20};
@@ -99,7 +99,6 @@ struct Standstill {
   bool happened = false;
   bool was_moving = false;
   double seconds = 0;
-  double unsure_s = 0;  ///< by how much the kill may have been sooner
   double way_mm = 0;
   double position_mm = 0;
 };
@@ -110,8 +109,8 @@ bool stands(const json& truth) {
   return number(truth, "velocity_mm_per_s") == 0 && !truth.at("moving").get<bool>();
 }
 
-/// @param before, after  the drive just before and after the kill
-Standstill watch_it_stop(VirtualRigProcess& drive, const json& before, const json& after) {
+/// @param killed  the drive just before
+Standstill watch_it_stop(VirtualRigProcess& drive, const json& killed) {
   json first;
   const auto rests = [&] {
     first = drive.truth();
@@ -122,13 +121,12 @@ Standstill watch_it_stop(VirtualRigProcess& drive, const json& before, const jso
     return stands(second) && second.at("position_mm") == first.at("position_mm");
   };
   Standstill out;
-  out.was_moving = number(before, "velocity_mm_per_s") != 0;
+  out.was_moving = number(killed, "velocity_mm_per_s") != 0;
   out.happened = wait_until(rests, 3);
-  // 0 if it rested all along. The kill was no later than `after`.
-  out.seconds = std::max(number(first, "rested_s") - number(after, "time_s"), 0.0);
-  out.unsure_s = number(after, "time_s") - number(before, "time_s");
+  // 0 if it rested all along.
+  out.seconds = std::max(number(first, "rested_s") - number(killed, "time_s"), 0.0);
   out.position_mm = number(first, "position_mm");
-  out.way_mm = std::abs(out.position_mm - number(after, "position_mm"));
+  out.way_mm = std::abs(out.position_mm - number(killed, "position_mm"));
   return out;
 }
 
@@ -215,7 +213,7 @@ class Campaign {
   std::map<std::string, v1::Job::State> dips_;  // how those of earlier rounds ended
   Standstill stop_;
   int moving_ = 0, in_dips_ = 0, spoilt_ = 0;
-  double most_time_share_ = 0, most_way_share_ = 0, most_unsure_s_ = 0, longest_start_s_ = 0;
+  double most_time_share_ = 0, most_way_share_ = 0, longest_start_s_ = 0;
 };
 
 void Campaign::meet_daemon() {
@@ -281,9 +279,8 @@ void Campaign::move_until_killed(const Plan& plan) {
     std::this_thread::sleep_for(duration<double>(plan.after_s));
     const json before = drive_.truth();
     ::kill(pid, SIGKILL);
-    const json after = drive_.truth();
     killed.set_value();
-    stop_ = watch_it_stop(drive_, before, after);
+    stop_ = watch_it_stop(drive_, before);
   });
   keep_busy(plan);
   killed.get_future().wait();
@@ -317,7 +314,6 @@ void Campaign::expect_stopped_in_time(const Plan& plan, const Standstill& stop) 
   EXPECT_LE(in_mm, rig::stopping_distance_mm(config, *profile, speed))
       << "what the keep-out is for";
   if (!stop.was_moving) return;
-  most_unsure_s_ = std::max(most_unsure_s_, stop.unsure_s);
   most_time_share_ = std::max(most_time_share_, stop.seconds / in_s);
   most_way_share_ = std::max(most_way_share_, stop.way_mm / in_mm);
 }
@@ -411,7 +407,6 @@ nlohmann::ordered_json Campaign::summary() const {
           {"acknowledged_jobs", acknowledged_.size()},
           {"most_time_share", most_time_share_},
           {"most_way_share", most_way_share_},
-          {"most_unsure_s", most_unsure_s_},
           {"spoilt", spoilt_},
           {"longest_start_s", longest_start_s_}};
 }
