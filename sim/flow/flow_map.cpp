@@ -1,5 +1,6 @@
 #include "sim/flow/flow_map.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -25,6 +26,13 @@ void measure_stretch(const mesh::Surface& surface, const waterline::Body& body,
 }
 
 }  // namespace
+
+MapOptions for_resolution(MapOptions options, double dpi) {
+  const double coarser = std::clamp(600 / dpi, 1.0, 4.0);
+  options.tolerance_mm *= coarser;
+  options.least_edge_mm *= coarser;
+  return options;
+}
 
 Result<FlowMap> make_flow_map(const mesh::Surface& surface, const waterline::Body& body,
                               const DipField& dip, const waterline::Motion& motion,

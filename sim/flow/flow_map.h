@@ -21,6 +21,10 @@ struct MapOptions {
   bool make_tiles = true;
 };
 
+/// Options made for 600 dpi, for an image of another resolution: where its pixels are larger, the
+/// map need not be known as finely (up to four times as coarse).
+[[nodiscard]] MapOptions for_resolution(MapOptions options, double dpi);
+
 /// Finds for every point of the surface the film that lands there, and tiles the part of the
 /// surface that film reaches.
 [[nodiscard]] Result<FlowMap> make_flow_map(const mesh::Surface& surface,

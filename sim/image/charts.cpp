@@ -78,6 +78,7 @@ std::vector<int> connected_pieces(const std::vector<UvTriangle>& triangles, int&
 
 int fold_index(std::int64_t i, int size, mesh::Wrap wrap) {
   const std::int64_t n = size;
+  if (i >= 0 && i < n) return static_cast<int>(i);
   if (wrap == mesh::Wrap::kClamp) return static_cast<int>(std::clamp<std::int64_t>(i, 0, n - 1));
   const std::int64_t period = wrap == mesh::Wrap::kMirror ? 2 * n : n;
   const std::int64_t folded = ((i % period) + period) % period;

@@ -63,13 +63,13 @@ Status halve(const Texels& from, Texels& to, const Context& context) {
 }
 
 /// std::floor is a library call on plain x86-64; this is not. Exact up to 2^62, else 0.
-double fast_floor(double t) {
+inline double fast_floor(double t) {
   if (!(std::abs(t) < 4e18)) return 0;
   const auto whole = static_cast<double>(static_cast<std::int64_t>(t));
   return whole > t ? whole - 1 : whole;
 }
 
-double clamp01(double t) { return t > 0 ? std::min(t, 1.0) : 0; }  // NaN becomes 0
+inline double clamp01(double t) { return t > 0 ? std::min(t, 1.0) : 0; }  // NaN becomes 0
 
 double fold_axis(double t, mesh::Wrap wrap, bool in_one_tile, double tile) {
   if (in_one_tile && wrap != mesh::Wrap::kClamp) {
@@ -96,7 +96,7 @@ struct Taps {
   float blend = 0;
 };
 
-Taps taps_at(double position, int size, bool wraps) {
+inline Taps taps_at(double position, int size, bool wraps) {
   const double floor = fast_floor(position);
   Taps taps;
   taps.first = static_cast<int>(floor);
@@ -108,7 +108,7 @@ Taps taps_at(double position, int size, bool wraps) {
   return taps;
 }
 
-Eigen::Array4f lerp(const Texel& a, const Texel& b, float blend) {
+inline Eigen::Array4f lerp(const Texel& a, const Texel& b, float blend) {
   const Eigen::Array4f from(a.r, a.g, a.b, 0), to(b.r, b.g, b.b, 0);
   return from + blend * (to - from);
 }
@@ -165,7 +165,9 @@ Texture::Sum Texture::bilinear(const Eigen::Vector2d& folded, int level, const C
   const Taps y = taps_at((1 - folded.y()) * height() * scale - 0.5, image.height, wraps_v);
   const Texel* upper = &image.texels[static_cast<std::size_t>(y.first) * image.width];
   const Texel* lower = &image.texels[static_cast<std::size_t>(y.second) * image.width];
-  if (chart.id == 0) {
+  const auto belongs = [&](const Texel& texel) { return texel.chart == chart.id; };
+  if (chart.id == 0 || (belongs(upper[x.first]) & belongs(upper[x.second]) &
+                        belongs(lower[x.first]) & belongs(lower[x.second]))) {
     const Eigen::Array4f above = lerp(upper[x.first], upper[x.second], x.blend);
     const Eigen::Array4f below = lerp(lower[x.first], lower[x.second], x.blend);
     const Eigen::Array4f mean = above + y.blend * (below - above);
@@ -174,7 +176,7 @@ Texture::Sum Texture::bilinear(const Eigen::Vector2d& folded, int level, const C
   Sum sum;
   const auto add = [&](int column, const Texel* row, float weight) {
     const Texel& texel = row[column];
-    if (texel.chart != chart.id) return;
+    if (!belongs(texel)) return;
     sum.colour += weight * Eigen::Vector3f(texel.r, texel.g, texel.b);
     sum.weight += weight;
   };

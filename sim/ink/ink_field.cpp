@@ -1,6 +1,7 @@
 #include "sim/ink/ink_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -11,6 +12,9 @@ using Eigen::Vector2d;
 
 constexpr int kMostCells = 2048;  // along a side
 constexpr int kPointsPerCell = 4;
+/// From the middle, as parts of the length: exact for cubics, such as the integrand along a piece
+/// of an edge within one cell.
+constexpr std::array<double, 2> kGauss = {-0.28867513459481287, 0.28867513459481287};
 constexpr double kOnEdge_cells = 1e-9;
 /// Twice the area, in cells, below which rounding would show in a mean.
 constexpr double kFlat_cells2 = 1e-6;
@@ -137,8 +141,18 @@ double InkField::to_the_left(int i, int j, double u, double v) const {
 
 /// Integral of t over all that lies left of an edge, positive if it goes up.
 double InkField::left_of_edge(const Vector2d& from, const Vector2d& to) const {
-  if (from.y() > to.y()) return -left_of_edge(to, from);
   const Axis across{grid_.columns}, up{grid_.rows};
+  if (const int i = across.strip(from.x()), j = up.strip(from.y());
+      i >= 0 && i <= across.cells && j >= 0 && j <= up.cells && i == across.strip(to.x()) &&
+      j == up.strip(to.y())) {  // within one cell, as most are
+    double sum = 0;
+    for (const double gauss : kGauss) {
+      const Vector2d at = from + (0.5 + gauss) * (to - from);
+      sum += 0.5 * (to.y() - from.y()) * to_the_left(i, j, at.x(), at.y());
+    }
+    return sum;
+  }
+  if (from.y() > to.y()) return -left_of_edge(to, from);
   const double lowest = std::max(from.y(), up.begin()), highest = std::min(to.y(), up.end());
   if (!(lowest < highest)) return 0;
   const double slope = (to.x() - from.x()) / (to.y() - from.y());
@@ -156,9 +170,8 @@ double InkField::left_of_edge(const Vector2d& from, const Vector2d& to) const {
         const double u_end = across.end_of(step > 0 ? strip : strip - 1);
         end = std::clamp(from.y() + (u_end - from.x()) / slope, v, row_end);
       }
-      // Along this piece the integrand is a cubic: two Gauss points are exact.
       const int i = std::clamp(strip, 0, across.cells);
-      for (const double gauss : {-0.5 / std::sqrt(3.0), 0.5 / std::sqrt(3.0)}) {
+      for (const double gauss : kGauss) {
         const double at_v = v + (end - v) * (0.5 + gauss);
         const double at_u = std::clamp(u_at(at_v), across.end_of(i - 1), across.end_of(i));
         sum += (end - v) / 2 * to_the_left(i, j, at_u, at_v);

@@ -1,5 +1,6 @@
 #include "sim/mesh/obj_check.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -37,7 +38,8 @@ class ObjChecker {
   };
 
   std::string_view next_line() {
-    const auto end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+    const auto is_end = [](char c) { return c == '\n' || c == '\r'; };  // find_first_of is slow
+    const auto end = static_cast<std::size_t>(std::ranges::find_if(rest_, is_end) - rest_.begin());
     const auto line = rest_.substr(0, end);
     rest_.remove_prefix(end);
     rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : rest_.empty() ? 0 : 1);

@@ -37,6 +37,11 @@ Dip finish(const mesh::Model& model, Start start, flow::FlowMap map, double unse
 
 Result<Dip> dip(const mesh::Model& model, const DipOptions& options, const Context& context) {
   HP_ASSIGN_OR_RETURN(Start begun, start(model, options, context));
+  return dip(model, std::move(begun), options, context);
+}
+
+Result<Dip> dip(const mesh::Model& model, Start begun, const DipOptions& options,
+                const Context& context) {
   if (options.film_model == FilmModel::kStokes) {
     HP_ASSIGN_OR_RETURN(flow::FlowMap map, land(begun, begun.stokes, options, context));
     return finish(model, std::move(begun), std::move(map), 0, options);

@@ -6,7 +6,6 @@
 
 #include "sim/image/film_image.h"
 #include "sim/ink/ink_of.h"
-#include "sim/pipeline/start.h"
 
 namespace hydroprint::pipeline {
 namespace {
@@ -81,9 +80,9 @@ Result<InkedFlow> ink_passes(const Start& start, const image::Paint& paint, int 
 
 }  // namespace
 
-Result<Dip> dip_inked(const mesh::Model& model, const image::Paint& paint, int most_passes,
-                      double dpi, const DipOptions& options, const Context& context) {
-  HP_ASSIGN_OR_RETURN(Start begun, start(model, options, context));
+Result<Dip> dip_inked(const mesh::Model& model, Start begun, const image::Paint& paint,
+                      int most_passes, double dpi, const DipOptions& options,
+                      const Context& context) {
   HP_ASSIGN_OR_RETURN(InkedFlow inked,
                       ink_passes(begun, paint, most_passes, dpi, options, context));
   Dip dip = finish(model, std::move(begun), std::move(inked.map), inked.flow.unsettled_mm, options);

@@ -4,6 +4,7 @@
 #include "sim/base/result.h"
 #include "sim/image/paint.h"
 #include "sim/pipeline/pipeline.h"
+#include "sim/pipeline/start.h"
 
 namespace hydroprint::pipeline {
 
@@ -13,8 +14,8 @@ namespace hydroprint::pipeline {
 /// when a pass moves the film by less than a pixel; what each pass did is among the figures.
 /// @param most_passes  at least 1
 /// @param dpi          of the film image
-[[nodiscard]] Result<Dip> dip_inked(const mesh::Model& model, const image::Paint& paint,
-                                    int most_passes, double dpi, const DipOptions& options,
-                                    const Context& context);
+[[nodiscard]] Result<Dip> dip_inked(const mesh::Model& model, Start begun,
+                                    const image::Paint& paint, int most_passes, double dpi,
+                                    const DipOptions& options, const Context& context);
 
 }  // namespace hydroprint::pipeline

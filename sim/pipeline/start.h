@@ -40,6 +40,10 @@ struct Start {
 [[nodiscard]] Result<flow::FlowMap> land(const Start& start, const flow::DipField& field,
                                          const DipOptions& options, const Context& context);
 
+/// The dip that began so, its film without ink of its own image.
+[[nodiscard]] Result<Dip> dip(const mesh::Model& model, Start begun, const DipOptions& options,
+                              const Context& context);
+
 /// The outcome, once it is known where the film lands.
 /// @param unsettled_mm  see DipFigures
 [[nodiscard]] Dip finish(const mesh::Model& model, Start start, flow::FlowMap map,

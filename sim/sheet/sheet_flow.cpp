@@ -22,43 +22,84 @@ constexpr std::size_t kWindow = 8;
 /// no thickness to find.
 constexpr double kSettling = 0.5;
 
+/// How far the sweeps over a window of waterlines have come. What a waterline's film does depends
+/// on those before it alone, so they settle one after the other, and those that have settled are
+/// not solved again.
+class Progress {
+ public:
+  explicit Progress(std::size_t count) : moved_mm(count), before_mm_(count) {}
+
+  /// By how much the sweep moved the film at each waterline.
+  std::vector<double> moved_mm;
+
+  /// The first waterline that has not settled.
+  [[nodiscard]] std::size_t first() const { return first_; }
+  /// How much the film moved in the sweep, where it had not settled.
+  [[nodiscard]] double sum_mm() const { return sum(moved_mm, moved_mm.size()); }
+
+  enum class Next { kSweep, kSettled, kUnsettled };
+  /// After a sweep but the first: a next one would move the film by about as much less again as
+  /// this one did; each waterline may leave its share of the tolerance.
+  Next judge(double tolerance_mm) {
+    const std::size_t count = moved_mm.size();
+    const double before_mm = sum(before_mm_, count);
+    const double shrinkage = before_mm > 0 ? sum_mm() / before_mm : 0;
+    if (!(shrinkage < kSettling)) return Next::kUnsettled;
+    if (sum_mm() * shrinkage < tolerance_mm) return Next::kSettled;
+    const double each_mm = tolerance_mm / static_cast<double>(count);
+    std::size_t settled = first_;
+    for (std::size_t i = first_; i < count; ++i) {
+      const double now = sum(moved_mm, i + 1), then = sum(before_mm_, i + 1);
+      if (!(now * now < each_mm * static_cast<double>(i + 1 - first_) * then)) break;
+      settled = i + 1;
+    }
+    first_ = settled;
+    return Next::kSweep;
+  }
+  void next_sweep() { before_mm_ = moved_mm; }
+
+ private:
+  [[nodiscard]] double sum(const std::vector<double>& of, std::size_t end) const {
+    const auto at = [&](std::size_t i) { return of.begin() + static_cast<std::ptrdiff_t>(i); };
+    return std::accumulate(at(first_), at(end), 0.0);
+  }
+
+  std::vector<double> before_mm_;
+  std::size_t first_ = 0;
+};
+
 /// Solves the waterlines [first, last) of the dip, those before being solved.
 Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
                     const flow::RestMap* known, const RestThickness& rest_thickness,
                     const SheetOptions& options, const Context& context) {
   const std::size_t count = last - first;
   std::vector<std::optional<velocity::Sheet>> sheets(count);
-  double move_before_mm = 0;
+  Progress progress(count);
   for (int sweep = 1;; ++sweep) {
+    const std::size_t begin = progress.first();
     std::vector<VelocityField> next(count);
-    std::vector<double> moves_mm(count);
-    HP_RETURN_IF_ERROR(parallel_for(context, {}, count, [&](std::size_t i) -> Status {
-      const std::size_t k = first + i;
+    HP_RETURN_IF_ERROR(parallel_for(context, {}, count - begin, [&](std::size_t task) -> Status {
+      const std::size_t i = begin + task, k = first + i;
       const VelocityField& before = flow.field.fields[k];
       if (!sheets[i]) sheets[i].emplace(before.mesh(), options.drag_per_mm, prescribed(before));
       HP_ASSIGN_OR_RETURN(auto nodes,
                           sheets[i]->solve(thickness_mm(flow.field, k, rest_thickness, known)));
-      moves_mm[i] = span_mm(flow.field, k) * rms_change(nodes, before.nodes());
+      progress.moved_mm[i] = span_mm(flow.field, k) * rms_change(nodes, before.nodes());
       next[i] = before.with(std::move(nodes));
       return {};
     }));
-    std::move(next.begin(), next.end(),
-              flow.field.fields.begin() + static_cast<std::ptrdiff_t>(first));
+    for (std::size_t i = begin; i < count; ++i) flow.field.fields[first + i] = std::move(next[i]);
     flow.sweeps = std::max(flow.sweeps, sweep);
-    const double move_mm = std::accumulate(moves_mm.begin(), moves_mm.end(), 0.0);
-    if (sweep > 1) {
-      const double shrinkage = move_before_mm > 0 ? move_mm / move_before_mm : 0;
-      const bool settles = shrinkage < kSettling;
-      // The next sweep would move the film by about as much less again.
-      if (settles && move_mm * shrinkage < options.tolerance_mm) break;
-      if (!settles || sweep == options.most_sweeps) {
-        flow.unsettled_mm += move_mm;
-        break;
-      }
+    const double moved_mm = progress.sum_mm();
+    if (sweep == 1 && moved_mm < options.tolerance_mm) return {};  // and each moves it less
+    const auto verdict = sweep > 1 ? progress.judge(options.tolerance_mm) : Progress::Next::kSweep;
+    if (verdict == Progress::Next::kSettled) return {};
+    if (verdict == Progress::Next::kUnsettled || (sweep > 1 && sweep == options.most_sweeps)) {
+      flow.unsettled_mm += moved_mm;
+      return {};
     }
-    move_before_mm = move_mm;
+    progress.next_sweep();
   }
-  return {};
 }
 
 }  // namespace

@@ -68,8 +68,9 @@ Result<Plan> make_plan(const Body& body, const pipeline::DipOptions& options, in
   if (ink_passes == 0) {
     HP_ASSIGN_OR_RETURN(plan.dip, pipeline::dip(body.model, options, context));
   } else {
-    HP_ASSIGN_OR_RETURN(
-        plan.dip, pipeline::dip_inked(body.model, body.paint, ink_passes, dpi, options, context));
+    HP_ASSIGN_OR_RETURN(pipeline::Start begun, pipeline::start(body.model, options, context));
+    HP_ASSIGN_OR_RETURN(plan.dip, pipeline::dip_inked(body.model, std::move(begun), body.paint,
+                                                      ink_passes, dpi, options, context));
   }
   HP_ASSIGN_OR_RETURN(plan.film, image::film_image(plan.dip.surface, plan.dip.map.tiles, body.paint,
                                                    options.outline, dpi, context));

@@ -18,17 +18,20 @@ namespace {
 using hydroprint::testing::DipSetting;
 using hydroprint::testing::SolvedDip;
 
-constexpr double kDpi = 600;
-constexpr double kTolerance_mm = 0.04;
+/// Of a pixel: 0.04 mm at 600 dpi.
+constexpr double kTolerance_px = 0.945;
 
-/// The tiles of a dip at the default settings, and particles in one of closer steps: they take
-/// velocities as linear between waterlines.
+/// The tiles of a dip at the default settings for a resolution, and particles in one of closer
+/// steps: they take velocities as linear between waterlines.
 class Trial {
  public:
-  Trial(const mesh::Model& model, DipSetting setting)
-      : dip_(hydroprint::testing::solve_dip(model, setting)),
-        fast_(make_flow_map(dip_.surface, dip_.body, dip_.field, {}, {}, two_threads()).value()),
-        map_(dip_.body, fast_.tiles, image::film_grid(setting.film, 25.4 / kDpi)),
+  Trial(const mesh::Model& model, DipSetting setting, double dpi = 600)
+      : pixel_mm_(25.4 / dpi),
+        dip_(hydroprint::testing::solve_dip(model, setting)),
+        fast_(make_flow_map(dip_.surface, dip_.body, dip_.field, {}, for_resolution({}, dpi),
+                            two_threads())
+                  .value()),
+        map_(dip_.body, fast_.tiles, image::film_grid(setting.film, pixel_mm_)),
         close_(closely(model, std::move(setting))),
         particles_(dip_.body, close_.field, 0.1),
         comparison_(map_, dip_.body, particles_) {}
@@ -41,7 +44,7 @@ class Trial {
       const PixelError error = comparison_.at(any_pixel(random));
       if (!error.lands || error.is_ruled) continue;
       ++landed;
-      within += error.error_mm <= kTolerance_mm;
+      within += error.error_mm <= kTolerance_px * pixel_mm_;
     }
     EXPECT_GT(landed, count / 5);
     return static_cast<double>(within) / landed;
@@ -77,6 +80,7 @@ class Trial {
             static_cast<int>(random() % static_cast<unsigned>(map_.grid().rows))};
   }
 
+  double pixel_mm_;
   SolvedDip dip_;
   FlowMap fast_;
   PixelMap map_;
@@ -91,7 +95,17 @@ TEST(Pixels, OfASphereAreWhereParticlesLand) {
   setting.depth_mm = 45;
   const Trial trial(hydroprint::testing::moved(sample::icosphere(30, 5), {14, -22, 0}), setting);
   EXPECT_GE(trial.share_within(4000), 0.999);
-  EXPECT_LE(trial.largest_jump_distance_mm(100), 25.4 / kDpi);
+  EXPECT_LE(trial.largest_jump_distance_mm(100), 25.4 / 600);
+}
+
+TEST(Pixels, OfASphereAt150DpiAreWhereParticlesLand) {
+  DipSetting setting;
+  setting.film = hydroprint::testing::film_of("120x150");
+  setting.depth_mm = 45;
+  const Trial trial(hydroprint::testing::moved(sample::icosphere(30, 5), {14, -22, 0}), setting,
+                    150);
+  EXPECT_GE(trial.share_within(2000), 0.999);
+  EXPECT_LE(trial.largest_jump_distance_mm(50), 25.4 / 150);
 }
 
 TEST(Pixels, OfTwoFeetAreWhereParticlesLand) {
@@ -103,7 +117,7 @@ TEST(Pixels, OfTwoFeetAreWhereParticlesLand) {
                          hydroprint::testing::moved(sample::icosphere(22, 5), {22, -5, 6})}),
                     setting);
   EXPECT_GE(trial.share_within(4000), 0.999);
-  EXPECT_LE(trial.largest_jump_distance_mm(100), 25.4 / kDpi);
+  EXPECT_LE(trial.largest_jump_distance_mm(100), 25.4 / 600);
 }
 
 }  // namespace
