@@ -198,6 +198,12 @@ void Body::power_on() {
   model_.time_s = model_.heard_s = now_s;
 }
 
+Body::Place Body::place() {
+  const std::scoped_lock lock(mutex_);
+  catch_up();
+  return {model_.time_s, model_.actual.x_mm};
+}
+
 std::string Body::state_json() {
   const std::scoped_lock lock(mutex_);
   catch_up();

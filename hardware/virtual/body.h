@@ -44,6 +44,13 @@ class Body {
   void power_off();
   void power_on();
 
+  /// The time, and where the carriage truly is then.
+  struct Place {
+    double time_s = 0;
+    double x_mm = 0;
+  };
+  [[nodiscard]] Place place();
+
   /// All of the state as JSON on one line, for people and tests.
   [[nodiscard]] std::string state_json();
 

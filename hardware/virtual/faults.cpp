@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "hardware/depth_scene/codec.h"
+
 namespace hydroprint::virtual_rig {
 namespace {
 
@@ -29,13 +31,15 @@ constexpr std::array<std::pair<std::string_view, Action::Input>, 5> kInputs = {{
     {"stall", Action::Input::kStall},
     {"freeze", Action::Input::kFreeze},
 }};
-constexpr std::array<std::pair<std::string_view, Action::Kind>, 6> kPlain = {{
+constexpr std::array<std::pair<std::string_view, Action::Kind>, 8> kPlain = {{
     {"clear", Action::Kind::kClear},
     {"unplug", Action::Kind::kUnplug},
     {"replug", Action::Kind::kReplug},
     {"reboot", Action::Kind::kReboot},
     {"state", Action::Kind::kState},
     {"help", Action::Kind::kHelp},
+    {"scenery", Action::Kind::kScenery},
+    {"sight", Action::Kind::kSight},
 }};
 constexpr milliseconds kBootTime{1000};
 constexpr std::int64_t kLongest_ms = 3'600'000;
@@ -138,6 +142,33 @@ std::optional<Action> parse_plain(const Words& words) {
   return out;
 }
 
+template <class State, std::size_t N>
+std::optional<State> look_up_state(const std::string_view (&words)[N], std::string_view name) {
+  const auto* const found = std::find(std::begin(words), std::end(words), name);
+  if (found == std::end(words)) return std::nullopt;
+  return static_cast<State>(found - std::begin(words));
+}
+
+/// "camera gone", "marker left hidden".
+std::optional<Action> parse_sight(const Words& words) {
+  Action out;
+  if (words[0] == "camera" && words.size() == 2) {
+    const auto state =
+        look_up_state<depth_scene::CameraState>(depth_scene::kCameraStates, words[1]);
+    if (!state) return std::nullopt;
+    out.kind = Action::Kind::kCamera;
+    out.camera = *state;
+    return out;
+  }
+  if (words[0] != "marker" || words.size() != 3) return std::nullopt;
+  const auto state = look_up_state<depth_scene::MarkerState>(depth_scene::kMarkerStates, words[2]);
+  if (!state) return std::nullopt;
+  out.kind = Action::Kind::kMarker;
+  out.name = words[1];
+  out.marker = *state;
+  return out;
+}
+
 std::optional<Action> parse_words(Words words) {
   if (words.empty()) return std::nullopt;
   if (words[0] == "fault") {
@@ -146,6 +177,7 @@ std::optional<Action> parse_words(Words words) {
   }
   if (auto out = parse_plain(words)) return out;
   if (auto out = parse_input(words)) return out;
+  if (auto out = parse_sight(words)) return out;
   return parse_strike(words);
 }
 
@@ -156,7 +188,9 @@ std::string_view action_help() {
          "drop|truncate|wrong-id|wrong-function|wrong-crc|"
          "wrong-length|busy [COUNT|all], silent, press|release "
          "stop|positive-end|negative-end|stall|"
-         "freeze, stall, freeze, unplug, replug, reboot [DURATION], clear, state, help "
+         "freeze, stall, freeze, unplug, replug, reboot [DURATION], "
+         "camera gone|frozen|black|hung|well, marker NAME hidden|knocked-over|well, clear, state, "
+         "help "
          "(a DURATION is 700ms or 2s)";
 }
 

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hardware/depth_scene/scenery.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::virtual_rig {
@@ -40,7 +41,11 @@ struct Action {
     kUnplug,
     kReplug,
     kReboot,  ///< silent for `pause`, then switched on
+    kCamera,  ///< becomes `camera`
+    kMarker,  ///< that of name `name` becomes `marker`
     kState,
+    kScenery,  ///< for the camera's driver: what there is to see, and what of it changes
+    kSight,
     kHelp,
   };
   enum class Input { kStopButton, kPositiveEnd, kNegativeEnd, kStall, kFreeze };
@@ -48,6 +53,9 @@ struct Action {
   Strike strike;
   Input input = Input::kStopButton;
   std::chrono::milliseconds pause{0};
+  depth_scene::CameraState camera = depth_scene::CameraState::kWell;
+  depth_scene::MarkerState marker = depth_scene::MarkerState::kWell;
+  std::string name = {};
 };
 
 /// Reads one line of the control socket: "fault late 700ms 3", "press stop", "reboot 2s", ...

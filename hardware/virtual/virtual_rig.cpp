@@ -42,10 +42,12 @@ Machine machine_of(const drive::DriveProfile& profile, const Scene& scene) {
 VirtualRig::VirtualRig(const Options& options)
     : options_(options),
       body_(machine_of(options.profile, options.scene), registers_of(options),
-            options.scene.start_mm) {}
+            options.scene.start_mm),
+      eyes_(options.scene) {}
 
 Result<std::unique_ptr<VirtualRig>> VirtualRig::start(const Options& options) {
   std::unique_ptr<VirtualRig> out(new VirtualRig(options));
+  if (options.scene.camera) HP_RETURN_IF_ERROR(out->eyes_.scenery_json());
   HP_RETURN_IF_ERROR(out->plug());
   if (!options.control.empty()) {
     HP_ASSIGN_OR_RETURN(out->control_,
@@ -99,6 +101,7 @@ Result<std::string> VirtualRig::perform(const Action& action) {
       break;
     case Action::Kind::kClear:
       body_.clear();
+      eyes_.clear();
       break;
     case Action::Kind::kPress:
     case Action::Kind::kRelease:
@@ -116,6 +119,18 @@ Result<std::string> VirtualRig::perform(const Action& action) {
       tcp_.reset();
       boots_at_ = Clock::now() + action.pause;
       break;
+    }
+    case Action::Kind::kCamera:
+      eyes_.set(action.camera);
+      break;
+    case Action::Kind::kMarker:
+      HP_RETURN_IF_ERROR(eyes_.set(action.name, action.marker));
+      break;
+    case Action::Kind::kScenery:
+      return eyes_.scenery_json();
+    case Action::Kind::kSight: {
+      const auto [time_s, place_mm] = body_.place();
+      return eyes_.sight_json(time_s, place_mm);
     }
     case Action::Kind::kState:
       return body_.state_json();

@@ -13,6 +13,7 @@
 
 #include "hardware/drive/link.h"
 #include "hardware/virtual/body.h"
+#include "hardware/virtual/eyes.h"
 #include "hardware/virtual/faults.h"
 #include "hardware/virtual/listener.h"
 #include "hardware/virtual/scene.h"
@@ -38,7 +39,7 @@ struct Options {
 /// A drive on its wires: a body, what serves it, and a clock that moves it. Any thread may call.
 class VirtualRig {
  public:
-  /// Refuses what cannot be listened at.
+  /// Refuses what cannot be listened at, and an object that the camera cannot see.
   [[nodiscard]] static Result<std::unique_ptr<VirtualRig>> start(const Options& options);
   ~VirtualRig();
   VirtualRig(const VirtualRig&) = delete;
@@ -64,6 +65,7 @@ class VirtualRig {
   Options options_;
   Body body_;
   int tcp_port_ = 0;  // found before any thread of its own begins, and kept
+  Eyes eyes_;
   std::mutex plugs_;  // of what follows
   std::unique_ptr<Listener> tcp_;
   std::unique_ptr<SerialServer> serial_;

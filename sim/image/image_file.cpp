@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "sim/image/artifact_file.h"
+#include "sim/image/grey16.h"
 #include "sim/image/image_codecs.h"
 #include "sim/image/png.h"
 
@@ -52,6 +53,12 @@ Result<ReadImage> read_image(const std::vector<unsigned char>& bytes, const std:
 Status write_png(const std::filesystem::path& path, const RgbImage& image, double dpi,
                  const Context& context) {
   HP_ASSIGN_OR_RETURN(const auto file, encode_png(image, dpi, context));
+  return write_artifact(path, file);
+}
+
+Status write_png(const std::filesystem::path& path, const Grey16Image& image,
+                 const Context& context) {
+  HP_ASSIGN_OR_RETURN(const auto file, encode_png(image, context));
   return write_artifact(path, file);
 }
 

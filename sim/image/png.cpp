@@ -10,6 +10,8 @@
 #include <span>
 #include <string_view>
 
+#include "sim/image/grey16.h"
+
 namespace hydroprint::image {
 namespace {
 
@@ -20,6 +22,18 @@ constexpr double kMmPerInch = 25.4;
 
 /// Filters of the PNG specification (section 9.2): a byte less the one to its left, or above it.
 enum Filter : unsigned char { kSub = 1, kUp = 2 };
+
+/// An image's bytes, row after row, without padding.
+struct Rows {
+  int width = 0, height = 0;
+  std::size_t pixel = 3;  ///< bytes of one
+  const unsigned char* bytes = nullptr;
+
+  [[nodiscard]] std::size_t row_bytes() const { return pixel * static_cast<std::size_t>(width); }
+  [[nodiscard]] const unsigned char* row(int y) const {
+    return bytes + row_bytes() * static_cast<std::size_t>(y);
+  }
+};
 
 /// Rows [first, last) of the image, compressed, and the checksum of what they were before that.
 struct Band {
@@ -52,9 +66,8 @@ long weight(std::span<const unsigned char> row) {
 }
 
 /// One row, filtered the better of two ways, behind the number of that filter.
-void append_row(Bytes& out, const unsigned char* row, const unsigned char* above,
-                std::size_t bytes) {
-  constexpr std::size_t kPixel = 3;
+void append_row(Bytes& out, const unsigned char* row, const unsigned char* above, std::size_t bytes,
+                std::size_t pixel) {
   const std::size_t start = out.size();
   out.resize(start + 1 + bytes);
   unsigned char* to = &out[start];
@@ -65,20 +78,20 @@ void append_row(Bytes& out, const unsigned char* row, const unsigned char* above
   const long up = weight({to + 1, bytes});
   if (up == 0) return;
   Bytes sub(row, row + bytes);
-  for (std::size_t i = kPixel; i < bytes; ++i) {
-    sub[i] = static_cast<unsigned char>(row[i] - row[i - kPixel]);
+  for (std::size_t i = pixel; i < bytes; ++i) {
+    sub[i] = static_cast<unsigned char>(row[i] - row[i - pixel]);
   }
   if (weight(sub) >= up) return;
   to[0] = kSub;
   std::copy(sub.begin(), sub.end(), to + 1);
 }
 
-Bytes filtered(const RgbImage& image, int first, int last) {
-  const std::size_t bytes = 3 * static_cast<std::size_t>(image.width);
+Bytes filtered(const Rows& rows, int first, int last) {
+  const std::size_t bytes = rows.row_bytes();
   Bytes out;
   out.reserve((bytes + 1) * static_cast<std::size_t>(last - first));
   for (int y = first; y < last; ++y) {
-    append_row(out, image.at(0, y), y > 0 ? image.at(0, y - 1) : nullptr, bytes);
+    append_row(out, rows.row(y), y > 0 ? rows.row(y - 1) : nullptr, bytes, rows.pixel);
   }
   return out;
 }
@@ -103,22 +116,22 @@ bool deflate(Bytes& raw, bool is_end, Bytes& out) {
   return done == (is_end ? Z_STREAM_END : Z_OK) && stream.avail_in == 0;
 }
 
-std::vector<Band> bands_of(const RgbImage& image) {
-  const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width) + 1;
-  const int rows = static_cast<int>(std::clamp<std::size_t>(kBandBytes / row_bytes, 1, 1 << 20));
+std::vector<Band> bands_of(const Rows& rows) {
+  const int each =
+      static_cast<int>(std::clamp<std::size_t>(kBandBytes / (rows.row_bytes() + 1), 1, 1 << 20));
   std::vector<Band> bands;
-  for (int y = 0; y < image.height; y += rows) {
+  for (int y = 0; y < rows.height; y += each) {
     Band& band = bands.emplace_back();
     band.first = y;
-    band.last = std::min(y + rows, image.height);
+    band.last = std::min(y + each, rows.height);
   }
   return bands;
 }
 
-Status compress(const RgbImage& image, std::vector<Band>& bands, const Context& context) {
+Status compress(const Rows& rows, std::vector<Band>& bands, const Context& context) {
   return parallel_for(context, {}, bands.size(), [&](std::size_t b) -> Status {
     Band& band = bands[b];
-    Bytes raw = filtered(image, band.first, band.last);
+    Bytes raw = filtered(rows, band.first, band.last);
     band.raw_bytes = raw.size();
     band.adler = adler32_z(1, raw.data(), raw.size());
     if (deflate(raw, b + 1 == bands.size(), band.deflated)) return {};
@@ -126,11 +139,12 @@ Status compress(const RgbImage& image, std::vector<Band>& bands, const Context& 
   });
 }
 
-Bytes header(const RgbImage& image) {
+/// @param depth, colour  bits of a channel and colour type, as the specification numbers them
+Bytes header(const Rows& rows, unsigned char depth, unsigned char colour) {
   Bytes out;
-  append_u32(out, static_cast<std::uint32_t>(image.width));
-  append_u32(out, static_cast<std::uint32_t>(image.height));
-  out.insert(out.end(), {8, 2, 0, 0, 0});  // 8 bits, RGB
+  append_u32(out, static_cast<std::uint32_t>(rows.width));
+  append_u32(out, static_cast<std::uint32_t>(rows.height));
+  out.insert(out.end(), {depth, colour, 0, 0, 0});
   return out;
 }
 
@@ -143,16 +157,16 @@ Bytes resolution(double dpi) {
   return out;
 }
 
-}  // namespace
-
-Result<std::vector<unsigned char>> encode_png(const RgbImage& image, double dpi,
-                                              const Context& context) {
-  std::vector<Band> bands = bands_of(image);
-  HP_RETURN_IF_ERROR(compress(image, bands, context));
+Bytes start(const Bytes& header) {
   Bytes out = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  append_chunk(out, "IHDR", header(image));
-  append_chunk(out, "sRGB", std::array<unsigned char, 1>{0});
-  append_chunk(out, "pHYs", resolution(dpi));
+  append_chunk(out, "IHDR", header);
+  return out;
+}
+
+/// Pixels and end.
+Status append_pixels(Bytes& out, const Rows& rows, const Context& context) {
+  std::vector<Band> bands = bands_of(rows);
+  HP_RETURN_IF_ERROR(compress(rows, bands, context));
   append_chunk(out, "IDAT", std::array<unsigned char, 2>{0x78, 0x01});  // zlib's header
   uLong adler = 1;
   for (const Band& band : bands) {
@@ -163,6 +177,31 @@ Result<std::vector<unsigned char>> encode_png(const RgbImage& image, double dpi,
   append_u32(checksum, static_cast<std::uint32_t>(adler));
   append_chunk(out, "IDAT", checksum);
   append_chunk(out, "IEND", {});
+  return {};
+}
+
+}  // namespace
+
+Result<std::vector<unsigned char>> encode_png(const RgbImage& image, double dpi,
+                                              const Context& context) {
+  const Rows rows{image.width, image.height, 3, image.rgb.data()};
+  Bytes out = start(header(rows, 8, 2));
+  append_chunk(out, "sRGB", std::array<unsigned char, 1>{0});
+  append_chunk(out, "pHYs", resolution(dpi));
+  HP_RETURN_IF_ERROR(append_pixels(out, rows, context));
+  return out;
+}
+
+Result<std::vector<unsigned char>> encode_png(const Grey16Image& image, const Context& context) {
+  Bytes bytes;  // of a number, the higher one first
+  bytes.reserve(2 * image.grey.size());
+  for (const std::uint16_t value : image.grey) {
+    bytes.push_back(static_cast<unsigned char>(value >> 8U));
+    bytes.push_back(static_cast<unsigned char>(value & 0xffU));
+  }
+  const Rows rows{image.width, image.height, 2, bytes.data()};
+  Bytes out = start(header(rows, 16, 0));
+  HP_RETURN_IF_ERROR(append_pixels(out, rows, context));
   return out;
 }
 

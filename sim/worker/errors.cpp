@@ -7,9 +7,10 @@
 
 namespace hydroprint::worker {
 
-void tell(const Error& error, ExitStatus status, bool json) {
+void tell(const Error& error, ExitStatus status, bool json, std::string_view program) {
   const std::string message = one_line(error.message);
-  std::fprintf(stderr, "hydroprint-worker: %s\n", message.c_str());
+  std::fprintf(stderr, "%.*s: %s\n", static_cast<int>(program.size()), program.data(),
+               message.c_str());
   if (!json) return;
   const nlohmann::ordered_json object = {{"error",
                                           {{"code", code_name(error.code)},

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <string_view>
+
 #include "sim/base/result.h"
 
 namespace hydroprint::worker {
 
-/// Tells of a failure: one line on stderr and, if `json`, the same as
+/// Tells of a failure of `program`: one line on stderr and, if `json`, the same as
 /// {"error":{"code","reason","message","metadata","exit_status"}} on stdout.
-void tell(const Error& error, ExitStatus status, bool json);
+void tell(const Error& error, ExitStatus status, bool json,
+          std::string_view program = "hydroprint-worker");
 
 }  // namespace hydroprint::worker

@@ -26,11 +26,15 @@ constexpr std::array<std::string_view, 13> kArtifacts = {
     "predicted.png", "report.html",     "report.json",       "residuals.csv", "residuals.png",
     "stretch.png",   "surface_map.ply", "wrinkles.png"};
 
+/// Every run leaves one of these: what a folder is of is known by it.
+bool is_record(std::string_view name) { return name == "report.json" || name == "frames.json"; }
+
 /// Whether a run may leave a file of that name.
 bool is_artifact_name(std::string_view name) {
-  // The pictures of `validate` are many.
-  return std::find(kArtifacts.begin(), kArtifacts.end(), name) != kArtifacts.end() ||
-         (name.starts_with("validate-") && name.ends_with(".png"));
+  // The pictures of `validate` and the frames of a camera are many.
+  return is_record(name) ||
+         std::find(kArtifacts.begin(), kArtifacts.end(), name) != kArtifacts.end() ||
+         ((name.starts_with("validate-") || name.starts_with("frame-")) && name.ends_with(".png"));
 }
 
 constexpr std::string_view kPartial = ".partial-";
@@ -50,7 +54,7 @@ Status check_replaceable(const fs::path& dir) {
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     empty = false;
-    has_report = has_report || name == "report.json";
+    has_report = has_report || is_record(name);
     if (!is_artifact_name(name)) stranger = name;
   }
   if (error) {

@@ -26,13 +26,36 @@ TEST(Faults, LinesOfTheControlSocketAreUnderstood) {
   EXPECT_EQ(parse_action("release stall")->input, Action::Input::kStall);
   EXPECT_EQ(parse_action("reboot 2s")->pause, milliseconds(2000));
   EXPECT_EQ(parse_action("unplug\r")->kind, Action::Kind::kUnplug);
+  EXPECT_EQ(parse_action("camera frozen")->camera, depth_scene::CameraState::kFrozen);
+  const auto marker = parse_action("marker left knocked-over");
+  ASSERT_TRUE(marker);
+  EXPECT_EQ(marker->kind, Action::Kind::kMarker);
+  EXPECT_EQ(marker->name, "left");
+  EXPECT_EQ(marker->marker, depth_scene::MarkerState::kKnockedOver);
 }
 
 TEST(Faults, OtherLinesAreRefusedWithWhatThereIs) {
-  for (const char* line :
-       {"", " ", "fault", "fault late", "fault late 5", "fault late 5m", "drop 0", "drop x",
-        "drop 1 2", "press", "press all", "stop", "reboot soon", "unplug 1s", "fault late -1s",
-        "late 99999s", "silent 3"}) {
+  for (const char* line : {"",
+                           " ",
+                           "fault",
+                           "fault late",
+                           "fault late 5",
+                           "fault late 5m",
+                           "drop 0",
+                           "drop x",
+                           "drop 1 2",
+                           "press",
+                           "press all",
+                           "stop",
+                           "reboot soon",
+                           "unplug 1s",
+                           "fault late -1s",
+                           "late 99999s",
+                           "silent 3",
+                           "camera",
+                           "camera blue",
+                           "marker left",
+                           "marker left gone"}) {
     const auto action = parse_action(line);
     ASSERT_FALSE(action) << line;
     EXPECT_NE(action.error().message.find("There is: "), std::string::npos);

@@ -1,16 +1,12 @@
 // hydroprint-virtual-rig as its users run it.
 #include <signal.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "tests/hardware/virtual/bench_rig.h"
+#include "tests/support/control_line.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::virtual_rig {
@@ -19,35 +15,13 @@ namespace {
 const std::string kProgram = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
 const std::string kProfile = HYDROPRINT_PROFILES "/virtual.toml";
 
-/// Sends lines to a control socket, as soon as there is one; what comes back.
-std::string talk(const std::filesystem::path& path, const std::string& lines) {
-  const int out = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::memcpy(address.sun_path, path.c_str(), path.native().size());
-  for (int i = 0; i < 500; ++i) {
-    if (::connect(out, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) break;
-    std::this_thread::sleep_for(milliseconds(10));
-  }
-  EXPECT_EQ(::send(out, lines.data(), lines.size(), MSG_NOSIGNAL),
-            static_cast<ssize_t>(lines.size()));
-  ::shutdown(out, SHUT_WR);
-  std::string reply;
-  std::array<char, 512> chunk{};
-  for (ssize_t got = 0; (got = ::read(out, chunk.data(), chunk.size())) > 0;) {
-    reply.append(chunk.data(), static_cast<std::size_t>(got));
-  }
-  ::close(out);
-  return reply;
-}
-
 TEST(Program, SaysWhereItListensTakesActionsAndEndsCleanly) {
   const testing::TemporaryFolder folder;
   const auto control = folder.path() / "control";
   const auto line = folder.path() / "drive";
   testing::Process rig({kProgram, "--profile", kProfile, "--tcp", "0", "--rtu", line.string(),
                         "--control", control.string(), "--json"});
-  const std::string reply = talk(control, "press stop\nstate\ndance\n");
+  const std::string reply = testing::talk(control, "press stop\nstate\ndance\n");
   EXPECT_EQ(reply.substr(0, 3), "ok\n");
   const auto state = nlohmann::json::parse(reply.substr(3, reply.find('\n', 3) - 3));
   EXPECT_TRUE(state.at("stop_button").get<bool>());
@@ -75,9 +49,9 @@ TEST(Program, FaultsOfTheCommandLineHappen) {
   const auto control = folder.path() / "control";
   testing::Process rig({kProgram, "--profile", kProfile, "--tcp", "0", "--control",
                         control.string(), "--fault", "press=stop,stall@100ms"});
-  (void)talk(control, "state\n");
+  (void)testing::talk(control, "state\n");
   std::this_thread::sleep_for(milliseconds(200));
-  const auto state = nlohmann::json::parse(talk(control, "state\n"));
+  const auto state = nlohmann::json::parse(testing::talk(control, "state\n"));
   EXPECT_TRUE(state.at("stop_button").get<bool>());
   EXPECT_TRUE(state.at("stalled").get<bool>());
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "hardware/depth_scene/rig_layout.h"
 #include "tests/support/temporary_folder.h"
 
 namespace hydroprint::virtual_rig {
@@ -38,6 +39,46 @@ TEST_F(SceneFile, SaysWhatHangsThereAndHow) {
   EXPECT_EQ(read->water_mm, 90);
 }
 
+TEST_F(SceneFile, SaysWhatTheCameraSees) {
+  const auto read = scene(
+      "[film]\nsize_mm = [297, 420]\n[[marker]]\nname = \"right\"\noff_mm = [1, -2]\nturned_deg = "
+      "90\n"
+      "[camera]\nat_mm = [10, -300, 700]\nseed = 5\nclock = \"frames\"\nerrors = false\n"
+      "[camera.sweep]\nvia_mm = [[1, 2, 600], [3, 4, 700]]\nperiod_s = 4\n");
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_TRUE(read->camera);
+  EXPECT_EQ(read->camera->seed, 5U);
+  EXPECT_TRUE(read->camera->counts_frames);
+  EXPECT_FALSE(read->camera->has_errors);
+  EXPECT_TRUE(read->camera->stand.via_mm[1] == Eigen::Vector3d(3, 4, 700));
+  EXPECT_EQ(read->camera->stand.period_s, 4);
+  const auto nominal = depth_scene::nominal_markers({297, 420});
+  EXPECT_TRUE((read->markers[1].at_mm - nominal[1].at_mm).isApprox(Eigen::Vector3d(1, -2, 0)));
+  EXPECT_NEAR(read->markers[1].turn_rad - nominal[1].turn_rad, M_PI / 2, 1e-12);
+  EXPECT_TRUE(read->markers[0].at_mm == nominal[0].at_mm);
+}
+
+TEST_F(SceneFile, ObjectHangsInTheGripperAtItsTruePose) {
+  folder_.write("plate.obj", "v 0 0 0\nv 10 0 0\nv 0 10 0\nf 1 2 3\n");
+  folder_.write("held.json", R"({"rotation_wxyz": [0, 1, 0, 0], "translation_mm": [1, 2, -40]})");
+  const auto read =
+      scene("[object]\nmesh = \"plate.obj\"\nscale = 2\npose = \"held.json\"\n[camera]\n");
+  ASSERT_TRUE(read) << read.error().message;
+  const auto scenery = scenery_of(*read);
+  ASSERT_TRUE(scenery) << scenery.error().message;
+  const depth_scene::Body& object = scenery->bodies.back();
+  EXPECT_TRUE(object.hangs);
+  ASSERT_EQ(object.mesh.points.size(), 3U);
+  EXPECT_TRUE(object.mesh.points[2].isApprox(Eigen::Vector3d(1, 2 - 20, -40)));
+  EXPECT_EQ(scenery->markers.size(), 4U);
+}
+
+TEST_F(SceneFile, WithoutACameraThereIsNothingToSee) {
+  const auto scenery = scenery_of(*scene(""));
+  ASSERT_FALSE(scenery);
+  EXPECT_EQ(scenery.error().reason, "CAMERA_NOT_FOUND");
+}
+
 TEST_F(SceneFile, WhatIsWrongIsRefusedWithFileLineAndRemedy) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"[object]\nmesh = \"nothing.obj\"", "no such file. Check the path"},
@@ -48,7 +89,14 @@ TEST_F(SceneFile, WhatIsWrongIsRefusedWithFileLineAndRemedy) {
       {"[axis]\ntravel_mm = 5", "axis.travel_mm"},
       {"[axis]\nstart_mm = 301", "axis.start_mm"},
       {"[water]\nheight_mm = 5", "water.at_mm is missing"},
-      {"[camera]\nnoise = 1", "camera is not a known key"}};
+      {"[film]\nsize_mm = [210]", "film.size_mm is no list of 2 numbers"},
+      {"[[marker]]\nname = \"middle\"", "\"left\", \"right\", \"near\", \"far\""},
+      {"[camera]\nat_mm = [0, 0, nan]", "camera.at_mm is no list of 3 numbers"},
+      {"[camera]\nat_mm = [0, 0, 0]", "is where it looks"},
+      {"[camera]\nclock = \"mine\"", "camera.clock is not known"},
+      {"[camera.sweep]\nperiod_s = 3", "camera.sweep.via_mm is missing"},
+      {"[camera.sweep]\nvia_mm = [3]", "camera.sweep.via_mm is no list"},
+      {"[camera]\nnoise = 1", "noise is not a known key"}};
   for (const auto& [toml, what] : cases) {
     const auto read = scene(toml);
     ASSERT_FALSE(read) << toml;

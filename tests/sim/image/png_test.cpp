@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "sim/image/grey16.h"
 #include "sim/image/image_file.h"
 #include "tests/sim/image/scenes.h"
 
@@ -45,6 +46,23 @@ std::vector<std::uint8_t> decoded(const std::vector<unsigned char>& file, int& w
   EXPECT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, pixels.data()))
       << input->geterror();
   return pixels;
+}
+
+TEST(EncodePng, Grey16IsReadBackAsItWas) {
+  Grey16Image image{641, 480, {}};
+  for (int i = 0; i < 641 * 480; ++i) {
+    image.grey.push_back(static_cast<std::uint16_t>(i * 2654435761U >> 15U));
+  }
+  const auto file = encode_png(image);
+  ASSERT_TRUE(file);
+  OIIO::Filesystem::IOMemReader memory(file->data(), file->size());
+  const auto input = OIIO::ImageInput::open("image.png", nullptr, &memory);
+  ASSERT_TRUE(input);
+  EXPECT_EQ(input->spec().format, OIIO::TypeDesc::UINT16);
+  EXPECT_EQ(input->spec().nchannels, 1);
+  std::vector<std::uint16_t> grey(image.grey.size());
+  ASSERT_TRUE(input->read_image(0, 0, 0, 1, OIIO::TypeDesc::UINT16, grey.data()));
+  EXPECT_TRUE(grey == image.grey);
 }
 
 TEST(EncodePng, IsReadBackAsItWasWhateverTheSizeOfTheImage) {

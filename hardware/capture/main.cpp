@@ -1,0 +1,190 @@
+// hydroprint-capture: frames of a depth camera, in a process of its own, so that a driver that
+// hangs or crashes harms nothing else.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "hardware/camera/depth_camera.h"
+#include "hardware/capture/frames.h"
+#include "hardware/capture/options.h"
+#include "hardware/capture/watchdog.h"
+#include "hardware/capture/write_frames.h"
+#include "sim/worker/ending.h"
+#include "sim/worker/errors.h"
+#include "sim/worker/out_folder.h"
+#include "sim/worker/progress.h"
+#include "sim/worker/progress_sinks.h"
+#include "sim/worker/quiet_stderr.h"
+
+namespace hydroprint::capture {
+namespace {
+
+constexpr const char* kProgram = "hydroprint-capture";
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void tell(const Error& error, bool json) {
+  worker::tell(error, exit_status(error), json, kProgram);
+}
+
+/// A recording in the making: under another name until it is whole.
+class Recording {
+ public:
+  explicit Recording(std::filesystem::path path) : path_(std::move(path)) {
+    if (path_.empty()) return;
+    path_ = std::filesystem::absolute(path_);
+    partial_ = path_.parent_path() /
+               (".part-" + std::to_string(::getpid()) + "-" + path_.filename().string());
+  }
+  ~Recording() { abandon(); }
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+
+  [[nodiscard]] Status start(camera::DepthCamera& camera) const {
+    return partial_.empty() ? Status{} : camera.record(partial_);
+  }
+  [[nodiscard]] Status finish(camera::DepthCamera& camera) {
+    camera.finish_recording();
+    if (partial_.empty()) return {};
+    std::error_code error;
+    std::filesystem::rename(partial_, path_, error);
+    if (!error) return {};
+    return fail(Code::kPermissionDenied,
+                path_.string() + ": cannot be recorded to. Choose another file");
+  }
+  void abandon() const {
+    std::error_code ignored;
+    if (!partial_.empty()) std::filesystem::remove(partial_, ignored);
+  }
+
+ private:
+  std::filesystem::path path_, partial_;
+};
+
+Result<std::unique_ptr<camera::DepthCamera>> open(const Options& options) {
+  if (!options.recording.empty()) return camera::DepthCamera::open_recording(options.recording);
+  return camera::DepthCamera::open_device(options.device);
+}
+
+struct Summary {
+  std::filesystem::path dir;
+  std::size_t frames = 0;
+  int lost = 0;
+};
+
+/// Ends the process when the driver has it hang.
+std::function<void()> bite(const Options& options, const worker::OutFolder& folder,
+                           const Recording& recording, const worker::QuietStderr& quiet) {
+  return [&] {
+    folder.abandon();
+    recording.abandon();
+    quiet.restore();
+    const std::string name = !options.recording.empty() ? options.recording.string()
+                             : options.device.empty()   ? "the camera"
+                                                        : options.device;
+    const Error error{Code::kUnavailable,
+                      name + ": its driver hangs. Unplug the camera and plug it in again",
+                      "CAMERA_STALLED",
+                      {}};
+    tell(error, options.json);
+    ::_exit(static_cast<int>(exit_status(error)));
+  };
+}
+
+Result<Summary> run(const Options& options, worker::Ending& ending,
+                    const worker::QuietStderr& quiet) {
+  HP_ASSIGN_OR_RETURN(worker::OutFolder folder, worker::OutFolder::plan(options.out));
+  Recording recording(options.record);
+  const worker::CleanupAtEnding cleanup(ending, [&] {
+    folder.abandon();
+    recording.abandon();
+  });
+  worker::ProgressPipe pipe(options.progress_fd);
+  const worker::ProgressLine line(quiet.own());
+  worker::Progress progress({{"capture", 0.7}, {"writing", 0.3}}, seconds_now,
+                            [&](const worker::ProgressReport& report) {
+                              pipe.write(report);
+                              line.show(report);
+                            });
+  const Context context{
+      1, [&](std::string_view stage, double fraction) { progress.update(stage, fraction); },
+      [&ending] { return ending.requested(); }};
+  // More than the camera itself has, which says it better.
+  const double patience_s = std::max(options.patience_s, options.recording.empty() ? 0 : 10.0);
+  Watchdog watchdog(std::chrono::duration<double>(patience_s + 1),
+                    bite(options, folder, recording, quiet));
+  context.progress("capture", 0);
+  HP_ASSIGN_OR_RETURN(auto camera, open(options));
+  watchdog.feed();
+  HP_RETURN_IF_ERROR(recording.start(*camera));
+  HP_ASSIGN_OR_RETURN(const Taken taken,
+                      take_frames(*camera, options, context, [&] { watchdog.feed(); }));
+  HP_RETURN_IF_ERROR(recording.finish(*camera));
+  const camera::SourceInfo source = camera->info();
+  watchdog.feed();
+  camera.reset();
+  HP_RETURN_IF_ERROR(folder.create());
+  Context writing = context;
+  writing.cancelled = [&] {
+    watchdog.feed();
+    return ending.requested();
+  };
+  HP_RETURN_IF_ERROR(write_frames(folder.partial(), source, taken, writing));
+  ending.decide();
+  HP_RETURN_IF_ERROR(folder.commit());
+  return Summary{folder.dir(), taken.frames.size(), taken.lost};
+}
+
+void sum_up(const Summary& summary, bool json) {
+  const nlohmann::ordered_json object = {
+      {"out", summary.dir.string()}, {"frames", summary.frames}, {"lost_frames", summary.lost}};
+  const std::string text =
+      json ? object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
+           : summary.dir.string() + ": " + std::to_string(summary.frames) + " frames, " +
+                 std::to_string(summary.lost) + " lost";
+  std::puts(text.c_str());
+}
+
+Result<Summary> run_guarded(const Options& options, worker::Ending& ending,
+                            const worker::QuietStderr& quiet) {
+  try {
+    return run(options, ending, quiet);
+  } catch (const std::exception& error) {
+    return fail(Code::kInternal, std::string(error.what()) + ". Please report this");
+  }
+}
+
+int main_of(int argc, char** argv) {
+  const CommandLine command = parse_command_line(argc, argv);
+  if (!command.runs) {
+    std::fputs(command.text.c_str(), command.status == 0 ? stdout : stderr);
+    return command.status;
+  }
+  const bool json = command.options.json;
+  const worker::QuietStderr quiet;
+  worker::Ending ending([&quiet, json] {
+    quiet.restore();
+    tell({Code::kCancelled, "cancelled", {}, {}}, json);
+  });
+  const Result<Summary> summary = run_guarded(command.options, ending, quiet);
+  ending.decide();
+  quiet.restore();
+  if (summary) {
+    sum_up(*summary, json);
+    return 0;
+  }
+  tell(summary.error(), json);
+  return static_cast<int>(exit_status(summary.error()));
+}
+
+}  // namespace
+}  // namespace hydroprint::capture
+
+int main(int argc, char** argv) { return hydroprint::capture::main_of(argc, argv); }

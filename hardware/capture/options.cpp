@@ -1,0 +1,70 @@
+#include "hardware/capture/options.h"
+
+#include <CLI/CLI.hpp>
+#include <sstream>
+
+namespace hydroprint::capture {
+namespace {
+
+constexpr const char* kFooter = R"(Examples:
+  hydroprint-capture --seconds 2 --out frames                                  # the camera that is plugged in
+  hydroprint-capture --device hydroprint:/tmp/rig --seconds 10 --record sweep.oni --out frames
+  hydroprint-capture --recording sweep.oni --out frames
+
+Exit status: 0 done, 2 bad usage, 3 bad input (no such camera among it), 4 the camera failed, 130 cancelled.)";
+
+/// An option that names a file. (Left to itself, the library would cut paths at blanks.)
+CLI::Option* add_path(CLI::App& app, const std::string& flag, std::filesystem::path& path,
+                      const std::string& description, const std::string& type) {
+  return app
+      .add_option_function<std::string>(
+          flag, [&path](const std::string& text) { path = text; }, description)
+      ->type_name(type);
+}
+
+void declare(CLI::App& app, Options& o) {
+  auto* device =
+      app.add_option("--device", o.device,
+                     "Camera, as OpenNI2 names it; hydroprint:CONTROL is that of a virtual rig; "
+                     "default: the first there is")
+          ->type_name("URI");
+  auto* recording = add_path(app, "--recording", o.recording,
+                             "Take its frames in place of a camera's", "FILE.oni");
+  auto* record = add_path(app, "--record", o.record, "Record the stream, too", "FILE.oni");
+  recording->excludes(device)->excludes(record);
+  add_path(app, "--out", o.out,
+           "Folder to make, of frames and frames.json; one of an earlier run is replaced", "DIR")
+      ->required();
+  app.add_option("--seconds", o.seconds, "How long; default: 2 of a camera, all of a recording")
+      ->check(CLI::Range(0.01, kMostSeconds));
+  app.add_option("--patience-s", o.patience_s, "How long to wait for a camera that does not answer")
+      ->check(CLI::Range(0.1, 600.0))
+      ->capture_default_str();
+  app.add_flag("--json", o.json, "Summary or error as one JSON object on stdout");
+  app.add_option("--progress-fd", o.progress_fd,
+                 "File descriptor to write progress to, one JSON object a line")
+      ->type_name("N");
+}
+
+}  // namespace
+
+CommandLine parse_command_line(int argc, char** argv) {
+  CommandLine out;
+  CLI::App app("Takes frames of a depth camera, or of a recording of one, as 16-bit PNG in mm.");
+  app.name("hydroprint-capture");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "hydroprint-capture " HYDROPRINT_VERSION);
+  declare(app, out.options);
+  try {
+    app.parse(argc, argv);
+    out.runs = true;
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream said, complaint;
+    const bool fine = app.exit(error, said, complaint) == 0;
+    out.status = fine ? 0 : static_cast<int>(ExitStatus::kUsage);
+    out.text = fine ? said.str() : complaint.str();
+  }
+  return out;
+}
+
+}  // namespace hydroprint::capture

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+namespace hydroprint::capture {
+
+/// Ends what hangs: unless it is fed in time, `bites` runs, on a thread of its own, and must not
+/// return.
+class Watchdog {
+ public:
+  Watchdog(std::chrono::duration<double> patience, std::function<void()> bites);
+  ~Watchdog();
+  Watchdog(const Watchdog&) = delete;
+  Watchdog& operator=(const Watchdog&) = delete;
+
+  void feed();
+
+ private:
+  void watch(const std::function<void()>& bites);
+
+  const std::chrono::duration<double> patience_;
+  std::mutex mutex_;
+  std::condition_variable wakes_;
+  std::chrono::steady_clock::time_point fed_ = std::chrono::steady_clock::now();
+  bool ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace hydroprint::capture

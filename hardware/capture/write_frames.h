@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "hardware/camera/depth_camera.h"
+#include "hardware/capture/frames.h"
+#include "sim/base/context.h"
+
+namespace hydroprint::capture {
+
+/// Writes frame-0001.png ... (16-bit grey, mm, 0: not measured) and, last, frames.json: the source,
+/// size and fields of view, and of every frame its file, time and index.
+[[nodiscard]] Status write_frames(const std::filesystem::path& folder,
+                                  const camera::SourceInfo& source, const Taken& taken,
+                                  const Context& context);
+
+}  // namespace hydroprint::capture

@@ -1,0 +1,237 @@
+// hydroprint-capture and the camera of hydroprint-virtual-rig, with OpenNI2 between them.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <sstream>
+#include <thread>
+
+#include "hardware/depth_camera/renderer.h"
+#include "hardware/virtual/scene.h"
+#include "sim/image/grey16.h"
+#include "tests/support/control_line.h"
+#include "tests/support/process.h"
+
+namespace hydroprint::capture {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kCapture = HYDROPRINT_BIN_DIR "/hydroprint-capture";
+const std::string kRig = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
+
+constexpr const char* kScene = R"(
+[object]
+mesh = "wedge.obj"
+[camera]
+seed = 3
+clock = "frames"
+)";
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream out;
+  out << file.rdbuf();
+  return out.str();
+}
+
+/// A virtual rig and captures from its camera.
+class Capture : public ::testing::Test {
+ protected:
+  explicit Capture(const char* scene = kScene) {
+    folder_.write("wedge.obj",
+                  "v -30 -30 -40\nv 30 -30 -40\nv 0 40 -40\nv 0 0 0\n"
+                  "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    scene_ = folder_.write("scene.toml", scene);
+    rig_.emplace(std::vector<std::string>{kRig, "--profile", HYDROPRINT_PROFILES "/virtual.toml",
+                                          "--tcp", "0", "--scene", scene_.string(), "--control",
+                                          control().string()});
+    EXPECT_NE(testing::talk(control(), "state\n"), "");
+  }
+
+  [[nodiscard]] fs::path path(const char* name) const { return folder_.path() / name; }
+  [[nodiscard]] fs::path control() const { return path("control"); }
+  [[nodiscard]] std::string uri() const { return "hydroprint:" + control().string(); }
+
+  static testing::Ended capture(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), kCapture);
+    return testing::run(std::move(arguments));
+  }
+
+  /// Captures from the rig into `out`.
+  testing::Ended capture_live(const std::vector<std::string>& more) {
+    std::vector<std::string> all = {"--device", uri(), "--out", path("out").string(), "--json"};
+    all.insert(all.end(), more.begin(), more.end());
+    return capture(all);
+  }
+
+  /// A capture of 20 s, once its first frames have come.
+  std::unique_ptr<testing::Process> long_capture() {
+    testing::ProcessOptions options;
+    options.files = {{3, path("progress")}};
+    auto out = std::make_unique<testing::Process>(
+        std::vector<std::string>{kCapture, "--device", uri(), "--out", path("out").string(),
+                                 "--record", path("long.oni").string(), "--seconds", "20",
+                                 "--patience-s", "4", "--json", "--progress-fd", "3"},
+        options);
+    for (int i = 0; i < 6000; ++i) {
+      const std::string told = bytes_of(path("progress"));
+      if (std::count(told.begin(), told.end(), '\n') > 1) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return out;
+  }
+
+  /// Fails unless a capture failed like this, in one line, and left nothing.
+  void expect_failure(const testing::Ended& ended, int status, const std::string& reason) {
+    EXPECT_EQ(ended.status, status) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+    const auto said = nlohmann::json::parse(ended.out, nullptr, false);
+    ASSERT_TRUE(said.is_object()) << ended.out;
+    EXPECT_EQ(said["error"]["reason"], reason) << ended.err;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      const std::string name = entry.path().filename().string();
+      EXPECT_TRUE(name.find("out") == std::string::npos && name.find("part") == std::string::npos &&
+                  name != "long.oni")
+          << name;
+    }
+  }
+
+  testing::TemporaryFolder folder_;
+  fs::path scene_;
+  std::optional<testing::Process> rig_;
+};
+
+/// The PNG of one entry of frames.json.
+std::string png_of(const fs::path& folder, const nlohmann::json& frame) {
+  return bytes_of(folder / frame.at("file").get<std::string>());
+}
+
+nlohmann::json frames_of(const fs::path& folder) {
+  return nlohmann::json::parse(bytes_of(folder / "frames.json"));
+}
+
+TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
+  const auto recording = path("take.oni");
+  const auto live = capture_live({"--seconds", "0.5", "--record", recording.string()});
+  ASSERT_EQ(live.status, 0) << live.err;
+  const auto scene = virtual_rig::read_scene(scene_);
+  const auto scenery = virtual_rig::scenery_of(*scene);
+  ASSERT_TRUE(scenery);
+  const auto renderer = depth_camera::Renderer::create(*scenery, depth_camera::lens_of(*scenery));
+  const auto expected = [&](int index) {
+    depth_scene::Sight sight;
+    sight.time_s = (index - 1) / 30.0;
+    sight.gripper_height_mm = scene->water_mm - scene->start_mm;
+    const auto file = image::encode_png({640, 480, (*renderer)->photograph(sight)});
+    return std::string(file->begin(), file->end());
+  };
+  const auto told = frames_of(path("out"));
+  EXPECT_EQ(told["source"]["serial"], "virtual-3");
+  EXPECT_NEAR(told["horizontal_fov_rad"].get<double>(), depth_camera::horizontal_fov_rad(), 1e-6);
+  ASSERT_GE(told["frames"].size(), 10U);
+  for (const auto& frame : told["frames"]) {
+    const int index = frame["index"];
+    EXPECT_NEAR(frame["time_s"].get<double>(), (index - 1) / 30.0, 1e-6);
+    EXPECT_TRUE(png_of(path("out"), frame) == expected(index)) << index;
+  }
+
+  const auto again = capture({"--recording", recording.string(), "--out", path("again").string()});
+  ASSERT_EQ(again.status, 0) << again.err;
+  const auto played = frames_of(path("again"));
+  ASSERT_GE(played["frames"].size(), told["frames"].size());
+  const std::string first = png_of(path("again"), played["frames"][0]);
+  int start = 1;
+  while (start < 200 && first != expected(start)) ++start;
+  for (const auto& frame : played["frames"]) {
+    const int index = start + static_cast<int>(std::lround(30 * frame["time_s"].get<double>()));
+    EXPECT_TRUE(png_of(path("again"), frame) == expected(index)) << index;
+  }
+  EXPECT_NEAR(played["horizontal_fov_rad"].get<double>(), told["horizontal_fov_rad"].get<double>(),
+              1e-6);
+}
+
+TEST_F(Capture, CameraThatIsNotThereIsNamedWithARemedy) {
+  expect_failure(
+      capture({"--device", "hydroprint:/nowhere", "--out", path("out").string(), "--json"}), 3,
+      "CAMERA_NOT_FOUND");
+  testing::talk(control(), "camera gone\n");
+  expect_failure(capture_live({}), 3, "CAMERA_NOT_FOUND");
+}
+
+TEST_F(Capture, CameraThatIsUnpluggedIsGoneAndBackWhenItIsPluggedIn) {
+  const auto capture = long_capture();
+  testing::talk(control(), "camera gone\n");
+  expect_failure(capture->wait(), 4, "CAMERA_GONE");
+  testing::talk(control(), "camera well\n");
+  EXPECT_EQ(capture_live({"--seconds", "0.1"}).status, 0);
+}
+
+TEST_F(Capture, CameraWhoseRigDiesIsGone) {
+  const auto capture = long_capture();
+  rig_->signal(SIGKILL);
+  expect_failure(capture->wait(), 4, "CAMERA_GONE");
+}
+
+TEST_F(Capture, FrozenAndBlackCamerasAreNoticed) {
+  for (const auto& [line, reason] :
+       {std::pair{"camera frozen\n", "CAMERA_FROZEN"}, {"camera black\n", "CAMERA_BLACK"}}) {
+    testing::talk(control(), "camera well\n");
+    const auto capture = long_capture();
+    testing::talk(control(), line);
+    expect_failure(capture->wait(), 4, reason);
+    fs::remove(path("progress"));
+  }
+}
+
+TEST_F(Capture, CameraThatSaysNothingIsNotWaitedForLong) {
+  const auto capture = long_capture();
+  rig_->signal(SIGSTOP);
+  expect_failure(capture->wait(), 4, "CAMERA_STALLED");
+  rig_->signal(SIGCONT);
+}
+
+TEST_F(Capture, DriverThatHangsIsNotWaitedForLong) {
+  testing::talk(control(), "camera hung\n");
+  expect_failure(capture_live({"--patience-s", "1"}), 4, "CAMERA_STALLED");
+}
+
+TEST_F(Capture, CancelLeavesNothing) {
+  const auto capture = long_capture();
+  capture->signal(SIGTERM);
+  expect_failure(capture->wait(), 130, "");
+}
+
+TEST_F(Capture, RecordingsThatAreNoneOrCutShortAreRefused) {
+  const auto recording = path("take.oni");
+  ASSERT_EQ(capture_live({"--seconds", "0.3", "--record", recording.string()}).status, 0);
+  fs::remove_all(path("out"));
+  const std::string whole = bytes_of(recording);
+  std::vector<std::string> files = {"", "junk", std::string(100000, 'x'), whole.substr(0, 100)};
+  for (int i = 1; i < 8; ++i) files.push_back(whole.substr(0, whole.size() * i / 8));
+  for (const std::string& content : files) {
+    const auto file = folder_.write("bad.oni", content);
+    const auto ended =
+        capture({"--recording", file.string(), "--out", path("out").string(), "--json"});
+    EXPECT_EQ(ended.signal, 0) << content.size();
+    expect_failure(ended, 3, "RECORDING_INVALID");
+  }
+  expect_failure(
+      capture({"--recording", path("none.oni").string(), "--out", path("out").string(), "--json"}),
+      3, "");
+}
+
+TEST_F(Capture, WrongUsageIsRefused) {
+  EXPECT_EQ(capture({}).status, 2);
+  EXPECT_EQ(capture({"--out", "x", "--seconds", "0"}).status, 2);
+  EXPECT_EQ(capture({"--out", "x", "--device", "a", "--recording", "b"}).status, 2);
+  EXPECT_EQ(capture({"--help"}).status, 0);
+}
+
+}  // namespace
+}  // namespace hydroprint::capture
