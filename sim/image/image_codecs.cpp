@@ -211,6 +211,25 @@ Result<std::vector<unsigned char>> encode_png_rgba(const std::string& name, int 
   return encode(name, "png", spec, TypeDesc::UINT8, rgba.data());
 }
 
+Result<std::vector<unsigned char>> encode_tiff(const std::string& name, const PrinterImage& image,
+                                               double dpi, const std::string& icc_profile) {
+  ImageSpec spec(image.width, image.height, image.channels, TypeDesc::UINT8);
+  spec.attribute("compression", "lzw");
+  spec.attribute("XResolution", static_cast<float>(dpi));
+  spec.attribute("YResolution", static_cast<float>(dpi));
+  spec.attribute("ResolutionUnit", "in");
+  if (image.channels == 4) {
+    spec.channelnames = {"C", "M", "Y", "K"};
+    spec.alpha_channel = -1;
+    spec.attribute("tiff:ColorSpace", "CMYK");
+  }
+  if (!icc_profile.empty()) {
+    spec.attribute("ICCProfile", TypeDesc(TypeDesc::UINT8, static_cast<int>(icc_profile.size())),
+                   icc_profile.data());
+  }
+  return encode(name, "tiff", spec, TypeDesc::UINT8, image.samples.data());
+}
+
 Result<std::vector<unsigned char>> encode_exr(const std::string& name, int width, int height,
                                               const std::vector<std::string>& channels,
                                               const std::vector<float>& values) {
@@ -226,6 +245,7 @@ Result<std::vector<unsigned char>> encode_exr(const std::string& name, int width
 
 const hydroprint::image::ImageCodecs* hydroprint_image_codecs() {
   using namespace hydroprint::image;
-  static const ImageCodecs codecs = {read_file, read_bytes, encode_png_rgba, encode_exr};
+  static const ImageCodecs codecs = {read_file, read_bytes, encode_png_rgba, encode_tiff,
+                                     encode_exr};
   return &codecs;
 }

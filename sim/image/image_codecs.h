@@ -8,6 +8,7 @@
 #include "sim/base/context.h"
 #include "sim/base/result.h"
 #include "sim/image/image_file.h"
+#include "sim/image/printer_image.h"
 
 namespace hydroprint::image {
 
@@ -21,6 +22,9 @@ struct ImageCodecs {
   Result<std::vector<unsigned char>> (*encode_png_rgba)(const std::string& name, int width,
                                                         int height,
                                                         const std::vector<std::uint8_t>& rgba);
+  Result<std::vector<unsigned char>> (*encode_tiff)(const std::string& name,
+                                                    const PrinterImage& image, double dpi,
+                                                    const std::string& icc_profile);
   Result<std::vector<unsigned char>> (*encode_exr)(const std::string& name, int width, int height,
                                                    const std::vector<std::string>& channels,
                                                    const std::vector<float>& values);

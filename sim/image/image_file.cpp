@@ -5,9 +5,11 @@
 #include <system_error>
 
 #include "sim/image/artifact_file.h"
+#include "sim/image/colour.h"
 #include "sim/image/grey16.h"
 #include "sim/image/image_codecs.h"
 #include "sim/image/png.h"
+#include "sim/image/printer_image.h"
 
 namespace hydroprint::image {
 namespace {
@@ -68,6 +70,25 @@ Status write_png_rgba(const std::filesystem::path& path, int width, int height,
   HP_ASSIGN_OR_RETURN(const auto file,
                       library->encode_png_rgba(path.string(), width, height, rgba));
   return write_artifact(path, file);
+}
+
+Status write_tiff(const std::filesystem::path& path, const PrinterImage& image, double dpi,
+                  const std::string& icc_profile) {
+  HP_ASSIGN_OR_RETURN(const ImageCodecs* library, codecs());
+  HP_ASSIGN_OR_RETURN(const auto file,
+                      library->encode_tiff(path.string(), image, dpi, icc_profile));
+  return write_artifact(path, file);
+}
+
+void srgb8_row(const Texels& image, int y, std::uint8_t* rgb) {
+  static const Srgb8Encoder encode;
+  const auto width = static_cast<std::size_t>(image.width);
+  const Texel* texels = &image.texels[static_cast<std::size_t>(y) * width];
+  for (std::size_t x = 0; x < width; ++x) {
+    for (const std::uint16_t linear : {texels[x].r, texels[x].g, texels[x].b}) {
+      *rgb++ = encode(static_cast<float>(linear) / 65535.0F);
+    }
+  }
 }
 
 Status write_exr(const std::filesystem::path& path, int width, int height,

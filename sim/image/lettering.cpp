@@ -11,7 +11,6 @@ namespace hydroprint::image {
 namespace {
 
 constexpr double kSpacing = 0.38;  ///< between letters, in heights of an x
-constexpr double kStroke = 0.17;   ///< thickness of the pen
 constexpr double kSpaceWidth = 0.4;
 
 /// One letter: poly-lines in units of the height of an x, baseline at 0, y up.
@@ -92,6 +91,14 @@ std::map<char, Glyph> make_letters() {
   g['.'].stem(0.05, 0, 0.02);
   g['-'].move(0.05, 0.5).line(0.55, 0.5);
   g['+'].move(0, 0.6).line(0.7, 0.6).stem(0.35, 0.25, 0.95);
+  g['_'].move(0, 0).line(0.7, 0);
+  g[':'].stem(0.05, 0.15, 0.17).stem(0.05, 0.85, 0.87);
+  g['/'].move(0, -0.2).line(0.6, 1.5);
+  g[','].move(0.12, 0.05).line(0, -0.25);
+  g['#'].move(0, 0.45).line(0.9, 0.45).move(0, 0.95).line(0.9, 0.95);
+  g['#'].move(0.2, 0).line(0.35, 1.4).move(0.55, 0).line(0.7, 1.4);
+  g['('].move(0.3, 1.5).arc(0.6, 0.6, 0.6, 0.95, 120, 240);
+  g[')'].move(0.05, 1.42).arc(-0.25, 0.6, 0.6, 0.95, 60, -60);
   return g;
 }
 
@@ -109,7 +116,7 @@ double ink(const Glyph& letter, const Eigen::Vector2d& at, double size_px) {
       nearest = std::min(nearest, distance_to_segment(at, stroke[i], stroke[i + 1]));
     }
   }
-  return std::clamp((0.5 * kStroke - nearest) * size_px + 0.5, 0.0, 1.0);
+  return std::clamp((0.5 * kPen - nearest) * size_px + 0.5, 0.0, 1.0);
 }
 
 void draw_letter(RgbImage& image, const Glyph& letter, double left_px, double baseline_px,
@@ -136,6 +143,20 @@ void draw_text(RgbImage& image, double left_px, double baseline_px, double size_
     if (letter) draw_letter(image, *letter, left_px, baseline_px, size_px, colour);
     left_px += ((letter ? letter->width : kSpaceWidth) + kSpacing) * size_px;
   }
+}
+
+std::vector<std::vector<Eigen::Vector2d>> text_strokes(std::string_view text) {
+  std::vector<std::vector<Eigen::Vector2d>> out;
+  double left = 0;
+  for (const char c : text) {
+    const Glyph* letter = glyph(c);
+    for (std::size_t i = 0; letter != nullptr && i < letter->strokes.size(); ++i) {
+      auto& stroke = out.emplace_back(letter->strokes[i]);
+      for (Eigen::Vector2d& point : stroke) point.x() += left;
+    }
+    left += (letter ? letter->width : kSpaceWidth) + kSpacing;
+  }
+  return out;
 }
 
 double text_width_px(double size_px, std::string_view text) {

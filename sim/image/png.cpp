@@ -8,9 +8,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "sim/image/grey16.h"
+#include "sim/image/printer_image.h"
 
 namespace hydroprint::image {
 namespace {
@@ -23,16 +25,15 @@ constexpr double kMmPerInch = 25.4;
 /// Filters of the PNG specification (section 9.2): a byte less the one to its left, or above it.
 enum Filter : unsigned char { kSub = 1, kUp = 2 };
 
-/// An image's bytes, row after row, without padding.
+/// Samples as they lie in memory, row after row.
 struct Rows {
-  int width = 0, height = 0;
-  std::size_t pixel = 3;  ///< bytes of one
-  const unsigned char* bytes = nullptr;
+  const std::uint8_t* samples = nullptr;
+  int width = 0, height = 0, channels = 3;
 
-  [[nodiscard]] std::size_t row_bytes() const { return pixel * static_cast<std::size_t>(width); }
-  [[nodiscard]] const unsigned char* row(int y) const {
-    return bytes + row_bytes() * static_cast<std::size_t>(y);
+  [[nodiscard]] std::size_t bytes() const {
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(channels);
   }
+  [[nodiscard]] const std::uint8_t* row(int y) const { return samples + bytes() * y; }
 };
 
 /// Rows [first, last) of the image, compressed, and the checksum of what they were before that.
@@ -67,7 +68,7 @@ long weight(std::span<const unsigned char> row) {
 
 /// One row, filtered the better of two ways, behind the number of that filter.
 void append_row(Bytes& out, const unsigned char* row, const unsigned char* above, std::size_t bytes,
-                std::size_t pixel) {
+                std::size_t pixel_bytes) {
   const std::size_t start = out.size();
   out.resize(start + 1 + bytes);
   unsigned char* to = &out[start];
@@ -78,20 +79,20 @@ void append_row(Bytes& out, const unsigned char* row, const unsigned char* above
   const long up = weight({to + 1, bytes});
   if (up == 0) return;
   Bytes sub(row, row + bytes);
-  for (std::size_t i = pixel; i < bytes; ++i) {
-    sub[i] = static_cast<unsigned char>(row[i] - row[i - pixel]);
+  for (std::size_t i = pixel_bytes; i < bytes; ++i) {
+    sub[i] = static_cast<unsigned char>(row[i] - row[i - pixel_bytes]);
   }
   if (weight(sub) >= up) return;
   to[0] = kSub;
   std::copy(sub.begin(), sub.end(), to + 1);
 }
 
-Bytes filtered(const Rows& rows, int first, int last) {
-  const std::size_t bytes = rows.row_bytes();
+Bytes filtered(const Rows& image, int first, int last) {
   Bytes out;
-  out.reserve((bytes + 1) * static_cast<std::size_t>(last - first));
+  out.reserve((image.bytes() + 1) * static_cast<std::size_t>(last - first));
   for (int y = first; y < last; ++y) {
-    append_row(out, rows.row(y), y > 0 ? rows.row(y - 1) : nullptr, bytes, rows.pixel);
+    append_row(out, image.row(y), y > 0 ? image.row(y - 1) : nullptr, image.bytes(),
+               static_cast<std::size_t>(image.channels));
   }
   return out;
 }
@@ -116,22 +117,22 @@ bool deflate(Bytes& raw, bool is_end, Bytes& out) {
   return done == (is_end ? Z_STREAM_END : Z_OK) && stream.avail_in == 0;
 }
 
-std::vector<Band> bands_of(const Rows& rows) {
-  const int each =
-      static_cast<int>(std::clamp<std::size_t>(kBandBytes / (rows.row_bytes() + 1), 1, 1 << 20));
+std::vector<Band> bands_of(const Rows& image) {
+  const std::size_t row_bytes = image.bytes() + 1;
+  const int rows = static_cast<int>(std::clamp<std::size_t>(kBandBytes / row_bytes, 1, 1 << 20));
   std::vector<Band> bands;
-  for (int y = 0; y < rows.height; y += each) {
+  for (int y = 0; y < image.height; y += rows) {
     Band& band = bands.emplace_back();
     band.first = y;
-    band.last = std::min(y + each, rows.height);
+    band.last = std::min(y + rows, image.height);
   }
   return bands;
 }
 
-Status compress(const Rows& rows, std::vector<Band>& bands, const Context& context) {
+Status compress(const Rows& image, std::vector<Band>& bands, const Context& context) {
   return parallel_for(context, {}, bands.size(), [&](std::size_t b) -> Status {
     Band& band = bands[b];
-    Bytes raw = filtered(rows, band.first, band.last);
+    Bytes raw = filtered(image, band.first, band.last);
     band.raw_bytes = raw.size();
     band.adler = adler32_z(1, raw.data(), raw.size());
     if (deflate(raw, b + 1 == bands.size(), band.deflated)) return {};
@@ -139,12 +140,15 @@ Status compress(const Rows& rows, std::vector<Band>& bands, const Context& conte
   });
 }
 
-/// @param depth, colour  bits of a channel and colour type, as the specification numbers them
-Bytes header(const Rows& rows, unsigned char depth, unsigned char colour) {
-  Bytes out;
-  append_u32(out, static_cast<std::uint32_t>(rows.width));
-  append_u32(out, static_cast<std::uint32_t>(rows.height));
-  out.insert(out.end(), {depth, colour, 0, 0, 0});
+/// Signature and header. `depth` and `colour` are bits of a channel and colour type, as the
+/// specification numbers them.
+Bytes start(const Rows& image, unsigned char depth, unsigned char colour) {
+  Bytes header;
+  append_u32(header, static_cast<std::uint32_t>(image.width));
+  append_u32(header, static_cast<std::uint32_t>(image.height));
+  header.insert(header.end(), {depth, colour, 0, 0, 0});
+  Bytes out = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  append_chunk(out, "IHDR", header);
   return out;
 }
 
@@ -157,39 +161,85 @@ Bytes resolution(double dpi) {
   return out;
 }
 
-Bytes start(const Bytes& header) {
-  Bytes out = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  append_chunk(out, "IHDR", header);
+/// zlib's stream of the compressed bands: its header, they, the checksum of all.
+Bytes join(const std::vector<Band>& bands) {
+  Bytes out = {0x78, 0x01};
+  uLong adler = 1;
+  for (const Band& band : bands) {
+    out.insert(out.end(), band.deflated.begin(), band.deflated.end());
+    adler = adler32_combine(adler, band.adler, static_cast<z_off_t>(band.raw_bytes));
+  }
+  append_u32(out, static_cast<std::uint32_t>(adler));
   return out;
 }
 
-/// Pixels and end.
-Status append_pixels(Bytes& out, const Rows& rows, const Context& context) {
-  std::vector<Band> bands = bands_of(rows);
-  HP_RETURN_IF_ERROR(compress(rows, bands, context));
-  append_chunk(out, "IDAT", std::array<unsigned char, 2>{0x78, 0x01});  // zlib's header
-  uLong adler = 1;
-  for (const Band& band : bands) {
-    append_chunk(out, "IDAT", band.deflated);
-    adler = adler32_combine(adler, band.adler, static_cast<z_off_t>(band.raw_bytes));
+/// The chunk that says what the colours mean.
+Status append_colours(Bytes& out, const std::string& icc_profile) {
+  if (icc_profile.empty()) {
+    append_chunk(out, "sRGB", std::array<unsigned char, 1>{0});
+    return {};
   }
-  Bytes checksum;
-  append_u32(checksum, static_cast<std::uint32_t>(adler));
-  append_chunk(out, "IDAT", checksum);
+  Bytes chunk = {'p', 'r', 'i', 'n', 't', 'e', 'r', 0, 0};
+  auto bytes = compressBound(static_cast<uLong>(icc_profile.size()));
+  const std::size_t start = chunk.size();
+  chunk.resize(start + bytes);
+  if (::compress(chunk.data() + start, &bytes, reinterpret_cast<const Bytef*>(icc_profile.data()),
+                 static_cast<uLong>(icc_profile.size())) != Z_OK) {
+    return fail(Code::kInternal, "PNG: out of memory. Lower the dpi", "OUT_OF_MEMORY");
+  }
+  chunk.resize(start + bytes);
+  append_chunk(out, "iCCP", chunk);
+  return {};
+}
+
+/// An IDAT chunk may hold any part of the stream; a length has 31 bits.
+void append_data(Bytes& out, std::span<const unsigned char> stream) {
+  constexpr std::size_t kMost = std::size_t{1} << 24;
+  while (!stream.empty()) {
+    const auto part = stream.first(std::min(kMost, stream.size()));
+    append_chunk(out, "IDAT", part);
+    stream = stream.subspan(part.size());
+  }
+}
+
+/// The image data and the end.
+Status append_pixels(Bytes& out, const Rows& image, const Context& context) {
+  HP_ASSIGN_OR_RETURN(const Bytes stream, compress_rows(image.samples, image.width, image.height,
+                                                        image.channels, context));
+  append_data(out, stream);
   append_chunk(out, "IEND", {});
   return {};
 }
 
+Result<Bytes> encode(const Rows& image, double dpi, const std::string& icc_profile,
+                     const Context& context) {
+  Bytes out = start(image, 8, 2);
+  HP_RETURN_IF_ERROR(append_colours(out, icc_profile));
+  append_chunk(out, "pHYs", resolution(dpi));
+  HP_RETURN_IF_ERROR(append_pixels(out, image, context));
+  return out;
+}
+
 }  // namespace
+
+Result<std::vector<unsigned char>> compress_rows(const std::uint8_t* samples, int width, int height,
+                                                 int channels, const Context& context) {
+  const Rows rows{samples, width, height, channels};
+  std::vector<Band> bands = bands_of(rows);
+  HP_RETURN_IF_ERROR(compress(rows, bands, context));
+  return join(bands);
+}
 
 Result<std::vector<unsigned char>> encode_png(const RgbImage& image, double dpi,
                                               const Context& context) {
-  const Rows rows{image.width, image.height, 3, image.rgb.data()};
-  Bytes out = start(header(rows, 8, 2));
-  append_chunk(out, "sRGB", std::array<unsigned char, 1>{0});
-  append_chunk(out, "pHYs", resolution(dpi));
-  HP_RETURN_IF_ERROR(append_pixels(out, rows, context));
-  return out;
+  return encode({image.rgb.data(), image.width, image.height, 3}, dpi, {}, context);
+}
+
+Result<std::vector<unsigned char>> encode_png(const PrinterImage& image, double dpi,
+                                              const std::string& icc_profile,
+                                              const Context& context) {
+  return encode({image.samples.data(), image.width, image.height, image.channels}, dpi, icc_profile,
+                context);
 }
 
 Result<std::vector<unsigned char>> encode_png(const Grey16Image& image, const Context& context) {
@@ -199,8 +249,8 @@ Result<std::vector<unsigned char>> encode_png(const Grey16Image& image, const Co
     bytes.push_back(static_cast<unsigned char>(value >> 8U));
     bytes.push_back(static_cast<unsigned char>(value & 0xffU));
   }
-  const Rows rows{image.width, image.height, 2, bytes.data()};
-  Bytes out = start(header(rows, 16, 0));
+  const Rows rows{bytes.data(), image.width, image.height, 2};
+  Bytes out = start(rows, 16, 0);
   HP_RETURN_IF_ERROR(append_pixels(out, rows, context));
   return out;
 }

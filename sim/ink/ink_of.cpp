@@ -6,9 +6,9 @@
 #include <functional>
 #include <vector>
 
-#include "sim/image/colour.h"
 #include "sim/image/film_texture.h"
 #include "sim/image/image_file.h"
+#include "sim/image/printer_image.h"
 #include "sim/ink/separation.h"
 
 namespace hydroprint::ink {
@@ -99,17 +99,9 @@ Result<InkField> read_ink_image(const std::filesystem::path& path, const film::O
                                 const InkOptions& options, const Context& context) {
   HP_ASSIGN_OR_RETURN(const image::ReadImage read, image::read_image(path, context));
   const image::Texels& image = read.image;
-  const image::Srgb8Encoder encode;
   const auto row = [&](int y, std::vector<std::uint8_t>& buffer) {
-    const auto width = static_cast<std::size_t>(image.width);
-    const image::Texel* texels = &image.texels[static_cast<std::size_t>(y) * width];
-    buffer.resize(3 * width);
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint16_t linear[] = {texels[x].r, texels[x].g, texels[x].b};
-      for (std::size_t c = 0; c < 3; ++c) {
-        buffer[3 * x + c] = encode(static_cast<float>(linear[c]) / 65535.0F);
-      }
-    }
+    buffer.resize(3 * static_cast<std::size_t>(image.width));
+    image::srgb8_row(image, y, buffer.data());
     return buffer.data();
   };
   return average({image.width, image.height, row}, outline, options, context);

@@ -1,24 +1,13 @@
 #include "sim/ink/separation.h"
 
-#include <lcms2.h>
-#include <lcms2_plugin.h>
-
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "sim/base/input_file.h"
+#include "sim/ink/printer_colours.h"
 
 namespace hydroprint::ink {
 namespace {
-
-/// No file may be larger, and no table that one announces: real ones have 1 MiB or so, while the
-/// library would allocate half a GiB on the word of a damaged header.
-constexpr std::size_t kMost_bytes = std::size_t{64} << 20;
-constexpr std::size_t kHeader_bytes = 128;
 
 void naive_cmyk(const std::uint8_t* rgb, std::size_t count, double* t) {
   // K + (C + M + Y) = 1 - max + (3 (1 - K) - (R + G + B)) / (1 - K), where 1 - K = max.
@@ -29,112 +18,28 @@ void naive_cmyk(const std::uint8_t* rgb, std::size_t count, double* t) {
   }
 }
 
-void* allocate(cmsContext, cmsUInt32Number bytes) {
-  return bytes <= kMost_bytes ? std::malloc(bytes) : nullptr;
-}
-void* reallocate(cmsContext, void* memory, cmsUInt32Number bytes) {
-  return bytes <= kMost_bytes ? std::realloc(memory, bytes) : nullptr;
-}
-void release(cmsContext, void* memory) { std::free(memory); }
+}  // namespace
 
-/// Keeps what the library says first.
-void note_error(cmsContext context, cmsUInt32Number, const char* text) {
-  auto* said = static_cast<std::string*>(cmsGetContextUserData(context));
-  if (said != nullptr && said->empty()) *said = text;
-}
-
-/// An own context of the library, so that nothing is global, and what was made in it.
-class LittleCms {
- public:
-  LittleCms() {
-    cmsPluginMemHandler memory{};
-    memory.base = {cmsPluginMagicNumber, LCMS_VERSION, cmsPluginMemHandlerSig, nullptr};
-    memory.MallocPtr = allocate;
-    memory.ReallocPtr = reallocate;
-    memory.FreePtr = release;
-    context_ = cmsCreateContext(&memory, &said_);
-    cmsSetLogErrorHandlerTHR(context_, note_error);
+Result<Separation> make_separation(const std::filesystem::path& icc_profile) {
+  if (icc_profile.empty()) return Separation(naive_cmyk);
+  HP_ASSIGN_OR_RETURN(const PrinterColours colours, PrinterColours::open(icc_profile));
+  if (colours.channels() != 4) {
+    return fail(Code::kInvalidArgument,
+                icc_profile.string() +
+                    ": not the profile of a CMYK printer. Name an ICC output profile whose colour "
+                    "space is CMYK");
   }
-  ~LittleCms() {
-    if (transform_ != nullptr) cmsDeleteTransform(transform_);
-    if (profile_ != nullptr) cmsCloseProfile(profile_);
-    cmsDeleteContext(context_);
-  }
-  LittleCms(const LittleCms&) = delete;
-  LittleCms& operator=(const LittleCms&) = delete;
-
-  [[nodiscard]] Status open(const std::string& bytes, const std::string& name) {
-    profile_ = cmsOpenProfileFromMemTHR(context_, bytes.data(),
-                                        static_cast<cmsUInt32Number>(bytes.size()));
-    if (profile_ == nullptr) return damaged(name);
-    if (cmsGetDeviceClass(profile_) != cmsSigOutputClass ||
-        cmsGetColorSpace(profile_) != cmsSigCmykData) {
-      return fail(Code::kInvalidArgument, name +
-                                              ": not the profile of a CMYK printer. Name an ICC "
-                                              "output profile whose colour space is CMYK");
-    }
-    const cmsHPROFILE srgb = cmsCreate_sRGBProfileTHR(context_);
-    if (srgb == nullptr) return damaged(name);
-    transform_ = cmsCreateTransformTHR(context_, srgb, TYPE_RGB_8, profile_, TYPE_CMYK_16,
-                                       INTENT_RELATIVE_COLORIMETRIC, 0);
-    cmsCloseProfile(srgb);
-    if (transform_ == nullptr) return damaged(name);
-    return {};
-  }
-
-  void separate(const std::uint8_t* rgb, std::size_t count, double* t) const {
+  return Separation([colours](const std::uint8_t* rgb, std::size_t count, double* t) {
     constexpr std::size_t kPart = 1024;
     std::array<std::uint16_t, 4 * kPart> cmyk;
     for (std::size_t from = 0; from < count; from += kPart) {
       const std::size_t part = std::min(kPart, count - from);
-      cmsDoTransform(transform_, rgb + 3 * from, cmyk.data(), static_cast<cmsUInt32Number>(part));
+      colours.convert(rgb + 3 * from, part, cmyk.data());
       for (std::size_t i = 0; i < part; ++i) {
         const std::uint16_t* c = &cmyk[4 * i];
         t[from + i] = (c[0] + c[1] + c[2] + c[3]) / 65535.0;
       }
     }
-  }
-
- private:
-  [[nodiscard]] tl::unexpected<Error> damaged(const std::string& name) const {
-    const std::string why = said_.substr(0, said_.find('\n'));
-    return fail(Code::kDataLoss, name + ": not a sound ICC profile" +
-                                     (why.empty() ? "" : " (" + why + ")") +
-                                     ". Get the file again");
-  }
-
-  std::string said_;
-  cmsContext context_ = nullptr;
-  cmsHPROFILE profile_ = nullptr;
-  cmsHTRANSFORM transform_ = nullptr;
-};
-
-/// The library leaves out what lies beyond the end of the file and goes on with the rest.
-Status check_whole(const std::string& bytes, const std::string& name) {
-  std::size_t announced = 0;
-  if (bytes.size() >= kHeader_bytes) {
-    for (int i = 0; i < 4; ++i) announced = announced << 8 | static_cast<unsigned char>(bytes[i]);
-  }
-  if (bytes.size() < kHeader_bytes || bytes.size() < announced) {
-    return fail(Code::kDataLoss, name + ": an ICC profile cut short, or none. Its " +
-                                     std::to_string(bytes.size()) + " bytes should be " +
-                                     std::to_string(std::max(announced, kHeader_bytes)) +
-                                     " or more. Get the file again");
-  }
-  return {};
-}
-
-}  // namespace
-
-Result<Separation> make_separation(const std::filesystem::path& icc_profile) {
-  if (icc_profile.empty()) return Separation(naive_cmyk);
-  const std::string name = icc_profile.string();
-  HP_ASSIGN_OR_RETURN(const std::string bytes, read_text_file(icc_profile, kMost_bytes));
-  HP_RETURN_IF_ERROR(check_whole(bytes, name));
-  const auto cms = std::make_shared<LittleCms>();
-  HP_RETURN_IF_ERROR(cms->open(bytes, name));
-  return Separation([cms](const std::uint8_t* rgb, std::size_t count, double* t) {
-    cms->separate(rgb, count, t);
   });
 }
 

@@ -41,15 +41,18 @@ void keep_freed_memory() {
 
 /// Runs and turns what libraries may throw into an error.
 Result<Finished> run_guarded(const Options& options, Ending& ending, int stderr_fd) {
-  const std::string mesh = options.mesh.empty() ? "validate" : options.mesh.string();
+  const bool is_print = options.verb == Verb::kPrintImage;
+  const std::string work = is_print               ? options.film_image.string()
+                           : options.mesh.empty() ? "validate"
+                                                  : options.mesh.string();
   try {
     return run(options, ending, stderr_fd);
   } catch (const std::bad_alloc&) {
     return fail(Code::kInternal,
-                mesh + ": out of memory. Use a smaller model, a lower --dpi or more memory",
+                work + ": out of memory. Use a smaller model, a lower --dpi or more memory",
                 "OUT_OF_MEMORY");
   } catch (const std::exception& error) {
-    return fail(Code::kInternal, mesh + ": " + error.what() + ". Please report this");
+    return fail(Code::kInternal, work + ": " + error.what() + ". Please report this");
   }
 }
 

@@ -52,6 +52,29 @@ constexpr const char* kValidateExamples = R"(Examples:
 
 Exit status: 0 done, whatever the figures are; 2 bad usage, 4 the computation failed, 130 cancelled.)";
 
+constexpr const char* kPrintImageExamples =
+    R"(Files: print.pdf, pages of the paper's size with registration marks, rulers, an arrow and a line of text wherever
+no film is; print.png and print.tif, the film image (of each sheet, where it takes several) alone. Print them at 100 %,
+without fitting to the page. The same options give the same files, bit for bit.
+
+Examples:
+  hydroprint-worker print-image --film-image film.png --out paper
+  hydroprint-worker print-image --film-image film.png --film circle:105 --job-name "mug 7" --date 2025-03-14 --out paper
+  hydroprint-worker print-image --film-image film.png --icc-profile printer.icc --ink-limit 3 --formats pdf,tiff --out paper
+  hydroprint-worker print-image --film-image film.png --film A3 --paper A4 --overlap-mm 15 --out paper
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+constexpr const char* kTemplateExamples =
+    R"(placement.pdf: the film's edge and axes, what of the object the water meets first and the silhouette of all of it,
+seen from above at exact scale; and a page with pictures of the orientation. For a rig without a camera: print it at
+100 %, lay it where the film will float, and bring the object over it.
+
+Example:
+  hydroprint-worker template --mesh mug.obj --scale 10 --pose pose.json --job-name "mug 7" --out placement
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
 /// Options as typed: what cannot stand in Options is settled in `settle`.
 struct Typed {
   Options options;
@@ -59,6 +82,9 @@ struct Typed {
   std::string model = "sheet";
   std::string artifacts = "all";
   std::vector<std::string> free;
+  std::string paper = "A4";
+  std::string colours = "rgb";
+  std::vector<std::string> formats;
 };
 
 int all_cores() {
@@ -99,20 +125,29 @@ void add_validate(CLI::App& app, Options& o) {
   app.footer(kValidateExamples);
 }
 
-/// What goes in which way through which film.
-void add_dip(CLI::App& app, Typed& typed) {
-  Options& o = typed.options;
-  add_run(app, o);
+void add_film(CLI::App& app, Options& o) {
+  app.add_option("--film", o.film, "A4, A3, letter, WxH, circle:RADIUS (mm) or polygon:FILE.json")
+      ->capture_default_str()
+      ->type_name("FILM");
+}
+
+/// An object as it is held.
+void add_object(CLI::App& app, Options& o) {
   add_path(app, "--mesh", o.mesh, "Model: OBJ, STL, PLY, glTF or GLB")->required();
   app.add_option("--scale", o.scale, "Model units to mm")->capture_default_str();
   add_path(app, "--pose", o.pose,
            R"({"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]}; default: as in the file, )"
            "bounding box centred on the film",
            "FILE.json");
+}
+
+/// What goes in which way through which film.
+void add_dip(CLI::App& app, Typed& typed) {
+  Options& o = typed.options;
+  add_run(app, o);
+  add_object(app, o);
   add_path(app, "--profile", o.profile, "Film profile", "FILE.toml");
-  app.add_option("--film", o.film, "A4, A3, letter, WxH, circle:RADIUS (mm) or polygon:FILE.json")
-      ->capture_default_str()
-      ->type_name("FILM");
+  add_film(app, o);
   app.add_option("--depth-mm", typed.depth, "Immersion at the end of the dip")
       ->capture_default_str()
       ->type_name("D|full");
@@ -161,6 +196,62 @@ void add_fit(CLI::App& app, Typed& typed) {
   app.footer(kFitExamples);
 }
 
+/// The paper, and what stands on it.
+void add_page(CLI::App& app, Typed& typed) {
+  print::PageSettings& page = typed.options.print.page;
+  app.add_option("--paper", typed.paper, "A4, A3, letter or WxH (mm)")
+      ->capture_default_str()
+      ->type_name("PAPER");
+  app.add_option("--printer-margin-mm", page.printer_margin_mm,
+                 "What the printer cannot print along the edges of the paper")
+      ->capture_default_str();
+  app.add_option("--job-name", page.job_name, "Printed beside the film")->type_name("TEXT");
+  app.add_option("--date", page.date, "Printed beside the film, as given")->type_name("TEXT");
+}
+
+void add_print_image(CLI::App& app, Typed& typed) {
+  Options& o = typed.options;
+  print::PageSettings& page = o.print.page;
+  add_run(app, o);
+  add_path(app, "--film-image", o.film_image, "The film image: film.png of simulate")->required();
+  add_film(app, o);
+  app.add_option("--dpi", o.print.dpi,
+                 "Resolution of the film image; default: the whole number that its size means")
+      ->type_name("FLOAT");
+  add_page(app, typed);
+  app.add_option("--bar-mm", page.bar_mm,
+                 "Length of the sliding bars that hold the film, for marks at their ends; 0: at "
+                 "their middles alone")
+      ->capture_default_str();
+  app.add_option("--overlap-mm", page.overlap_mm,
+                 "What neighbouring sheets have in common where the film takes several")
+      ->capture_default_str();
+  app.add_flag("--mirror", page.mirror,
+               "Print it mirrored; else it is seen from above, ink side up");
+  app.add_flag("!--no-marks", page.marks, "Nothing but the film image");
+  app.add_option("--colours", typed.colours, "rgb: sRGB; cmyk: plain CMYK")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"rgb", "cmyk"}));
+  add_path(app, "--icc-profile", o.print.colours.icc_profile,
+           "The printer's ICC output profile, CMYK or RGB, in place of --colours", "FILE.icc");
+  app.add_option("--ink-limit", o.print.colours.ink_limit,
+                 "Most C + M + Y + K of a pixel; for CMYK alone")
+      ->capture_default_str();
+  app.add_option("--formats", typed.formats,
+                 "pdf, png, tiff; default: pdf, and png for RGB or tiff for CMYK")
+      ->delimiter(',')
+      ->type_name("FORMAT[,FORMAT]");
+  app.footer(kPrintImageExamples);
+}
+
+void add_template(CLI::App& app, Typed& typed) {
+  add_run(app, typed.options);
+  add_object(app, typed.options);
+  add_film(app, typed.options);
+  add_page(app, typed);
+  app.footer(kTemplateExamples);
+}
+
 CommandLine refuse(const Options& options, ExitStatus status, Code code, std::string message) {
   CommandLine out;
   out.action = CommandLine::Action::kRefuse;
@@ -188,7 +279,8 @@ std::string usage_objection(const Typed& typed) {
   if (o.progress_fd != -1 && (o.progress_fd < 0 || fcntl(o.progress_fd, F_GETFD) == -1)) {
     return "--progress-fd: not an open file descriptor. Open it before";
   }
-  if (o.mesh.empty() && o.verb != Verb::kValidate) return "--mesh: empty. Name a file";
+  const bool has_mesh = o.verb != Verb::kValidate && o.verb != Verb::kPrintImage;
+  if (has_mesh && o.mesh.empty()) return "--mesh: empty. Name a file";
   if (const Status known = validate::check(o.validate); !known) {
     return "--only: " + known.error().message;
   }
@@ -198,6 +290,26 @@ std::string usage_objection(const Typed& typed) {
   }
   if (o.out.empty()) return "--out: empty. Name a folder";
   return {};
+}
+
+/// Takes what print-image and template say of paper and files; refuses what makes no sense.
+Status settle_print(Typed& typed) {
+  Options& o = typed.options;
+  if (o.verb == Verb::kPrintImage && o.film_image.empty()) {
+    return fail(Code::kInvalidArgument, "--film-image: empty. Name a file");
+  }
+  o.print.colours.cmyk = typed.colours == "cmyk";
+  const std::vector<std::string> names = {"pdf", "png", "tiff"};
+  for (const std::string& name : typed.formats) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end()) {
+      return fail(Code::kInvalidArgument,
+                  "--formats: '" + name + "' is unknown. Use pdf, png or tiff");
+    }
+    o.formats.push_back(static_cast<PrintFormat>(found - names.begin()));
+  }
+  HP_ASSIGN_OR_RETURN(o.print.page.paper_mm, print::parse_paper(typed.paper));
+  return print::check(o.print.page);
 }
 
 std::string range_objection(const Options& o) {
@@ -247,6 +359,13 @@ CommandLine settle(Typed& typed) {
   if (!parse_depth(typed)) {
     return refuse(o, ExitStatus::kUsage, Code::kInvalidArgument,
                   "--depth-mm: '" + typed.depth + "' is not a number. Give mm, or full");
+  }
+  if (o.verb == Verb::kPrintImage || o.verb == Verb::kTemplate) {
+    if (const Status settled = settle_print(typed); !settled) {
+      const bool out_of_range = settled.error().code == Code::kOutOfRange;
+      return refuse(o, out_of_range ? ExitStatus::kBadInput : ExitStatus::kUsage,
+                    settled.error().code, settled.error().message);
+    }
   }
   typed.options.map_only = typed.artifacts == "map";
   typed.options.fit.free = fit::parse_parameters(typed.free).value();
@@ -298,6 +417,14 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       "fit", "From measured landing points to the film profile that explains them");
   add_fit(*fit, typed);
 
+  CLI::App* print_image = app.add_subcommand(
+      "print-image", "From a film image to the files to print, at exact scale on paper");
+  add_print_image(*print_image, typed);
+
+  CLI::App* placement = app.add_subcommand(
+      "template", "A page that shows where the object belongs, for a rig without a camera");
+  add_template(*placement, typed);
+
   CLI::App* validate = app.add_subcommand(
       "validate", "The paper's experiments in silico, as a report with pictures");
   add_validate(*validate, typed.options);
@@ -319,6 +446,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   typed.options.verb = predict->parsed() ? Verb::kPredict : Verb::kSimulate;
   if (fit->parsed()) typed.options.verb = Verb::kFit;
   if (validate->parsed()) typed.options.verb = Verb::kValidate;
+  if (placement->parsed()) typed.options.verb = Verb::kTemplate;
+  if (print_image->parsed()) typed.options.verb = Verb::kPrintImage;
   return settle(typed);
 }
 

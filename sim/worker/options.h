@@ -3,15 +3,20 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/base/result.h"
 #include "sim/fit/fit.h"
 #include "sim/pipeline/pipeline.h"
+#include "sim/print/print_image.h"
 #include "sim/validate/validate.h"
 
 namespace hydroprint::worker {
 
-enum class Verb { kSimulate, kPredict, kFit, kValidate };
+enum class Verb { kSimulate, kPredict, kFit, kValidate, kPrintImage, kTemplate };
+
+/// Files that print-image writes.
+enum class PrintFormat { kPdf, kPng, kTiff };
 
 /// What the command line asks for (contract, "hydroprint-worker simulate" and "predict"), checked
 /// as far as that goes without opening a file.
@@ -19,11 +24,13 @@ struct Options {
   Verb verb = Verb::kSimulate;
   std::filesystem::path mesh;
   std::filesystem::path texture;     ///< simulate; empty: the model's own colours
-  std::filesystem::path film_image;  ///< predict
+  std::filesystem::path film_image;  ///< predict, print-image
   std::filesystem::path motion;      ///< predict; empty: straight down
   validate::Options validate;        ///< validate
   std::filesystem::path points;      ///< fit
   fit::Options fit;                  ///< fit
+  print::PrintSettings print;        ///< print-image; its page: template, too
+  std::vector<PrintFormat> formats;  ///< print-image
   std::filesystem::path out;
   std::filesystem::path pose;     ///< empty: as in the file, centred
   std::filesystem::path profile;  ///< empty: the defaults of film::Profile

@@ -21,20 +21,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 13> kArtifacts = {
-    "film.png",      "film_map.exr",    "film_profile.toml", "landed.ply",    "landed.png",
-    "predicted.png", "report.html",     "report.json",       "residuals.csv", "residuals.png",
-    "stretch.png",   "surface_map.ply", "wrinkles.png"};
+constexpr std::array<std::string_view, 17> kArtifacts = {
+    "film.png",        "film_map.exr",  "film_profile.toml", "landed.ply",    "landed.png",
+    "placement.pdf",   "predicted.png", "print.pdf",         "print.png",     "print.tif",
+    "report.html",     "report.json",   "residuals.csv",     "residuals.png", "stretch.png",
+    "surface_map.ply", "wrinkles.png"};
 
 /// Every run leaves one of these: what a folder is of is known by it.
 bool is_record(std::string_view name) { return name == "report.json" || name == "frames.json"; }
 
 /// Whether a run may leave a file of that name.
 bool is_artifact_name(std::string_view name) {
-  // The pictures of `validate` and the frames of a camera are many.
+  // The pictures of `validate`, the sheets of `print-image` and the frames of a camera are many.
   return is_record(name) ||
          std::find(kArtifacts.begin(), kArtifacts.end(), name) != kArtifacts.end() ||
-         ((name.starts_with("validate-") || name.starts_with("frame-")) && name.ends_with(".png"));
+         ((name.starts_with("validate-") || name.starts_with("frame-")) &&
+          name.ends_with(".png")) ||
+         (name.starts_with("print-") && (name.ends_with(".png") || name.ends_with(".tif")));
 }
 
 constexpr std::string_view kPartial = ".partial-";

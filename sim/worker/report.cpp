@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/worker/fit_json.h"
+#include "sim/worker/print_json.h"
 #include "sim/worker/validate_json.h"
 
 namespace hydroprint::worker {
@@ -134,6 +135,10 @@ const char* verb_name(Verb verb) {
       return "fit";
     case Verb::kValidate:
       return "validate";
+    case Verb::kPrintImage:
+      return "print-image";
+    case Verb::kTemplate:
+      return "template";
   }
   return "";
 }
@@ -165,6 +170,38 @@ std::string report_json(const Report& report) {
          {"mesh", {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}}},
          {"fit", fit_json(*report.fit, report.options.fit)},
          {"profile", profile_json(report.fit->profile)},
+         {"stage_seconds", seconds_json(report.stage_seconds)},
+         {"total_seconds", report.total_s},
+         {"peak_memory_bytes", peak_memory_bytes()},
+         {"warnings", warnings_json(report.warnings)},
+         {"artifacts", report.artifacts}},
+        2);
+  }
+  if (report.print) {
+    return dump({{"program", "hydroprint-worker"},
+                 {"version", HYDROPRINT_VERSION},
+                 {"verb", verb_name(report.options.verb)},
+                 {"inputs", inputs_json(report.inputs)},
+                 {"parameters", print_parameters_json(report.options, film_json(report.outline))},
+                 {"print", print_json(*report.print)},
+                 {"stage_seconds", seconds_json(report.stage_seconds)},
+                 {"total_seconds", report.total_s},
+                 {"peak_memory_bytes", peak_memory_bytes()},
+                 {"warnings", warnings_json(report.warnings)},
+                 {"artifacts", report.artifacts}},
+                2);
+  }
+  if (report.placement) {
+    Json parameters = page_parameters_json(report.options, film_json(report.outline));
+    parameters.update({{"scale", report.options.scale}, {"pose", pose_json(report.X_FO)}});
+    return dump(
+        {{"program", "hydroprint-worker"},
+         {"version", HYDROPRINT_VERSION},
+         {"verb", verb_name(report.options.verb)},
+         {"inputs", inputs_json(report.inputs)},
+         {"parameters", parameters},
+         {"mesh", {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}}},
+         {"placement", placement_json(*report.placement)},
          {"stage_seconds", seconds_json(report.stage_seconds)},
          {"total_seconds", report.total_s},
          {"peak_memory_bytes", peak_memory_bytes()},
@@ -220,6 +257,21 @@ std::string summary_json(const Report& report, const std::filesystem::path& dir)
     out.update({{"seconds", report.total_s}, {"warnings", warnings_json(report.warnings)}});
     return dump(out, -1);
   }
+  if (report.print) {
+    return dump({{"out", dir.string()},
+                 {"artifacts", report.artifacts},
+                 {"sheets", report.print->layout.sheets.size()},
+                 {"dpi", report.print->dpi},
+                 {"seconds", report.total_s},
+                 {"warnings", warnings_json(report.warnings)}},
+                -1);
+  }
+  if (report.placement) {
+    Json out = {{"out", dir.string()}, {"artifacts", report.artifacts}};
+    out.update(placement_json(*report.placement));
+    out.update({{"seconds", report.total_s}, {"warnings", warnings_json(report.warnings)}});
+    return dump(out, -1);
+  }
   return dump({{"out", dir.string()},
                {"artifacts", report.artifacts},
                {"coverage", report.figures.coverage},
@@ -233,6 +285,8 @@ std::string summary_json(const Report& report, const std::filesystem::path& dir)
 std::string summary_text(const Report& report, const std::filesystem::path& dir) {
   if (report.validation) return validation_text(*report.validation, dir);
   if (report.fit) return fit_text(*report.fit, dir);
+  if (report.print) return print_text(*report.print, report.artifacts, dir);
+  if (report.placement) return placement_text(*report.placement, dir);
   std::string files;
   for (const std::string& name : report.artifacts) files += name + " ";
   std::array<char, 200> figures;

@@ -14,6 +14,8 @@
 #include "sim/film/profile.h"
 #include "sim/fit/fit.h"
 #include "sim/pipeline/pipeline.h"
+#include "sim/print/placement.h"
+#include "sim/print/print_image.h"
 #include "sim/validate/validate.h"
 #include "sim/worker/options.h"
 
@@ -40,6 +42,8 @@ struct Report {
   pipeline::DipFigures figures;
   std::optional<validate::Report> validation;  ///< of `validate`, which has none of the above
   std::optional<fit::Outcome> fit;             ///< of `fit`, which has no figures
+  std::optional<print::Print> print;           ///< of `print-image`, which has none; without images
+  std::optional<print::Placement> placement;   ///< of `template`, which has none; without pages
   std::vector<std::pair<std::string, double>> stage_seconds;
   double total_s = 0;
   Warnings warnings;

@@ -19,10 +19,12 @@
 #include "sim/worker/fit.h"
 #include "sim/worker/motion_file.h"
 #include "sim/worker/out_folder.h"
+#include "sim/worker/print_image.h"
 #include "sim/worker/progress.h"
 #include "sim/worker/progress_sinks.h"
 #include "sim/worker/report.h"
 #include "sim/worker/stages.h"
+#include "sim/worker/template.h"
 #include "sim/worker/validate.h"
 
 namespace hydroprint::worker {
@@ -70,7 +72,8 @@ Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip,
                                                   {"ink_image", o.ink_image},
                                                   {"film", film::polygon_file(o.film).value_or("")},
                                                   {"motion", o.motion},
-                                                  {"points", o.points}}));
+                                                  {"points", o.points},
+                                                  {"icc_profile", o.print.colours.icc_profile}}));
   HP_ASSIGN_OR_RETURN(dip.outline, film::parse_outline(o.film));
   if (o.verb == Verb::kSimulate && !o.map_only) {
     HP_RETURN_IF_ERROR(check_film_image(dip.outline, o.dpi));
@@ -170,6 +173,10 @@ Status run_verb(const Options& o, pipeline::DipOptions dip, OutFolder& folder, R
       return run_fit(o, dip, folder, report, context);
     case Verb::kValidate:
       return run_validate(o, folder, report, context);
+    case Verb::kPrintImage:
+      return run_print_image(o, folder, report, context);
+    case Verb::kTemplate:
+      return run_template(o, dip, folder, report, context);
   }
   return fail(Code::kInternal, "no such verb");
 }

@@ -1,6 +1,8 @@
 #include "sim/worker/stages.h"
 
 #include "sim/worker/fit.h"
+#include "sim/worker/print_image.h"
+#include "sim/worker/template.h"
 #include "sim/worker/validate.h"
 
 namespace hydroprint::worker {
@@ -17,6 +19,8 @@ void append(std::vector<Stage>& stages, const std::vector<Stage>& more) {
 std::vector<Stage> stages(const Options& options) {
   if (options.verb == Verb::kValidate) return validation_stages(options);
   if (options.verb == Verb::kFit) return fit_stages();
+  if (options.verb == Verb::kPrintImage) return print_image_stages();
+  if (options.verb == Verb::kTemplate) return template_stages();
   const bool is_sheet = options.film_model == pipeline::FilmModel::kSheet;
   const bool is_simulation = options.verb == Verb::kSimulate;
   const int passes = is_sheet && options.ink_image.empty() ? options.ink_passes : 0;

@@ -1,0 +1,149 @@
+#include "hardware/printer/exchange.h"
+
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace hydroprint::printer {
+namespace {
+
+using std::chrono::milliseconds;
+
+struct HttpClose {
+  void operator()(http_t* http) const { httpClose(http); }
+};
+using Http = std::unique_ptr<http_t, HttpClose>;
+
+/// Breaks a connection off when its time is up: the library bounds each wait, but not their number.
+class Deadline {
+ public:
+  Deadline(int socket, milliseconds after)
+      : thread_([this, socket, end = std::chrono::steady_clock::now() + after] {
+          std::unique_lock lock(mutex_);
+          if (wake_.wait_until(lock, end, [this] { return is_over_; })) return;
+          has_passed_ = true;
+          ::shutdown(socket, SHUT_RDWR);
+        }) {}
+  ~Deadline() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_over_ = true;
+    }
+    wake_.notify_one();
+    thread_.join();
+  }
+  Deadline(const Deadline&) = delete;
+  Deadline& operator=(const Deadline&) = delete;
+
+  [[nodiscard]] bool has_passed() const {
+    const std::lock_guard lock(mutex_);
+    return has_passed_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable wake_;
+  bool is_over_ = false, has_passed_ = false;
+  std::thread thread_;  // last: it uses the others
+};
+
+/// The library asks whether to wait on when the time for one wait is up.
+int give_up(http_t*, void* timed_out) {
+  *static_cast<bool*>(timed_out) = true;
+  return 0;
+}
+
+/// One connection and what happened on it.
+class Connection {
+ public:
+  Connection(const Address& address, const ExchangeTiming& timing)
+      : address_(address), timing_(timing) {
+    http_.reset(
+        httpConnect2(address.host.c_str(), address.port, nullptr, AF_UNSPEC,
+                     address.encrypted ? HTTP_ENCRYPTION_ALWAYS : HTTP_ENCRYPTION_IF_REQUESTED, 1,
+                     static_cast<int>(timing.connect.count()), nullptr));
+  }
+
+  [[nodiscard]] Result<Ipp> exchange(ipp_t* request, std::span<const unsigned char> document) {
+    if (!http_) return failure(kUnreachable, "cannot be reached. Is it on, and the address right?");
+    const double wait_s = std::chrono::duration<double>(timing_.answer).count();
+    httpSetTimeout(http_.get(), wait_s, give_up, &timed_out_);
+    Deadline deadline(httpGetFd(http_.get()), timing_.whole);
+    // A printer that refuses may say why and hang up before it has all.
+    const bool is_sent = send(request, document);
+    Ipp reply(ippNew());
+    http_status_t status = HTTP_STATUS_CONTINUE;
+    while (status == HTTP_STATUS_CONTINUE) status = httpUpdate(http_.get());
+    if (status == HTTP_STATUS_ERROR) return broken(deadline, is_sent);
+    if (status != HTTP_STATUS_OK) {
+      return failure(kNoIpp, "answers \"" + std::string(httpStatus(status)) +
+                                 "\". Check the address's path, as in ipp://HOST/ipp/print");
+    }
+    ipp_state_t state = IPP_STATE_IDLE;
+    while (state != IPP_STATE_DATA && state != IPP_STATE_ERROR) {
+      state = ippRead(http_.get(), reply.get());
+    }
+    if (state == IPP_STATE_DATA) return reply;
+    if (timed_out_ || deadline.has_passed() || httpError(http_.get()) != 0) {
+      return broken(deadline, is_sent);
+    }
+    return failure(kNoIpp, "answers what is no IPP. Check the address");
+  }
+
+ private:
+  [[nodiscard]] bool send(ipp_t* request, std::span<const unsigned char> document) {
+    http_t* http = http_.get();
+    httpClearFields(http);
+    httpSetField(http, HTTP_FIELD_CONTENT_TYPE, "application/ipp");
+    httpSetLength(http, ippLength(request) + document.size());
+    if (httpPost(http, address_.resource.c_str()) != 0) return false;
+    ippSetState(request, IPP_STATE_IDLE);
+    ipp_state_t state = IPP_STATE_IDLE;
+    while (state != IPP_STATE_DATA) {
+      state = ippWrite(http, request);
+      if (state == IPP_STATE_ERROR) return false;
+    }
+    return send(document);
+  }
+  [[nodiscard]] bool send(std::span<const unsigned char> document) {
+    constexpr std::size_t kPart = 65536;
+    while (!document.empty()) {
+      const auto part = document.first(std::min(kPart, document.size()));
+      const ssize_t written =
+          httpWrite2(http_.get(), reinterpret_cast<const char*>(part.data()), part.size());
+      if (written <= 0) return false;
+      document = document.subspan(static_cast<std::size_t>(written));
+      if (httpWait(http_.get(), 0) != 0) return document.empty();  // it has its answer already
+    }
+    return httpFlushWrite(http_.get()) >= 0;
+  }
+
+  [[nodiscard]] tl::unexpected<Error> failure(const char* reason, const std::string& what) const {
+    return fail(Code::kUnavailable, "printer " + address_.uri + ": " + what, reason);
+  }
+  [[nodiscard]] tl::unexpected<Error> broken(const Deadline& deadline, bool is_sent) const {
+    if (timed_out_ || deadline.has_passed()) {
+      return failure(kSilent, is_sent ? "does not answer in time. Look at its display"
+                                      : "does not take the data in time. Look at its display");
+    }
+    return failure(kLost, "broke the connection off. Is it still on?");
+  }
+
+  const Address& address_;
+  const ExchangeTiming& timing_;
+  Http http_;
+  bool timed_out_ = false;
+};
+
+}  // namespace
+
+Result<Ipp> exchange(const Address& address, const ExchangeTiming& timing, ipp_t* request,
+                     std::span<const unsigned char> document) {
+  return Connection(address, timing).exchange(request, document);
+}
+
+}  // namespace hydroprint::printer

@@ -1,0 +1,130 @@
+#include "sim/ink/printer_colours.h"
+
+#include <lcms2.h>
+#include <lcms2_plugin.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "sim/base/input_file.h"
+
+namespace hydroprint::ink {
+namespace {
+
+/// No file may be larger, and no table that one announces: real ones have 1 MiB or so, while the
+/// library would allocate half a GiB on the word of a damaged header.
+constexpr std::size_t kMost_bytes = std::size_t{64} << 20;
+constexpr std::size_t kHeader_bytes = 128;
+
+void* allocate(cmsContext, cmsUInt32Number bytes) {
+  return bytes <= kMost_bytes ? std::malloc(bytes) : nullptr;
+}
+void* reallocate(cmsContext, void* memory, cmsUInt32Number bytes) {
+  return bytes <= kMost_bytes ? std::realloc(memory, bytes) : nullptr;
+}
+void release(cmsContext, void* memory) { std::free(memory); }
+
+/// Keeps what the library says first.
+void note_error(cmsContext context, cmsUInt32Number, const char* text) {
+  auto* said = static_cast<std::string*>(cmsGetContextUserData(context));
+  if (said != nullptr && said->empty()) *said = text;
+}
+
+/// The library leaves out what lies beyond the end of the file and goes on with the rest.
+Status check_whole(const std::string& bytes, const std::string& name) {
+  std::size_t announced = 0;
+  if (bytes.size() >= kHeader_bytes) {
+    for (int i = 0; i < 4; ++i) announced = announced << 8 | static_cast<unsigned char>(bytes[i]);
+  }
+  if (bytes.size() < kHeader_bytes || bytes.size() < announced) {
+    return fail(Code::kDataLoss, name + ": an ICC profile cut short, or none. Its " +
+                                     std::to_string(bytes.size()) + " bytes should be " +
+                                     std::to_string(std::max(announced, kHeader_bytes)) +
+                                     " or more. Get the file again");
+  }
+  return {};
+}
+
+}  // namespace
+
+/// An own context of the library, so that nothing is global, and what was made in it.
+class PrinterColours::LittleCms {
+ public:
+  LittleCms() {
+    cmsPluginMemHandler memory{};
+    memory.base = {cmsPluginMagicNumber, LCMS_VERSION, cmsPluginMemHandlerSig, nullptr};
+    memory.MallocPtr = allocate;
+    memory.ReallocPtr = reallocate;
+    memory.FreePtr = release;
+    context_ = cmsCreateContext(&memory, &said_);
+    cmsSetLogErrorHandlerTHR(context_, note_error);
+  }
+  ~LittleCms() {
+    if (transform_ != nullptr) cmsDeleteTransform(transform_);
+    if (profile_ != nullptr) cmsCloseProfile(profile_);
+    cmsDeleteContext(context_);
+  }
+  LittleCms(const LittleCms&) = delete;
+  LittleCms& operator=(const LittleCms&) = delete;
+
+  [[nodiscard]] Status open(const std::string& bytes, const std::string& name) {
+    profile_ = cmsOpenProfileFromMemTHR(context_, bytes.data(),
+                                        static_cast<cmsUInt32Number>(bytes.size()));
+    if (profile_ == nullptr) return damaged(name);
+    const cmsColorSpaceSignature space = cmsGetColorSpace(profile_);
+    if (cmsGetDeviceClass(profile_) != cmsSigOutputClass ||
+        (space != cmsSigCmykData && space != cmsSigRgbData)) {
+      return fail(Code::kInvalidArgument, name +
+                                              ": not the profile of a CMYK printer, nor of an RGB "
+                                              "one. Name an ICC output profile whose colour space "
+                                              "is CMYK or RGB");
+    }
+    channels_ = space == cmsSigCmykData ? 4 : 3;
+    const cmsHPROFILE srgb = cmsCreate_sRGBProfileTHR(context_);
+    if (srgb == nullptr) return damaged(name);
+    transform_ = cmsCreateTransformTHR(context_, srgb, TYPE_RGB_8, profile_,
+                                       channels_ == 4 ? TYPE_CMYK_16 : TYPE_RGB_16,
+                                       INTENT_RELATIVE_COLORIMETRIC, 0);
+    cmsCloseProfile(srgb);
+    if (transform_ == nullptr) return damaged(name);
+    return {};
+  }
+
+  void convert(const std::uint8_t* rgb, std::size_t count, std::uint16_t* out) const {
+    cmsDoTransform(transform_, rgb, out, static_cast<cmsUInt32Number>(count));
+  }
+  [[nodiscard]] int channels() const { return channels_; }
+
+ private:
+  [[nodiscard]] tl::unexpected<Error> damaged(const std::string& name) const {
+    const std::string why = said_.substr(0, said_.find('\n'));
+    return fail(Code::kDataLoss, name + ": not a sound ICC profile" +
+                                     (why.empty() ? "" : " (" + why + ")") +
+                                     ". Get the file again");
+  }
+
+  std::string said_;
+  cmsContext context_ = nullptr;
+  cmsHPROFILE profile_ = nullptr;
+  cmsHTRANSFORM transform_ = nullptr;
+  int channels_ = 4;
+};
+
+Result<PrinterColours> PrinterColours::open(const std::filesystem::path& icc_profile) {
+  const std::string name = icc_profile.string();
+  PrinterColours out;
+  HP_ASSIGN_OR_RETURN(out.icc_profile_, read_text_file(icc_profile, kMost_bytes));
+  HP_RETURN_IF_ERROR(check_whole(out.icc_profile_, name));
+  const auto cms = std::make_shared<LittleCms>();
+  HP_RETURN_IF_ERROR(cms->open(out.icc_profile_, name));
+  out.cms_ = cms;
+  return out;
+}
+
+int PrinterColours::channels() const { return cms_->channels(); }
+
+void PrinterColours::convert(const std::uint8_t* rgb, std::size_t count, std::uint16_t* out) const {
+  cms_->convert(rgb, count, out);
+}
+
+}  // namespace hydroprint::ink

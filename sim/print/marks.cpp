@@ -1,0 +1,256 @@
+#include "sim/print/marks.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "sim/image/lettering.h"
+
+namespace hydroprint::print {
+namespace {
+
+using Eigen::Vector2d;
+using Strokes = std::vector<Stroke>;
+
+constexpr double kPen_mm = 0.25;
+constexpr double kClearance_mm = 1;  ///< from the film
+constexpr double kLetter_mm = 1.6;   ///< height of a lower-case x
+constexpr double kOff_mm = 2;       ///< from the film's edge to where a registration mark begins
+constexpr double kMark_mm = 5;       ///< its length
+constexpr double kBleed_mm = 0.5;    ///< around what is lettered
+
+Stroke line(const Vector2d& from_mm, const Vector2d& to_mm) {
+  return {{from_mm, to_mm}, kPen_mm, 1};
+}
+
+Box box_of(const Strokes& strokes) {
+  Box box{Vector2d::Constant(HUGE_VAL), Vector2d::Constant(-HUGE_VAL)};
+  for (const Stroke& stroke : strokes) {
+    for (const Vector2d& point : stroke.points_mm) {
+      const Vector2d half = Vector2d::Constant(stroke.width_mm / 2);
+      box.low_mm = box.low_mm.cwiseMin(point - half);
+      box.high_mm = box.high_mm.cwiseMax(point + half);
+    }
+  }
+  return box;
+}
+
+void append(Strokes& to, Strokes from) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+/// Draws marks on a sheet as long as there is room.
+class Marker {
+ public:
+  Marker(Sheet& sheet, const Box& printable) : sheet_(sheet), space_(printable) {
+    space_.take(sheet.film_mm, kClearance_mm);
+  }
+
+  /// Marks that have their place; those that have no room there are left out.
+  void draw_fixed(const std::string& name, const Strokes& strokes) {
+    bool all = true;
+    for (const Stroke& stroke : strokes) {
+      const Box box = box_of({stroke});
+      if (!space_.is_free(box)) {
+        all = false;
+        continue;
+      }
+      sheet_.marks.push_back(stroke);
+      pending_.push_back(box);
+    }
+    note(name, all);
+  }
+
+  /// One that may stand anywhere.
+  /// @param draw  from the lower left corner of its box
+  template <class Draw>
+  [[nodiscard]] bool place(const Vector2d& size_mm, const Vector2d& near_mm, Draw&& draw) {
+    settle();
+    const auto box = space_.find(size_mm, near_mm);
+    if (!box) return false;
+    append(sheet_.marks, draw(box->low_mm));
+    pending_.push_back(*box);
+    return true;
+  }
+
+  void note(const std::string& name, bool drawn) {
+    (drawn ? sheet_.drawn : sheet_.dropped).push_back(name);
+  }
+
+ private:
+  /// Marks that have their place may touch each other; others keep away from all.
+  void settle() {
+    for (const Box& box : pending_) {
+      const Vector2d around = Vector2d::Constant(kClearance_mm);
+      space_.take(Box{box.low_mm - around, box.high_mm + around});
+    }
+    pending_.clear();
+  }
+
+  Sheet& sheet_;
+  FreeSpace space_;
+  std::vector<Box> pending_;
+};
+
+Vector2d middle_of(const Box& box) { return (box.low_mm + box.high_mm) / 2; }
+
+/// Off the sides of a box: across the ones below and above at those x, and the other two at those
+/// y. All are given from the box's middle.
+Strokes side_marks(const Box& box, const std::vector<double>& at_x,
+                   const std::vector<double>& at_y) {
+  Strokes out;
+  for (int axis = 0; axis < 2; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      for (const double at : axis == 0 ? at_x : at_y) {
+        Vector2d from, to;
+        from[axis] = to[axis] = at;
+        from[1 - axis] = side * (box.size_mm()[1 - axis] / 2 + kOff_mm);
+        to[1 - axis] = from[1 - axis] + side * kMark_mm;
+        out.push_back(line(middle_of(box) + from, middle_of(box) + to));
+      }
+    }
+  }
+  return out;
+}
+
+/// Off the middle of each side, where a sliding bar is, and off where the bar begins and ends.
+Strokes bar_marks(const Box& film, double bar_mm) {
+  std::vector<double> along = {0};
+  if (bar_mm > 0) along = {-bar_mm / 2, 0, bar_mm / 2};
+  return side_marks(film, along, along);
+}
+
+/// Both edges drawn on beyond each corner of a box.
+Strokes corner_marks(const Box& box) {
+  const Vector2d half = box.size_mm() / 2;
+  return side_marks(box, {-half.x(), half.x()}, {-half.y(), half.y()});
+}
+
+/// Off the window's sides: where the neighbours' windows begin and end.
+Strokes join_marks(const MarkPlan& plan) {
+  const Vector2d middle = middle_of(plan.window);
+  std::vector<double> at_x = plan.joins_x_mm, at_y = plan.joins_y_mm;
+  for (double& x : at_x) x -= middle.x();
+  for (double& y : at_y) y -= middle.y();
+  return side_marks(plan.window, at_x, at_y);
+}
+
+/// Marks of the film at parts of it that are on other sheets stand there.
+Strokes on_this_sheet(Strokes marks, const Box& window) {
+  std::erase_if(marks, [&](const Stroke& mark) {
+    const Vector2d off = Vector2d::Constant(kOff_mm + kClearance_mm);
+    const Vector2d& from = mark.points_mm.front();
+    return (from - window.low_mm + off).minCoeff() < 0 ||
+           (window.high_mm + off - from).minCoeff() < 0;
+  });
+  return marks;
+}
+
+/// An arrow up, to the film's +y, with a word beside it.
+constexpr double kArrow_mm = 12;
+const std::string kArrowText = "top +y";
+
+Vector2d arrow_size_mm() {
+  return {6 + text_width_mm(kArrowText, kLetter_mm) + kBleed_mm, kArrow_mm + 2 * kBleed_mm};
+}
+
+Strokes arrow(const Vector2d& low_mm) {
+  const Vector2d foot = low_mm + Vector2d(2.5, kBleed_mm);
+  const Vector2d tip = foot + Vector2d(0, kArrow_mm);
+  Strokes out = {{{foot, tip}, 2 * kPen_mm, 1},
+                 {{tip + Vector2d(-2, -3.5), tip, tip + Vector2d(2, -3.5)}, 2 * kPen_mm, 1}};
+  append(out,
+         lettered(kArrowText, foot + Vector2d(3.5, kArrow_mm / 2 - kLetter_mm / 2), kLetter_mm));
+  return out;
+}
+
+void add_ruler(Marker& marker, const Box& printable, bool upright) {
+  const Vector2d middle = (printable.low_mm + printable.high_mm) / 2;
+  const Vector2d near = upright ? Vector2d(printable.low_mm.x(), middle.y())
+                                : Vector2d(middle.x(), printable.low_mm.y());
+  for (const double length_mm : {200.0, 150.0, 100.0, 50.0}) {
+    if (marker.place(ruler_size_mm(length_mm, upright), near,
+                     [&](const Vector2d& low_mm) { return ruler(low_mm, length_mm, upright); })) {
+      return marker.note(upright ? "upright ruler" : "ruler", true);
+    }
+  }
+  marker.note(upright ? "upright ruler" : "ruler", false);
+}
+
+void add_text(Marker& marker, const Box& printable, const std::string& text) {
+  const Vector2d near((printable.low_mm.x() + printable.high_mm.x()) / 2, printable.high_mm.y());
+  for (const double letter_mm : {kLetter_mm, 1.2, 0.9}) {
+    const Vector2d size_mm(text_width_mm(text, letter_mm) + 2 * kBleed_mm,
+                           2.2 * letter_mm + 2 * kBleed_mm);
+    if (marker.place(size_mm, near, [&](const Vector2d& low_mm) {
+          return lettered(text, low_mm + Vector2d(kBleed_mm, kBleed_mm + 0.6 * letter_mm),
+                          letter_mm);
+        })) {
+      return marker.note("text", true);
+    }
+  }
+  marker.note("text", false);
+}
+
+}  // namespace
+
+Strokes lettered(const std::string& text, const Vector2d& at_mm, double size_mm) {
+  std::string lower = text;  // which is all the letters there are
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  Strokes out;
+  for (auto& points : image::text_strokes(lower)) {
+    for (Vector2d& point : points) point = at_mm + size_mm * point;
+    out.push_back({std::move(points), image::kPen * size_mm, 1});
+  }
+  return out;
+}
+
+double text_width_mm(const std::string& text, double size_mm) {
+  std::string lower = text;
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return image::text_width_px(size_mm, lower);
+}
+
+Vector2d ruler_size_mm(double length_mm, bool upright) {
+  const Vector2d lying(length_mm + 12, 8);
+  return upright ? Vector2d(12, length_mm + 6) : lying;
+}
+
+Strokes ruler(const Vector2d& low_mm, double length_mm, bool upright) {
+  const Vector2d zero = low_mm + (upright ? Vector2d(0.5, 3) : Vector2d(2, 0.5));
+  const Vector2d along = upright ? Vector2d::UnitY() : Vector2d::UnitX();
+  const Vector2d across = upright ? Vector2d::UnitX() : Vector2d::UnitY();
+  Strokes out = {line(zero, zero + length_mm * along)};
+  const int ticks = static_cast<int>(std::lround(length_mm / 10));
+  for (int i = 0; i <= ticks; ++i) {
+    const Vector2d at = zero + 10.0 * i * along;
+    out.push_back(line(at, at + (i % 5 == 0 ? 3.5 : 2.0) * across));
+  }
+  const auto label = [&](const std::string& text, double at_mm) {
+    const Vector2d at = upright ? zero + Vector2d(4.5, at_mm - kLetter_mm / 2)
+                                : zero + Vector2d(at_mm - 0.5 * kLetter_mm, 4.6);
+    append(out, lettered(text, at, upright ? 0.8 : 1.1));
+  };
+  label("0", 0);
+  label(std::to_string(static_cast<int>(length_mm)) + " mm", length_mm);
+  return out;
+}
+
+void add_marks(Sheet& sheet, const MarkPlan& plan) {
+  Marker marker(sheet, plan.printable);
+  const bool is_part = !plan.joins_x_mm.empty() || !plan.joins_y_mm.empty();
+  const auto here = [&](Strokes marks) {
+    return is_part ? on_this_sheet(std::move(marks), plan.window) : marks;
+  };
+  marker.draw_fixed("registration marks", here(bar_marks(plan.film, plan.bar_mm)));
+  marker.draw_fixed("corner marks", corner_marks(plan.window));
+  if (is_part) marker.draw_fixed("join marks", join_marks(plan));
+  add_ruler(marker, plan.printable, false);
+  add_ruler(marker, plan.printable, true);
+  marker.note("arrow", marker.place(arrow_size_mm(), plan.printable.high_mm, arrow));
+  if (!plan.text.empty()) add_text(marker, plan.printable, plan.text);
+}
+
+}  // namespace hydroprint::print

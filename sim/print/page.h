@@ -1,0 +1,41 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "sim/image/printer_image.h"
+
+namespace hydroprint::print {
+
+/// A line drawn with a round pen. Places are in the page's frame: mm, from the sheet's lower left
+/// corner, x to the right, y up.
+struct Stroke {
+  std::vector<Eigen::Vector2d> points_mm;
+  double width_mm = 0.25;
+  double ink = 1;  ///< black, from 0 to 1
+};
+
+/// An image on a page: square pixels, each of them exactly pitch_mm wide.
+struct PlacedImage {
+  image::PrinterImage image;
+  double pitch_mm = 1;
+  Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< its lower left corner
+};
+
+/// One side of one sheet of paper.
+struct Page {
+  Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
+  std::vector<PlacedImage> images;
+  std::vector<Stroke> strokes;  ///< over the images
+};
+
+/// Pages that are printed together, and what their colours mean.
+struct Document {
+  std::string title;
+  std::string icc_profile;  ///< of the printer, that the images are for; empty: sRGB or plain CMYK
+  bool cmyk = false;        ///< images have four channels, strokes are of black ink alone
+  std::vector<Page> pages;
+};
+
+}  // namespace hydroprint::print

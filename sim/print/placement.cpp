@@ -1,0 +1,269 @@
+#include "sim/print/placement.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/image/pictures.h"
+#include "sim/print/marks.h"
+#include "sim/waterline/body.h"
+#include "sim/waterline/cross_section.h"
+#include "sim/waterline/slicer.h"
+
+namespace hydroprint::print {
+namespace {
+
+using Eigen::Vector2d;
+using Strokes = std::vector<Stroke>;
+
+constexpr double kLetter_mm = 1.6;
+constexpr double kSlice_mm = 0.5;  ///< between the cuts that make the silhouette
+constexpr int kMostSlices = 400;
+constexpr double kBold_mm = 0.6, kThin_mm = 0.15, kLine_mm = 0.25;
+
+Vector2d turned(const Vector2d& size_mm) { return {size_mm.y(), size_mm.x()}; }
+
+/// The paper as it is fed, so that the film has room.
+Result<Vector2d> sheet_for(const film::Outline& outline, const PageSettings& settings) {
+  for (const Vector2d& size_mm : {settings.paper_mm, turned(settings.paper_mm)}) {
+    if ((size_mm - outline.size_mm()).minCoeff() >= -1e-6) return size_mm;
+  }
+  return fail(Code::kOutOfRange,
+              "paper: smaller than the film " + outline.name + ". Use paper of its size or larger");
+}
+
+/// What of the object is at or below some immersion, seen from above.
+waterline::CrossSection silhouette(const waterline::Slicer& slicer, double height_mm) {
+  const int slices = std::clamp(static_cast<int>(height_mm / kSlice_mm), 1, kMostSlices);
+  std::vector<waterline::Contour> all;
+  for (int i = 0; i < slices; ++i) {
+    auto contours = slicer.cut(height_mm * (i + 0.5) / slices);
+    std::move(contours.begin(), contours.end(), std::back_inserter(all));
+  }
+  return waterline::unite(all);
+}
+
+Strokes outlines(const waterline::CrossSection& section, const Vector2d& origin_mm, double width_mm,
+                 double ink) {
+  Strokes out;
+  for (const waterline::Loop& loop : section) {
+    Stroke stroke{{}, width_mm, ink};
+    for (const Vector2d& p : loop.points_mm) stroke.points_mm.push_back(origin_mm + p);
+    if (!stroke.points_mm.empty()) stroke.points_mm.push_back(stroke.points_mm.front());
+    out.push_back(std::move(stroke));
+  }
+  return out;
+}
+
+Box box_round(const waterline::CrossSection& section) {
+  Box box{Vector2d::Constant(HUGE_VAL), Vector2d::Constant(-HUGE_VAL)};
+  for (const waterline::Loop& loop : section) {
+    for (const Vector2d& p : loop.points_mm) {
+      box.low_mm = box.low_mm.cwiseMin(p);
+      box.high_mm = box.high_mm.cwiseMax(p);
+    }
+  }
+  return box;
+}
+
+void append(Strokes& to, Strokes from) {
+  std::move(from.begin(), from.end(), std::back_inserter(to));
+}
+
+/// Both axes over the whole film, a tick every 10 mm, longer every 50.
+Strokes axes(const film::Outline& outline, const Vector2d& origin_mm) {
+  Strokes out;
+  for (int axis = 0; axis < 2; ++axis) {
+    const Vector2d along = Vector2d::Unit(axis), across = Vector2d::Unit(1 - axis);
+    const double low = outline.min_mm[axis], high = outline.max_mm[axis];
+    out.push_back({{origin_mm + low * along, origin_mm + high * along}, kThin_mm, 0.6});
+    for (double at = std::ceil(low / 10) * 10; at <= high; at += 10) {
+      const double half = std::lround(at) % 50 == 0 ? 2 : 1;
+      out.push_back(
+          {{origin_mm + at * along - half * across, origin_mm + at * along + half * across},
+           kThin_mm,
+           0.6});
+    }
+    const Vector2d end =
+        origin_mm + high * along - (axis == 0 ? Vector2d(6, -2.5) : Vector2d(-2.5, 6));
+    append(out, lettered(axis == 0 ? "+x" : "+y", end, kLetter_mm));
+  }
+  return out;
+}
+
+Stroke film_edge(const film::Outline& outline, const Vector2d& origin_mm) {
+  Stroke out{{}, kLine_mm, 0.6};
+  for (const Vector2d& p : outline.polygon) out.points_mm.push_back(origin_mm + p);
+  out.points_mm.push_back(out.points_mm.front());
+  return out;
+}
+
+/// A cross with a gap, so that the place itself stays visible.
+Strokes cross(const Vector2d& at_mm) {
+  Strokes out;
+  for (const Vector2d& way : {Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)}) {
+    out.push_back({{at_mm + 0.7 * way, at_mm + 4 * way}, kLine_mm, 1});
+  }
+  return out;
+}
+
+std::string rounded(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.2f", value == 0 ? 0 : value);
+  return buffer.data();
+}
+
+/// What stands beside the drawing.
+std::vector<std::string> lines_of(const Placement& placement, const PageSettings& settings) {
+  const Eigen::Quaterniond q(placement.X_FO.linear());
+  const Eigen::Vector3d& t = placement.X_FO.translation();
+  std::vector<std::string> out;
+  if (!settings.job_name.empty()) out.push_back(settings.job_name);
+  if (!settings.date.empty()) out.push_back(settings.date);
+  out.push_back("placement, seen from above");
+  out.push_back("bold: first contact, middle");
+  out.push_back("x " + rounded(placement.contact_mm.x()) + "  y " +
+                rounded(placement.contact_mm.y()) + " mm");
+  out.push_back("grey: all of the object");
+  out.push_back("wxyz " + rounded(q.w()) + " " + rounded(q.x()) + " " + rounded(q.y()) + " " +
+                rounded(q.z()));
+  out.push_back("origin x " + rounded(t.x()) + "  y " + rounded(t.y()) + " mm");
+  return out;
+}
+
+/// Puts what is to be read where the object is not.
+class Legend {
+ public:
+  Legend(Page& page, const Box& printable, const waterline::CrossSection& object,
+         const Vector2d& origin_mm)
+      : page_(page), printable_(printable), space_(printable) {
+    for (const waterline::Loop& loop : object) {
+      if (loop.is_hole) continue;
+      std::vector<Vector2d> polygon;
+      for (const Vector2d& p : loop.points_mm) polygon.push_back(origin_mm + p);
+      space_.take(polygon, 2);
+    }
+    for (const Vector2d& way : {Vector2d(3, 4000), Vector2d(4000, 3)}) {  // the axes
+      space_.take(Box{origin_mm - way, origin_mm + way});
+    }
+  }
+
+  [[nodiscard]] bool add_ruler() {
+    for (const double length_mm : {100.0, 50.0}) {
+      const Vector2d near(printable_.low_mm.x(), printable_.low_mm.y());
+      const auto box = space_.find(ruler_size_mm(length_mm, false), near);
+      if (!box) continue;
+      append(page_.strokes, ruler(box->low_mm, length_mm, false));
+      space_.take(*box);
+      return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] bool add_text(const std::vector<std::string>& lines) {
+    for (const double letter_mm : {kLetter_mm, 1.2, 0.9}) {
+      double width_mm = 0;
+      for (const std::string& line : lines) {
+        width_mm = std::max(width_mm, text_width_mm(line, letter_mm));
+      }
+      const double step_mm = 2.8 * letter_mm;
+      const Vector2d size_mm(width_mm + 1, step_mm * static_cast<double>(lines.size()) + 1);
+      const Vector2d near(printable_.low_mm.x(), printable_.high_mm.y());
+      const auto box = space_.find(size_mm, near);
+      if (!box) continue;
+      double baseline = box->high_mm.y();
+      for (const std::string& line : lines) {
+        baseline -= step_mm;
+        append(page_.strokes,
+               lettered(line, {box->low_mm.x() + 0.5, baseline + letter_mm}, letter_mm));
+      }
+      space_.take(*box);
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  Page& page_;
+  Box printable_;
+  FreeSpace space_;
+};
+
+/// The views of `simulate`'s pictures, of an object without colours.
+Result<Page> orientation_page(const mesh::Surface& surface, const Pose& X_FO,
+                              const Vector2d& size_mm, const film::Outline& outline,
+                              double margin_mm, const Context& context) {
+  const image::RgbImage white{1, 1, {255, 255, 255}};
+  HP_ASSIGN_OR_RETURN(const auto film, image::FilmTexture::from_image(white, outline, 1, context));
+  HP_ASSIGN_OR_RETURN(image::RgbImage picture,
+                      image::predicted_picture(surface, X_FO, {}, film, context));
+  Page page;
+  page.size_mm = size_mm;
+  const Vector2d room = size_mm - Vector2d::Constant(2 * std::max(margin_mm, 10.0));
+  const double pitch_mm = std::min(room.x() / picture.width, room.y() / picture.height);
+  const Vector2d drawn = Vector2d(picture.width, picture.height) * pitch_mm;
+  page.images.push_back({{picture.width, picture.height, 3, std::move(picture.rgb)},
+                         pitch_mm,
+                         (size_mm - drawn) / 2});
+  return page;
+}
+
+Status check_contact(const waterline::CrossSection& contact, const film::Outline& outline) {
+  std::vector<std::vector<Vector2d>> solid;
+  for (const waterline::Loop& loop : contact) solid.push_back(loop.points_mm);
+  if (!solid.empty() && waterline::common_area({outline.polygon}, solid) > 0) return {};
+  return fail(Code::kFailedPrecondition,
+              "pose: the object's first contact misses the film " + outline.name +
+                  "; move the object over the film (translation_mm) or take a larger --film",
+              "CONTACT_MISSES_FILM");
+}
+
+}  // namespace
+
+Result<Placement> placement(const mesh::Surface& surface, const std::optional<Pose>& X_FO,
+                            const film::Outline& outline, const PageSettings& settings,
+                            const Context& context) {
+  HP_RETURN_IF_ERROR(check(settings));
+  Page page;
+  HP_ASSIGN_OR_RETURN(page.size_mm, sheet_for(outline, settings));
+  Placement out;
+  out.X_FO = X_FO.value_or(waterline::centred_pose(surface));
+  const waterline::Body body = waterline::place(surface, out.X_FO);
+  const waterline::Slicer slicer(body);
+  const auto contact = waterline::unite(slicer.cut(std::min(kFirstContact_mm, body.height_mm / 2)));
+  HP_RETURN_IF_ERROR(check_contact(contact, outline));
+  const waterline::CrossSection object = silhouette(slicer, body.height_mm);
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+  const Box touched = box_round(contact);
+  out.contact_mm = (touched.low_mm + touched.high_mm) / 2;
+  out.contact_size_mm = touched.size_mm();
+
+  const Vector2d origin_mm = page.size_mm / 2 - (outline.min_mm + outline.max_mm) / 2;
+  page.strokes.push_back(film_edge(outline, origin_mm));
+  append(page.strokes, axes(outline, origin_mm));
+  append(page.strokes, outlines(object, origin_mm, kLine_mm, 0.5));
+  append(page.strokes, outlines(contact, origin_mm, kBold_mm, 1));
+  append(page.strokes, cross(origin_mm + out.contact_mm));
+  const Vector2d margin = Vector2d::Constant(std::max(settings.printer_margin_mm, 4.0));
+  Legend legend(page, {margin, page.size_mm - margin}, object, origin_mm);
+  const bool has_ruler = legend.add_ruler();
+  const bool has_text = legend.add_text(lines_of(out, settings));
+  if (!has_ruler || !has_text) {
+    out.warnings.push_back({"template_cut_off",
+                            "no room beside the object for the ruler or the text: left out. Use "
+                            "larger paper for them",
+                            "page 1"});
+  }
+  HP_ASSIGN_OR_RETURN(Page pictures, orientation_page(surface, out.X_FO, page.size_mm, outline,
+                                                      settings.printer_margin_mm, context));
+  out.document.title = settings.job_name.empty() ? "Placement template" : settings.job_name;
+  out.document.pages = {std::move(page), std::move(pictures)};
+  return out;
+}
+
+}  // namespace hydroprint::print

@@ -1,0 +1,71 @@
+#include "tests/hardware/printer/ipp_printer.h"
+
+#include <arpa/inet.h>
+#include <signal.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <stdexcept>
+#include <thread>
+
+namespace hydroprint::printer {
+namespace {
+
+/// A port that is free now.
+int free_port() {
+  const int file = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in at{};
+  at.sin_family = AF_INET;
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof at;
+  const bool done = ::bind(file, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0 &&
+                    ::getsockname(file, reinterpret_cast<sockaddr*>(&at), &size) == 0;
+  ::close(file);
+  if (!done) throw std::runtime_error("no free port");
+  return ntohs(at.sin_port);
+}
+
+}  // namespace
+
+IppPrinter::IppPrinter(const std::string& command) : port_(free_port()) {
+  const std::string bus = "unix:path=" + (folder_.path() / "bus").string();
+  const testing::Ended started = testing::run(
+      {"/usr/bin/dbus-daemon", "--session", "--address=" + bus, "--fork", "--print-pid"});
+  if (started.status != 0) throw std::runtime_error("dbus-daemon: " + started.err);
+  bus_ = std::stoi(started.out);
+  const auto script =
+      folder_.write("print.sh", "#!/bin/sh\nfor file; do :; done\n" + command + "\n");
+  std::filesystem::permissions(script, std::filesystem::perms::owner_all);
+  std::filesystem::create_directory(folder_.path() / "spool");
+  process_ = std::make_unique<testing::Process>(std::vector<std::string>{
+      "/usr/bin/env", "DBUS_SYSTEM_BUS_ADDRESS=" + bus, "/usr/sbin/ippeveprinter", "-r", "off",
+      "-n", "localhost", "-p", std::to_string(port_), "-d", (folder_.path() / "spool").string(),
+      "-k", "-f", "application/pdf,image/png", "-c", script.string(), "Test printer"});
+  const Printer printer(address());
+  for (int i = 0; i < 200; ++i) {
+    if (printer.attributes()) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  throw std::runtime_error("ippeveprinter does not start");
+}
+
+IppPrinter::~IppPrinter() {
+  process_.reset();
+  if (bus_ > 0) ::kill(bus_, SIGTERM);
+}
+
+Address IppPrinter::address() const {
+  return parse_address("ipp://localhost:" + std::to_string(port_) + "/ipp/print").value();
+}
+
+void IppPrinter::pull_the_plug() { process_.reset(); }
+
+std::filesystem::path IppPrinter::spooled() const {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(folder_.path() / "spool")) {
+    if (entry.is_regular_file()) return entry.path();
+  }
+  throw std::runtime_error("nothing spooled");
+}
+
+}  // namespace hydroprint::printer

@@ -1,0 +1,190 @@
+#include "sim/print/layout.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/film/outline.h"
+#include "tests/support/temporary_folder.h"
+
+namespace hydroprint::print {
+namespace {
+
+using Eigen::Vector2d;
+
+film::Outline outline_of(const std::string& film) { return film::parse_outline(film).value(); }
+
+PageSettings on(const std::string& paper) {
+  PageSettings settings;
+  settings.paper_mm = parse_paper(paper).value();
+  settings.job_name = "globe 12";
+  settings.date = "2025-03-14";
+  settings.bar_mm = 40;
+  return settings;
+}
+
+Layout laid(const std::string& film, const PageSettings& settings, double dpi = 100) {
+  const film::Outline outline = outline_of(film);
+  const auto layout = lay_out(image::film_grid(outline, 25.4 / dpi), outline, settings);
+  if (!layout) throw std::runtime_error(layout.error().message);
+  return *layout;
+}
+
+/// Every stroke, at close places along it and with its pen's width, on paper that can be printed
+/// and a millimetre off the film.
+void expect_marks_off_film(const Layout& layout, double margin_mm) {
+  for (const Sheet& sheet : layout.sheets) {
+    film::Outline film;
+    film.polygon = sheet.film_mm;
+    for (const Stroke& stroke : sheet.marks) {
+      for (std::size_t i = 0; i + 1 < stroke.points_mm.size(); ++i) {
+        for (double t = 0; t <= 1; t += 0.02) {
+          const Vector2d p =
+              stroke.points_mm[i] + t * (stroke.points_mm[i + 1] - stroke.points_mm[i]);
+          const double half = stroke.width_mm / 2;
+          EXPECT_GE((p.array() - half).minCoeff(), margin_mm);
+          EXPECT_GE((sheet.size_mm - p).minCoeff() - half, margin_mm);
+          for (int k = 0; k < 16; ++k) {
+            const Vector2d round(std::cos(k * M_PI / 8), std::sin(k * M_PI / 8));
+            EXPECT_FALSE(film::contains(film, p + (half + 0.95) * round)) << p.transpose();
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Layout, AFilmOfThePapersSizeHasNoRoomForMarksAndSaysSo) {
+  const Layout layout = laid("A4", on("A4"));
+  ASSERT_EQ(layout.sheets.size(), 1U);
+  EXPECT_TRUE(layout.sheets[0].marks.empty());
+  EXPECT_EQ(layout.sheets[0].dropped.size(), 6U);
+  ASSERT_EQ(layout.warnings.size(), 1U);
+  EXPECT_EQ(layout.warnings[0].code, "marks_dropped");
+  EXPECT_NE(layout.warnings[0].message.find("upright ruler"), std::string::npos);
+}
+
+TEST(Layout, WithRoomAllMarksAreThereAndNothingIsWarnedOf) {
+  const Layout layout = laid("A4", on("A3"));
+  ASSERT_EQ(layout.sheets.size(), 1U);
+  EXPECT_EQ(layout.sheets[0].drawn,
+            (std::vector<std::string>{"registration marks", "corner marks", "ruler",
+                                      "upright ruler", "arrow", "text"}));
+  EXPECT_TRUE(layout.warnings.empty());
+  EXPECT_EQ(layout.sheets[0].size_mm, Vector2d(297, 420));
+}
+
+TEST(Layout, MarksNeverLieOnFilm) {
+  const testing::TemporaryFolder folder;
+  const std::string polygon =
+      folder.write("l.json", "[[0,0],[150,0],[150,60],[70,60],[70,190],[0,190]]");
+  const std::vector<std::string> films = {"A4", "circle:90", "200x120", "120x200",
+                                          "polygon:" + polygon};
+  for (const std::string& film : films) {
+    for (const std::string paper : {"A3", "A4", "letter", "250x320", "400x310"}) {
+      for (const double margin_mm : {0.0, 4.2}) {
+        for (const bool mirror : {false, true}) {
+          PageSettings settings = on(paper);
+          settings.printer_margin_mm = margin_mm;
+          settings.mirror = mirror;
+          SCOPED_TRACE(film + " on " + paper);
+          expect_marks_off_film(laid(film, settings), margin_mm);
+        }
+      }
+    }
+  }
+}
+
+TEST(Layout, RegistrationMarksPointAtTheMiddlesAndEndsOfTheBars) {
+  const Layout layout = laid("100x160", on("A4"));
+  const Sheet& sheet = layout.sheets[0];
+  const Vector2d middle = sheet.size_mm / 2;
+  int found = 0;
+  for (const Stroke& stroke : sheet.marks) {
+    if (stroke.points_mm.size() != 2) continue;
+    const Vector2d from = stroke.points_mm[0] - middle, to = stroke.points_mm[1] - middle;
+    for (const double along : {-20.0, 0.0, 20.0}) {
+      for (const double side : {-1.0, 1.0}) {
+        found += (from - Vector2d(along, side * 82)).norm() < 1e-9 && to.x() == from.x();
+        found += (from - Vector2d(side * 52, along)).norm() < 1e-9 && to.y() == from.y();
+      }
+    }
+  }
+  EXPECT_EQ(found, 12);
+}
+
+TEST(Layout, PaperIsTurnedWhereTheFilmElseWouldNotFit) {
+  EXPECT_EQ(laid("280x100", on("A4")).sheets[0].size_mm, Vector2d(297, 210));
+  EXPECT_EQ(laid("100x280", on("A4")).sheets[0].size_mm, Vector2d(210, 297));
+}
+
+TEST(Layout, SheetsCoverALargerFilmAndOverlapAsAsked) {
+  for (const double overlap_mm : {0.0, 7.3, 15.0}) {
+    for (const std::string film : {"A3", "500x200", "211x297", "900x1200"}) {
+      PageSettings settings = on("A4");
+      settings.overlap_mm = overlap_mm;
+      settings.printer_margin_mm = 3;
+      SCOPED_TRACE(film);
+      const Layout layout = laid(film, settings);
+      ASSERT_EQ(layout.sheets.size(), static_cast<std::size_t>(layout.columns * layout.rows));
+      ASSERT_GT(layout.sheets.size(), 1U);
+      expect_marks_off_film(layout, 3);
+      const image::FilmGrid grid = image::film_grid(outline_of(film), layout.pitch_mm);
+      for (const Sheet& sheet : layout.sheets) {
+        const Pixels& own = sheet.window;
+        EXPECT_EQ(own.x0 == 0, sheet.column == 0);
+        EXPECT_EQ(own.x1 == grid.columns, sheet.column == layout.columns - 1);
+        EXPECT_EQ(own.y0 == 0, sheet.row == 0);
+        EXPECT_EQ(own.y1 == grid.rows, sheet.row == layout.rows - 1);
+        // All of it within the printer's reach.
+        EXPECT_EQ(sheet.printable.width(), own.width());
+        EXPECT_EQ(sheet.printable.height(), own.height());
+        if (sheet.column > 0) {
+          const Pixels& left = (&sheet)[-1].window;
+          EXPECT_GE((left.x1 - own.x0) * layout.pitch_mm, overlap_mm);
+        }
+        if (sheet.row > 0) {
+          const Pixels& above = (&sheet)[-layout.columns].window;
+          EXPECT_GE((above.y1 - own.y0) * layout.pitch_mm, overlap_mm);
+        }
+      }
+    }
+  }
+}
+
+TEST(Layout, AMirroredFilmLiesMirroredOnThePage) {
+  const testing::TemporaryFolder folder;
+  const std::string corner = "polygon:" + folder.write("c.json", "[[0,0],[100,0],[0,50]]").string();
+  PageSettings settings = on("A4");
+  const auto straight = laid(corner, settings).sheets[0].film_mm;
+  settings.mirror = true;
+  const auto mirrored = laid(corner, settings).sheets[0].film_mm;
+  ASSERT_EQ(straight.size(), mirrored.size());
+  for (std::size_t i = 0; i < straight.size(); ++i) {
+    EXPECT_NEAR(straight[i].x() + mirrored[i].x(), 210, 1e-9);
+    EXPECT_NEAR(straight[i].y(), mirrored[i].y(), 1e-9);
+  }
+}
+
+TEST(Layout, RefusesWhatMakesNoSense) {
+  const film::Outline outline = outline_of("900x1200");
+  const auto refused = [&](PageSettings settings) {
+    const auto layout = lay_out(image::film_grid(outline, 0.254), outline, settings);
+    return layout ? "" : layout.error().message;
+  };
+  PageSettings settings = on("A4");
+  settings.printer_margin_mm = 96;
+  EXPECT_NE(refused(settings).find("printer margin: "), std::string::npos);
+  settings = on("A4");
+  settings.overlap_mm = -1;
+  EXPECT_NE(refused(settings).find("overlap: "), std::string::npos);
+  settings = on("50x50");
+  EXPECT_NE(refused(settings).find("paper: too small"), std::string::npos);
+  EXPECT_FALSE(parse_paper("circle:100"));
+  EXPECT_FALSE(parse_paper("A5x"));
+  EXPECT_EQ(parse_paper("5x5").error().code, Code::kOutOfRange);
+}
+
+}  // namespace
+}  // namespace hydroprint::print

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace hydroprint::print {
+
+/// Pixels as other programs give them.
+struct Raster {
+  int width = 0, height = 0, channels = 0;
+  std::vector<std::uint8_t> samples;
+
+  [[nodiscard]] const std::uint8_t* at(int x, int y) const {
+    return &samples[(static_cast<std::size_t>(y) * width + x) * channels];
+  }
+};
+
+/// A PGM, PPM or PAM of 8 bits; throws std::runtime_error at anything else.
+[[nodiscard]] Raster read_netpbm(const std::filesystem::path& path);
+
+/// A page of a PDF, in grey, drawn by poppler.
+[[nodiscard]] Raster drawn_by_poppler(const std::filesystem::path& pdf, int dpi, int page = 1);
+
+/// A page of a PDF, or a TIFF, drawn by MuPDF with its amounts of ink untouched.
+[[nodiscard]] Raster inks_by_mupdf(const std::filesystem::path& file, int dpi, int page = 1);
+
+/// What a PDF's pages are drawn with, by MuPDF, as text.
+[[nodiscard]] std::string traced_by_mupdf(const std::filesystem::path& pdf);
+
+/// Numbers of a TIFF's first directory by their tags (rationals as quotients).
+[[nodiscard]] std::map<int, double> tiff_tags(const std::filesystem::path& path);
+
+/// Pixels per metre, across and down, and names of the chunks.
+struct PngFacts {
+  std::uint32_t per_metre_x = 0, per_metre_y = 0;
+  std::vector<std::string> chunks;
+};
+[[nodiscard]] PngFacts png_facts(const std::filesystem::path& path);
+
+/// All bytes of a file.
+[[nodiscard]] std::string bytes_of(const std::filesystem::path& path);
+
+}  // namespace hydroprint::print
