@@ -1,0 +1,124 @@
+#include "sim/scan/cloud.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace hydroprint::scan {
+namespace {
+
+constexpr double kJumpMm = 12;         ///< between neighbours: the edge of a surface
+constexpr double kSameSurfaceMm = 15;  ///< between a pixel and those its normal is taken from
+constexpr int kReachPx = 5;
+constexpr int kFewest = 12;  ///< pixels for a normal
+
+/// A fused frame as points, before it is known which of them lie on surfaces.
+struct Grid {
+  int width, height;
+  std::vector<Eigen::Vector3d> points;  ///< z = 0: none
+
+  [[nodiscard]] const Eigen::Vector3d& at(int u, int v) const {
+    return points[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
+                  static_cast<std::size_t>(u)];
+  }
+  [[nodiscard]] bool holds(int u, int v) const {
+    return u >= 0 && v >= 0 && u < width && v < height && at(u, v).z() > 0;
+  }
+};
+
+bool on_a_surface(const Grid& grid, int u, int v) {
+  if (!grid.holds(u, v)) return false;
+  const double depth = grid.at(u, v).z();
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      if (!grid.holds(u + du, v + dv)) return false;
+      if (std::abs(grid.at(u + du, v + dv).z() - depth) > kJumpMm) return false;
+    }
+  }
+  return true;
+}
+
+/// Zero if there are too few pixels around.
+Eigen::Vector3d normal_at(const Grid& grid, int u, int v) {
+  const Eigen::Vector3d centre = grid.at(u, v);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (int dv = -kReachPx; dv <= kReachPx; ++dv) {
+    for (int du = -kReachPx; du <= kReachPx; ++du) {
+      if (!grid.holds(u + du, v + dv)) continue;
+      const Eigen::Vector3d d = grid.at(u + du, v + dv) - centre;
+      if (std::abs(d.z()) > kSameSurfaceMm) continue;
+      sum += d;
+      squares += d * d.transpose();
+      ++count;
+    }
+  }
+  if (count < kFewest) return Eigen::Vector3d::Zero();
+  const Eigen::Matrix3d spread = squares - sum * sum.transpose() / count;
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(spread);
+  const Eigen::Vector3d normal = solver.eigenvectors().col(0).normalized();
+  return normal.dot(centre) > 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
+ScanPoint point_at(const Grid& grid, const FusedFrame& fused, const Lens& lens,
+                   const DepthNoise& noise, int u, int v) {
+  const std::size_t i = fused.mean.index(u, v);
+  const int patches_across = (grid.width + noise.patch_px - 1) / noise.patch_px;
+  const double reported = fused.mean.depth_mm[i];
+  return {grid.at(u, v),
+          normal_at(grid, u, v),
+          reported,
+          lens.depth_scale * fused.sigma_mm[i],
+          lens.depth_scale * noise.constant_sigma_mm(reported),
+          u,
+          v,
+          v / noise.patch_px * patches_across + u / noise.patch_px};
+}
+
+}  // namespace
+
+const ScanPoint* Cloud::at(int u, int v) const {
+  if (u < 0 || v < 0 || u >= lens.width_px || v >= lens.height_px) return nullptr;
+  const int i = at_pixel[static_cast<std::size_t>(v) * static_cast<std::size_t>(lens.width_px) +
+                         static_cast<std::size_t>(u)];
+  return i < 0 ? nullptr : &points[static_cast<std::size_t>(i)];
+}
+
+Result<Cloud> make_cloud(const FusedFrame& fused, const Lens& lens, const DepthNoise& noise,
+                         const Context& context) {
+  const DepthFrame& mean = fused.mean;
+  if (mean.width_px != lens.width_px || mean.height_px != lens.height_px)
+    return fail(Code::kInvalidArgument,
+                "the lens model is for " + std::to_string(lens.width_px) + " x " +
+                    std::to_string(lens.height_px) + " pixels, the frames have " +
+                    std::to_string(mean.width_px) + " x " + std::to_string(mean.height_px) +
+                    ": calibrate the camera in this mode");
+  Grid grid{mean.width_px, mean.height_px, lens.rays()};
+  for (std::size_t i = 0; i < grid.points.size(); ++i) {
+    const double reported = mean.depth_mm[i];
+    grid.points[i] *= reported > 0 ? lens.true_depth_mm(reported) : 0;
+  }
+  std::vector<std::vector<ScanPoint>> rows(static_cast<std::size_t>(grid.height));
+  const auto find_row = [&](std::size_t v) -> Status {
+    for (int u = 0; u < grid.width; ++u) {
+      if (!on_a_surface(grid, u, static_cast<int>(v))) continue;
+      ScanPoint p = point_at(grid, fused, lens, noise, u, static_cast<int>(v));
+      if (p.normal.squaredNorm() > 0) rows[v].push_back(std::move(p));
+    }
+    return {};
+  };
+  HP_RETURN_IF_ERROR(parallel_for(context, "normals", rows.size(), find_row));
+  Cloud cloud{lens, {}, std::vector<int>(grid.points.size(), -1)};
+  for (const auto& row : rows) {
+    for (const ScanPoint& p : row) {
+      cloud.at_pixel[mean.index(p.u, p.v)] = static_cast<int>(cloud.points.size());
+      cloud.points.push_back(p);
+    }
+  }
+  return cloud;
+}
+
+}  // namespace hydroprint::scan

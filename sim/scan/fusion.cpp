@@ -1,0 +1,138 @@
+#include "sim/scan/fusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace hydroprint::scan {
+namespace {
+
+constexpr double kDarkShare = 0.02;      ///< of the pixels with a depth, below which it is black
+constexpr double kUnsteadyShare = 0.05;  ///< of the pixels that may vary beyond the noise: edges
+constexpr double kUnsteadySigmas = 2.5;
+constexpr double kOutlierSigmas = 4;
+constexpr double kMadToSigma = 1.4826;
+constexpr std::size_t kFewFrames = 5;  ///< tell nothing of how depths vary
+
+Status check(std::span<const DepthFrame> frames) {
+  if (frames.empty()) return fail(Code::kInvalidArgument, "no depth frames: is the camera on?");
+  if (frames.size() > std::numeric_limits<std::uint16_t>::max())
+    return fail(Code::kInvalidArgument, "more than 65535 depth frames: give fewer");
+  const DepthFrame& first = frames.front();
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const DepthFrame& frame = frames[i];
+    if (frame.width_px <= 0 || frame.width_px != first.width_px ||
+        frame.height_px != first.height_px ||
+        frame.depth_mm.size() != frame.index(0, frame.height_px))
+      return fail(Code::kInvalidArgument, "depth frame " + std::to_string(i) +
+                                              " differs in size: record again with one setting");
+  }
+  const auto same = [&](const DepthFrame& frame) { return frame.depth_mm == first.depth_mm; };
+  if (frames.size() > 1 && std::all_of(frames.begin() + 1, frames.end(), same))
+    return fail(Code::kFailedPrecondition,
+                "all " + std::to_string(frames.size()) +
+                    " depth frames are the same bit by bit: the camera is frozen, reconnect it",
+                "CAMERA_FROZEN");
+  return {};
+}
+
+struct Pixel {
+  double mean_mm = 0;
+  double sigma_mm = 0;  ///< of the mean
+  std::size_t frames = 0;
+  bool unsteady = false;
+};
+
+double deviation(const std::vector<double>& values, double from) {
+  double sum = 0;
+  for (const double x : values) sum += (x - from) * (x - from);
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// @param values  depths of a pixel, all above 0; comes back in another order and without outliers
+Pixel mean_of(std::vector<double>& values, std::vector<double>& scratch, const DepthNoise& noise) {
+  Pixel out;
+  const std::size_t all = values.size();
+  const double middle = median(values);
+  const double expected = noise.changing_sigma_mm(middle);
+  out.unsteady = deviation(values, middle) > kUnsteadySigmas * noise.sigma_mm(middle);
+  scratch.clear();
+  for (const double x : values) scratch.push_back(std::abs(x - middle));
+  const double gate = kOutlierSigmas * std::max(expected, kMadToSigma * median(scratch));
+  std::erase_if(values, [&](double x) { return std::abs(x - middle) > gate; });
+  double sum = 0;
+  for (const double x : values) sum += x;
+  out.frames = values.size();
+  const auto count = static_cast<double>(out.frames);
+  out.mean_mm = sum / count;
+  const bool tells = all >= kFewFrames;
+  const double one = tells ? std::max(deviation(values, out.mean_mm), expected / 2) : expected;
+  out.sigma_mm = one / std::sqrt(count);
+  return out;
+}
+
+Pixel fuse_pixel(std::span<const DepthFrame> frames, std::size_t i, std::vector<double>& values,
+                 std::vector<double>& scratch, const DepthNoise& noise) {
+  values.clear();
+  for (const DepthFrame& frame : frames) {
+    const double depth = frame.depth_mm[i];
+    if (depth > 0 && std::isfinite(depth)) values.push_back(depth);
+  }
+  if (values.empty() || 2 * values.size() < frames.size()) return {};
+  return mean_of(values, scratch, noise);
+}
+
+Status judge(std::size_t pixels, std::size_t valid, std::size_t unsteady) {
+  if (static_cast<double>(valid) < kDarkShare * static_cast<double>(pixels))
+    return fail(Code::kFailedPrecondition,
+                "the camera sees nothing: uncover it, or move it 0.6 to 1.2 m away",
+                "CAMERA_BLACK");
+  if (static_cast<double>(unsteady) > kUnsteadyShare * static_cast<double>(valid))
+    return fail(Code::kFailedPrecondition,
+                "the camera or what it sees moved between frames: let all stand still, scan again",
+                "CAMERA_MOVED");
+  return {};
+}
+
+}  // namespace
+
+Result<FusedFrame> fuse(std::span<const DepthFrame> frames, const DepthNoise& noise,
+                        const Context& context) {
+  HP_RETURN_IF_ERROR(check(frames));
+  const int width = frames.front().width_px;
+  const int height = frames.front().height_px;
+  const std::size_t pixels = frames.front().depth_mm.size();
+  FusedFrame out{{width, height, std::vector<float>(pixels)},
+                 std::vector<float>(pixels),
+                 std::vector<std::uint16_t>(pixels)};
+  std::vector<std::size_t> valid(static_cast<std::size_t>(height)), unsteady = valid;
+  const auto fuse_row = [&](std::size_t v) -> Status {
+    std::vector<double> values, scratch;
+    for (int u = 0; u < width; ++u) {
+      const std::size_t i = out.mean.index(u, static_cast<int>(v));
+      const Pixel pixel = fuse_pixel(frames, i, values, scratch, noise);
+      out.mean.depth_mm[i] = static_cast<float>(pixel.mean_mm);
+      out.sigma_mm[i] = static_cast<float>(pixel.sigma_mm);
+      out.frames[i] = static_cast<std::uint16_t>(pixel.frames);
+      valid[v] += pixel.frames > 0 ? 1 : 0;
+      unsteady[v] += pixel.unsteady ? 1 : 0;
+    }
+    return {};
+  };
+  HP_RETURN_IF_ERROR(parallel_for(context, "fusing", static_cast<std::size_t>(height), fuse_row));
+  std::size_t all_valid = 0, all_unsteady = 0;
+  for (const std::size_t n : valid) all_valid += n;
+  for (const std::size_t n : unsteady) all_unsteady += n;
+  HP_RETURN_IF_ERROR(judge(pixels, all_valid, all_unsteady));
+  return out;
+}
+
+}  // namespace hydroprint::scan

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace hydroprint::scan {
+
+/// What a depth camera's driver does not say: how pixels become points. Camera frame C: origin in
+/// the centre of projection, x to the right and y down in the image, z along the axis. A point at
+/// (x, y) = (X/Z, Y/Z), r2 = x^2 + y^2, is seen at pixel (cx + fx x_d, cy + fy y_d) with Brown's
+///   x_d = x (1 + k1 r2 + k2 r2^2) + 2 p1 x y + p2 (r2 + 2 x^2)
+///   y_d = y (1 + k1 r2 + k2 r2^2) + p1 (r2 + 2 y^2) + 2 p2 x y;
+/// pixel centres are at whole numbers. Its depth Z is
+/// depth_scale times the reported depth, plus depth_offset_mm.
+struct Lens {
+  static constexpr int kParameters = 10;
+  using Vector = Eigen::Matrix<double, kParameters, 1>;
+  using Matrix = Eigen::Matrix<double, kParameters, kParameters>;
+
+  int width_px = 640;
+  int height_px = 480;
+  double fx_px = 575.8;  ///< nominal of first-generation Kinects' drivers
+  double fy_px = 575.8;
+  double cx_px = 319.5;
+  double cy_px = 239.5;
+  double k1 = 0;
+  double k2 = 0;
+  double p1 = 0;
+  double p2 = 0;
+  double depth_scale = 1;
+  double depth_offset_mm = 0;
+
+  [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_C) const;
+  /// The point of depth 1 on a pixel's ray.
+  [[nodiscard]] Eigen::Vector3d ray(double u, double v) const;
+  /// ray() of every pixel, row after row.
+  [[nodiscard]] std::vector<Eigen::Vector3d> rays() const;
+  [[nodiscard]] double true_depth_mm(double reported_mm) const {
+    return depth_scale * reported_mm + depth_offset_mm;
+  }
+  /// Point of a pixel with this reported depth.
+  [[nodiscard]] Eigen::Vector3d point(double u, double v, double reported_mm) const {
+    return ray(u, v) * true_depth_mm(reported_mm);
+  }
+
+  /// fx, fy, cx, cy, k1, k2, p1, p2, depth_scale, depth_offset_mm.
+  [[nodiscard]] Vector parameters() const;
+  [[nodiscard]] Lens with(const Vector& parameters) const;
+  /// Derivatives of point() by the parameters, from central differences.
+  [[nodiscard]] Eigen::Matrix<double, 3, kParameters> derivatives(double u, double v,
+                                                                  double reported_mm) const;
+};
+
+}  // namespace hydroprint::scan
