@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <thread>
 #include <utility>
 
@@ -17,7 +18,7 @@ namespace {
 constexpr int kPacket = 8;
 static_assert(kWidth_px * kHeight_px / 2 % kPacket == 0);
 /// Cosine of the angle to the normal, squared, beyond which nothing is measured.
-const float kFlattest = static_cast<float>(std::pow(std::sin(10 * M_PI / 180), 2));
+const float kFlattest = static_cast<float>(std::pow(std::sin(std::numbers::pi / 18), 2));
 /// Where a ray to the light starts, as a share of its way: clear of the surface that it starts at.
 constexpr float kClear = 5e-4F;
 
@@ -42,6 +43,13 @@ class Owned {
 };
 using Device = Owned<RTCDevice, rtcReleaseDevice>;
 using Tree = Owned<RTCScene, rtcReleaseScene>;
+
+/// One to add meshes to. Watertight: a ray must not slip through between two triangles.
+Tree empty_tree(RTCDevice device) {
+  Tree out(rtcNewScene(device));
+  rtcSetSceneFlags(out.get(), RTC_SCENE_FLAG_ROBUST);
+  return out;
+}
 
 /// Adds a mesh to a tree.
 bool add(RTCDevice device, RTCScene tree, const depth_scene::Mesh& mesh) {
@@ -90,7 +98,7 @@ struct Renderer::Rays {
 };
 
 bool Renderer::Rays::build_hanging() {
-  hanging = Tree(rtcNewScene(device.get()));
+  hanging = empty_tree(device.get());
   for (const depth_scene::Body& body : scenery.bodies) {
     if (body.hangs && !add(device.get(), hanging.get(), body.mesh)) return false;
   }
@@ -99,9 +107,7 @@ bool Renderer::Rays::build_hanging() {
 }
 
 bool Renderer::Rays::build_all() {
-  all = Tree(rtcNewScene(device.get()));
-  // Watertight: a ray must not slip through between two triangles.
-  rtcSetSceneFlags(all.get(), RTC_SCENE_FLAG_ROBUST);
+  all = empty_tree(device.get());
   for (const depth_scene::Body& body : scenery.bodies) {
     if (!body.hangs && !add(device.get(), all.get(), body.mesh)) return false;
   }

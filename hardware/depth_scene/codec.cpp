@@ -57,14 +57,15 @@ CameraStand stand_of(const json& from) {
   return out;
 }
 
-/// A state by its number in the list of words.
+/// A state by its number in the list of words; a word that is none ends as body_of's do.
 template <class State, std::size_t N>
 State state_of(const std::string_view (&words)[N], const json& from) {
   const auto word = from.get<std::string>();
   for (std::size_t i = 0; i < N; ++i) {
     if (words[i] == word) return static_cast<State>(i);
   }
-  return State{};
+  (void)json::object().at(word);  // throws
+  return {};
 }
 
 template <class Value, class Read>

@@ -1,5 +1,7 @@
 #include "hardware/virtual/scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -82,12 +84,18 @@ Camera read_camera(TomlReader from) {
   depth_scene::CameraStand& stand = out.stand;
   read_vector(from, "at_mm", -kFarthest_mm, kFarthest_mm, stand.at_mm);
   read_vector(from, "looks_at_mm", -kFarthest_mm, kFarthest_mm, stand.looks_at_mm);
-  if (stand.at_mm.isApprox(stand.looks_at_mm)) from.refuse("at_mm", "is where it looks. Move it");
   stand.turn_rad = kRadians * from.number("turned_deg", -180, 180, 0);
   out.seed = static_cast<std::uint64_t>(from.integer("seed", 0, std::int64_t{1} << 53, 1));
   out.has_errors = from.flag("errors", true);
   out.counts_frames = from.choice("clock", {"rig", "frames"}, 0) == 1;
   if (from.has("sweep")) read_sweep(from.table("sweep"), stand);
+  const auto is_looked_at = [&](const Eigen::Vector3d& at_mm) {
+    return at_mm.isApprox(stand.looks_at_mm);
+  };
+  if (is_looked_at(stand.at_mm) ||
+      std::any_of(stand.via_mm.begin(), stand.via_mm.end(), is_looked_at)) {
+    from.refuse("looks_at_mm", "is where the camera itself is. Move one of them");
+  }
   return out;
 }
 

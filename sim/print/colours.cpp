@@ -76,7 +76,7 @@ Limited limit_ink(std::uint8_t* cmyk, std::size_t count, int most) {
 
 Status check_limit(double ink_limit) {
   if (ink_limit > 0 && ink_limit <= ink::kMostInk) return {};
-  return fail(Code::kOutOfRange, "ink limit: " + std::to_string(ink_limit) +
+  return fail(Code::kOutOfRange, "ink limit: " + text_of(ink_limit) +
                                      " is out of range. Use C + M + Y + K above 0 and at most 4");
 }
 

@@ -17,7 +17,7 @@ using Strokes = std::vector<Stroke>;
 constexpr double kPen_mm = 0.25;
 constexpr double kClearance_mm = 1;  ///< from the film
 constexpr double kLetter_mm = 1.6;   ///< height of a lower-case x
-constexpr double kOff_mm = 2;       ///< from the film's edge to where a registration mark begins
+constexpr double kOff_mm = 2;        ///< from the film's edge to where a registration mark begins
 constexpr double kMark_mm = 5;       ///< its length
 constexpr double kBleed_mm = 0.5;    ///< around what is lettered
 

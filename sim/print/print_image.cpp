@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "sim/image/film_image.h"
@@ -20,12 +19,6 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-std::string number(double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
-  return buffer.data();
-}
-
 /// Dots per inch of an image that has as many pixels as a film image of this film.
 Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
                       const film::Outline& outline, std::optional<double> given) {
@@ -33,14 +26,14 @@ Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
   const double dpi = given.value_or(guess);
   if (!(dpi >= image::kMinDpi && dpi <= image::kMaxDpi)) {
     return fail(Code::kOutOfRange,
-                name + ": " + number(dpi) + " dpi is out of range. Use an image of " +
-                    number(image::kMinDpi) + " to " + number(image::kMaxDpi) + " dpi");
+                name + ": " + text_of(dpi) + " dpi is out of range. Use an image of " +
+                    text_of(image::kMinDpi) + " to " + text_of(image::kMaxDpi) + " dpi");
   }
   const image::FilmGrid grid = image::film_grid(outline, kMmPerInch / dpi);
   if (grid.columns == image.width && grid.rows == image.height) return dpi;
   return fail(Code::kInvalidArgument, name + ": " + size_text(image.width, image.height) +
                                           " pixels, but a film image of " + outline.name + " at " +
-                                          number(dpi) + " dpi has " +
+                                          text_of(dpi) + " dpi has " +
                                           size_text(grid.columns, grid.rows) +
                                           ". Give --film and --dpi that it was made with");
 }
@@ -106,7 +99,7 @@ Warning margin_warning(const Part& part, std::size_t number_of_sheet, double mar
     if (part.at_edge[i]) edges += (edges.empty() ? "" : ", ") + std::string(kEdges[i]);
   }
   return {"image_in_printer_margin",
-          number(lost_mm2) + " mm2 of the image lie within the " + number(margin_mm) +
+          text_of(lost_mm2) + " mm2 of the image lie within the " + text_of(margin_mm) +
               " mm along the edges that the printer cannot print, and stay white; place the object "
               "nearer the film's middle, or print without margin",
           "sheet " + std::to_string(number_of_sheet) + ": " + edges};

@@ -1,5 +1,7 @@
 #include "sim/print/settings.h"
 
+#include <array>
+#include <cstdio>
 #include <utility>
 
 #include "sim/film/outline.h"
@@ -12,8 +14,8 @@ constexpr double kMostOverlap_mm = 100;
 constexpr double kMostBar_mm = 2000;
 
 tl::unexpected<Error> out_of_range(const std::string& what, double value, double most) {
-  return fail(Code::kOutOfRange, what + ": " + std::to_string(value) +
-                                     " mm is out of range. Use 0 to " + std::to_string(most));
+  return fail(Code::kOutOfRange,
+              what + ": " + text_of(value) + " mm is out of range. Use 0 to " + text_of(most));
 }
 
 }  // namespace
@@ -29,6 +31,12 @@ Result<Eigen::Vector2d> parse_paper(const std::string& text) {
   }
   return fail(Code::kInvalidArgument,
               about + "not understood. Give A4, A3, letter or WIDTHxHEIGHT (mm)");
+}
+
+std::string text_of(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.6g", value);
+  return buffer.data();
 }
 
 Status check(const PageSettings& settings) {

@@ -36,6 +36,9 @@ struct ColourSettings {
 /// and (kOutOfRange) sides below 10 mm or above 2000 mm.
 [[nodiscard]] Result<Eigen::Vector2d> parse_paper(const std::string& text);
 
+/// A number as messages have it: six digits, no zeros behind them.
+[[nodiscard]] std::string text_of(double value);
+
 /// Refuses (kOutOfRange), naming the setting, what is out of range or does not fit together.
 [[nodiscard]] Status check(const PageSettings& settings);
 

@@ -306,7 +306,10 @@ Status settle_print(Typed& typed) {
       return fail(Code::kInvalidArgument,
                   "--formats: '" + name + "' is unknown. Use pdf, png or tiff");
     }
-    o.formats.push_back(static_cast<PrintFormat>(found - names.begin()));
+    const auto format = static_cast<PrintFormat>(found - names.begin());
+    if (std::find(o.formats.begin(), o.formats.end(), format) == o.formats.end()) {
+      o.formats.push_back(format);
+    }
   }
   HP_ASSIGN_OR_RETURN(o.print.page.paper_mm, print::parse_paper(typed.paper));
   return print::check(o.print.page);

@@ -44,9 +44,12 @@ TEST(Codec, EverythingElseIsRefused) {
   wrong.replace(wrong.find("\"triangles\":[") + 13, 1, "99999");
   EXPECT_FALSE(scenery_of(wrong)) << "index out of range";
   for (const char* text : {"", "ok", "{}", "[]", "error: no camera", "{\"time_s\":\"x\"}"}) {
-    EXPECT_FALSE(sight_of(text));
+    EXPECT_FALSE(sight_of(text)) << text;
     EXPECT_EQ(scenery_of(text).error().code, Code::kDataLoss);
   }
+  std::string state = to_json(Sight{});
+  state.replace(state.find("\"well\""), 6, "\"cross-eyed\"");
+  EXPECT_FALSE(sight_of(state)) << "a state that there is not";
 }
 
 }  // namespace

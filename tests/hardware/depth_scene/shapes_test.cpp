@@ -7,7 +7,7 @@
 namespace hydroprint::depth_scene {
 namespace {
 
-/// Six times the volume that a mesh encloses, positive if its faces turn outward.
+/// The volume that a mesh encloses, positive if its faces turn outward.
 double volume(const Mesh& mesh) {
   double out = 0;
   for (const Eigen::Vector3i& t : mesh.triangles) {

@@ -164,7 +164,7 @@ TEST_F(PrintImage, PngAndTiffHoldTheFilmImageUnchangedWithItsResolution) {
       ASSERT_TRUE(std::equal(row.begin(), row.end(), image.at(0, y))) << name;
     }
   }
-  const PngFacts png = png_facts(path("out/print.png"));
+  const PngResolution png = png_resolution(path("out/print.png"));
   EXPECT_EQ(png.per_metre_x, 11811U);  // 300 dpi
   EXPECT_EQ(png.per_metre_y, 11811U);
   auto tiff = tiff_tags(path("out/print.tif"));

@@ -106,7 +106,7 @@ std::map<int, double> tiff_tags(const std::filesystem::path& path) {
   return out;
 }
 
-PngFacts png_facts(const std::filesystem::path& path) {
+PngResolution png_resolution(const std::filesystem::path& path) {
   const std::string file = bytes_of(path);
   const auto u32 = [&](std::size_t at) {
     std::uint32_t value = 0;
@@ -114,10 +114,9 @@ PngFacts png_facts(const std::filesystem::path& path) {
       value = value << 8 | static_cast<unsigned char>(file.at(at + i));
     return value;
   };
-  PngFacts out;
+  PngResolution out;
   for (std::size_t at = 8; at + 8 <= file.size(); at += 12 + u32(at)) {
-    out.chunks.push_back(file.substr(at + 4, 4));
-    if (out.chunks.back() != "pHYs") continue;
+    if (file.substr(at + 4, 4) != "pHYs") continue;
     out.per_metre_x = u32(at + 8);
     out.per_metre_y = u32(at + 12);
   }

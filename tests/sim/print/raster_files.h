@@ -33,12 +33,11 @@ struct Raster {
 /// Numbers of a TIFF's first directory by their tags (rationals as quotients).
 [[nodiscard]] std::map<int, double> tiff_tags(const std::filesystem::path& path);
 
-/// Pixels per metre, across and down, and names of the chunks.
-struct PngFacts {
+/// Pixels per metre, across and down.
+struct PngResolution {
   std::uint32_t per_metre_x = 0, per_metre_y = 0;
-  std::vector<std::string> chunks;
 };
-[[nodiscard]] PngFacts png_facts(const std::filesystem::path& path);
+[[nodiscard]] PngResolution png_resolution(const std::filesystem::path& path);
 
 /// All bytes of a file.
 [[nodiscard]] std::string bytes_of(const std::filesystem::path& path);
