@@ -211,7 +211,9 @@ TEST_F(Capture, RecordingsThatAreNoneOrCutShortAreRefused) {
   const auto recording = path("take.oni");
   ASSERT_EQ(capture_live({"--seconds", "0.3", "--record", recording.string()}).status, 0);
   fs::remove_all(path("out"));
-  const std::string whole = bytes_of(recording);
+  // Its second half is zeros that OpenNI2 leaves there; nothing is lost with them.
+  std::string whole = bytes_of(recording);
+  whole.resize(whole.find_last_not_of('\0') + 1);
   std::vector<std::string> files = {"", "junk", std::string(100000, 'x'), whole.substr(0, 100)};
   for (int i = 1; i < 8; ++i) files.push_back(whole.substr(0, whole.size() * i / 8));
   for (const std::string& content : files) {

@@ -1,10 +1,10 @@
 #include "tests/hardware/printer/ipp_printer.h"
 
 #include <arpa/inet.h>
-#include <signal.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <functional>
 #include <stdexcept>
 #include <thread>
 
@@ -25,14 +25,21 @@ int free_port() {
   return ntohs(at.sin_port);
 }
 
+void wait_until(const std::function<bool()>& is_so, const std::string& program) {
+  for (int i = 0; i < 200; ++i) {
+    if (is_so()) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  }
+  throw std::runtime_error(program + " does not start");
+}
+
 }  // namespace
 
 IppPrinter::IppPrinter(const std::string& command) : port_(free_port()) {
   const std::string bus = "unix:path=" + (folder_.path() / "bus").string();
-  const testing::Ended started = testing::run(
-      {"/usr/bin/dbus-daemon", "--session", "--address=" + bus, "--fork", "--print-pid"});
-  if (started.status != 0) throw std::runtime_error("dbus-daemon: " + started.err);
-  bus_ = std::stoi(started.out);
+  bus_ = std::make_unique<testing::Process>(std::vector<std::string>{
+      "/usr/bin/dbus-daemon", "--session", "--address=" + bus, "--nofork"});
+  wait_until([&] { return std::filesystem::exists(folder_.path() / "bus"); }, "dbus-daemon");
   const auto script =
       folder_.write("print.sh", "#!/bin/sh\nfor file; do :; done\n" + command + "\n");
   std::filesystem::permissions(script, std::filesystem::perms::owner_all);
@@ -42,16 +49,7 @@ IppPrinter::IppPrinter(const std::string& command) : port_(free_port()) {
       "-n", "localhost", "-p", std::to_string(port_), "-d", (folder_.path() / "spool").string(),
       "-k", "-f", "application/pdf,image/png", "-c", script.string(), "Test printer"});
   const Printer printer(address());
-  for (int i = 0; i < 200; ++i) {
-    if (printer.attributes()) return;
-    std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  }
-  throw std::runtime_error("ippeveprinter does not start");
-}
-
-IppPrinter::~IppPrinter() {
-  process_.reset();
-  if (bus_ > 0) ::kill(bus_, SIGTERM);
+  wait_until([&] { return printer.attributes().has_value(); }, "ippeveprinter");
 }
 
 Address IppPrinter::address() const {

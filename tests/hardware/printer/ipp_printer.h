@@ -15,7 +15,6 @@ class IppPrinter {
  public:
   /// @param command  of a shell, that "prints" the file named by its last argument
   explicit IppPrinter(const std::string& command);
-  ~IppPrinter();
 
   [[nodiscard]] Address address() const;
   /// Ends it, and the job in its hands, at once.
@@ -27,7 +26,8 @@ class IppPrinter {
  private:
   testing::TemporaryFolder folder_;
   int port_ = 0;
-  int bus_ = 0;  ///< process: it will not start without a system bus to announce itself on
+  /// It will not start without a system bus to announce itself on.
+  std::unique_ptr<testing::Process> bus_;
   std::unique_ptr<testing::Process> process_;
 };
 

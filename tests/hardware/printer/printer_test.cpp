@@ -83,14 +83,20 @@ TEST(Printer, TellsFormatsPaperAndMargins) {
 }
 
 TEST(Printer, PrintsTheVeryBytesOnThePaperUnscaledAndSeesTheEnd) {
-  const IppPrinter there("env | grep ^IPP_ > \"" + std::string("$0.env\"; sleep 0.3; exit 0"));
+  // It prints until it was seen to.
+  const IppPrinter there(
+      "env | grep ^IPP_ > \"$0.env\"\n"
+      "for i in $(seq 100); do [ -e \"$0.seen\" ] && exit 0; sleep 0.1; done\nexit 1");
   const auto bytes = some_bytes(3'000'001);
   const Printer printer(there.address(), quick());
   const auto sent = printer.print({bytes, "application/pdf", "mug 7", {210, 297}});
   ASSERT_TRUE(sent) << sent.error().message;
   EXPECT_EQ(std::count(sent->ignored.begin(), sent->ignored.end(), "print-scaling"), 0);
   std::vector<JobState> seen;
-  const auto ended = printer.follow(sent->id, [&](const JobReport& r) { seen.push_back(r.state); });
+  const auto ended = printer.follow(sent->id, [&](const JobReport& report) {
+    seen.push_back(report.state);
+    if (report.state == JobState::kProcessing) std::ofstream(there.folder() / "print.sh.seen");
+  });
   ASSERT_TRUE(ended) << ended.error().message;
   EXPECT_EQ(ended->state, JobState::kCompleted);
   EXPECT_EQ(seen.back(), JobState::kCompleted);
