@@ -8,8 +8,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json pair_of(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
-
 Json pixels_json(const print::Pixels& p) { return {p.x0, p.y0, p.x1, p.y1}; }
 
 Json sheet_json(const print::Sheet& sheet) {
@@ -24,6 +22,8 @@ Json sheet_json(const print::Sheet& sheet) {
 }
 
 }  // namespace
+
+Json pair_of(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
 
 Json page_parameters_json(const Options& options, const Json& film) {
   const print::PageSettings& page = options.print.page;

@@ -12,6 +12,9 @@
 // For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
+/// [x, y]
+[[nodiscard]] nlohmann::ordered_json pair_of(const Eigen::Vector2d& v);
+
 /// What print-image and template are told of the page.
 [[nodiscard]] nlohmann::ordered_json page_parameters_json(const Options& options,
                                                           const nlohmann::ordered_json& film);

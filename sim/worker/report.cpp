@@ -23,8 +23,6 @@ std::int64_t peak_memory_bytes() {
   return std::int64_t{usage.ru_maxrss} * 1024;
 }
 
-Json pair_of(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
-
 Json pose_json(const Pose& X_FO) {
   const Eigen::Quaterniond q(X_FO.linear());
   const Eigen::Vector3d& t = X_FO.translation();
