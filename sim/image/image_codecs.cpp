@@ -218,6 +218,8 @@ Result<std::vector<unsigned char>> encode_tiff(const std::string& name, const Pr
   spec.attribute("XResolution", static_cast<float>(dpi));
   spec.attribute("YResolution", static_cast<float>(dpi));
   spec.attribute("ResolutionUnit", "in");
+  // Left out, the library writes the time; so Exif (2.3, tag 306) has one that is not known.
+  spec.attribute("DateTime", "    :  :     :  :  ");
   if (image.channels == 4) {
     spec.channelnames = {"C", "M", "Y", "K"};
     spec.alpha_channel = -1;
