@@ -41,7 +41,7 @@ bool on_a_surface(const Grid& grid, int u, int v) {
 
 /// Zero if there are too few pixels around.
 Eigen::Vector3d normal_at(const Grid& grid, int u, int v) {
-  const Eigen::Vector3d centre = grid.at(u, v);
+  const Eigen::Vector3d& centre = grid.at(u, v);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   int count = 0;
