@@ -17,7 +17,7 @@ constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 480;
 constexpr int kRate_hz = 30;
 /// A frame of a recording only has to be read.
-constexpr std::chrono::seconds kReadTime{5};
+constexpr std::chrono::seconds kReadTime{20};
 
 /// What OpenNI2 has to say, on one line.
 std::string details() {

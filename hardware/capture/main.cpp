@@ -117,7 +117,7 @@ Result<Summary> run(const Options& options, worker::Ending& ending,
       1, [&](std::string_view stage, double fraction) { progress.update(stage, fraction); },
       [&ending] { return ending.requested(); }};
   // More than the camera itself has, which says it better.
-  const double patience_s = std::max(options.patience_s, options.recording.empty() ? 0 : 10.0);
+  const double patience_s = std::max(options.patience_s, options.recording.empty() ? 0 : 30.0);
   Watchdog watchdog(std::chrono::duration<double>(patience_s + 1),
                     bite(options, folder, recording, quiet));
   context.progress("capture", 0);

@@ -84,7 +84,7 @@ OniBool DepthStream::isPropertySupported(int id) {
 OniStatus DepthStream::start() {
   auto line = RigLine::connect(control_);
   if (!line) return ONI_STATUS_ERROR;
-  const auto sight = line->ask("sight").and_then(
+  const auto sight = line->ask_patiently("sight").and_then(
       [](const std::string& text) { return depth_scene::sight_of(text); });
   if (sight && sight->camera == depth_scene::CameraState::kHung) {
     for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // as drivers do

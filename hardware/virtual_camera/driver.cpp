@@ -18,20 +18,10 @@ namespace {
 
 constexpr std::string_view kScheme = "hydroprint:";
 
-/// A scene may have millions of triangles to tell of.
-Result<std::string> ask_patiently(RigLine& line, const std::string& question) {
-  constexpr int kTimes = 30;
-  auto reply = line.ask(question);
-  for (int i = 1; i < kTimes && !reply && reply.error().code == Code::kAborted; ++i) {
-    reply = line.ask(question);
-  }
-  return reply;
-}
-
 Result<depth_scene::Scenery> ask_scenery(const std::string& control) {
   HP_ASSIGN_OR_RETURN(RigLine line, RigLine::connect(control));
-  HP_ASSIGN_OR_RETURN(const std::string text, ask_patiently(line, "scenery"));
-  HP_ASSIGN_OR_RETURN(const std::string now, line.ask("sight"));
+  HP_ASSIGN_OR_RETURN(const std::string text, line.ask_patiently("scenery"));
+  HP_ASSIGN_OR_RETURN(const std::string now, line.ask_patiently("sight"));
   HP_ASSIGN_OR_RETURN(const depth_scene::Sight sight, depth_scene::sight_of(now));
   if (sight.camera == depth_scene::CameraState::kGone) {
     return fail(Code::kUnavailable, "it is not plugged in");

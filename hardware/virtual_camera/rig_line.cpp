@@ -78,4 +78,13 @@ Result<std::string> RigLine::ask(const std::string& line) {
   }
 }
 
+Result<std::string> RigLine::ask_patiently(const std::string& line) {
+  constexpr int kTimes = 30;
+  auto reply = ask(line);
+  for (int i = 1; i < kTimes && !reply && reply.error().code == Code::kAborted; ++i) {
+    reply = ask(line);
+  }
+  return reply;
+}
+
 }  // namespace hydroprint::virtual_camera

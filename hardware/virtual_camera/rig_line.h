@@ -19,6 +19,8 @@ class RigLine {
   /// kAborted when it says nothing for a second (then its reply is still to come: the next
   /// call waits for it and says nothing), and with kFailedPrecondition what the rig itself refuses.
   [[nodiscard]] Result<std::string> ask(const std::string& line);
+  /// The same, but waits half a minute: a scene may have millions of triangles to tell of.
+  [[nodiscard]] Result<std::string> ask_patiently(const std::string& line);
 
  private:
   explicit RigLine(int descriptor) : descriptor_(descriptor) {}

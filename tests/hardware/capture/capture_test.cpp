@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -21,9 +23,21 @@ namespace hydroprint::capture {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 
-const std::string kCapture = HYDROPRINT_BIN_DIR "/hydroprint-capture";
+/// The program and its first arguments. Under AddressSanitizer leaks are not looked for in it:
+/// OpenNI2 frees not all when it unloads its drivers, and what has been unloaded has no name that a
+/// suppression could give.
+#ifdef __SANITIZE_ADDRESS__
+const std::vector<std::string> kCapture = {"/usr/bin/env", "ASAN_OPTIONS=detect_leaks=0",
+                                           HYDROPRINT_BIN_DIR "/hydroprint-capture"};
+#else
+const std::vector<std::string> kCapture = {HYDROPRINT_BIN_DIR "/hydroprint-capture"};
+#endif
 const std::string kRig = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
+
+/// Patience, in s, with what is slow on a busy machine but does not hang.
+constexpr const char* kLong = "120";
 
 constexpr const char* kScene = R"(
 [object]
@@ -59,27 +73,31 @@ class Capture : public ::testing::Test {
   [[nodiscard]] std::string uri() const { return "hydroprint:" + control().string(); }
 
   static testing::Ended capture(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), kCapture);
+    arguments.insert(arguments.begin(), kCapture.begin(), kCapture.end());
     return testing::run(std::move(arguments));
   }
 
   /// Captures from the rig into `out`.
-  testing::Ended capture_live(const std::vector<std::string>& more) {
-    std::vector<std::string> all = {"--device", uri(), "--out", path("out").string(), "--json"};
+  testing::Ended capture_live(const std::vector<std::string>& more,
+                              const std::string& patience_s = kLong) {
+    std::vector<std::string> all = {"--device", uri(),          "--out",   path("out").string(),
+                                    "--json",   "--patience-s", patience_s};
     all.insert(all.end(), more.begin(), more.end());
     return capture(all);
   }
 
-  /// A capture of 20 s, once its first frames have come.
-  std::unique_ptr<testing::Process> long_capture() {
+  /// A capture of a minute, once its first frames have come.
+  std::unique_ptr<testing::Process> long_capture(const std::string& patience_s = kLong) {
     testing::ProcessOptions options;
     options.files = {{3, path("progress")}};
-    auto out = std::make_unique<testing::Process>(
-        std::vector<std::string>{kCapture, "--device", uri(), "--out", path("out").string(),
-                                 "--record", path("long.oni").string(), "--seconds", "20",
-                                 "--patience-s", "4", "--json", "--progress-fd", "3"},
-        options);
-    for (int i = 0; i < 6000; ++i) {
+    std::vector<std::string> all = kCapture;
+    for (const std::string& word : {"--device"s, uri(), "--out"s, path("out").string(), "--record"s,
+                                    path("long.oni").string(), "--seconds"s, "60"s, "--patience-s"s,
+                                    patience_s, "--json"s, "--progress-fd"s, "3"s}) {
+      all.push_back(word);
+    }
+    auto out = std::make_unique<testing::Process>(all, options);
+    while (out->running()) {
       const std::string told = bytes_of(path("progress"));
       if (std::count(told.begin(), told.end(), '\n') > 1) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -118,23 +136,26 @@ nlohmann::json frames_of(const fs::path& folder) {
 
 TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
   const auto recording = path("take.oni");
-  const auto live = capture_live({"--seconds", "0.5", "--record", recording.string()});
+  const auto live = capture_live({"--seconds", "0.1", "--record", recording.string()});
   ASSERT_EQ(live.status, 0) << live.err;
   const auto scene = virtual_rig::read_scene(scene_);
   const auto scenery = virtual_rig::scenery_of(*scene);
   ASSERT_TRUE(scenery);
   const auto renderer = depth_camera::Renderer::create(*scenery, depth_camera::lens_of(*scenery));
+  std::map<int, std::string> drawn;
   const auto expected = [&](int index) {
+    std::string& out = drawn[index];
+    if (!out.empty()) return out;
     depth_scene::Sight sight;
     sight.time_s = (index - 1) / 30.0;
     sight.gripper_height_mm = scene->water_mm - scene->start_mm;
     const auto file = image::encode_png({640, 480, (*renderer)->photograph(sight)});
-    return std::string(file->begin(), file->end());
+    return out = std::string(file->begin(), file->end());
   };
   const auto told = frames_of(path("out"));
   EXPECT_EQ(told["source"]["serial"], "virtual-3");
   EXPECT_NEAR(told["horizontal_fov_rad"].get<double>(), depth_camera::horizontal_fov_rad(), 1e-6);
-  ASSERT_GE(told["frames"].size(), 10U);
+  ASSERT_FALSE(told["frames"].empty());
   for (const auto& frame : told["frames"]) {
     const int index = frame["index"];
     EXPECT_NEAR(frame["time_s"].get<double>(), (index - 1) / 30.0, 1e-6);
@@ -144,13 +165,20 @@ TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
   const auto again = capture({"--recording", recording.string(), "--out", path("again").string()});
   ASSERT_EQ(again.status, 0) << again.err;
   const auto played = frames_of(path("again"));
-  ASSERT_GE(played["frames"].size(), told["frames"].size());
   const std::string first = png_of(path("again"), played["frames"][0]);
+  // The recording began before the first was taken.
+  const int latest = told["frames"][0]["index"].get<int>() + 1;
   int start = 1;
-  while (start < 200 && first != expected(start)) ++start;
+  while (start < latest && first != expected(start)) ++start;
+  std::set<int> recorded;
   for (const auto& frame : played["frames"]) {
     const int index = start + static_cast<int>(std::lround(30 * frame["time_s"].get<double>()));
     EXPECT_TRUE(png_of(path("again"), frame) == expected(index)) << index;
+    recorded.insert(index);
+  }
+  // That one may have come earlier still.
+  for (std::size_t i = 1; i < told["frames"].size(); ++i) {
+    EXPECT_TRUE(recorded.contains(told["frames"][i]["index"].get<int>())) << i;
   }
   EXPECT_NEAR(played["horizontal_fov_rad"].get<double>(), told["horizontal_fov_rad"].get<double>(),
               1e-6);
@@ -169,7 +197,7 @@ TEST_F(Capture, CameraThatIsUnpluggedIsGoneAndBackWhenItIsPluggedIn) {
   testing::talk(control(), "camera gone\n");
   expect_failure(capture->wait(), 4, "CAMERA_GONE");
   testing::talk(control(), "camera well\n");
-  EXPECT_EQ(capture_live({"--seconds", "0.1"}).status, 0);
+  EXPECT_EQ(capture_live({"--seconds", "0.05"}).status, 0);
 }
 
 TEST_F(Capture, CameraWhoseRigDiesIsGone) {
@@ -190,7 +218,7 @@ TEST_F(Capture, FrozenAndBlackCamerasAreNoticed) {
 }
 
 TEST_F(Capture, CameraThatSaysNothingIsNotWaitedForLong) {
-  const auto capture = long_capture();
+  const auto capture = long_capture("1");
   rig_->signal(SIGSTOP);
   expect_failure(capture->wait(), 4, "CAMERA_STALLED");
   rig_->signal(SIGCONT);
@@ -198,7 +226,7 @@ TEST_F(Capture, CameraThatSaysNothingIsNotWaitedForLong) {
 
 TEST_F(Capture, DriverThatHangsIsNotWaitedForLong) {
   testing::talk(control(), "camera hung\n");
-  expect_failure(capture_live({"--patience-s", "1"}), 4, "CAMERA_STALLED");
+  expect_failure(capture_live({}, "1"), 4, "CAMERA_STALLED");
 }
 
 TEST_F(Capture, CancelLeavesNothing) {
@@ -209,7 +237,7 @@ TEST_F(Capture, CancelLeavesNothing) {
 
 TEST_F(Capture, RecordingsThatAreNoneOrCutShortAreRefused) {
   const auto recording = path("take.oni");
-  ASSERT_EQ(capture_live({"--seconds", "0.3", "--record", recording.string()}).status, 0);
+  ASSERT_EQ(capture_live({"--seconds", "0.15", "--record", recording.string()}).status, 0);
   fs::remove_all(path("out"));
   // Its second half is zeros that OpenNI2 leaves there; nothing is lost with them.
   std::string whole = bytes_of(recording);

@@ -50,10 +50,9 @@ TEST(Program, FaultsOfTheCommandLineHappen) {
   testing::Process rig({kProgram, "--profile", kProfile, "--tcp", "0", "--control",
                         control.string(), "--fault", "press=stop,stall@100ms"});
   (void)testing::talk(control, "state\n");
-  std::this_thread::sleep_for(milliseconds(200));
-  const auto state = nlohmann::json::parse(testing::talk(control, "state\n"));
-  EXPECT_TRUE(state.at("stop_button").get<bool>());
-  EXPECT_TRUE(state.at("stalled").get<bool>());
+  const auto state = [&] { return nlohmann::json::parse(testing::talk(control, "state\n")); };
+  while (!state().at("stalled").get<bool>()) std::this_thread::sleep_for(milliseconds(50));
+  EXPECT_TRUE(state().at("stop_button").get<bool>());
 }
 
 TEST(Program, RefusalsAreOneLineAndTheContractsExitStatus) {

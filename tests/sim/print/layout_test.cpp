@@ -80,14 +80,12 @@ TEST(Layout, MarksNeverLieOnFilm) {
                                           "polygon:" + polygon};
   for (const std::string& film : films) {
     for (const std::string paper : {"A3", "A4", "letter", "250x320", "400x310"}) {
-      for (const double margin_mm : {0.0, 4.2}) {
-        for (const bool mirror : {false, true}) {
-          PageSettings settings = on(paper);
-          settings.printer_margin_mm = margin_mm;
-          settings.mirror = mirror;
-          SCOPED_TRACE(film + " on " + paper);
-          expect_marks_off_film(laid(film, settings), margin_mm);
-        }
+      for (const auto& [margin_mm, mirror] : {std::pair{0.0, true}, {4.2, false}}) {
+        PageSettings settings = on(paper);
+        settings.printer_margin_mm = margin_mm;
+        settings.mirror = mirror;
+        SCOPED_TRACE(film + " on " + paper);
+        expect_marks_off_film(laid(film, settings), margin_mm);
       }
     }
   }

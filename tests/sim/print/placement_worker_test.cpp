@@ -85,18 +85,5 @@ TEST_F(Template, IsTheSameFileEveryTime) {
   EXPECT_TRUE(bytes_of(path("one/placement.pdf")) == bytes_of(path("two/placement.pdf")));
 }
 
-TEST_F(Template, RefusesInOneLineWhatItCannotShow) {
-  folder.write("far.json", R"({"rotation_wxyz":[1,0,0,0],"translation_mm":[500,0,0]})");
-  const auto refusal = [&](const std::vector<std::string>& flags, const std::string& words) {
-    const Ended ended = run(flags);
-    EXPECT_EQ(ended.status, 3) << ended.err;
-    EXPECT_NE(ended.err.find(words), std::string::npos) << ended.err;
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1);
-    EXPECT_FALSE(std::filesystem::exists(path("out")));
-  };
-  refusal({"--pose", path("far.json")}, "misses the film A4");
-  refusal({"--film", "A3"}, "paper: smaller than the film A3");
-}
-
 }  // namespace
 }  // namespace hydroprint::print

@@ -68,13 +68,6 @@ class PrintImage : public ::testing::Test {
     EXPECT_EQ(ended.status, 0) << ended.err;
     return nlohmann::json::parse(bytes_of(path(out) + "/report.json"));
   }
-  void expect_refusal(int status, const Arguments& more, const std::string& words) const {
-    const Ended ended = testing::run(command(more));
-    EXPECT_EQ(ended.status, status) << ended.err;
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-    EXPECT_NE(ended.err.find(words), std::string::npos) << ended.err;
-    EXPECT_FALSE(std::filesystem::exists(path("out")));
-  }
 
   testing::TemporaryFolder folder;
 };
@@ -310,24 +303,6 @@ TEST_F(PrintImage, TheProfileGoesAlong) {
   EXPECT_EQ(check.out, "4\n") << check.err;
   EXPECT_EQ(tiff_tags(path("out/print.tif"))[34675],
             static_cast<double>(std::filesystem::file_size(icc)));
-}
-
-TEST_F(PrintImage, RefusesInOneLineWhatItCannotDo) {
-  film(blank(827, 1169));
-  expect_refusal(3, {"--film", "A3"},
-                 "film.png: 827 x 1169 pixels, but a film image of A3 at 71 dpi");
-  expect_refusal(3, {"--dpi", "300"}, "has 2480 x 3508");
-  expect_refusal(2, {"--paper", "A99"}, "paper 'A99'");
-  expect_refusal(3, {"--paper", "30x30"}, "paper: too small for the film");
-  expect_refusal(3, {"--printer-margin-mm", "200"}, "printer margin");
-  expect_refusal(3, {"--ink-limit", "3"}, "ink limit: RGB");
-  expect_refusal(3, {"--colours", "cmyk", "--ink-limit", "7"}, "ink limit: 7");
-  expect_refusal(3, {"--colours", "cmyk", "--formats", "png"}, "PNG has no CMYK");
-  expect_refusal(2, {"--formats", "gif"}, "'gif' is unknown");
-  expect_refusal(2, {"--colours", "hsv"}, "--colours");
-  expect_refusal(3, {"--icc-profile", path("none.icc")}, "none.icc: ");
-  folder.write("film.png", "not an image");
-  expect_refusal(3, {}, "film.png: ");
 }
 
 }  // namespace
