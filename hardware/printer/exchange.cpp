@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -18,15 +19,16 @@ struct HttpClose {
 };
 using Http = std::unique_ptr<http_t, HttpClose>;
 
-/// Breaks a connection off when its time is up: the library bounds each wait, but not their number.
+/// Breaks a connection off when its time is up, since the library bounds each wait, but not their
+/// number, and when whoever waits gives up.
 class Deadline {
  public:
-  Deadline(int socket, milliseconds after)
-      : thread_([this, socket, end = std::chrono::steady_clock::now() + after] {
-          std::unique_lock lock(mutex_);
-          if (wake_.wait_until(lock, end, [this] { return is_over_; })) return;
-          has_passed_ = true;
-          ::shutdown(socket, SHUT_RDWR);
+  using Clock = std::chrono::steady_clock;
+
+  Deadline(int socket, milliseconds after, const std::function<bool()>& gives_up)
+      : thread_([this, socket, end = Clock::now() + after, &gives_up] {
+          watch(end, gives_up);
+          if (given_up_ || has_passed_) ::shutdown(socket, SHUT_RDWR);
         }) {}
   ~Deadline() {
     {
@@ -39,15 +41,28 @@ class Deadline {
   Deadline(const Deadline&) = delete;
   Deadline& operator=(const Deadline&) = delete;
 
-  [[nodiscard]] bool has_passed() const {
-    const std::lock_guard lock(mutex_);
-    return has_passed_;
-  }
+  [[nodiscard]] bool has_passed() const { return has_passed_; }
+  [[nodiscard]] bool given_up() const { return given_up_; }
 
  private:
-  mutable std::mutex mutex_;
+  void watch(Clock::time_point end, const std::function<bool()>& gives_up) {
+    std::unique_lock lock(mutex_);
+    while (Clock::now() < end) {
+      const auto look = gives_up ? std::min(end, Clock::now() + kLookEvery) : end;
+      if (wake_.wait_until(lock, look, [this] { return is_over_; })) return;
+      if (gives_up && gives_up()) {
+        given_up_ = true;
+        return;
+      }
+    }
+    has_passed_ = true;
+  }
+
+  static constexpr milliseconds kLookEvery{100};
+  std::mutex mutex_;
   std::condition_variable wake_;
-  bool is_over_ = false, has_passed_ = false;
+  bool is_over_ = false;
+  std::atomic<bool> has_passed_ = false, given_up_ = false;
   std::thread thread_;  // last: it uses the others
 };
 
@@ -60,8 +75,10 @@ int give_up(http_t*, void* timed_out) {
 /// One connection and what happened on it.
 class Connection {
  public:
-  Connection(const Address& address, const ExchangeTiming& timing)
-      : address_(address), timing_(timing) {
+  Connection(const Address& address, const ExchangeTiming& timing,
+             const std::function<bool()>& gives_up)
+      : address_(address), timing_(timing), gives_up_(gives_up) {
+    if (gives_up_ && gives_up_()) return;
     http_.reset(
         httpConnect2(address.host.c_str(), address.port, nullptr, AF_UNSPEC,
                      address.encrypted ? HTTP_ENCRYPTION_ALWAYS : HTTP_ENCRYPTION_IF_REQUESTED, 1,
@@ -69,10 +86,11 @@ class Connection {
   }
 
   [[nodiscard]] Result<Ipp> exchange(ipp_t* request, std::span<const unsigned char> document) {
+    if (gives_up_ && gives_up_()) return left();
     if (!http_) return failure(kUnreachable, "cannot be reached. Is it on, and the address right?");
     const double wait_s = std::chrono::duration<double>(timing_.answer).count();
     httpSetTimeout(http_.get(), wait_s, give_up, &timed_out_);
-    Deadline deadline(httpGetFd(http_.get()), timing_.whole);
+    Deadline deadline(httpGetFd(http_.get()), timing_.whole, gives_up_);
     // A printer that refuses may say why and hang up before it has all.
     const bool is_sent = send(request, document);
     Ipp reply(ippNew());
@@ -88,7 +106,7 @@ class Connection {
       state = ippRead(http_.get(), reply.get());
     }
     if (state == IPP_STATE_DATA) return reply;
-    if (timed_out_ || deadline.has_passed() || httpError(http_.get()) != 0) {
+    if (timed_out_ || deadline.has_passed() || deadline.given_up() || httpError(http_.get()) != 0) {
       return broken(deadline, is_sent);
     }
     return failure(kNoIpp, "answers what is no IPP. Check the address");
@@ -125,7 +143,11 @@ class Connection {
   [[nodiscard]] tl::unexpected<Error> failure(const char* reason, const std::string& what) const {
     return fail(Code::kUnavailable, "printer " + address_.uri + ": " + what, reason);
   }
+  [[nodiscard]] tl::unexpected<Error> left() const {
+    return fail(Code::kCancelled, "printer " + address_.uri + ": was left alone", kLeft);
+  }
   [[nodiscard]] tl::unexpected<Error> broken(const Deadline& deadline, bool is_sent) const {
+    if (deadline.given_up()) return left();
     if (timed_out_ || deadline.has_passed()) {
       return failure(kSilent, is_sent ? "does not answer in time. Look at its display"
                                       : "does not take the data in time. Look at its display");
@@ -135,15 +157,17 @@ class Connection {
 
   const Address& address_;
   const ExchangeTiming& timing_;
+  const std::function<bool()>& gives_up_;
   Http http_;
   bool timed_out_ = false;
 };
 
 }  // namespace
 
-Result<Ipp> exchange(const Address& address, const ExchangeTiming& timing, ipp_t* request,
+Result<Ipp> exchange(const Address& address, const ExchangeTiming& timing,
+                     const std::function<bool()>& gives_up, ipp_t* request,
                      std::span<const unsigned char> document) {
-  return Connection(address, timing).exchange(request, document);
+  return Connection(address, timing, gives_up).exchange(request, document);
 }
 
 }  // namespace hydroprint::printer

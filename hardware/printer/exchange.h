@@ -3,6 +3,7 @@
 #include <cups/cups.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -29,11 +30,15 @@ inline constexpr const char* kUnreachable = "PRINTER_UNREACHABLE";  ///< nothing
 inline constexpr const char* kSilent = "PRINTER_SILENT";  ///< connected, but no answer in time
 inline constexpr const char* kLost = "PRINTER_LOST";      ///< the connection broke
 inline constexpr const char* kNoIpp = "PRINTER_NOT_IPP";  ///< it answered something else
+inline constexpr const char* kLeft = "PRINTER_LEFT";      ///< whoever asked gave up
 
 /// Sends one request, with a document behind it, over a connection of its own and waits for the
 /// reply: the printer's, whatever its status says. Ends in bounded time, but for the look-up of the
-/// host's name, which the resolver bounds. Refuses with kUnavailable and one of the reasons above.
+/// host's name, which the resolver bounds. Refuses with kUnavailable (kLeft: kCancelled) and one of
+/// the reasons above.
+/// @param gives_up  asked ten times a second once there is a connection; true breaks it off
 [[nodiscard]] Result<Ipp> exchange(const Address& address, const ExchangeTiming& timing,
-                                   ipp_t* request, std::span<const unsigned char> document = {});
+                                   const std::function<bool()>& gives_up, ipp_t* request,
+                                   std::span<const unsigned char> document = {});
 
 }  // namespace hydroprint::printer

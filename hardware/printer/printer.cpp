@@ -157,6 +157,10 @@ std::string state_name(std::optional<int> state) {
   return ippEnumString("printer-state", *state);
 }
 
+ExchangeTiming question(const Timing& timing) {
+  return {timing.connect, timing.answer, 2 * timing.answer};
+}
+
 /// How a job ended, as follow() tells it.
 Result<JobReport> outcome(const Address& address, const JobReport& report) {
   if (report.state == JobState::kCompleted) return report;
@@ -196,8 +200,8 @@ bool is_over(JobState state) {
          state == JobState::kCompleted;
 }
 
-Printer::Printer(Address address, const Timing& timing)
-    : address_(std::move(address)), timing_(timing) {}
+Printer::Printer(Address address, const Timing& timing, std::function<bool()> gives_up)
+    : address_(std::move(address)), timing_(timing), gives_up_(std::move(gives_up)) {}
 
 Result<Attributes> Printer::attributes() const {
   const Ipp request = request_of(IPP_OP_GET_PRINTER_ATTRIBUTES, address_);
@@ -207,9 +211,8 @@ Result<Attributes> Printer::attributes() const {
                                     "document-format-supported", "media-supported",
                                     "media-left-margin-supported", "media-right-margin-supported",
                                     "media-top-margin-supported", "media-bottom-margin-supported"});
-  HP_ASSIGN_OR_RETURN(
-      const Ipp reply,
-      exchange(address_, {timing_.connect, timing_.answer, 2 * timing_.answer}, request.get()));
+  HP_ASSIGN_OR_RETURN(const Ipp reply,
+                      exchange(address_, question(timing_), gives_up_, request.get()));
   if (!is_ok(reply.get())) return refused(address_, "to tell about itself", reply.get());
   Attributes out;
   out.name = text(reply.get(), "printer-name");
@@ -240,11 +243,12 @@ Result<Submitted> Printer::print(const PrintJob& job) const {
   if (media == nullptr) return fail(Code::kOutOfRange, "paper: no such size. Use another");
   ippAddString(request.get(), IPP_TAG_JOB, IPP_TAG_KEYWORD, "media", nullptr, media->pwg);
   ippAddString(request.get(), IPP_TAG_JOB, IPP_TAG_KEYWORD, "print-scaling", nullptr, "none");
-  auto reply = exchange(address_, {timing_.connect, timing_.answer, timing_.upload}, request.get(),
-                        job.document);
+  auto reply = exchange(address_, {timing_.connect, timing_.answer, timing_.upload}, gives_up_,
+                        request.get(), job.document);
   if (!reply) {
     Error error = std::move(reply).error();
     if (error.reason != kUnreachable) {
+      error.message += error.reason == kLeft ? "." : "";
       error.message += " It may have taken the job: look before printing again";
     }
     return tl::unexpected(std::move(error));
@@ -258,24 +262,35 @@ Result<Submitted> Printer::print(const PrintJob& job) const {
 Result<JobReport> Printer::job(int id) const {
   const Ipp request = request_of(IPP_OP_GET_JOB_ATTRIBUTES, address_);
   add_job(request.get(), id);
-  ask_for(request.get(), std::array{"job-state", "job-state-reasons"});
-  HP_ASSIGN_OR_RETURN(
-      const Ipp reply,
-      exchange(address_, {timing_.connect, timing_.answer, 2 * timing_.answer}, request.get()));
+  ask_for(request.get(), std::array{"job-state", "job-state-reasons", "job-impressions-completed"});
+  HP_ASSIGN_OR_RETURN(const Ipp reply,
+                      exchange(address_, question(timing_), gives_up_, request.get()));
   if (!is_ok(reply.get())) {
     return refused(address_, "to tell about job " + std::to_string(id), reply.get());
   }
   const auto state = number(reply.get(), "job-state", IPP_TAG_ENUM);
   if (!state) return refused(address_, "to say how job " + std::to_string(id) + " is", reply.get());
-  return JobReport{id, job_state(*state), reasons(reply.get(), "job-state-reasons")};
+  return JobReport{id,
+                   job_state(*state),
+                   reasons(reply.get(), "job-state-reasons"),
+                   {},
+                   number(reply.get(), "job-impressions-completed", IPP_TAG_INTEGER).value_or(0)};
+}
+
+std::vector<std::string> Printer::state_reasons() const {
+  const Ipp request = request_of(IPP_OP_GET_PRINTER_ATTRIBUTES, address_);
+  add_user(request.get());
+  ask_for(request.get(), std::array{"printer-state-reasons"});
+  const auto reply = exchange(address_, question(timing_), gives_up_, request.get());
+  if (!reply || !is_ok(reply->get())) return {};
+  return reasons(reply->get(), "printer-state-reasons");
 }
 
 Status Printer::cancel(int id) const {
   const Ipp request = request_of(IPP_OP_CANCEL_JOB, address_);
   add_job(request.get(), id);
-  HP_ASSIGN_OR_RETURN(
-      const Ipp reply,
-      exchange(address_, {timing_.connect, timing_.answer, 2 * timing_.answer}, request.get()));
+  HP_ASSIGN_OR_RETURN(const Ipp reply,
+                      exchange(address_, question(timing_), gives_up_, request.get()));
   if (!is_ok(reply.get())) {
     return refused(address_, "to cancel job " + std::to_string(id), reply.get());
   }
@@ -298,8 +313,8 @@ Result<JobReport> Printer::follow(int id, const std::function<void(const JobRepo
     }
     if (report) {
       heard = Clock::now();
-      const bool is_news =
-          last.id == 0 || report->state != last.state || report->reasons != last.reasons;
+      if (!is_over(report->state)) report->printer_reasons = state_reasons();
+      const bool is_news = last.id == 0 || *report != last;
       if (is_news && on_change) on_change(*report);
       last = *report;
       if (is_over(last.state)) return outcome(address_, last);

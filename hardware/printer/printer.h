@@ -60,6 +60,10 @@ struct JobReport {
   int id = 0;
   JobState state = JobState::kPending;
   std::vector<std::string> reasons;  ///< "aborted-by-system" and so on
+  /// Of follow() alone: what the printer says of itself, "media-empty" and so on.
+  std::vector<std::string> printer_reasons;
+  int pages_done = 0;  ///< sides printed, as far as the printer counts them
+  bool operator==(const JobReport&) const = default;
 };
 
 /// What became of sending.
@@ -71,12 +75,15 @@ struct Submitted {
 };
 
 /// A printer that speaks IPP (RFC 8010, RFC 8011), every call over a connection of its own. Holds
-/// nothing but the address; any thread. All calls end in bounded time (Timing) and refuse with
-/// kUnavailable, reason PRINTER_UNREACHABLE, PRINTER_SILENT, PRINTER_LOST or PRINTER_NOT_IPP; what
-/// a printer refuses itself is named with its own word for it, reason PRINTER_REFUSED.
+/// nothing but what it was made of; any thread. All calls end in bounded time (Timing) and refuse
+/// with kUnavailable, reason PRINTER_UNREACHABLE, PRINTER_SILENT, PRINTER_LOST or PRINTER_NOT_IPP;
+/// what a printer refuses itself is named with its own word for it, reason PRINTER_REFUSED.
 class Printer {
  public:
-  explicit Printer(Address address, const Timing& timing = {});
+  /// @param gives_up  asked again and again, from any thread: true ends every call soon, refused
+  ///                  with kCancelled, reason PRINTER_LEFT (within Timing::connect while there is
+  ///                  no connection yet)
+  explicit Printer(Address address, const Timing& timing = {}, std::function<bool()> gives_up = {});
 
   [[nodiscard]] Result<Attributes> attributes() const;
 
@@ -102,8 +109,12 @@ class Printer {
       const std::function<bool()>& is_cancelled = {}) const;
 
  private:
+  /// What it says of itself; nothing where it cannot be asked.
+  [[nodiscard]] std::vector<std::string> state_reasons() const;
+
   Address address_;
   Timing timing_;
+  std::function<bool()> gives_up_;
 };
 
 }  // namespace hydroprint::printer

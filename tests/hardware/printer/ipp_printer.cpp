@@ -4,6 +4,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <functional>
 #include <stdexcept>
 #include <thread>
@@ -26,7 +27,7 @@ int free_port() {
 }
 
 void wait_until(const std::function<bool()>& is_so, const std::string& program) {
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < 2400; ++i) {  // a busy machine takes its time
     if (is_so()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -58,12 +59,16 @@ Address IppPrinter::address() const {
 
 void IppPrinter::pull_the_plug() { process_.reset(); }
 
+void IppPrinter::finish() const { std::ofstream(folder_.path() / "print.sh.end"); }
+
 std::filesystem::path IppPrinter::spooled() const {
+  std::vector<std::filesystem::path> out;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(folder_.path() / "spool")) {
-    if (entry.is_regular_file()) return entry.path();
+    if (entry.path().extension() != ".prn") out.push_back(entry.path());  // what its command said
   }
-  throw std::runtime_error("nothing spooled");
+  if (out.size() != 1) throw std::runtime_error(std::to_string(out.size()) + " files spooled");
+  return out.front();
 }
 
 }  // namespace hydroprint::printer

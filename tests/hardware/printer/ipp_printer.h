@@ -16,6 +16,11 @@ class IppPrinter {
   /// @param command  of a shell, that "prints" the file named by its last argument
   explicit IppPrinter(const std::string& command);
 
+  /// A command that prints until finish(), or until this is gone.
+  static constexpr const char* kUntilFinished =
+      "while [ -e \"$0\" ]; do [ -e \"$0.end\" ] && exit 0; sleep 0.1; done\nexit 1";
+  void finish() const;
+
   [[nodiscard]] Address address() const;
   /// Ends it, and the job in its hands, at once.
   void pull_the_plug();
