@@ -68,20 +68,40 @@ std::optional<std::string> from_proto(v1::ArtifactSet artifacts) {
   return std::nullopt;
 }
 
-// The fields that SimulateSpec, PredictSpec and FitSpec share.
+std::optional<std::string> from_proto(v1::Colours colours) {
+  if (colours == v1::COLOURS_RGB) return "rgb";
+  if (colours == v1::COLOURS_CMYK) return "cmyk";
+  return std::nullopt;
+}
+
+// The fields that all specs share but ValidateSpec.
 template <class Message>
-Spec dip_from_proto(const Message& message) {
+Spec film_from_proto(const Message& message) {
   Spec spec;
-  spec.mesh = from_proto(message.mesh());
   for (const auto& file : message.extra_files()) spec.extra_files.push_back(from_proto(file));
-  spec.profile = from_proto(message.has_profile(), message.profile());
-  spec.ink_image = from_proto(message.has_ink_image(), message.ink_image());
+  spec.film = given(message.has_film(), message.film());
+  spec.threads = given(message.has_threads(), static_cast<int>(message.threads()));
+  return spec;
+}
+
+// Those that are about an object.
+template <class Message>
+Spec object_from_proto(const Message& message) {
+  Spec spec = film_from_proto(message);
+  spec.mesh = from_proto(message.mesh());
   spec.scale = given(message.has_scale(), message.scale());
   spec.pose = from_proto(message.has_pose(), message.pose());
-  spec.film = given(message.has_film(), message.film());
+  return spec;
+}
+
+// Those that SimulateSpec, PredictSpec and FitSpec share.
+template <class Message>
+Spec dip_from_proto(const Message& message) {
+  Spec spec = object_from_proto(message);
+  spec.profile = from_proto(message.has_profile(), message.profile());
+  spec.ink_image = from_proto(message.has_ink_image(), message.ink_image());
   spec.depth_mm = given(message.has_depth_mm(), message.depth_mm());
   spec.dip_speed_mm_per_s = given(message.has_dip_speed_mm_per_s(), message.dip_speed_mm_per_s());
-  spec.threads = given(message.has_threads(), static_cast<int>(message.threads()));
   return spec;
 }
 
@@ -94,6 +114,35 @@ Spec common_from_proto(const Message& message) {
   spec.inertia = message.inertia();
   spec.ink_passes = given(message.has_ink_passes(), static_cast<int>(message.ink_passes()));
   spec.artifacts = from_proto(message.artifacts());
+  return spec;
+}
+
+// Those that PrintImageSpec and TemplateSpec share.
+template <class Message>
+PageSpec page_from_proto(const Message& message) {
+  PageSpec page;
+  page.paper = given(message.has_paper(), message.paper());
+  page.printer_margin_mm = given(message.has_printer_margin_mm(), message.printer_margin_mm());
+  page.job_name = message.job_name();
+  page.date = message.date();
+  return page;
+}
+
+Spec print_image_from_proto(const v1::PrintImageSpec& message) {
+  Spec spec = film_from_proto(message);
+  spec.verb = Verb::kPrintImage;
+  spec.simulate_job = message.simulate_job();
+  spec.film_image = from_proto(message.has_film_image(), message.film_image());
+  spec.dpi = given(message.has_dpi(), message.dpi());
+  spec.page = page_from_proto(message);
+  spec.page.bar_mm = given(message.has_bar_mm(), message.bar_mm());
+  spec.page.overlap_mm = given(message.has_overlap_mm(), message.overlap_mm());
+  spec.page.mirror = message.mirror();
+  spec.page.no_marks = message.no_marks();
+  spec.page.colours = from_proto(message.colours());
+  spec.page.icc_profile = from_proto(message.has_icc_profile(), message.icc_profile());
+  spec.page.ink_limit = given(message.has_ink_limit(), message.ink_limit());
+  spec.page.formats.assign(message.formats().begin(), message.formats().end());
   return spec;
 }
 
@@ -126,6 +175,14 @@ std::optional<Spec> spec_from_proto(const v1::Job& job) {
     spec.only.assign(message.only().begin(), message.only().end());
     spec.quick = message.quick();
     spec.threads = given(message.has_threads(), static_cast<int>(message.threads()));
+    return spec;
+  }
+  if (job.has_print_image()) return print_image_from_proto(job.print_image());
+  if (job.has_template_()) {
+    Spec spec = object_from_proto(job.template_());
+    spec.verb = Verb::kTemplate;
+    spec.simulate_job = job.template_().simulate_job();
+    spec.page = page_from_proto(job.template_());
     return spec;
   }
   return std::nullopt;
@@ -162,20 +219,30 @@ Status names_to_proto(const Spec& spec, Message& message) {
 }
 
 template <class Message>
-void dip_to_proto(const Spec& spec, Message& message) {
-  to_proto(spec.mesh, message.mutable_mesh());
+void film_to_proto(const Spec& spec, Message& message) {
   for (const InputFile& file : spec.extra_files) to_proto(file, message.add_extra_files());
-  if (spec.profile) to_proto(*spec.profile, message.mutable_profile());
-  if (spec.ink_image) to_proto(*spec.ink_image, message.mutable_ink_image());
+  if (spec.film) message.set_film(*spec.film);
+  if (spec.threads) message.set_threads(*spec.threads);
+}
+
+template <class Message>
+void object_to_proto(const Spec& spec, Message& message) {
+  film_to_proto(spec, message);
+  if (!spec.mesh.name.empty()) to_proto(spec.mesh, message.mutable_mesh());
   if (spec.scale) message.set_scale(*spec.scale);
   if (spec.pose) {
     for (const double x : spec.pose->rotation_wxyz) message.mutable_pose()->add_rotation_wxyz(x);
     for (const double x : spec.pose->translation_mm) message.mutable_pose()->add_translation_mm(x);
   }
-  if (spec.film) message.set_film(*spec.film);
+}
+
+template <class Message>
+void dip_to_proto(const Spec& spec, Message& message) {
+  object_to_proto(spec, message);
+  if (spec.profile) to_proto(*spec.profile, message.mutable_profile());
+  if (spec.ink_image) to_proto(*spec.ink_image, message.mutable_ink_image());
   if (spec.depth_mm) message.set_depth_mm(*spec.depth_mm);
   if (spec.dip_speed_mm_per_s) message.set_dip_speed_mm_per_s(*spec.dip_speed_mm_per_s);
-  if (spec.threads) message.set_threads(*spec.threads);
 }
 
 template <class Message>
@@ -185,6 +252,35 @@ Status common_to_proto(const Spec& spec, Message& message) {
   message.set_inertia(spec.inertia);
   if (spec.ink_passes) message.set_ink_passes(*spec.ink_passes);
   return names_to_proto(spec, message);
+}
+
+template <class Message>
+void page_to_proto(const PageSpec& page, Message& message) {
+  if (page.paper) message.set_paper(*page.paper);
+  if (page.printer_margin_mm) message.set_printer_margin_mm(*page.printer_margin_mm);
+  message.set_job_name(page.job_name);
+  message.set_date(page.date);
+}
+
+Status print_image_to_proto(const Spec& spec, v1::PrintImageSpec& message) {
+  const PageSpec& page = spec.page;
+  message.set_simulate_job(spec.simulate_job);
+  film_to_proto(spec, message);
+  if (spec.film_image) to_proto(*spec.film_image, message.mutable_film_image());
+  if (spec.dpi) message.set_dpi(*spec.dpi);
+  page_to_proto(page, message);
+  if (page.bar_mm) message.set_bar_mm(*page.bar_mm);
+  if (page.overlap_mm) message.set_overlap_mm(*page.overlap_mm);
+  message.set_mirror(page.mirror);
+  message.set_no_marks(page.no_marks);
+  if (page.colours == "rgb") message.set_colours(v1::COLOURS_RGB);
+  if (page.colours == "cmyk") message.set_colours(v1::COLOURS_CMYK);
+  if (page.colours && message.colours() == v1::COLOURS_UNSPECIFIED)
+    return fail(Code::kInvalidArgument, "colours '" + *page.colours + "': give rgb or cmyk");
+  if (page.icc_profile) to_proto(*page.icc_profile, message.mutable_icc_profile());
+  if (page.ink_limit) message.set_ink_limit(*page.ink_limit);
+  for (const std::string& name : page.formats) message.add_formats(name);
+  return {};
 }
 
 }  // namespace
@@ -216,6 +312,7 @@ Job from_proto(const v1::Job& message) {
   job.cache_hit = message.cache_hit();
   job.spec = spec_from_proto(message);
   if (message.has_dip()) job.dip = from_proto(message.dip());
+  if (message.has_print()) job.print_image_job = message.print().print_image_job();
   if (message.has_dip_status()) job.dip_status = from_proto(message.dip_status());
   return job;
 }
@@ -275,6 +372,14 @@ Status to_proto(const Spec& spec, v1::Job& job) {
     for (const std::string& name : spec.only) message.add_only(name);
     message.set_quick(spec.quick);
     if (spec.threads) message.set_threads(*spec.threads);
+    return {};
+  }
+  if (spec.verb == Verb::kPrintImage) return print_image_to_proto(spec, *job.mutable_print_image());
+  if (spec.verb == Verb::kTemplate) {
+    auto& message = *job.mutable_template_();
+    message.set_simulate_job(spec.simulate_job);
+    object_to_proto(spec, message);
+    page_to_proto(spec.page, message);
     return {};
   }
   auto& message = *job.mutable_predict();

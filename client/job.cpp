@@ -36,6 +36,10 @@ std::string_view name_of(Verb verb) {
       return "fit";
     case Verb::kValidate:
       return "validate";
+    case Verb::kPrintImage:
+      return "print-image";
+    case Verb::kTemplate:
+      return "template";
   }
   return "unknown";
 }
@@ -46,7 +50,8 @@ bool is_finished(JobState state) {
 }
 
 bool is_finished(const Job& job) {
-  return is_finished(job.state) || (job.dip && job.state == JobState::kInterrupted);
+  const bool is_computed = !job.dip && !job.print_image_job;
+  return is_finished(job.state) || (!is_computed && job.state == JobState::kInterrupted);
 }
 
 }  // namespace hydroprint::client

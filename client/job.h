@@ -14,9 +14,9 @@
 namespace hydroprint::client {
 
 /// The kinds of computation, as the worker's verbs.
-enum class Verb { kSimulate, kPredict, kFit, kValidate };
+enum class Verb { kSimulate, kPredict, kFit, kValidate, kPrintImage, kTemplate };
 
-/// "simulate", "predict", ... as the worker and the API's Job have them.
+/// "simulate", "print-image", ... as the worker has them; the API's Job has "_" for "-".
 [[nodiscard]] std::string_view name_of(Verb verb);
 
 /// Uploaded bytes and the name by which the computation sees them.
@@ -31,13 +31,32 @@ struct PoseSpec {
   std::array<double, 3> translation_mm = {0, 0, 0};
 };
 
+/// The paper, and what stands on it: print-image, and template as far as `date`.
+struct PageSpec {
+  std::optional<std::string> paper;
+  std::optional<double> printer_margin_mm;
+  std::string job_name;
+  std::string date;
+  std::optional<double> bar_mm;
+  std::optional<double> overlap_mm;
+  bool mirror = false;
+  bool no_marks = false;
+  std::optional<std::string> colours;  ///< "rgb" or "cmyk"
+  std::optional<InputFile> icc_profile;
+  std::optional<double> ink_limit;
+  std::vector<std::string> formats;  ///< "pdf", "png", "tiff"; none: the worker's
+};
+
 /// What a job computes: the worker's flags (contract). What is not set is left to the worker.
 struct Spec {
   Verb verb = Verb::kSimulate;
-  InputFile mesh;                       ///< all but validate
+  /// Print-image and template only: "jobs/7", whose film image, or object, is taken, in place of
+  /// the files, `scale`, `pose`, `film` and `dpi` here; empty: none.
+  std::string simulate_job;
+  InputFile mesh;                       ///< all but validate and print-image
   std::vector<InputFile> extra_files;   ///< files that others refer to by name
   std::optional<InputFile> texture;     ///< simulate only
-  std::optional<InputFile> film_image;  ///< predict only, and needed there
+  std::optional<InputFile> film_image;  ///< predict and print-image only, and needed there
   std::optional<InputFile> motion;      ///< predict only
   std::optional<InputFile> points;      ///< fit only, and needed there
   std::optional<InputFile> profile;
@@ -57,6 +76,7 @@ struct Spec {
   bool quick = false;                    ///< validate only
   std::vector<std::string> free;         ///< fit only: what to fit; none: all that can be
   bool drop_outliers = false;            ///< fit only
+  PageSpec page;                         ///< print-image and template only
 };
 
 enum class JobState {
@@ -103,14 +123,16 @@ struct Job {
   std::string input_digest;
   bool cache_hit = false;
   std::optional<Spec> spec;  ///< of a computation; none if of a kind that this client does not know
-  std::optional<DipSpec> dip;           ///< of a dip
-  std::optional<DipStatus> dip_status;  ///< of an open dip
+  std::optional<DipSpec> dip;                  ///< of a dip
+  std::optional<DipStatus> dip_status;         ///< of an open dip
+  std::optional<std::string> print_image_job;  ///< of a print: "jobs/7", whose pages are printed
 };
 
 /// Whether the job's state will not change any more.
 [[nodiscard]] bool is_finished(const Job& job);
 
-/// Whether this is so of every job in that state: INTERRUPTED is the end of a dip alone.
+/// Whether this is so of every job in that state: INTERRUPTED is the end of dips and prints
+/// alone.
 [[nodiscard]] bool is_finished(JobState state);
 
 /// Something that happened to a job.

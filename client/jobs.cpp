@@ -118,6 +118,13 @@ Result<Job> confirm_step(Connection& connection, const std::string& name, DipSte
   return to_job(call_once(connection, *connection.impl().jobs, &JobStub::ConfirmStep, request));
 }
 
+Result<Job> create_print(Connection& connection, const std::string& print_image_job,
+                         const JobOptions& options) {
+  v1::CreateJobRequest request = creation(options);
+  request.mutable_job()->mutable_print()->set_print_image_job(print_image_job);
+  return to_job(call(connection, *connection.impl().jobs, &JobStub::CreateJob, request));
+}
+
 Result<Job> get_job(Connection& connection, const std::string& name) {
   return to_job(
       call(connection, *connection.impl().jobs, &JobStub::GetJob, named<v1::GetJobRequest>(name)));

@@ -33,6 +33,11 @@ struct JobOptions {
 [[nodiscard]] Result<Job> confirm_step(Connection& connection, const std::string& name,
                                        DipStep step, const std::string& lease_id);
 
+/// Has the daemon's printer print what a print-image job made. Errors: PRINTER_MISSING,
+/// STATE_FORBIDS; what the printer does comes as the job's end.
+[[nodiscard]] Result<Job> create_print(Connection& connection, const std::string& print_image_job,
+                                       const JobOptions& options = {});
+
 [[nodiscard]] Result<Job> get_job(Connection& connection, const std::string& name);
 
 /// Which jobs are listed.

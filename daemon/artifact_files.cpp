@@ -22,8 +22,9 @@ tl::unexpected<Error> unusable(const std::string& what) {
 }  // namespace
 
 std::string media_type(const std::string& name) {
-  static constexpr std::array<std::array<const char*, 2>, 11> kTypes{{
+  static constexpr std::array<std::array<const char*, 2>, 12> kTypes{{
       {".png", "image/png"},
+      {".pdf", "application/pdf"},
       {".json", "application/json"},
       {".html", "text/html"},
       {".ply", "model/ply"},

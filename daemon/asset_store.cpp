@@ -164,6 +164,24 @@ void AssetStore::give_up(const Upload& upload) {
   (void)database_.run("DELETE FROM uploads WHERE id=?", {upload.id});
 }
 
+Result<Asset> AssetStore::adopt(const std::filesystem::path& file, const Asset& as) {
+  const auto final_path = layout_.asset(as.sha256);
+  HP_RETURN_IF_ERROR(make_folder(final_path.parent_path()));
+  const Status done = database_.transaction([&]() -> Status {
+    if (asset(as.sha256)) return {};
+    discard(final_path);  // of a crash, which may have left part of it
+    HP_RETURN_IF_ERROR(link_or_copy(file, final_path));
+    ::chmod(final_path.c_str(), 0400);
+    HP_RETURN_IF_ERROR(sync_path(final_path));
+    HP_RETURN_IF_ERROR(sync_path(final_path.parent_path()));
+    return database_.run("INSERT INTO assets VALUES (?,?,?,?)",
+                         {as.sha256, as.size_bytes, as.media_type, clock_()});
+  });
+  if (!done) discard_unowned(as.sha256);
+  HP_RETURN_IF_ERROR(done);
+  return asset(as.sha256);
+}
+
 Status AssetStore::purge() {
   return database_.transaction([&]() -> Status {
     HP_RETURN_IF_ERROR(database_.run("DELETE FROM uploads WHERE expire_ms<=?", {clock_()}));

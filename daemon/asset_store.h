@@ -61,6 +61,10 @@ class AssetStore {
   [[nodiscard]] Result<Upload> upload(const std::string& id);
   /// kNotFound, ASSET_NOT_FOUND.
   [[nodiscard]] Result<Asset> asset(const std::string& sha256);
+  /// Makes a file that is whole, safe on disk and has that hash an asset, unless it is one already;
+  /// the file stays, but can no longer be written.
+  /// @return kResourceExhausted, DISK_FULL
+  [[nodiscard]] Result<Asset> adopt(const std::filesystem::path& file, const Asset& as);
   /// In the order of their hashes, those after `after`.
   [[nodiscard]] Result<std::vector<Asset>> list(const std::string& after, int limit);
   /// kFailedPrecondition, STATE_FORBIDS while an unfinished job needs it; ASSET_NOT_FOUND.

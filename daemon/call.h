@@ -11,6 +11,7 @@
 #include "daemon/dip_runner.h"
 #include "daemon/job_store.h"
 #include "daemon/pool.h"
+#include "daemon/print_runner.h"
 #include "daemon/rig_desk.h"
 
 namespace hydroprint::daemon {
@@ -23,6 +24,7 @@ struct Backend {
   WorkerPool& pool;
   RigDesk& desk;
   DipRunner& dips;
+  PrintRunner& prints;
   Layout layout;
   std::int64_t min_free_bytes = 0;
   /// True from the moment the daemon goes down: streams end, nothing new begins.

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <variant>
 
+#include "daemon/printer_setup.h"
 #include "hardware/drive/link.h"
 
 namespace hydroprint::daemon {
@@ -64,6 +65,10 @@ std::vector<Key> make_keys() {
   for (const rig::RigConfigKey& key : rig::rig_config_keys()) {
     all.push_back({"rig", key.name, Real{key.member, key.least, key.most}});
   }
+  all.push_back({"printer", "address", Text{&Config::printer_address}});
+  all.push_back({"printer", "patience_s", Number{&Config::printer_patience_s, 1, 3600, "seconds"}});
+  all.push_back(
+      {"printer", "time_limit_s", Number{&Config::printer_time_limit_s, 1, 86400, "seconds"}});
   all.push_back({"log", "level", Text{&Config::log_level, {"debug", "info", "warning", "error"}}});
   all.push_back({"log", "file", Text{&Config::log_file}});
   return all;
@@ -181,6 +186,9 @@ Status check_values(const Config& config, const std::string& name, const toml::t
     return refuse(name, root["server"]["grpc"].node()->source(),
                   "server.grpc: " + endpoint.error().message);
   }
+  if (const auto printer = read_printer_setup(config); !printer) {
+    return refuse(name, root["printer"]["address"].node()->source(), printer.error().message);
+  }
   if (config.rig_drive.empty()) return {};
   if (const auto endpoint = drive::parse_endpoint(config.rig_drive); !endpoint) {
     return refuse(name, root["rig"]["drive"].node()->source(),
@@ -208,10 +216,10 @@ Result<Config> parse_config(std::string_view text, const std::string& name) {
                                      [&](const Key& key) { return key.section == section.str(); });
       const toml::table* table = entry.second.as_table();
       if (!known || table == nullptr) {
-        return refuse(
-            name, section.source(),
-            "unknown section \"" + std::string(section.str()) +
-                "\"; there are [server], [store], [assets], [queue], [workers], [rig], [log]");
+        return refuse(name, section.source(),
+                      "unknown section \"" + std::string(section.str()) +
+                          "\"; there are [server], [store], [assets], [queue], [workers], [rig], "
+                          "[printer], [log]");
       }
       HP_RETURN_IF_ERROR(read_section(name, section.str(), *table, config));
     }

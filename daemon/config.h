@@ -29,11 +29,14 @@ struct Config {
   std::int64_t workers_memory_mib = 4096;  ///< workers.memory_mib per worker; 0: no limit
   std::int64_t workers_time_limit_s = 3600;  ///< workers.time_limit_s per job
   std::int64_t workers_file_mib = 4096;      ///< workers.file_mib, of one file a worker writes
-  std::string rig_drive;           ///< rig.drive: "tcp:HOST:PORT" or "rtu:..."; empty: no rig
-  std::string rig_profile;         ///< rig.profile: file of the drive's profile
-  rig::RigConfig rig;              ///< the other keys of [rig]
-  std::string log_level = "info";  ///< log.level: debug, info, warning, error
-  std::string log_file;            ///< log.file besides stderr; empty: none
+  std::string rig_drive;                 ///< rig.drive: "tcp:HOST:PORT" or "rtu:..."; empty: no rig
+  std::string rig_profile;               ///< rig.profile: file of the drive's profile
+  rig::RigConfig rig;                    ///< the other keys of [rig]
+  std::string printer_address;           ///< printer.address: "ipp://..."; empty: no printer
+  std::int64_t printer_patience_s = 20;  ///< printer.patience_s with one that does not answer
+  std::int64_t printer_time_limit_s = 3600;  ///< printer.time_limit_s per job
+  std::string log_level = "info";            ///< log.level: debug, info, warning, error
+  std::string log_file;                      ///< log.file besides stderr; empty: none
 
   bool operator==(const Config&) const = default;
 };

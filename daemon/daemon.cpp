@@ -51,6 +51,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config) {
   HP_ASSIGN_OR_RETURN(daemon->lock_, lock_state(daemon->layout_));
   HP_RETURN_IF_ERROR(daemon->open_store(config));
   HP_RETURN_IF_ERROR(daemon->open_rig(config));
+  HP_RETURN_IF_ERROR(daemon->open_printer(config));
   HP_RETURN_IF_ERROR(daemon->start_serving(config));
   return daemon;
 }
@@ -88,11 +89,19 @@ Status Daemon::open_rig(const Config& config) {
   return {};
 }
 
+// Nor need the printer.
+Status Daemon::open_printer(const Config& config) {
+  HP_ASSIGN_OR_RETURN(auto setup, read_printer_setup(config));
+  prints_ = std::make_unique<PrintRunner>(std::move(setup), *jobs_, layout_);
+  return {};
+}
+
 Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(pool_,
                       WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
-  const Backend backend{*database_, *jobs_, *assets_, *pool_,
-                        *desk_,     *dips_, layout_,  config.store_min_free_mib * kMiB,
+  const Backend backend{*database_, *jobs_,  *assets_,
+                        *pool_,     *desk_,  *dips_,
+                        *prints_,   layout_, config.store_min_free_mib * kMiB,
                         stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
@@ -117,6 +126,7 @@ void Daemon::stop() {
   if (stopping_.exchange(true) || !server_) return;
   jobs_->bell().ring();
   dips_->stop();
+  prints_->stop();
   if (rig_) rig_->stop();
   pool_->stop();
   guard_.reset();

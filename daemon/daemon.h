@@ -10,6 +10,7 @@
 #include "daemon/job_store.h"
 #include "daemon/lease.h"
 #include "daemon/pool.h"
+#include "daemon/print_runner.h"
 #include "daemon/rig_desk.h"
 #include "daemon/rig_guard.h"
 #include "daemon/server.h"
@@ -41,6 +42,7 @@ class Daemon {
   Daemon() = default;
   [[nodiscard]] Status open_store(const Config& config);
   [[nodiscard]] Status open_rig(const Config& config);
+  [[nodiscard]] Status open_printer(const Config& config);
   [[nodiscard]] Status start_serving(const Config& config);
 
   Layout layout_;
@@ -52,6 +54,7 @@ class Daemon {
   std::unique_ptr<LeaseKeeper> leases_;
   std::unique_ptr<RigDesk> desk_;
   std::unique_ptr<DipRunner> dips_;
+  std::unique_ptr<PrintRunner> prints_;
   std::unique_ptr<WorkerPool> pool_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<RigGuard> guard_;

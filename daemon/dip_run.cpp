@@ -333,7 +333,7 @@ std::string DipRun::status() const {
 void DipRun::tell(const std::string& message) {
   if (stand_.ending != Ending::kNone) return;
   log_failure("dip_step_lost", job_,
-              around_.jobs.advance_dip(job_, job_state(stand_), status(), progress(), message));
+              around_.jobs.advance(job_, job_state(stand_), status(), progress(), message));
   log(LogLevel::kInfo, "dip_step",
       {{"job", job_}, {"step", name(stand_.step)}, {"message", message}});
   write_record();
@@ -394,7 +394,7 @@ bool DipRun::finish() {
     }
     record_ = publish_record();
   }
-  const auto ended = around_.jobs.end_dip(job_, state, failure, status(), *record_, end_words());
+  const auto ended = around_.jobs.end(job_, state, failure, status(), *record_, end_words());
   if (!ended) {
     next_end_ = SteadyClock::now() + kStoreAgainAfter;
     log(LogLevel::kError, "job_end_lost", {{"job", job_}, {"message", ended.error().message}});
@@ -425,7 +425,7 @@ Status end_lost_dips(JobStore& jobs, const Layout& layout) {
       if (auto published = publish_artifacts(folder, layout.artifacts(id))) record = *published;
     }
     HP_RETURN_IF_ERROR(
-        jobs.end_dip(id, JobState::kInterrupted, {}, status.SerializeAsString(), record, words));
+        jobs.end(id, JobState::kInterrupted, {}, status.SerializeAsString(), record, words));
   }
   discard(layout.dips());
   return make_folder(layout.dips());

@@ -5,16 +5,15 @@
 #include <numbers>
 #include <sstream>
 
+#include "daemon/earlier_job.h"
 #include "daemon/names.h"
 #include "hydroprint/v1/spec.pb.h"
-#include "sim/base/input_file.h"
 
 namespace hydroprint::daemon {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kLargestReport = 4 << 20;
 constexpr const char* kReport = "report.json";
 
 std::string text(double value) {
@@ -87,24 +86,9 @@ double film_area_mm2(ReportReader& reader) {
 }
 
 Result<SimulatedDip> simulated_dip(const std::string& name, JobStore& jobs, const Layout& layout) {
-  HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(name));
-  HP_ASSIGN_OR_RETURN(const Job job, jobs.get(id));
-  if (job.made.work.verb != "simulate") {
-    return invalid_field("dip.simulate_job", "names a job that is no simulation");
-  }
-  if (job.state != JobState::kSucceeded) {
-    Error error{Code::kFailedPrecondition,
-                name + " is " + name_of(job.state) + "; dip what a simulation that SUCCEEDED says",
-                "STATE_FORBIDS",
-                {{"state", name_of(job.state)}}};
-    return tl::unexpected(std::move(error));
-  }
-  const auto report = read_text_file(layout.artifacts(id) / kReport, kLargestReport);
-  if (!report) {
-    return fail(Code::kFailedPrecondition, name + " has no usable report.json; retry it",
-                "STATE_FORBIDS");
-  }
-  return read_simulated_dip(*report);
+  HP_ASSIGN_OR_RETURN(const Job job, earlier_job(name, "simulate", "dip.simulate_job", jobs));
+  HP_ASSIGN_OR_RETURN(const std::string report, report_of(job, layout));
+  return read_simulated_dip(report);
 }
 
 void fill_from(const SimulatedDip& simulated, dip::Plan& plan) {

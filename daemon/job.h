@@ -26,7 +26,7 @@ enum class JobState : std::int8_t {
 [[nodiscard]] const char* name_of(JobState state);
 
 /// True once nothing more will happen to the job. (A computation is INTERRUPTED in its history
-/// only, a dip for good.)
+/// only, others for good.)
 [[nodiscard]] constexpr bool is_finished(JobState state) {
   return state == JobState::kSucceeded || state == JobState::kFailed ||
          state == JobState::kCancelled || state == JobState::kInterrupted;
@@ -54,6 +54,14 @@ struct Work {
 /// INTERRUPTED once the daemon was lost, as the film may be gone and the object may hang anywhere;
 /// computations are queued again.
 [[nodiscard]] inline bool moves_the_rig(const std::string& verb) { return verb == "dip"; }
+
+/// Whether it sends something to the printer. It is never queued either, and never begun again.
+[[nodiscard]] inline bool prints(const std::string& verb) { return verb == "print"; }
+
+/// Whether a worker does it.
+[[nodiscard]] inline bool is_computed(const std::string& verb) {
+  return !moves_the_rig(verb) && !prints(verb);
+}
 
 /// SHA-256 of all that determines the outcome of a work; `worker` identifies the program.
 [[nodiscard]] std::string input_digest(const Work& work, const std::string& worker);

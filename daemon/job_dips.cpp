@@ -1,4 +1,5 @@
-// The dips' side of the job store: they are never queued, and there is one at a time.
+// The side of the job store that is of dips and prints: they are never queued, and there is one of
+// each at a time.
 #include "daemon/job_rows.h"
 #include "daemon/job_store.h"
 #include "daemon/names.h"
@@ -7,24 +8,24 @@
 namespace hydroprint::daemon {
 namespace {
 
-constexpr const char* kOpen = "state IN (2,3,4)";  // waits, runs, is being cancelled
+// Those of a verb that wait, run or are being cancelled.
+constexpr const char* kOpen = "SELECT id FROM jobs WHERE verb=? AND state IN (2,3,4) ORDER BY id";
 
 }  // namespace
 
 Result<std::vector<std::int64_t>> JobStore::open_dips() {
-  return select_numbers(
-      database_, std::string("SELECT id FROM jobs WHERE verb='dip' AND ") + kOpen + " ORDER BY id",
-      {});
+  return select_numbers(database_, kOpen, {"dip"});
 }
 
-Status JobStore::check_no_dip() {
-  HP_ASSIGN_OR_RETURN(const auto open, open_dips());
+Status JobStore::check_none_open(const std::string& verb) {
+  HP_ASSIGN_OR_RETURN(const auto open, select_numbers(database_, kOpen, {verb}));
   if (open.empty()) return {};
   const std::string name = job_name(open.front());
-  return tl::unexpected(Error{Code::kFailedPrecondition,
-                              "the dip " + name + " is not finished; finish it or cancel it first",
-                              "STATE_FORBIDS",
-                              {{"dip", name}}});
+  return tl::unexpected(
+      Error{Code::kFailedPrecondition,
+            "the " + verb + " " + name + " is not finished; wait for its end or cancel it first",
+            "STATE_FORBIDS",
+            {{verb, name}}});
 }
 
 Result<std::optional<Job>> JobStore::repeated(const std::string& owner, const RequestKey& request) {
@@ -38,12 +39,12 @@ Status JobStore::store_dip_status(std::int64_t id, const std::string& dip_status
   return database_.run("INSERT OR REPLACE INTO dips VALUES (?,?)", {id, dip_status});
 }
 
-Status JobStore::advance_dip(std::int64_t id, JobState state, const std::string& dip_status,
-                             const Progress& progress, const std::string& message) {
+Status JobStore::advance(std::int64_t id, JobState state, const std::string& dip_status,
+                         const Progress& progress, const std::string& message) {
   const Status done = database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
     if (job.state == JobState::kCancelling || is_finished(job.state)) return {};
-    HP_RETURN_IF_ERROR(store_dip_status(id, dip_status));
+    if (!dip_status.empty()) HP_RETURN_IF_ERROR(store_dip_status(id, dip_status));
     HP_RETURN_IF_ERROR(database_.run(
         "UPDATE jobs SET fraction=?, phase=?, phase_fraction=?, eta_ms=?, start_ms=? WHERE id=?",
         {progress.fraction, progress.phase, progress.phase_fraction, progress.eta_ms,
@@ -55,10 +56,9 @@ Status JobStore::advance_dip(std::int64_t id, JobState state, const std::string&
   return {};
 }
 
-Result<Job> JobStore::end_dip(std::int64_t id, JobState state,
-                              const std::optional<JobFailure>& failure,
-                              const std::string& dip_status, const std::vector<Artifact>& record,
-                              const std::string& message) {
+Result<Job> JobStore::end(std::int64_t id, JobState state, const std::optional<JobFailure>& failure,
+                          const std::string& dip_status, const std::vector<Artifact>& record,
+                          const std::string& message) {
   return changed(id, [&](const Job& job) -> Status {
     if (is_finished(job.state)) return {};  // told twice, should the first have been lost
     HP_RETURN_IF_ERROR(store_artifacts(id, record));

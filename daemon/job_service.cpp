@@ -2,7 +2,9 @@
 #include "daemon/dip_spec.h"
 #include "daemon/log.h"
 #include "daemon/names.h"
+#include "daemon/print_plan.h"
 #include "daemon/services.h"
+#include "daemon/simulated.h"
 #include "daemon/spec.h"
 #include "daemon/status.h"
 #include "daemon/watch.h"
@@ -41,7 +43,8 @@ class JobService final : public v1::JobService::Service {
   grpc::Status CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request,
                          v1::Job* reply) override {
     const auto job = with_job(request->name(), [&](auto id) {
-      return id == backend_.desk.dip() ? backend_.dips.cancel(id) : backend_.jobs.cancel(id);
+      if (id == backend_.desk.dip()) return backend_.dips.cancel(id);
+      return id == backend_.prints.job() ? backend_.prints.cancel(id) : backend_.jobs.cancel(id);
     });
     backend_.pool.wake();
     return answer(job, reply);
@@ -92,9 +95,13 @@ class JobService final : public v1::JobService::Service {
   Result<Job> create(const grpc::ServerContext& context, const v1::CreateJobRequest& request) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
     HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
-    HP_ASSIGN_OR_RETURN(NewJob made, check_job(request.job()));
+    HP_ASSIGN_OR_RETURN(const v1::Job filled, with_simulated(request.job(), backend_.jobs,
+                                                             backend_.assets, backend_.layout));
+    HP_ASSIGN_OR_RETURN(NewJob made, check_job(filled));
+    made.body = body_of(request.job());
     HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
     if (request.job().has_dip()) return create_dip(std::move(made), request);
+    if (request.job().has_print()) return create_print(std::move(made), request);
     if (!request.validate_only()) return store(std::move(made), request_key("CreateJob", request));
     HP_RETURN_IF_ERROR(backend_.jobs.check_inputs(made.work.inputs));
     HP_ASSIGN_OR_RETURN(made.digest, digest_of(made.work));
@@ -120,6 +127,23 @@ class JobService final : public v1::JobService::Service {
     HP_ASSIGN_OR_RETURN(
         Job job, backend_.dips.create(std::move(made), request_key("CreateJob", request), plan,
                                       lease.holder));
+    log_created(job);
+    return job;
+  }
+
+  Result<Job> create_print(NewJob made, const v1::CreateJobRequest& request) {
+    HP_ASSIGN_OR_RETURN(const PrintPlan plan,
+                        print_plan_of(request.job().print(), backend_.jobs, backend_.layout));
+    made.use_cache = false;
+    if (request.validate_only()) {
+      HP_RETURN_IF_ERROR(backend_.prints.check());
+      Job job;
+      job.made = std::move(made);
+      return job;
+    }
+    HP_RETURN_IF_ERROR(check_free_space(backend_.layout.root, backend_.min_free_bytes));
+    HP_ASSIGN_OR_RETURN(Job job,
+                        backend_.prints.create(made, request_key("CreateJob", request), plan));
     log_created(job);
     return job;
   }
@@ -171,6 +195,13 @@ class JobService final : public v1::JobService::Service {
     if (moves_the_rig(old.made.work.verb)) {
       return fail(Code::kFailedPrecondition,
                   job_name(id) + " is a dip, which wants a new film; create a new one",
+                  "STATE_FORBIDS");
+    }
+    if (prints(old.made.work.verb)) {
+      return fail(Code::kFailedPrecondition,
+                  job_name(id) +
+                      " is a print, which may lie in the printer's tray; look, and "
+                      "create a new one",
                   "STATE_FORBIDS");
     }
     NewJob made = old.made;

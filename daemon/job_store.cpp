@@ -13,6 +13,8 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr std::int64_t kMostLosses = 3;
+constexpr const char* kMaybePrinted =
+    ": the printer may have printed this or not; look before you print again";
 
 std::int64_t number(JobState state) { return static_cast<std::int64_t>(state); }
 std::int64_t number(EventKind kind) { return static_cast<std::int64_t>(kind); }
@@ -66,9 +68,11 @@ Status JobStore::check_queue() {
 }
 
 Result<std::int64_t> JobStore::insert(const NewJob& made) {
-  const bool is_dip = moves_the_rig(made.work.verb);
-  const JobState state = is_dip ? JobState::kWaitingForOperator : JobState::kQueued;
-  HP_RETURN_IF_ERROR(is_dip ? check_no_dip() : check_queue());
+  const std::string& verb = made.work.verb;
+  const JobState state = moves_the_rig(verb) ? JobState::kWaitingForOperator
+                         : prints(verb)      ? JobState::kRunning
+                                             : JobState::kQueued;
+  HP_RETURN_IF_ERROR(is_computed(verb) ? check_queue() : check_none_open(verb));
   HP_RETURN_IF_ERROR(check_inputs(made.work.inputs));
   const std::int64_t now = clock_();
   HP_RETURN_IF_ERROR(database_.run(
@@ -86,7 +90,7 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
     HP_RETURN_IF_ERROR(
         database_.run("INSERT INTO job_inputs VALUES (?,?,?)", {id, input.name, input.sha256}));
   }
-  if (is_dip) HP_RETURN_IF_ERROR(store_dip_status(id, made.dip_status));
+  if (moves_the_rig(verb)) HP_RETURN_IF_ERROR(store_dip_status(id, made.dip_status));
   HP_RETURN_IF_ERROR(add_event(id, EventKind::kStateChanged, ""));
   return id;
 }
@@ -103,7 +107,7 @@ Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
     HP_ASSIGN_OR_RETURN(inserted, insert(made));
     id = inserted;
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-    if (!moves_the_rig(made.work.verb)) HP_RETURN_IF_ERROR(adopt_cached(job));
+    if (is_computed(made.work.verb)) HP_RETURN_IF_ERROR(adopt_cached(job));
     return remember_result(database_, made.owner, request, std::to_string(id), clock_());
   });
   if (!done && inserted != 0) discard_unowned(inserted);
@@ -341,14 +345,16 @@ Status JobStore::interrupt_all(Interruption why) {
       why == Interruption::kLoss ? "the daemon was restarted" : "the daemon was shut down";
   const Status done = database_.transaction([&]() -> Status {
     const auto cancelled = [&](std::int64_t id) { return finish(id, JobState::kCancelled, words); };
-    const auto interrupted = [&](std::int64_t id) {
-      return finish(id, JobState::kInterrupted, words);
+    const auto interrupted = [&](std::int64_t id) -> Status {
+      HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
+      return finish(id, JobState::kInterrupted,
+                    prints(job.made.work.verb) ? words + kMaybePrinted : words);
     };
     HP_RETURN_IF_ERROR(change_running(JobState::kCancelling, cancelled));
     HP_RETURN_IF_ERROR(change_running(JobState::kWaitingForOperator, interrupted));
     return change_running(JobState::kRunning, [&](std::int64_t id) -> Status {
       HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-      if (moves_the_rig(job.made.work.verb)) return interrupted(id);
+      if (!is_computed(job.made.work.verb)) return interrupted(id);
       HP_RETURN_IF_ERROR(change(id, JobState::kInterrupted, words));
       return queue_again(id, why);
     });

@@ -94,17 +94,16 @@ class JobStore {
   [[nodiscard]] Result<Job> succeed(std::int64_t id, const std::vector<Artifact>& artifacts);
   /// RUNNING -> FAILED, CANCELLING -> CANCELLED.
   [[nodiscard]] Result<Job> give_up(std::int64_t id, const JobFailure& failure);
-  /// A dip that is not finished: WAITING_FOR_OPERATOR or RUNNING, where it stands now, and how far
-  /// it is. Does nothing to one that is CANCELLING.
-  [[nodiscard]] Status advance_dip(std::int64_t id, JobState state, const std::string& dip_status,
-                                   const Progress& progress, const std::string& message);
-  /// The end of a dip with its record: SUCCEEDED, FAILED (with `failure`, which says it all),
-  /// CANCELLED or INTERRUPTED.
-  [[nodiscard]] Result<Job> end_dip(std::int64_t id, JobState state,
-                                    const std::optional<JobFailure>& failure,
-                                    const std::string& dip_status,
-                                    const std::vector<Artifact>& record,
-                                    const std::string& message);
+  /// A dip or print that is not finished: WAITING_FOR_OPERATOR or RUNNING, where it stands now
+  /// (`dip_status`, of a dip), and how far it is. Does nothing to one that is CANCELLING.
+  [[nodiscard]] Status advance(std::int64_t id, JobState state, const std::string& dip_status,
+                               const Progress& progress, const std::string& message);
+  /// The end of a dip or print with its record: SUCCEEDED, FAILED (with `failure`, which says it
+  /// all), CANCELLED or INTERRUPTED.
+  [[nodiscard]] Result<Job> end(std::int64_t id, JobState state,
+                                const std::optional<JobFailure>& failure,
+                                const std::string& dip_status, const std::vector<Artifact>& record,
+                                const std::string& message);
   /// Dips that are not finished; at most one, but for what a crash left.
   [[nodiscard]] Result<std::vector<std::int64_t>> open_dips();
   /// RUNNING -> INTERRUPTED -> QUEUED (or FAILED, see above), CANCELLING -> CANCELLED, for all: to
@@ -142,7 +141,7 @@ class JobStore {
  private:
   [[nodiscard]] Result<std::int64_t> insert(const NewJob& made);
   [[nodiscard]] Status check_queue();
-  [[nodiscard]] Status check_no_dip();
+  [[nodiscard]] Status check_none_open(const std::string& verb);
   [[nodiscard]] Status store_dip_status(std::int64_t id, const std::string& dip_status);
   [[nodiscard]] Result<bool> adopt_cached(const Job& job);
   void discard_unowned(std::int64_t id);

@@ -69,9 +69,7 @@ class WorkBuilder {
     work_.inputs.push_back({input.name(), *asset});
     if (!name.empty()) flag(name, input.name());
   }
-  [[nodiscard]] std::string path(const std::string& field) const {
-    return work_.verb + "." + field;
-  }
+  [[nodiscard]] std::string path(const std::string& field) const { return kind() + "." + field; }
   [[nodiscard]] const std::vector<InputFile>& inputs() const { return work_.inputs; }
 
   Result<Work> build() {
@@ -81,15 +79,21 @@ class WorkBuilder {
   }
 
  private:
+  // The verb as the API has it.
+  [[nodiscard]] std::string kind() const {
+    std::string out = work_.verb;
+    std::replace(out.begin(), out.end(), '-', '_');
+    return out;
+  }
   // No name twice, and none that is another one's folder.
   [[nodiscard]] Status check_names_differ() const {
     for (const InputFile& a : work_.inputs) {
       for (const InputFile& b : work_.inputs) {
         if (&a == &b || (a.name != b.name && !b.name.starts_with(a.name + "/"))) continue;
-        auto error = fail(Code::kInvalidArgument,
-                          work_.verb + ": the name \"" + a.name +
-                              "\" stands for two files; give each file its own",
-                          "NAME_INVALID");
+        auto error = fail(
+            Code::kInvalidArgument,
+            kind() + ": the name \"" + a.name + "\" stands for two files; give each file its own",
+            "NAME_INVALID");
         return error;
       }
     }
@@ -169,21 +173,41 @@ void add_threads(WorkBuilder& builder, std::int32_t threads, NewJob& made) {
   made.threads = threads;
 }
 
-// What goes in which way through which film.
 template <class Spec>
-void add_dip(WorkBuilder& builder, const Spec& spec, NewJob& made) {
-  if (!spec.has_mesh()) builder.require(invalid_field(builder.path("mesh"), "is missing"));
-  if (spec.has_mesh()) builder.file("mesh", "mesh", spec.mesh());
+void add_extra_files(WorkBuilder& builder, const Spec& spec) {
   if (spec.extra_files_size() > kMostExtraFiles) {
     builder.require(invalid_field(builder.path("extra_files"), "has more than 256 files"));
     return;
   }
   for (const v1::InputFile& file : spec.extra_files()) builder.file("extra_files", "", file);
-  if (spec.has_profile()) builder.file("profile", "profile", spec.profile());
-  if (spec.has_ink_image()) builder.file("ink_image", "ink-image", spec.ink_image());
+}
+
+template <class Spec>
+void add_film_image(WorkBuilder& builder, const Spec& spec) {
+  if (!spec.has_film_image()) {
+    builder.require(invalid_field(builder.path("film_image"), "is missing"));
+    return;
+  }
+  builder.file("film_image", "film-image", spec.film_image());
+}
+
+// An object as it is held over its film.
+template <class Spec>
+void add_object(WorkBuilder& builder, const Spec& spec) {
+  if (!spec.has_mesh()) builder.require(invalid_field(builder.path("mesh"), "is missing"));
+  if (spec.has_mesh()) builder.file("mesh", "mesh", spec.mesh());
+  add_extra_files(builder, spec);
   if (spec.has_scale()) builder.number("scale", "scale", spec.scale(), 1e9);
   if (spec.has_pose()) add_pose(builder, spec.pose());
   if (spec.has_film()) add_film(builder, spec.film());
+}
+
+// What goes in which way through which film.
+template <class Spec>
+void add_dip(WorkBuilder& builder, const Spec& spec, NewJob& made) {
+  add_object(builder, spec);
+  if (spec.has_profile()) builder.file("profile", "profile", spec.profile());
+  if (spec.has_ink_image()) builder.file("ink_image", "ink-image", spec.ink_image());
   if (spec.has_depth_mm()) builder.number("depth_mm", "depth-mm", spec.depth_mm(), 1e6);
   if (spec.has_dip_speed_mm_per_s()) {
     builder.number("dip_speed_mm_per_s", "dip-speed-mm-per-s", spec.dip_speed_mm_per_s(), 1000);
@@ -191,11 +215,13 @@ void add_dip(WorkBuilder& builder, const Spec& spec, NewJob& made) {
   if (spec.has_threads()) add_threads(builder, spec.threads(), made);
 }
 
+void add_dpi(WorkBuilder& builder, double dpi) { builder.number("dpi", "dpi", dpi, 2400, 20); }
+
 // What simulate and predict have in common.
 template <class Spec>
 void add_common(WorkBuilder& builder, const Spec& spec, NewJob& made) {
   add_dip(builder, spec, made);
-  if (spec.has_dpi()) builder.number("dpi", "dpi", spec.dpi(), 2400, 20);
+  if (spec.has_dpi()) add_dpi(builder, spec.dpi());
   if (spec.has_ink_passes()) builder.whole("ink_passes", "ink-passes", spec.ink_passes(), 0, 10);
   add_choices(builder, spec);
 }
@@ -236,6 +262,63 @@ void add_validation(WorkBuilder& builder, const v1::ValidateSpec& spec, NewJob& 
   if (spec.has_threads()) add_threads(builder, spec.threads(), made);
 }
 
+// A length that may be 0.
+void add_length(WorkBuilder& builder, const std::string& field, const std::string& name,
+                double length_mm, double most_mm) {
+  if (!(length_mm >= 0 && length_mm <= most_mm)) {
+    builder.require(invalid_field(builder.path(field), "must be from 0 to " + text_of(most_mm)));
+  }
+  builder.flag(name, text_of(length_mm));
+}
+
+void add_text(WorkBuilder& builder, const std::string& field, const std::string& name,
+              const std::string& text) {
+  builder.require(check_text(builder.path(field), text, 200));
+  if (!text.empty()) builder.flag(name, text);
+}
+
+// The paper, and what stands on it.
+template <class Spec>
+void add_page(WorkBuilder& builder, const Spec& spec, NewJob& made) {
+  if (spec.has_paper()) {
+    builder.require(check_text(builder.path("paper"), spec.paper(), 300));
+    builder.flag("paper", spec.paper());
+  }
+  if (spec.has_printer_margin_mm()) {
+    add_length(builder, "printer_margin_mm", "printer-margin-mm", spec.printer_margin_mm(), 1000);
+  }
+  add_text(builder, "job_name", "job-name", spec.job_name());
+  add_text(builder, "date", "date", spec.date());
+  if (spec.has_threads()) add_threads(builder, spec.threads(), made);
+}
+
+void add_colours(WorkBuilder& builder, const v1::PrintImageSpec& spec) {
+  if (spec.colours() != v1::COLOURS_UNSPECIFIED) {
+    if (!v1::Colours_IsValid(spec.colours())) {
+      builder.require(invalid_field(builder.path("colours"), "is not one of rgb, cmyk"));
+    }
+    builder.flag("colours", spec.colours() == v1::COLOURS_CMYK ? "cmyk" : "rgb");
+  }
+  if (spec.has_icc_profile()) builder.file("icc_profile", "icc-profile", spec.icc_profile());
+  if (spec.has_ink_limit()) builder.number("ink_limit", "ink-limit", spec.ink_limit(), 4);
+}
+
+void add_print_image(WorkBuilder& builder, const v1::PrintImageSpec& spec, NewJob& made) {
+  add_film_image(builder, spec);
+  add_extra_files(builder, spec);
+  if (spec.has_film()) add_film(builder, spec.film());
+  if (spec.has_dpi()) add_dpi(builder, spec.dpi());
+  add_page(builder, spec, made);
+  if (spec.has_bar_mm()) add_length(builder, "bar_mm", "bar-mm", spec.bar_mm(), 2000);
+  if (spec.has_overlap_mm()) {
+    add_length(builder, "overlap_mm", "overlap-mm", spec.overlap_mm(), 100);
+  }
+  if (spec.mirror()) builder.bare_flag("mirror");
+  if (spec.no_marks()) builder.bare_flag("no-marks");
+  add_colours(builder, spec);
+  add_names(builder, "formats", spec.formats(), '-');
+}
+
 Result<Work> work_of(const v1::Job& job, NewJob& made) {
   if (job.has_simulate()) {
     WorkBuilder builder("simulate");
@@ -248,10 +331,7 @@ Result<Work> work_of(const v1::Job& job, NewJob& made) {
     WorkBuilder builder("predict");
     const auto& spec = job.predict();
     add_common(builder, spec, made);
-    if (!spec.has_film_image()) {
-      builder.require(invalid_field(builder.path("film_image"), "is missing"));
-    }
-    if (spec.has_film_image()) builder.file("film_image", "film-image", spec.film_image());
+    add_film_image(builder, spec);
     if (spec.has_motion()) builder.file("motion", "motion", spec.motion());
     return builder.build();
   }
@@ -265,11 +345,28 @@ Result<Work> work_of(const v1::Job& job, NewJob& made) {
     add_validation(builder, job.validate(), made);
     return builder.build();
   }
+  if (job.has_print_image()) {
+    WorkBuilder builder("print-image");
+    add_print_image(builder, job.print_image(), made);
+    return builder.build();
+  }
+  if (job.has_template_()) {
+    WorkBuilder builder("template");
+    add_object(builder, job.template_());
+    add_page(builder, job.template_(), made);
+    return builder.build();
+  }
   if (job.has_dip()) {
     HP_RETURN_IF_ERROR(check_dip_spec(job.dip()));
     return WorkBuilder("dip").build();
   }
-  return invalid_field("job", "has no spec; set simulate, predict, fit, validate or dip");
+  if (job.has_print()) {
+    HP_RETURN_IF_ERROR(parse_job_name(job.print().print_image_job()));
+    return WorkBuilder("print").build();
+  }
+  return invalid_field("job",
+                       "has no spec; set simulate, predict, fit, validate, print_image, template, "
+                       "print or dip");
 }
 
 Status check_labels(const v1::Job& job) {
@@ -282,7 +379,18 @@ Status check_labels(const v1::Job& job) {
   return {};
 }
 
-// Only what the client decides, serialised always in the same way.
+// The verb, and what it goes on from: an earlier job, or its first file.
+std::string default_name(const v1::Job& job, const Work& work) {
+  for (const std::string& earlier :
+       {job.dip().simulate_job(), job.print_image().simulate_job(), job.template_().simulate_job(),
+        job.print().print_image_job()}) {
+    if (!earlier.empty()) return work.verb + " " + earlier;
+  }
+  return work.inputs.empty() ? work.verb : work.verb + " " + work.inputs.front().name;
+}
+
+}  // namespace
+
 std::string body_of(const v1::Job& job) {
   v1::Job body;
   body.set_display_name(job.display_name());
@@ -291,11 +399,12 @@ std::string body_of(const v1::Job& job) {
   if (job.has_predict()) *body.mutable_predict() = job.predict();
   if (job.has_fit()) *body.mutable_fit() = job.fit();
   if (job.has_validate()) *body.mutable_validate() = job.validate();
+  if (job.has_print_image()) *body.mutable_print_image() = job.print_image();
+  if (job.has_template_()) *body.mutable_template_() = job.template_();
+  if (job.has_print()) *body.mutable_print() = job.print();
   if (job.has_dip()) *body.mutable_dip() = job.dip();
   return body.SerializeAsString();
 }
-
-}  // namespace
 
 Result<NewJob> check_job(const v1::Job& job) {
   NewJob made;
@@ -307,11 +416,7 @@ Result<NewJob> check_job(const v1::Job& job) {
   HP_ASSIGN_OR_RETURN(made.work, work_of(job, made));
   made.priority = job.priority();
   made.display_name = job.display_name();
-  if (made.display_name.empty()) {
-    made.display_name = made.work.verb;
-    if (!made.work.inputs.empty()) made.display_name += " " + made.work.inputs.front().name;
-    if (!job.dip().simulate_job().empty()) made.display_name += " " + job.dip().simulate_job();
-  }
+  if (made.display_name.empty()) made.display_name = default_name(job, made.work);
   made.body = body_of(job);
   return made;
 }

@@ -15,4 +15,7 @@ namespace hydroprint::daemon {
 /// @return kInvalidArgument: SPEC_INVALID (metadata field), NAME_INVALID, ID_INVALID
 [[nodiscard]] Result<NewJob> check_job(const v1::Job& job);
 
+/// What of a job the client decides, serialised always in the same way.
+[[nodiscard]] std::string body_of(const v1::Job& job);
+
 }  // namespace hydroprint::daemon

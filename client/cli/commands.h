@@ -25,6 +25,7 @@ void add_assets(CLI::App& app, Program& program);
 void add_queue(CLI::App& app, Program& program);
 void add_status(CLI::App& app, Program& program);
 void add_rig(CLI::App& app, Program& program);
+void add_print(CLI::App& app, Program& program);
 void add_dip(CLI::App& app, Program& program);
 void add_confirm(CLI::App& app, Program& program);
 void add_completion(CLI::App& app, Program& program);

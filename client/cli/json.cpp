@@ -1,5 +1,6 @@
 #include "client/cli/json.h"
 
+#include <algorithm>
 #include <iostream>
 #include <string>
 
@@ -66,10 +67,33 @@ Json link_json(const client::LinkQuality& link) {
           {"rms_lateness_s", link.rms_lateness_s}};
 }
 
+void put(Json& json, const client::PageSpec& page) {
+  put(json, "paper", page.paper);
+  put(json, "printer_margin_mm", page.printer_margin_mm);
+  put(json, "job_name", page.job_name);
+  put(json, "date", page.date);
+  put(json, "bar_mm", page.bar_mm);
+  put(json, "overlap_mm", page.overlap_mm);
+  if (page.mirror) json["mirror"] = true;
+  if (page.no_marks) json["no_marks"] = true;
+  put(json, "colours", page.colours);
+  put(json, "icc_profile", page.icc_profile);
+  put(json, "ink_limit", page.ink_limit);
+  if (!page.formats.empty()) json["formats"] = page.formats;
+}
+
+// As the API's Job has it.
+std::string kind_of(client::Verb verb) {
+  std::string out(client::name_of(verb));
+  std::replace(out.begin(), out.end(), '-', '_');
+  return out;
+}
+
 }  // namespace
 
 Json spec_json(const client::Spec& spec) {
   Json json = Json::object();
+  put(json, "simulate_job", spec.simulate_job);
   if (!spec.mesh.name.empty()) json["mesh"] = value_of(spec.mesh);
   put(json, "texture", spec.texture);
   put(json, "film_image", spec.film_image);
@@ -93,6 +117,7 @@ Json spec_json(const client::Spec& spec) {
   if (spec.quick) json["quick"] = true;
   if (!spec.free.empty()) json["free"] = spec.free;
   if (spec.drop_outliers) json["drop_outliers"] = true;
+  put(json, spec.page);
   return json;
 }
 
@@ -115,7 +140,8 @@ Json to_json(const client::Job& job) {
   put(json, "retry_of", job.retry_of);
   put(json, "input_digest", job.input_digest);
   json["cache_hit"] = job.cache_hit;
-  if (job.spec) json[std::string(client::name_of(job.spec->verb))] = spec_json(*job.spec);
+  if (job.spec) json[kind_of(job.spec->verb)] = spec_json(*job.spec);
+  if (job.print_image_job) json["print"] = {{"print_image_job", *job.print_image_job}};
   if (job.dip) json["dip"] = to_json(*job.dip);
   if (job.dip_status) json["dip_status"] = to_json(*job.dip_status);
   return json;

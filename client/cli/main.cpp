@@ -59,6 +59,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_assets(app, program);
   add_queue(app, program);
   add_rig(app, program);
+  add_print(app, program);
   add_dip(app, program);
   add_confirm(app, program);
   add_status(app, program);

@@ -84,7 +84,11 @@ Error why(const client::Job& job) {
   if (job.state == client::JobState::kCancelled)
     why = {Code::kCancelled, job.name + " was cancelled", {}};
   if (job.state == client::JobState::kInterrupted)
-    why = {Code::kInternal, job.name + " was interrupted: the daemon was lost during the dip", {}};
+    why = {Code::kInternal,
+           job.name + " was interrupted: " +
+               (job.dip ? "the daemon was lost during the dip"
+                        : "the daemon ended before the print; look at the printer"),
+           {}};
   // Of a dip that ended early: what to do with film and object.
   const std::string advice = job.dip_status ? job.dip_status->instruction : "";
   if (why.message.find(advice) == std::string::npos) why.message += "; " + advice;

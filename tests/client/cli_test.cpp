@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tests/daemon/support.h"
+#include "tests/hardware/printer/ipp_printer.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::tests {
@@ -194,6 +195,23 @@ TEST_F(Cli, ValidateNeedsNoFiles) {
   const std::string flags = content_of(out() / "report.json");
   EXPECT_NE(flags.find("validate\n"), std::string::npos) << flags;
   EXPECT_NE(flags.find("--only=repeatability,bowl\n--quick\n"), std::string::npos) << flags;
+}
+
+TEST_F(Cli, PrintImageTakesTheFilmImageAndThePaper) {
+  start();
+  const json job =
+      client_json({"submit", "print-image", "--film-image", folder_.write("film.png", "film"),
+                   "--icc-profile", folder_.write("p.icc", "profile"), "--paper", "A3",
+                   "--job-name", "mug 7", "--formats", "pdf,tiff", "--out", out().string()});
+  EXPECT_EQ(job.at("state"), "SUCCEEDED");
+  const json& spec = job.at("print_image");
+  EXPECT_EQ(spec.at("film_image").at("name"), "film.png");
+  EXPECT_EQ(spec.at("icc_profile").at("name"), "p.icc");
+  EXPECT_EQ(spec.at("formats"), (json{"pdf", "tiff"}));
+  EXPECT_FALSE(spec.contains("mesh"));
+  const std::string flags = content_of(out() / "flags.txt");
+  EXPECT_NE(flags.find("print-image\n"), std::string::npos) << flags;
+  EXPECT_NE(flags.find("--paper=A3\n--job-name=mug 7\n"), std::string::npos) << flags;
 }
 
 TEST_F(Cli, FilesOfOneNameAreKeptApartInAJob) {
@@ -431,8 +449,10 @@ TEST_F(Cli, PythonExampleFetchesTheFilm) {
 
 TEST_F(Cli, SampleRefusesAKindThatThereIsNot) { expect_error({"sample", "teapot"}, 2, "globe"); }
 
-TEST_F(Cli, GlobeGoesInAndAFilmImageComesOut) {
+TEST_F(Cli, GlobeGoesInAndPaperComesOut) {
+  const printer::IppPrinter there("exit 0");
   DaemonProcess::Options real;
+  real.extra = "[printer]\naddress = \"" + there.address().uri + "\"\npatience_s = 300\n";
   start(real);
   const std::string sample = (folder_.path() / "sample").string();
   ASSERT_EQ(client({"sample", "globe", "--out", sample}).status, 0);
@@ -441,6 +461,43 @@ TEST_F(Cli, GlobeGoesInAndAFilmImageComesOut) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   for (const char* picture : {"film.png", "stretch.png", "predicted.png"})
     EXPECT_TRUE(content_of(out() / picture).starts_with("\x89PNG")) << picture;
+  const std::string paper = (folder_.path() / "paper").string();
+  const json printed = client_json(
+      {"submit", "print-image", "--simulate-job", "1", "--job-name", "globe 1", "--out", paper});
+  EXPECT_EQ(printed.at("print_image").at("simulate_job"), "jobs/1");
+  const std::string pdf = content_of(paper + "/print.pdf");
+  EXPECT_TRUE(pdf.starts_with("%PDF"));
+  // A reprint, computed afresh; and from the file, by hand.
+  ASSERT_EQ(client({"retry", "2"}).status, 0);
+  ASSERT_EQ(client({"watch", "3"}).status, 0);
+  ASSERT_EQ(client({"download", "3", "print.pdf", "--out", paper + "/again"}).status, 0);
+  EXPECT_TRUE(content_of(paper + "/again/print.pdf") == pdf);
+  const Outcome by_hand =
+      client({"submit", "print-image", "--film-image", (out() / "film.png").string(), "--dpi", "50",
+              "--job-name", "globe 1", "--out", paper + "/hand"});
+  ASSERT_EQ(by_hand.status, 0) << by_hand.err;
+  EXPECT_TRUE(content_of(paper + "/hand/print.pdf") == pdf);
+  const Outcome placed =
+      client({"submit", "template", "--simulate-job", "1", "--out", paper + "/where"});
+  ASSERT_EQ(placed.status, 0) << placed.err;
+  EXPECT_TRUE(content_of(paper + "/where/placement.pdf").starts_with("%PDF"));
+  // And on paper.
+  const Outcome sent = client({"print", "2", "--out", paper + "/record"});
+  ASSERT_EQ(sent.status, 0) << sent.err;
+  EXPECT_NE(sent.err.find("completed"), std::string::npos) << sent.err;
+  EXPECT_TRUE(content_of(there.spooled()) == pdf);
+  EXPECT_EQ(json::parse(content_of(paper + "/record/report.json")).at("outcome"), "SUCCEEDED");
+}
+
+TEST_F(Cli, PrintNeedsAPrinterAndPages) {
+  start();
+  submit("sleep 0");
+  ASSERT_EQ(client({"watch", "1"}).status, 0);
+  expect_error({"print", "1"}, 3, "name a print-image job");
+  ASSERT_EQ(client({"submit", "print-image", "--simulate-job", "1", "--wait"}).status, 0);
+  expect_error({"print", "2"}, 3, "printer.address");
+  expect_error({"submit", "print-image", "--out", "x"}, 2, "--film-image or --simulate-job");
+  expect_error({"submit", "template", "--simulate-job", "1", "--scale", "2"}, 2, "--scale");
 }
 
 }  // namespace

@@ -83,6 +83,53 @@ TEST(Convert, EveryFieldOfValidateGoesToTheMessageAndBack) {
   expect_round_trip(job, job.validate());
 }
 
+TEST(Convert, EveryFieldOfPrintImageGoesToTheMessageAndBack) {
+  Spec spec;
+  spec.verb = Verb::kPrintImage;
+  spec.simulate_job = "jobs/7";
+  spec.film_image = file("film.png");
+  spec.extra_files = {file("film.json")};
+  spec.film = "polygon:film.json";
+  spec.dpi = 600.5;
+  spec.threads = 4;
+  spec.page = {"A3", 4.2,  "mug 7", "2025-03-14",  40,  15,
+               true, true, "cmyk",  file("p.icc"), 2.5, {"pdf", "tiff"}};
+  const v1::Job job = message_of(spec);
+  expect_round_trip(job, job.print_image());
+  EXPECT_EQ(job.print_image().colours(), v1::COLOURS_CMYK);
+  spec.page.colours = "hsv";
+  v1::Job refused;
+  EXPECT_EQ(to_proto(spec, refused).error().code, Code::kInvalidArgument);
+}
+
+TEST(Convert, EveryFieldOfTemplateGoesToTheMessageAndBack) {
+  Spec spec;
+  spec.verb = Verb::kTemplate;
+  spec.simulate_job = "jobs/7";
+  spec.mesh = file("spot.obj");
+  spec.extra_files = {file("film.json")};
+  spec.scale = 50;
+  spec.pose = PoseSpec{{0.6, 0, 0, 0.8}, {1.5, -2, 3}};
+  spec.film = "polygon:film.json";
+  spec.threads = 2;
+  spec.page.paper = "A3";
+  spec.page.printer_margin_mm = 3;
+  spec.page.job_name = "mug 7";
+  spec.page.date = "2025-03-14";
+  const v1::Job job = message_of(spec);
+  expect_round_trip(job, job.template_());
+}
+
+TEST(Convert, APrintIsWhatIsPrinted) {
+  v1::Job message;
+  message.mutable_print()->set_print_image_job("jobs/8");
+  message.set_state(v1::Job::INTERRUPTED);
+  const Job job = from_proto(message);
+  EXPECT_EQ(job.print_image_job, "jobs/8");
+  EXPECT_FALSE(job.spec);
+  EXPECT_TRUE(is_finished(job));
+}
+
 TEST(Convert, WhatIsNotSetStaysUnset) {
   Spec spec;
   spec.mesh = file("spot.obj");

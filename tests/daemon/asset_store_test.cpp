@@ -29,6 +29,20 @@ TEST_F(AssetStoreTest, VerifiedBytesBecomeAnAssetThatIsNotUploadedAgain) {
   EXPECT_EQ(std::get<Asset>(again.value()).sha256, asset.sha256);
 }
 
+TEST_F(AssetStoreTest, AFileOfTheDaemonsOwnBecomesAnAssetThatOutlivesIt) {
+  const auto file = layout.root / "film.png";
+  std::ofstream(file) << "film";
+  for (int i = 0; i < 2; ++i) {
+    const auto asset = assets->adopt(file, {sha256("film"), 4, "image/png", 0});
+    ASSERT_TRUE(asset) << asset.error().message;
+    EXPECT_EQ(asset->media_type, "image/png");
+  }
+  std::filesystem::remove(file);
+  open();
+  EXPECT_TRUE(assets->asset(sha256("film")));
+  EXPECT_EQ(sha256_of_file(layout.asset(sha256("film"))).value(), sha256("film"));
+}
+
 TEST_F(AssetStoreTest, WrongHashLeavesNothing) {
   const Upload upload = begin("mesh");
   const auto result = send(upload.id, 0, "mess");

@@ -7,7 +7,8 @@
 //   babble    writes nonsense as progress orphan            leaves a child behind kill-parent tries
 //   to kill the daemon read FILE         says whether it could                   write FILE   says
 //   whether it could
-// and then leaves film.png and report.json.
+// and then leaves film.png and report.json; print-image leaves print.pdf, made of its film image,
+// and flags.txt with it.
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -120,6 +121,15 @@ void obey(const std::string& line) {
   }
 }
 
+void print_image(int argc, char** argv) {
+  const std::string out = flags["--out"];
+  std::ofstream(out + "/print.pdf") << "%PDF of " << std::ifstream(flags["--film-image"]).rdbuf();
+  std::ofstream(out + "/report.json")
+      << R"({"parameters":{"printer_margin_mm":0},"print":{"sheets":[{"size_mm":[297,210]}]}})";
+  std::ofstream report(out + "/flags.txt");
+  for (int i = 1; i < argc; ++i) report << argv[i] << '\n';
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -130,6 +140,10 @@ int main(int argc, char** argv) {
   std::filesystem::create_directory(flags["--out"]);
   std::ifstream mesh(flags["--mesh"]);
   for (std::string line; std::getline(mesh, line);) obey(line);
+  if (std::string(argv[1]) == "print-image") {
+    print_image(argc, argv);
+    return 0;
+  }
   std::ofstream(flags["--out"] + "/film.png") << "film of " << flags["--mesh"];
   std::ofstream report(flags["--out"] + "/report.json");
   for (int i = 1; i < argc; ++i) report << argv[i] << '\n';

@@ -316,13 +316,40 @@ TEST_F(JobStoreTest, ADipIsNeverQueuedAndThereIsOneAtATime) {
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().reason, "STATE_FORBIDS");
   for (int i = 0; i < 5; ++i) add(std::to_string(i));  // the queue is full
-  ASSERT_TRUE(jobs->end_dip(dip.id, JobState::kCancelled, {}, "", {}, ""));
+  ASSERT_TRUE(jobs->end(dip.id, JobState::kCancelled, {}, "", {}, ""));
   EXPECT_TRUE(jobs->create(new_dip(), {}));
+}
+
+NewJob new_print() {
+  NewJob made;
+  made.owner = "ann";
+  made.work.verb = "print";
+  return made;
+}
+
+TEST_F(JobStoreTest, APrintIsNeverQueuedNorTakenFromTheCacheAndThereIsOneAtATime) {
+  const Job print = jobs->create(new_print(), {}).value();
+  EXPECT_EQ(print.state, JobState::kRunning);
+  EXPECT_TRUE(jobs->waiting()->empty());
+  EXPECT_EQ(jobs->create(new_print(), {}).error().reason, "STATE_FORBIDS");
+  EXPECT_TRUE(jobs->create(new_dip(), {})) << "which is of the rig";
+  ASSERT_TRUE(jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
+  EXPECT_EQ(jobs->create(new_print(), {})->state, JobState::kRunning);
+}
+
+TEST_F(JobStoreTest, APrintWhoseDaemonWasLostStaysInterruptedAndSaysThatItMayBePrinted) {
+  const Job print = jobs->create(new_print(), {}).value();
+  ASSERT_TRUE(jobs->advance(print.id, JobState::kRunning, "", {0.3, "PROCESSING", 0, 0}, "prints"));
+  EXPECT_GT(jobs->get(print.id)->start_ms, 0);
+  open();
+  EXPECT_EQ(jobs->get(print.id)->state, JobState::kInterrupted);
+  const auto events = jobs->events(print.id, 0, 100).value();
+  EXPECT_NE(events.back().message.find("may have printed this or not"), std::string::npos);
 }
 
 TEST_F(JobStoreTest, ADipWhoseDaemonWasLostStaysInterrupted) {
   const Job dip = jobs->create(new_dip(), {}).value();
-  ASSERT_TRUE(jobs->advance_dip(dip.id, JobState::kRunning, "soak", {0.5, "SOAK", 0, 0}, "soaks"));
+  ASSERT_TRUE(jobs->advance(dip.id, JobState::kRunning, "soak", {0.5, "SOAK", 0, 0}, "soaks"));
   open();
   const Job lost = jobs->get(dip.id).value();
   EXPECT_EQ(lost.state, JobState::kInterrupted);
@@ -335,13 +362,13 @@ TEST_F(JobStoreTest, ADipWhoseDaemonWasLostStaysInterrupted) {
 TEST_F(JobStoreTest, TheRecordOfADipIsKeptHoweverItEnded) {
   const Job dip = jobs->create(new_dip(), {}).value();
   ASSERT_TRUE(jobs->cancel(dip.id));
-  ASSERT_TRUE(jobs->advance_dip(dip.id, JobState::kRunning, "soak", {}, ""));
+  ASSERT_TRUE(jobs->advance(dip.id, JobState::kRunning, "soak", {}, ""));
   EXPECT_EQ(jobs->get(dip.id)->state, JobState::kCancelling) << "and nothing else";
   std::filesystem::create_directories(layout.artifacts(dip.id));
   std::ofstream(layout.artifacts(dip.id) / "report.json") << "{}";
   const JobFailure failure{{Code::kFailedPrecondition, "stalled", "RIG_FAULTED", {}}, {}, {}};
-  ASSERT_TRUE(jobs->end_dip(dip.id, JobState::kFailed, failure, "end",
-                            {{"report.json", 2, "", "application/json"}}, ""));
+  ASSERT_TRUE(jobs->end(dip.id, JobState::kFailed, failure, "end",
+                        {{"report.json", 2, "", "application/json"}}, ""));
   open();
   EXPECT_EQ(jobs->get(dip.id)->state, JobState::kFailed);
   EXPECT_EQ(jobs->get(dip.id)->failure->error.reason, "RIG_FAULTED");

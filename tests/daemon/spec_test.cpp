@@ -136,7 +136,7 @@ TEST(Spec, FitHasPointsAndNamesWhatIsFree) {
   ASSERT_TRUE(made) << made.error().message;
   EXPECT_EQ(made->work.verb, "fit");
   EXPECT_EQ(made->work.flags,
-            (std::vector<std::string>{"--mesh=ball.ply", "--ink-image=film.png", "--film=circle:80",
+            (std::vector<std::string>{"--mesh=ball.ply", "--film=circle:80", "--ink-image=film.png",
                                       "--depth-mm=40", "--points=measured.csv",
                                       "--free=drag,ink_ratio", "--drop-outliers"}));
   EXPECT_EQ(made->work.inputs.size(), 3U);
@@ -181,6 +181,88 @@ TEST(Spec, ValidateNeedsNoFiles) {
   spec.clear_only();
   spec.set_threads(0);
   EXPECT_EQ(refused_field(job), "validate.threads");
+}
+
+v1::Job print_image_job() {
+  v1::Job job;
+  set_file(*job.mutable_print_image()->mutable_film_image(), "film.png");
+  return job;
+}
+
+TEST(Spec, EveryFieldOfPrintImageBecomesItsFlag) {
+  v1::Job job;
+  auto& spec = *job.mutable_print_image();
+  EXPECT_EQ(refused_field(job), "print_image.film_image");
+  set_file(*spec.mutable_film_image(), "film.png");
+  set_file(*spec.mutable_icc_profile(), "printer.icc");
+  set_file(*spec.add_extra_files(), "film.json");
+  spec.set_film("polygon:film.json");
+  spec.set_dpi(600.5);
+  spec.set_threads(2);
+  spec.set_paper("A3");
+  spec.set_printer_margin_mm(0);
+  spec.set_job_name("--out=mug 7");
+  spec.set_date("2025-03-14");
+  spec.set_bar_mm(40);
+  spec.set_overlap_mm(15);
+  spec.set_mirror(true);
+  spec.set_no_marks(true);
+  spec.set_colours(v1::COLOURS_CMYK);
+  spec.set_ink_limit(2.5);
+  spec.add_formats("pdf");
+  spec.add_formats("tiff");
+  const auto made = check_job(job);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->work.verb, "print-image");
+  auto flags = made->work.flags;
+  std::sort(flags.begin(), flags.end());
+  EXPECT_EQ(flags, (std::vector<std::string>{
+                       "--bar-mm=40", "--colours=cmyk", "--date=2025-03-14", "--dpi=600.5",
+                       "--film-image=film.png", "--film=polygon:film.json", "--formats=pdf,tiff",
+                       "--icc-profile=printer.icc", "--ink-limit=2.5", "--job-name=--out=mug 7",
+                       "--mirror", "--no-marks", "--overlap-mm=15", "--paper=A3",
+                       "--printer-margin-mm=0"}));
+  EXPECT_EQ(made->threads, 2);
+  EXPECT_EQ(made->work.inputs.size(), 3U);
+  EXPECT_EQ(made->display_name, "print-image film.png");
+}
+
+TEST(Spec, PrintImageIsRefusedWhatThePrinterCannotHave) {
+  const auto refused = [](const auto& change) {
+    v1::Job job = print_image_job();
+    change(*job.mutable_print_image());
+    return refused_field(job);
+  };
+  for (const double bad : {-1.0, 5000.0, std::nan("")}) {
+    EXPECT_EQ(refused([&](auto& spec) { spec.set_printer_margin_mm(bad); }),
+              "print_image.printer_margin_mm");
+    EXPECT_EQ(refused([&](auto& spec) { spec.set_bar_mm(bad); }), "print_image.bar_mm");
+    EXPECT_EQ(refused([&](auto& spec) { spec.set_overlap_mm(bad); }), "print_image.overlap_mm");
+    EXPECT_EQ(refused([&](auto& spec) { spec.set_ink_limit(bad); }), "print_image.ink_limit");
+  }
+  EXPECT_EQ(refused([](auto& spec) { spec.set_colours(static_cast<v1::Colours>(9)); }),
+            "print_image.colours");
+  EXPECT_EQ(refused([](auto& spec) { spec.add_formats("pdf,png"); }), "print_image.formats");
+  EXPECT_EQ(refused([](auto& spec) { spec.set_job_name("a\nb"); }), "print_image.job_name");
+  EXPECT_EQ(refused([](auto& spec) { spec.set_date(std::string(201, '1')); }), "print_image.date");
+  EXPECT_EQ(refused([](auto& spec) { spec.set_paper("A4\n--out=/"); }), "print_image.paper");
+}
+
+TEST(Spec, TemplateTakesObjectFilmAndPaper) {
+  v1::Job job;
+  auto& spec = *job.mutable_template_();
+  spec.set_scale(10);
+  EXPECT_EQ(refused_field(job), "template.mesh");
+  set_file(*spec.mutable_mesh(), "mug.obj");
+  spec.set_film("A3");
+  spec.set_paper("A3");
+  spec.set_date("today");
+  const auto made = check_job(job);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->work.verb, "template");
+  EXPECT_EQ(made->work.flags, (std::vector<std::string>{"--mesh=mug.obj", "--scale=10", "--film=A3",
+                                                        "--paper=A3", "--date=today"}));
+  EXPECT_EQ(made->display_name, "template mug.obj");
 }
 
 TEST(Spec, ResolutionIsWhatTheWorkerTakes) {
