@@ -116,10 +116,12 @@ void volunteer_for_oom() {
   ::close(file);
 }
 
-// The rig and the daemon's answers come before anything that is computed.
+// The rig and the daemon's answers come before anything that is computed. Where the daemon itself
+// gives way already, root could raise what it starts.
 void give_way() {
   constexpr int kNiceness = 10;
-  if (::setpriority(PRIO_PROCESS, 0, kNiceness) != 0) errno = 0;  // it is already lower
+  if (::getpriority(PRIO_PROCESS, 0) >= kNiceness) return;
+  if (::setpriority(PRIO_PROCESS, 0, kNiceness) != 0) errno = 0;  // only a preference
 }
 
 }  // namespace
