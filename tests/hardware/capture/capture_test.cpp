@@ -197,7 +197,8 @@ TEST_F(Capture, CameraThatIsUnpluggedIsGoneAndBackWhenItIsPluggedIn) {
   testing::talk(control(), "camera gone\n");
   expect_failure(capture->wait(), 4, "CAMERA_GONE");
   testing::talk(control(), "camera well\n");
-  EXPECT_EQ(capture_live({"--seconds", "0.05"}).status, 0);
+  const auto again = capture_live({"--seconds", "0.05"});
+  EXPECT_EQ(again.status, 0) << again.err;
 }
 
 TEST_F(Capture, CameraWhoseRigDiesIsGone) {
@@ -237,7 +238,8 @@ TEST_F(Capture, CancelLeavesNothing) {
 
 TEST_F(Capture, RecordingsThatAreNoneOrCutShortAreRefused) {
   const auto recording = path("take.oni");
-  ASSERT_EQ(capture_live({"--seconds", "0.15", "--record", recording.string()}).status, 0);
+  const auto taken = capture_live({"--seconds", "0.15", "--record", recording.string()});
+  ASSERT_EQ(taken.status, 0) << taken.err;
   fs::remove_all(path("out"));
   // Its second half is zeros that OpenNI2 leaves there; nothing is lost with them.
   std::string whole = bytes_of(recording);
