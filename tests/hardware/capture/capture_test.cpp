@@ -37,7 +37,7 @@ const std::vector<std::string> kCapture = {HYDROPRINT_BIN_DIR "/hydroprint-captu
 const std::string kRig = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
 
 /// Patience, in s, with what is slow on a busy machine but does not hang.
-constexpr const char* kLong = "120";
+constexpr const char* kLong = "400";
 
 constexpr const char* kScene = R"(
 [object]
