@@ -69,10 +69,7 @@ class OpenNiCamera : public DepthCamera {
  public:
   ~OpenNiCamera() override {
     finish_recording();
-    if (stream_.isValid()) {
-      stream_.stop();
-      stream_.destroy();
-    }
+    stream_.destroy();
     device_.close();
   }
 
@@ -83,7 +80,11 @@ class OpenNiCamera : public DepthCamera {
   [[nodiscard]] const SourceInfo& info() const override { return info_; }
   [[nodiscard]] Result<std::optional<DepthFrame>> next(std::chrono::milliseconds timeout) override;
   [[nodiscard]] Status record(const std::filesystem::path& path) override;
-  void finish_recording() override { recorder_.destroy(); }
+  void finish_recording() override {
+    // First no more frames, so that none meets a recorder that is going.
+    if (stream_.isValid()) stream_.stop();
+    recorder_.destroy();
+  }
 
  private:
   [[nodiscard]] Status choose_mode();

@@ -52,6 +52,7 @@ class DepthCamera {
   /// Records all frames of the stream from here on, without loss, until finish_recording() or the
   /// end of this. Refuses (kPermissionDenied) where no file can be written.
   [[nodiscard]] virtual Status record(const std::filesystem::path& path) = 0;
+  /// No frame comes after it.
   virtual void finish_recording() = 0;
 
  protected:
