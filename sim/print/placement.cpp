@@ -82,8 +82,10 @@ Strokes axes(const film::Outline& outline, const Vector2d& origin_mm) {
     const Vector2d along = Vector2d::Unit(axis), across = Vector2d::Unit(1 - axis);
     const double low = outline.min_mm[axis], high = outline.max_mm[axis];
     out.push_back({{origin_mm + low * along, origin_mm + high * along}, kThin_mm, 0.6});
-    for (double at = std::ceil(low / 10) * 10; at <= high; at += 10) {
-      const double half = std::lround(at) % 50 == 0 ? 2 : 1;
+    const long last = std::lround(std::floor(high / 10));
+    for (long tick = std::lround(std::ceil(low / 10)); tick <= last; ++tick) {
+      const double at = 10 * static_cast<double>(tick);
+      const double half = tick % 5 == 0 ? 2 : 1;
       out.push_back(
           {{origin_mm + at * along - half * across, origin_mm + at * along + half * across},
            kThin_mm,
