@@ -26,11 +26,16 @@ Brush::Brush(const Texture& texture, const Chart& chart, const Corners& at, cons
   uvs << uv[0], uv[1], uv[2];
   uv_per_sample_ << uvs * map.per_x(), uvs * map.per_y();
   footprint_ = texture.footprint(uv_per_sample_);
+  shortcut_ = texture.shortcut(uv_, uv_per_sample_, footprint_, chart);
 }
 
 Eigen::Vector3f Brush::at(double x, double y) const {
   const Eigen::Vector2d offset = Eigen::Vector2d(x, y) - origin_;
-  if (texture_) return texture_->sample(uv_ + uv_per_sample_ * offset, footprint_, *chart_);
+  if (texture_) {
+    Eigen::Vector3f colour;
+    if (shortcut_.sample(offset, colour)) return colour;
+    return texture_->sample(uv_ + uv_per_sample_ * offset, footprint_, *chart_);
+  }
   return (colour_ + colour_per_sample_ * offset.cast<float>()).cwiseMax(0.0F).cwiseMin(1.0F);
 }
 

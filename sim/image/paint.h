@@ -33,6 +33,7 @@ class Brush {
   const Texture* texture_ = nullptr;  ///< none: colour_ and its slopes hold
   const Chart* chart_ = nullptr;
   Texture::Footprint footprint_;
+  Texture::Shortcut shortcut_;
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   Eigen::Vector2d uv_ = Eigen::Vector2d::Zero();
   Eigen::Matrix2d uv_per_sample_ = Eigen::Matrix2d::Zero();

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace hydroprint::image {
@@ -108,10 +109,15 @@ inline Taps taps_at(double position, int size, bool wraps) {
   return taps;
 }
 
-inline Eigen::Array4f lerp(const Texel& a, const Texel& b, float blend) {
-  const Eigen::Array4f from(a.r, a.g, a.b, 0), to(b.r, b.g, b.b, 0);
-  return from + blend * (to - from);
+using Shorts = std::uint16_t __attribute__((vector_size(8)));
+using Floats = float __attribute__((vector_size(16)));
+
+/// r, g, b and what is of no use, all four at once.
+inline Floats floats(const Texel& texel) {
+  return __builtin_convertvector(std::bit_cast<Shorts>(texel), Floats);
 }
+
+inline Floats lerp(const Floats& a, const Floats& b, float blend) { return a + blend * (b - a); }
 
 }  // namespace
 
@@ -156,6 +162,45 @@ Eigen::Vector2d Texture::fold(const Eigen::Vector2d& uv, const Chart& chart) con
           fold_axis(uv.y(), wrap_[1], chart.in_one_tile[1], chart.tile[1])};
 }
 
+Texture::Shortcut Texture::shortcut(const Eigen::Vector2d& uv, const Eigen::Matrix2d& uv_per_sample,
+                                    const Footprint& footprint, const Chart& chart) const {
+  Shortcut out;
+  if (footprint.probes > 1 || footprint.level > 0 || footprint.blend > 0) return out;
+  Eigen::Vector2d tile = Eigen::Vector2d::Zero();
+  for (int i = 0; i < 2; ++i) {
+    if (wrap_[i] == mesh::Wrap::kMirror) return out;
+    if (wrap_[i] == mesh::Wrap::kRepeat) {
+      tile[i] = chart.in_one_tile[i] ? chart.tile[i] : fast_floor(uv[i]);
+    }
+  }
+  const Eigen::Vector2d in_tile = uv - tile;
+  out.origin_ = {in_tile.x() * width() - 0.5, (1 - in_tile.y()) * height() - 0.5};
+  out.per_sample_ = Eigen::Vector2d(width(), -height()).asDiagonal() * uv_per_sample;
+  out.chart_ = chart.id;
+  out.image_ = &levels_[0];
+  return out;
+}
+
+bool Texture::Shortcut::sample(const Eigen::Vector2d& offset, Eigen::Vector3f& colour) const {
+  if (image_ == nullptr) return false;
+  const Eigen::Vector2d at = origin_ + per_sample_ * offset;
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < image_->width - 1 && at.y() < image_->height - 1)) {
+    return false;
+  }
+  const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
+  const Texel* upper = &image_->texels[static_cast<std::size_t>(y) * image_->width + x];
+  const Texel* lower = upper + image_->width;
+  const bool is_of_chart = (upper[0].chart == chart_) & (upper[1].chart == chart_) &
+                           (lower[0].chart == chart_) & (lower[1].chart == chart_);
+  if (chart_ != 0 && !is_of_chart) return false;
+  const auto right = static_cast<float>(at.x() - x), down = static_cast<float>(at.y() - y);
+  const Floats above = lerp(floats(upper[0]), floats(upper[1]), right);
+  const Floats below = lerp(floats(lower[0]), floats(lower[1]), right);
+  const Floats mean = lerp(above, below, down);
+  colour = Eigen::Vector3f(mean[0], mean[1], mean[2]) / 65535.0F;
+  return true;
+}
+
 Texture::Sum Texture::bilinear(const Eigen::Vector2d& folded, int level, const Chart& chart) const {
   const Texels& image = levels_[level];
   const double scale = 1.0 / static_cast<double>(1 << level);
@@ -168,10 +213,10 @@ Texture::Sum Texture::bilinear(const Eigen::Vector2d& folded, int level, const C
   const auto belongs = [&](const Texel& texel) { return texel.chart == chart.id; };
   if (chart.id == 0 || (belongs(upper[x.first]) & belongs(upper[x.second]) &
                         belongs(lower[x.first]) & belongs(lower[x.second]))) {
-    const Eigen::Array4f above = lerp(upper[x.first], upper[x.second], x.blend);
-    const Eigen::Array4f below = lerp(lower[x.first], lower[x.second], x.blend);
-    const Eigen::Array4f mean = above + y.blend * (below - above);
-    return {mean.head<3>().matrix(), 1};
+    const Floats above = lerp(floats(upper[x.first]), floats(upper[x.second]), x.blend);
+    const Floats below = lerp(floats(lower[x.first]), floats(lower[x.second]), x.blend);
+    const Floats mean = lerp(above, below, y.blend);
+    return {{mean[0], mean[1], mean[2]}, 1};
   }
   Sum sum;
   const auto add = [&](int column, const Texel* row, float weight) {

@@ -58,6 +58,27 @@ class Texture {
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector2d& uv, const Footprint& footprint,
                                        const Chart& chart) const;
 
+  /// The short way to the samples of an affine patch that is not smaller than its texels, where
+  /// they lie among four texels of their chart and away from the texture's edges: most do.
+  class Shortcut {
+   public:
+    /// Leads nowhere.
+    Shortcut() = default;
+    /// As sample() at `offset` samples from the patch's origin.
+    /// @return false if it has to be gone the long way
+    [[nodiscard]] bool sample(const Eigen::Vector2d& offset, Eigen::Vector3f& colour) const;
+
+   private:
+    friend class Texture;
+    const Texels* image_ = nullptr;
+    std::uint16_t chart_ = 0;
+    Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();  ///< in texels, (0, 0) a texel's centre
+    Eigen::Matrix2d per_sample_ = Eigen::Matrix2d::Zero();
+  };
+  /// @param uv  of the patch's origin
+  [[nodiscard]] Shortcut shortcut(const Eigen::Vector2d& uv, const Eigen::Matrix2d& uv_per_sample,
+                                  const Footprint& footprint, const Chart& chart) const;
+
   [[nodiscard]] int width() const { return levels_[0].width; }
   [[nodiscard]] int height() const { return levels_[0].height; }
 

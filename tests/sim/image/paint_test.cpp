@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "sim/image/colour.h"
 #include "tests/sim/image/scenes.h"
 
@@ -274,6 +276,45 @@ TEST(Paint, SaysWhatItAssumed) {
   ASSERT_TRUE(paint);
   EXPECT_TRUE(has_warning(*paint, "alpha_over_white"));
   EXPECT_TRUE(has_warning(*paint, "uvs_missing_in_part"));
+}
+
+TEST(Texture, ShortcutsLeadWhereTheLongWayDoes) {
+  std::mt19937 random(5);
+  const auto number = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  Texels texels{40, 30, std::vector<Texel>(40 * 30)};
+  for (std::size_t i = 0; i < texels.texels.size(); ++i) {
+    const auto colour = [&] { return static_cast<std::uint16_t>(random() % 65536); };
+    texels.texels[i] = {colour(), colour(), colour(), static_cast<std::uint16_t>(1 + i % 40 / 20)};
+  }
+  using mesh::Wrap;
+  for (const Wrap wrap : {Wrap::kRepeat, Wrap::kClamp, Wrap::kMirror}) {
+    const Texture texture = Texture::build(texels, wrap, wrap, {}).value();
+    int short_ways = 0, long_ways = 0;
+    for (int k = 0; k < 4000; ++k) {
+      Chart chart;
+      chart.id = static_cast<std::uint16_t>(k % 3);
+      if (k % 2 == 1) chart = {chart.id, {true, true}, {-1, 2}};
+      Eigen::Vector2d uv(number(-1.5, 1.5), number(1, 4));
+      if (wrap == Wrap::kClamp) uv = {number(-0.2, 1.2), number(-0.2, 1.2)};
+      Eigen::Matrix2d per_sample;
+      per_sample << number(-0.02, 0.02), number(-0.02, 0.02), number(-0.02, 0.02),
+          number(-0.02, 0.02);
+      const Texture::Footprint footprint = texture.footprint(per_sample);
+      const Eigen::Vector2d offset(number(-9, 9), number(-9, 9));
+      Eigen::Vector3f colour;
+      if (!texture.shortcut(uv, per_sample, footprint, chart).sample(offset, colour)) {
+        ++long_ways;
+        continue;
+      }
+      ++short_ways;
+      const Eigen::Vector3f wanted = texture.sample(uv + per_sample * offset, footprint, chart);
+      ASSERT_LT((colour - wanted).cwiseAbs().maxCoeff(), 1e-5) << k;
+    }
+    EXPECT_GT(long_ways, 100);
+    EXPECT_TRUE(wrap == Wrap::kMirror ? short_ways == 0 : short_ways > 500) << short_ways;
+  }
 }
 
 TEST(Paint, WildUvsNeitherCrashNorHang) {
