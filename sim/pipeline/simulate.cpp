@@ -1,8 +1,5 @@
 #include "sim/pipeline/simulate.h"
 
-#include <atomic>
-#include <filesystem>
-#include <future>
 #include <optional>
 #include <utility>
 
@@ -28,44 +25,6 @@ Status check_materials(const mesh::Model& model) {
                                      ". Put it beside the model or give a texture");
   }
   return {};
-}
-
-/// Loads the image libraries meanwhile: they take longer than most models, and had better have
-/// their memory before a large one does.
-std::future<void> load_libraries(const Context& context) {
-  // TBB loads one and starts a thread when it is first used: later both would wait for these.
-  (void)parallel_for(context, {}, 2, [](std::size_t) { return Status{}; });
-  return std::async(std::launch::async, image::load_image_libraries);
-}
-
-/// Paint and flow do not need each other: the one is read while the other is solved. Where the
-/// paint cannot be read the flow is given up.
-Status begin(const mesh::Model& model, const std::optional<std::filesystem::path>& texture,
-             const DipOptions& options, const Context& context, std::optional<image::Paint>& paint,
-             Start& begun) {
-  std::atomic<bool> in_vain = false;
-  Context flowing = context;
-  flowing.cancelled = [&] { return in_vain || context.is_cancelled(); };
-  Context reading = context;
-  reading.report = nullptr;  // one tells how far it is
-  Status painted, started;
-  const auto keep = [](auto result, auto& to) -> Status {
-    if (!result) return tl::unexpected(std::move(result.error()));
-    to = *std::move(result);
-    return {};
-  };
-  const std::size_t flow = context.threads > 1 ? 0 : 1;  // one thread reads first
-  HP_RETURN_IF_ERROR(parallel_for(context, {}, 2, [&](std::size_t which) -> Status {
-    if (which == flow) {
-      started = keep(start(model, options, flowing), begun);
-    } else {
-      painted = keep(image::load_paint(model, texture, reading), paint);
-      in_vain = !painted;
-    }
-    return {};
-  }));
-  HP_RETURN_IF_ERROR(painted);
-  return started;
 }
 
 Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
@@ -98,20 +57,18 @@ Result<Simulation> simulate(const SimulateOptions& options, const Context& conte
   Simulation out;
   context.progress("reading", 0);
   const int passes = options.dip.film_model == FilmModel::kSheet ? options.ink_passes : 0;
-  std::future<void> libraries;
-  if (options.images || options.texture) libraries = load_libraries(context);
+  // Before the model takes the memory, unless it is hardly ever needed.
+  if (options.images || options.texture) image::load_image_libraries();
   HP_ASSIGN_OR_RETURN(out.model, mesh::read_model(options.mesh, options.scale, context));
   DipOptions dip_options = options.dip;
   dip_options.map.make_tiles = options.images;
   dip_options.map = flow::for_resolution(dip_options.map, options.dpi);
   if (options.images && !options.texture) HP_RETURN_IF_ERROR(check_materials(out.model));
   std::optional<image::Paint> paint;
-  Start begun;
   if (options.images || passes > 0) {  // else nobody asks for its colours
-    HP_RETURN_IF_ERROR(begin(out.model, options.texture, dip_options, context, paint, begun));
-  } else {
-    HP_ASSIGN_OR_RETURN(begun, start(out.model, dip_options, context));
+    HP_ASSIGN_OR_RETURN(paint, image::load_paint(out.model, options.texture, context));
   }
+  HP_ASSIGN_OR_RETURN(Start begun, start(out.model, dip_options, context));
   if (passes > 0 && paint->has_colour()) {
     HP_ASSIGN_OR_RETURN(out.dip, dip_inked(out.model, std::move(begun), *paint, passes, options.dpi,
                                            dip_options, context));
