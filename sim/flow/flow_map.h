@@ -22,7 +22,9 @@ struct MapOptions {
 };
 
 /// Options made for 600 dpi, for an image of another resolution: where its pixels are larger, the
-/// map need not be known as finely (up to four times as coarse).
+/// map need not be known as finely: tolerance and least edge stay the same in pixels down to
+/// 150 dpi. Where pixels are smaller nothing changes.
+/// @param dpi  positive
 [[nodiscard]] MapOptions for_resolution(MapOptions options, double dpi);
 
 /// Finds for every point of the surface the film that lands there, and tiles the part of the

@@ -119,6 +119,19 @@ inline Floats floats(const Texel& texel) {
 
 inline Floats lerp(const Floats& a, const Floats& b, float blend) { return a + blend * (b - a); }
 
+/// Among four texels.
+inline Eigen::Vector3f mix(const std::array<const Texel*, 4>& texel, float right, float down) {
+  const Floats above = lerp(floats(*texel[0]), floats(*texel[1]), right);
+  const Floats below = lerp(floats(*texel[2]), floats(*texel[3]), right);
+  const Floats mean = lerp(above, below, down);
+  return {mean[0], mean[1], mean[2]};
+}
+
+inline bool are_of_chart(const std::array<const Texel*, 4>& texel, std::uint16_t id) {
+  return id == 0 || ((texel[0]->chart == id) & (texel[1]->chart == id) & (texel[2]->chart == id) &
+                     (texel[3]->chart == id));
+}
+
 }  // namespace
 
 Result<Texture> Texture::build(Texels texels, mesh::Wrap wrap_u, mesh::Wrap wrap_v,
@@ -190,14 +203,10 @@ bool Texture::Shortcut::sample(const Eigen::Vector2d& offset, Eigen::Vector3f& c
   const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
   const Texel* upper = &image_->texels[static_cast<std::size_t>(y) * image_->width + x];
   const Texel* lower = upper + image_->width;
-  const bool is_of_chart = (upper[0].chart == chart_) & (upper[1].chart == chart_) &
-                           (lower[0].chart == chart_) & (lower[1].chart == chart_);
-  if (chart_ != 0 && !is_of_chart) return false;
+  const std::array<const Texel*, 4> texels = {upper, upper + 1, lower, lower + 1};
+  if (!are_of_chart(texels, chart_)) return false;
   const auto right = static_cast<float>(at.x() - x), down = static_cast<float>(at.y() - y);
-  const Floats above = lerp(floats(upper[0]), floats(upper[1]), right);
-  const Floats below = lerp(floats(lower[0]), floats(lower[1]), right);
-  const Floats mean = lerp(above, below, down);
-  colour = Eigen::Vector3f(mean[0], mean[1], mean[2]) / 65535.0F;
+  colour = mix(texels, right, down) / 65535.0F;
   return true;
 }
 
@@ -210,18 +219,13 @@ Texture::Sum Texture::bilinear(const Eigen::Vector2d& folded, int level, const C
   const Taps y = taps_at((1 - folded.y()) * height() * scale - 0.5, image.height, wraps_v);
   const Texel* upper = &image.texels[static_cast<std::size_t>(y.first) * image.width];
   const Texel* lower = &image.texels[static_cast<std::size_t>(y.second) * image.width];
-  const auto belongs = [&](const Texel& texel) { return texel.chart == chart.id; };
-  if (chart.id == 0 || (belongs(upper[x.first]) & belongs(upper[x.second]) &
-                        belongs(lower[x.first]) & belongs(lower[x.second]))) {
-    const Floats above = lerp(floats(upper[x.first]), floats(upper[x.second]), x.blend);
-    const Floats below = lerp(floats(lower[x.first]), floats(lower[x.second]), x.blend);
-    const Floats mean = lerp(above, below, y.blend);
-    return {{mean[0], mean[1], mean[2]}, 1};
-  }
+  const std::array<const Texel*, 4> texels = {upper + x.first, upper + x.second, lower + x.first,
+                                              lower + x.second};
+  if (are_of_chart(texels, chart.id)) return {mix(texels, x.blend, y.blend), 1};
   Sum sum;
   const auto add = [&](int column, const Texel* row, float weight) {
     const Texel& texel = row[column];
-    if (!belongs(texel)) return;
+    if (texel.chart != chart.id) return;
     sum.colour += weight * Eigen::Vector3f(texel.r, texel.g, texel.b);
     sum.weight += weight;
   };

@@ -58,14 +58,17 @@ class Texture {
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector2d& uv, const Footprint& footprint,
                                        const Chart& chart) const;
 
-  /// The short way to the samples of an affine patch that is not smaller than its texels, where
-  /// they lie among four texels of their chart and away from the texture's edges: most do.
+  /// The short way to the samples of an affine patch, for those that are no larger than a texel and
+  /// lie among four of their chart, away from the texture's edges: most do. The texture must
+  /// outlive it, and not move.
   class Shortcut {
    public:
     /// Leads nowhere.
     Shortcut() = default;
-    /// As sample() at `offset` samples from the patch's origin.
-    /// @return false if it has to be gone the long way
+    /// As sample(), but for rounding.
+    /// @param offset  from the patch's origin, in samples
+    /// @param colour  linear light, in [0, 1]
+    /// @return false, and no colour, where the long way has to be gone
     [[nodiscard]] bool sample(const Eigen::Vector2d& offset, Eigen::Vector3f& colour) const;
 
    private:

@@ -12,6 +12,7 @@ namespace hydroprint::pipeline {
 /// of section 4.3, repeated: a film image for the film as it is thought to move, the thickness of
 /// its ink, the sheet that carries it. It begins with Stokes flow and ends after `most_passes`, or
 /// when a pass moves the film by less than a pixel; what each pass did is among the figures.
+/// @param begun        the dip of this model, with these options
 /// @param most_passes  at least 1
 /// @param dpi          of the film image
 [[nodiscard]] Result<Dip> dip_inked(const mesh::Model& model, Start begun,

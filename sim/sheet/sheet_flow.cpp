@@ -91,12 +91,15 @@ Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
     for (std::size_t i = begin; i < count; ++i) flow.field.fields[first + i] = std::move(next[i]);
     flow.sweeps = std::max(flow.sweeps, sweep);
     const double moved_mm = progress.sum_mm();
-    if (sweep == 1 && moved_mm < options.tolerance_mm) return {};  // and each moves it less
-    const auto verdict = sweep > 1 ? progress.judge(options.tolerance_mm) : Progress::Next::kSweep;
-    if (verdict == Progress::Next::kSettled) return {};
-    if (verdict == Progress::Next::kUnsettled || (sweep > 1 && sweep == options.most_sweeps)) {
-      flow.unsettled_mm += moved_mm;
-      return {};
+    if (sweep == 1) {
+      if (moved_mm < options.tolerance_mm) return {};  // and each moves it less
+    } else {
+      const auto verdict = progress.judge(options.tolerance_mm);
+      if (verdict == Progress::Next::kSettled) return {};
+      if (verdict == Progress::Next::kUnsettled || sweep == options.most_sweeps) {
+        flow.unsettled_mm += moved_mm;
+        return {};
+      }
     }
     progress.next_sweep();
   }

@@ -11,6 +11,7 @@
 #include "sim/flow/flow_map.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/sample/icosphere.h"
+#include "sim/sheet/dip_parts.h"
 #include "tests/sim/support/bodies.h"
 #include "tests/sim/support/dips.h"
 #include "tests/support/axisymmetric_sheet.h"
@@ -132,6 +133,29 @@ TEST(SheetFlow, WithWaterDragIsTheOneDimensionalSolution) {
   const axisymmetric::Film film{80, [](double) { return kBase_mm; }, kBase_mm, drag_length_mm};
   EXPECT_LT(rms_from(film, sheet_of(dip, uniform, drag_per_mm), 30), 0.02);
   EXPECT_GT(rms_from(film, sheet_of(dip, uniform), 30), 0.3);
+}
+
+TEST(SheetFlow, IsWithinItsToleranceOfTheSettledOne) {
+  const SolvedDip dip = sphere_in_a_vat(30, 70, 100);
+  const RestThickness rest = mean_of(ringed_mm);
+  const auto solved = [&](double tolerance_mm) {
+    SheetOptions options;
+    options.tolerance_mm = tolerance_mm;
+    options.most_sweeps = 20;
+    return sheet_flow(dip.field, rest, options, two_threads()).value();
+  };
+  constexpr double kTolerance_mm = 1e-4;
+  const SheetFlow quick = solved(kTolerance_mm), settled = solved(0);
+  ASSERT_GE(quick.sweeps, 3) << "else no waterline settles before others";
+  EXPECT_EQ(quick.unsettled_mm, 0);
+  double apart_mm = 0;
+  for (std::size_t k = 0; k < dip.field.fields.size(); ++k) {
+    apart_mm += span_mm(dip.field, k) *
+                rms_change(quick.field.fields[k].nodes(), settled.field.fields[k].nodes());
+  }
+  const auto windows = static_cast<double>((dip.field.fields.size() + 7) / 8);
+  EXPECT_LT(apart_mm, windows * kTolerance_mm);
+  EXPECT_GT(settled.sweeps, quick.sweeps);
 }
 
 TEST(SheetFlow, OnlyRelativeThicknessMatters) {
