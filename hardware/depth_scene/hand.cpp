@@ -5,6 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include "sim/base/look_at.h"
+
 namespace hydroprint::depth_scene {
 namespace {
 
@@ -67,24 +69,10 @@ Eigen::Vector3d place(const CameraStand& stand, double time_s) {
                 (3 * b - 3 * c + d - a) * (t * t * t));
 }
 
-Eigen::Matrix3d looking(const Eigen::Vector3d& direction, double turn_rad) {
-  const Eigen::Vector3d forward = direction.normalized();
-  // Down in the image is towards the near side; for a camera that looks along y, down.
-  const bool level = std::abs(forward.y()) > 0.99;
-  const Eigen::Vector3d guess = level ? Eigen::Vector3d(0, 0, -1) : Eigen::Vector3d(0, -1, 0);
-  const Eigen::Vector3d down = (guess - guess.dot(forward) * forward).normalized();
-  Eigen::Matrix3d axes;
-  axes << down.cross(forward), down, forward;
-  return axes * Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-}
-
 }  // namespace
 
 Pose camera_pose(const CameraStand& stand, std::uint64_t seed, double time_s) {
-  Pose out = Pose::Identity();
-  const Eigen::Vector3d at_mm = place(stand, time_s);
-  out.translation() = at_mm;
-  out.linear() = looking(stand.looks_at_mm - at_mm, stand.turn_rad);
+  Pose out = look_at(place(stand, time_s), stand.looks_at_mm, stand.turn_rad);
   if (stand.via_mm.empty() || !stand.trembles) return out;
   const Shake now = shake(seed, time_s);
   const double angle = now.turn_rad.norm();

@@ -33,26 +33,6 @@ void read_object(TomlReader object, const std::filesystem::path& folder, Scene& 
   }
 }
 
-/// Numbers of a list that has as many as `out`.
-template <class Vector>
-void read_list(TomlReader& table, std::string_view key, const std::vector<const toml::node*>& list,
-               double least, double most, Vector& out) {
-  const std::string wanted = "is no list of " + std::to_string(out.size()) + " numbers from " +
-                             std::to_string(std::lround(least)) + " to " +
-                             std::to_string(std::lround(most)) + ". Write it as one";
-  if (list.size() != static_cast<std::size_t>(out.size())) return table.refuse(key, wanted);
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const double x = list[i]->is_number() ? list[i]->value<double>().value_or(NAN) : NAN;
-    if (!(x >= least && x <= most)) return table.refuse(key, wanted);
-    out[static_cast<Eigen::Index>(i)] = x;
-  }
-}
-
-template <class Vector>
-void read_vector(TomlReader& table, std::string_view key, double least, double most, Vector& out) {
-  if (table.has(key)) read_list(table, key, table.array(key), least, most, out);
-}
-
 void read_markers(TomlReader top, Scene& scene) {
   scene.markers = depth_scene::nominal_markers(scene.film_mm);
   if (!top.has("marker")) return;
@@ -61,20 +41,15 @@ void read_markers(TomlReader top, Scene& scene) {
   for (TomlReader& from : top.tables("marker")) {
     depth_scene::Marker& marker = scene.markers[from.choice("name", names)];
     Eigen::Vector2d off = Eigen::Vector2d::Zero();
-    read_vector(from, "off_mm", -100, 100, off);
+    from.vector("off_mm", -100, 100, off);
     marker.at_mm.head<2>() += off;
     marker.turn_rad += kRadians * from.number("turned_deg", -180, 180, 0);
   }
 }
 
 void read_sweep(TomlReader sweep, depth_scene::CameraStand& stand) {
-  for (const toml::node* place : sweep.array("via_mm")) {
-    std::vector<const toml::node*> numbers;
-    if (const toml::array* array = place->as_array()) {
-      for (const toml::node& number : *array) numbers.push_back(&number);
-    }
-    read_list(sweep, "via_mm", numbers, -kFarthest_mm, kFarthest_mm, stand.via_mm.emplace_back());
-  }
+  for (const toml::node* place : sweep.array("via_mm"))
+    sweep.vector("via_mm", *place, -kFarthest_mm, kFarthest_mm, stand.via_mm.emplace_back());
   stand.period_s = sweep.number("period_s", 0.1, 3600, stand.period_s);
   stand.trembles = sweep.flag("trembles", stand.trembles);
 }
@@ -82,8 +57,8 @@ void read_sweep(TomlReader sweep, depth_scene::CameraStand& stand) {
 Camera read_camera(TomlReader from) {
   Camera out;
   depth_scene::CameraStand& stand = out.stand;
-  read_vector(from, "at_mm", -kFarthest_mm, kFarthest_mm, stand.at_mm);
-  read_vector(from, "looks_at_mm", -kFarthest_mm, kFarthest_mm, stand.looks_at_mm);
+  from.vector("at_mm", -kFarthest_mm, kFarthest_mm, stand.at_mm);
+  from.vector("looks_at_mm", -kFarthest_mm, kFarthest_mm, stand.looks_at_mm);
   stand.turn_rad = kRadians * from.number("turned_deg", -180, 180, 0);
   out.seed = static_cast<std::uint64_t>(from.integer("seed", 0, std::int64_t{1} << 53, 1));
   out.has_errors = from.flag("errors", true);
@@ -115,7 +90,7 @@ Result<Scene> read_scene(const std::filesystem::path& path) {
   }
   if (top.has("film")) {
     TomlReader film = top.table("film");
-    read_vector(film, "size_mm", 10, 2000, scene.film_mm);
+    film.vector("size_mm", 10, 2000, scene.film_mm);
   }
   read_markers(top, scene);
   if (top.has("camera")) scene.camera = read_camera(top.table("camera"));

@@ -184,6 +184,26 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
   return out;
 }
 
+void TomlReader::vector(std::string_view key, double least, double most,
+                        Eigen::Ref<Eigen::VectorXd> out) {
+  if (const toml::node* node = find(key, false)) vector(key, *node, least, most, out);
+}
+
+void TomlReader::vector(std::string_view key, const toml::node& list, double least, double most,
+                        Eigen::Ref<Eigen::VectorXd> out) {
+  const toml::array* array = list.as_array();
+  bool is_right = array != nullptr && array->size() == static_cast<std::size_t>(out.size());
+  for (Eigen::Index i = 0; is_right && i < out.size(); ++i) {
+    const toml::node& number = (*array)[static_cast<std::size_t>(i)];
+    out[i] = number.is_number() ? number.value<double>().value_or(NAN) : NAN;
+    is_right = out[i] >= least && out[i] <= most;
+  }
+  if (is_right) return;
+  const std::string wanted = "list of " + std::to_string(out.size()) + " numbers";
+  refuse(key, "is no " + wanted + " in range. " +
+                  range_text(("a " + wanted + ", each").c_str(), least, most));
+}
+
 Status TomlReader::finish() const {
   if (shared_->error) return tl::unexpected(*shared_->error);
   const toml::key* unknown = nullptr;

@@ -2,6 +2,7 @@
 
 #include <toml++/toml.h>
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -46,6 +47,12 @@ class TomlReader {
 
   /// The entries of an array, for those who know more of them.
   std::vector<const toml::node*> array(std::string_view key);
+
+  /// A list of as many numbers as `out` has; that is left as it is where the key is absent.
+  void vector(std::string_view key, double least, double most, Eigen::Ref<Eigen::VectorXd> out);
+  /// The same of a list within the value of `key`.
+  void vector(std::string_view key, const toml::node& list, double least, double most,
+              Eigen::Ref<Eigen::VectorXd> out);
 
   /// Keeps, unless something was wrong before, that `key` (or the table itself) is wrong: "what".
   void refuse(std::string_view key, const std::string& what);

@@ -63,4 +63,9 @@ Status write_artifact(const std::filesystem::path& path, std::span<const unsigne
   return system_failure(path, error);
 }
 
+Status write_artifact(const std::filesystem::path& path, std::string_view text) {
+  return write_artifact(
+      path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+}
+
 }  // namespace hydroprint::image

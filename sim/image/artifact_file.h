@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "sim/base/result.h"
 
@@ -14,5 +15,8 @@ namespace hydroprint::image {
 /// kInternal; nothing is left behind then.
 [[nodiscard]] Status write_artifact(const std::filesystem::path& path,
                                     std::span<const unsigned char> bytes);
+
+/// The same of a text.
+[[nodiscard]] Status write_artifact(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace hydroprint::image

@@ -24,4 +24,9 @@ struct Grey16Image {
 [[nodiscard]] Status write_png(const std::filesystem::path& path, const Grey16Image& image,
                                const Context& context = {});
 
+/// Reads one of 16 bits and one channel (PNG or TIFF). Refuses what read_image refuses, and
+/// (kInvalidArgument) others.
+[[nodiscard]] Result<Grey16Image> read_grey16(const std::filesystem::path& path,
+                                              const Context& context = {});
+
 }  // namespace hydroprint::image

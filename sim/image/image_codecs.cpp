@@ -9,6 +9,7 @@
 #include <exception>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include "sim/image/colour.h"
 #include "sim/image/image_header.h"
@@ -122,41 +123,71 @@ Status read_pixels(ImageInput& input, const ImageSpec& spec, const std::string& 
   return {};
 }
 
-Result<ReadImage> decode(IOProxy& proxy, const std::string& name, const Context& context) {
+/// An image file whose header has been looked at.
+struct Opened {
+  std::unique_ptr<ImageInput> input;
+  ImageSpec spec;
+};
+
+Result<Opened> open(IOProxy& proxy, const std::string& name) {
   const ByteSource bytes{static_cast<std::int64_t>(proxy.size()),
                          [&](void* to, std::size_t count, std::int64_t offset) {
                            return proxy.pread(to, count, offset);
                          }};
   HP_ASSIGN_OR_RETURN(const Format format, check_header(bytes, name));
-  const auto input = ImageInput::create(decoder_name(format), false, nullptr);
-  if (!input || !input->set_ioproxy(&proxy)) {
+  Opened out{ImageInput::create(decoder_name(format), false, nullptr), {}};
+  if (!out.input || !out.input->set_ioproxy(&proxy)) {
     return fail(Code::kUnimplemented,
                 name + ": no decoder for " + decoder_name(format) + ". Convert the image to PNG");
   }
-  ImageSpec spec, config;
+  ImageSpec config;
   config.attribute("oiio:UnassociatedAlpha", 1);
-  if (!input->open(name, spec, config)) return corrupt(name, input->geterror());
-  HP_RETURN_IF_ERROR(check_size(spec.width, spec.height, bytes.size, format, name));
-  if (spec.depth > 1 || spec.nchannels < 1 || spec.nchannels > 64) {
-    return corrupt(name, std::to_string(spec.nchannels) + " channels");
+  if (!out.input->open(name, out.spec, config)) return corrupt(name, out.input->geterror());
+  HP_RETURN_IF_ERROR(check_size(out.spec.width, out.spec.height, bytes.size, format, name));
+  if (out.spec.depth > 1 || out.spec.nchannels < 1 || out.spec.nchannels > 64) {
+    return corrupt(name, std::to_string(out.spec.nchannels) + " channels");
   }
+  return out;
+}
+
+Result<ReadImage> decode(IOProxy& proxy, const std::string& name, const Context& context) {
+  HP_ASSIGN_OR_RETURN(const Opened opened, open(proxy, name));
+  const ImageSpec& spec = opened.spec;
   ReadImage out;
   out.image.width = spec.width;
   out.image.height = spec.height;
   out.image.texels.resize(static_cast<std::size_t>(spec.width) * spec.height);
   if (spec.format.is_floating_point()) {
-    HP_RETURN_IF_ERROR(read_pixels<float>(*input, spec, name, context, out));
+    HP_RETURN_IF_ERROR(read_pixels<float>(*opened.input, spec, name, context, out));
   } else {
-    HP_RETURN_IF_ERROR(read_pixels<std::uint16_t>(*input, spec, name, context, out));
+    HP_RETURN_IF_ERROR(read_pixels<std::uint16_t>(*opened.input, spec, name, context, out));
+  }
+  return out;
+}
+
+Result<Grey16Image> decode_grey16(IOProxy& proxy, const std::string& name) {
+  HP_ASSIGN_OR_RETURN(const Opened opened, open(proxy, name));
+  const ImageSpec& spec = opened.spec;
+  if (spec.nchannels != 1 || spec.format != TypeDesc::UINT16 || spec.tile_width != 0) {
+    return fail(
+        Code::kInvalidArgument,
+        name + ": not a grey image of 16 bits. Give depths as hydroprint-capture writes them");
+  }
+  Grey16Image out{spec.width, spec.height, {}};
+  out.grey.resize(static_cast<std::size_t>(spec.width) * spec.height);
+  if (!read_rows(*opened.input, spec, 0, spec.height, TypeDesc::UINT16, out.grey.data()) ||
+      opened.input->has_error()) {
+    return corrupt(name, opened.input->geterror());
   }
   return out;
 }
 
 /// The libraries behind OpenImageIO report through return values, but it is C++: nothing of theirs
 /// may pass this file.
-Result<ReadImage> decode_safely(IOProxy& proxy, const std::string& name, const Context& context) {
+template <class Decode>
+auto safely(const std::string& name, Decode decode) -> decltype(decode()) {
   try {
-    return decode(proxy, name, context);
+    return decode();
   } catch (const std::bad_alloc&) {
     return fail(Code::kResourceExhausted,
                 name + ": not enough memory for this image. Scale it down", "OUT_OF_MEMORY");
@@ -186,19 +217,30 @@ Result<std::vector<unsigned char>> encode(const std::string& name, const char* e
   return file;
 }
 
-Result<ReadImage> read_file(const std::filesystem::path& path, const Context& context) {
+/// Opens a file and decodes it.
+template <class Decode>
+auto from_file(const std::filesystem::path& path, Decode decode)
+    -> decltype(decode(std::declval<IOProxy&>())) {
   OIIO::Filesystem::IOFile proxy(path.string(), IOProxy::Read);
   if (!proxy.opened()) {
     return fail(Code::kPermissionDenied,
                 path.string() + ": cannot be opened. Check its permissions");
   }
-  return decode_safely(proxy, path.string(), context);
+  return safely(path.string(), [&] { return decode(proxy); });
+}
+
+Result<ReadImage> read_file(const std::filesystem::path& path, const Context& context) {
+  return from_file(path, [&](IOProxy& proxy) { return decode(proxy, path.string(), context); });
+}
+
+Result<Grey16Image> read_grey16_file(const std::filesystem::path& path, const Context&) {
+  return from_file(path, [&](IOProxy& proxy) { return decode_grey16(proxy, path.string()); });
 }
 
 Result<ReadImage> read_bytes(const std::vector<unsigned char>& bytes, const std::string& name,
                              const Context& context) {
   OIIO::Filesystem::IOMemReader proxy(bytes.data(), bytes.size());
-  return decode_safely(proxy, name, context);
+  return safely(name, [&] { return decode(proxy, name, context); });
 }
 
 Result<std::vector<unsigned char>> encode_png_rgba(const std::string& name, int width, int height,
@@ -247,7 +289,7 @@ Result<std::vector<unsigned char>> encode_exr(const std::string& name, int width
 
 const hydroprint::image::ImageCodecs* hydroprint_image_codecs() {
   using namespace hydroprint::image;
-  static const ImageCodecs codecs = {read_file, read_bytes, encode_png_rgba, encode_tiff,
-                                     encode_exr};
+  static const ImageCodecs codecs = {read_file,   read_bytes, encode_png_rgba,
+                                     encode_tiff, encode_exr, read_grey16_file};
   return &codecs;
 }

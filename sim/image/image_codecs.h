@@ -7,6 +7,7 @@
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
+#include "sim/image/grey16.h"
 #include "sim/image/image_file.h"
 #include "sim/image/printer_image.h"
 
@@ -28,6 +29,7 @@ struct ImageCodecs {
   Result<std::vector<unsigned char>> (*encode_exr)(const std::string& name, int width, int height,
                                                    const std::vector<std::string>& channels,
                                                    const std::vector<float>& values);
+  Result<Grey16Image> (*read_grey16)(const std::filesystem::path& path, const Context& context);
 };
 
 }  // namespace hydroprint::image

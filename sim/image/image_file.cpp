@@ -1,9 +1,8 @@
 #include "sim/image/image_file.h"
 
-#include <dlfcn.h>
-
 #include <system_error>
 
+#include "sim/base/module.h"
 #include "sim/image/artifact_file.h"
 #include "sim/image/colour.h"
 #include "sim/image/grey16.h"
@@ -16,24 +15,12 @@ namespace {
 
 /// Loads the module, which lies beside the program, when it is first needed.
 Result<const ImageCodecs*> codecs() {
-  static const ImageCodecs* const loaded = []() -> const ImageCodecs* {
-    void* module = ::dlopen("hydroprint-image-codecs.so", RTLD_NOW | RTLD_LOCAL);
-    if (module == nullptr) return nullptr;
-    using Get = decltype(&hydroprint_image_codecs);
-    const auto get = reinterpret_cast<Get>(::dlsym(module, "hydroprint_image_codecs"));
-    return get == nullptr ? nullptr : get();
-  }();
-  if (loaded != nullptr) return loaded;
-  return fail(Code::kInternal,
-              "hydroprint-image-codecs.so: cannot be loaded. It belongs beside the program, with "
-              "the packages of deploy/packages.txt installed");
+  static const auto symbol = module_symbol("hydroprint-image-codecs.so", "hydroprint_image_codecs");
+  if (!symbol) return tl::unexpected(symbol.error());
+  return reinterpret_cast<decltype(&hydroprint_image_codecs)>(*symbol)();
 }
 
-}  // namespace
-
-void load_image_libraries() { (void)codecs(); }
-
-Result<ReadImage> read_image(const std::filesystem::path& path, const Context& context) {
+Status check_file(const std::filesystem::path& path) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) {
@@ -42,8 +29,23 @@ Result<ReadImage> read_image(const std::filesystem::path& path, const Context& c
   if (!std::filesystem::is_regular_file(status)) {
     return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Name an image");
   }
+  return {};
+}
+
+}  // namespace
+
+void load_image_libraries() { (void)codecs(); }
+
+Result<ReadImage> read_image(const std::filesystem::path& path, const Context& context) {
+  HP_RETURN_IF_ERROR(check_file(path));
   HP_ASSIGN_OR_RETURN(const ImageCodecs* library, codecs());
   return library->read_file(path, context);
+}
+
+Result<Grey16Image> read_grey16(const std::filesystem::path& path, const Context& context) {
+  HP_RETURN_IF_ERROR(check_file(path));
+  HP_ASSIGN_OR_RETURN(const ImageCodecs* library, codecs());
+  return library->read_grey16(path, context);
 }
 
 Result<ReadImage> read_image(const std::vector<unsigned char>& bytes, const std::string& name,

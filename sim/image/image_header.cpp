@@ -10,7 +10,7 @@
 namespace hydroprint::image {
 namespace {
 
-using Bytes = std::array<unsigned char, 8>;
+using Signature = std::array<unsigned char, 8>;
 
 std::uint32_t big_endian(const unsigned char* bytes, int count) {
   std::uint32_t value = 0;
@@ -46,13 +46,13 @@ bool is_chunk_sound(const ByteSource& bytes, std::int64_t offset, std::int64_t l
     crc = crc32(crc, buffer.data(), wanted);
     at += static_cast<std::int64_t>(wanted);
   }
-  Bytes stored{};
+  Signature stored{};
   return bytes.read(stored.data(), 4, offset + 8 + length) == 4 &&
          big_endian(stored.data(), 4) == ~crc;
 }
 
 Status check_png(const ByteSource& bytes, const std::string& name) {
-  Bytes head{};
+  Signature head{};
   if (bytes.read(head.data(), 8, 16) != 8) {
     return fail(Code::kDataLoss, at_byte(name, 16) +
                                      "the PNG ends within its header. Get the "
@@ -80,7 +80,7 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
 
 /// Finds the frame header: a progressive JPEG's decoder allocates for all of it on opening.
 Status check_jpeg(const ByteSource& bytes, const std::string& name) {
-  Bytes head{};
+  Signature head{};
   for (std::int64_t at = 2; bytes.read(head.data(), 4, at) == 4;) {
     if (head[0] != 0xFF) break;
     const int marker = head[1];
@@ -116,7 +116,7 @@ const char* decoder_name(Format format) {
 }
 
 Result<Format> check_header(const ByteSource& bytes, const std::string& name) {
-  Bytes head{};
+  Signature head{};
   const std::size_t got = bytes.read(head.data(), head.size(), 0);
   const auto starts = [&](const char* magic, std::size_t length) {
     return got >= length && std::memcmp(head.data(), magic, length) == 0;

@@ -28,6 +28,7 @@ struct Quantity {
   double rest = 0, least_span = 0.1;  ///< the scale holds the one and is no shorter than the other
   /// At a tile's corners; NaN shows as where no film arrives.
   std::function<std::array<double, 3>(const flow::MappedTriangle&)> at_corners;
+  std::string hatched = "no film";  ///< what NaN and bare surface are called
 };
 
 /// The views of stretch_picture, coloured by any quantity.

@@ -171,6 +171,27 @@ void ViewDrawing::draw_bare(const Colour& colour) {
   }
 }
 
+void ViewDrawing::draw_points(std::span<const Eigen::Vector3d> points_O,
+                              std::span<const Eigen::Vector3f> colours, double radius_mm,
+                              double deep_mm) {
+  const double radius = radius_mm * samples_per_mm_;
+  for (std::size_t i = 0; i < points_O.size(); ++i) {
+    const Eigen::Vector3d middle = project(points_O[i]);
+    const auto first = [&](double at) { return static_cast<int>(std::ceil(at - radius - 0.5)); };
+    for (int y = std::max(0, first(middle.y())); y < height_ && y + 0.5 < middle.y() + radius;
+         ++y) {
+      for (int x = std::max(0, first(middle.x())); x < width_ && x + 0.5 < middle.x() + radius;
+           ++x) {
+        if (std::hypot(x + 0.5 - middle.x(), y + 0.5 - middle.y()) > radius) continue;
+        Sample& sample = at(x, y);
+        if (middle.z() < sample.towards - deep_mm) continue;
+        sample.colour = colours[i];
+        if (sample.triangle < 0) sample.towards = static_cast<float>(middle.z());
+      }
+    }
+  }
+}
+
 bool ViewDrawing::is_outline(int x, int y) const {
   const float here = at(x, y).towards;
   const auto is_far_behind = [&](int nx, int ny) {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,6 +52,12 @@ class ViewDrawing {
 
   /// Draws the rest of the surface in colours of the place on the picture.
   void draw_bare(const Colour& colour);
+
+  /// Draws points as discs over what has been drawn, where the surface does not hide them.
+  /// @param points_O  a point that lies deeper than `deep_mm` below the surface is hidden
+  /// @param colours   linear, one a point
+  void draw_points(std::span<const Eigen::Vector3d> points_O,
+                   std::span<const Eigen::Vector3f> colours, double radius_mm, double deep_mm);
 
   /// Puts the drawing, with its outlines, on a picture whose pixels there are background.
   void put_on(RgbImage& picture, int left_px, int top_px) const;

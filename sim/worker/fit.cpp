@@ -3,9 +3,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "sim/film/profile.h"
@@ -42,11 +40,6 @@ std::string residuals_csv(const std::vector<fit::PointResult>& points) {
   return out;
 }
 
-Status write_text(const std::filesystem::path& path, std::string_view text) {
-  return image::write_artifact(
-      path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
-}
-
 }  // namespace
 
 std::vector<Stage> fit_stages() {
@@ -67,8 +60,10 @@ Status run_fit(const Options& options, const pipeline::DipOptions& dip, OutFolde
   context.progress("writing", 0);
   HP_RETURN_IF_ERROR(folder.create());
   const std::filesystem::path& to = folder.partial();
-  HP_RETURN_IF_ERROR(write_text(to / "film_profile.toml", film::profile_toml(report.fit->profile)));
-  HP_RETURN_IF_ERROR(write_text(to / "residuals.csv", residuals_csv(report.fit->points)));
+  HP_RETURN_IF_ERROR(
+      image::write_artifact(to / "film_profile.toml", film::profile_toml(report.fit->profile)));
+  HP_RETURN_IF_ERROR(
+      image::write_artifact(to / "residuals.csv", residuals_csv(report.fit->points)));
   HP_RETURN_IF_ERROR(image::write_png(
       to / "residuals.png", fit::residual_picture(dip.outline, *report.fit), image::kScreenDpi));
   report.artifacts = {"film_profile.toml", "residuals.csv", "residuals.png"};

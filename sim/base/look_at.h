@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cmath>
+
+#include "sim/base/pose.h"
+
+namespace hydroprint {
+
+/// A camera's pose X_FC: takes its coordinates (x to the right of its image, y down, z forward
+/// along its axis, mm) to F. The film's near side is below in its image; of one that looks along y,
+/// the water is.
+/// @param eye_mm     where it is
+/// @param target_mm  what it looks at; not the same place
+/// @param turn_rad   about its axis
+[[nodiscard]] inline Pose look_at(const Eigen::Vector3d& eye_mm, const Eigen::Vector3d& target_mm,
+                                  double turn_rad) {
+  const Eigen::Vector3d forward = (target_mm - eye_mm).normalized();
+  const bool is_level = std::abs(forward.y()) > 0.99;
+  const Eigen::Vector3d guess = is_level ? Eigen::Vector3d(0, 0, -1) : Eigen::Vector3d(0, -1, 0);
+  const Eigen::Vector3d down = (guess - guess.dot(forward) * forward).normalized();
+  Pose out = Pose::Identity();
+  out.linear() << down.cross(forward), down, forward;
+  out.rotate(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ()));
+  out.translation() = eye_mm;
+  return out;
+}
+
+}  // namespace hydroprint

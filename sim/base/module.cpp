@@ -1,0 +1,16 @@
+#include "sim/base/module.h"
+
+#include <dlfcn.h>
+
+namespace hydroprint {
+
+Result<void*> module_symbol(const std::string& file, const std::string& name) {
+  void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* symbol = module == nullptr ? nullptr : ::dlsym(module, name.c_str());
+  if (symbol != nullptr) return symbol;
+  return fail(Code::kInternal, file +
+                                   ": cannot be loaded. It belongs beside the program, with the "
+                                   "packages of deploy/packages.txt installed");
+}
+
+}  // namespace hydroprint
