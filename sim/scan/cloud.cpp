@@ -8,10 +8,10 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kJumpMm = 12;         ///< between neighbours: the edge of a surface
-constexpr double kSameSurfaceMm = 15;  ///< between a pixel and those its normal is taken from
-constexpr int kReachPx = 5;
-constexpr int kFewest = 12;  ///< pixels for a normal
+constexpr double kJumpMm = 12;             ///< between neighbours: the edge of a surface
+constexpr double kSameSurfaceMm = 15;      ///< between a pixel and those its normal is taken from
+constexpr int kReachPx = 5, kEveryPx = 2;  ///< neighbours share their noise
+constexpr int kFewest = 6;                 ///< pixels for a normal
 
 /// A fused frame as points, before it is known which of them lie on surfaces.
 struct Grid {
@@ -45,8 +45,8 @@ Eigen::Vector3d normal_at(const Grid& grid, int u, int v) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   int count = 0;
-  for (int dv = -kReachPx; dv <= kReachPx; ++dv) {
-    for (int du = -kReachPx; du <= kReachPx; ++du) {
+  for (int dv = -kReachPx; dv <= kReachPx; dv += kEveryPx) {
+    for (int du = -kReachPx; du <= kReachPx; du += kEveryPx) {
       if (!grid.holds(u + du, v + dv)) continue;
       const Eigen::Vector3d d = grid.at(u + du, v + dv) - centre;
       if (std::abs(d.z()) > kSameSurfaceMm) continue;

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "sim/scan/depth_steps.h"
+
 namespace hydroprint::scan {
 namespace {
 
@@ -29,6 +31,8 @@ Status check(std::span<const DepthFrame> frames) {
       return fail(Code::kInvalidArgument, "depth frame " + std::to_string(i) +
                                               " differs in size: record again with one setting");
   }
+  const auto is_nothing = [](float depth_mm) { return depth_mm == 0; };
+  if (std::all_of(first.depth_mm.begin(), first.depth_mm.end(), is_nothing)) return {};  // black
   const auto same = [&](const DepthFrame& frame) { return frame.depth_mm == first.depth_mm; };
   if (frames.size() > 1 && std::all_of(frames.begin() + 1, frames.end(), same))
     return fail(Code::kFailedPrecondition,
@@ -80,11 +84,13 @@ Pixel mean_of(std::vector<double>& values, std::vector<double>& scratch, const D
 }
 
 Pixel fuse_pixel(std::span<const DepthFrame> frames, std::size_t i, std::vector<double>& values,
-                 std::vector<double>& scratch, const DepthNoise& noise) {
+                 std::vector<double>& scratch, const DepthNoise& noise,
+                 const std::optional<DepthSteps>& steps) {
   values.clear();
   for (const DepthFrame& frame : frames) {
-    const double depth = frame.depth_mm[i];
-    if (depth > 0 && std::isfinite(depth)) values.push_back(depth);
+    const float depth = frame.depth_mm[i];
+    if (depth > 0 && std::isfinite(depth))
+      values.push_back(steps ? steps->before_rounding_mm(depth) : depth);
   }
   if (values.empty() || 2 * values.size() < frames.size()) return {};
   return mean_of(values, scratch, noise);
@@ -113,12 +119,13 @@ Result<FusedFrame> fuse(std::span<const DepthFrame> frames, const DepthNoise& no
   FusedFrame out{{width, height, std::vector<float>(pixels)},
                  std::vector<float>(pixels),
                  std::vector<std::uint16_t>(pixels)};
+  const auto steps = find_depth_steps(frames);
   std::vector<std::size_t> valid(static_cast<std::size_t>(height)), unsteady = valid;
   const auto fuse_row = [&](std::size_t v) -> Status {
     std::vector<double> values, scratch;
     for (int u = 0; u < width; ++u) {
       const std::size_t i = out.mean.index(u, static_cast<int>(v));
-      const Pixel pixel = fuse_pixel(frames, i, values, scratch, noise);
+      const Pixel pixel = fuse_pixel(frames, i, values, scratch, noise, steps);
       out.mean.depth_mm[i] = static_cast<float>(pixel.mean_mm);
       out.sigma_mm[i] = static_cast<float>(pixel.sigma_mm);
       out.frames[i] = static_cast<std::uint16_t>(pixel.frames);

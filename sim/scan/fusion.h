@@ -18,7 +18,8 @@ struct FusedFrame {
 
 /// Mean depth per pixel of what lies within four standard deviations of the median, where at least
 /// half of the frames have a depth. A mean, not a median: depth comes in steps as large as its
-/// noise, and only a mean sees between them.
+/// noise, and only a mean sees between them. Where the frames tell the camera's steps
+/// (find_depth_steps), their rounding to whole mm is taken back first.
 /// Refuses (kInvalidArgument) no frames, more than 65535, and frames that differ in size; with
 /// kFailedPrecondition and a reason: CAMERA_BLACK where hardly a pixel has a depth, CAMERA_FROZEN
 /// where all of several frames are the same bit by bit, CAMERA_MOVED where depths vary far beyond

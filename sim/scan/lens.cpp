@@ -49,18 +49,18 @@ std::vector<Eigen::Vector3d> Lens::rays() const {
 
 Lens::Vector Lens::parameters() const {
   Vector p;
-  p << fx_px, fy_px, cx_px, cy_px, k1, k2, p1, p2, depth_scale, depth_offset_mm;
+  p << fx_px, fy_px, cx_px, cy_px, k1, k2, p1, p2, depth_scale;
   return p;
 }
 
 Lens Lens::with(const Vector& p) const {
-  return {width_px, height_px, p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8], p[9]};
+  return {width_px, height_px, p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7], p[8]};
 }
 
 Eigen::Matrix<double, 3, Lens::kParameters> Lens::derivatives(double u, double v,
                                                               double reported_mm) const {
   static const Vector kSteps =
-      (Vector() << 0.1, 0.1, 0.1, 0.1, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 0.1).finished();
+      (Vector() << 0.1, 0.1, 0.1, 0.1, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3).finished();
   Eigen::Matrix<double, 3, kParameters> out;
   const Vector here = parameters();
   for (int j = 0; j < kParameters; ++j) {

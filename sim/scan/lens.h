@@ -11,9 +11,9 @@ namespace hydroprint::scan {
 ///   x_d = x (1 + k1 r2 + k2 r2^2) + 2 p1 x y + p2 (r2 + 2 x^2)
 ///   y_d = y (1 + k1 r2 + k2 r2^2) + p1 (r2 + 2 y^2) + 2 p2 x y;
 /// pixel centres are at whole numbers. Its depth Z is
-/// depth_scale times the reported depth, plus depth_offset_mm.
+/// depth_scale times the reported depth: what is triangulated counts from the centre of projection.
 struct Lens {
-  static constexpr int kParameters = 10;
+  static constexpr int kParameters = 9;
   using Vector = Eigen::Matrix<double, kParameters, 1>;
   using Matrix = Eigen::Matrix<double, kParameters, kParameters>;
 
@@ -28,22 +28,19 @@ struct Lens {
   double p1 = 0;
   double p2 = 0;
   double depth_scale = 1;
-  double depth_offset_mm = 0;
 
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_C) const;
   /// The point of depth 1 on a pixel's ray.
   [[nodiscard]] Eigen::Vector3d ray(double u, double v) const;
   /// ray() of every pixel, row after row.
   [[nodiscard]] std::vector<Eigen::Vector3d> rays() const;
-  [[nodiscard]] double true_depth_mm(double reported_mm) const {
-    return depth_scale * reported_mm + depth_offset_mm;
-  }
+  [[nodiscard]] double true_depth_mm(double reported_mm) const { return depth_scale * reported_mm; }
   /// Point of a pixel with this reported depth.
   [[nodiscard]] Eigen::Vector3d point(double u, double v, double reported_mm) const {
     return ray(u, v) * true_depth_mm(reported_mm);
   }
 
-  /// fx, fy, cx, cy, k1, k2, p1, p2, depth_scale, depth_offset_mm.
+  /// fx, fy, cx, cy, k1, k2, p1, p2, depth_scale.
   [[nodiscard]] Vector parameters() const;
   [[nodiscard]] Lens with(const Vector& parameters) const;
   /// Derivatives of point() by the parameters, from central differences.

@@ -1,0 +1,109 @@
+#include "sim/scan/depth_steps.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace hydroprint::scan {
+namespace {
+
+constexpr double kUsualScaleMm = 575.8 * 75 * 8;  ///< px, mm, steps a pixel
+constexpr double kMostOff = 0.05;
+constexpr std::size_t kMostMm = 10000;
+constexpr std::size_t kOften = 8;     ///< pixels; fewer may be strays
+constexpr double kHalf = 0.5 + 1e-4;  ///< mm, to which depths are rounded
+constexpr double kScaleStep = 5e-5, kShiftStep = 0.04;
+constexpr double kCoarseSlackMm = 0.12;  ///< that those leave
+constexpr double kFinest = 1e-7;
+/// Log of one over the chance of explaining all depths by steps that are not theirs: 1e-11.
+constexpr double kSure = 25;
+
+struct Steps {
+  double scale_mm, shift;
+
+  [[nodiscard]] double nearest_mm(double depth_mm) const {
+    return scale_mm / (std::round(scale_mm / depth_mm - shift) + shift);
+  }
+};
+
+/// How far the worst of the depths is from the nearest step; stops looking at `enough`.
+double worst_mm(const std::vector<double>& depths, const Steps& steps, double enough) {
+  double out = 0;
+  for (const double depth : depths) {
+    out = std::max(out, std::abs(steps.nearest_mm(depth) - depth));
+    if (out >= enough) return out;
+  }
+  return out;
+}
+
+/// Whole depths that occur often, where steps are longer than 1 mm; empty if not all are whole.
+std::vector<double> often_told(std::span<const DepthFrame> frames) {
+  std::vector<std::size_t> counts(kMostMm + 1);
+  for (const DepthFrame& frame : frames) {
+    for (const float depth : frame.depth_mm) {
+      if (!(depth > 0 && depth <= static_cast<float>(kMostMm))) continue;
+      if (depth != std::floor(depth)) return {};
+      ++counts[static_cast<std::size_t>(depth)];
+    }
+  }
+  std::vector<double> out;
+  const auto first = static_cast<std::size_t>(std::sqrt((1 + kMostOff) * kUsualScaleMm)) + 1;
+  for (std::size_t depth = first; depth <= kMostMm; ++depth)
+    if (counts[depth] >= kOften) out.push_back(static_cast<double>(depth));
+  return out;
+}
+
+double sureness(const std::vector<double>& depths) {
+  double out = 0;
+  for (const double depth : depths) out += std::log(depth * depth / kUsualScaleMm);
+  return out;
+}
+
+/// The steps nearest to all depths, by looking everywhere and then around the best, ever closer.
+Steps closest(const std::vector<double>& depths) {
+  Steps best{kUsualScaleMm, 0};
+  double worst = kHalf + kCoarseSlackMm;
+  const auto look = [&](const Steps& at) {
+    const double there = worst_mm(depths, at, worst);
+    if (there >= worst) return false;
+    worst = there;
+    best = at;
+    return true;
+  };
+  for (double off = -kMostOff; off <= kMostOff; off += kScaleStep)
+    for (double shift = 0; shift < 1; shift += kShiftStep) look({kUsualScaleMm * (1 + off), shift});
+  for (double scale = kScaleStep, shift = kShiftStep; scale > kFinest;) {
+    const Steps around = best;
+    bool is_better = false;
+    for (int i = -4; i <= 4; ++i)
+      for (int j = -4; j <= 4; ++j)
+        is_better |= look({around.scale_mm * (1 + i * scale / 2), around.shift + j * shift / 2});
+    if (is_better) continue;
+    scale /= 2;
+    shift /= 2;
+  }
+  return best;
+}
+
+}  // namespace
+
+float DepthSteps::before_rounding_mm(float reported_mm) const {
+  const auto whole = static_cast<std::size_t>(reported_mm);
+  return whole < before_mm.size() ? before_mm[whole] : reported_mm;
+}
+
+std::optional<DepthSteps> find_depth_steps(std::span<const DepthFrame> frames) {
+  const auto depths = often_told(frames);
+  if (sureness(depths) < kSure) return {};
+  const Steps steps = closest(depths);
+  if (worst_mm(depths, steps, INFINITY) > kHalf) return {};
+  DepthSteps out{steps.scale_mm, steps.shift - std::floor(steps.shift), {}};
+  for (std::size_t whole = 0; whole <= kMostMm; ++whole) {
+    const auto depth = static_cast<double>(whole);
+    const bool is_one = depth * depth > steps.scale_mm;
+    const double before = is_one ? steps.nearest_mm(depth) : depth;
+    out.before_mm.push_back(static_cast<float>(std::abs(before - depth) < kHalf ? before : depth));
+  }
+  return out;
+}
+
+}  // namespace hydroprint::scan

@@ -1,0 +1,72 @@
+// The steps in which a structured-light camera tells depth, found from its frames.
+#include "sim/scan/depth_steps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "sim/scan/fusion.h"
+
+namespace hydroprint::scan {
+namespace {
+
+constexpr int kAcross = 200, kDown = 100;
+constexpr double kScaleMm = 352000, kShift = 0.3;
+
+double stepped(double depth_mm) {
+  return kScaleMm / (std::round(kScaleMm / depth_mm - kShift) + kShift);
+}
+
+/// A slope from one depth to another, along the image, with noise, in steps, told in whole mm.
+DepthFrame slope(double from_mm, double to_mm, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> noise(0, DepthNoise{}.changing_sigma_mm(from_mm));
+  DepthFrame out{kAcross, kDown, {}};
+  for (int v = 0; v < kDown; ++v)
+    for (int u = 0; u < kAcross; ++u)
+      out.depth_mm.push_back(static_cast<float>(
+          std::round(stepped(from_mm + (to_mm - from_mm) * u / kAcross + noise(random)))));
+  return out;
+}
+
+TEST(DepthSteps, AreFoundAndTheirRoundingIsTakenBack) {
+  const std::vector frames{slope(700, 950, 1)};
+  const auto steps = find_depth_steps(frames);
+  ASSERT_TRUE(steps);
+  EXPECT_NEAR(steps->scale_mm / kScaleMm, 1, 2e-4);
+  for (const float told : frames[0].depth_mm)
+    EXPECT_NEAR(steps->before_rounding_mm(told), stepped(told), 0.05);
+}
+
+TEST(DepthSteps, AreNotFoundWhereThereAreNone) {
+  DepthFrame smooth{kAcross, kDown, {}}, whole = smooth;
+  for (int i = 0; i < kAcross * kDown; ++i) {
+    smooth.depth_mm.push_back(700 + 0.01F * static_cast<float>(i));
+    whole.depth_mm.push_back(static_cast<float>(700 + i % 250));
+  }
+  EXPECT_FALSE(find_depth_steps(std::vector{smooth}));
+  EXPECT_FALSE(find_depth_steps(std::vector{whole}));
+  EXPECT_FALSE(find_depth_steps(std::vector{slope(800, 805, 2)}));  // too few to tell
+  EXPECT_FALSE(find_depth_steps({}));
+}
+
+/// Of means of many frames, by what is common to all pixels at that depth.
+TEST(DepthSteps, LeaveNoErrorThatAllPixelsOfADepthShare) {
+  constexpr int kFrames = 30;
+  std::vector<DepthFrame> frames;
+  for (std::uint32_t k = 0; k < kFrames; ++k) frames.push_back(slope(700, 950, k));
+  const auto fused = fuse(frames, {}, {});
+  ASSERT_TRUE(fused);
+  double worst = 0;
+  for (int u = 0; u < kAcross; ++u) {
+    double mean = 0;
+    for (int v = 0; v < kDown; ++v) mean += fused->mean.depth_mm[fused->mean.index(u, v)];
+    worst = std::max(worst, std::abs(mean / kDown - (700 + 250.0 * u / kAcross)));
+  }
+  EXPECT_LT(worst, 0.12);  // whole mm: 0.5
+}
+
+}  // namespace
+}  // namespace hydroprint::scan
