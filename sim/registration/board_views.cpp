@@ -1,0 +1,112 @@
+#include "sim/registration/board_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "sim/registration/pose_fit.h"
+#include "sim/registration/segments.h"
+#include "sim/registration/starts.h"
+
+namespace hydroprint::registration {
+namespace {
+
+constexpr double kJumpMm = 12;
+constexpr double kLeastSize = 0.8, kMostSize = 1.2;  ///< of a piece over the board's diagonal
+constexpr std::size_t kMostStarts = 6;
+constexpr double kLeastPaired = 0.6, kSurely = 0.85;  ///< share on the board, over misfit
+constexpr std::size_t kFewestViews = 5;
+constexpr int kCellPx = 80;
+constexpr double kLeastCovered = 0.6;
+constexpr double kLeastTiltRad = 25 * std::numbers::pi / 180;
+constexpr double kLeastRange = 0.15;
+
+double across(const scan::Cloud& cloud, const std::vector<int>& piece) {
+  // The farthest two of the points that lie farthest along some directions.
+  double most = 0;
+  constexpr int kDirections = 24;
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = std::numbers::pi * i / kDirections;
+    const Eigen::Vector3d along(std::cos(angle), std::sin(angle), 0);
+    const auto less = [&](int a, int b) {
+      return cloud.points[static_cast<std::size_t>(a)].point_mm.dot(along) <
+             cloud.points[static_cast<std::size_t>(b)].point_mm.dot(along);
+    };
+    const auto [low, high] = std::minmax_element(piece.begin(), piece.end(), less);
+    most = std::max(most, (cloud.points[static_cast<std::size_t>(*low)].point_mm -
+                           cloud.points[static_cast<std::size_t>(*high)].point_mm)
+                              .norm());
+  }
+  return most;
+}
+
+/// Facing the camera, as the board's writing would stand upright.
+Pose facing() {
+  Pose out = Pose::Identity();
+  out.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
+  return out;
+}
+
+std::vector<scan::ScanPoint> one_a_patch(const scan::Cloud& cloud, const std::vector<int>& piece,
+                                         int patch_px) {
+  std::vector<scan::ScanPoint> out;
+  for (const int i : piece) {
+    const auto& p = cloud.points[static_cast<std::size_t>(i)];
+    if (p.u % patch_px == patch_px / 2 && p.v % patch_px == patch_px / 2) out.push_back(p);
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud, const Shape& board,
+                                            int patch_px, const Context& context) {
+  const std::vector<bool> all(cloud.points.size(), true);
+  FitOptions options;
+  options.weak_sigma_mm = 1e3;
+  std::optional<BoardView> best;
+  double most = kLeastPaired;
+  for (const auto& piece : segments(cloud, all, kJumpMm)) {
+    const double size = across(cloud, piece) / board.diagonal_mm();
+    if (size < kLeastSize || size > kMostSize) continue;
+    BoardView view{one_a_patch(cloud, piece, patch_px), {}};
+    HP_ASSIGN_OR_RETURN(const auto starts,
+                        rough_alignments(board, view.points, facing(), kMostStarts, context));
+    for (const Pose& start : starts) {
+      const auto fit = fit_pose(board, view.points, cloud.lens, start, start, options, context);
+      if (!fit || fit->paired_share / fit->rms_sigmas <= most) continue;
+      most = fit->paired_share / fit->rms_sigmas;
+      view.X_CB = fit->X_CB;
+      best = view;
+      if (most > kSurely) break;
+    }
+  }
+  return best;
+}
+
+std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens) {
+  if (views.size() < kFewestViews)
+    return "the board was found in " + std::to_string(views.size()) +
+           " views: take at least five, the board whole and clear of what is behind it";
+  std::set<int> cells;
+  double tilt = 0, nearest = 1e9, farthest = 0;
+  for (const BoardView& a : views) {
+    for (const auto& p : a.points) cells.insert(p.v / kCellPx * 1000 + p.u / kCellPx);
+    nearest = std::min(nearest, a.X_CB.translation().z());
+    farthest = std::max(farthest, a.X_CB.translation().z());
+    for (const BoardView& b : views)
+      tilt = std::max(tilt, std::acos(std::clamp(a.X_CB.linear().col(2).dot(b.X_CB.linear().col(2)),
+                                                 -1.0, 1.0)));
+  }
+  const int all = (lens.width_px / kCellPx) * (lens.height_px / kCellPx);
+  if (static_cast<double>(cells.size()) < kLeastCovered * all)
+    return "the board covers too little of the image: hold it into the corners, too";
+  if (tilt < kLeastTiltRad)
+    return "the board is tilted alike in all views: tilt it by 30 degrees, each way";
+  if (farthest - nearest < kLeastRange * nearest)
+    return "the board is equally far in all views: take some nearer and some farther";
+  return {};
+}
+
+}  // namespace hydroprint::registration

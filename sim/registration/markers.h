@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/mesh/surface.h"
+#include "sim/registration/plane.h"
+#include "sim/registration/pose_fit.h"
+
+namespace hydroprint::registration {
+
+/// A marker on a sliding bar. Its frame M: origin in the middle of its square base, sides along x
+/// and y, tip along z.
+struct Marker {
+  std::string name;
+  Pose X_FM = Pose::Identity();
+};
+
+/// Where the rig has its pyramids (paper, section 5.2), all of one size. z = 0 is the water's
+/// nominal level.
+struct MarkerLayout {
+  double width_mm = 60;
+  double height_mm = 40;
+  std::vector<Marker> markers;
+};
+
+/// A pyramid's four sides; frame M.
+[[nodiscard]] mesh::Surface pyramid(double width_mm, double height_mm);
+
+/// A pyramid in a scan.
+struct FoundMarker {
+  PoseFit fit;  ///< of M in the camera frame, turned by any multiple of a quarter about z
+  std::vector<scan::ScanPoint> points;
+
+  [[nodiscard]] Eigen::Vector3d place_C() const { return fit.X_CB.translation(); }
+};
+
+/// Every upright pyramid of the layout's size that stands on something level, wherever it is:
+/// pieces of about that size and height, aligned by ICP and fit_pose(); what does not have the
+/// shape is left out.
+/// @param level  a plane that tells up (find_plane)
+[[nodiscard]] Result<std::vector<FoundMarker>> find_markers(const scan::Cloud& cloud,
+                                                            const Plane& level,
+                                                            const MarkerLayout& layout,
+                                                            const Context& context);
+
+}  // namespace hydroprint::registration

@@ -1,0 +1,229 @@
+#include "sim/registration/pose_fit.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "sim/registration/pairs.h"
+#include "sim/registration/robust.h"
+
+namespace hydroprint::registration {
+namespace {
+
+constexpr std::size_t kFewestPairs = 30;
+constexpr double kLeastReachMm = 5;
+constexpr double kReachShrinks = 0.8;
+constexpr double kSettledMm = 1e-3, kNearlySettledMm = 0.1;
+constexpr double kMostStepMm = 10;
+constexpr double kOnSurface = 0.3;  ///< robust weight from which a point counts as on the surface
+
+std::vector<double> sigmas_off(std::span<const Pair> pairs) {
+  std::vector<double> out;
+  out.reserve(pairs.size());
+  for (const Pair& pair : pairs) out.push_back(pair.residual_mm / pair.sigma_mm());
+  return out;
+}
+
+/// The normal equations along the directions in which they are independent.
+struct Split {
+  Matrix6 directions;  ///< columns
+  Vector6 information;
+  Vector6 sigma_mm;
+  Eigen::Array<bool, 6, 1> weak;
+
+  /// Takes a pull to the step that it asks for along what the scan tells.
+  [[nodiscard]] Matrix6 inverse() const {
+    const Vector6 each = weak.select(0, information.array().inverse()).matrix();
+    return directions * each.asDiagonal() * directions.transpose();
+  }
+  [[nodiscard]] Matrix6 onto_weak() const {
+    const Vector6 each = weak.cast<double>().matrix();
+    return directions * each.asDiagonal() * directions.transpose();
+  }
+};
+
+/// @param told  how many of the directions are weak, where that is settled: the worst so many
+Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::Index> told = {}) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(normals.information);
+  Split out{solver.eigenvectors(), solver.eigenvalues(), Vector6::Zero(), {}};
+  for (int k = 0; k < 6; ++k) {
+    const Vector6 e = out.directions.col(k);
+    const double floor = 1e-12 * std::max(1.0, out.information.maxCoeff());
+    const double information = std::max(out.information[k], floor);
+    out.sigma_mm[k] = std::sqrt(std::max(0.0, e.dot(normals.scatter * e))) / information;
+    // Without noise there is no scatter, so what there is of information must do, too.
+    const double at_least = 1 / std::sqrt(information);
+    out.sigma_mm[k] = std::max(out.sigma_mm[k], at_least);
+  }
+  Vector6 sorted = out.sigma_mm;
+  std::sort(sorted.begin(), sorted.end());
+  // A direction at the limit must not be weak in one step and strong in the next.
+  if (told) weak_sigma_mm = *told == 6 ? 0 : *told == 0 ? INFINITY : sorted[5 - *told];
+  out.weak = out.sigma_mm.array() > weak_sigma_mm;
+  return out;
+}
+
+/// One look at the pairs from one pose.
+struct Look {
+  std::vector<Pair> pairs;
+  std::vector<double> off, weights;
+  double spread = 1;
+  Eigen::Vector3d centre;
+  Normals normals;
+};
+
+class Fitter {
+ public:
+  Fitter(const Shape& shape, std::span<const scan::ScanPoint> points, const scan::Lens& lens,
+         const Pose& nominal_CB, const FitOptions& options, const Context& context)
+      : shape_(shape),
+        points_(points),
+        lens_(lens),
+        nominal_(nominal_CB),
+        options_(options),
+        context_(context),
+        length_mm_(shape.radius_mm()) {}
+
+  Result<PoseFit> fit(Pose pose) const {
+    double reach = std::max(options_.reach_mm, kLeastReachMm);
+    std::optional<Eigen::Index> weak;
+    for (int i = 0; i < options_.most_iterations; ++i) {
+      HP_RETURN_IF_ERROR(check_cancelled(context_));
+      HP_ASSIGN_OR_RETURN(const Look look, look_from(pose, reach));
+      const Split parts = split(look.normals, options_.weak_sigma_mm, weak);
+      const Vector6 step = step_of(look, parts, pose);
+      pose = motion(unscaled(step), look.centre) * pose;
+      const bool at_reach = reach <= kLeastReachMm;
+      reach = std::max(kLeastReachMm, kReachShrinks * reach);
+      if (!at_reach) continue;
+      if (step.norm() < kSettledMm) break;
+      if (step.norm() < kNearlySettledMm) weak = parts.weak.count();
+    }
+    HP_ASSIGN_OR_RETURN(Look look, look_from(pose, reach));
+    return told(look, pose, weak);
+  }
+
+ private:
+  static Pairing pairing_at(double reach) {
+    return reach > kLeastReachMm ? Pairing::kNearest : Pairing::kOnRay;
+  }
+
+  Result<Look> look_from(const Pose& pose, double reach) const {
+    Look out;
+    HP_ASSIGN_OR_RETURN(out.pairs,
+                        pair_up(shape_, points_, pose, pairing_at(reach), reach, context_));
+    if (out.pairs.size() < kFewestPairs)
+      return fail(Code::kFailedPrecondition,
+                  "only " + std::to_string(out.pairs.size()) +
+                      " scan points lie near the surface: is it in the camera's view?",
+                  "TOO_FEW_POINTS");
+    out.off = sigmas_off(out.pairs);
+    out.spread = spread_of(out.off);
+    for (const double off : out.off) out.weights.push_back(robust_weight(off, out.spread));
+    out.centre = pose * shape_.centroid();
+    out.normals = normal_equations(out.pairs, out.weights, out.centre, length_mm_);
+    return out;
+  }
+
+  [[nodiscard]] Vector6 scale() const {
+    return (Vector6() << Eigen::Vector3d::Constant(1 / length_mm_), Eigen::Vector3d::Ones())
+        .finished();
+  }
+  [[nodiscard]] Vector6 unscaled(const Vector6& step) const { return scale().cwiseProduct(step); }
+
+  /// Along what the scan tells, to where it says; else towards the nominal pose.
+  [[nodiscard]] Vector6 step_of(const Look& look, const Split& parts, const Pose& pose) const {
+    const Vector6 to_nominal = twist_between(pose, nominal_, look.centre).cwiseQuotient(scale());
+    const Vector6 step = parts.inverse() * look.normals.pull + parts.onto_weak() * to_nominal;
+    return step * std::min(1.0, kMostStepMm / std::max(step.norm(), 1e-300));
+  }
+
+  [[nodiscard]] PoseFit told(Look& look, const Pose& pose,
+                             const std::optional<Eigen::Index>& weak) const {
+    add_lens(look.normals, look.pairs, look.weights, look.centre, length_mm_, lens_);
+    // Where points are farther off than noise explains, so is what they tell.
+    look.normals.scatter *= look.spread * look.spread;
+    const Split parts = split(look.normals, options_.weak_sigma_mm, weak);
+    const Matrix6 inverse = parts.inverse(), onto_weak = parts.onto_weak();
+    Vector6 nominal;
+    nominal << Eigen::Vector3d::Constant(options_.nominal_turn_sigma_rad * length_mm_),
+        Eigen::Vector3d::Constant(options_.nominal_shift_sigma_mm);
+    const Matrix6 scaled = inverse * look.normals.scatter * inverse +
+                           onto_weak * nominal.cwiseAbs2().asDiagonal() * onto_weak;
+    PoseFit out;
+    out.X_CB = pose;
+    out.centre_mm = look.centre;
+    out.covariance = scale().asDiagonal() * scaled * scale().asDiagonal();
+    out.lens_gain = scale().asDiagonal() * (inverse * look.normals.lens);
+    for (int k = 0; k < 6; ++k)
+      if (parts.weak[k]) out.weak.push_back({unscaled(parts.directions.col(k)), parts.sigma_mm[k]});
+    judge(look, out);
+    return out;
+  }
+
+  void judge(const Look& look, PoseFit& out) const {
+    double squares_mm = 0, squares = 0;
+    std::size_t on = 0;
+    for (std::size_t i = 0; i < look.pairs.size(); ++i) {
+      if (look.weights[i] < kOnSurface) continue;
+      ++on;
+      squares_mm += look.pairs[i].residual_mm * look.pairs[i].residual_mm;
+      squares += look.off[i] * look.off[i];
+    }
+    const auto count = static_cast<double>(std::max<std::size_t>(on, 1));
+    out.points = on;
+    out.paired_share = static_cast<double>(on) / static_cast<double>(points_.size());
+    out.rms_mm = std::sqrt(squares_mm / count);
+    out.rms_sigmas = std::sqrt(squares / count);
+  }
+
+  const Shape& shape_;
+  std::span<const scan::ScanPoint> points_;
+  const scan::Lens& lens_;
+  const Pose& nominal_;
+  const FitOptions& options_;
+  const Context& context_;
+  double length_mm_;
+};
+
+std::string text(const Eigen::Vector3d& v, int digits) {
+  char buffer[96];
+  std::snprintf(buffer, sizeof buffer, "(%.*f, %.*f, %.*f)", digits, v.x() + 0.0, digits,
+                v.y() + 0.0, digits, v.z() + 0.0);
+  return buffer;
+}
+
+}  // namespace
+
+Result<PoseFit> fit_pose(const Shape& shape, std::span<const scan::ScanPoint> points,
+                         const scan::Lens& lens, const Pose& start_CB, const Pose& nominal_CB,
+                         const FitOptions& options, const Context& context) {
+  return Fitter(shape, points, lens, nominal_CB, options, context).fit(start_CB);
+}
+
+std::vector<double> error_at(std::span<const Eigen::Vector3d> points_mm,
+                             const Eigen::Vector3d& centre_mm, const Matrix6& covariance) {
+  std::vector<double> out;
+  out.reserve(points_mm.size());
+  for (const Eigen::Vector3d& p : points_mm) {
+    const Matrix6 there =
+        recentred(centre_mm, p) * covariance * recentred(centre_mm, p).transpose();
+    out.push_back(std::sqrt(std::max(0.0, there.bottomRightCorner<3, 3>().trace())));
+  }
+  return out;
+}
+
+std::string describe(const WeakDirection& direction, const Eigen::Vector3d& centre_C,
+                     const Pose& X_AC) {
+  const Eigen::Vector3d turn = direction.twist.head<3>(), shift = direction.twist.tail<3>();
+  if (turn.isZero() || shift.norm() > 0.7)  // of the 1 mm that the twist moves the surface
+    return "shift along " + text(X_AC.linear() * shift.normalized(), 2);
+  const Eigen::Vector3d on_axis = centre_C + turn.cross(shift) / turn.squaredNorm();
+  return "turn about the axis through " + text(X_AC * on_axis, 0) + " along " +
+         text(X_AC.linear() * turn.normalized(), 2);
+}
+
+}  // namespace hydroprint::registration

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "sim/base/pose.h"
+#include "sim/mesh/surface.h"
+
+namespace hydroprint::registration {
+
+/// A point of a surface.
+struct SurfacePoint {
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward unit, smooth but for creases
+};
+
+/// A surface that can be asked where it is nearest: what scans are compared with. Body frame B, mm.
+/// May be asked from several threads at once; copies share their data.
+class Shape {
+ public:
+  /// @param surface  at least one triangle
+  explicit Shape(const mesh::Surface& surface);
+
+  /// The nearest point of the surface.
+  [[nodiscard]] SurfacePoint closest(const Eigen::Vector3d& p_B) const;
+  /// Where a ray first meets the surface, from either side; nothing if it does not.
+  [[nodiscard]] std::optional<SurfacePoint> hit(const Eigen::Vector3d& from_B,
+                                                const Eigen::Vector3d& towards_B) const;
+  /// True if no part of the surface lies between the eye and a point on the surface.
+  [[nodiscard]] bool is_seen(const SurfacePoint& p_B, const Eigen::Vector3d& eye_B) const;
+  /// About so many points, spread evenly over the area; the same every time.
+  [[nodiscard]] std::vector<SurfacePoint> samples(std::size_t count) const;
+
+  /// Root mean square distance of the surface from its centroid.
+  [[nodiscard]] double radius_mm() const;
+  [[nodiscard]] const Eigen::Vector3d& centroid() const;
+  /// Diagonal of the bounding box.
+  [[nodiscard]] double diagonal_mm() const;
+
+ private:
+  struct Impl;
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// The surface where `pose` puts it. Keeps its sense of rotation.
+[[nodiscard]] mesh::Surface moved(mesh::Surface surface, const Pose& pose);
+/// The surface in a mirror (x to -x), still looking outward.
+[[nodiscard]] mesh::Surface mirrored(mesh::Surface surface);
+/// Both as one.
+[[nodiscard]] mesh::Surface joined(mesh::Surface a, const mesh::Surface& b);
+
+}  // namespace hydroprint::registration

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sim/registration/shape.h"
+#include "sim/scan/cloud.h"
+#include "sim/scan/frame.h"
+
+namespace hydroprint::registration {
+
+/// What the camera saw where part of a surface should be.
+struct Sight {
+  std::size_t expected = 0;  ///< samples that the surface itself does not hide
+  double on = 0;             ///< shares of those: seen on the surface,
+  double before = 0;         ///< something nearer seen,
+  double through = 0;        ///< something farther seen, so that the surface cannot be there,
+  double without_depth = 0;  ///< no depth,
+  double out_of_view = 0;    ///< beyond the edge of the image
+};
+
+/// Samples of a body that its own surface does not hide from the camera; camera frame.
+[[nodiscard]] std::vector<SurfacePoint> visible(const Shape& shape, const Pose& X_CB,
+                                                std::size_t samples);
+
+/// Compares samples with depths.
+/// @param depth         mean depths as reported
+/// @param tolerance_mm  along the line of sight
+[[nodiscard]] Sight look_at(std::span<const SurfacePoint> visible_C, const scan::DepthFrame& depth,
+                            const scan::Lens& lens, double tolerance_mm);
+
+}  // namespace hydroprint::registration

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <numbers>
+
+namespace hydroprint::registration {
+
+inline constexpr double kDegree = std::numbers::pi / 180;
+
+/// 95 % of chi-square are less, with six degrees of freedom; 99.9 %, with nine.
+inline constexpr double kSquare95 = 12.592, kSquare999of9 = 27.877;
+
+}  // namespace hydroprint::registration
