@@ -75,6 +75,27 @@ Example:
 
 Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
 
+constexpr const char* kCalibrateExamples =
+    R"(calibration.json: the object's pose in the film frame with its covariance, what the scan does not tell and the
+nominal pose does, what became of each marker, and the water's level. pose.json: the pose for simulate --pose.
+alignment.png: the scan's points over the mesh by how far they are off; error.png: how well the surface's place is known.
+
+Examples:
+  hydroprint-capture --seconds 2 --out frames
+  hydroprint-worker calibrate --frames frames --layout rig_layout.toml --camera camera.json --mesh mug.obj --scale 10 --out held
+  hydroprint-worker simulate --mesh mug.obj --scale 10 --pose held/pose.json --out film
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+constexpr const char* kCalibrateCameraExamples =
+    R"(Each view: 1 s of frames of the calibration board (sim/registration), held still, whole in view and 30 mm before what
+is behind it; twelve views, tilted each way by 30 degrees, near and far, and out to the corners of the image.
+
+Example:
+  hydroprint-worker calibrate-camera --frames view1 view2 view3 view4 view5 view6 --out camera
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
 /// Options as typed: what cannot stand in Options is settled in `settle`.
 struct Typed {
   Options options;
@@ -252,6 +273,39 @@ void add_template(CLI::App& app, Typed& typed) {
   app.footer(kTemplateExamples);
 }
 
+/// Folders that hydroprint-capture wrote.
+CLI::Option* add_frames(CLI::App& app, Options& o, const std::string& description) {
+  return app
+      .add_option_function<std::vector<std::string>>(
+          "--frames",
+          [&o](const std::vector<std::string>& folders) {
+            o.frames.assign(folders.begin(), folders.end());
+          },
+          description)
+      ->required()
+      ->type_name("DIR");
+}
+
+void add_calibrate(CLI::App& app, Options& o) {
+  add_run(app, o);
+  add_frames(app, o, "Depth frames: a folder of hydroprint-capture")->expected(1);
+  add_path(app, "--layout", o.layout, "The rig's markers and camera", "FILE.toml")->required();
+  add_path(app, "--camera", o.camera,
+           "The camera's lens, of calibrate-camera; default: what its driver says", "FILE.json");
+  add_object(app, o);
+  add_film(app, o);
+  app.add_option("--gripper-mm", o.gripper_mm,
+                 "Height of the gripper's lower end over the water, which holds the object's top; "
+                 "default: there is none in view");
+  app.footer(kCalibrateExamples);
+}
+
+void add_calibrate_camera(CLI::App& app, Options& o) {
+  add_run(app, o);
+  add_frames(app, o, "Views of the board: folders of hydroprint-capture")->expected(1, -1);
+  app.footer(kCalibrateCameraExamples);
+}
+
 CommandLine refuse(const Options& options, ExitStatus status, Code code, std::string message) {
   CommandLine out;
   out.action = CommandLine::Action::kRefuse;
@@ -279,7 +333,8 @@ std::string usage_objection(const Typed& typed) {
   if (o.progress_fd != -1 && (o.progress_fd < 0 || fcntl(o.progress_fd, F_GETFD) == -1)) {
     return "--progress-fd: not an open file descriptor. Open it before";
   }
-  const bool has_mesh = o.verb != Verb::kValidate && o.verb != Verb::kPrintImage;
+  const bool has_mesh =
+      o.verb != Verb::kValidate && o.verb != Verb::kPrintImage && o.verb != Verb::kCalibrateCamera;
   if (has_mesh && o.mesh.empty()) return "--mesh: empty. Name a file";
   if (const Status known = validate::check(o.validate); !known) {
     return "--only: " + known.error().message;
@@ -323,7 +378,8 @@ std::string range_objection(const Options& o) {
   for (const Quantity& q : {Quantity{"--scale", o.scale, 1e-6, 1e6},
                             Quantity{"--dpi", o.dpi, image::kMinDpi, image::kMaxDpi},
                             Quantity{"--dip-speed-mm-per-s", o.dip_speed_mm_per_s, 1e-3, 1000},
-                            Quantity{"--depth-mm", o.depth_mm.value_or(1), 1e-3, 1e4}}) {
+                            Quantity{"--depth-mm", o.depth_mm.value_or(1), 1e-3, 1e4},
+                            Quantity{"--gripper-mm", o.gripper_mm.value_or(0), -1e4, 1e4}}) {
     if (q.value >= q.least && q.value <= q.most) continue;
     std::ostringstream out;
     out << q.flag << ": " << q.value << " is out of range. Use " << q.least << " to " << q.most;
@@ -428,6 +484,15 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       "template", "A page that shows where the object belongs, for a rig without a camera");
   add_template(*placement, typed);
 
+  CLI::App* calibrate = app.add_subcommand(
+      "calibrate",
+      "From depth frames to the object's pose over the film, and how well it is known");
+  add_calibrate(*calibrate, typed.options);
+
+  CLI::App* calibrate_camera = app.add_subcommand(
+      "calibrate-camera", "From views of the calibration board to a camera's lens and depth scale");
+  add_calibrate_camera(*calibrate_camera, typed.options);
+
   CLI::App* validate = app.add_subcommand(
       "validate", "The paper's experiments in silico, as a report with pictures");
   add_validate(*validate, typed.options);
@@ -450,6 +515,8 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   if (fit->parsed()) typed.options.verb = Verb::kFit;
   if (validate->parsed()) typed.options.verb = Verb::kValidate;
   if (placement->parsed()) typed.options.verb = Verb::kTemplate;
+  if (calibrate->parsed()) typed.options.verb = Verb::kCalibrate;
+  if (calibrate_camera->parsed()) typed.options.verb = Verb::kCalibrateCamera;
   if (print_image->parsed()) typed.options.verb = Verb::kPrintImage;
   return settle(typed);
 }

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "sim/calibrate/camera_file.h"
+#include "sim/worker/calibrate_json.h"
 #include "sim/worker/fit_json.h"
 #include "sim/worker/print_json.h"
 #include "sim/worker/validate_json.h"
@@ -21,13 +23,6 @@ std::int64_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return std::int64_t{usage.ru_maxrss} * 1024;
-}
-
-Json pose_json(const Pose& X_FO) {
-  const Eigen::Quaterniond q(X_FO.linear());
-  const Eigen::Vector3d& t = X_FO.translation();
-  return {{"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
-          {"translation_mm", {t.x(), t.y(), t.z()}}};
 }
 
 Json film_json(const film::Outline& outline) {
@@ -137,8 +132,46 @@ const char* verb_name(Verb verb) {
       return "print-image";
     case Verb::kTemplate:
       return "template";
+    case Verb::kCalibrate:
+      return "calibrate";
+    case Verb::kCalibrateCamera:
+      return "calibrate-camera";
   }
   return "";
+}
+
+Json calibration_report(const Report& report) {
+  Json out = {{"program", "hydroprint-worker"},
+              {"version", HYDROPRINT_VERSION},
+              {"verb", verb_name(report.options.verb)},
+              {"inputs", inputs_json(report.inputs)}};
+  if (report.calibration) {
+    const Options& o = report.options;
+    out["parameters"] = {
+        {"scale", o.scale}, {"film", film_json(report.outline)}, {"threads", o.threads}};
+    out["parameters"]["gripper_mm"] = o.gripper_mm ? Json(*o.gripper_mm) : Json();
+    out["mesh"] = {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}};
+    out["calibration"] = calibration_json(*report.calibration);
+  } else {
+    out["camera"] = Json::parse(calibrate::camera_json(*report.camera));
+  }
+  out.update({{"stage_seconds", seconds_json(report.stage_seconds)},
+              {"total_seconds", report.total_s},
+              {"peak_memory_bytes", peak_memory_bytes()},
+              {"warnings", warnings_json(report.warnings)},
+              {"artifacts", report.artifacts}});
+  return out;
+}
+
+Json calibration_summary(const Report& report, const std::filesystem::path& dir) {
+  Json out = {{"out", dir.string()}, {"artifacts", report.artifacts}};
+  if (report.calibration) {
+    out.update(calibration_json(*report.calibration));
+  } else {
+    out.update({{"views", report.camera->views}, {"rms_mm", report.camera->rms_mm}});
+  }
+  out.update({{"seconds", report.total_s}, {"warnings", warnings_json(report.warnings)}});
+  return out;
 }
 
 }  // namespace
@@ -207,6 +240,7 @@ std::string report_json(const Report& report) {
          {"artifacts", report.artifacts}},
         2);
   }
+  if (report.calibration || report.camera) return dump(calibration_report(report), 2);
   const pipeline::DipFigures& f = report.figures;
   return dump({{"program", "hydroprint-worker"},
                {"version", HYDROPRINT_VERSION},
@@ -270,6 +304,7 @@ std::string summary_json(const Report& report, const std::filesystem::path& dir)
     out.update({{"seconds", report.total_s}, {"warnings", warnings_json(report.warnings)}});
     return dump(out, -1);
   }
+  if (report.calibration || report.camera) return dump(calibration_summary(report, dir), -1);
   return dump({{"out", dir.string()},
                {"artifacts", report.artifacts},
                {"coverage", report.figures.coverage},
@@ -285,6 +320,8 @@ std::string summary_text(const Report& report, const std::filesystem::path& dir)
   if (report.fit) return fit_text(*report.fit, dir);
   if (report.print) return print_text(*report.print, report.artifacts, dir);
   if (report.placement) return placement_text(*report.placement, dir);
+  if (report.calibration) return calibration_text(*report.calibration, dir);
+  if (report.camera) return camera_text(*report.camera, dir);
   std::string files;
   for (const std::string& name : report.artifacts) files += name + " ";
   std::array<char, 200> figures;

@@ -10,6 +10,7 @@
 #include "sim/base/file_digest.h"
 #include "sim/base/pose.h"
 #include "sim/base/result.h"
+#include "sim/calibrate/calibrate.h"
 #include "sim/film/outline.h"
 #include "sim/film/profile.h"
 #include "sim/fit/fit.h"
@@ -44,6 +45,8 @@ struct Report {
   std::optional<fit::Outcome> fit;             ///< of `fit`, which has no figures
   std::optional<print::Print> print;           ///< of `print-image`, which has none; without images
   std::optional<print::Placement> placement;   ///< of `template`, which has none; without pages
+  std::optional<calibrate::Calibration> calibration;      ///< of `calibrate`, which has none
+  std::optional<registration::CameraCalibration> camera;  ///< of `calibrate-camera`
   std::vector<std::pair<std::string, double>> stage_seconds;
   double total_s = 0;
   Warnings warnings;

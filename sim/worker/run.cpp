@@ -16,6 +16,7 @@
 #include "sim/pipeline/predict.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/worker/artifacts.h"
+#include "sim/worker/calibrate.h"
 #include "sim/worker/fit.h"
 #include "sim/worker/motion_file.h"
 #include "sim/worker/out_folder.h"
@@ -73,7 +74,13 @@ Result<Report> read_parameters(const Options& o, pipeline::DipOptions& dip,
                                                   {"film", film::polygon_file(o.film).value_or("")},
                                                   {"motion", o.motion},
                                                   {"points", o.points},
+                                                  {"layout", o.layout},
+                                                  {"camera", o.camera},
                                                   {"icc_profile", o.print.colours.icc_profile}}));
+  for (const fs::path& view : o.frames) {
+    HP_ASSIGN_OR_RETURN(auto frames, fingerprint({{"frames", view / "frames.json"}}));
+    report.inputs.insert(report.inputs.end(), frames.begin(), frames.end());
+  }
   HP_ASSIGN_OR_RETURN(dip.outline, film::parse_outline(o.film));
   if (o.verb == Verb::kSimulate && !o.map_only) {
     HP_RETURN_IF_ERROR(check_film_image(dip.outline, o.dpi));
@@ -177,6 +184,10 @@ Status run_verb(const Options& o, pipeline::DipOptions dip, OutFolder& folder, R
       return run_print_image(o, folder, report, context);
     case Verb::kTemplate:
       return run_template(o, dip, folder, report, context);
+    case Verb::kCalibrate:
+      return run_calibrate(o, dip, folder, report, context);
+    case Verb::kCalibrateCamera:
+      return run_calibrate_camera(o, folder, report, context);
   }
   return fail(Code::kInternal, "no such verb");
 }

@@ -1,5 +1,6 @@
 #include "sim/worker/stages.h"
 
+#include "sim/worker/calibrate.h"
 #include "sim/worker/fit.h"
 #include "sim/worker/print_image.h"
 #include "sim/worker/template.h"
@@ -21,6 +22,8 @@ std::vector<Stage> stages(const Options& options) {
   if (options.verb == Verb::kFit) return fit_stages();
   if (options.verb == Verb::kPrintImage) return print_image_stages();
   if (options.verb == Verb::kTemplate) return template_stages();
+  if (options.verb == Verb::kCalibrate) return calibrate_stages();
+  if (options.verb == Verb::kCalibrateCamera) return calibrate_camera_stages();
   const bool is_sheet = options.film_model == pipeline::FilmModel::kSheet;
   const bool is_simulation = options.verb == Verb::kSimulate;
   const int passes = is_sheet && options.ink_image.empty() ? options.ink_passes : 0;

@@ -1,0 +1,119 @@
+#include "sim/calibrate/calibrate.h"
+
+#include <utility>
+
+#include "sim/registration/pairs.h"
+#include "sim/scan/fusion.h"
+
+namespace hydroprint::calibrate {
+namespace {
+
+constexpr double kOnSurfaceMm = 5;  ///< points farther from the object are something else's
+constexpr double kUsualHeightMm = 40;
+constexpr double kUnknownScale = 0.02, kUnknownFocal = 0.02, kUnknownCentre_px = 8;
+
+Pose nominal_pose(const Task& task) {
+  Pose out = task.nominal_FO.value_or(Pose::Identity());
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : task.surface.points) box.extend(out.linear() * p);
+  if (!task.nominal_FO) out.translation() = -box.center();
+  out.translation().z() =
+      task.gripper_mm ? *task.gripper_mm - box.max().z() : kUsualHeightMm - box.min().z();
+  return out;
+}
+
+registration::ObjectTask object_task(const Task& task) {
+  registration::ObjectTask out;
+  out.surface = task.surface;
+  out.nominal_FO = nominal_pose(task);
+  out.surroundings = task.layout.surroundings;
+  if (task.gripper_mm) out.surroundings.gripper_from_mm = *task.gripper_mm - kOnSurfaceMm;
+  out.lens_covariance = task.camera.covariance;
+  return out;
+}
+
+/// The scan's points on the object, and how far they are off.
+Status add_points(const scan::Cloud& cloud, const Task& task, Calibration& out,
+                  const Context& context) {
+  const auto points =
+      registration::object_points(cloud, out.film_frame, task.layout.surroundings).all;
+  const Pose& X_CO = out.object.fit.X_CB;
+  const Pose X_OC = X_CO.inverse();
+  HP_ASSIGN_OR_RETURN(const auto pairs,
+                      registration::pair_up(registration::Shape(task.surface), points, X_CO,
+                                            registration::Pairing::kOnRay, kOnSurfaceMm, context));
+  for (const registration::Pair& pair : pairs) {
+    out.points_O.push_back(X_OC * pair.scan->point_mm);
+    out.off_mm.push_back(pair.residual_mm);
+  }
+  return {};
+}
+
+/// The registration error at each point of the surface, which follows from the pose's covariance.
+std::vector<double> error_map(const Task& task, const registration::ObjectPose& object) {
+  std::vector<Eigen::Vector3d> points_F;
+  points_F.reserve(task.surface.points.size());
+  for (const Eigen::Vector3d& p : task.surface.points) points_F.push_back(object.X_FO * p);
+  return registration::error_at(points_F, object.centre_mm, object.covariance);
+}
+
+/// What may be the reason for which no object is found.
+tl::unexpected<Error> without_gripper(const Task& task, Error error) {
+  if (!task.gripper_mm && error.reason != "NO_OBJECT")
+    error.message += " (the gripper counts as object too, as its height is not given)";
+  return tl::unexpected(std::move(error));
+}
+
+Warnings all_warnings(const Task& task, const Calibration& found) {
+  Warnings out = found.film_frame.warnings;
+  out.insert(out.end(), found.object.warnings.begin(), found.object.warnings.end());
+  if (task.camera.views == 0)
+    out.push_back({"camera_not_calibrated",
+                   "lens and depth scale are the driver's: depths may be a per cent or two off; "
+                   "use calibrate-camera",
+                   "camera"});
+  if (!found.water)
+    out.push_back({"water_not_seen",
+                   "too little of the water is in view to tell its level: "
+                   "z = 0 of the layout is taken for it",
+                   "water"});
+  return out;
+}
+
+}  // namespace
+
+Result<Calibration> calibrate(const Task& task, const Context& context) {
+  const scan::DepthNoise noise;
+  HP_ASSIGN_OR_RETURN(const scan::FusedFrame fused, scan::fuse(task.frames, noise, context));
+  HP_ASSIGN_OR_RETURN(const scan::Cloud cloud,
+                      scan::make_cloud(fused, task.camera.lens, noise, context));
+  Calibration out;
+  context.progress("markers", 0);
+  HP_ASSIGN_OR_RETURN(out.film_frame,
+                      registration::find_film_frame(cloud, task.layout.surroundings.layout,
+                                                    task.layout.nominal_FC.inverse(), context));
+  context.progress("object", 0);
+  auto object =
+      registration::find_object(cloud, fused.mean, out.film_frame, object_task(task), context);
+  if (!object) return without_gripper(task, std::move(object).error());
+  out.object = std::move(*object);
+  const auto water =
+      registration::water_level(cloud, out.film_frame, task.half_film_mm, task.camera.covariance);
+  if (water) out.water = *water;
+  HP_RETURN_IF_ERROR(add_points(cloud, task, out, context));
+  out.error_mm = error_map(task, out.object);
+  out.warnings = all_warnings(task, out);
+  return out;
+}
+
+registration::CameraCalibration uncalibrated(const scan::Lens& nominal) {
+  registration::CameraCalibration out;
+  out.lens = nominal;
+  scan::Lens::Vector sigma = scan::Lens::Vector::Zero();
+  sigma << kUnknownFocal * nominal.fx_px, kUnknownFocal * nominal.fy_px, kUnknownCentre_px,
+      kUnknownCentre_px, 0.1, 0.3, 0.002, 0.002, kUnknownScale;
+  out.covariance = sigma.cwiseAbs2().asDiagonal();
+  return out;
+}
+
+}  // namespace hydroprint::calibrate

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "sim/calibrate/calibrate.h"
+#include "sim/registration/calibrate_camera.h"
+
+// For inclusion in .cpp files only.
+namespace hydroprint::worker {
+
+/// As pose files have it (contract, `--pose`).
+[[nodiscard]] nlohmann::ordered_json pose_json(const Pose& X_FO);
+
+/// calibration.json: pose, covariance, what is not known, film frame and markers, water, scan.
+[[nodiscard]] nlohmann::ordered_json calibration_json(const calibrate::Calibration& calibration);
+
+/// A line or two for people.
+[[nodiscard]] std::string calibration_text(const calibrate::Calibration& calibration,
+                                           const std::filesystem::path& dir);
+[[nodiscard]] std::string camera_text(const registration::CameraCalibration& camera,
+                                      const std::filesystem::path& dir);
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,74 @@
+// calibrate through the program, from frames of the virtual camera.
+#include <algorithm>
+
+#include "sim/calibrate/camera_file.h"
+#include "tests/sim/calibrate/calibrate_fixture.h"
+
+namespace hydroprint::calibrate {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::Ended;
+
+TEST_F(Calibrate, NamesAMarkerThatIsHidden) {
+  rig.states[2] = depth_scene::MarkerState::kHidden;
+  take_frames(4);
+  registration::CameraCalibration camera;
+  camera.lens = testing::lens_of(rig.lens);
+  camera.views = 1;
+  folder.write("camera.json", camera_json(camera));
+  const Ended ended =
+      calibrate({"--camera", path("camera.json"), "--gripper-mm", std::to_string(rig.gripper_mm)});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const json out = json::parse(ended.out);
+  ASSERT_EQ(out["warnings"].size(), 2U) << out["warnings"];  // the other: what the scan cannot tell
+  EXPECT_EQ(out["warnings"][0]["code"], "marker_left_out");
+  EXPECT_EQ(out["warnings"][0]["where"], "near");
+}
+
+TEST_F(Calibrate, SaysThatNobodyCalibratedTheCamera) {
+  take_frames(4);
+  // The driver's lens may be so far off that the markers do not agree: that is said, too.
+  const Ended ended = calibrate({"--gripper-mm", std::to_string(rig.gripper_mm)});
+  const json out = json::parse(ended.out);
+  if (ended.status != 0) {
+    EXPECT_NE(ended.err.find("calibrate the camera"), std::string::npos) << ended.err;
+    return;
+  }
+  bool is_said = false;
+  for (const auto& warning : out["warnings"])
+    is_said = is_said || warning["code"] == "camera_not_calibrated";
+  EXPECT_TRUE(is_said);
+}
+
+TEST_F(Calibrate, RefusesInOneLineWhatIsNoScan) {
+  const auto refusal = [&](const Ended& ended, const std::string& words) {
+    EXPECT_EQ(ended.status, 3) << ended.err;
+    EXPECT_NE(ended.err.find(words), std::string::npos) << ended.err;
+    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+    EXPECT_FALSE(fs::exists(path("out")));
+  };
+  take_frames(2);
+  refusal(calibrate({}, "nowhere"), "frames.json: no such file");
+  folder.write("frames/frames.json", R"({"width": 640, "height": 480, "frames": []})");
+  refusal(calibrate({}), "hydroprint-capture");
+  folder.write("frames/frames.json",
+               R"({"width": 640, "height": 480, "horizontal_fov_rad": 1, "vertical_fov_rad": 0.8,
+                   "frames": [{"file": "../0.png"}]})");
+  refusal(calibrate({}), "another folder");
+  layout = path("layout.toml");
+  folder.write("layout.toml", "[markers]\nwidth_mm = -3\n");
+  refusal(calibrate({}), "layout.toml: line 2: markers.width_mm");
+}
+
+TEST_F(Calibrate, RefusesACameraThatSeesNothing) {
+  write_frames(path("frames"),
+               std::vector<scan::DepthFrame>(3, {640, 480, std::vector<float>(640 * 480)}));
+  const Ended ended = calibrate({});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_EQ(json::parse(ended.out)["error"]["reason"], "CAMERA_BLACK");
+}
+
+}  // namespace
+}  // namespace hydroprint::calibrate
