@@ -8,8 +8,8 @@
 namespace hydroprint::calibrate {
 namespace {
 
-constexpr double kOnSurfaceMm = 5;  ///< points farther from the object are something else's
-constexpr double kUsualHeightMm = 40;
+constexpr double kOnSurface_mm = 5;  ///< points farther from the object are something else's
+constexpr double kUsualHeight_mm = 40;
 constexpr double kUnknownScale = 0.02, kUnknownFocal = 0.02, kUnknownCentre_px = 8;
 
 Pose nominal_pose(const Task& task) {
@@ -18,7 +18,7 @@ Pose nominal_pose(const Task& task) {
   for (const Eigen::Vector3d& p : task.surface.points) box.extend(out.linear() * p);
   if (!task.nominal_FO) out.translation() = -box.center();
   out.translation().z() =
-      task.gripper_mm ? *task.gripper_mm - box.max().z() : kUsualHeightMm - box.min().z();
+      task.gripper_mm ? *task.gripper_mm - box.max().z() : kUsualHeight_mm - box.min().z();
   return out;
 }
 
@@ -27,7 +27,7 @@ registration::ObjectTask object_task(const Task& task) {
   out.surface = task.surface;
   out.nominal_FO = nominal_pose(task);
   out.surroundings = task.layout.surroundings;
-  if (task.gripper_mm) out.surroundings.gripper_from_mm = *task.gripper_mm - kOnSurfaceMm;
+  if (task.gripper_mm) out.surroundings.gripper_from_mm = *task.gripper_mm - kOnSurface_mm;
   out.lens_covariance = task.camera.covariance;
   return out;
 }
@@ -41,7 +41,7 @@ Status add_points(const scan::Cloud& cloud, const Task& task, Calibration& out,
   const Pose X_OC = X_CO.inverse();
   HP_ASSIGN_OR_RETURN(const auto pairs,
                       registration::pair_up(registration::Shape(task.surface), points, X_CO,
-                                            registration::Pairing::kOnRay, kOnSurfaceMm, context));
+                                            registration::Pairing::kOnRay, kOnSurface_mm, context));
   for (const registration::Pair& pair : pairs) {
     out.points_O.push_back(X_OC * pair.scan->point_mm);
     out.off_mm.push_back(pair.residual_mm);

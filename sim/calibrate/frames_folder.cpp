@@ -66,10 +66,11 @@ scan::Lens lens_of(const Listing& listing) {
 
 }  // namespace
 
-Result<Frames> read_frames(const std::filesystem::path& folder, const Context& context) {
+Result<Frames> read_frames(const std::filesystem::path& folder, const Context& context,
+                           std::size_t most) {
   HP_ASSIGN_OR_RETURN(const Listing listing, read_listing(folder / "frames.json"));
   Frames out{{}, lens_of(listing)};
-  out.frames.resize(std::min(kMostFrames, listing.files.size()));
+  out.frames.resize(std::min(most, listing.files.size()));
   const auto read_one = [&](std::size_t i) -> Status {
     const std::filesystem::path path = folder / listing.files[i];
     HP_ASSIGN_OR_RETURN(const image::Grey16Image grey, image::read_grey16(path, context));

@@ -16,13 +16,13 @@ struct Frames {
   scan::Lens nominal_lens;
 };
 
-/// No more frames than these are read of a folder: 10 s.
+/// No more frames than these are used of a folder: 10 s.
 inline constexpr std::size_t kMostFrames = 300;
 
 /// Reads a folder that hydroprint-capture wrote: frames.json and 16-bit PNGs of mm; the first
-/// kMostFrames. Refuses what read_json_file and read_grey16 refuse, a frames.json that is not such
+/// `most`. Refuses what read_json_file and read_grey16 refuse, a frames.json that is not such
 /// a one (kInvalidArgument), and images of another size than it says (kDataLoss).
 [[nodiscard]] Result<Frames> read_frames(const std::filesystem::path& folder,
-                                         const Context& context);
+                                         const Context& context, std::size_t most = kMostFrames);
 
 }  // namespace hydroprint::calibrate

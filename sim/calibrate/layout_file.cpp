@@ -10,7 +10,7 @@
 namespace hydroprint::calibrate {
 namespace {
 
-constexpr double kFarthestMm = 1e4;
+constexpr double kFarthest_mm = 1e4;
 constexpr double kRadians = std::numbers::pi / 180;
 
 void read_markers(TomlReader& top, registration::MarkerLayout& out) {
@@ -19,7 +19,7 @@ void read_markers(TomlReader& top, registration::MarkerLayout& out) {
   out.height_mm = size.number("height_mm", 5, 500, out.height_mm);
   for (TomlReader& from : top.tables("marker")) {
     Eigen::Vector3d at_mm = Eigen::Vector3d::Zero();
-    from.vector("at_mm", -kFarthestMm, kFarthestMm, at_mm);
+    from.vector("at_mm", -kFarthest_mm, kFarthest_mm, at_mm);
     registration::Marker marker{from.text("name"), Pose(Eigen::Translation3d(at_mm))};
     marker.X_FM.rotate(Eigen::AngleAxisd(kRadians * from.number("turned_deg", -180, 180, 0),
                                          Eigen::Vector3d::UnitZ()));
@@ -31,8 +31,8 @@ void read_markers(TomlReader& top, registration::MarkerLayout& out) {
 
 Pose read_camera(TomlReader from) {
   Eigen::Vector3d at_mm(0, -350, 720), looks_at_mm(0, 0, 0);
-  from.vector("at_mm", -kFarthestMm, kFarthestMm, at_mm);
-  from.vector("looks_at_mm", -kFarthestMm, kFarthestMm, looks_at_mm);
+  from.vector("at_mm", -kFarthest_mm, kFarthest_mm, at_mm);
+  from.vector("looks_at_mm", -kFarthest_mm, kFarthest_mm, looks_at_mm);
   if (at_mm.isApprox(looks_at_mm)) {
     from.refuse("at_mm", "is where it looks. Move it");
     return Pose::Identity();
@@ -50,12 +50,12 @@ Result<RigLayout> read_layout(const std::filesystem::path& path) {
   out.nominal_FC = read_camera(top.table("camera"));
   if (top.has("gripper")) {
     TomlReader gripper = top.table("gripper");
-    gripper.vector("at_mm", -kFarthestMm, kFarthestMm, around.gripper_mm);
+    gripper.vector("at_mm", -kFarthest_mm, kFarthest_mm, around.gripper_mm);
     around.gripper_radius_mm = gripper.number("radius_mm", 0, 1000, around.gripper_radius_mm);
   }
   if (top.has("object")) {
     TomlReader object = top.table("object");
-    object.vector("within_mm", 10, kFarthestMm, around.reach_mm);
+    object.vector("within_mm", 10, kFarthest_mm, around.reach_mm);
     around.clear_mm = object.number("above_mm", 0, 1000, around.clear_mm);
   }
   HP_RETURN_IF_ERROR(top.finish());

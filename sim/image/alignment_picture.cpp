@@ -10,10 +10,10 @@
 namespace hydroprint::image {
 namespace {
 
-constexpr double kPointMm = 0.7;  ///< radius of a disc
-constexpr double kDeepMm = 3;     ///< below the surface, where points are the other side's
-constexpr double kShown = 0.98;   ///< of the points, that the scale is made for
-constexpr int kSteps = 5;         ///< of the scale, each way
+constexpr double kPoint_mm = 0.7;  ///< radius of a disc
+constexpr double kDeep_mm = 3;     ///< below the surface, where points are the other side's
+constexpr double kShown = 0.98;    ///< of the points, that the scale is made for
+constexpr int kSteps = 5;          ///< of the scale, each way
 const Eigen::Vector3f kObject(0.45F, 0.45F, 0.44F);  // linear
 
 /// Blue over white to red, as even in lightness both ways (ColorBrewer's RdBu); sRGB-coded.
@@ -52,7 +52,7 @@ Result<RgbImage> alignment_picture(const mesh::Surface& surface, const Pose& X_F
   const auto draw = [&](ViewDrawing& drawing) {
     drawing.place_surface();
     drawing.draw_bare([](int, int) { return kObject; });
-    drawing.draw_points(points_O, colours, kPointMm, kDeepMm);
+    drawing.draw_points(points_O, colours, kPoint_mm, kDeep_mm);
   };
   HP_ASSIGN_OR_RETURN(RgbImage sheet, draw_sheet(surface, X_FO, kLegend_px, context, draw));
   draw_legend(sheet, {"mm off", range, diverging, {}});

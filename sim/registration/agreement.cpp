@@ -7,7 +7,7 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kPlacedMm = 0.2;  ///< to which markers stand on their marks and the lens is known
+constexpr double kPlaced_mm = 0.2;  ///< to which markers stand on their marks and the lens is known
 constexpr double kOnceIn10000 = 3.719;  ///< standard deviations of a normal distribution
 constexpr int kSteps = 5;
 
@@ -27,7 +27,7 @@ std::vector<Spot> spots_of(const Matching& matching, const std::vector<FoundMark
     const Matrix6 there = shift * marker.fit.covariance * shift.transpose();
     out.push_back(
         {a, layout.markers[a].X_FM.translation(), marker.place_C(),
-         there.bottomRightCorner<3, 3>() + kPlacedMm * kPlacedMm * Eigen::Matrix3d::Identity()});
+         there.bottomRightCorner<3, 3>() + kPlaced_mm * kPlaced_mm * Eigen::Matrix3d::Identity()});
   }
   return out;
 }

@@ -1,6 +1,8 @@
 #include "sim/registration/board_views.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -12,14 +14,15 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kJumpMm = 12;
+constexpr double kJump_mm = 12;
 constexpr double kLeastSize = 0.8, kMostSize = 1.2;  ///< of a piece over the board's diagonal
 constexpr std::size_t kMostStarts = 6;
 constexpr double kLeastPaired = 0.6, kSurely = 0.85;  ///< share on the board, over misfit
+constexpr double kStartReach_mm = 25, kLeastFacing = 0.2;
 constexpr std::size_t kFewestViews = 5;
-constexpr int kCellPx = 80;
+constexpr int kCell_px = 80;
 constexpr double kLeastCovered = 0.6;
-constexpr double kLeastTiltRad = 25 * std::numbers::pi / 180;
+constexpr double kLeastTilt_rad = 25 * std::numbers::pi / 180;
 constexpr double kLeastRange = 0.15;
 
 double across(const scan::Cloud& cloud, const std::vector<int>& piece) {
@@ -58,6 +61,39 @@ std::vector<scan::ScanPoint> one_a_patch(const scan::Cloud& cloud, const std::ve
   return out;
 }
 
+/// The board's plates slope away from its ridge, so normals vary most across it. That tells how the
+/// board is held, but for half a turn.
+std::array<Pose, 2> by_its_bend(const std::vector<scan::ScanPoint>& points, const Shape& board) {
+  // By area of the board, not of the image.
+  double area = 0;
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero(), mean = middle;
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const scan::ScanPoint& p : points) {
+    const double facing = -p.normal.dot(p.point_mm.normalized());
+    const double own = p.point_mm.z() * p.point_mm.z() / std::max(kLeastFacing, facing);
+    area += own;
+    middle += own * p.point_mm;
+    mean += own * p.normal;
+    squares += own * p.normal * p.normal.transpose();
+  }
+  middle /= area;
+  mean /= area;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> bend(squares / area -
+                                                            mean * mean.transpose());
+  const Eigen::Vector3d up = mean.normalized(), most = bend.eigenvectors().col(2);
+  const Eigen::Vector3d across = (most - most.dot(up) * up).normalized();
+  std::array<Pose, 2> out;
+  for (const int i : {0, 1}) {
+    Pose& X_CB = out[static_cast<std::size_t>(i)];
+    X_CB = Pose::Identity();
+    X_CB.linear().col(0) = i == 0 ? across : Eigen::Vector3d(-across);
+    X_CB.linear().col(1) = up.cross(X_CB.linear().col(0));
+    X_CB.linear().col(2) = up;
+    X_CB.translation() = middle - X_CB.linear() * board.centroid();
+  }
+  return out;
+}
+
 }  // namespace
 
 Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud, const Shape& board,
@@ -65,22 +101,25 @@ Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud, const Shap
   const std::vector<bool> all(cloud.points.size(), true);
   FitOptions options;
   options.weak_sigma_mm = 1e3;
+  options.reach_mm = kStartReach_mm;
   std::optional<BoardView> best;
   double most = kLeastPaired;
-  for (const auto& piece : segments(cloud, all, kJumpMm)) {
+  for (const auto& piece : segments(cloud, all, kJump_mm)) {
     const double size = across(cloud, piece) / board.diagonal_mm();
     if (size < kLeastSize || size > kMostSize) continue;
     BoardView view{one_a_patch(cloud, piece, patch_px), {}};
-    HP_ASSIGN_OR_RETURN(const auto starts,
-                        rough_alignments(board, view.points, facing(), kMostStarts, context));
-    for (const Pose& start : starts) {
+    const auto try_from = [&](const Pose& start) {
       const auto fit = fit_pose(board, view.points, cloud.lens, start, start, options, context);
-      if (!fit || fit->paired_share / fit->rms_sigmas <= most) continue;
+      if (!fit || fit->paired_share / fit->rms_sigmas <= most) return;
       most = fit->paired_share / fit->rms_sigmas;
       view.X_CB = fit->X_CB;
       best = view;
-      if (most > kSurely) break;
-    }
+    };
+    for (const Pose& start : by_its_bend(view.points, board)) try_from(start);
+    if (most > kSurely) break;
+    HP_ASSIGN_OR_RETURN(const auto starts,
+                        rough_alignments(board, view.points, facing(), kMostStarts, context));
+    for (const Pose& start : starts) try_from(start);
   }
   return best;
 }
@@ -92,17 +131,17 @@ std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens)
   std::set<int> cells;
   double tilt = 0, nearest = 1e9, farthest = 0;
   for (const BoardView& a : views) {
-    for (const auto& p : a.points) cells.insert(p.v / kCellPx * 1000 + p.u / kCellPx);
+    for (const auto& p : a.points) cells.insert(p.v / kCell_px * 1000 + p.u / kCell_px);
     nearest = std::min(nearest, a.X_CB.translation().z());
     farthest = std::max(farthest, a.X_CB.translation().z());
     for (const BoardView& b : views)
       tilt = std::max(tilt, std::acos(std::clamp(a.X_CB.linear().col(2).dot(b.X_CB.linear().col(2)),
                                                  -1.0, 1.0)));
   }
-  const int all = (lens.width_px / kCellPx) * (lens.height_px / kCellPx);
+  const int all = (lens.width_px / kCell_px) * (lens.height_px / kCell_px);
   if (static_cast<double>(cells.size()) < kLeastCovered * all)
     return "the board covers too little of the image: hold it into the corners, too";
-  if (tilt < kLeastTiltRad)
+  if (tilt < kLeastTilt_rad)
     return "the board is tilted alike in all views: tilt it by 30 degrees, each way";
   if (farthest - nearest < kLeastRange * nearest)
     return "the board is equally far in all views: take some nearer and some farther";

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
 #include "sim/registration/board_views.h"
@@ -22,7 +21,7 @@ using scan::Lens;
 
 constexpr int kLens = Lens::kParameters;
 constexpr int kMostIterations = 25;
-constexpr double kFirstReachMm = 12, kLeastReachMm = 6, kReachShrinks = 0.8;
+constexpr double kFirstReach_mm = 12, kLeastReach_mm = 6, kReachShrinks = 0.8;
 constexpr double kSettled = 1e-4;  ///< of what was believed
 constexpr double kMostSigmas = 2;
 constexpr double kToldShare = 1.0 / 3;
@@ -82,7 +81,7 @@ class Adjuster {
         context_(context) {}
 
   Result<CameraCalibration> adjust() {
-    double reach = kFirstReachMm;
+    double reach = kFirstReach_mm;
     for (int i = 0; i < kMostIterations; ++i) {
       HP_RETURN_IF_ERROR(check_cancelled(context_));
       context_.progress("adjusting", static_cast<double>(i) / kMostIterations);
@@ -90,8 +89,8 @@ class Adjuster {
       const System system = build();
       const VectorXd step = system.matrix.ldlt().solve(system.right);
       take(step);
-      const bool at_reach = reach <= kLeastReachMm;
-      reach = std::max(kLeastReachMm, kReachShrinks * reach);
+      const bool at_reach = reach <= kLeastReach_mm;
+      reach = std::max(kLeastReach_mm, kReachShrinks * reach);
       if (at_reach && step.head<kLens>().norm() < kSettled) break;
     }
     HP_RETURN_IF_ERROR(look(reach));
@@ -99,79 +98,129 @@ class Adjuster {
   }
 
  private:
-  /// The points of one view on the board, as lens and pose are believed now.
-  struct Look {
-    std::vector<Pair> pairs;
-    std::vector<double> weights;  ///< robust ones over variance
-    double spread = 1;
+  /// A point of one view on the board, as lens and pose are believed now.
+  struct Sighting {
+    std::size_t view;
+    Pair pair;
+    double robust = 1;  ///< its weight
+
+    [[nodiscard]] double weight() const { return robust / std::pow(pair.own_sigma_mm(), 2); }
+  };
+
+  /// What the sightings of one patch say of its constant noise, in units of its standard deviation:
+  /// pull over square.
+  struct Constant {
+    double square = 1, pull = 0;
+
+    void add(const Sighting& s, double sign = 1) {
+      const double by_constant = sign * s.weight() * s.pair.constant_sigma_mm;
+      square += by_constant * s.pair.constant_sigma_mm;
+      pull += by_constant * s.pair.residual_mm;
+    }
   };
 
   Status look(double reach) {
-    const Pairing pairing = reach > kLeastReachMm ? Pairing::kNearest : Pairing::kOnRay;
-    looks_.clear();
-    for (BoardView& view : views_) {
+    const Pairing pairing = reach > kLeastReach_mm ? Pairing::kNearest : Pairing::kOnRay;
+    sightings_.clear();
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      BoardView& view = views_[k];
       for (auto& p : view.points) p.point_mm = lens_.point(p.u, p.v, p.reported_mm);
-      Look out;
-      HP_ASSIGN_OR_RETURN(out.pairs,
+      HP_ASSIGN_OR_RETURN(const auto pairs,
                           pair_up(board_, view.points, view.X_CB, pairing, reach, context_));
-      std::vector<double> off;
-      for (const Pair& pair : out.pairs) off.push_back(pair.residual_mm / pair.sigma_mm());
-      out.spread = spread_of(off);
-      for (std::size_t i = 0; i < off.size(); ++i)
-        out.weights.push_back(robust_weight(off[i], out.spread) /
-                              std::pow(out.pairs[i].sigma_mm(), 2));
-      looks_.push_back(std::move(out));
+      for (const Pair& pair : pairs) sightings_.push_back({k, pair});
     }
+    const auto by_patch = [](const Sighting& a, const Sighting& b) {
+      return a.pair.scan->patch < b.pair.scan->patch;
+    };
+    std::stable_sort(sightings_.begin(), sightings_.end(), by_patch);
+    weigh();
     return {};
+  }
+
+  /// Calls `use` with all sightings of one patch, for each patch.
+  template <class All, class Use>
+  static void for_each_patch(All& sightings, Use use) {
+    for (auto first = sightings.begin(); first != sightings.end();) {
+      const auto is_other = [&](const Sighting& s) {
+        return s.pair.scan->patch != first->pair.scan->patch;
+      };
+      const auto last = std::find_if(first, sightings.end(), is_other);
+      use(std::span(first, last));
+      first = last;
+    }
+  }
+
+  static Constant constant_of(std::span<const Sighting> patch) {
+    Constant out;
+    for (const Sighting& s : patch) out.add(s);
+    return out;
+  }
+
+  /// How far off each is from what the others of its patch say, in standard deviations.
+  [[nodiscard]] std::vector<double> sigmas_off() const {
+    std::vector<double> out;
+    out.reserve(sightings_.size());
+    for_each_patch(sightings_, [&](std::span<const Sighting> patch) {
+      const Constant all = constant_of(patch);
+      for (const Sighting& s : patch) {
+        Constant others = all;
+        others.add(s, -1);
+        const double constant = s.pair.constant_sigma_mm;
+        out.push_back((s.pair.residual_mm - constant * others.pull / others.square) /
+                      std::hypot(s.pair.own_sigma_mm(), constant / std::sqrt(others.square)));
+      }
+    });
+    return out;
+  }
+
+  /// Leaves out first what is far off by itself, then what is by the others of its patch.
+  void weigh() {
+    std::vector<double> off;
+    for (const Sighting& s : sightings_) off.push_back(s.pair.residual_mm / s.pair.sigma_mm());
+    for (int round = 0; round < 2; ++round) {
+      spread_ = spread_of(off);
+      for (std::size_t i = 0; i < off.size(); ++i)
+        sightings_[i].robust = robust_weight(off[i], spread_);
+      if (round == 0) off = sigmas_off();
+    }
   }
 
   /// Where the board is, not where the scan has it: noise in the rows would go with that in the
   /// residuals, and pull relief flat, by its variance over that of the relief (3 %).
-  [[nodiscard]] Row row_of(std::size_t view, const Pair& pair) const {
+  [[nodiscard]] Row row_of(const Sighting& s) const {
+    const Pair& pair = s.pair;
     const double reported_mm = pair.on_mm.z() / lens_.depth_scale;
     Row out;
     out << (pair.normal.transpose() * lens_.derivatives(pair.scan->u, pair.scan->v, reported_mm))
                .transpose()
                .cwiseProduct(believed_),
-        -direction(pair, views_[view].X_CB.translation(), 1);
+        -direction(pair, views_[s.view].X_CB.translation(), 1);
     return out;
   }
 
-  /// Calls `use` with the view, the pair, its weight and its row.
-  template <class Use>
-  void for_each_pair(Use use) const {
-    for (std::size_t k = 0; k < looks_.size(); ++k)
-      for (std::size_t i = 0; i < looks_[k].pairs.size(); ++i)
-        if (looks_[k].weights[i] > 0)
-          use(k, looks_[k].pairs[i], looks_[k].weights[i], row_of(k, looks_[k].pairs[i]));
-  }
-
+  /// The normal equations, each patch's constant noise eliminated: it is one more unknown, the same
+  /// in every view, whose mean is 0 and whose standard deviation is known.
   [[nodiscard]] System build() const {
     System out(views_.size());
     out.matrix.topLeftCorner<kLens, kLens>().setIdentity();  // what was believed
     out.right.head<kLens>() = (nominal_.parameters() - lens_.parameters()).cwiseQuotient(believed_);
-    for_each_pair([&](std::size_t view, const Pair& pair, double weight, const Row& row) {
-      out.add(view, row, weight, pair.residual_mm);
+    MatrixXd eliminated = MatrixXd::Zero(out.right.size(), static_cast<Index>(sightings_.size()));
+    Index patches = 0;
+    for_each_patch(sightings_, [&](std::span<const Sighting> patch) {
+      const Constant constant = constant_of(patch);
+      auto column = eliminated.col(patches++);
+      for (const Sighting& s : patch) {
+        if (s.robust == 0) continue;
+        const Row row = row_of(s);
+        out.add(s.view, row, s.weight(), s.pair.residual_mm);
+        const double share = s.weight() * s.pair.constant_sigma_mm / std::sqrt(constant.square);
+        column.head<kLens>() += share * row.head<kLens>();
+        column.segment<6>(System::place_of(s.view)) += share * row.tail<6>();
+      }
+      out.right += column * (constant.pull / std::sqrt(constant.square));
     });
-    return out;
-  }
-
-  /// Covariance of the right side by noise: what does not change with time is the same for a patch
-  /// in every view.
-  [[nodiscard]] MatrixXd scatter() const {
-    System changing(views_.size());
-    changing.matrix.topLeftCorner<kLens, kLens>().setIdentity();
-    std::unordered_map<int, VectorXd> patches;
-    for_each_pair([&](std::size_t view, const Pair& pair, double weight, const Row& row) {
-      const double pull = weight * looks_[view].spread;
-      changing.add(view, row, std::pow(pull * pair.changing_sigma_mm, 2), 0);
-      VectorXd& sum = patches.try_emplace(pair.scan->patch, VectorXd::Zero(changing.right.size()))
-                          .first->second;
-      sum.head<kLens>() += pull * pair.constant_sigma_mm * row.head<kLens>();
-      sum.segment<6>(System::place_of(view)) += pull * pair.constant_sigma_mm * row.tail<6>();
-    });
-    MatrixXd out = std::move(changing.matrix);
-    for (const auto& [patch, sum] : patches) out.noalias() += sum * sum.transpose();
+    const auto all = eliminated.leftCols(patches);
+    out.matrix.noalias() -= all * all.transpose();
     return out;
   }
 
@@ -187,8 +236,7 @@ class Adjuster {
     const System system = build();
     const MatrixXd gain =
         system.matrix.ldlt().solve(MatrixXd::Identity(system.matrix.rows(), system.matrix.cols()));
-    const MatrixXd covariance = gain * scatter() * gain;
-    const Lens::Matrix scaled = covariance.topLeftCorner<kLens, kLens>();
+    const Lens::Matrix scaled = spread_ * spread_ * gain.topLeftCorner<kLens, kLens>();
     CameraCalibration out;
     out.lens = lens_;
     out.covariance = believed_.asDiagonal() * scaled * believed_.asDiagonal();
@@ -208,20 +256,19 @@ class Adjuster {
 
   void judge(CameraCalibration& out) const {
     double squares_mm = 0, squares = 0, count = 0;
-    for (const Look& look : looks_) {
-      for (std::size_t i = 0; i < look.pairs.size(); ++i) {
-        if (look.weights[i] == 0) continue;
-        squares_mm += std::pow(look.pairs[i].residual_mm, 2);
-        squares += std::pow(look.pairs[i].residual_mm / look.pairs[i].sigma_mm(), 2);
-        ++count;
-      }
+    for (const Sighting& s : sightings_) {
+      if (s.robust == 0) continue;
+      squares_mm += std::pow(s.pair.residual_mm, 2);
+      squares += std::pow(s.pair.residual_mm / s.pair.sigma_mm(), 2);
+      ++count;
     }
     out.rms_mm = std::sqrt(squares_mm / std::max(1.0, count));
     out.rms_sigmas = std::sqrt(squares / std::max(1.0, count));
   }
 
   std::vector<BoardView> views_;
-  std::vector<Look> looks_;  ///< one a view; refer to its points
+  std::vector<Sighting> sightings_;  ///< by patch; refer to the views' points
+  double spread_ = 1;                ///< how much farther off they are than noise explains
   const Shape& board_;
   const Lens& nominal_;
   Lens lens_;

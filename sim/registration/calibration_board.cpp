@@ -9,10 +9,10 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kWidthMm = 140, kHeightMm = 210;  ///< of one plate
-constexpr double kPitchMm = 66, kPyramidMm = 44, kTallMm = 25;
+constexpr double kWidth_mm = 140, kHeight_mm = 210;  ///< of one plate
+constexpr double kPitch_mm = 66, kPyramid_mm = 44, kTall_mm = 25;
 constexpr int kColumns = 2, kRows = 3;
-constexpr double kSlopeRad = std::numbers::pi / 6;
+constexpr double kSlope_rad = std::numbers::pi / 6;
 
 /// A rectangle in z = 0, looking up.
 mesh::Surface rectangle(double x0, double y0, double x1, double y1) {
@@ -28,42 +28,42 @@ mesh::Surface rectangle(double x0, double y0, double x1, double y1) {
   return out;
 }
 
-double row_at(int row) { return kPitchMm * (row - (kRows - 1) / 2.0); }
+double row_at(int row) { return kPitch_mm * (row - (kRows - 1) / 2.0); }
 
 /// Pyramids of one row with the plate between them. The plate is open below the pyramids: nobody
 /// sees it there, and nothing shall be paired there.
 mesh::Surface row_of(int row, int columns) {
-  const double y = row_at(row), y0 = y - kPyramidMm / 2, y1 = y + kPyramidMm / 2;
+  const double y = row_at(row), y0 = y - kPyramid_mm / 2, y1 = y + kPyramid_mm / 2;
   mesh::Surface out;
   double left = 0;
   for (int column = 0; column < columns; ++column) {
-    const double x = kPitchMm * (column + 0.5);
-    out = joined(std::move(out), rectangle(left, y0, x - kPyramidMm / 2, y1));
-    left = x + kPyramidMm / 2;
+    const double x = kPitch_mm * (column + 0.5);
+    out = joined(std::move(out), rectangle(left, y0, x - kPyramid_mm / 2, y1));
+    left = x + kPyramid_mm / 2;
     const Pose at(Eigen::Translation3d(x, y, 0));
-    out = joined(std::move(out), moved(pyramid(kPyramidMm, kTallMm), at));
+    out = joined(std::move(out), moved(pyramid(kPyramid_mm, kTall_mm), at));
   }
-  return joined(std::move(out), rectangle(left, y0, kWidthMm, y1));
+  return joined(std::move(out), rectangle(left, y0, kWidth_mm, y1));
 }
 
 /// A plate, flat, its ridge along y.
 mesh::Surface plate(bool is_whole) {
   mesh::Surface out;
-  double below = -kHeightMm / 2;
+  double below = -kHeight_mm / 2;
   for (int row = 0; row < kRows; ++row) {
-    const double low = row_at(row) - kPyramidMm / 2;
+    const double low = row_at(row) - kPyramid_mm / 2;
     const bool lacks_one = !is_whole && row == kRows - 1;
-    out = joined(std::move(out), rectangle(0, below, kWidthMm, low));
+    out = joined(std::move(out), rectangle(0, below, kWidth_mm, low));
     out = joined(std::move(out), row_of(row, lacks_one ? kColumns - 1 : kColumns));
-    below = low + kPyramidMm;
+    below = low + kPyramid_mm;
   }
-  return joined(std::move(out), rectangle(0, below, kWidthMm, kHeightMm / 2));
+  return joined(std::move(out), rectangle(0, below, kWidth_mm, kHeight_mm / 2));
 }
 
 }  // namespace
 
 mesh::Surface calibration_board() {
-  const Pose down(Eigen::AngleAxisd(kSlopeRad, Eigen::Vector3d::UnitY()));
+  const Pose down(Eigen::AngleAxisd(kSlope_rad, Eigen::Vector3d::UnitY()));
   const Pose across(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
   return joined(moved(plate(false), down), moved(plate(true), across * down));
 }

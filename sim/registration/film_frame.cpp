@@ -15,10 +15,10 @@ namespace {
 
 constexpr std::size_t kFewestMarkers = 3;
 constexpr std::size_t kSightSamples = 600;
-constexpr double kSightMm = 8;
+constexpr double kSight_mm = 8;
 constexpr double kHiddenShare = 0.5;
-constexpr double kMovedMm = 40;  ///< a marker found so near to its place is that marker
-constexpr double kWeakMm = 5;
+constexpr double kMoved_mm = 40;  ///< a marker found so near to its place is that marker
+constexpr double kWeak_mm = 5;
 
 std::string in_mm(double value) {
   char buffer[32];
@@ -67,11 +67,11 @@ std::string reason(const Marker& marker, const MarkerLayout& layout,
         matching.found.end())
       continue;
     const double off = (found[i].place_C() - X_CM.translation()).norm();
-    if (off < kMovedMm)
+    if (off < kMoved_mm)
       return "it stands " + in_mm(off) + " from its place: move it back to its mark";
   }
   const Shape shape(pyramid(layout.width_mm, layout.height_mm));
-  const Sight sight = look_at(visible(shape, X_CM, kSightSamples), depth, lens, kSightMm);
+  const Sight sight = look_at(visible(shape, X_CM, kSightSamples), depth, lens, kSight_mm);
   if (sight.out_of_view > kHiddenShare) return "it is out of the camera's view";
   if (sight.before + sight.without_depth + sight.out_of_view > kHiddenShare)
     return "it is hidden: clear the camera's view of it";
@@ -154,8 +154,8 @@ Result<FilmFrame> find_film_frame(const scan::Cloud& cloud, const MarkerLayout& 
         "the three markers that can be used do not stand to each other as the configuration says: "
         "move them back to their marks, or calibrate the camera");
   FitOptions options;
-  options.weak_sigma_mm = kWeakMm;
-  options.reach_mm = kSightMm;
+  options.weak_sigma_mm = kWeak_mm;
+  options.reach_mm = kSight_mm;
   FilmFrame out;
   HP_ASSIGN_OR_RETURN(out.fit,
                       fit_pose(body_of(layout, matching), points_of(found, matching), cloud.lens,

@@ -15,9 +15,9 @@ namespace {
 using Point = pcl::PointNormal;
 using Points = pcl::PointCloud<Point>;
 
-constexpr double kMostTurnRad = 60 * std::numbers::pi / 180;
+constexpr double kMostTurn_rad = 60 * std::numbers::pi / 180;
 constexpr std::size_t kFewestPairs = 6;
-constexpr float kFarthestMm = 1e4;
+constexpr float kFarthest_mm = 1e4;
 constexpr double kSettled = 1e-8;  ///< PCL's: of squared steps, radian and mm alike
 
 Points::Ptr to_pcl(std::span<const SurfacePoint> points) {
@@ -52,7 +52,7 @@ class Estimation : public pcl::registration::TransformationEstimationPointToPlan
     if (pairs.size() >= kFewestPairs)
       Base::estimateRigidTransformation(scan, target, pairs, motion);
     if (pairs.size() < kFewestPairs || !motion.allFinite() ||
-        motion.cwiseAbs().maxCoeff() > kFarthestMm)
+        motion.cwiseAbs().maxCoeff() > kFarthest_mm)
       motion.setIdentity();
   }
 };
@@ -68,7 +68,7 @@ class PclIcp final : public Icp {
   [[nodiscard]] Aligned align(std::span<const SurfacePoint> scan, const Pose& start,
                               double distance_mm, int iterations) const override {
     auto alike = pcl::make_shared<pcl::registration::CorrespondenceRejectorSurfaceNormal>();
-    alike->setThreshold(std::cos(kMostTurnRad));
+    alike->setThreshold(std::cos(kMostTurn_rad));
     pcl::IterativeClosestPointWithNormals<Point, Point> icp;
     icp.setSearchMethodTarget(tree_, true);
     icp.setInputTarget(target_);

@@ -14,24 +14,24 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kJumpMm = 10;
-constexpr double kCutMm = 8;  ///< over what is level, where pieces are cut off
-constexpr double kSameCutMm = 4;
-constexpr double kAboveBaseMm = 4;      ///< points of a marker below that may be the bar's
-constexpr double kSlackMm = 12;         ///< of a piece's height
-constexpr double kMarginMm = 6;         ///< round a marker, of points that are taken for its own
+constexpr double kJump_mm = 10;
+constexpr double kCut_mm = 8;  ///< over what is level, where pieces are cut off
+constexpr double kSameCut_mm = 4;
+constexpr double kAboveBase_mm = 4;     ///< points of a marker below that may be the bar's
+constexpr double kSlack_mm = 12;        ///< of a piece's height
+constexpr double kMargin_mm = 6;        ///< round a marker, of points that are taken for its own
 constexpr double kLeastOfHeight = 0.3;  ///< of a marker's, that a piece has
 constexpr std::size_t kFewestPoints = 80;
 constexpr std::size_t kTargetSamples = 1500;
 constexpr std::size_t kIcpPoints = 400;
-constexpr double kIcpReachMm = 15;
+constexpr double kIcpReach_mm = 15;
 constexpr int kIcpIterations = 30;
 constexpr double kLeastUpright = 0.966;  ///< cosine of 15 degrees
 constexpr double kMostSigmas = 1.8;
 constexpr double kLeastPaired = 0.75;
 constexpr double kSurelyPaired = 0.9;
-constexpr double kSameMm = 20;
-constexpr double kAnyMm = 1e3;  ///< nothing is known of it but by the scan
+constexpr double kSame_mm = 20;
+constexpr double kAny_mm = 1e3;  ///< nothing is known of it but by the scan
 
 /// What all candidates share.
 struct Search {
@@ -49,8 +49,8 @@ std::vector<double> cuts(const Search& s) {
   for (const Marker& m : s.layout.markers) lowest = std::min(lowest, m.X_FM.translation().z());
   std::vector<double> out;
   for (const double level : level_heights(s.cloud, s.level)) {
-    for (const double cut : {level + kCutMm, level + lowest + kCutMm}) {
-      const auto same = [&](double other) { return std::abs(other - cut) < kSameCutMm; };
+    for (const double cut : {level + kCut_mm, level + lowest + kCut_mm}) {
+      const auto same = [&](double other) { return std::abs(other - cut) < kSameCut_mm; };
       if (std::none_of(out.begin(), out.end(), same)) out.push_back(cut);
     }
   }
@@ -63,7 +63,7 @@ std::vector<std::vector<int>> candidates(const Search& s, double cut_mm) {
   std::vector<bool> chosen(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     chosen[i] = s.level.height_mm(points[i].point_mm) > cut_mm;
-  auto pieces = segments(s.cloud, chosen, kJumpMm);
+  auto pieces = segments(s.cloud, chosen, kJump_mm);
   const auto is_other = [&](const std::vector<int>& piece) {
     double top = 0;
     Eigen::AlignedBox3d box;
@@ -72,7 +72,7 @@ std::vector<std::vector<int>> candidates(const Search& s, double cut_mm) {
       top = std::max(top, s.level.height_mm(p) - cut_mm);
       box.extend(p);
     }
-    return piece.size() < kFewestPoints || top > s.layout.height_mm + kSlackMm ||
+    return piece.size() < kFewestPoints || top > s.layout.height_mm + kSlack_mm ||
            top < kLeastOfHeight * s.layout.height_mm ||
            box.diagonal().norm() > 2 * s.layout.width_mm;
   };
@@ -99,10 +99,10 @@ Eigen::Vector3d tip_of(const Search& s, std::vector<int> piece) {
 std::vector<scan::ScanPoint> around(const Search& s, const Pose& X_CM) {
   std::vector<scan::ScanPoint> out;
   const Pose X_MC = X_CM.inverse();
-  const double reach = s.layout.width_mm / 2 + kMarginMm;
+  const double reach = s.layout.width_mm / 2 + kMargin_mm;
   for (const scan::ScanPoint& p : s.cloud.points) {
     const Eigen::Vector3d at = X_MC * p.point_mm;
-    if (at.z() > kAboveBaseMm && at.z() < s.layout.height_mm + kSlackMm &&
+    if (at.z() > kAboveBase_mm && at.z() < s.layout.height_mm + kSlack_mm &&
         at.head<2>().cwiseAbs().maxCoeff() < reach)
       out.push_back(p);
   }
@@ -134,12 +134,12 @@ bool is_pyramid(const Search& s, const PoseFit& fit) {
 /// ICP, then twice the points that are the marker's by what is known of it, and a fit to them.
 std::optional<FoundMarker> fitted_from(const Search& s, Pose X_CM, const Context& context) {
   FitOptions options;
-  options.weak_sigma_mm = kAnyMm;
+  options.weak_sigma_mm = kAny_mm;
   FoundMarker out;
   out.points = around(s, X_CM);
   if (out.points.size() < kFewestPoints) return {};
-  X_CM =
-      s.icp->align(some_of(out.points), X_CM.inverse(), kIcpReachMm, kIcpIterations).pose.inverse();
+  X_CM = s.icp->align(some_of(out.points), X_CM.inverse(), kIcpReach_mm, kIcpIterations)
+             .pose.inverse();
   for (int round = 0; round < 2; ++round) {
     out.points = around(s, X_CM);
     if (out.points.size() < kFewestPoints) return {};
@@ -195,7 +195,7 @@ Result<std::vector<FoundMarker>> find_markers(const scan::Cloud& cloud, const Pl
   std::vector<FoundMarker> out;
   const auto is_known = [&](const Eigen::Vector3d& place) {
     return std::any_of(out.begin(), out.end(), [&](const FoundMarker& other) {
-      return (other.place_C() - place).norm() < kSameMm;
+      return (other.place_C() - place).norm() < kSame_mm;
     });
   };
   for (const double cut : cuts(search)) {

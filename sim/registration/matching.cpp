@@ -8,10 +8,10 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kNearMm = 4;      ///< of a marker from its place
-constexpr double kAsGoodMm = 0.7;  ///< between matchings, rms
-constexpr double kTriangleMm = 8;  ///< of the sides of two triangles of markers
-constexpr double kThinMm = 30;     ///< least height of a triangle of markers
+constexpr double kNear_mm = 4;      ///< of a marker from its place
+constexpr double kAsGood_mm = 0.7;  ///< between matchings, rms
+constexpr double kTriangle_mm = 8;  ///< of the sides of two triangles of markers
+constexpr double kThin_mm = 30;     ///< least height of a triangle of markers
 
 Pose between(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
   const auto count = static_cast<Eigen::Index>(from.size());
@@ -64,10 +64,10 @@ class Matcher {
     for (std::size_t s = 0; s < 3; ++s) {
       const std::size_t t = (s + 1) % 3;
       const double differ = (from[s] - from[t]).norm() - (to[s] - to[t]).norm();
-      if (std::abs(differ) > kTriangleMm) return;
+      if (std::abs(differ) > kTriangle_mm) return;
     }
     const Eigen::Vector3d side = from[1] - from[0];
-    if (side.cross(from[2] - from[0]).norm() < kThinMm * side.norm()) return;
+    if (side.cross(from[2] - from[0]).norm() < kThin_mm * side.norm()) return;
     const Matching grown = grow(between(from, to));
     if (grown.count() >= 3) out.push_back(grown);
   }
@@ -83,7 +83,7 @@ class Matcher {
         const Eigen::Vector3d place = pose * layout_at(static_cast<int>(a));
         for (std::size_t i = 0; i < places_.size(); ++i) {
           const double off = (places_[i] - place).squaredNorm();
-          if (off > kNearMm * kNearMm) continue;
+          if (off > kNear_mm * kNear_mm) continue;
           out.found[a] = static_cast<int>(i);
           from.push_back(layout_at(static_cast<int>(a)));
           to.push_back(places_[i]);
@@ -119,7 +119,7 @@ Matching match(const std::vector<FoundMarker>& found, const MarkerLayout& layout
   std::erase_if(all, [&](const Matching& m) { return m.count() < most; });
   double least_rms = 1e9;
   for (const Matching& m : all) least_rms = std::min(least_rms, m.rms_mm);
-  std::erase_if(all, [&](const Matching& m) { return m.rms_mm > least_rms + kAsGoodMm; });
+  std::erase_if(all, [&](const Matching& m) { return m.rms_mm > least_rms + kAsGood_mm; });
   if (all.empty()) return {std::vector<int>(layout.markers.size(), -1), nominal_CF};
   return *std::min_element(all.begin(), all.end(), [&](const Matching& a, const Matching& b) {
     return turn_between(a.X_CF, nominal_CF) < turn_between(b.X_CF, nominal_CF);

@@ -19,16 +19,16 @@ constexpr std::size_t kFewestPoints = 300;
 constexpr std::size_t kMostStarts = 5;
 constexpr std::size_t kTrialPoints = 1500;
 constexpr std::size_t kSightSamples = 2000;
-constexpr double kSightMm = 8;
-constexpr double kOnMm = 4;
-constexpr int kBlockPx = 16;
+constexpr double kSight_mm = 8;
+constexpr double kOn_mm = 4;
+constexpr int kBlock_px = 16;
 constexpr std::size_t kFewestInBlock = 40;
 constexpr double kLeastOn = 0.85;
 constexpr double kMostThrough = 0.12;
-constexpr double kMostMisfitMm = 1;
+constexpr double kMostMisfit_mm = 1;
 constexpr double kAsGood = 0.03;
 constexpr double kOtherShare = 0.08;  ///< of the points, in one piece: another object
-constexpr double kOtherJumpMm = 12;
+constexpr double kOtherJump_mm = 12;
 constexpr double kMostlySeen = 0.6;
 constexpr double kOutOfView = 0.15;
 constexpr double kHidden = 0.4;
@@ -41,10 +41,10 @@ struct Candidate {
   double misfit_mm = 0;
 
   [[nodiscard]] double mismatch() const {
-    return 1 - on_share + sight.through + misfit_mm / (10 * kMostMisfitMm);
+    return 1 - on_share + sight.through + misfit_mm / (10 * kMostMisfit_mm);
   }
   [[nodiscard]] bool explains() const {
-    return on_share > kLeastOn && sight.through < kMostThrough && misfit_mm < kMostMisfitMm;
+    return on_share > kLeastOn && sight.through < kMostThrough && misfit_mm < kMostMisfit_mm;
   }
 };
 
@@ -56,7 +56,7 @@ double misfit_of(const std::vector<Pair>& pairs, int width_px) {
   std::unordered_map<int, Block> blocks;
   for (const Pair& pair : pairs) {
     Block& block =
-        blocks[pair.scan->v / kBlockPx * (width_px / kBlockPx + 1) + pair.scan->u / kBlockPx];
+        blocks[pair.scan->v / kBlock_px * (width_px / kBlock_px + 1) + pair.scan->u / kBlock_px];
     block.sum += pair.residual_mm;
     ++block.count;
   }
@@ -113,9 +113,9 @@ class Finder {
     std::vector<bool> off(cloud.points.size());
     const Pose X_BC = candidate.fit.X_CB.inverse();
     for (const scan::ScanPoint& p : points_)
-      if (distance(X_BC, p) > 2 * kOnMm)
+      if (distance(X_BC, p) > 2 * kOn_mm)
         off[static_cast<std::size_t>(cloud.at(p.u, p.v) - cloud.points.data())] = true;
-    const auto pieces = segments(cloud, off, kOtherJumpMm);
+    const auto pieces = segments(cloud, off, kOtherJump_mm);
     if (pieces.empty()) return 0;
     return static_cast<double>(pieces[0].size()) / static_cast<double>(points_.size());
   }
@@ -134,13 +134,13 @@ class Finder {
   }
 
   Result<Candidate> judged(const PoseFit& fit) const {
-    Candidate out{fit, look_at(visible(shape_, fit.X_CB, kSightSamples), depth_, lens_, kSightMm),
+    Candidate out{fit, look_at(visible(shape_, fit.X_CB, kSightSamples), depth_, lens_, kSight_mm),
                   0, 0};
     const Pose X_BC = fit.X_CB.inverse();
-    for (const auto& p : points_) out.on_share += distance(X_BC, p) < kOnMm ? 1 : 0;
+    for (const auto& p : points_) out.on_share += distance(X_BC, p) < kOn_mm ? 1 : 0;
     out.on_share /= static_cast<double>(points_.size());
     HP_ASSIGN_OR_RETURN(const auto pairs,
-                        pair_up(shape_, points_, fit.X_CB, Pairing::kOnRay, kOnMm, context_));
+                        pair_up(shape_, points_, fit.X_CB, Pairing::kOnRay, kOn_mm, context_));
     out.misfit_mm = misfit_of(pairs, lens_.width_px);
     return out;
   }

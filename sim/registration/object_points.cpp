@@ -8,9 +8,9 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kJumpMm = 12;
-constexpr double kMarkerMarginMm = 10;
-constexpr double kStrayMm = 50;       ///< round a marker that may lie beside its place
+constexpr double kJump_mm = 12;
+constexpr double kMarkerMargin_mm = 10;
+constexpr double kStray_mm = 50;      ///< round a marker that may lie beside its place
 constexpr double kSpeckShare = 0.03;  ///< of the largest piece
 constexpr std::size_t kSpeckPoints = 40;
 
@@ -18,9 +18,9 @@ bool of_a_marker(const Eigen::Vector3d& p_F, const FilmFrame& frame, const Marke
   for (std::size_t a = 0; a < layout.markers.size(); ++a) {
     const bool is_well = a >= frame.markers.size() || frame.markers[a].used;
     const Eigen::Vector3d p_M = layout.markers[a].X_FM.inverse() * p_F;
-    const double half = layout.width_mm / 2 + (is_well ? kMarkerMarginMm : kStrayMm);
+    const double half = layout.width_mm / 2 + (is_well ? kMarkerMargin_mm : kStray_mm);
     const double top = std::max(layout.height_mm, is_well ? 0 : layout.width_mm);
-    if (p_M.head<2>().cwiseAbs().maxCoeff() < half && p_M.z() < top + kMarkerMarginMm) return true;
+    if (p_M.head<2>().cwiseAbs().maxCoeff() < half && p_M.z() < top + kMarkerMargin_mm) return true;
   }
   return false;
 }
@@ -42,7 +42,7 @@ ObjectPoints object_points(const scan::Cloud& cloud, const FilmFrame& frame,
   for (std::size_t i = 0; i < chosen.size(); ++i)
     chosen[i] = may_be_object(X_FC * cloud.points[i].point_mm, frame, surroundings);
   ObjectPoints out;
-  const auto pieces = segments(cloud, chosen, kJumpMm);
+  const auto pieces = segments(cloud, chosen, kJump_mm);
   for (const auto& piece : pieces) {
     if (piece.size() < kSpeckPoints ||
         static_cast<double>(piece.size()) < kSpeckShare * static_cast<double>(pieces[0].size()))

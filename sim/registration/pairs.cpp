@@ -8,9 +8,9 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kLeastCosine = 0.2;     ///< between normal and line of sight
-constexpr double kLeastAlike = 0.4;      ///< between the surface's normal and the scan's
-constexpr double kSurfaceErrorMm = 0.1;  ///< of meshes and of pixels' places
+constexpr double kLeastCosine = 0.2;      ///< between normal and line of sight
+constexpr double kLeastAlike = 0.4;       ///< between the surface's normal and the scan's
+constexpr double kSurfaceError_mm = 0.1;  ///< of meshes and of pixels' places
 constexpr std::size_t kAtOnce = 256;
 
 std::optional<SurfacePoint> partner(const Shape& shape, const scan::ScanPoint& scan,
@@ -43,9 +43,9 @@ double weight_of(const Pair& pair, double robust) {
 
 }  // namespace
 
-double Pair::sigma_mm() const {
-  return std::hypot(changing_sigma_mm, constant_sigma_mm, kSurfaceErrorMm);
-}
+double Pair::sigma_mm() const { return std::hypot(own_sigma_mm(), constant_sigma_mm); }
+
+double Pair::own_sigma_mm() const { return std::hypot(changing_sigma_mm, kSurfaceError_mm); }
 
 Result<std::vector<Pair>> pair_up(const Shape& shape, std::span<const scan::ScanPoint> points,
                                   const Pose& X_CB, Pairing pairing, double reach_mm,

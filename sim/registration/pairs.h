@@ -20,6 +20,8 @@ struct Pair {
   double constant_sigma_mm = 0;
 
   [[nodiscard]] double sigma_mm() const;
+  /// Without what is constant.
+  [[nodiscard]] double own_sigma_mm() const;
 };
 
 /// Which point of the surface a scan point is paired with.

@@ -14,17 +14,17 @@ namespace {
 
 constexpr int kTrials = 400;
 constexpr std::size_t kLooked = 2000;  ///< points that a trial is judged by
-constexpr double kNearMm = 5;
+constexpr double kNear_mm = 5;
 constexpr double kLeastShare = 0.05;
 constexpr double kLeastUpright = 0.766;  ///< cosine of 40 degrees
 constexpr int kRefinements = 5;
 constexpr double kLevel = 0.9;  ///< cosine between the plane's normal and that of what is level
-constexpr double kBinMm = 3;
+constexpr double kBin_mm = 3;
 constexpr double kLevelShare = 0.01;  ///< of all points
 constexpr std::size_t kMostLevels = 6;
 
 bool on(const Plane& plane, const scan::ScanPoint& p) {
-  return std::abs(plane.height_mm(p.point_mm)) < kNearMm && plane.normal.dot(p.normal) > 0.8;
+  return std::abs(plane.height_mm(p.point_mm)) < kNear_mm && plane.normal.dot(p.normal) > 0.8;
 }
 
 std::vector<const scan::ScanPoint*> some_of(const scan::Cloud& cloud) {
@@ -90,7 +90,7 @@ std::vector<double> level_heights(const scan::Cloud& cloud, const Plane& plane) 
   std::map<int, std::size_t> bins;
   for (const scan::ScanPoint& p : cloud.points)
     if (plane.normal.dot(p.normal) > kLevel)
-      ++bins[static_cast<int>(std::floor(plane.height_mm(p.point_mm) / kBinMm))];
+      ++bins[static_cast<int>(std::floor(plane.height_mm(p.point_mm) / kBin_mm))];
   const auto count = [&](int bin) {
     const auto at = bins.find(bin);
     return at == bins.end() ? 0 : at->second;
@@ -106,7 +106,7 @@ std::vector<double> level_heights(const scan::Cloud& cloud, const Plane& plane) 
   std::sort(peaks.rbegin(), peaks.rend());
   std::vector<double> out;
   for (const auto& [points, bin] : peaks)
-    if (out.size() < kMostLevels) out.push_back((bin + 0.5) * kBinMm);
+    if (out.size() < kMostLevels) out.push_back((bin + 0.5) * kBin_mm);
   return out;
 }
 

@@ -14,10 +14,10 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr std::size_t kFewestPairs = 30;
-constexpr double kLeastReachMm = 5;
+constexpr double kLeastReach_mm = 5;
 constexpr double kReachShrinks = 0.8;
-constexpr double kSettledMm = 1e-3, kNearlySettledMm = 0.1;
-constexpr double kMostStepMm = 10;
+constexpr double kSettled_mm = 1e-3, kNearlySettled_mm = 0.1;
+constexpr double kMostStep_mm = 10;
 constexpr double kOnSurface = 0.3;  ///< robust weight from which a point counts as on the surface
 
 std::vector<double> sigmas_off(std::span<const Pair> pairs) {
@@ -88,7 +88,7 @@ class Fitter {
         length_mm_(shape.radius_mm()) {}
 
   Result<PoseFit> fit(Pose pose) const {
-    double reach = std::max(options_.reach_mm, kLeastReachMm);
+    double reach = std::max(options_.reach_mm, kLeastReach_mm);
     std::optional<Eigen::Index> weak;
     for (int i = 0; i < options_.most_iterations; ++i) {
       HP_RETURN_IF_ERROR(check_cancelled(context_));
@@ -96,11 +96,11 @@ class Fitter {
       const Split parts = split(look.normals, options_.weak_sigma_mm, weak);
       const Vector6 step = step_of(look, parts, pose);
       pose = motion(unscaled(step), look.centre) * pose;
-      const bool at_reach = reach <= kLeastReachMm;
-      reach = std::max(kLeastReachMm, kReachShrinks * reach);
+      const bool at_reach = reach <= kLeastReach_mm;
+      reach = std::max(kLeastReach_mm, kReachShrinks * reach);
       if (!at_reach) continue;
-      if (step.norm() < kSettledMm) break;
-      if (step.norm() < kNearlySettledMm) weak = parts.weak.count();
+      if (step.norm() < kSettled_mm) break;
+      if (step.norm() < kNearlySettled_mm) weak = parts.weak.count();
     }
     HP_ASSIGN_OR_RETURN(Look look, look_from(pose, reach));
     return told(look, pose, weak);
@@ -108,7 +108,7 @@ class Fitter {
 
  private:
   static Pairing pairing_at(double reach) {
-    return reach > kLeastReachMm ? Pairing::kNearest : Pairing::kOnRay;
+    return reach > kLeastReach_mm ? Pairing::kNearest : Pairing::kOnRay;
   }
 
   Result<Look> look_from(const Pose& pose, double reach) const {
@@ -138,7 +138,7 @@ class Fitter {
   [[nodiscard]] Vector6 step_of(const Look& look, const Split& parts, const Pose& pose) const {
     const Vector6 to_nominal = twist_between(pose, nominal_, look.centre).cwiseQuotient(scale());
     const Vector6 step = parts.inverse() * look.normals.pull + parts.onto_weak() * to_nominal;
-    return step * std::min(1.0, kMostStepMm / std::max(step.norm(), 1e-300));
+    return step * std::min(1.0, kMostStep_mm / std::max(step.norm(), 1e-300));
   }
 
   [[nodiscard]] PoseFit told(Look& look, const Pose& pose,

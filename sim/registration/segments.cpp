@@ -5,7 +5,7 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr int kReachPx = 2;  ///< beyond the next pixel, which may lack a depth
+constexpr int kReach_px = 2;  ///< beyond the next pixel, which may lack a depth
 
 }  // namespace
 
@@ -18,8 +18,8 @@ std::vector<std::vector<int>> segments(const scan::Cloud& cloud, const std::vect
     taken[static_cast<std::size_t>(seed)] = true;
     for (std::size_t next = 0; next < piece.size(); ++next) {
       const auto& from = cloud.points[static_cast<std::size_t>(piece[next])];
-      for (int dv = -kReachPx; dv <= kReachPx; ++dv) {
-        for (int du = -kReachPx; du <= kReachPx; ++du) {
+      for (int dv = -kReach_px; dv <= kReach_px; ++dv) {
+        for (int du = -kReach_px; du <= kReach_px; ++du) {
           const auto* to = cloud.at(from.u + du, from.v + dv);
           if (to == nullptr) continue;
           const auto i = static_cast<std::size_t>(to - cloud.points.data());

@@ -21,7 +21,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 constexpr std::size_t kSamplesForMoments = 4000;
-constexpr double kClearMm = 0.05;  ///< from the surface, for a view of it
+constexpr double kClear_mm = 0.05;  ///< from the surface, for a view of it
 
 Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 Eigen::Vector3d to_eigen(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
@@ -125,7 +125,7 @@ std::optional<SurfacePoint> Shape::hit(const Eigen::Vector3d& from_B,
 }
 
 bool Shape::is_seen(const SurfacePoint& p_B, const Eigen::Vector3d& eye_B) const {
-  const Eigen::Vector3d from = p_B.point_mm + kClearMm * (eye_B - p_B.point_mm).normalized();
+  const Eigen::Vector3d from = p_B.point_mm + kClear_mm * (eye_B - p_B.point_mm).normalized();
   if (p_B.normal.dot(eye_B - p_B.point_mm) <= 0) return false;
   return !impl_->tree.do_intersect(Kernel::Segment_3(to_cgal(from), to_cgal(eye_B)));
 }

@@ -13,13 +13,13 @@ namespace {
 constexpr std::size_t kScanPoints = 400;
 constexpr std::size_t kTargetSamples = 3000;
 constexpr std::size_t kEyeSamples = 300;
-constexpr double kAroundRad = 20 * std::numbers::pi / 180;
-constexpr double kFarMm = 40, kNearMm = 10;
+constexpr double kAround_rad = 20 * std::numbers::pi / 180;
+constexpr double kFar_mm = 40, kNear_mm = 10;
 constexpr int kIterations = 15;
 constexpr std::size_t kGoOn = 12;  ///< starts that are worth more than a first look
-constexpr double kCappedMm = 6;
-constexpr double kAlikeRad = 3 * std::numbers::pi / 180;
-constexpr double kAlikeMm = 3;
+constexpr double kCapped_mm = 6;
+constexpr double kAlike_rad = 3 * std::numbers::pi / 180;
+constexpr double kAlike_mm = 3;
 
 std::vector<Eigen::Matrix3d> quarter_turns() {
   std::vector<Eigen::Matrix3d> out;
@@ -42,7 +42,7 @@ std::vector<Eigen::Matrix3d> quarter_turns() {
 std::vector<Eigen::Matrix3d> turns(const Eigen::Matrix3d& nominal) {
   std::vector<Eigen::Matrix3d> out;
   for (int axis = 0; axis < 3; ++axis)
-    for (const double angle : {-kAroundRad, kAroundRad})
+    for (const double angle : {-kAround_rad, kAround_rad})
       out.emplace_back(Eigen::AngleAxisd(angle, Eigen::Vector3d::Unit(axis)) * nominal);
   for (const auto& quarter : quarter_turns())
     if (!quarter.isIdentity()) out.emplace_back(nominal * quarter);
@@ -87,7 +87,8 @@ double cost_of(const Shape& shape, const std::vector<SurfacePoint>& scan, const 
     const Eigen::Vector3d p_B = X_BC * p.point_mm;
     const SurfacePoint near = shape.closest(p_B);
     const bool looks_alike = near.normal.dot(X_BC.linear() * p.normal) > 0.4;
-    const double off = looks_alike ? std::min(kCappedMm, (near.point_mm - p_B).norm()) : kCappedMm;
+    const double off =
+        looks_alike ? std::min(kCapped_mm, (near.point_mm - p_B).norm()) : kCapped_mm;
     sum += off * off;
   }
   return sum / static_cast<double>(scan.size());
@@ -95,8 +96,8 @@ double cost_of(const Shape& shape, const std::vector<SurfacePoint>& scan, const 
 
 bool alike(const Pose& a, const Pose& b) {
   const Pose step = a.inverse() * b;
-  return step.translation().norm() < kAlikeMm &&
-         Eigen::AngleAxisd(step.linear()).angle() < kAlikeRad;
+  return step.translation().norm() < kAlike_mm &&
+         Eigen::AngleAxisd(step.linear()).angle() < kAlike_rad;
 }
 
 }  // namespace
@@ -120,7 +121,7 @@ Result<std::vector<Pose>> rough_alignments(const Shape& shape,
   };
   const auto look = [&](std::size_t i) -> Status {
     rough[i] = {from[i], 0, i == 0};
-    align(i, kFarMm);
+    align(i, kFar_mm);
     return {};
   };
   HP_RETURN_IF_ERROR(parallel_for(context, "aligning", from.size(), look));
@@ -130,7 +131,7 @@ Result<std::vector<Pose>> rough_alignments(const Shape& shape,
   };
   best_first();
   const auto go_on = [&](std::size_t i) -> Status {
-    if (i < kGoOn || rough[i].nominal) align(i, kNearMm);
+    if (i < kGoOn || rough[i].nominal) align(i, kNear_mm);
     return {};
   };
   HP_RETURN_IF_ERROR(parallel_for(context, "", rough.size(), go_on));

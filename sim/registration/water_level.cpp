@@ -9,8 +9,8 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr std::size_t kFewest = 200;
-constexpr double kSearchMm = 15;
-constexpr double kNearMm = 4;
+constexpr double kSearch_mm = 15;
+constexpr double kNear_mm = 4;
 constexpr double kLeastLevel = 0.8;   ///< cosine between a point's normal and up
 constexpr std::size_t kLooked = 500;  ///< points by which the lens is judged
 
@@ -27,7 +27,7 @@ std::vector<Height> heights(const scan::Cloud& cloud, const Pose& X_FC,
   std::vector<Height> out;
   for (const auto& p : cloud.points) {
     const Eigen::Vector3d at = X_FC * p.point_mm;
-    if (std::abs(at.z()) > kSearchMm || std::abs(at.x()) > half_film_mm.x() ||
+    if (std::abs(at.z()) > kSearch_mm || std::abs(at.x()) > half_film_mm.x() ||
         std::abs(at.y()) > half_film_mm.y())
       continue;
     if ((X_FC.linear() * p.normal).z() < kLeastLevel) continue;
@@ -83,7 +83,7 @@ Result<WaterLevel> water_level(const scan::Cloud& cloud, const FilmFrame& frame,
   std::nth_element(all.begin(), middle, all.end(),
                    [](const Height& a, const Height& b) { return a.z_mm < b.z_mm; });
   const double median = middle->z_mm;
-  std::erase_if(all, [&](const Height& h) { return std::abs(h.z_mm - median) > kNearMm; });
+  std::erase_if(all, [&](const Height& h) { return std::abs(h.z_mm - median) > kNear_mm; });
   WaterLevel out;
   out.points = all.size();
   for (const Height& h : all) out.z_mm += h.z_mm / static_cast<double>(all.size());

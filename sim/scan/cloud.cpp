@@ -8,10 +8,10 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kJumpMm = 12;             ///< between neighbours: the edge of a surface
-constexpr double kSameSurfaceMm = 15;      ///< between a pixel and those its normal is taken from
-constexpr int kReachPx = 5, kEveryPx = 2;  ///< neighbours share their noise
-constexpr int kFewest = 6;                 ///< pixels for a normal
+constexpr double kJump_mm = 12;              ///< between neighbours: the edge of a surface
+constexpr double kSameSurface_mm = 15;       ///< between a pixel and those its normal is taken from
+constexpr int kReach_px = 5, kEvery_px = 2;  ///< neighbours share their noise
+constexpr int kFewest = 6;                   ///< pixels for a normal
 
 /// A fused frame as points, before it is known which of them lie on surfaces.
 struct Grid {
@@ -33,7 +33,7 @@ bool on_a_surface(const Grid& grid, int u, int v) {
   for (int dv = -1; dv <= 1; ++dv) {
     for (int du = -1; du <= 1; ++du) {
       if (!grid.holds(u + du, v + dv)) return false;
-      if (std::abs(grid.at(u + du, v + dv).z() - depth) > kJumpMm) return false;
+      if (std::abs(grid.at(u + du, v + dv).z() - depth) > kJump_mm) return false;
     }
   }
   return true;
@@ -45,11 +45,11 @@ Eigen::Vector3d normal_at(const Grid& grid, int u, int v) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
   int count = 0;
-  for (int dv = -kReachPx; dv <= kReachPx; dv += kEveryPx) {
-    for (int du = -kReachPx; du <= kReachPx; du += kEveryPx) {
+  for (int dv = -kReach_px; dv <= kReach_px; dv += kEvery_px) {
+    for (int du = -kReach_px; du <= kReach_px; du += kEvery_px) {
       if (!grid.holds(u + du, v + dv)) continue;
       const Eigen::Vector3d d = grid.at(u + du, v + dv) - centre;
-      if (std::abs(d.z()) > kSameSurfaceMm) continue;
+      if (std::abs(d.z()) > kSameSurface_mm) continue;
       sum += d;
       squares += d * d.transpose();
       ++count;

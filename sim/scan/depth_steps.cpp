@@ -6,13 +6,13 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kUsualScaleMm = 575.8 * 75 * 8;  ///< px, mm, steps a pixel
+constexpr double kUsualScale_mm = 575.8 * 75 * 8;  ///< px, mm, steps a pixel
 constexpr double kMostOff = 0.05;
-constexpr std::size_t kMostMm = 10000;
+constexpr std::size_t kMost_mm = 10000;
 constexpr std::size_t kOften = 8;     ///< pixels; fewer may be strays
 constexpr double kHalf = 0.5 + 1e-4;  ///< mm, to which depths are rounded
 constexpr double kScaleStep = 5e-5, kShiftStep = 0.04;
-constexpr double kCoarseSlackMm = 0.12;  ///< that those leave
+constexpr double kCoarseSlack_mm = 0.12;  ///< that those leave
 constexpr double kFinest = 1e-7;
 /// Log of one over the chance of explaining all depths by steps that are not theirs: 1e-11.
 constexpr double kSure = 25;
@@ -36,32 +36,25 @@ double worst_mm(const std::vector<double>& depths, const Steps& steps, double en
 }
 
 /// Whole depths that occur often, where steps are longer than 1 mm; empty if not all are whole.
-std::vector<double> often_told(std::span<const DepthFrame> frames) {
-  std::vector<std::size_t> counts(kMostMm + 1);
-  for (const DepthFrame& frame : frames) {
-    for (const float depth : frame.depth_mm) {
-      if (!(depth > 0 && depth <= static_cast<float>(kMostMm))) continue;
-      if (depth != std::floor(depth)) return {};
-      ++counts[static_cast<std::size_t>(depth)];
-    }
-  }
+std::vector<double> often_told(const DepthCounts& counts) {
   std::vector<double> out;
-  const auto first = static_cast<std::size_t>(std::sqrt((1 + kMostOff) * kUsualScaleMm)) + 1;
-  for (std::size_t depth = first; depth <= kMostMm; ++depth)
-    if (counts[depth] >= kOften) out.push_back(static_cast<double>(depth));
+  if (!counts.are_whole) return out;
+  const auto first = static_cast<std::size_t>(std::sqrt((1 + kMostOff) * kUsualScale_mm)) + 1;
+  for (std::size_t depth = first; depth < counts.of_mm.size(); ++depth)
+    if (counts.of_mm[depth] >= kOften) out.push_back(static_cast<double>(depth));
   return out;
 }
 
 double sureness(const std::vector<double>& depths) {
   double out = 0;
-  for (const double depth : depths) out += std::log(depth * depth / kUsualScaleMm);
+  for (const double depth : depths) out += std::log(depth * depth / kUsualScale_mm);
   return out;
 }
 
 /// The steps nearest to all depths, by looking everywhere and then around the best, ever closer.
 Steps closest(const std::vector<double>& depths) {
-  Steps best{kUsualScaleMm, 0};
-  double worst = kHalf + kCoarseSlackMm;
+  Steps best{kUsualScale_mm, 0};
+  double worst = kHalf + kCoarseSlack_mm;
   const auto look = [&](const Steps& at) {
     const double there = worst_mm(depths, at, worst);
     if (there >= worst) return false;
@@ -70,7 +63,8 @@ Steps closest(const std::vector<double>& depths) {
     return true;
   };
   for (double off = -kMostOff; off <= kMostOff; off += kScaleStep)
-    for (double shift = 0; shift < 1; shift += kShiftStep) look({kUsualScaleMm * (1 + off), shift});
+    for (double shift = 0; shift < 1; shift += kShiftStep)
+      look({kUsualScale_mm * (1 + off), shift});
   for (double scale = kScaleStep, shift = kShiftStep; scale > kFinest;) {
     const Steps around = best;
     bool is_better = false;
@@ -84,26 +78,51 @@ Steps closest(const std::vector<double>& depths) {
   return best;
 }
 
+/// The mean of the steps that are rounded to a depth; that itself if there are none.
+double before_rounding(const Steps& steps, std::size_t whole_mm) {
+  const auto depth = static_cast<double>(whole_mm);
+  const double last = steps.scale_mm / (depth - kHalf) - steps.shift;
+  double sum = 0, count = 0;
+  for (double n = std::ceil(steps.scale_mm / (depth + kHalf) - steps.shift); n < last; ++n) {
+    sum += steps.scale_mm / (n + steps.shift);
+    ++count;
+  }
+  return count > 0 ? sum / count : depth;
+}
+
 }  // namespace
+
+void DepthCounts::add(std::span<const DepthFrame> frames) {
+  of_mm.resize(kMost_mm + 1);
+  for (const DepthFrame& frame : frames) {
+    for (const float depth : frame.depth_mm) {
+      if (!(depth > 0 && depth <= static_cast<float>(kMost_mm))) continue;
+      are_whole = are_whole && depth == std::floor(depth);
+      ++of_mm[static_cast<std::size_t>(depth)];
+    }
+  }
+}
 
 float DepthSteps::before_rounding_mm(float reported_mm) const {
   const auto whole = static_cast<std::size_t>(reported_mm);
   return whole < before_mm.size() ? before_mm[whole] : reported_mm;
 }
 
-std::optional<DepthSteps> find_depth_steps(std::span<const DepthFrame> frames) {
-  const auto depths = often_told(frames);
+std::optional<DepthSteps> find_depth_steps(const DepthCounts& counts) {
+  const auto depths = often_told(counts);
   if (sureness(depths) < kSure) return {};
   const Steps steps = closest(depths);
   if (worst_mm(depths, steps, INFINITY) > kHalf) return {};
-  DepthSteps out{steps.scale_mm, steps.shift - std::floor(steps.shift), {}};
-  for (std::size_t whole = 0; whole <= kMostMm; ++whole) {
-    const auto depth = static_cast<double>(whole);
-    const bool is_one = depth * depth > steps.scale_mm;
-    const double before = is_one ? steps.nearest_mm(depth) : depth;
-    out.before_mm.push_back(static_cast<float>(std::abs(before - depth) < kHalf ? before : depth));
-  }
+  DepthSteps out{steps.scale_mm, steps.shift - std::floor(steps.shift), {0}};
+  for (std::size_t whole = 1; whole <= kMost_mm; ++whole)
+    out.before_mm.push_back(static_cast<float>(before_rounding(steps, whole)));
   return out;
+}
+
+std::optional<DepthSteps> find_depth_steps(std::span<const DepthFrame> frames) {
+  DepthCounts counts;
+  counts.add(frames);
+  return find_depth_steps(counts);
 }
 
 }  // namespace hydroprint::scan

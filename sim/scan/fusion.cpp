@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "sim/scan/depth_steps.h"
-
 namespace hydroprint::scan {
 namespace {
 
@@ -112,6 +110,11 @@ Status judge(std::size_t pixels, std::size_t valid, std::size_t unsteady) {
 
 Result<FusedFrame> fuse(std::span<const DepthFrame> frames, const DepthNoise& noise,
                         const Context& context) {
+  return fuse(frames, noise, find_depth_steps(frames), context);
+}
+
+Result<FusedFrame> fuse(std::span<const DepthFrame> frames, const DepthNoise& noise,
+                        const std::optional<DepthSteps>& steps, const Context& context) {
   HP_RETURN_IF_ERROR(check(frames));
   const int width = frames.front().width_px;
   const int height = frames.front().height_px;
@@ -119,7 +122,6 @@ Result<FusedFrame> fuse(std::span<const DepthFrame> frames, const DepthNoise& no
   FusedFrame out{{width, height, std::vector<float>(pixels)},
                  std::vector<float>(pixels),
                  std::vector<std::uint16_t>(pixels)};
-  const auto steps = find_depth_steps(frames);
   std::vector<std::size_t> valid(static_cast<std::size_t>(height)), unsteady = valid;
   const auto fuse_row = [&](std::size_t v) -> Status {
     std::vector<double> values, scratch;

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "sim/base/context.h"
+#include "sim/scan/depth_steps.h"
 #include "sim/scan/frame.h"
 #include "sim/scan/noise.h"
 
@@ -25,6 +27,11 @@ struct FusedFrame {
 /// where all of several frames are the same bit by bit, CAMERA_MOVED where depths vary far beyond
 /// the noise.
 [[nodiscard]] Result<FusedFrame> fuse(std::span<const DepthFrame> frames, const DepthNoise& noise,
+                                      const Context& context);
+/// The same, where the camera's steps are known from more frames than these.
+/// @param steps  nothing: depths are taken as they are reported
+[[nodiscard]] Result<FusedFrame> fuse(std::span<const DepthFrame> frames, const DepthNoise& noise,
+                                      const std::optional<DepthSteps>& steps,
                                       const Context& context);
 
 }  // namespace hydroprint::scan

@@ -18,6 +18,8 @@
 namespace hydroprint::worker {
 namespace {
 
+constexpr std::size_t kFramesForSteps = 10;
+
 /// The object coloured by registration error.
 Result<image::RgbImage> error_picture(const mesh::Surface& surface, const Pose& X_FO,
                                       const std::vector<double>& error_mm, const Context& context) {
@@ -60,6 +62,17 @@ Result<calibrate::Frames> read_scan(const Options& options, registration::Camera
     HP_ASSIGN_OR_RETURN(camera, calibrate::read_camera(options.camera));
   }
   return out;
+}
+
+/// Of the camera: no single view need tell them.
+Result<std::optional<scan::DepthSteps>> depth_steps(const std::vector<std::filesystem::path>& views,
+                                                    const Context& context) {
+  scan::DepthCounts counts;
+  for (const std::filesystem::path& view : views) {
+    HP_ASSIGN_OR_RETURN(const auto taken, calibrate::read_frames(view, context, kFramesForSteps));
+    counts.add(taken.frames);
+  }
+  return scan::find_depth_steps(counts);
 }
 
 }  // namespace
@@ -108,11 +121,12 @@ Status run_calibrate(const Options& options, const pipeline::DipOptions& dip, Ou
 Status run_calibrate_camera(const Options& options, OutFolder& folder, Report& report,
                             const Context& context) {
   const scan::DepthNoise noise;
+  HP_ASSIGN_OR_RETURN(const auto steps, depth_steps(options.frames, context));
   std::vector<scan::FusedFrame> views;
   scan::Lens nominal;
   for (const std::filesystem::path& view : options.frames) {
     HP_ASSIGN_OR_RETURN(const calibrate::Frames taken, calibrate::read_frames(view, context));
-    auto fused = scan::fuse(taken.frames, noise, context);
+    auto fused = scan::fuse(taken.frames, noise, steps, context);
     if (!fused) {
       fused.error().message.insert(0, view.string() + ": ");
       return tl::unexpected(std::move(fused).error());

@@ -32,7 +32,7 @@ using testing::crooked;
 
 constexpr double kDegree = pi / 180;
 constexpr int kPosesPerCamera = 20;
-constexpr int kViews = 12;
+constexpr int kViews = 12, kFramesPerView = 30, kFramesForSteps = 10;
 
 struct Body {
   std::string name;
@@ -80,20 +80,25 @@ Pose held(int i, std::mt19937& random) {
   return X_CB;
 }
 
-/// Calibrated with 30 frames a view.
+/// As calibrate-camera does it.
 Camera draw_camera(std::mt19937& random) {
   Camera out{seed_from(random), {}, {}};
   out.truth = depth_camera::drawn_lens(out.seed);
   testing::Rig rig;
   rig.lens = out.truth;
   rig.furnished = false;
-  std::vector<scan::FusedFrame> views;
-  for (int i = 0; i < kViews; ++i) {
+  const auto frames = [&](int view, int count) {
+    std::mt19937 hand(out.seed + static_cast<std::uint32_t>(view));
     rig.more = {testing::body_of(registration::calibration_board(),
-                                 rig.X_CF().inverse() * held(i, random))};
-    const auto frames = rig.frames(30, out.seed, 30 * i);
-    views.push_back(value_of(scan::fuse(frames, {}, two_threads())));
-  }
+                                 rig.X_CF().inverse() * held(view, hand))};
+    return rig.frames(count, out.seed, kFramesPerView * view);
+  };
+  scan::DepthCounts counts;
+  for (int i = 0; i < kViews; ++i) counts.add(frames(i, kFramesForSteps));
+  const auto steps = scan::find_depth_steps(counts);
+  std::vector<scan::FusedFrame> views;
+  for (int i = 0; i < kViews; ++i)
+    views.push_back(value_of(scan::fuse(frames(i, kFramesPerView), {}, steps, two_threads())));
   out.calibration = value_of(registration::calibrate_camera(
       views, registration::calibration_board(), scan::Lens{}, {}, two_threads()));
   const scan::Lens::Vector off =

@@ -88,7 +88,7 @@ std::vector<scan::DepthFrame> Rig::frames(int count, std::uint64_t seed, int fir
   std::vector<scan::DepthFrame> out;
   for (int i = 0; i < count; ++i) {
     const double time_s = static_cast<double>(first + i) / depth_camera::kRate_hz;
-    const auto frame = depth_camera::sense(depths, lens.depth_scale, {}, seed, time_s);
+    const auto frame = depth_camera::sense(depths, lens.depth_scale, errors, seed, time_s);
     out.push_back({depth_camera::kWidth_px, depth_camera::kHeight_px,
                    std::vector<float>(frame.begin(), frame.end())});
   }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hardware/depth_camera/lens.h"
+#include "hardware/depth_camera/sensor.h"
 #include "hardware/depth_scene/scenery.h"
 #include "sim/base/context.h"
 #include "sim/base/pose.h"
@@ -33,12 +34,13 @@ struct Rig {
   double gripper_mm = 150;                       ///< height of its lower end
   std::vector<depth_scene::Body> more;           ///< what else there is
   bool furnished = true;                         ///< false: only `more` is there
+  depth_camera::Errors errors;                   ///< that frames() have
 
   Rig();
   [[nodiscard]] Pose X_CF() const;
   /// Depths without errors but the lens's, and not hindered by shadows.
   [[nodiscard]] scan::DepthFrame exact() const;
-  /// Frames of a camera with all errors, 30 a second; `seed` is the camera's, `first` the number of
+  /// Frames of a camera with its errors, 30 a second; `seed` is the camera's, `first` the number of
   /// its first frame.
   [[nodiscard]] std::vector<scan::DepthFrame> frames(int count, std::uint64_t seed,
                                                      int first = 0) const;

@@ -13,10 +13,10 @@ namespace hydroprint::scan {
 namespace {
 
 constexpr int kAcross = 200, kDown = 100;
-constexpr double kScaleMm = 352000, kShift = 0.3;
+constexpr double kScale_mm = 352000, kShift = 0.3;
 
 double stepped(double depth_mm) {
-  return kScaleMm / (std::round(kScaleMm / depth_mm - kShift) + kShift);
+  return kScale_mm / (std::round(kScale_mm / depth_mm - kShift) + kShift);
 }
 
 /// A slope from one depth to another, along the image, with noise, in steps, told in whole mm.
@@ -35,7 +35,7 @@ TEST(DepthSteps, AreFoundAndTheirRoundingIsTakenBack) {
   const std::vector frames{slope(700, 950, 1)};
   const auto steps = find_depth_steps(frames);
   ASSERT_TRUE(steps);
-  EXPECT_NEAR(steps->scale_mm / kScaleMm, 1, 2e-4);
+  EXPECT_NEAR(steps->scale_mm / kScale_mm, 1, 2e-4);
   for (const float told : frames[0].depth_mm)
     EXPECT_NEAR(steps->before_rounding_mm(told), stepped(told), 0.05);
 }

@@ -11,7 +11,7 @@ namespace hydroprint::scan {
 namespace {
 
 constexpr int kWidth = 64, kHeight = 48;
-constexpr double kDepthMm = 800;
+constexpr double kDepth_mm = 800;
 
 DepthFrame flat(float depth_mm) {
   return {kWidth, kHeight, std::vector<float>(kWidth * kHeight, depth_mm)};
@@ -20,7 +20,7 @@ DepthFrame flat(float depth_mm) {
 /// Frames in whole mm with noise that changes from frame to frame.
 std::vector<DepthFrame> noisy(int count) {
   std::mt19937 random(3);
-  std::normal_distribution<double> normal(kDepthMm, DepthNoise{}.changing_sigma_mm(kDepthMm));
+  std::normal_distribution<double> normal(kDepth_mm, DepthNoise{}.changing_sigma_mm(kDepth_mm));
   std::vector<DepthFrame> out(static_cast<std::size_t>(count), flat(0));
   for (DepthFrame& frame : out)
     for (float& d : frame.depth_mm) d = static_cast<float>(std::round(normal(random)));
@@ -32,7 +32,7 @@ TEST(Fusion, MeanSeesBetweenTheStepsOfDepthAndStatesItsError) {
   ASSERT_TRUE(fused) << fused.error().message;
   double squares = 0, stated = 0;
   for (std::size_t i = 0; i < fused->sigma_mm.size(); ++i) {
-    squares += std::pow(fused->mean.depth_mm[i] - kDepthMm, 2);
+    squares += std::pow(fused->mean.depth_mm[i] - kDepth_mm, 2);
     stated += std::pow(fused->sigma_mm[i], 2);
   }
   EXPECT_NEAR(std::sqrt(squares / stated), 1, 0.05);
@@ -43,7 +43,7 @@ TEST(Fusion, AFewWildDepthsMoveNothing) {
   for (std::size_t k = 0; k < 10; ++k) frames[k].depth_mm[5] = 1900;
   const auto with = fuse(frames, {}, {});
   ASSERT_TRUE(with);
-  EXPECT_NEAR(with->mean.depth_mm[5], kDepthMm, 1);
+  EXPECT_NEAR(with->mean.depth_mm[5], kDepth_mm, 1);
   EXPECT_EQ(with->frames[5], 50);
 }
 
@@ -91,7 +91,7 @@ TEST(Cloud, PlaneHasItsNormalTowardsTheCameraAndEdgesAreLeftOut) {
     for (int u = 0; u < kWidth; ++u) {
       const double jump = u < kWidth / 2 ? 0 : 100;
       fused.mean.depth_mm[fused.mean.index(u, v)] =
-          static_cast<float>((normal.z() * kDepthMm) / normal.dot(lens.ray(u, v)) + jump);
+          static_cast<float>((normal.z() * kDepth_mm) / normal.dot(lens.ray(u, v)) + jump);
     }
   }
   const auto cloud = make_cloud(fused, lens, {}, {});
