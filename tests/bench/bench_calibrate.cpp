@@ -31,7 +31,7 @@ using std::numbers::pi;
 using testing::crooked;
 
 constexpr double kDegree = pi / 180;
-constexpr int kPosesPerCamera = 20;
+constexpr int kPosesPerCamera = 4;
 constexpr int kViews = 12, kFramesPerView = 30, kFramesForSteps = 10;
 
 struct Body {
