@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <vector>
 
 #include "sim/scan/fusion.h"
 
@@ -52,20 +54,37 @@ TEST(DepthSteps, AreNotFoundWhereThereAreNone) {
   EXPECT_FALSE(find_depth_steps({}));
 }
 
-/// Of means of many frames, by what is common to all pixels at that depth.
-TEST(DepthSteps, LeaveNoErrorThatAllPixelsOfADepthShare) {
+/// By how much the worst depth of many frames' mean is off that all pixels of it share.
+double shared_error_mm(double from_mm, double to_mm, const std::optional<DepthSteps>& steps) {
   constexpr int kFrames = 30;
   std::vector<DepthFrame> frames;
-  for (std::uint32_t k = 0; k < kFrames; ++k) frames.push_back(slope(700, 950, k));
-  const auto fused = fuse(frames, {}, {});
-  ASSERT_TRUE(fused);
+  for (std::uint32_t k = 0; k < kFrames; ++k) frames.push_back(slope(from_mm, to_mm, k));
+  const FusedFrame fused = fuse(frames, {}, steps, {}).value();
   double worst = 0;
   for (int u = 0; u < kAcross; ++u) {
     double mean = 0;
-    for (int v = 0; v < kDown; ++v) mean += fused->mean.depth_mm[fused->mean.index(u, v)];
-    worst = std::max(worst, std::abs(mean / kDown - (700 + 250.0 * u / kAcross)));
+    for (int v = 0; v < kDown; ++v) mean += fused.mean.depth_mm[fused.mean.index(u, v)];
+    const double truth = from_mm + (to_mm - from_mm) * u / kAcross;
+    worst = std::max(worst, std::abs(mean / kDown - truth));
   }
-  EXPECT_LT(worst, 0.12);  // whole mm: 0.5
+  return worst;
+}
+
+TEST(DepthSteps, LeaveNoErrorThatAllPixelsOfADepthShare) {
+  const auto steps = find_depth_steps(std::vector{slope(700, 950, 1)});
+  EXPECT_LT(shared_error_mm(700, 950, steps), 0.12);
+  EXPECT_GT(shared_error_mm(700, 950, {}), 0.3);
+}
+
+/// Steps shorter than 1 mm are not told by frames that have no others.
+TEST(DepthSteps, OfFramesFartherAwayHelpThoseThatAreNear) {
+  const std::vector near{slope(480, 590, 1)}, far{slope(700, 950, 1)};
+  EXPECT_FALSE(find_depth_steps(near));
+  DepthCounts counts;
+  counts.add(near);
+  counts.add(far);
+  EXPECT_LT(shared_error_mm(480, 590, find_depth_steps(counts)), 0.2);
+  EXPECT_GT(shared_error_mm(480, 590, {}), 0.25);
 }
 
 }  // namespace
