@@ -116,10 +116,13 @@ Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud, const Shap
       best = view;
     };
     for (const Pose& start : by_its_bend(view.points, board)) try_from(start);
-    if (most > kSurely) break;
+    if (best) break;
     HP_ASSIGN_OR_RETURN(const auto starts,
                         rough_alignments(board, view.points, facing(), kMostStarts, context));
-    for (const Pose& start : starts) try_from(start);
+    for (const Pose& start : starts) {
+      try_from(start);
+      if (most > kSurely) break;
+    }
   }
   return best;
 }

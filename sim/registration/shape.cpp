@@ -114,7 +114,7 @@ SurfacePoint Shape::closest(const Eigen::Vector3d& p_B) const {
 }
 
 std::optional<SurfacePoint> Shape::hit(const Eigen::Vector3d& from_B,
-                                       const Eigen::Vector3d& towards_B) const {
+                                       const Eigen::Vector3d& towards_B) const try {
   const auto met =
       impl_->tree.first_intersection(Kernel::Ray_3(to_cgal(from_B), to_cgal(towards_B)));
   if (!met) return {};
@@ -122,6 +122,8 @@ std::optional<SurfacePoint> Shape::hit(const Eigen::Vector3d& from_B,
   if (point == nullptr) return {};  // along a triangle
   const auto index = static_cast<std::size_t>(met->second - impl_->triangles.cbegin());
   return impl_->point(index, to_eigen(*point));
+} catch (const CGAL::Failure_exception&) {
+  return {};  // so nearly along a triangle, or that so nearly a line, that it is not told
 }
 
 bool Shape::is_seen(const SurfacePoint& p_B, const Eigen::Vector3d& eye_B) const {

@@ -51,7 +51,7 @@ TEST(DepthSteps, AreNotFoundWhereThereAreNone) {
   EXPECT_FALSE(find_depth_steps(std::vector{smooth}));
   EXPECT_FALSE(find_depth_steps(std::vector{whole}));
   EXPECT_FALSE(find_depth_steps(std::vector{slope(800, 805, 2)}));  // too few to tell
-  EXPECT_FALSE(find_depth_steps({}));
+  EXPECT_FALSE(find_depth_steps(DepthCounts{}));
 }
 
 /// By how much the worst depth of many frames' mean is off that all pixels of it share.
