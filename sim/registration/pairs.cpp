@@ -25,7 +25,7 @@ bool make_pair(const scan::ScanPoint& scan, const SurfacePoint& on_B, const Pose
   out.on_mm = X_CB * on_B.point_mm;
   out.normal = X_CB.linear() * on_B.normal;
   const Eigen::Vector3d away = scan.point_mm - out.on_mm;
-  if (away.squaredNorm() > reach_mm * reach_mm) return false;
+  if (!(away.squaredNorm() <= reach_mm * reach_mm)) return false;
   if (out.normal.dot(scan.normal) < kLeastAlike) return false;
   const Eigen::Vector3d ray = scan.point_mm / scan.point_mm.z();
   const double across = -out.normal.dot(ray);

@@ -18,6 +18,7 @@ constexpr double kLeastReach_mm = 5;
 constexpr double kReachShrinks = 0.8;
 constexpr double kSettled_mm = 1e-3, kNearlySettled_mm = 0.1;
 constexpr double kMostStep_mm = 10;
+constexpr double kNil = 1e-12;      ///< of information over the most there is: rounding
 constexpr double kOnSurface = 0.3;  ///< robust weight from which a point counts as on the surface
 
 std::vector<double> sigmas_off(std::span<const Pair> pairs) {
@@ -45,14 +46,15 @@ struct Split {
   }
 };
 
-/// @param told  how many of the directions are weak, where that is settled: the worst so many
+/// @param told  how many of the directions are weak, where that is settled: the worst so many, and
+///              what no pair tells any longer
 Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::Index> told = {}) {
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(normals.information);
   Split out{solver.eigenvectors(), solver.eigenvalues(), Vector6::Zero(), {}};
+  const double nil = kNil * std::max(1.0, out.information.maxCoeff());
   for (int k = 0; k < 6; ++k) {
     const Vector6 e = out.directions.col(k);
-    const double floor = 1e-12 * std::max(1.0, out.information.maxCoeff());
-    const double information = std::max(out.information[k], floor);
+    const double information = std::max(out.information[k], nil);
     out.sigma_mm[k] = std::sqrt(std::max(0.0, e.dot(normals.scatter * e))) / information;
     // Without noise there is no scatter, so what there is of information must do, too.
     const double at_least = 1 / std::sqrt(information);
@@ -62,7 +64,8 @@ Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::I
   std::sort(sorted.begin(), sorted.end());
   // A direction at the limit must not be weak in one step and strong in the next.
   if (told) weak_sigma_mm = *told == 6 ? 0 : *told == 0 ? INFINITY : sorted[5 - *told];
-  out.weak = out.sigma_mm.array() > weak_sigma_mm;
+  // Nor is there a step along one of which nothing is told, whatever may be believed of it.
+  out.weak = out.sigma_mm.array() > weak_sigma_mm || out.information.array() <= nil;
   return out;
 }
 

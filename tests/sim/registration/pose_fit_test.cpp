@@ -1,0 +1,58 @@
+// Poses from points that tell only some of the motions.
+#include "sim/registration/pose_fit.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/support/depth_scene.h"
+
+namespace hydroprint::registration {
+namespace {
+
+/// Points in the middle of a plate across the camera's axis.
+std::vector<scan::ScanPoint> points_of_a_plate(double z_mm) {
+  std::vector<scan::ScanPoint> out;
+  for (int v = -10; v <= 10; ++v) {
+    for (int u = -10; u <= 10; ++u) {
+      scan::ScanPoint p;
+      p.point_mm = {2.0 * u, 2.0 * v, z_mm};
+      p.normal = {0, 0, -1};
+      p.reported_mm = z_mm;
+      p.sigma_mm = p.constant_sigma_mm = 0.2;
+      p.u = 320 + u;
+      p.v = 240 + v;
+      p.patch = 100 * v + u;
+      out.push_back(p);
+    }
+  }
+  return out;
+}
+
+/// However much may be believed of the scan: what no point tells must not become a step without
+/// bounds, nor one that is no number.
+TEST(PoseFit, MakesNoStepAlongWhatNothingTells) {
+  const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
+  const auto points = points_of_a_plate(800);
+  const Pose start(Eigen::Translation3d(3, -2, 802));  // its underside looks at the camera
+  FitOptions options;
+  options.weak_sigma_mm = std::numeric_limits<double>::infinity();
+  const auto fit = fit_pose(plate, points, {}, start, start, options, testing::two_threads());
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_EQ(fit->weak.size(), 3U);
+  EXPECT_LT((fit->X_CB.translation() - Eigen::Vector3d(3, -2, 800)).norm(), 0.01);
+  EXPECT_TRUE(fit->covariance.allFinite());
+}
+
+TEST(PoseFit, RefusesAStartThatIsNoNumber) {
+  const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
+  Pose start = Pose::Identity();
+  start.translation().x() = std::numeric_limits<double>::quiet_NaN();
+  const auto fit = fit_pose(plate, points_of_a_plate(800), {}, start, Pose::Identity(), {},
+                            testing::two_threads());
+  ASSERT_FALSE(fit);
+  EXPECT_EQ(fit.error().reason, "TOO_FEW_POINTS");
+}
+
+}  // namespace
+}  // namespace hydroprint::registration
