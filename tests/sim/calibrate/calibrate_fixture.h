@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "sim/image/grey16.h"
-#include "sim/sample/sample.h"
 #include "tests/support/depth_scene.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -41,6 +40,13 @@ inline void write_frames(const std::filesystem::path& folder,
   std::ofstream(folder / "frames.json") << listing;
 }
 
+inline void write_obj(const std::filesystem::path& path, const mesh::Surface& surface) {
+  std::ofstream out(path);
+  for (const Eigen::Vector3d& p : surface.points) out << "v " << p.transpose() << "\n";
+  for (const Eigen::Vector3i& t : surface.triangles)
+    out << "f " << (t.array() + 1).transpose() << "\n";
+}
+
 /// A board in the gripper before a camera.
 class Calibrate : public ::testing::Test {
  protected:
@@ -60,8 +66,8 @@ class Calibrate : public ::testing::Test {
 
   void SetUp() override {
     rig.lens = depth_camera::drawn_lens(kCamera);
-    ASSERT_TRUE(sample::write_sample("board", folder.path()));
-    const auto surface = testing::surface_of(sample::make_model("board").value());
+    const auto surface = testing::box({-60, -60, 0}, {60, 60, 10});
+    write_obj(path("board.obj"), surface);
     Eigen::AlignedBox3d box;
     for (const auto& p : surface.points) box.extend(p);
     const Eigen::Vector3d middle = box.center();

@@ -10,7 +10,6 @@
 #include "sim/mesh/read_model.h"
 #include "sim/registration/water_level.h"
 #include "sim/sample/icosphere.h"
-#include "sim/sample/sample.h"
 #include "tests/sim/registration/limits.h"
 #include "tests/support/depth_scene.h"
 
@@ -24,9 +23,8 @@ using testing::Rig;
 /// The middle of the image, which is quicker and shows all of the object.
 constexpr testing::Window kMiddle{160, 100, 320, 240};
 
-mesh::Surface sample_of(const std::string& kind) {
-  return testing::surface_of(sample::make_model(kind).value());
-}
+/// That of the samples, without its picture.
+mesh::Surface board() { return box({-60, -60, 0}, {60, 60, 10}); }
 
 /// Three arms of different lengths: no turn and no mirror brings it back.
 mesh::Surface tripod() {
@@ -106,7 +104,7 @@ TEST(Object, IsFoundHoweverItHangs) {
 }
 
 TEST(Object, BoardTurnedByAQuarterIsTakenForTheNominalOne) {
-  const Hanging hanging(sample_of("board"));
+  const Hanging hanging(board());
   const auto pose = hanging.find();
   ASSERT_TRUE(pose) << pose.error().message;
   EXPECT_LT(turn_rad(pose->X_FO, hanging.X_FO), 0.3 * kDegree);
