@@ -13,7 +13,7 @@ namespace hydroprint::scan {
 struct ScanPoint {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the camera
-  double reported_mm = 0;                            ///< depth before scale and offset
+  double reported_mm = 0;                            ///< depth before the lens's scale
   double sigma_mm = 0;           ///< along the axis, of what changes between frames
   double constant_sigma_mm = 0;  ///< along the axis, of what does not, and that a patch shares
   int u = 0;                     ///< pixel
