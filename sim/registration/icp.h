@@ -2,10 +2,12 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "sim/base/pose.h"
 #include "sim/base/result.h"
 #include "sim/registration/shape.h"
+#include "sim/scan/cloud.h"
 
 namespace hydroprint::registration {
 
@@ -30,6 +32,10 @@ class Icp {
   [[nodiscard]] virtual Aligned align(std::span<const SurfacePoint> scan, const Pose& start,
                                       double distance_mm, int iterations) const = 0;
 };
+
+/// Every so manieth of a scan's points, `most` or up to twice as many: enough for align().
+[[nodiscard]] std::vector<SurfacePoint> thinned(std::span<const scan::ScanPoint> points,
+                                                std::size_t most);
 
 /// PCL brings 30 libraries along, a tenth of a second to load, and most of what the worker does
 /// needs none of them. So this is a module, loaded when first asked for; refuses what

@@ -109,14 +109,6 @@ std::vector<scan::ScanPoint> around(const Search& s, const Pose& X_CM) {
   return out;
 }
 
-std::vector<SurfacePoint> some_of(const std::vector<scan::ScanPoint>& points) {
-  std::vector<SurfacePoint> out;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kIcpPoints);
-  for (std::size_t i = 0; i < points.size(); i += step)
-    out.push_back({points[i].point_mm, points[i].normal});
-  return out;
-}
-
 Pose standing(const Search& s, const Eigen::Vector3d& tip, double yaw_rad) {
   Pose X_CM = Pose::Identity();
   const Eigen::Quaterniond upright =
@@ -138,7 +130,7 @@ std::optional<FoundMarker> fitted_from(const Search& s, Pose X_CM, const Context
   FoundMarker out;
   out.points = around(s, X_CM);
   if (out.points.size() < kFewestPoints) return {};
-  X_CM = s.icp->align(some_of(out.points), X_CM.inverse(), kIcpReach_mm, kIcpIterations)
+  X_CM = s.icp->align(thinned(out.points, kIcpPoints), X_CM.inverse(), kIcpReach_mm, kIcpIterations)
              .pose.inverse();
   for (int round = 0; round < 2; ++round) {
     out.points = around(s, X_CM);

@@ -49,14 +49,6 @@ std::vector<Eigen::Matrix3d> turns(const Eigen::Matrix3d& nominal) {
   return out;
 }
 
-std::vector<SurfacePoint> some_of(std::span<const scan::ScanPoint> points) {
-  std::vector<SurfacePoint> out;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kScanPoints);
-  for (std::size_t i = 0; i < points.size(); i += step)
-    out.push_back({points[i].point_mm, points[i].normal});
-  return out;
-}
-
 Eigen::Vector3d middle(const std::vector<SurfacePoint>& points) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& p : points) sum += p.point_mm;
@@ -106,7 +98,7 @@ Result<std::vector<Pose>> rough_alignments(const Shape& shape,
                                            std::span<const scan::ScanPoint> points,
                                            const Pose& nominal_CB, std::size_t most,
                                            const Context& context) {
-  const auto scan = some_of(points);
+  const auto scan = thinned(points, kScanPoints);
   const auto body = shape.samples(kEyeSamples);
   HP_ASSIGN_OR_RETURN(const auto icp, make_icp(shape.samples(kTargetSamples)));
   // The nominal turn also where it is nominally: there may be more in the scan than the body.

@@ -185,7 +185,7 @@ TEST(Object, NormalisedErrorsStayWithinTheirEllipsoid) {
   const Shape shape(hanging.task.surface);
   for (std::uint32_t seed = 0; seed < kSeeds; ++seed) {
     hanging.hang(hanging.task.nominal_FO * crooked(10 * kDegree, 5, seed + 50));
-    const auto cloud = hanging.cloud(hanging.fused(hanging.rig.frames(12, seed)));
+    const auto cloud = hanging.cloud(hanging.fused(hanging.rig.frames(8, seed)));
     const auto points = object_points(cloud, hanging.frame(), hanging.task.surroundings).all;
     const Pose truth = hanging.rig.X_CF() * hanging.X_FO;
     const auto fit = fit_pose(shape, points, cloud.lens, truth * crooked(2 * kDegree, 2, seed),
