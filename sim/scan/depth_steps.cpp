@@ -7,11 +7,12 @@ namespace hydroprint::scan {
 namespace {
 
 constexpr double kUsualScale_mm = 575.8 * 75 * 8;  ///< px, mm, steps a pixel
-constexpr double kMostOff = 0.05;
+constexpr int kScalesAside = 1000, kShifts = 25;
+constexpr double kScaleStep = 5e-5, kShiftStep = 1.0 / kShifts;
+constexpr double kMostOff = kScalesAside * kScaleStep;
 constexpr std::size_t kMost_mm = 10000;
-constexpr std::size_t kOften = 8;     ///< pixels; fewer may be strays
-constexpr double kHalf = 0.5 + 1e-4;  ///< mm, to which depths are rounded
-constexpr double kScaleStep = 5e-5, kShiftStep = 0.04;
+constexpr std::size_t kOften = 8;         ///< pixels; fewer may be strays
+constexpr double kHalf = 0.5 + 1e-4;      ///< mm, to which depths are rounded
 constexpr double kCoarseSlack_mm = 0.12;  ///< that those leave
 constexpr double kFinest = 1e-7;
 /// Log of one over the chance of explaining all depths by steps that are not theirs: 1e-11.
@@ -62,9 +63,8 @@ Steps closest(const std::vector<double>& depths) {
     best = at;
     return true;
   };
-  for (double off = -kMostOff; off <= kMostOff; off += kScaleStep)
-    for (double shift = 0; shift < 1; shift += kShiftStep)
-      look({kUsualScale_mm * (1 + off), shift});
+  for (int i = -kScalesAside; i <= kScalesAside; ++i)
+    for (int j = 0; j < kShifts; ++j) look({kUsualScale_mm * (1 + i * kScaleStep), j * kShiftStep});
   for (double scale = kScaleStep, shift = kShiftStep; scale > kFinest;) {
     const Steps around = best;
     bool is_better = false;
@@ -81,12 +81,11 @@ Steps closest(const std::vector<double>& depths) {
 /// The mean of the steps that are rounded to a depth; that itself if there are none.
 double before_rounding(const Steps& steps, std::size_t whole_mm) {
   const auto depth = static_cast<double>(whole_mm);
+  const double first = std::ceil(steps.scale_mm / (depth + kHalf) - steps.shift);
   const double last = steps.scale_mm / (depth - kHalf) - steps.shift;
-  double sum = 0, count = 0;
-  for (double n = std::ceil(steps.scale_mm / (depth + kHalf) - steps.shift); n < last; ++n) {
-    sum += steps.scale_mm / (n + steps.shift);
-    ++count;
-  }
+  const int count = first < last ? static_cast<int>(std::ceil(last - first)) : 0;
+  double sum = 0;
+  for (int k = 0; k < count; ++k) sum += steps.scale_mm / (first + k + steps.shift);
   return count > 0 ? sum / count : depth;
 }
 
