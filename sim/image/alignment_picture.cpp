@@ -42,7 +42,7 @@ Range range_of(std::span<const double> off_mm) {
 
 }  // namespace
 
-Result<RgbImage> alignment_picture(const mesh::Surface& surface, const Pose& X_FO,
+Result<RgbImage> alignment_picture(const ObjectViews& views,
                                    std::span<const Eigen::Vector3d> points_O,
                                    std::span<const double> off_mm, const Context& context) {
   const Range range = range_of(off_mm);
@@ -50,11 +50,10 @@ Result<RgbImage> alignment_picture(const mesh::Surface& surface, const Pose& X_F
   for (const double x : off_mm)
     colours.push_back(linear_from_srgb(diverging((x - range.low) / (range.high - range.low))));
   const auto draw = [&](ViewDrawing& drawing) {
-    drawing.place_surface();
     drawing.draw_bare([](int, int) { return kObject; });
     drawing.draw_points(points_O, colours, kPoint_mm, kDeep_mm);
   };
-  HP_ASSIGN_OR_RETURN(RgbImage sheet, draw_sheet(surface, X_FO, kLegend_px, context, draw));
+  HP_ASSIGN_OR_RETURN(RgbImage sheet, draw_sheet(views, kLegend_px, context, draw));
   draw_legend(sheet, {"mm off", range, diverging, {}});
   return sheet;
 }

@@ -3,18 +3,17 @@
 #include <span>
 
 #include "sim/base/context.h"
-#include "sim/base/pose.h"
 #include "sim/base/result.h"
+#include "sim/image/object_views.h"
 #include "sim/image/picture.h"
-#include "sim/mesh/surface.h"
 
 namespace hydroprint::image {
 
-/// The views of stretch_picture of the plain object, with the points of a scan over it, coloured by
-/// how far they are off its surface: blue inside, red outside.
+/// A sheet of views of the plain object (found without tiles), with the points of a scan over it,
+/// coloured by how far they are off its surface: blue inside, red outside.
 /// @param points_O  frame O
 /// @param off_mm    one a point, outward
-[[nodiscard]] Result<RgbImage> alignment_picture(const mesh::Surface& surface, const Pose& X_FO,
+[[nodiscard]] Result<RgbImage> alignment_picture(const ObjectViews& views,
                                                  std::span<const Eigen::Vector3d> points_O,
                                                  std::span<const double> off_mm,
                                                  const Context& context);

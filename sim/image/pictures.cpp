@@ -79,9 +79,8 @@ Range range_of(const Quantity& quantity) {
 
 }  // namespace
 
-Result<RgbImage> quantity_picture(const mesh::Surface& surface, const Pose& X_FO,
-                                  const std::vector<flow::MappedTriangle>& tiles,
-                                  const Quantity& quantity, const Context& context) {
+Result<RgbImage> quantity_picture(const ObjectViews& views, const Quantity& quantity,
+                                  const Context& context) {
   const Range range = range_of(quantity);
   const auto colour_of = [&](const flow::MappedTriangle& tile, const Corners&) {
     const auto values = quantity.at_corners(tile);
@@ -93,51 +92,48 @@ Result<RgbImage> quantity_picture(const mesh::Surface& surface, const Pose& X_FO
     };
   };
   HP_ASSIGN_OR_RETURN(RgbImage sheet,
-                      draw_sheet(surface, X_FO, kLegend_px, context, [&](ViewDrawing& drawing) {
-                        drawing.place_surface();
-                        drawing.draw_tiles(tiles, colour_of);
+                      draw_sheet(views, kLegend_px, context, [&](ViewDrawing& drawing) {
+                        drawing.draw_tiles(colour_of);
                         drawing.draw_bare(hatch);
                       }));
   draw_legend(sheet, {quantity.label, range, scale_colour, quantity.hatched});
   return sheet;
 }
 
-Result<RgbImage> stretch_picture(const mesh::Surface& surface, const Pose& X_FO,
-                                 const flow::FlowMap& map, const Context& context) {
+Result<RgbImage> stretch_picture(const ObjectViews& views, const flow::SurfaceMap& map,
+                                 const Context& context) {
   const auto at_corners = [&](const flow::MappedTriangle& tile) {
-    auto values = tile_stretch(surface, map.surface, tile, Stretch::kLargest);
+    auto values = tile_stretch(views.surface, map, tile, Stretch::kLargest);
     // Film that lands without having any area: stretched beyond measure.
     for (double& value : values) value = std::isfinite(value) ? value : HUGE_VAL;
     return values;
   };
-  std::vector<double> shown = map.surface.stretch;
+  std::vector<double> shown = map.stretch;
   for (double& value : shown) {
     if (value > kMostStretch) value = kMostStretch;
   }
   const Quantity stretch{"stretch", shown, 1, 0.1, at_corners};
-  return quantity_picture(surface, X_FO, map.tiles, stretch, context);
+  return quantity_picture(views, stretch, context);
 }
 
-Result<RgbImage> wrinkle_picture(const mesh::Surface& surface, const Pose& X_FO,
-                                 const flow::FlowMap& map, const Context& context) {
+Result<RgbImage> wrinkle_picture(const ObjectViews& views, const flow::SurfaceMap& map,
+                                 const Context& context) {
   const auto at_corners = [&](const flow::MappedTriangle& tile) {
-    return tile_stretch(surface, map.surface, tile, Stretch::kLeast);
+    return tile_stretch(views.surface, map, tile, Stretch::kLeast);
   };
-  const Quantity least{"least stretch", map.surface.least_stretch, 1, 0.1, at_corners};
-  return quantity_picture(surface, X_FO, map.tiles, least, context);
+  const Quantity least{"least stretch", map.least_stretch, 1, 0.1, at_corners};
+  return quantity_picture(views, least, context);
 }
 
-Result<RgbImage> predicted_picture(const mesh::Surface& surface, const Pose& X_FO,
-                                   const std::vector<flow::MappedTriangle>& tiles,
-                                   const FilmTexture& film, const Context& context) {
+Result<RgbImage> predicted_picture(const ObjectViews& views, const FilmTexture& film,
+                                   const Context& context) {
   const auto colour_of = [&](const flow::MappedTriangle& tile, const Corners& at) {
     return [brush = film.brush(at, tile.film_mm)](int x, int y, const Eigen::Vector3d&) {
       return brush.at(x + 0.5, y + 0.5);
     };
   };
-  return draw_sheet(surface, X_FO, 0, context, [&](ViewDrawing& drawing) {
-    drawing.place_surface();
-    drawing.draw_tiles(tiles, colour_of);
+  return draw_sheet(views, 0, context, [&](ViewDrawing& drawing) {
+    drawing.draw_tiles(colour_of);
     drawing.draw_bare([](int, int) { return kBareObject; });
   });
 }

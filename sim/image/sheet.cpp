@@ -10,8 +10,6 @@
 namespace hydroprint::image {
 namespace {
 
-constexpr int kSheetWidth_px = 1360;
-constexpr int kMargin_px = 40;
 constexpr int kCaption_px = 44;
 constexpr double kLetter_px = 13;  ///< height of an x
 constexpr Rgb8 kPaper = {250, 250, 249}, kInk = {60, 64, 70};
@@ -21,43 +19,6 @@ std::string number(double value) {
   text.resize(text.find('.') + 5);
   while (text.back() == '0' && text[text.size() - 2] != '.') text.pop_back();
   return text;
-}
-
-/// Where the views stand on the sheet.
-struct Layout {
-  std::vector<View> views;
-  int columns = 2, rows = 2;
-  int cell_width = 0, cell_height = 0;
-  double px_per_mm = 1;
-  int height = 0;
-};
-
-/// Two by two or four in a row: the compact row unless it shows the object much smaller.
-Layout lay_out(const mesh::Surface& surface, const Pose& X_FO, int legend_px) {
-  Layout best;
-  double best_score = 0;
-  Eigen::Vector2d half = Eigen::Vector2d::Constant(1e-6);
-  const std::vector<View> views = standard_views();
-  for (const View& view : views) half = half.cwiseMax(half_extent_mm(surface, X_FO, view));
-  for (const int columns : {2, 4}) {
-    Layout layout;
-    layout.views = views;
-    layout.columns = columns;
-    layout.rows = 4 / columns;
-    layout.cell_width = (kSheetWidth_px - (columns + 1) * kMargin_px) / columns;
-    const double limit = (columns == 4 ? 765.0 : 1020.0) / layout.rows;
-    layout.px_per_mm =
-        std::min((layout.cell_width - 8) / (2 * half.x()), (limit - 8) / (2 * half.y()));
-    layout.cell_height = static_cast<int>(2 * half.y() * layout.px_per_mm) + 9;
-    layout.height =
-        kMargin_px + layout.rows * (layout.cell_height + kCaption_px + kMargin_px) + legend_px;
-    const double score = layout.px_per_mm * (columns == 2 ? 0.8 : 1.0);
-    if (score > best_score) {
-      best_score = score;
-      best = layout;
-    }
-  }
-  return best;
 }
 
 void fill(RgbImage& image, const Window& area,
@@ -79,26 +40,25 @@ Eigen::Vector3f hatch(int x, int y) {
   return Eigen::Vector3f::Constant((x + y) % kPeriod < kStripe ? 0.38F : 0.68F);
 }
 
-Result<RgbImage> draw_sheet(const mesh::Surface& surface, const Pose& X_FO, int legend_px,
-                            const Context& context, const std::function<void(ViewDrawing&)>& draw) {
-  const Layout layout = lay_out(surface, X_FO, legend_px);
-  RgbImage sheet{kSheetWidth_px, layout.height, {}};
+Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px, const Context& context,
+                            const std::function<void(ViewDrawing&)>& draw) {
+  const int cell_height = views.height_px + kCaption_px + kMargin_px;
+  const int rows = static_cast<int>(views.seen.size()) / views.columns;
+  RgbImage sheet{kSheetWidth_px, kMargin_px + rows * cell_height + legend_px, {}};
   sheet.rgb.reserve(3 * static_cast<std::size_t>(sheet.width) * sheet.height);
   for (std::size_t i = 0; i < static_cast<std::size_t>(sheet.width) * sheet.height; ++i) {
     sheet.rgb.insert(sheet.rgb.end(), kPaper.begin(), kPaper.end());
   }
-  HP_RETURN_IF_ERROR(parallel_for(context, {}, layout.views.size(), [&](std::size_t v) {
-    const int column = static_cast<int>(v) % layout.columns;
-    const int row = static_cast<int>(v) / layout.columns;
-    const int left = kMargin_px + column * (layout.cell_width + kMargin_px);
-    const int top = kMargin_px + row * (layout.cell_height + kCaption_px + kMargin_px);
-    ViewDrawing drawing(surface, X_FO, layout.views[v], layout.cell_width, layout.cell_height,
-                        layout.px_per_mm);
+  HP_RETURN_IF_ERROR(parallel_for(context, {}, views.seen.size(), [&](std::size_t v) {
+    const int left =
+        kMargin_px + static_cast<int>(v) % views.columns * (views.width_px + kMargin_px);
+    const int top = kMargin_px + static_cast<int>(v) / views.columns * cell_height;
+    ViewDrawing drawing(views.seen[v]);
     draw(drawing);
     drawing.put_on(sheet, left, top);
-    const std::string& name = layout.views[v].name;
-    const double middle = left + 0.5 * layout.cell_width;
-    draw_text(sheet, middle - 0.5 * text_width_px(kLetter_px, name), top + layout.cell_height + 34,
+    const std::string& name = views.names[v];
+    const double middle = left + 0.5 * views.width_px;
+    draw_text(sheet, middle - 0.5 * text_width_px(kLetter_px, name), top + views.height_px + 34,
               kLetter_px, name, kInk);
     return Status{};
   }));

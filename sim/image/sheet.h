@@ -5,21 +5,20 @@
 #include <string>
 
 #include "sim/base/context.h"
-#include "sim/base/pose.h"
 #include "sim/base/result.h"
+#include "sim/image/object_views.h"
 #include "sim/image/picture.h"
 #include "sim/image/view.h"
-#include "sim/mesh/surface.h"
 
 namespace hydroprint::image {
 
 /// Height of the room for a legend below the views of a sheet.
 inline constexpr int kLegend_px = 110;
 
-/// The standard views of an object on one sheet, each drawn by `draw`, with their names, and room
-/// for a legend below.
-[[nodiscard]] Result<RgbImage> draw_sheet(const mesh::Surface& surface, const Pose& X_FO,
-                                          int legend_px, const Context& context,
+/// The standard views on one sheet, each drawn by `draw`, with their names, and room for a legend
+/// below.
+[[nodiscard]] Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px,
+                                          const Context& context,
                                           const std::function<void(ViewDrawing&)>& draw);
 
 /// Diagonal stripes in two greys (linear), by samples of a drawing: there is nothing to tell.

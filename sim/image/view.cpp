@@ -51,23 +51,30 @@ float light(Eigen::Vector3d normal) {
   return static_cast<float>(std::min(1.0, 0.5 + 0.08 * normal.y() + 0.47 * lit));
 }
 
-/// Calls visit(x, y, towards, map) for every sample inside a triangle, with its place along the
+Corners flat(const std::array<Eigen::Vector3d, 3>& corners) {
+  return {corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()};
+}
+
+/// Calls visit(x, y, towards) for every sample inside a triangle, with its place along the
 /// view.
 /// @param corners  x and y in samples, z along the view
 template <class Visit>
 void for_each_place(const std::array<Eigen::Vector3d, 3>& corners, const Window& window,
                     Visit&& visit) {
-  const BarycentricMap map({corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()});
-  const Eigen::Vector3d depth(corners[0].z(), corners[1].z(), corners[2].z());
-  const double origin = map.at(0.5, 0.5).dot(depth);
-  const double per_x = map.per_x().dot(depth), per_y = map.per_y().dot(depth);
-  for_each_span({corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()}, window,
-                [&](int y, int begin, int end) {
-                  const double row = origin + per_y * y;
-                  for (int x = begin; x < end; ++x) {
-                    visit(x, y, static_cast<float>(row + per_x * x), map);
-                  }
-                });
+  const Corners at = flat(corners);
+  bool is_first = true;  // most tiles have no sample at all
+  double origin = 0, per_x = 0, per_y = 0;
+  for_each_span(at, window, [&](int y, int begin, int end) {
+    if (std::exchange(is_first, false)) {
+      const BarycentricMap map(at);
+      const Eigen::Vector3d depth(corners[0].z(), corners[1].z(), corners[2].z());
+      origin = map.at(0.5, 0.5).dot(depth);
+      per_x = map.per_x().dot(depth);
+      per_y = map.per_y().dot(depth);
+    }
+    const double row = origin + per_y * y;
+    for (int x = begin; x < end; ++x) visit(x, y, static_cast<float>(row + per_x * x));
+  });
 }
 
 }  // namespace
@@ -82,9 +89,11 @@ Eigen::Vector2d half_extent_mm(const mesh::Surface& surface, const Pose& X_FO, c
   return 0.5 * (box.high - box.low).head<2>();
 }
 
-ViewDrawing::ViewDrawing(const mesh::Surface& surface, const Pose& X_FO, const View& view,
-                         int width_px, int height_px, double px_per_mm)
+SeenObject::SeenObject(const mesh::Surface& surface, const Pose& X_FO,
+                       std::span<const flow::MappedTriangle> tiles, const View& view, int width_px,
+                       int height_px, double px_per_mm)
     : surface_(surface),
+      tiles_(tiles),
       X_VO_(Eigen::Isometry3d::Identity()),
       width_(width_px * kSupersample),
       height_(height_px * kSupersample),
@@ -95,98 +104,154 @@ ViewDrawing::ViewDrawing(const mesh::Surface& surface, const Pose& X_FO, const V
   X_VO_.linear() = rotation;
   X_VO_.translation() = -0.5 * (box.low + box.high);
   depth_step_mm_ = 0.04 * (box.high - box.low).maxCoeff();
+  const std::vector<int> triangles = place_surface();
+  place_tiles();
+  sort_by_tile();
+  light_tiles();
+  light_bare(triangles);
 }
 
-Eigen::Vector3d ViewDrawing::project(const Eigen::Vector3d& point_O) const {
+SeenObject::SeenTile SeenObject::seen_tile(std::size_t i) const {
+  const std::span<const int> all(by_tile_);
+  return {tiles_[tile_numbers_[i]],
+          all.subspan(first_of_tile_[i], first_of_tile_[i + 1] - first_of_tile_[i])};
+}
+
+Eigen::Vector3d SeenObject::project(const Eigen::Vector3d& point_O) const {
   const Eigen::Vector3d p = X_VO_ * point_O;
   return {0.5 * width_ + p.x() * samples_per_mm_, 0.5 * height_ - p.y() * samples_per_mm_, p.z()};
 }
 
-std::array<Eigen::Vector3d, 3> ViewDrawing::project(
-    const std::array<Eigen::Vector3d, 3>& points_O) const {
-  std::array<Eigen::Vector3d, 3> out;
-  std::transform(points_O.begin(), points_O.end(), out.begin(),
-                 [&](const Eigen::Vector3d& p) { return project(p); });
-  return out;
+std::array<Eigen::Vector3d, 3> SeenObject::tile_corners(const flow::MappedTriangle& tile) const {
+  const auto points = tile_points(surface_, tile);
+  return {project(points[0]), project(points[1]), project(points[2])};
 }
 
-std::array<Eigen::Vector3d, 3> ViewDrawing::corners_of(std::size_t triangle) const {
+std::array<Eigen::Vector3d, 3> SeenObject::corners_of(std::size_t triangle) const {
   const Eigen::Vector3i& v = surface_.triangles[triangle];
-  return project({surface_.points[v[0]], surface_.points[v[1]], surface_.points[v[2]]});
+  return {project(surface_.points[v[0]]), project(surface_.points[v[1]]),
+          project(surface_.points[v[2]])};
 }
 
-Eigen::Matrix3d ViewDrawing::normals_of(std::size_t triangle) const {
+Eigen::Matrix3d SeenObject::normals_of(std::size_t triangle) const {
   const auto& n = surface_.corner_normals[triangle];
   Eigen::Matrix3d out;
   out << n[0], n[1], n[2];
   return X_VO_.linear() * out;
 }
 
-void ViewDrawing::place_surface() {
+std::vector<int> SeenObject::place_surface() {
+  std::vector<int> triangles(samples_.size(), -1);
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-    for_each_place(corners_of(t), window(), [&](int x, int y, float towards, const auto&) {
-      Sample& sample = at(x, y);
+    for_each_place(corners_of(t), window(), [&](int x, int y, float towards) {
+      Sample& sample = samples_[index(x, y)];
       if (towards <= sample.towards) return;
       sample.towards = towards;
-      sample.triangle = static_cast<int>(t);
+      triangles[index(x, y)] = static_cast<int>(t);
+    });
+  }
+  return triangles;
+}
+
+void SeenObject::place_tiles() {
+  const auto behind_mm = static_cast<float>(0.02 * depth_step_mm_);
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    for_each_place(tile_corners(tiles_[t]), window(), [&](int x, int y, float towards) {
+      Sample& sample = samples_[index(x, y)];
+      if (towards >= sample.towards - behind_mm) sample.tile = static_cast<int>(t);
     });
   }
 }
 
-void ViewDrawing::draw_tiles(const std::vector<flow::MappedTriangle>& tiles,
-                             const TileColourMaker& colour_of) {
-  const float behind_mm = static_cast<float>(0.02 * depth_step_mm_);
-  for (const flow::MappedTriangle& tile : tiles) {
-    const auto corners = project(tile_points(surface_, tile));
-    Eigen::Matrix3d normals;
-    TileColour colour;  // made when the first sample turns out to be visible
-    for_each_place(corners, window(), [&](int x, int y, float towards, const auto& map) {
-      Sample& sample = at(x, y);
-      if (towards < sample.towards - behind_mm) return;
-      if (!colour) {
-        colour =
-            colour_of(tile, {corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()});
-        Eigen::Matrix3d barycentric;
-        for (int i = 0; i < 3; ++i) {
-          for (int k = 0; k < 3; ++k) barycentric(k, i) = tile.barycentric[i][k];
-        }
-        normals = normals_of(static_cast<std::size_t>(tile.triangle)) * barycentric;
-      }
-      const Eigen::Vector3d b = map.at(x + 0.5, y + 0.5);
-      sample.colour = colour(x, y, b) * light(normals * b);
-    });
+void SeenObject::sort_by_tile() {
+  std::vector<int> count(tiles_.size(), 0);
+  for (const Sample& sample : samples_) {
+    if (sample.tile >= 0) ++count[sample.tile];
+  }
+  std::vector<int> next(tiles_.size(), 0);
+  int first = 0;
+  for (std::size_t t = 0; t < tiles_.size(); ++t) {
+    if (count[t] == 0) continue;
+    tile_numbers_.push_back(static_cast<int>(t));
+    first_of_tile_.push_back(next[t] = first);
+    first += count[t];
+  }
+  first_of_tile_.push_back(first);
+  by_tile_.resize(first);
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (samples_[i].tile >= 0) by_tile_[next[samples_[i].tile]++] = static_cast<int>(i);
+  }
+}
+
+void SeenObject::light_tiles() {
+  for (std::size_t i = 0; i < seen_tiles(); ++i) {
+    const auto [tile, samples] = seen_tile(i);
+    const BarycentricMap map(flat(tile_corners(tile)));
+    Eigen::Matrix3d barycentric;
+    for (int c = 0; c < 3; ++c) barycentric.col(c) = tile.barycentric[c].cast<double>();
+    const Eigen::Matrix3d normals = normals_of(tile.triangle) * barycentric;
+    for (const int s : samples) {
+      samples_[s].light = light(normals * map.at(s % width_ + 0.5, s / width_ + 0.5));
+    }
+  }
+}
+
+void SeenObject::light_bare(const std::vector<int>& triangles) {
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    if (samples_[s].is_background() || samples_[s].tile >= 0) continue;
+    const auto i = static_cast<int>(s);
+    const BarycentricMap map(flat(corners_of(triangles[s])));
+    samples_[s].light =
+        light(normals_of(triangles[s]) * map.at(i % width_ + 0.5, i / width_ + 0.5));
+  }
+}
+
+ViewDrawing::ViewDrawing(const SeenObject& seen) : seen_(seen) {
+  samples_.reserve(seen.samples().size());
+  for (const SeenObject::Sample& sample : seen.samples()) {
+    samples_.push_back({Eigen::Vector3f::Zero(), sample.towards});
+  }
+}
+
+void ViewDrawing::draw_tiles(const TileColourMaker& colour_of) {
+  for (std::size_t i = 0; i < seen_.seen_tiles(); ++i) {
+    const auto [tile, samples] = seen_.seen_tile(i);
+    const Corners at = flat(seen_.tile_corners(tile));
+    const BarycentricMap map(at);
+    const TileColour colour = colour_of(tile, at);
+    for (const int s : samples) {
+      const int x = s % seen_.width(), y = s / seen_.width();
+      samples_[s].colour = colour(x, y, map.at(x + 0.5, y + 0.5)) * seen_.samples()[s].light;
+    }
   }
 }
 
 void ViewDrawing::draw_bare(const Colour& colour) {
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      Sample& sample = at(x, y);
-      if (sample.triangle < 0 || !std::isnan(sample.colour.x())) continue;
-      const auto triangle = static_cast<std::size_t>(sample.triangle);
-      const auto corners = corners_of(triangle);
-      const BarycentricMap map({corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()});
-      sample.colour = colour(x, y) * light(normals_of(triangle) * map.at(x + 0.5, y + 0.5));
-    }
+  for (std::size_t s = 0; s < samples_.size(); ++s) {
+    const SeenObject::Sample& sample = seen_.samples()[s];
+    if (sample.is_background() || sample.tile >= 0) continue;
+    const auto i = static_cast<int>(s);
+    samples_[s].colour = colour(i % seen_.width(), i / seen_.width()) * sample.light;
   }
 }
 
 void ViewDrawing::draw_points(std::span<const Eigen::Vector3d> points_O,
                               std::span<const Eigen::Vector3f> colours, double radius_mm,
                               double deep_mm) {
-  const double radius = radius_mm * samples_per_mm_;
+  const double radius = radius_mm * seen_.samples_per_mm();
   for (std::size_t i = 0; i < points_O.size(); ++i) {
-    const Eigen::Vector3d middle = project(points_O[i]);
+    const Eigen::Vector3d middle = seen_.project(points_O[i]);
     const auto first = [&](double at) { return static_cast<int>(std::ceil(at - radius - 0.5)); };
-    for (int y = std::max(0, first(middle.y())); y < height_ && y + 0.5 < middle.y() + radius;
-         ++y) {
-      for (int x = std::max(0, first(middle.x())); x < width_ && x + 0.5 < middle.x() + radius;
-           ++x) {
+    for (int y = std::max(0, first(middle.y()));
+         y < seen_.height() && y + 0.5 < middle.y() + radius; ++y) {
+      for (int x = std::max(0, first(middle.x()));
+           x < seen_.width() && x + 0.5 < middle.x() + radius; ++x) {
         if (std::hypot(x + 0.5 - middle.x(), y + 0.5 - middle.y()) > radius) continue;
         Sample& sample = at(x, y);
         if (middle.z() < sample.towards - deep_mm) continue;
         sample.colour = colours[i];
-        if (sample.triangle < 0) sample.towards = static_cast<float>(middle.z());
+        const auto s = static_cast<std::size_t>(y) * seen_.width() + x;
+        if (seen_.samples()[s].is_background()) sample.towards = static_cast<float>(middle.z());
       }
     }
   }
@@ -195,8 +260,8 @@ void ViewDrawing::draw_points(std::span<const Eigen::Vector3d> points_O,
 bool ViewDrawing::is_outline(int x, int y) const {
   const float here = at(x, y).towards;
   const auto is_far_behind = [&](int nx, int ny) {
-    if (nx < 0 || ny < 0 || nx >= width_ || ny >= height_) return true;
-    return here - at(nx, ny).towards > static_cast<float>(depth_step_mm_);
+    if (nx < 0 || ny < 0 || nx >= seen_.width() || ny >= seen_.height()) return true;
+    return here - at(nx, ny).towards > static_cast<float>(seen_.depth_step_mm());
   };
   return is_far_behind(x - 1, y) || is_far_behind(x + 1, y) || is_far_behind(x, y - 1) ||
          is_far_behind(x, y + 1);
@@ -204,8 +269,8 @@ bool ViewDrawing::is_outline(int x, int y) const {
 
 void ViewDrawing::put_on(RgbImage& picture, int left_px, int top_px) const {
   constexpr int kSamples = kSupersample * kSupersample;
-  for (int y = 0; y < height_ / kSupersample; ++y) {
-    for (int x = 0; x < width_ / kSupersample; ++x) {
+  for (int y = 0; y < seen_.height() / kSupersample; ++y) {
+    for (int x = 0; x < seen_.width() / kSupersample; ++x) {
       Eigen::Vector3f sum = Eigen::Vector3f::Zero();
       int behind = 0;
       for (int s = 0; s < kSamples; ++s) {

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -30,27 +31,78 @@ struct View {
 [[nodiscard]] Eigen::Vector2d half_extent_mm(const mesh::Surface& surface, const Pose& X_FO,
                                              const View& view);
 
-/// The object drawn from one side with a depth buffer, shaded by a light over the viewer's left
-/// shoulder, each pixel the mean of 2 x 2 samples.
+/// What can be seen of an object, and of tiles of film on it, from one side, by 2 x 2 samples a
+/// pixel: found once with a depth buffer, for drawings in any colours. Object and tiles must
+/// outlive it.
+class SeenObject {
+ public:
+  SeenObject(const mesh::Surface& surface, const Pose& X_FO,
+             std::span<const flow::MappedTriangle> tiles, const View& view, int width_px,
+             int height_px, double px_per_mm);
+
+  struct Sample {
+    int tile = -1;               ///< whose film is seen there; -1: bare, or background
+    float towards = -HUGE_VALF;  ///< place along the view, mm; -infinity: background
+    float light = 1;             ///< from a lamp over the viewer's left shoulder
+    [[nodiscard]] bool is_background() const { return towards == -HUGE_VALF; }
+  };
+  /// A tile that can be seen, and at which samples.
+  struct SeenTile {
+    const flow::MappedTriangle& tile;
+    std::span<const int> samples;
+  };
+
+  [[nodiscard]] int width() const { return width_; }  ///< in samples, as the height
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] double samples_per_mm() const { return samples_per_mm_; }
+  [[nodiscard]] double depth_step_mm() const { return depth_step_mm_; }
+  [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
+  [[nodiscard]] std::size_t seen_tiles() const { return tile_numbers_.size(); }
+  [[nodiscard]] SeenTile seen_tile(std::size_t i) const;
+  /// x and y in samples, z along the view.
+  [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& point_O) const;
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> tile_corners(const flow::MappedTriangle& tile) const;
+
+ private:
+  [[nodiscard]] Window window() const { return {0, 0, width_, height_}; }
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * width_ + x;
+  }
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> corners_of(std::size_t triangle) const;
+  /// Of its corners, one a column, as seen.
+  [[nodiscard]] Eigen::Matrix3d normals_of(std::size_t triangle) const;
+  /// Which triangle of the surface is seen at each sample; -1: none.
+  std::vector<int> place_surface();
+  void place_tiles();
+  void sort_by_tile();
+  void light_tiles();
+  void light_bare(const std::vector<int>& triangles);
+
+  const mesh::Surface& surface_;
+  std::span<const flow::MappedTriangle> tiles_;
+  Eigen::Isometry3d X_VO_;  ///< object to view, mm, about the object's middle
+  int width_, height_;
+  double samples_per_mm_;
+  double depth_step_mm_;  ///< jumps in depth beyond this are outlines
+  std::vector<Sample> samples_;
+  /// The tiles that are seen, where the samples of each begin among `by_tile_`, and these.
+  std::vector<int> tile_numbers_, first_of_tile_, by_tile_;
+};
+
+/// A picture of it.
 class ViewDrawing {
  public:
-  ViewDrawing(const mesh::Surface& surface, const Pose& X_FO, const View& view, int width_px,
-              int height_px, double px_per_mm);
+  explicit ViewDrawing(const SeenObject& seen);
 
-  /// Linear colour, before light, of a sample; x and y in samples.
-  using Colour = std::function<Eigen::Vector3f(int x, int y)>;
-
-  /// Finds what can be seen of the surface; before anything is drawn on it.
-  void place_surface();
-
-  /// Draws tiles on the surface. `colour_of` is asked once a tile with its corners on the grid of
-  /// samples and returns the linear colour at a sample from its barycentric coordinates.
+  /// Draws the tiles. `colour_of` is asked once a tile with its corners on the grid of samples and
+  /// returns the linear colour, before light, at a sample from its barycentric coordinates.
   using TileColour = std::function<Eigen::Vector3f(int x, int y, const Eigen::Vector3d&)>;
   using TileColourMaker =
       std::function<TileColour(const flow::MappedTriangle& tile, const Corners& at)>;
-  void draw_tiles(const std::vector<flow::MappedTriangle>& tiles, const TileColourMaker& colour_of);
+  void draw_tiles(const TileColourMaker& colour_of);
 
-  /// Draws the rest of the surface in colours of the place on the picture.
+  /// Draws the rest of the surface in linear colours, before light, of the sample.
+  using Colour = std::function<Eigen::Vector3f(int x, int y)>;
   void draw_bare(const Colour& colour);
 
   /// Draws points as discs over what has been drawn, where the surface does not hide them.
@@ -64,31 +116,18 @@ class ViewDrawing {
 
  private:
   struct Sample {
-    Eigen::Vector3f colour = Eigen::Vector3f::Constant(NAN);  ///< NaN: nothing drawn yet
-    int triangle = -1;           ///< of the surface, that is seen there; -1: background
-    float towards = -HUGE_VALF;  ///< place along the view, mm; -infinity: background
+    Eigen::Vector3f colour;
+    float towards;  ///< of what is drawn there
   };
-  [[nodiscard]] Window window() const { return {0, 0, width_, height_}; }
-  /// x and y in samples, z along the view.
-  [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& point_O) const;
-  [[nodiscard]] std::array<Eigen::Vector3d, 3> project(
-      const std::array<Eigen::Vector3d, 3>& points_O) const;
-  [[nodiscard]] std::array<Eigen::Vector3d, 3> corners_of(std::size_t triangle) const;
-  /// Of its corners, one a column, as seen.
-  [[nodiscard]] Eigen::Matrix3d normals_of(std::size_t triangle) const;
   [[nodiscard]] bool is_outline(int x, int y) const;
   [[nodiscard]] Sample& at(int x, int y) {
-    return samples_[static_cast<std::size_t>(y) * width_ + x];
+    return samples_[static_cast<std::size_t>(y) * seen_.width() + x];
   }
   [[nodiscard]] const Sample& at(int x, int y) const {
-    return samples_[static_cast<std::size_t>(y) * width_ + x];
+    return samples_[static_cast<std::size_t>(y) * seen_.width() + x];
   }
 
-  const mesh::Surface& surface_;
-  Eigen::Isometry3d X_VO_;  ///< object to view, mm, about the object's middle
-  int width_, height_;      ///< in samples
-  double samples_per_mm_;
-  double depth_step_mm_;  ///< jumps in depth beyond this are outlines
+  const SeenObject& seen_;
   std::vector<Sample> samples_;
 };
 

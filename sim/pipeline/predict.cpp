@@ -22,8 +22,9 @@ Result<PredictedImages> draw(const mesh::Model& model, const Dip& dip,
                                            kTextureSide_px, context));
   }
   context.progress("pictures", 0.5);
-  HP_ASSIGN_OR_RETURN(
-      out.picture, image::predicted_picture(dip.surface, dip.X_FO, dip.map.tiles, film, context));
+  HP_ASSIGN_OR_RETURN(const auto views,
+                      image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
+  HP_ASSIGN_OR_RETURN(out.picture, image::predicted_picture(views, film, context));
   return out;
 }
 

@@ -37,17 +37,17 @@ Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
   HP_ASSIGN_OR_RETURN(out.film_map,
                       image::film_map(dip.surface, dip.map, film, kFilmMapCell_mm, context));
   context.progress("pictures", 0.3);
-  HP_ASSIGN_OR_RETURN(out.stretch, image::stretch_picture(dip.surface, dip.X_FO, dip.map, context));
+  HP_ASSIGN_OR_RETURN(const image::ObjectViews views,
+                      image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
+  HP_ASSIGN_OR_RETURN(out.stretch, image::stretch_picture(views, dip.map.surface, context));
   if (dip.figures.wrinkled_share > 0) {
-    HP_ASSIGN_OR_RETURN(out.wrinkles,
-                        image::wrinkle_picture(dip.surface, dip.X_FO, dip.map, context));
+    HP_ASSIGN_OR_RETURN(out.wrinkles, image::wrinkle_picture(views, dip.map.surface, context));
   }
   context.progress("pictures", 0.6);
   HP_ASSIGN_OR_RETURN(
       const image::FilmTexture printed,
       image::FilmTexture::from_image(out.film, film, image::kPictureFilmSide_px, context));
-  HP_ASSIGN_OR_RETURN(out.predicted, image::predicted_picture(dip.surface, dip.X_FO, dip.map.tiles,
-                                                              printed, context));
+  HP_ASSIGN_OR_RETURN(out.predicted, image::predicted_picture(views, printed, context));
   return out;
 }
 

@@ -202,8 +202,8 @@ Result<Page> orientation_page(const mesh::Surface& surface, const Pose& X_FO,
                               double margin_mm, const Context& context) {
   const image::RgbImage white{1, 1, {255, 255, 255}};
   HP_ASSIGN_OR_RETURN(const auto film, image::FilmTexture::from_image(white, outline, 1, context));
-  HP_ASSIGN_OR_RETURN(image::RgbImage picture,
-                      image::predicted_picture(surface, X_FO, {}, film, context));
+  HP_ASSIGN_OR_RETURN(const auto views, image::find_views(surface, X_FO, {}, context));
+  HP_ASSIGN_OR_RETURN(image::RgbImage picture, image::predicted_picture(views, film, context));
   Page page;
   page.size_mm = size_mm;
   const Vector2d room = size_mm - Vector2d::Constant(2 * std::max(margin_mm, 10.0));

@@ -66,16 +66,18 @@ Status show(const Laboratory& lab, Experiment& out, const NamedRegion& body, con
   HP_RETURN_IF_ERROR(
       lab.show(out, name + "-film", plan.film,
                "The film image for the " + name + ", A4, as computed at the usual settings."));
-  HP_RETURN_IF_ERROR(
-      lab.show(out, name + "-landed",
-               image::predicted_picture(truth.surface, truth.X_FO, truth.map.tiles, film, context),
-               "Where the fine computation lands that film."));
+  HP_ASSIGN_OR_RETURN(const auto landed,
+                      image::find_views(truth.surface, truth.X_FO, truth.map.tiles, context));
+  HP_RETURN_IF_ERROR(lab.show(out, name + "-landed",
+                              image::predicted_picture(landed, film, context),
+                              "Where the fine computation lands that film."));
   const pipeline::Dip& dip = plan.dip;
-  return lab.show(
-      out, name + "-error",
-      image::quantity_picture(dip.surface, dip.X_FO, dip.map.tiles,
-                              quantity_of("error mm", dip.surface, errors, body.region), context),
-      "Distance on the object between where a colour should be and where it lands.");
+  HP_ASSIGN_OR_RETURN(const auto planned,
+                      image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
+  return lab.show(out, name + "-error",
+                  image::quantity_picture(
+                      planned, quantity_of("error mm", dip.surface, errors, body.region), context),
+                  "Distance on the object between where a colour should be and where it lands.");
 }
 
 Status board(Laboratory& lab, Experiment& out, Steps& steps) {

@@ -89,18 +89,18 @@ Status bowl(Laboratory& lab, Experiment& out, const Context& context) {
                                way.warning + " is given",
                            "", verdict.good() < 0.5 && warns(dip, way.warning) ? 1.0 : 0.0,
                            Limit{1, 1, "Fig. 17: it cannot"}});
-    HP_RETURN_IF_ERROR(lab.show(
-        out, key + "-stretch", image::stretch_picture(dip.surface, dip.X_FO, dip.map, next),
-        "Stretch on the bowl, dipped " + way.people + "; hatched: no film."));
+    HP_ASSIGN_OR_RETURN(const auto views,
+                        image::find_views(dip.surface, dip.X_FO, dip.map.tiles, next));
+    HP_RETURN_IF_ERROR(
+        lab.show(out, key + "-stretch", image::stretch_picture(views, dip.map.surface, next),
+                 "Stretch on the bowl, dipped " + way.people + "; hatched: no film."));
     if (way.body != "bowl") continue;
     HP_RETURN_IF_ERROR(
         lab.show(out, key + "-film", plan->film,
                  "The film image it would take: the floor's part has shrunk to a dot."));
     HP_ASSIGN_OR_RETURN(const auto film, lab.texture(plan->film, next));
-    HP_RETURN_IF_ERROR(
-        lab.show(out, key + "-landed",
-                 image::predicted_picture(dip.surface, dip.X_FO, dip.map.tiles, film, next),
-                 "The bowl if the film held: what a film image can give at best."));
+    HP_RETURN_IF_ERROR(lab.show(out, key + "-landed", image::predicted_picture(views, film, next),
+                                "The bowl if the film held: what a film image can give at best."));
   }
   out.tables.push_back(std::move(table));
 

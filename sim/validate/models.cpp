@@ -71,18 +71,17 @@ Status models(Laboratory& lab, Experiment& out, const Context& context) {
              "had the whole dip to become uneven"}});
 
   HP_ASSIGN_OR_RETURN(const auto film, lab.texture(chessboard(), second));
-  HP_RETURN_IF_ERROR(lab.show(
-      out, "stokes",
-      image::predicted_picture(stokes.surface, stokes.X_FO, stokes.map.tiles, film, second),
-      "The chessboard as Stokes flow lands it (Fig. 13 b)."));
-  HP_RETURN_IF_ERROR(
-      lab.show(out, "sheet",
-               image::predicted_picture(sheet.surface, sheet.X_FO, sheet.map.tiles, film, second),
-               "The same as the viscous sheet lands it (Fig. 13 c)."));
+  HP_ASSIGN_OR_RETURN(const auto before,
+                      image::find_views(stokes.surface, stokes.X_FO, stokes.map.tiles, second));
+  HP_ASSIGN_OR_RETURN(const auto after,
+                      image::find_views(sheet.surface, sheet.X_FO, sheet.map.tiles, second));
+  HP_RETURN_IF_ERROR(lab.show(out, "stokes", image::predicted_picture(before, film, second),
+                              "The chessboard as Stokes flow lands it (Fig. 13 b)."));
+  HP_RETURN_IF_ERROR(lab.show(out, "sheet", image::predicted_picture(after, film, second),
+                              "The same as the viscous sheet lands it (Fig. 13 c)."));
   return lab.show(
       out, "difference",
-      image::quantity_picture(sheet.surface, sheet.X_FO, sheet.map.tiles,
-                              quantity_of("on film mm", sheet.surface, differences), second),
+      image::quantity_picture(after, quantity_of("on film mm", sheet.surface, differences), second),
       "How far apart on the film the two models put the colour for the same place.");
 }
 

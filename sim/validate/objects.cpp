@@ -41,9 +41,10 @@ Status objects(Laboratory& lab, Experiment& out, const Context& context) {
     HP_ASSIGN_OR_RETURN(const auto film, lab.texture(plan->film, next));
     HP_RETURN_IF_ERROR(lab.show(out, object.name + "-film", plan->film,
                                 "The film image for the " + object.name + ", A4."));
+    HP_ASSIGN_OR_RETURN(const auto views,
+                        image::find_views(dip.surface, dip.X_FO, dip.map.tiles, next));
     HP_RETURN_IF_ERROR(
-        lab.show(out, object.name + "-landed",
-                 image::predicted_picture(dip.surface, dip.X_FO, dip.map.tiles, film, next),
+        lab.show(out, object.name + "-landed", image::predicted_picture(views, film, next),
                  "The " + object.name + " as it comes out of the water; grey is bare."));
   }
   out.tables.push_back(std::move(table));

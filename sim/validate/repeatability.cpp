@@ -177,10 +177,10 @@ Status repeatability(Laboratory& lab, Experiment& out, const Context& context) {
        Limit{0.97, 1.03, "nothing has moved the film yet: the one follows from the other"}});
 
   HP_ASSIGN_OR_RETURN(const auto film, lab.texture(chessboard(), first));
-  HP_RETURN_IF_ERROR(lab.show(
-      out, "chessboard",
-      image::predicted_picture(planned.surface, planned.X_FO, planned.map.tiles, film, first),
-      "The film's chessboard of 10 mm as it lands without errors."));
+  HP_ASSIGN_OR_RETURN(const auto views,
+                      image::find_views(planned.surface, planned.X_FO, planned.map.tiles, first));
+  HP_RETURN_IF_ERROR(lab.show(out, "chessboard", image::predicted_picture(views, film, first),
+                              "The film's chessboard of 10 mm as it lands without errors."));
   image::Quantity quantity{"spread mm", spread, 0, 0.1, [&](const flow::MappedTriangle& tile) {
                              std::array<double, 3> values{};
                              for (int i = 0; i < 3; ++i)
@@ -188,8 +188,7 @@ Status repeatability(Laboratory& lab, Experiment& out, const Context& context) {
                              return values;
                            }};
   return lab.show(
-      out, "spread",
-      image::quantity_picture(planned.surface, planned.X_FO, planned.map.tiles, quantity, first),
+      out, "spread", image::quantity_picture(views, quantity, first),
       "Spread of the landing under the drawn errors; hatched where not every draw lands film.");
 }
 

@@ -59,9 +59,11 @@ Status stretch(Laboratory& lab, Experiment& out, const Context& context) {
     const Verdict verdict = judge(plan->dip, s.face.region);
     printable.rows.push_back(
         {s.people, s.face.name, percent(verdict.reached), percent(verdict.torn), verdict.text()});
-    HP_RETURN_IF_ERROR(lab.show(
-        out, s.body, image::stretch_picture(plan->dip.surface, plan->dip.X_FO, plan->dip.map, next),
-        "Stretch on the " + s.people + "."));
+    const pipeline::Dip& dip = plan->dip;
+    HP_ASSIGN_OR_RETURN(const auto views,
+                        image::find_views(dip.surface, dip.X_FO, dip.map.tiles, next));
+    HP_RETURN_IF_ERROR(lab.show(out, s.body, image::stretch_picture(views, dip.map.surface, next),
+                                "Stretch on the " + s.people + "."));
     if (s.body == "sphere80") {
       const double at_contact =
           summarise(

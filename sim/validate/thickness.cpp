@@ -77,15 +77,17 @@ Status thickness(Laboratory& lab, Experiment& out, const Context& context) {
                            c.people + ": mean error to 120 degrees", "mm", most.mean,
                            std::nullopt});
     HP_ASSIGN_OR_RETURN(const auto film, lab.texture(plan.film, second));
+    HP_ASSIGN_OR_RETURN(const auto landed,
+                        image::find_views(truth.surface, truth.X_FO, truth.map.tiles, second));
     HP_RETURN_IF_ERROR(
-        lab.show(out, c.name + "-landed",
-                 image::predicted_picture(truth.surface, truth.X_FO, truth.map.tiles, film, second),
+        lab.show(out, c.name + "-landed", image::predicted_picture(landed, film, second),
                  "The inked film on the sphere; its image was computed " + c.people + "."));
+    HP_ASSIGN_OR_RETURN(const auto planned,
+                        image::find_views(surface, plan.dip.X_FO, plan.dip.map.tiles, second));
     HP_RETURN_IF_ERROR(lab.show(
         out, c.name + "-error",
-        image::quantity_picture(surface, plan.dip.X_FO, plan.dip.map.tiles,
-                                quantity_of("error mm", surface, errors, band(0, 120, "").region),
-                                second),
+        image::quantity_picture(
+            planned, quantity_of("error mm", surface, errors, band(0, 120, "").region), second),
         "How far the colours land from their places: " + c.people + "."));
     plans.push_back(std::move(plan));
   }

@@ -36,15 +36,17 @@ Result<image::RgbImage> error_picture(const mesh::Surface& surface, const Pose& 
                       error_mm[static_cast<std::size_t>(v[2])]};
   };
   const image::Quantity error{"error, mm", error_mm, 0, 0.1, at_corners, {}};
-  return image::quantity_picture(surface, X_FO, whole, error, context);
+  HP_ASSIGN_OR_RETURN(const auto views, image::find_views(surface, X_FO, whole, context));
+  return image::quantity_picture(views, error, context);
 }
 
 Status write_pictures(const std::filesystem::path& folder, const mesh::Surface& surface,
                       const calibrate::Calibration& found, const Context& context) {
   context.progress("pictures", 0);
   const Pose& X_FO = found.object.X_FO;
-  HP_ASSIGN_OR_RETURN(const auto alignment, image::alignment_picture(surface, X_FO, found.points_O,
-                                                                     found.off_mm, context));
+  HP_ASSIGN_OR_RETURN(const auto views, image::find_views(surface, X_FO, {}, context));
+  HP_ASSIGN_OR_RETURN(const auto alignment,
+                      image::alignment_picture(views, found.points_O, found.off_mm, context));
   HP_RETURN_IF_ERROR(
       image::write_png(folder / "alignment.png", alignment, image::kScreenDpi, context));
   HP_ASSIGN_OR_RETURN(const auto error, error_picture(surface, X_FO, found.error_mm, context));

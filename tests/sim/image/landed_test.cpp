@@ -139,12 +139,15 @@ TEST(Pictures, ShowTheObjectWithAndWithoutFilmOnAnySide) {
   flow::FlowMap map;
   map.tiles = printed.tiles;
   map.surface.stretch.assign(printed.surface.points.size(), 1.5);
-  const auto stretch = stretch_picture(printed.surface, X_FO, map, {});
+  const auto views = find_views(printed.surface, X_FO, map.tiles, {});
+  const auto bare = find_views(printed.surface, X_FO, {}, {});
+  ASSERT_TRUE(views && bare);
+  const auto stretch = stretch_picture(*views, map.surface, {});
   ASSERT_TRUE(stretch);
   EXPECT_EQ(stretch->width, 1360);
   EXPECT_LT(stretch->height, 1800);
-  const auto with = predicted_picture(printed.surface, X_FO, map.tiles, *film, {});
-  const auto without = predicted_picture(printed.surface, X_FO, {}, *film, {});
+  const auto with = predicted_picture(*views, *film, {});
+  const auto without = predicted_picture(*bare, *film, {});
   ASSERT_TRUE(with && without);
   EXPECT_GT(colours_of(*with).size(), 2000U);
   for (const auto& [r, g, b] : colours_of(*without)) {
@@ -160,8 +163,11 @@ TEST(Pictures, AreTheSameForAnyNumberOfThreads) {
   map.surface.stretch.assign(printed.surface.points.size(), 1.2);
   Context two;
   two.threads = 2;
-  const auto a = stretch_picture(printed.surface, Pose::Identity(), map, {});
-  const auto b = stretch_picture(printed.surface, Pose::Identity(), map, two);
+  const auto by_one = find_views(printed.surface, Pose::Identity(), map.tiles, {});
+  const auto by_two = find_views(printed.surface, Pose::Identity(), map.tiles, two);
+  ASSERT_TRUE(by_one && by_two);
+  const auto a = stretch_picture(*by_one, map.surface, {});
+  const auto b = stretch_picture(*by_two, map.surface, two);
   ASSERT_TRUE(a && b);
   EXPECT_EQ(a->rgb, b->rgb);
 }
@@ -170,7 +176,9 @@ TEST(Pictures, NothingReachedAndNothingFiniteIsStillAPicture) {
   const Printed printed;
   flow::FlowMap map;
   map.surface.stretch.assign(printed.surface.points.size(), std::nan(""));
-  EXPECT_TRUE(stretch_picture(printed.surface, Pose::Identity(), map, {}));
+  const auto views = find_views(printed.surface, Pose::Identity(), map.tiles, {});
+  ASSERT_TRUE(views);
+  EXPECT_TRUE(stretch_picture(*views, map.surface, {}));
 }
 
 }  // namespace
