@@ -1,5 +1,7 @@
 #include "sim/pipeline/simulate.h"
 
+#include <atomic>
+#include <future>
 #include <optional>
 #include <utility>
 
@@ -25,6 +27,46 @@ Status check_materials(const mesh::Model& model) {
                                      ". Put it beside the model or give a texture");
   }
   return {};
+}
+
+/// How to do something beside the caller's work: later, if there is but one thread.
+std::launch beside(const Context& context) {
+  return context.threads > 1 ? std::launch::async : std::launch::deferred;
+}
+
+/// The image libraries take as long to load as most models to read. Not by another thread:
+/// LeakSanitizer stumbles over libraries whose loader has ended.
+Result<mesh::Model> read_model(const SimulateOptions& options, const Context& context) {
+  auto model = std::async(beside(context),
+                          [&] { return mesh::read_model(options.mesh, options.scale, context); });
+  if (options.images || options.texture) image::load_image_libraries();
+  return model.get();
+}
+
+/// What a simulation begins with.
+struct Beginning {
+  Start start;
+  std::optional<image::Paint> paint;  ///< if anybody asks for its colours
+};
+
+/// Paint and flow do not need each other: the one is read while the other is solved. Where the
+/// paint cannot be read the flow is given up.
+Result<Beginning> begin(const mesh::Model& model, const SimulateOptions& options,
+                        const DipOptions& dip_options, bool is_painted, const Context& context) {
+  Beginning out;
+  std::atomic<bool> in_vain = false;
+  Context flowing = context;
+  flowing.cancelled = [&] { return in_vain || context.is_cancelled(); };
+  auto started = std::async(beside(context), [&] { return start(model, dip_options, flowing); });
+  if (is_painted) {
+    Context reading = context;
+    reading.report = nullptr;  // the flow tells how far it is
+    auto paint = image::load_paint(model, options.texture, reading);
+    in_vain = !paint;
+    HP_ASSIGN_OR_RETURN(out.paint, std::move(paint));
+  }
+  HP_ASSIGN_OR_RETURN(out.start, started.get());
+  return out;
 }
 
 Result<SimulatedImages> draw(const Dip& dip, const image::Paint& paint,
@@ -57,23 +99,19 @@ Result<Simulation> simulate(const SimulateOptions& options, const Context& conte
   Simulation out;
   context.progress("reading", 0);
   const int passes = options.dip.film_model == FilmModel::kSheet ? options.ink_passes : 0;
-  // Before the model takes the memory, unless it is hardly ever needed.
-  if (options.images || options.texture) image::load_image_libraries();
-  HP_ASSIGN_OR_RETURN(out.model, mesh::read_model(options.mesh, options.scale, context));
+  HP_ASSIGN_OR_RETURN(out.model, read_model(options, context));
   DipOptions dip_options = options.dip;
   dip_options.map.make_tiles = options.images;
   dip_options.map = flow::for_resolution(dip_options.map, options.dpi);
   if (options.images && !options.texture) HP_RETURN_IF_ERROR(check_materials(out.model));
-  std::optional<image::Paint> paint;
-  if (options.images || passes > 0) {  // else nobody asks for its colours
-    HP_ASSIGN_OR_RETURN(paint, image::load_paint(out.model, options.texture, context));
-  }
-  HP_ASSIGN_OR_RETURN(Start begun, start(out.model, dip_options, context));
+  HP_ASSIGN_OR_RETURN(
+      auto begun, begin(out.model, options, dip_options, options.images || passes > 0, context));
+  auto& [first, paint] = begun;
   if (passes > 0 && paint->has_colour()) {
-    HP_ASSIGN_OR_RETURN(out.dip, dip_inked(out.model, std::move(begun), *paint, passes, options.dpi,
+    HP_ASSIGN_OR_RETURN(out.dip, dip_inked(out.model, std::move(first), *paint, passes, options.dpi,
                                            dip_options, context));
   } else {
-    HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, std::move(begun), dip_options, context));
+    HP_ASSIGN_OR_RETURN(out.dip, dip(out.model, std::move(first), dip_options, context));
   }
   if (options.images) {
     HP_ASSIGN_OR_RETURN(out.images, draw(out.dip, *paint, options, context));
