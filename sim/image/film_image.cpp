@@ -1,6 +1,7 @@
 #include "sim/image/film_image.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
 
@@ -17,6 +18,26 @@ const std::array<Eigen::Vector2d, kSamples> kOffsets = {
     Eigen::Vector2d(-0.125, -0.375), Eigen::Vector2d(0.375, -0.125), Eigen::Vector2d(0.125, 0.375),
     Eigen::Vector2d(-0.375, 0.125)};
 
+/// A set of a pixel's samples: bit s for sample s.
+using SampleSet = unsigned;
+constexpr SampleSet kAllSamples = (1U << kSamples) - 1;
+
+/// Where the samples of each set lie in the mean, from the pixel's middle.
+const std::array<Eigen::Vector2d, kAllSamples + 1>& mean_offsets() {
+  static const auto offsets = [] {
+    std::array<Eigen::Vector2d, kAllSamples + 1> out;
+    for (SampleSet set = 0; set <= kAllSamples; ++set) {
+      Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+      for (int s = 0; s < kSamples; ++s) {
+        if ((set >> s & 1) != 0) sum += kOffsets[s];
+      }
+      out[set] = sum / std::max(1, std::popcount(set));
+    }
+    return out;
+  }();
+  return offsets;
+}
+
 /// How far beyond a tile's edge its colours are believed, as a part of its size.
 constexpr double kBeyondEdge = 0.5;
 
@@ -32,9 +53,7 @@ Eigen::Vector2d look_up_at(const BarycentricMap& map, const Eigen::Vector2d& mid
 class Block {
  public:
   explicit Block(const Window& window)
-      : window_(window),
-        samples_(static_cast<std::size_t>(kBlock_px) * kBlock_px * kSamples,
-                 Sample(1, 1, 1, HUGE_VALF)) {}  // the bare film is white
+      : window_(window), pixels_(static_cast<std::size_t>(kBlock_px) * kBlock_px) {}
 
   /// @param at  the tile's corners on the pixel grid
   void paint(const Corners& at, const std::array<float, 3>& time_s, const Brush& brush) {
@@ -48,17 +67,25 @@ class Block {
     const Srgb8Encoder encode;
     for (int y = window_.y0; y < window_.y1; ++y) {
       std::uint8_t* out = image.at(window_.x0, y);
-      const Sample* in = &samples_[index(window_.x0, y)];
-      for (int x = window_.x0; x < window_.x1; ++x, out += 3, in += kSamples) {
-        const Sample mean = (in[0] + in[1] + in[2] + in[3]) * (1.0F / kSamples);
-        for (int c = 0; c < 3; ++c) out[c] = encode(mean[c]);
+      const Pixel* in = &pixels_[index(window_.x0, y)];
+      for (int x = window_.x0; x < window_.x1; ++x, out += 3, ++in) {
+        for (int c = 0; c < 3; ++c) {
+          const auto& light = in->light[c];
+          out[c] = encode((light[0] + light[1] + light[2] + light[3]) * (1.0F / kSamples));
+        }
       }
     }
   }
 
  private:
-  /// Linear light, and the time at which it landed.
-  using Sample = Eigen::Array4f;
+  using PerSample = std::array<float, kSamples>;
+
+  /// The samples of one, as long as nothing landed on them of white film.
+  struct Pixel {
+    std::array<PerSample, 3> light = {
+        PerSample{1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}};  ///< linear
+    PerSample landed_s = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
+  };
 
   /// Contact time over the pixel grid, at the samples of a pixel.
   struct TimePlane {
@@ -79,9 +106,8 @@ class Block {
   using Spans = std::array<Span, kSamples>;
 
   std::size_t index(int x, int y) const {
-    return (static_cast<std::size_t>(y - window_.y0) * kBlock_px +
-            static_cast<std::size_t>(x - window_.x0)) *
-           kSamples;
+    return static_cast<std::size_t>(y - window_.y0) * kBlock_px +
+           static_cast<std::size_t>(x - window_.x0);
   }
 
   /// Rasterises the tile once per sample of a pixel.
@@ -107,42 +133,53 @@ class Block {
 
   void paint_row(int y, const BarycentricMap& map, const TimePlane& times, const Brush& brush) {
     const Spans& spans = rows_[y - window_.y0];
-    int begin = window_.x1, end = window_.x0;
+    Span some{window_.x1, window_.x0}, all{window_.x0, window_.x1};  // of a pixel's samples
     for (const Span& span : spans) {
+      all = {std::max(all.begin, span.begin), std::min(all.end, span.end)};
       if (span.begin >= span.end) continue;
-      begin = std::min(begin, span.begin);
-      end = std::max(end, span.end);
+      some = {std::min(some.begin, span.begin), std::max(some.end, span.end)};
     }
     const Eigen::Array4d row_times = times.origin + times.per_y * y;
-    for (int x = begin; x < end; ++x) {
+    for (int x = some.begin; x < some.end; ++x) {
+      Pixel& pixel = pixels_[index(x, y)];
       const Eigen::Array4f time_s = (row_times + times.per_x * x).cast<float>();
-      paint_pixel(x, y, spans, time_s, map, brush);
+      const SampleSet covered = x >= all.begin && x < all.end ? kAllSamples : samples_at(x, spans);
+      const SampleSet mine = covered & earlier(time_s, pixel);
+      if (mine == 0) continue;
+      const Eigen::Vector2d middle(x + 0.5, y + 0.5);
+      const Eigen::Vector2d place =
+          mine == kAllSamples ? middle : look_up_at(map, middle, middle + mean_offsets()[mine]);
+      put(pixel, mine, brush.at(place.x(), place.y()), time_s);
     }
   }
 
-  void paint_pixel(int x, int y, const Spans& spans, const Eigen::Array4f& time_s,
-                   const BarycentricMap& map, const Brush& brush) {
-    Sample* samples = &samples_[index(x, y)];
-    Eigen::Vector2d covered = Eigen::Vector2d::Zero();
-    std::array<int, kSamples> mine{};
-    int count = 0;
+  static SampleSet samples_at(int x, const Spans& spans) {
+    SampleSet set = 0;
     for (int s = 0; s < kSamples; ++s) {
-      if (x < spans[s].begin || x >= spans[s].end || !(time_s[s] < samples[s][3])) continue;
-      mine[count++] = s;
-      covered += kOffsets[s];
+      if (x >= spans[s].begin && x < spans[s].end) set |= 1U << s;
     }
-    if (count == 0) return;
-    const Eigen::Vector2d middle(x + 0.5, y + 0.5);
-    const Eigen::Vector2d place =
-        count == kSamples ? middle : look_up_at(map, middle, middle + covered / count);
-    const Eigen::Vector3f colour = brush.at(place.x(), place.y());
-    for (int i = 0; i < count; ++i) {
-      samples[mine[i]] = Sample(colour.x(), colour.y(), colour.z(), time_s[mine[i]]);
+    return set;
+  }
+
+  static SampleSet earlier(const Eigen::Array4f& time_s, const Pixel& pixel) {
+    SampleSet set = 0;
+    for (int s = 0; s < kSamples; ++s) {
+      set |= static_cast<SampleSet>(time_s[s] < pixel.landed_s[s]) << s;
+    }
+    return set;
+  }
+
+  static void put(Pixel& pixel, SampleSet set, const Eigen::Vector3f& light,
+                  const Eigen::Array4f& time_s) {
+    for (int s = 0; s < kSamples; ++s) {
+      if ((set >> s & 1) == 0) continue;
+      for (int c = 0; c < 3; ++c) pixel.light[c][s] = light[c];
+      pixel.landed_s[s] = time_s[s];
     }
   }
 
   Window window_;
-  std::vector<Sample> samples_;
+  std::vector<Pixel> pixels_;
   std::array<Spans, kBlock_px> rows_;
   int first_row_ = 0, last_row_ = -1;
 };
