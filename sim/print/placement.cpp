@@ -127,11 +127,11 @@ std::vector<std::string> lines_of(const Placement& placement, const PageSettings
   std::vector<std::string> out;
   if (!settings.job_name.empty()) out.push_back(settings.job_name);
   if (!settings.date.empty()) out.push_back(settings.date);
-  out.push_back("placement, seen from above");
-  out.push_back("bold: first contact, middle");
+  out.emplace_back("placement, seen from above");
+  out.emplace_back("bold: first contact, middle");
   out.push_back("x " + rounded(placement.contact_mm.x()) + "  y " +
                 rounded(placement.contact_mm.y()) + " mm");
-  out.push_back("grey: all of the object");
+  out.emplace_back("grey: all of the object");
   out.push_back("wxyz " + rounded(q.w()) + " " + rounded(q.x()) + " " + rounded(q.y()) + " " +
                 rounded(q.z()));
   out.push_back("origin x " + rounded(t.x()) + "  y " + rounded(t.y()) + " mm");
