@@ -15,7 +15,7 @@ namespace hydroprint::testing {
 [[nodiscard]] pipeline::DipOptions sphere_options(const std::string& film, double radius_mm,
                                                   double theta_deg);
 
-/// The dip of issue 2's and 3's off-centre row, to 120 degrees: radius 45 mm at (25, -40) mm on A4.
+/// The dip of the off-centre rows, to 120 degrees: radius 45 mm at (25, -40) mm on A4.
 inline constexpr double kOffCentreRadius_mm = 45;
 [[nodiscard]] pipeline::DipOptions off_centre_options(pipeline::FilmModel model);
 
