@@ -1,8 +1,11 @@
 #include "sim/pipeline/simulate.h"
 
 #include <atomic>
+#include <cstdint>
+#include <filesystem>
 #include <future>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "sim/image/film_image.h"
@@ -34,10 +37,16 @@ std::launch beside(const Context& context) {
   return context.threads > 1 ? std::launch::async : std::launch::deferred;
 }
 
-/// The image libraries take as long to load as most models to read. Not by another thread:
+/// Models up to here leave memory for whatever else is done meanwhile.
+constexpr std::uintmax_t kSmallModel_bytes = std::uintmax_t{16} << 20;
+
+/// The image libraries take as long to load as most models to read. They come before a large one,
+/// as they end the program where they find no memory; and are not loaded by another thread, as
 /// LeakSanitizer stumbles over libraries whose loader has ended.
 Result<mesh::Model> read_model(const SimulateOptions& options, const Context& context) {
-  auto model = std::async(beside(context),
+  std::error_code unknown;
+  const bool is_small = std::filesystem::file_size(options.mesh, unknown) <= kSmallModel_bytes;
+  auto model = std::async(is_small && !unknown ? beside(context) : std::launch::deferred,
                           [&] { return mesh::read_model(options.mesh, options.scale, context); });
   if (options.images || options.texture) image::load_image_libraries();
   return model.get();
