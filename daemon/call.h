@@ -8,6 +8,8 @@
 #include <string>
 
 #include "daemon/asset_store.h"
+#include "daemon/calibration_store.h"
+#include "daemon/capture_runner.h"
 #include "daemon/dip_runner.h"
 #include "daemon/job_store.h"
 #include "daemon/pool.h"
@@ -25,6 +27,10 @@ struct Backend {
   RigDesk& desk;
   DipRunner& dips;
   PrintRunner& prints;
+  CaptureRunner& captures;
+  CalibrationStore& calibrations;
+  PlaceKeeper& places;
+  CameraSetup camera;
   Layout layout;
   std::int64_t min_free_bytes = 0;
   /// True from the moment the daemon goes down: streams end, nothing new begins.

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <variant>
 
+#include "daemon/camera_setup.h"
 #include "daemon/printer_setup.h"
 #include "hardware/drive/link.h"
 
@@ -29,6 +30,10 @@ struct Real {
   double rig::RigConfig::*member;
   double min, max;
 };
+struct Length {
+  double Config::*member;
+  double min, max;
+};
 struct Number {
   std::int64_t Config::*member;
   std::int64_t min, max;
@@ -37,7 +42,7 @@ struct Number {
 
 struct Key {
   std::string_view section, name;
-  std::variant<Text, Flag, Number, Real> kind;
+  std::variant<Text, Flag, Number, Real, Length> kind;
 
   [[nodiscard]] std::string full() const { return std::string(section) + "." + std::string(name); }
 };
@@ -69,6 +74,11 @@ std::vector<Key> make_keys() {
   all.push_back({"printer", "patience_s", Number{&Config::printer_patience_s, 1, 3600, "seconds"}});
   all.push_back(
       {"printer", "time_limit_s", Number{&Config::printer_time_limit_s, 1, 86400, "seconds"}});
+  all.push_back({"camera", "device", Text{&Config::camera_device}});
+  all.push_back({"camera", "program", Text{&Config::camera_program}});
+  all.push_back({"camera", "patience_s", Number{&Config::camera_patience_s, 1, 600, "seconds"}});
+  all.push_back({"camera", "layout", Text{&Config::camera_layout}});
+  all.push_back({"camera", "gripper_water_mm", Length{&Config::camera_gripper_water_mm, 0, 1e4}});
   all.push_back({"log", "level", Text{&Config::log_level, {"debug", "info", "warning", "error"}}});
   all.push_back({"log", "file", Text{&Config::log_file}});
   return all;
@@ -83,11 +93,13 @@ std::string remedy(const Number& number) {
   return "a whole number of " + std::string(number.unit) + " from " + std::to_string(number.min) +
          " to " + std::to_string(number.max) + ", without quotes or unit";
 }
-std::string remedy(const Real& real) {
+std::string number_remedy(double min, double max) {
   std::ostringstream out;
-  out << "a number from " << real.min << " to " << real.max << ", without quotes or unit";
+  out << "a number from " << min << " to " << max << ", without quotes or unit";
   return out.str();
 }
+std::string remedy(const Real& real) { return number_remedy(real.min, real.max); }
+std::string remedy(const Length& length) { return number_remedy(length.min, length.max); }
 std::string remedy(const Flag&) { return "true or false"; }
 std::string remedy(const Text& text) {
   if (text.allowed.empty()) return "text in quotes";
@@ -106,6 +118,12 @@ bool accept(const Real& kind, const toml::node& node, Config& config) {
   const auto number = node.value<double>();  // whole numbers as well
   if (!node.is_number() || !(*number >= kind.min && *number <= kind.max)) return false;
   config.rig.*kind.member = *number;
+  return true;
+}
+bool accept(const Length& kind, const toml::node& node, Config& config) {
+  const auto number = node.value<double>();
+  if (!node.is_number() || !(*number >= kind.min && *number <= kind.max)) return false;
+  config.*kind.member = *number;
   return true;
 }
 bool accept(const Flag& kind, const toml::node& node, Config& config) {
@@ -189,6 +207,9 @@ Status check_values(const Config& config, const std::string& name, const toml::t
   if (const auto printer = read_printer_setup(config); !printer) {
     return refuse(name, root["printer"]["address"].node()->source(), printer.error().message);
   }
+  if (const auto camera = read_camera_setup(config); !camera) {
+    return refuse(name, root["camera"]["layout"].node()->source(), camera.error().message);
+  }
   if (config.rig_drive.empty()) return {};
   if (const auto endpoint = drive::parse_endpoint(config.rig_drive); !endpoint) {
     return refuse(name, root["rig"]["drive"].node()->source(),
@@ -219,7 +240,7 @@ Result<Config> parse_config(std::string_view text, const std::string& name) {
         return refuse(name, section.source(),
                       "unknown section \"" + std::string(section.str()) +
                           "\"; there are [server], [store], [assets], [queue], [workers], [rig], "
-                          "[printer], [log]");
+                          "[printer], [camera], [log]");
       }
       HP_RETURN_IF_ERROR(read_section(name, section.str(), *table, config));
     }

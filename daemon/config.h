@@ -35,6 +35,11 @@ struct Config {
   std::string printer_address;           ///< printer.address: "ipp://..."; empty: no printer
   std::int64_t printer_patience_s = 20;  ///< printer.patience_s with one that does not answer
   std::int64_t printer_time_limit_s = 3600;  ///< printer.time_limit_s per job
+  std::string camera_device;                 ///< camera.device: OpenNI2's name; empty: no camera
+  std::string camera_program;                ///< camera.program; empty: beside hydroprintd
+  std::int64_t camera_patience_s = 5;        ///< camera.patience_s with one that does not answer
+  std::string camera_layout;                 ///< camera.layout: file of markers and camera
+  double camera_gripper_water_mm = 0;        ///< camera.gripper_water_mm of the axis; 0: not known
   std::string log_level = "info";            ///< log.level: debug, info, warning, error
   std::string log_file;                      ///< log.file besides stderr; empty: none
 

@@ -52,6 +52,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config) {
   HP_RETURN_IF_ERROR(daemon->open_store(config));
   HP_RETURN_IF_ERROR(daemon->open_rig(config));
   HP_RETURN_IF_ERROR(daemon->open_printer(config));
+  HP_RETURN_IF_ERROR(daemon->open_camera(config));
   HP_RETURN_IF_ERROR(daemon->start_serving(config));
   return daemon;
 }
@@ -67,6 +68,7 @@ Status Daemon::open_store(const Config& config) {
       AssetStoreOptions{config.assets_max_mib * kMiB, config.assets_max_open_uploads,
                         config.assets_upload_expires_h * kHourMs, config.store_min_free_mib * kMiB},
       system_clock_ms);
+  calibrations_ = std::make_unique<CalibrationStore>(*database_, system_clock_ms);
   HP_RETURN_IF_ERROR(jobs_->sweep());  // first: it may make the room that the next one needs
   HP_RETURN_IF_ERROR(end_lost_dips(*jobs_, layout_));
   HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss));
@@ -85,7 +87,10 @@ Status Daemon::open_rig(const Config& config) {
   leases_ = std::make_unique<LeaseKeeper>(*database_, system_clock_ms);
   HP_RETURN_IF_ERROR(leases_->load());
   desk_ = std::make_unique<RigDesk>(rig_.get(), *leases_);
-  dips_ = std::make_unique<DipRunner>(DipSurroundings{*desk_, *jobs_, layout_, system_clock_ms});
+  places_ = std::make_unique<PlaceKeeper>(*database_, rig_.get());
+  HP_RETURN_IF_ERROR(places_->load());
+  dips_ = std::make_unique<DipRunner>(
+      DipSurroundings{*desk_, *places_, *jobs_, layout_, system_clock_ms});
   return {};
 }
 
@@ -96,12 +101,30 @@ Status Daemon::open_printer(const Config& config) {
   return {};
 }
 
+// Nor the camera.
+Status Daemon::open_camera(const Config& config) {
+  HP_ASSIGN_OR_RETURN(camera_, read_camera_setup(config));
+  HP_ASSIGN_OR_RETURN(captures_, CaptureRunner::make({camera_, *jobs_, *calibrations_, *desk_,
+                                                      *places_, layout_, system_clock_ms}));
+  return {};
+}
+
 Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(pool_,
                       WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
-  const Backend backend{*database_, *jobs_,  *assets_,
-                        *pool_,     *desk_,  *dips_,
-                        *prints_,   layout_, config.store_min_free_mib * kMiB,
+  const Backend backend{*database_,
+                        *jobs_,
+                        *assets_,
+                        *pool_,
+                        *desk_,
+                        *dips_,
+                        *prints_,
+                        *captures_,
+                        *calibrations_,
+                        *places_,
+                        camera_,
+                        layout_,
+                        config.store_min_free_mib * kMiB,
                         stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
@@ -110,8 +133,8 @@ Status Daemon::start_serving(const Config& config) {
         {{"message", "this kernel has no Landlock: workers see all files of this user"}});
   }
   pool_->start();
-  guard_ =
-      std::make_unique<RigGuard>(*desk_, [this](bool works) { server_->set_rig_serving(works); });
+  guard_ = std::make_unique<RigGuard>(*desk_, *places_,
+                                      [this](bool works) { server_->set_rig_serving(works); });
   return {};
 }
 
@@ -127,6 +150,7 @@ void Daemon::stop() {
   jobs_->bell().ring();
   dips_->stop();
   prints_->stop();
+  captures_->stop();
   if (rig_) rig_->stop();
   pool_->stop();
   guard_.reset();

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "daemon/asset_store.h"
+#include "daemon/calibration_store.h"
+#include "daemon/capture_runner.h"
 #include "daemon/config.h"
 #include "daemon/database.h"
 #include "daemon/dip_runner.h"
@@ -13,6 +15,7 @@
 #include "daemon/print_runner.h"
 #include "daemon/rig_desk.h"
 #include "daemon/rig_guard.h"
+#include "daemon/rig_place.h"
 #include "daemon/server.h"
 #include "daemon/state_lock.h"
 
@@ -43,6 +46,7 @@ class Daemon {
   [[nodiscard]] Status open_store(const Config& config);
   [[nodiscard]] Status open_rig(const Config& config);
   [[nodiscard]] Status open_printer(const Config& config);
+  [[nodiscard]] Status open_camera(const Config& config);
   [[nodiscard]] Status start_serving(const Config& config);
 
   Layout layout_;
@@ -50,11 +54,15 @@ class Daemon {
   std::unique_ptr<Database> database_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<AssetStore> assets_;
+  std::unique_ptr<CalibrationStore> calibrations_;
   std::unique_ptr<rig::Controller> rig_;  // null: none is configured
   std::unique_ptr<LeaseKeeper> leases_;
   std::unique_ptr<RigDesk> desk_;
+  std::unique_ptr<PlaceKeeper> places_;
   std::unique_ptr<DipRunner> dips_;
   std::unique_ptr<PrintRunner> prints_;
+  CameraSetup camera_;
+  std::unique_ptr<CaptureRunner> captures_;
   std::unique_ptr<WorkerPool> pool_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<RigGuard> guard_;

@@ -101,7 +101,16 @@ double DipRun::acceleration() const { return rig().profile().acceleration_mm_per
 
 Status DipRun::check_confirm(Step step) const {
   const bool takes_position = step == Step::kLoadObject || step == Step::kFindContact;
-  return takes_position && step == stand_.step ? around_.desk.check_at_rest() : Status();
+  if (!takes_position || step != stand_.step) return {};
+  HP_RETURN_IF_ERROR(around_.desk.check_at_rest());
+  const bool takes_measured = step == Step::kFindContact && facts_.plan.contact_mm;
+  if (!takes_measured || around_.places.place().homings == facts_.plan.homings) return {};
+  return tl::unexpected(Error{
+      Code::kFailedPrecondition,
+      "the rig was homed since " + facts_.plan.calibration +
+          " was made, so that nobody knows first contact; cancel this dip and calibrate again",
+      "CALIBRATION_STALE",
+      {{"calibration", facts_.plan.calibration}, {"why", "HOMED"}}});
 }
 
 Status DipRun::confirm(Step step, const std::string& holder) {
@@ -117,7 +126,8 @@ void DipRun::break_off(Event::Kind why) { (void)feed({why}); }
 /// Lets an event have its consequences; where the rig refuses them, the dip stays where it is.
 Status DipRun::feed(Event event) {
   if (event.time_s == 0) event.time_s = seconds_at(SteadyClock::now());
-  event.position_mm = rig().snapshot().position_mm;
+  const bool is_measured = stand_.step == Step::kFindContact && facts_.plan.contact_mm;
+  event.position_mm = is_measured ? *facts_.plan.contact_mm : rig().snapshot().position_mm;
   const dip::Outcome outcome = dip::proceed(stand_, event, facts_.plan.clocks);
   if (outcome.refused) {
     return tl::unexpected(Error{Code::kFailedPrecondition,
@@ -153,7 +163,9 @@ Status DipRun::act(dip::Action action, const dip::Stand& next) {
       return {};
     }
     case dip::Action::kDip:
-      return order(rig().dip(dip::legs(plan, *facts_.ways)));
+      HP_RETURN_IF_ERROR(order(rig().dip(dip::legs(plan, *facts_.ways))));
+      around_.places.note_dip();
+      return {};
   }
   return {};
 }

@@ -12,12 +12,14 @@
 #include "daemon/job_store.h"
 #include "daemon/layout.h"
 #include "daemon/rig_desk.h"
+#include "daemon/rig_place.h"
 
 namespace hydroprint::daemon {
 
 /// What dips work on.
 struct DipSurroundings {
   RigDesk& desk;
+  PlaceKeeper& places;
   JobStore& jobs;
   Layout layout;
   Clock clock;

@@ -34,7 +34,8 @@ Status DipRunner::check(const dip::Plan& plan) const {
                 "STATE_FORBIDS");
   }
   const double here_mm = rig.snapshot().position_mm;
-  HP_RETURN_IF_ERROR(dip::ways_from(plan, here_mm, here_mm, rig.config(), rig.profile()));
+  HP_RETURN_IF_ERROR(dip::ways_from(plan, plan.contact_mm.value_or(here_mm), here_mm, rig.config(),
+                                    rig.profile()));
   return {};
 }
 

@@ -58,9 +58,17 @@ struct Work {
 /// Whether it sends something to the printer. It is never queued either, and never begun again.
 [[nodiscard]] inline bool prints(const std::string& verb) { return verb == "print"; }
 
+/// Whether it takes frames of the camera. It is never queued either, and never begun again.
+[[nodiscard]] inline bool captures(const std::string& verb) { return verb == "capture"; }
+
 /// Whether a worker does it.
 [[nodiscard]] inline bool is_computed(const std::string& verb) {
-  return !moves_the_rig(verb) && !prints(verb);
+  return !moves_the_rig(verb) && !prints(verb) && !captures(verb);
+}
+
+/// Whether it leaves a calibration, which an equal job's artifacts do not.
+[[nodiscard]] inline bool calibrates(const std::string& verb) {
+  return verb == "calibrate" || verb == "calibrate-camera";
 }
 
 /// SHA-256 of all that determines the outcome of a work; `worker` identifies the program.

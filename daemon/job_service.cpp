@@ -1,3 +1,5 @@
+#include "daemon/calibration_use.h"
+#include "daemon/captured.h"
 #include "daemon/convert.h"
 #include "daemon/dip_spec.h"
 #include "daemon/log.h"
@@ -44,6 +46,7 @@ class JobService final : public v1::JobService::Service {
                          v1::Job* reply) override {
     const auto job = with_job(request->name(), [&](auto id) {
       if (id == backend_.desk.dip()) return backend_.dips.cancel(id);
+      if (id == backend_.captures.job()) return backend_.captures.cancel(id);
       return id == backend_.prints.job() ? backend_.prints.cancel(id) : backend_.jobs.cancel(id);
     });
     backend_.pool.wake();
@@ -95,13 +98,15 @@ class JobService final : public v1::JobService::Service {
   Result<Job> create(const grpc::ServerContext& context, const v1::CreateJobRequest& request) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
     HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
-    HP_ASSIGN_OR_RETURN(const v1::Job filled, with_simulated(request.job(), backend_.jobs,
-                                                             backend_.assets, backend_.layout));
+    HP_ASSIGN_OR_RETURN(const v1::Job named, with_named_calibration(request.job(), backend_.jobs,
+                                                                    backend_.calibrations));
+    HP_ASSIGN_OR_RETURN(const v1::Job filled, fill_in(named));
     HP_ASSIGN_OR_RETURN(NewJob made, check_job(filled));
-    made.body = body_of(request.job());
+    made.body = body_of(told(named, filled));
     HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
-    if (request.job().has_dip()) return create_dip(std::move(made), request);
-    if (request.job().has_print()) return create_print(std::move(made), request);
+    if (named.has_dip()) return create_dip(std::move(made), named, request);
+    if (named.has_print()) return create_print(std::move(made), request);
+    if (named.has_capture()) return create_capture(std::move(made), request);
     if (!request.validate_only()) return store(std::move(made), request_key("CreateJob", request));
     HP_RETURN_IF_ERROR(backend_.jobs.check_inputs(made.work.inputs));
     HP_ASSIGN_OR_RETURN(made.digest, digest_of(made.work));
@@ -110,10 +115,34 @@ class JobService final : public v1::JobService::Service {
     return job;
   }
 
-  Result<Job> create_dip(NewJob made, const v1::CreateJobRequest& request) {
+  // What the job shows of what was filled in: what whoever goes on from it has to know.
+  static v1::Job told(v1::Job named, const v1::Job& filled) {
+    if (named.has_simulate()) *named.mutable_simulate() = filled.simulate();
+    if (named.has_calibrate()) {
+      named.mutable_calibrate()->set_camera_calibration(filled.calibrate().camera_calibration());
+      if (filled.calibrate().has_gripper_mm()) {
+        named.mutable_calibrate()->set_gripper_mm(filled.calibrate().gripper_mm());
+      }
+    }
+    return named;
+  }
+
+  // With what a job takes from earlier ones and from the configuration.
+  Result<v1::Job> fill_in(const v1::Job& job) {
+    HP_ASSIGN_OR_RETURN(const v1::Job simulated,
+                        with_simulated(job, backend_.jobs, backend_.assets, backend_.layout));
+    HP_ASSIGN_OR_RETURN(
+        const v1::Job captured,
+        with_captured(simulated, {backend_.jobs, backend_.assets, backend_.calibrations,
+                                  backend_.camera, backend_.layout}));
+    return with_calibration(captured, backend_.calibrations, backend_.places.place());
+  }
+
+  Result<Job> create_dip(NewJob made, const v1::Job& named, const v1::CreateJobRequest& request) {
     HP_ASSIGN_OR_RETURN(const Lease lease, backend_.desk.leases().require(request.lease_id()));
-    HP_ASSIGN_OR_RETURN(const dip::Plan plan,
-                        plan_of(request.job().dip(), backend_.jobs, backend_.layout));
+    HP_ASSIGN_OR_RETURN(dip::Plan plan, plan_of(named.dip(), backend_.jobs, backend_.layout));
+    HP_RETURN_IF_ERROR(go_by_calibration(named, backend_.jobs, backend_.calibrations,
+                                         backend_.places.place(), plan));
     made.use_cache = false;
     if (request.validate_only()) {
       HP_RETURN_IF_ERROR(backend_.dips.check(plan));
@@ -144,6 +173,24 @@ class JobService final : public v1::JobService::Service {
     HP_RETURN_IF_ERROR(check_free_space(backend_.layout.root, backend_.min_free_bytes));
     HP_ASSIGN_OR_RETURN(Job job,
                         backend_.prints.create(made, request_key("CreateJob", request), plan));
+    log_created(job);
+    return job;
+  }
+
+  Result<Job> create_capture(NewJob made, const v1::CreateJobRequest& request) {
+    constexpr double kUsual_s = 2;
+    const v1::CaptureSpec& spec = request.job().capture();
+    made.use_cache = false;
+    if (request.validate_only()) {
+      HP_RETURN_IF_ERROR(backend_.captures.check());
+      Job job;
+      job.made = std::move(made);
+      return job;
+    }
+    HP_RETURN_IF_ERROR(check_free_space(backend_.layout.root, backend_.min_free_bytes));
+    HP_ASSIGN_OR_RETURN(Job job,
+                        backend_.captures.create(made, request_key("CreateJob", request),
+                                                 spec.has_seconds() ? spec.seconds() : kUsual_s));
     log_created(job);
     return job;
   }
@@ -202,6 +249,11 @@ class JobService final : public v1::JobService::Service {
                   job_name(id) +
                       " is a print, which may lie in the printer's tray; look, and "
                       "create a new one",
+                  "STATE_FORBIDS");
+    }
+    if (captures(old.made.work.verb)) {
+      return fail(Code::kFailedPrecondition,
+                  job_name(id) + " is a capture, which is of its moment; create a new one",
                   "STATE_FORBIDS");
     }
     NewJob made = old.made;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <set>
 
+#include "daemon/calibration_store.h"
 #include "daemon/files.h"
 #include "daemon/job_rows.h"
 #include "daemon/names.h"
@@ -70,8 +71,8 @@ Status JobStore::check_queue() {
 Result<std::int64_t> JobStore::insert(const NewJob& made) {
   const std::string& verb = made.work.verb;
   const JobState state = moves_the_rig(verb) ? JobState::kWaitingForOperator
-                         : prints(verb)      ? JobState::kRunning
-                                             : JobState::kQueued;
+                         : is_computed(verb) ? JobState::kQueued
+                                             : JobState::kRunning;
   HP_RETURN_IF_ERROR(is_computed(verb) ? check_queue() : check_none_open(verb));
   HP_RETURN_IF_ERROR(check_inputs(made.work.inputs));
   const std::int64_t now = clock_();
@@ -91,6 +92,9 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
         database_.run("INSERT INTO job_inputs VALUES (?,?,?)", {id, input.name, input.sha256}));
   }
   if (moves_the_rig(verb)) HP_RETURN_IF_ERROR(store_dip_status(id, made.dip_status));
+  if (captures(verb)) {
+    HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET start_ms=? WHERE id=?", {now, id}));
+  }
   HP_RETURN_IF_ERROR(add_event(id, EventKind::kStateChanged, ""));
   return id;
 }
@@ -229,6 +233,11 @@ Status JobStore::remove(std::int64_t id) {
   const Status done = database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
     if (!is_finished(job.state)) return state_forbids(job, "cancel it first");
+    HP_ASSIGN_OR_RETURN(const std::int64_t calibration, calibration_of_job(database_, id));
+    if (calibration != 0) {
+      return state_forbids(
+          job, "delete " + calibration_name(calibration) + ", which it made, before it");
+    }
     return database_.run("DELETE FROM jobs WHERE id=?", {id});
   });
   HP_RETURN_IF_ERROR(done);
@@ -282,13 +291,17 @@ Status JobStore::report(std::int64_t id, const Progress& progress) {
   return {};
 }
 
-Result<Job> JobStore::succeed(std::int64_t id, const std::vector<Artifact>& artifacts) {
+Result<Job> JobStore::succeed(std::int64_t id, const std::vector<Artifact>& artifacts,
+                              const std::optional<NewCalibration>& calibration) {
   return changed(id, [&](const Job& job) -> Status {
     if (job.state == JobState::kCancelling) return finish(id, JobState::kCancelled, "");
     if (job.state != JobState::kRunning) return state_forbids(job, "only a running job can end");
     HP_RETURN_IF_ERROR(store_artifacts(id, artifacts));
     HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET fraction=1 WHERE id=?", {id}));
-    return finish(id, JobState::kSucceeded, "");
+    if (!calibration) return finish(id, JobState::kSucceeded, "");
+    HP_ASSIGN_OR_RETURN(const std::int64_t made,
+                        insert_calibration(database_, *calibration, clock_()));
+    return finish(id, JobState::kSucceeded, calibration_name(made));
   });
 }
 
@@ -410,7 +423,9 @@ Result<std::vector<std::int64_t>> JobStore::ids_in_state(JobState state) {
 Status JobStore::purge() {
   HP_ASSIGN_OR_RETURN(
       const auto old,
-      select_numbers(database_, "SELECT id FROM jobs WHERE purge_ms>0 AND purge_ms<=?",
+      select_numbers(database_,
+                     "SELECT id FROM jobs WHERE purge_ms>0 AND purge_ms<=? AND id NOT IN "
+                     "(SELECT job FROM calibrations)",
                      {clock_()}));
   for (const std::int64_t id : old) HP_RETURN_IF_ERROR(remove(id));
   return forget_old_requests(database_, clock_());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/bell.h"
+#include "daemon/calibration.h"
 #include "daemon/clock.h"
 #include "daemon/database.h"
 #include "daemon/job.h"
@@ -53,6 +54,7 @@ enum class Interruption { kShutdown, kLoss };
 /// QUEUED -> RUNNING -> SUCCEEDED | FAILED, QUEUED -> CANCELLED, RUNNING -> CANCELLING ->
 /// CANCELLED; RUNNING -> INTERRUPTED -> QUEUED when the daemon went down or was lost, but -> FAILED
 /// (DAEMON_LOST) when it was lost for the third time; QUEUED -> SUCCEEDED from the cache.
+/// Prints and captures: RUNNING at once, both -> CANCELLING -> CANCELLED, both -> INTERRUPTED.
 /// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED, both -> CANCELLING -> CANCELLED,
 /// both
 /// -> INTERRUPTED.
@@ -80,7 +82,8 @@ class JobStore {
   [[nodiscard]] Result<Job> get(std::int64_t id);
   /// Newest first.
   [[nodiscard]] Result<std::vector<Job>> list(const JobFilter& filter);
-  /// Deletes a finished job with all that belongs to it.
+  /// Deletes a finished job with all that belongs to it. STATE_FORBIDS, too, while there is the
+  /// calibration that it made.
   [[nodiscard]] Status remove(std::int64_t id);
   /// QUEUED -> CANCELLED, RUNNING or WAITING_FOR_OPERATOR -> CANCELLING; CANCELLING and CANCELLED
   /// stay.
@@ -91,7 +94,9 @@ class JobStore {
   /// Does nothing if the job does not run.
   [[nodiscard]] Status report(std::int64_t id, const Progress& progress);
   /// RUNNING -> SUCCEEDED; a job that someone asked to cancel becomes CANCELLED all the same.
-  [[nodiscard]] Result<Job> succeed(std::int64_t id, const std::vector<Artifact>& artifacts);
+  /// @param calibration  what it leaves, if that is one: there is both or neither
+  [[nodiscard]] Result<Job> succeed(std::int64_t id, const std::vector<Artifact>& artifacts,
+                                    const std::optional<NewCalibration>& calibration = {});
   /// RUNNING -> FAILED, CANCELLING -> CANCELLED.
   [[nodiscard]] Result<Job> give_up(std::int64_t id, const JobFailure& failure);
   /// A dip or print that is not finished: WAITING_FOR_OPERATOR or RUNNING, where it stands now

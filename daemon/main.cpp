@@ -43,10 +43,10 @@ LogLevel log_level(const std::string& name) {
   return name == "error" ? LogLevel::kError : LogLevel::kInfo;
 }
 
-std::string worker_beside(const char* argv0) {
+std::string beside(const char* argv0, const char* program) {
   const char* const search_path = std::getenv("PATH");
   const auto self = own_program(argv0, search_path == nullptr ? "" : search_path);
-  return self.parent_path() / "hydroprint-worker";
+  return self.parent_path() / program;
 }
 
 Result<Config> configure(const Options& options, const char* argv0) {
@@ -58,7 +58,8 @@ Result<Config> configure(const Options& options, const char* argv0) {
   if (!options.grpc.empty()) config.server_grpc = options.grpc;
   if (!options.rig.empty()) config.rig_drive = options.rig;
   if (!options.rig_profile.empty()) config.rig_profile = options.rig_profile;
-  if (config.workers_program.empty()) config.workers_program = worker_beside(argv0);
+  if (config.workers_program.empty()) config.workers_program = beside(argv0, "hydroprint-worker");
+  if (config.camera_program.empty()) config.camera_program = beside(argv0, "hydroprint-capture");
   if (const auto endpoint = parse_endpoint(config.server_grpc); !endpoint) {
     return fail(Code::kInvalidArgument, "--grpc: " + endpoint.error().message);
   }

@@ -74,6 +74,13 @@ Result<std::int64_t> parse_job_name(std::string_view name) {
   return id;
 }
 
+Result<std::int64_t> parse_calibration_name(std::string_view name) {
+  constexpr std::string_view kBegin = "calibrations/";
+  const std::int64_t id = name.starts_with(kBegin) ? parse_number(name.substr(kBegin.size())) : 0;
+  if (id == 0) return bad_id(name, "calibrations/{number}");
+  return id;
+}
+
 Result<std::string> parse_asset_name(std::string_view name) {
   if (!name.starts_with("assets/") || !is_sha256(name.substr(7))) {
     return bad_id(name, "assets/{sha256 as 64 lower-case hex digits}");
@@ -98,6 +105,8 @@ Result<std::pair<std::int64_t, std::string>> parse_artifact_name(std::string_vie
   HP_RETURN_IF_ERROR(check_file_name("name", file));
   return std::pair(job, std::string(file));
 }
+
+std::string calibration_name(std::int64_t id) { return "calibrations/" + std::to_string(id); }
 
 std::string job_name(std::int64_t id) { return "jobs/" + std::to_string(id); }
 

@@ -24,7 +24,9 @@ namespace hydroprint::daemon {
 [[nodiscard]] bool is_sha256(std::string_view text);
 
 /// Readers of resource names; anything else is kInvalidArgument, ID_INVALID.
-[[nodiscard]] Result<std::int64_t> parse_job_name(std::string_view name);    // "jobs/7"
+[[nodiscard]] Result<std::int64_t> parse_job_name(std::string_view name);  // "jobs/7"
+[[nodiscard]] Result<std::int64_t> parse_calibration_name(
+    std::string_view name);                                                  // "calibrations/7"
 [[nodiscard]] Result<std::string> parse_asset_name(std::string_view name);   // "assets/{sha}"
 [[nodiscard]] Result<std::string> parse_upload_name(std::string_view name);  // "uploads/{id}"
 [[nodiscard]] Result<std::pair<std::int64_t, std::string>>
@@ -33,6 +35,9 @@ parse_artifact_name(  // "jobs/7/artifacts/x"
 
 /// "jobs/7".
 [[nodiscard]] std::string job_name(std::int64_t id);
+
+/// "calibrations/7".
+[[nodiscard]] std::string calibration_name(std::int64_t id);
 
 /// A whole positive number, no sign, no blanks, no leading zero; 0 if it is none.
 [[nodiscard]] std::int64_t parse_number(std::string_view text);

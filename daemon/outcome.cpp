@@ -8,6 +8,8 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "hydroprint/v1/error_reason.pb.h"
+
 namespace hydroprint::daemon {
 namespace {
 
@@ -121,6 +123,24 @@ JobFailure judge_signal(int signal, const std::string& words) {
                      "); please report it together with the model");
 }
 
+// The reason that a program printed for its failure, if it is one that the API has.
+std::optional<std::string> told_reason(std::string_view answer) {
+  const std::string line = last_line(answer);
+  // Deeply nested text would exhaust the parser's stack.
+  if (std::count(line.begin(), line.end(), '{') > 3 || line.find('[') != std::string::npos) {
+    return std::nullopt;
+  }
+  const auto object = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+  const nlohmann::json::json_pointer place("/error/reason");
+  if (!object.is_object() || !object.contains(place) || !object.at(place).is_string()) {
+    return std::nullopt;
+  }
+  const auto reason = object.at(place).get<std::string>();
+  v1::ErrorReason known = v1::ERROR_REASON_UNSPECIFIED;
+  if (!v1::ErrorReason_Parse(reason, &known)) return std::nullopt;
+  return reason;
+}
+
 std::optional<double> fraction(const nlohmann::json& object, const char* key) {
   const auto found = object.find(key);
   if (found == object.end() || !found->is_number()) return std::nullopt;
@@ -140,7 +160,8 @@ std::string last_line(std::string_view errors) {
   return shortened(printable(errors), kLongestMessage);
 }
 
-std::optional<JobFailure> judge(int wait_status, StoppedFor stopped, std::string_view errors) {
+std::optional<JobFailure> judge(int wait_status, StoppedFor stopped, std::string_view errors,
+                                std::string_view answer) {
   const std::string words = last_line(errors);
   if (WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 0) return std::nullopt;
   JobFailure out;
@@ -150,6 +171,10 @@ std::optional<JobFailure> judge(int wait_status, StoppedFor stopped, std::string
     out = memory_failure();
   } else if (WIFEXITED(wait_status)) {
     out = judge_exit(WEXITSTATUS(wait_status), words);
+    std::string& reason = out.error.reason;
+    if (reason == "INPUT_REFUSED" || reason == "COMPUTATION_FAILED") {
+      reason = told_reason(answer).value_or(reason);
+    }
   } else {
     out = judge_signal(WTERMSIG(wait_status), words);
   }

@@ -17,8 +17,10 @@ enum class StoppedFor { kNothing, kCancel, kShutdown, kTime, kMemory };
 /// What the end of a worker means for its job; none if it succeeded.
 /// @param wait_status  as waitpid() gives it
 /// @param errors       what it wrote to stderr
+/// @param answer       what it wrote to stdout: may tell a reason of ErrorReason, with --json
 [[nodiscard]] std::optional<JobFailure> judge(int wait_status, StoppedFor stopped,
-                                              std::string_view errors);
+                                              std::string_view errors,
+                                              std::string_view answer = {});
 
 /// Reads one line of a worker's progress; none for a line that is none (a worker that read a
 /// hostile file may write anything).

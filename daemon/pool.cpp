@@ -262,6 +262,7 @@ Launch WorkerPool::Impl::plan(const Job& job) const {
   launch.arguments.push_back("--threads=" + std::to_string(threads));
   launch.arguments.push_back("--out=" + layout.run_out(job.id).string());
   launch.arguments.push_back("--progress-fd=" + std::to_string(kProgressFd));
+  launch.arguments.emplace_back("--json");
   launch.limits = {options.memory_bytes,
                    options.time_limit_s * std::max(threads, options.cores) + 10,
                    options.file_bytes};

@@ -50,7 +50,8 @@ class QueueService final : public v1::QueueService::Service {
     for (const JobState state : {JobState::kRunning, JobState::kCancelling}) {
       HP_ASSIGN_OR_RETURN(const auto ids, backend_.jobs.ids_in_state(state));
       for (const std::int64_t id : ids) {
-        const bool is_computed = id != backend_.desk.dip() && id != backend_.prints.job();
+        const bool is_computed = id != backend_.desk.dip() && id != backend_.prints.job() &&
+                                 id != backend_.captures.job();
         if (is_computed) reply.add_running_jobs(job_name(id));
       }
     }

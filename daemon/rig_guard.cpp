@@ -17,8 +17,8 @@ bool wants_help(v1::Rig::State state) {
 
 }  // namespace
 
-RigGuard::RigGuard(RigDesk& desk, std::function<void(bool)> tell)
-    : desk_(desk), tell_(std::move(tell)), thread_([this] { run(); }) {}
+RigGuard::RigGuard(RigDesk& desk, PlaceKeeper& places, std::function<void(bool)> tell)
+    : desk_(desk), places_(places), tell_(std::move(tell)), thread_([this] { run(); }) {}
 
 RigGuard::~RigGuard() {
   end_ = true;
@@ -37,6 +37,7 @@ void RigGuard::look() {
   for (const std::string& who : desk_.take_stops()) {
     log(LogLevel::kInfo, "rig_stop_asked", {{"by", who}});
   }
+  places_.look();
   const v1::Rig rig = rig_message(desk_);
   const bool serving = !wants_help(rig.state());
   if (told_ != serving) tell_(serving);

@@ -5,17 +5,18 @@
 #include <thread>
 
 #include "daemon/rig_desk.h"
+#include "daemon/rig_place.h"
 
 namespace hydroprint::daemon {
 
 /// Looks after the rig when nobody calls, ten times a second: ends a jog whose lease ran out, tells
 /// when the rig begins or ceases to work, and logs what those who must not wait for the log left to
-/// it.
+/// it. Has it noticed when the rig was homed.
 class RigGuard {
  public:
   /// @param tell  true: the rig works, as far as is known (not OFFLINE, FAULT or ESTOPPED); called
   /// at the start and with every change
-  RigGuard(RigDesk& desk, std::function<void(bool)> tell);
+  RigGuard(RigDesk& desk, PlaceKeeper& places, std::function<void(bool)> tell);
   ~RigGuard();
   RigGuard(const RigGuard&) = delete;
   RigGuard& operator=(const RigGuard&) = delete;
@@ -25,6 +26,7 @@ class RigGuard {
   void look();
 
   RigDesk& desk_;
+  PlaceKeeper& places_;
   std::function<void(bool)> tell_;
   std::optional<bool> told_;
   std::string state_;  // as logged last

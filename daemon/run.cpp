@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 
+#include "daemon/calibrated.h"
 #include "daemon/log.h"
 
 namespace hydroprint::daemon {
@@ -73,7 +74,8 @@ Run::~Run() {
 
 std::vector<int> Run::descriptors() const {
   std::vector<int> out;
-  for (const UniqueFd* fd : {&worker_.handle, &worker_.progress, &worker_.errors}) {
+  for (const UniqueFd* fd :
+       {&worker_.handle, &worker_.progress, &worker_.errors, &worker_.answer}) {
     if (fd->valid()) out.push_back(fd->get());
   }
   return out;
@@ -85,7 +87,7 @@ bool Run::step(JobStore& store, std::int64_t now_ms) {
   read_progress_lines(store, now_ms);
   watch_limits();
   if (!reap()) return false;
-  if (stopped_ == StoppedFor::kNothing && !judge(*wait_status_, stopped_, words_)) {
+  if (stopped_ == StoppedFor::kNothing && !judge(*wait_status_, stopped_, words_, answer_)) {
     begin_publishing();
   }
   return finish(store);
@@ -102,9 +104,13 @@ void Run::stop(StoppedFor why) {
 }
 
 void Run::read_words() {
-  if (!worker_.errors.valid()) return;
-  if (!drain(worker_.errors, words_, 1 << 20)) worker_.errors.reset();
-  if (words_.size() > kWordsKept) words_.erase(0, words_.size() - kWordsKept);
+  const auto read = [](UniqueFd& pipe, std::string& words) {
+    if (!pipe.valid()) return;
+    if (!drain(pipe, words, 1 << 20)) pipe.reset();
+    if (words.size() > kWordsKept) words.erase(0, words.size() - kWordsKept);
+  };
+  read(worker_.errors, words_);
+  read(worker_.answer, answer_);
 }
 
 void Run::read_progress_lines(JobStore& store, std::int64_t now_ms) {
@@ -155,13 +161,22 @@ bool Run::reap() {
   worker_.handle.reset();
   worker_.progress.reset();
   worker_.errors.reset();
+  worker_.answer.reset();
   return true;
+}
+
+Result<Run::Outcome> Run::publish() const {
+  Outcome out;
+  HP_ASSIGN_OR_RETURN(out.artifacts,
+                      publish_artifacts(layout_.run_out(job_.id), layout_.artifacts(job_.id)));
+  HP_ASSIGN_OR_RETURN(out.calibration, calibration_of(job_, layout_.artifacts(job_.id)));
+  return out;
 }
 
 // Hashing and syncing large files takes a while; other jobs need the pool's thread meanwhile.
 void Run::begin_publishing() {
   publishing_ = std::async(std::launch::async, [this] {
-    auto result = publish_artifacts(layout_.run_out(job_.id), layout_.artifacts(job_.id));
+    auto result = publish();
     wake_();
     return result;
   });
@@ -200,10 +215,13 @@ void Run::discard_output() const {
 }
 
 Result<Job> Run::store_end(JobStore& store) const {
-  if (published_ && *published_) return store.succeed(job_.id, **published_);
+  if (published_ && *published_) {
+    return store.succeed(job_.id, (*published_)->artifacts, (*published_)->calibration);
+  }
   if (published_) return store.give_up(job_.id, {published_->error(), {}, {}});
   const JobFailure cancelled{{Code::kCancelled, "cancelled", "", {}}, {}, {}};
-  return store.give_up(job_.id, judge(*wait_status_, stopped_, words_).value_or(cancelled));
+  return store.give_up(job_.id,
+                       judge(*wait_status_, stopped_, words_, answer_).value_or(cancelled));
 }
 
 void Run::log_end(const Result<Job>& job) const {

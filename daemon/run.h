@@ -41,12 +41,19 @@ class Run {
   void stop(StoppedFor why);
 
  private:
+  /// What a successful worker left.
+  struct Outcome {
+    std::vector<Artifact> artifacts;
+    std::optional<NewCalibration> calibration;
+  };
+
   Run(const Job& job, const Layout& layout) : job_(job), layout_(layout) {}
   void read_words();
   void read_progress_lines(JobStore& store, std::int64_t now_ms);
   void report(JobStore& store);
   void watch_limits();
   bool reap();
+  [[nodiscard]] Result<Outcome> publish() const;
   void begin_publishing();
   bool finish(JobStore& store);
   [[nodiscard]] Result<Job> store_end(JobStore& store) const;
@@ -64,11 +71,12 @@ class Run {
   std::optional<Time> kill_at_;
   std::optional<int> wait_status_;
   std::string words_;                 // the end of what it wrote to stderr
+  std::string answer_;                // and to stdout
   std::string progress_bytes_;        // a line that is not complete yet
   std::optional<Progress> progress_;  // not reported yet
   Time next_report_, next_end_;
-  std::future<Result<std::vector<Artifact>>> publishing_;
-  std::optional<Result<std::vector<Artifact>>> published_;
+  std::future<Result<Outcome>> publishing_;
+  std::optional<Result<Outcome>> published_;
 };
 
 }  // namespace hydroprint::daemon

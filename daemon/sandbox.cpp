@@ -132,9 +132,8 @@ Result<Sandbox> Sandbox::make() {
   return sandbox;
 }
 
-const char* Sandbox::confine(const Limits& limits, int fence) const {
+const char* Sandbox::limit_use(const Limits& limits) {
   volunteer_for_oom();
-  give_way();
   if (!limit(RLIMIT_CORE, 0) || !limit(RLIMIT_NOFILE, 256) ||
       !limit(RLIMIT_FSIZE, limits.file_bytes) || !limit(RLIMIT_CPU, limits.cpu_s, 5)) {
     return "cannot set resource limits";
@@ -147,6 +146,12 @@ const char* Sandbox::confine(const Limits& limits, int fence) const {
     return "cannot set the memory limit";
   }
   if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return "cannot give up privileges";
+  return nullptr;
+}
+
+const char* Sandbox::confine(const Limits& limits, int fence) const {
+  give_way();
+  if (const char* const failed = limit_use(limits)) return failed;
   if (!enter_fence(fence)) return "cannot fence off files";
   const sock_fprog program{static_cast<unsigned short>(filter_.size()),
                            const_cast<sock_filter*>(filter_.data())};

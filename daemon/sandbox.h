@@ -29,6 +29,10 @@ class Sandbox {
   /// @return what failed, or nullptr
   [[nodiscard]] const char* confine(const Limits& limits, int fence) const;
 
+  /// The least of it, for a program that opens nothing of strangers and needs a device: limits
+  /// alone.
+  [[nodiscard]] static const char* limit_use(const Limits& limits);
+
  private:
   std::vector<sock_filter> filter_;
 };

@@ -4,7 +4,8 @@ namespace hydroprint::daemon {
 
 /// Tables of the store. `jobs.flags` holds one flag a line; `jobs.body` is a serialised message;
 /// `losses.count` says how often the daemon was lost while the job ran; `dips.status` is a
-/// serialised message; `lease` has one row or none.
+/// serialised message; `lease` has one row or none; `calibrations.body` is a serialised message,
+/// its `job` 0 if it was entered by hand; `captures` outlive their jobs, since calibrations do.
 inline constexpr const char* kSchema = R"sql(
 CREATE TABLE IF NOT EXISTS settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 INSERT OR IGNORE INTO settings VALUES ('schema', '1');
@@ -47,6 +48,14 @@ CREATE TABLE IF NOT EXISTS dips(
 CREATE TABLE IF NOT EXISTS lease(
   one INTEGER PRIMARY KEY CHECK(one=1), id TEXT NOT NULL, holder TEXT NOT NULL,
   purpose TEXT NOT NULL, acquire_ms INTEGER NOT NULL, expire_ms INTEGER NOT NULL);
+CREATE TABLE IF NOT EXISTS calibrations(
+  id INTEGER PRIMARY KEY AUTOINCREMENT, kind INTEGER NOT NULL, owner TEXT NOT NULL,
+  job INTEGER NOT NULL, capture INTEGER NOT NULL, active INTEGER NOT NULL,
+  create_ms INTEGER NOT NULL, body BLOB NOT NULL);
+CREATE INDEX IF NOT EXISTS calibrations_by_job ON calibrations(job);
+CREATE TABLE IF NOT EXISTS captures(
+  job INTEGER PRIMARY KEY, time_ms INTEGER NOT NULL, watched INTEGER NOT NULL,
+  homed INTEGER NOT NULL, axis_mm REAL NOT NULL, homings INTEGER NOT NULL, dips INTEGER NOT NULL);
 CREATE TABLE IF NOT EXISTS requests(
   owner TEXT NOT NULL, method TEXT NOT NULL, id TEXT NOT NULL, digest TEXT NOT NULL,
   result TEXT NOT NULL, time_ms INTEGER NOT NULL, PRIMARY KEY(owner, method, id)) WITHOUT ROWID;

@@ -4,9 +4,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "daemon/dip_spec.h"
 #include "daemon/names.h"
+#include "hydroprint/v1/calibration_service.pb.h"
 #include "hydroprint/v1/job.pb.h"
 
 namespace hydroprint::daemon {
@@ -14,6 +16,7 @@ namespace {
 
 constexpr int kMostExtraFiles = 256;
 constexpr int kMostNames = 32;
+constexpr int kMostFrames = 5000;
 
 // The shortest text that reads back as the same number.
 std::string text_of(double value) {
@@ -87,17 +90,22 @@ class WorkBuilder {
   }
   // No name twice, and none that is another one's folder.
   [[nodiscard]] Status check_names_differ() const {
-    for (const InputFile& a : work_.inputs) {
-      for (const InputFile& b : work_.inputs) {
-        if (&a == &b || (a.name != b.name && !b.name.starts_with(a.name + "/"))) continue;
-        auto error = fail(
-            Code::kInvalidArgument,
-            kind() + ": the name \"" + a.name + "\" stands for two files; give each file its own",
-            "NAME_INVALID");
-        return error;
+    std::set<std::string> names;
+    for (const InputFile& file : work_.inputs) {
+      if (!names.insert(file.name).second) return twice(file.name);
+    }
+    for (const std::string& name : names) {
+      for (std::size_t end = name.find('/'); end != std::string::npos;
+           end = name.find('/', end + 1)) {
+        if (names.contains(name.substr(0, end))) return twice(name.substr(0, end));
       }
     }
     return {};
+  }
+  [[nodiscard]] Status twice(const std::string& name) const {
+    return fail(Code::kInvalidArgument,
+                kind() + ": the name \"" + name + "\" stands for two files; give each file its own",
+                "NAME_INVALID");
   }
 
   Work work_;
@@ -319,6 +327,60 @@ void add_print_image(WorkBuilder& builder, const v1::PrintImageSpec& spec, NewJo
   add_names(builder, "formats", spec.formats(), '-');
 }
 
+// Frames as hydroprint-capture wrote them: for each view a folder with frames.json.
+void add_frames(WorkBuilder& builder,
+                const google::protobuf::RepeatedPtrField<v1::InputFile>& frames, int most_views) {
+  constexpr std::string_view kListing = "/frames.json";
+  if (frames.size() > kMostFrames) {
+    builder.require(invalid_field(builder.path("frames"), "are more than 5000 files"));
+    return;
+  }
+  int views = 0;
+  for (const v1::InputFile& file : frames) {
+    builder.file("frames", "", file);
+    if (!file.name().ends_with(kListing)) continue;
+    builder.flag("frames", file.name().substr(0, file.name().size() - kListing.size()));
+    ++views;
+  }
+  if (views == 0 || views > most_views) {
+    builder.require(invalid_field(builder.path("frames"),
+                                  views == 0
+                                      ? "have no FOLDER/frames.json; name captures, or upload "
+                                        "what hydroprint-capture wrote"
+                                      : "are of more views than " + std::to_string(most_views)));
+  }
+}
+
+void add_calibrate(WorkBuilder& builder, const v1::CalibrateSpec& spec, NewJob& made) {
+  add_object(builder, spec);
+  add_frames(builder, spec.frames(), 1);
+  if (spec.has_layout()) {
+    builder.file("layout", "layout", spec.layout());
+  } else {
+    builder.require(invalid_field(builder.path("layout"), "is missing"));
+  }
+  if (spec.has_camera()) builder.file("camera", "camera", spec.camera());
+  if (spec.has_gripper_mm()) {
+    if (!(spec.gripper_mm() >= -1000 && spec.gripper_mm() <= 5000)) {
+      builder.require(invalid_field(builder.path("gripper_mm"), "must be from -1000 to 5000"));
+    }
+    builder.flag("gripper-mm", text_of(spec.gripper_mm()));
+  }
+  if (spec.has_threads()) add_threads(builder, spec.threads(), made);
+  made.use_cache = false;  // each leaves its calibration
+}
+
+void add_calibrate_camera(WorkBuilder& builder, const v1::CalibrateCameraSpec& spec, NewJob& made) {
+  add_frames(builder, spec.frames(), 30);
+  if (spec.has_threads()) add_threads(builder, spec.threads(), made);
+  made.use_cache = false;
+}
+
+Status check_capture(const v1::CaptureSpec& spec) {
+  if (!spec.has_seconds() || (spec.seconds() >= 0.1 && spec.seconds() <= 20)) return {};
+  return invalid_field("capture.seconds", "must be from 0.1 to 20");
+}
+
 Result<Work> work_of(const v1::Job& job, NewJob& made) {
   if (job.has_simulate()) {
     WorkBuilder builder("simulate");
@@ -364,9 +426,23 @@ Result<Work> work_of(const v1::Job& job, NewJob& made) {
     HP_RETURN_IF_ERROR(parse_job_name(job.print().print_image_job()));
     return WorkBuilder("print").build();
   }
+  if (job.has_capture()) {
+    HP_RETURN_IF_ERROR(check_capture(job.capture()));
+    return WorkBuilder("capture").build();
+  }
+  if (job.has_calibrate()) {
+    WorkBuilder builder("calibrate");
+    add_calibrate(builder, job.calibrate(), made);
+    return builder.build();
+  }
+  if (job.has_calibrate_camera()) {
+    WorkBuilder builder("calibrate-camera");
+    add_calibrate_camera(builder, job.calibrate_camera(), made);
+    return builder.build();
+  }
   return invalid_field("job",
                        "has no spec; set simulate, predict, fit, validate, print_image, template, "
-                       "print or dip");
+                       "print, dip, capture, calibrate_camera or calibrate");
 }
 
 Status check_labels(const v1::Job& job) {
@@ -383,7 +459,7 @@ Status check_labels(const v1::Job& job) {
 std::string default_name(const v1::Job& job, const Work& work) {
   for (const std::string& earlier :
        {job.dip().simulate_job(), job.print_image().simulate_job(), job.template_().simulate_job(),
-        job.print().print_image_job()}) {
+        job.print().print_image_job(), job.calibrate().capture_job()}) {
     if (!earlier.empty()) return work.verb + " " + earlier;
   }
   return work.inputs.empty() ? work.verb : work.verb + " " + work.inputs.front().name;
@@ -402,8 +478,44 @@ std::string body_of(const v1::Job& job) {
   if (job.has_print_image()) *body.mutable_print_image() = job.print_image();
   if (job.has_template_()) *body.mutable_template_() = job.template_();
   if (job.has_print()) *body.mutable_print() = job.print();
+  if (job.has_capture()) *body.mutable_capture() = job.capture();
+  if (job.has_calibrate()) *body.mutable_calibrate() = job.calibrate();
+  if (job.has_calibrate_camera()) *body.mutable_calibrate_camera() = job.calibrate_camera();
   if (job.has_dip()) *body.mutable_dip() = job.dip();
   return body.SerializeAsString();
+}
+
+Result<v1::Calibration> check_calibration(const v1::Calibration& entered) {
+  WorkBuilder builder("calibration");
+  builder.require(check_text(builder.path("display_name"), entered.display_name(), 200));
+  if (!entered.has_mesh()) builder.require(invalid_field(builder.path("mesh"), "is missing"));
+  if (entered.has_mesh()) builder.file("mesh", "mesh", entered.mesh());
+  if (!entered.has_pose()) builder.require(invalid_field(builder.path("pose"), "is missing"));
+  if (entered.has_pose()) add_pose(builder, entered.pose());
+  const double scale = entered.scale() == 0 ? 1 : entered.scale();
+  builder.number("scale", "scale", scale, 1e9);
+  if (entered.film().starts_with("polygon:")) {
+    builder.require(
+        invalid_field(builder.path("film"), "cannot be a polygon here; give its box as WxH"));
+  } else if (!entered.film().empty()) {
+    add_film(builder, entered.film());
+  }
+  const int spread = entered.covariance_size();
+  if (spread != 0 || entered.centre_mm_size() != 0) {
+    builder.require(check_numbers(builder.path("covariance"), entered.covariance(), 36));
+    builder.require(check_numbers(builder.path("centre_mm"), entered.centre_mm(), 3));
+  }
+  HP_RETURN_IF_ERROR(builder.build());
+  v1::Calibration out;
+  out.set_display_name(entered.display_name().empty() ? "by hand: " + entered.mesh().name()
+                                                      : entered.display_name());
+  *out.mutable_mesh() = entered.mesh();
+  *out.mutable_pose() = entered.pose();
+  out.set_scale(scale);
+  out.set_film(entered.film());
+  *out.mutable_covariance() = entered.covariance();
+  *out.mutable_centre_mm() = entered.centre_mm();
+  return out;
 }
 
 Result<NewJob> check_job(const v1::Job& job) {

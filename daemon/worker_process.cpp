@@ -61,8 +61,9 @@ struct ChildPlan {
   char* const* arguments;
   char* const* environment;
   const char* folder;
-  int null, progress, errors, fence;
+  int null, progress, errors, answer, fence;
   pid_t parent;
+  bool confined;
 };
 
 [[noreturn]] void give_up(const char* what) {
@@ -77,7 +78,7 @@ struct ChildPlan {
                                 const Sandbox& sandbox) {
   ::dup2(plan.errors, 2);
   ::dup2(plan.null, 0);
-  ::dup2(plan.null, 1);
+  ::dup2(plan.answer, 1);
   ::dup2(plan.progress, kProgressFd);
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -87,7 +88,10 @@ struct ChildPlan {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
   ::signal(SIGPIPE, SIG_DFL);
   if (::chdir(plan.folder) != 0) give_up(plan.folder);
-  if (const char* problem = sandbox.confine(limits, plan.fence)) give_up(problem);
+  if (const char* problem =
+          plan.confined ? sandbox.confine(limits, plan.fence) : Sandbox::limit_use(limits)) {
+    give_up(problem);
+  }
   ::close_range(kProgressFd + 1, ~0U, 0);
   ::execve(plan.program, plan.arguments, plan.environment);
   give_up(plan.program);
@@ -98,6 +102,7 @@ struct ChildPlan {
 Result<WorkerProcess> launch(const Launch& what, const Sandbox& sandbox) {
   HP_ASSIGN_OR_RETURN(Pipe progress, make_pipe());
   HP_ASSIGN_OR_RETURN(Pipe errors, make_pipe());
+  HP_ASSIGN_OR_RETURN(Pipe answer, make_pipe());
   const UniqueFd null_low(::open("/dev/null", O_RDWR | O_CLOEXEC));
   const UniqueFd null(::fcntl(null_low.get(), F_DUPFD_CLOEXEC, 10));
   HP_ASSIGN_OR_RETURN(const UniqueFd fence, make_fence(what.program, what.inputs, what.work));
@@ -105,9 +110,10 @@ Result<WorkerProcess> launch(const Launch& what, const Sandbox& sandbox) {
   arguments.insert(arguments.begin(), what.program.string());
   std::vector<std::string> environment = make_environment(what.work);
   const std::vector<char*> argv = pointers(arguments), envp = pointers(environment);
-  const ChildPlan plan{what.program.c_str(), argv.data(), envp.data(),
-                       what.inputs.c_str(),  null.get(),  progress.write.get(),
-                       errors.write.get(),   fence.get(), ::getpid()};
+  const ChildPlan plan{what.program.c_str(), argv.data(),        envp.data(),
+                       what.inputs.c_str(),  null.get(),         progress.write.get(),
+                       errors.write.get(),   answer.write.get(), fence.get(),
+                       ::getpid(),           what.confined};
   WorkerProcess worker;
   worker.pid = ::fork();
   if (worker.pid == 0) become_worker(plan, what.limits, sandbox);
@@ -121,6 +127,7 @@ Result<WorkerProcess> launch(const Launch& what, const Sandbox& sandbox) {
   worker.handle = UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, worker.pid, 0)));
   worker.progress = std::move(progress.read);
   worker.errors = std::move(errors.read);
+  worker.answer = std::move(answer.read);
   return worker;
 }
 

@@ -18,15 +18,18 @@ struct Launch {
   std::filesystem::path inputs;        ///< working folder: what it may read
   std::filesystem::path work;          ///< the only folder it may write in
   Limits limits;
+  bool confined = true;  ///< false: of limits alone; for a program of ours that needs a device
 };
 
 /// A running worker: leader of a process group of its own, which dies with the thread that started
-/// it. Its progress arrives at `progress` and its words at `errors`, neither of which ever blocks.
+/// it. Its progress arrives at `progress`, its words at `errors` and what it prints at `answer`,
+/// none of which ever blocks.
 struct WorkerProcess {
   pid_t pid = -1;
   UniqueFd handle;  ///< becomes readable when it ends
   UniqueFd progress;
   UniqueFd errors;
+  UniqueFd answer;
 };
 
 /// The file descriptor that a worker finds its progress pipe at.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -23,7 +24,10 @@ struct Plan {
   double activator_ml_per_m2 = 16;
   Clocks clocks;
   std::optional<double> water_temperature_c;
-  Warnings warnings;  ///< that speak against a good print
+  std::string calibration;           ///< "calibrations/3"; empty: none
+  std::optional<double> contact_mm;  ///< where first contact is, by that; none: somebody looks
+  std::int64_t homings = 0;          ///< of the rig, when that was measured
+  Warnings warnings;                 ///< that speak against a good print
 
   /// How much activator the film wants.
   [[nodiscard]] double activator_ml() const { return film_area_mm2 * 1e-6 * activator_ml_per_m2; }

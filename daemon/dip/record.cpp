@@ -47,7 +47,8 @@ Json steps_json(const std::vector<StepRecord>& steps) {
 
 Json axis_json(const Facts& facts) {
   Json out = {{"loaded_mm", optional(facts.stand.loaded_mm)},
-              {"contact_mm", optional(facts.stand.contact_mm)}};
+              {"contact_mm", optional(facts.stand.contact_mm)},
+              {"contact_from_calibration", facts.plan.contact_mm.has_value()}};
   if (!facts.ways) return out;
   out["clear_mm"] = facts.ways->clear_mm;
   out["bottom_mm"] = facts.ways->bottom_mm;
@@ -93,6 +94,7 @@ std::string report_json(const Facts& facts) {
                {"message", facts.message},
                {"step", name(facts.stand.step)},
                {"simulate_job", facts.plan.simulate_job},
+               {"calibration", facts.plan.calibration},
                {"lease_holder", facts.lease_holder},
                {"drive", facts.drive},
                {"virtual", facts.is_virtual},

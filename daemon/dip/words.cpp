@@ -27,9 +27,18 @@ std::string instruction(Step step, const Plan& plan) {
     case Step::kLoadObject:
       return "hang the object in the gripper as planned; then confirm";
     case Step::kFindContact:
+      if (plan.contact_mm) {
+        return text("first contact is known from ", plan.calibration, ", at ", *plan.contact_mm,
+                    " mm: take your hands away; then confirm: the object goes to ",
+                    plan.clearance_mm, " mm above the water");
+      }
       return "jog down until the object all but touches the water; then confirm: that is first "
              "contact, and the object rises";
     case Step::kClear:
+      if (plan.contact_mm) {
+        return text("the object goes to ", plan.clearance_mm,
+                    " mm above the water; keep your hands away");
+      }
       return text("the object rises by ", plan.clearance_mm, " mm; keep your hands away");
     case Step::kLayFilm:
       return "lay the film on the water between the bars, ink side up; then confirm: its clock "

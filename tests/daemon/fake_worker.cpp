@@ -7,8 +7,10 @@
 //   babble    writes nonsense as progress orphan            leaves a child behind kill-parent tries
 //   to kill the daemon read FILE         says whether it could                   write FILE   says
 //   whether it could
+//   reason WORD       prints that as the reason of an error
+//   garbage           leaves a calibration that is none
 // and then leaves film.png and report.json; print-image leaves print.pdf, made of its film image,
-// and flags.txt with it.
+// and flags.txt with it, calibrate and calibrate-camera a calibration and flags.txt.
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -28,6 +30,7 @@ namespace {
 
 std::map<std::string, std::string> flags;
 std::string facts;
+bool is_garbage = false;
 
 void tell(const std::string& line) {
   const int fd = std::stoi(flags["--progress-fd"]);
@@ -106,6 +109,11 @@ void obey(const std::string& line) {
     facts += tgkill(getppid(), getppid(), SIGKILL) < 0 ? " no-tgkill" : " TGKILL";
     const rlimit none{};
     facts += prlimit(getppid(), RLIMIT_NOFILE, &none, nullptr) < 0 ? " no-prlimit" : " PRLIMIT";
+  } else if (command == "garbage") {
+    is_garbage = true;
+  } else if (command == "reason") {
+    words >> rest;
+    std::cout << R"({"error":{"reason":")" << rest << "\"}}" << std::endl;
   } else if (command == "nothing") {
     std::filesystem::remove_all(flags["--out"]);
     std::_Exit(0);
@@ -119,6 +127,28 @@ void obey(const std::string& line) {
          "\n");
     usleep(600000);
   }
+}
+
+void calibrate(int argc, char** argv) {
+  const std::string out = flags["--out"];
+  std::ofstream report(out + "/flags.txt");
+  for (int i = 1; i < argc; ++i) report << argv[i] << '\n';
+  std::ofstream(out + "/camera.json") << R"({"views":12,"rms_mm":0.7})";
+  std::ofstream(out + "/alignment.png") << "picture of " << flags["--mesh"];
+  std::string row = "[1,0,0,0,0,0]", rows = row;
+  for (int i = 1; i < 6; ++i) rows += "," + row;
+  std::ofstream file(out + "/calibration.json");
+  if (is_garbage) {
+    file << R"({"pose":{"rotation_wxyz":[1,0,0,"x"]}})";
+    return;
+  }
+  file << R"({"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[3,-2,40]},"uncertainty":{)"
+       << R"("about_mm":[0,0,40],"covariance_turn_rad_shift_mm":[)" << rows
+       << R"(],"error_p50_mm":0.2,"error_p95_mm":0.4,"error_max_mm":0.5},)"
+       << R"("from_nominal_pose":["turn"],"film_frame":{"markers":[)"
+       << R"({"name":"left","used":true,"rms_mm":0.3,"residual_mm":0.1},)"
+       << R"({"name":"near","used":false,"why_not":"hidden"}]},)"
+       << R"("water":{"z_mm":0.25,"sigma_mm":0.1},"height_mm":10.5})";
 }
 
 void print_image(int argc, char** argv) {
@@ -140,6 +170,10 @@ int main(int argc, char** argv) {
   std::filesystem::create_directory(flags["--out"]);
   std::ifstream mesh(flags["--mesh"]);
   for (std::string line; std::getline(mesh, line);) obey(line);
+  if (std::string(argv[1]).starts_with("calibrate")) {
+    calibrate(argc, argv);
+    return 0;
+  }
   if (std::string(argv[1]) == "print-image") {
     print_image(argc, argv);
     return 0;

@@ -25,6 +25,20 @@ TEST(Outcome, RefusedInputCarriesTheWorkersOwnLastLine) {
   EXPECT_FALSE(failure->signal);
 }
 
+TEST(Outcome, AReasonThatTheProgramPrintsIsTakenIfTheApiHasIt) {
+  const auto told = [](int status, const std::string& answer) {
+    return judge(status, StoppedFor::kNothing, "words", answer)->error.reason;
+  };
+  EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MIRRORED","metadata":{}}})"
+                            "\n"),
+            "MIRRORED");
+  EXPECT_EQ(told(exited(4), R"({"error":{"reason":"CAMERA_GONE"}})"), "CAMERA_GONE");
+  EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MADE_UP"}})"), "INPUT_REFUSED");
+  EXPECT_EQ(told(exited(3), R"({"error":"reason"})"), "INPUT_REFUSED");
+  EXPECT_EQ(told(exited(3), std::string(100000, '{')), "INPUT_REFUSED");
+  EXPECT_EQ(told(SIGSEGV, R"({"error":{"reason":"MIRRORED"}})"), "WORKER_KILLED");
+}
+
 TEST(Outcome, EachEndHasItsReason) {
   EXPECT_EQ(reason(exited(2)), "INPUT_REFUSED");
   EXPECT_EQ(reason(exited(4), "it failed"), "COMPUTATION_FAILED");

@@ -311,6 +311,59 @@ TEST(Spec, PosesThatAreNoneAreRefused) {
   EXPECT_EQ(refused_field(job), "simulate.pose.translation_mm");
 }
 
+v1::Job calibrate_job() {
+  v1::Job job;
+  set_file(*job.mutable_calibrate()->mutable_mesh(), "spot.obj");
+  set_file(*job.mutable_calibrate()->mutable_layout(), "layout.toml");
+  set_file(*job.mutable_calibrate()->add_frames(), "frames/frames.json");
+  set_file(*job.mutable_calibrate()->add_frames(), "frames/1.png");
+  return job;
+}
+
+TEST(Spec, FieldsOfCalibrateBecomeItsFlags) {
+  v1::Job job = calibrate_job();
+  job.mutable_calibrate()->set_gripper_mm(-2.5);
+  set_file(*job.mutable_calibrate()->mutable_camera(), "camera.json");
+  const auto made = check_job(job);
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_FALSE(made->use_cache);
+  EXPECT_EQ(made->work.inputs.size(), 5U);
+  EXPECT_EQ(made->work.flags,
+            (std::vector<std::string>{"--mesh=spot.obj", "--frames=frames", "--layout=layout.toml",
+                                      "--camera=camera.json", "--gripper-mm=-2.5"}));
+  job = calibrate_job();
+  set_file(*job.mutable_calibrate()->add_frames(), "other/frames.json");
+  EXPECT_EQ(refused_field(job), "calibrate.frames") << "one view";
+  job.mutable_calibrate()->clear_frames();
+  EXPECT_EQ(refused_field(job), "calibrate.frames");
+  job = calibrate_job();
+  job.mutable_calibrate()->clear_layout();
+  EXPECT_EQ(refused_field(job), "calibrate.layout");
+  job = calibrate_job();
+  job.mutable_calibrate()->set_gripper_mm(std::nan(""));
+  EXPECT_EQ(refused_field(job), "calibrate.gripper_mm");
+}
+
+TEST(Spec, EachViewOfTheBoardIsAFolder) {
+  v1::Job job;
+  for (const char* name : {"a/frames.json", "a/1.png", "b/c/frames.json"})
+    set_file(*job.mutable_calibrate_camera()->add_frames(), name);
+  EXPECT_EQ(check_job(job)->work.flags, (std::vector<std::string>{"--frames=a", "--frames=b/c"}));
+  EXPECT_EQ(check_job(job)->work.verb, "calibrate-camera");
+  set_file(*job.mutable_calibrate_camera()->add_frames(), "a/1.png");
+  EXPECT_EQ(refused_field(job), "NAME_INVALID");
+}
+
+TEST(Spec, ACaptureIsShortEnoughToBeKept) {
+  v1::Job job;
+  job.mutable_capture()->set_seconds(20);
+  EXPECT_EQ(refused_field(job), "accepted");
+  for (const double wrong : {0.0, 20.1, std::nan("")}) {
+    job.mutable_capture()->set_seconds(wrong);
+    EXPECT_EQ(refused_field(job), "capture.seconds");
+  }
+}
+
 TEST(Spec, HostileNamesAndTextsAreRefused) {
   v1::Job job = job_with_mesh();
   job.mutable_simulate()->mutable_mesh()->set_name("../../etc/passwd");

@@ -1,0 +1,29 @@
+#include "daemon/camera_setup.h"
+
+#include "sim/base/input_file.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::size_t kLargestLayout = 1 << 20;
+
+}  // namespace
+
+Result<std::string> read_layout_text(const CameraSetup& setup) {
+  auto text = read_text_file(setup.layout, kLargestLayout);
+  if (text) return text;
+  return fail(Code::kInvalidArgument, "camera.layout: " + text.error().message, "CONFIG_INVALID");
+}
+
+Result<CameraSetup> read_camera_setup(const Config& config) {
+  CameraSetup out;
+  out.device = config.camera_device;
+  out.program = config.camera_program;
+  out.patience_s = static_cast<int>(config.camera_patience_s);
+  out.layout = config.camera_layout;
+  if (config.camera_gripper_water_mm > 0) out.gripper_water_mm = config.camera_gripper_water_mm;
+  if (!out.layout.empty()) HP_RETURN_IF_ERROR(read_layout_text(out));
+  return out;
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,146 @@
+#include "daemon/capture_runner.h"
+
+#include <poll.h>
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "daemon/files.h"
+#include "daemon/log.h"
+#include "daemon/run.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr int kTick_ms = 50;
+constexpr std::chrono::milliseconds kStoreAgainAfter{500};
+// To start, to open the camera, and to write what was taken.
+constexpr int kMargin_s = 60;
+constexpr std::int64_t kLargestFile = 64 << 20;
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+Launch plan(const CameraSetup& camera, const Layout& layout, std::int64_t job, double seconds) {
+  Launch out;
+  out.program = camera.program;
+  out.inputs = layout.run_inputs(job);
+  out.work = layout.run_work(job);
+  out.arguments = {"--seconds=" + text(seconds),
+                   "--patience-s=" + std::to_string(camera.patience_s),
+                   "--out=" + layout.run_out(job).string(),
+                   "--progress-fd=" + std::to_string(kProgressFd), "--json"};
+  if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
+  out.limits = {0, static_cast<std::int64_t>(10 * (seconds + kMargin_s)), kLargestFile};
+  out.confined = false;  // it needs the camera; what it reads is that alone
+  return out;
+}
+
+void wait_for(const Run& run) {
+  std::vector<pollfd> fds;
+  for (const int fd : run.descriptors()) fds.push_back({fd, POLLIN, 0});
+  ::poll(fds.data(), fds.size(), kTick_ms);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<CaptureRunner>> CaptureRunner::make(CaptureSurroundings surroundings) {
+  HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
+  return std::unique_ptr<CaptureRunner>(
+      new CaptureRunner(std::move(surroundings), std::move(sandbox)));
+}
+
+CaptureRunner::~CaptureRunner() { stop(); }
+
+Status CaptureRunner::check() const {
+  if (around_.camera.device.empty()) {
+    return fail(
+        Code::kFailedPrecondition,
+        "no camera is configured; set camera.device in the daemon's configuration, or enter "
+        "a calibration by hand",
+        "CAMERA_MISSING");
+  }
+  const rig::Controller* rig = around_.desk.controller();
+  if (rig != nullptr && rig::in_motion(rig->snapshot().condition.state)) {
+    return fail(Code::kAborted, "the axis moves; wait until it is at rest, or stop it",
+                "MOTION_IN_PROGRESS");
+  }
+  return {};
+}
+
+Result<Job> CaptureRunner::create(const NewJob& made, const RequestKey& request, double seconds) {
+  const std::lock_guard lock(mutex_);
+  if (end_) return fail(Code::kAborted, "the daemon is shutting down", "SHUTTING_DOWN");
+  HP_ASSIGN_OR_RETURN(auto earlier, around_.jobs.repeated(made.owner, request));
+  if (earlier) return std::move(*earlier);
+  HP_RETURN_IF_ERROR(check());
+  const RigPlace place = around_.places.place();
+  HP_RETURN_IF_ERROR(around_.places.keep());
+  HP_ASSIGN_OR_RETURN(Job job, around_.jobs.create(made, request));
+  // The store has it that no other one is under way.
+  if (thread_.joinable()) thread_.join();
+  if (const Status noted = around_.calibrations.note_capture(job.id, place); !noted) {
+    give_up(job, noted.error());
+    return around_.jobs.get(job.id);
+  }
+  cancelled_ = false;
+  job_ = job.id;
+  thread_ = std::thread([this, job, seconds] { go(job, seconds); });
+  return job;
+}
+
+Result<Job> CaptureRunner::cancel(std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  auto job = around_.jobs.cancel(id);
+  if (job && job_ == id) cancelled_ = true;
+  return job;
+}
+
+void CaptureRunner::go(const Job& job, double seconds) {
+  if (const Status done = run(job, seconds); !done) give_up(job, done.error());
+  job_ = 0;
+}
+
+Status CaptureRunner::run(const Job& job, double seconds) {
+  HP_RETURN_IF_ERROR(make_folder(around_.layout.run_work(job.id)));
+  const Launch launch = plan(around_.camera, around_.layout, job.id, seconds);
+  const std::chrono::seconds limit(static_cast<int>(std::ceil(seconds)) + kMargin_s +
+                                   around_.camera.patience_s);
+  HP_ASSIGN_OR_RETURN(const auto run,
+                      Run::start(job, launch, sandbox_, around_.layout, limit, [] {}));
+  while (!run->step(around_.jobs, around_.clock())) {
+    if (left_) run->stop(StoppedFor::kShutdown);
+    if (cancelled_) run->stop(StoppedFor::kCancel);
+    wait_for(*run);
+  }
+  return {};
+}
+
+/// What never got to run.
+void CaptureRunner::give_up(const Job& job, const Error& error) {
+  discard(around_.layout.run(job.id));
+  log(LogLevel::kError, "capture_not_started", {{"job", job.id}, {"message", error.message}});
+  while (!left_) {
+    const auto ended = around_.jobs.give_up(job.id, {error, {}, {}});
+    if (ended || ended.error().code == Code::kFailedPrecondition ||
+        ended.error().code == Code::kNotFound) {
+      return;
+    }
+    std::this_thread::sleep_for(kStoreAgainAfter);
+  }
+}
+
+void CaptureRunner::stop() {
+  left_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace hydroprint::daemon
