@@ -25,6 +25,7 @@ Connection::Impl::Impl(ConnectionOptions connection_options)
                                         channel_arguments())),
       artifacts(v1::ArtifactService::NewStub(channel)),
       assets(v1::AssetService::NewStub(channel)),
+      calibrations(v1::CalibrationService::NewStub(channel)),
       jobs(v1::JobService::NewStub(channel)),
       leases(v1::LeaseService::NewStub(channel)),
       queue(v1::QueueService::NewStub(channel)),

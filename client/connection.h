@@ -14,8 +14,8 @@ struct ConnectionOptions {
 };
 
 /// A connection to one daemon, made on first use and made anew when it breaks. The functions that
-/// take one (jobs.h, rig.h, lease.h, assets.h, artifacts.h, queue.h, health.h) may be called from
-/// several threads.
+/// take one (jobs.h, rig.h, lease.h, assets.h, artifacts.h, calibration.h, queue.h, health.h) may
+/// be called from several threads.
 ///
 /// Calls that may safely be repeated are repeated a few times, for about a second, when the daemon
 /// does not answer; creating calls carry a request_id, which makes them safe as well. After that

@@ -46,16 +46,6 @@ void to_proto(const InputFile& file, v1::InputFile* message) {
   message->set_asset(file.asset);
 }
 
-std::optional<PoseSpec> from_proto(bool is_set, const v1::Pose& pose) {
-  PoseSpec result;
-  if (!is_set || pose.rotation_wxyz_size() != 4 || pose.translation_mm_size() != 3)
-    return std::nullopt;
-  std::copy(pose.rotation_wxyz().begin(), pose.rotation_wxyz().end(), result.rotation_wxyz.begin());
-  std::copy(pose.translation_mm().begin(), pose.translation_mm().end(),
-            result.translation_mm.begin());
-  return result;
-}
-
 std::optional<std::string> from_proto(v1::Model model) {
   if (model == v1::MODEL_SHEET) return "sheet";
   if (model == v1::MODEL_STOKES) return "stokes";
@@ -90,7 +80,7 @@ Spec object_from_proto(const Message& message) {
   Spec spec = film_from_proto(message);
   spec.mesh = from_proto(message.mesh());
   spec.scale = given(message.has_scale(), message.scale());
-  spec.pose = from_proto(message.has_pose(), message.pose());
+  if (message.has_pose()) spec.pose = pose_from_proto(message.pose());
   return spec;
 }
 
@@ -146,10 +136,24 @@ Spec print_image_from_proto(const v1::PrintImageSpec& message) {
   return spec;
 }
 
+Spec calibrate_from_proto(const v1::CalibrateSpec& message) {
+  Spec spec = object_from_proto(message);
+  spec.verb = Verb::kCalibrate;
+  if (!message.capture_job().empty()) spec.scan.capture_jobs = {message.capture_job()};
+  for (const auto& file : message.frames()) spec.scan.frames.push_back(from_proto(file));
+  spec.scan.layout = from_proto(message.has_layout(), message.layout());
+  spec.scan.camera_calibration = message.camera_calibration();
+  spec.scan.camera = from_proto(message.has_camera(), message.camera());
+  spec.scan.gripper_mm = given(message.has_gripper_mm(), message.gripper_mm());
+  return spec;
+}
+
 std::optional<Spec> spec_from_proto(const v1::Job& job) {
   if (job.has_simulate()) {
     Spec spec = common_from_proto(job.simulate());
     spec.texture = from_proto(job.simulate().has_texture(), job.simulate().texture());
+    spec.calibration = job.simulate().calibration();
+    spec.allow_stale_calibration = job.simulate().allow_stale_calibration();
     return spec;
   }
   if (job.has_predict()) {
@@ -174,6 +178,16 @@ std::optional<Spec> spec_from_proto(const v1::Job& job) {
     spec.verb = Verb::kValidate;
     spec.only.assign(message.only().begin(), message.only().end());
     spec.quick = message.quick();
+    spec.threads = given(message.has_threads(), static_cast<int>(message.threads()));
+    return spec;
+  }
+  if (job.has_calibrate()) return calibrate_from_proto(job.calibrate());
+  if (job.has_calibrate_camera()) {
+    const v1::CalibrateCameraSpec& message = job.calibrate_camera();
+    Spec spec;
+    spec.verb = Verb::kCalibrateCamera;
+    spec.scan.capture_jobs.assign(message.capture_jobs().begin(), message.capture_jobs().end());
+    for (const auto& file : message.frames()) spec.scan.frames.push_back(from_proto(file));
     spec.threads = given(message.has_threads(), static_cast<int>(message.threads()));
     return spec;
   }
@@ -230,10 +244,7 @@ void object_to_proto(const Spec& spec, Message& message) {
   film_to_proto(spec, message);
   if (!spec.mesh.name.empty()) to_proto(spec.mesh, message.mutable_mesh());
   if (spec.scale) message.set_scale(*spec.scale);
-  if (spec.pose) {
-    for (const double x : spec.pose->rotation_wxyz) message.mutable_pose()->add_rotation_wxyz(x);
-    for (const double x : spec.pose->translation_mm) message.mutable_pose()->add_translation_mm(x);
-  }
+  if (spec.pose) *message.mutable_pose() = pose_to_proto(*spec.pose);
 }
 
 template <class Message>
@@ -260,6 +271,23 @@ void page_to_proto(const PageSpec& page, Message& message) {
   if (page.printer_margin_mm) message.set_printer_margin_mm(*page.printer_margin_mm);
   message.set_job_name(page.job_name);
   message.set_date(page.date);
+}
+
+void calibrate_to_proto(const Spec& spec, v1::CalibrateSpec& message) {
+  const ScanSpec& scan = spec.scan;
+  object_to_proto(spec, message);
+  if (!scan.capture_jobs.empty()) message.set_capture_job(scan.capture_jobs.front());
+  for (const InputFile& file : scan.frames) to_proto(file, message.add_frames());
+  if (scan.layout) to_proto(*scan.layout, message.mutable_layout());
+  message.set_camera_calibration(scan.camera_calibration);
+  if (scan.camera) to_proto(*scan.camera, message.mutable_camera());
+  if (scan.gripper_mm) message.set_gripper_mm(*scan.gripper_mm);
+}
+
+void calibrate_camera_to_proto(const Spec& spec, v1::CalibrateCameraSpec& message) {
+  for (const std::string& job : spec.scan.capture_jobs) message.add_capture_jobs(job);
+  for (const InputFile& file : spec.scan.frames) to_proto(file, message.add_frames());
+  if (spec.threads) message.set_threads(*spec.threads);
 }
 
 Status print_image_to_proto(const Spec& spec, v1::PrintImageSpec& message) {
@@ -291,6 +319,22 @@ std::optional<Time> from_proto(bool is_set, const google::protobuf::Timestamp& t
       std::chrono::nanoseconds(google::protobuf::util::TimeUtil::TimestampToNanoseconds(time))));
 }
 
+std::optional<PoseSpec> pose_from_proto(const v1::Pose& pose) {
+  PoseSpec result;
+  if (pose.rotation_wxyz_size() != 4 || pose.translation_mm_size() != 3) return std::nullopt;
+  std::copy(pose.rotation_wxyz().begin(), pose.rotation_wxyz().end(), result.rotation_wxyz.begin());
+  std::copy(pose.translation_mm().begin(), pose.translation_mm().end(),
+            result.translation_mm.begin());
+  return result;
+}
+
+v1::Pose pose_to_proto(const PoseSpec& pose) {
+  v1::Pose message;
+  for (const double x : pose.rotation_wxyz) message.add_rotation_wxyz(x);
+  for (const double x : pose.translation_mm) message.add_translation_mm(x);
+  return message;
+}
+
 Job from_proto(const v1::Job& message) {
   Job job;
   job.name = message.name();
@@ -313,6 +357,7 @@ Job from_proto(const v1::Job& message) {
   job.spec = spec_from_proto(message);
   if (message.has_dip()) job.dip = from_proto(message.dip());
   if (message.has_print()) job.print_image_job = message.print().print_image_job();
+  if (message.has_capture()) job.capture_s = message.capture().seconds();
   if (message.has_dip_status()) job.dip_status = from_proto(message.dip_status());
   return job;
 }
@@ -357,6 +402,8 @@ Status to_proto(const Spec& spec, v1::Job& job) {
   if (spec.verb == Verb::kSimulate) {
     auto& message = *job.mutable_simulate();
     if (spec.texture) to_proto(*spec.texture, message.mutable_texture());
+    message.set_calibration(spec.calibration);
+    message.set_allow_stale_calibration(spec.allow_stale_calibration);
     return common_to_proto(spec, message);
   }
   if (spec.verb == Verb::kFit) {
@@ -372,6 +419,14 @@ Status to_proto(const Spec& spec, v1::Job& job) {
     for (const std::string& name : spec.only) message.add_only(name);
     message.set_quick(spec.quick);
     if (spec.threads) message.set_threads(*spec.threads);
+    return {};
+  }
+  if (spec.verb == Verb::kCalibrate) {
+    calibrate_to_proto(spec, *job.mutable_calibrate());
+    return {};
+  }
+  if (spec.verb == Verb::kCalibrateCamera) {
+    calibrate_camera_to_proto(spec, *job.mutable_calibrate_camera());
     return {};
   }
   if (spec.verb == Verb::kPrintImage) return print_image_to_proto(spec, *job.mutable_print_image());

@@ -29,6 +29,7 @@ template <class T>
 [[nodiscard]] Queue from_proto(const ::hydroprint::v1::Queue& message);
 [[nodiscard]] Asset from_proto(const ::hydroprint::v1::Asset& message);
 [[nodiscard]] Artifact from_proto(const ::hydroprint::v1::Artifact& message);
+[[nodiscard]] std::optional<PoseSpec> pose_from_proto(const ::hydroprint::v1::Pose& pose);
 [[nodiscard]] DipSpec from_proto(const ::hydroprint::v1::DipSpec& message);
 [[nodiscard]] DipStatus from_proto(const ::hydroprint::v1::DipStatus& message);
 [[nodiscard]] Lease from_proto(const ::hydroprint::v1::Lease& message);
@@ -43,6 +44,7 @@ template <class T>
 
 [[nodiscard]] ::hydroprint::v1::Job::State to_proto(JobState state);
 
+[[nodiscard]] ::hydroprint::v1::Pose pose_to_proto(const PoseSpec& pose);
 [[nodiscard]] ::hydroprint::v1::DipSpec to_proto(const DipSpec& spec);
 [[nodiscard]] ::hydroprint::v1::DipStatus::Step to_proto(DipStep step);
 

@@ -92,6 +92,8 @@ DipSpec from_proto(const v1::DipSpec& message) {
   spec.water_temperature_c =
       given(message.has_water_temperature_c(), message.water_temperature_c());
   spec.yes_to_all = message.yes_to_all();
+  spec.calibration = message.calibration();
+  spec.allow_stale_calibration = message.allow_stale_calibration();
   return spec;
 }
 
@@ -110,6 +112,8 @@ v1::DipSpec to_proto(const DipSpec& spec) {
   if (spec.activation_window_s) message.set_activation_window_s(*spec.activation_window_s);
   if (spec.water_temperature_c) message.set_water_temperature_c(*spec.water_temperature_c);
   message.set_yes_to_all(spec.yes_to_all);
+  message.set_calibration(spec.calibration);
+  message.set_allow_stale_calibration(spec.allow_stale_calibration);
   return message;
 }
 

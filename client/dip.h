@@ -24,6 +24,8 @@ struct DipSpec {
   std::optional<double> activator_wait_s;
   std::optional<double> activation_window_s;
   std::optional<double> water_temperature_c;
+  std::string calibration;  ///< "calibrations/3"; empty: the simulation's, if it has one
+  bool allow_stale_calibration = false;
   bool yes_to_all = false;  ///< skips confirmations and clocks; hydroprint-virtual-rig only
 };
 

@@ -40,6 +40,10 @@ std::string_view name_of(Verb verb) {
       return "print-image";
     case Verb::kTemplate:
       return "template";
+    case Verb::kCalibrate:
+      return "calibrate";
+    case Verb::kCalibrateCamera:
+      return "calibrate-camera";
   }
   return "unknown";
 }
@@ -50,7 +54,7 @@ bool is_finished(JobState state) {
 }
 
 bool is_finished(const Job& job) {
-  const bool is_computed = !job.dip && !job.print_image_job;
+  const bool is_computed = !job.dip && !job.print_image_job && !job.capture_s;
   return is_finished(job.state) || (!is_computed && job.state == JobState::kInterrupted);
 }
 

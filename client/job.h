@@ -14,7 +14,16 @@
 namespace hydroprint::client {
 
 /// The kinds of computation, as the worker's verbs.
-enum class Verb { kSimulate, kPredict, kFit, kValidate, kPrintImage, kTemplate };
+enum class Verb {
+  kSimulate,
+  kPredict,
+  kFit,
+  kValidate,
+  kPrintImage,
+  kTemplate,
+  kCalibrate,
+  kCalibrateCamera
+};
 
 /// "simulate", "print-image", ... as the worker has them; the API's Job has "_" for "-".
 [[nodiscard]] std::string_view name_of(Verb verb);
@@ -47,13 +56,23 @@ struct PageSpec {
   std::vector<std::string> formats;  ///< "pdf", "png", "tiff"; none: the worker's
 };
 
+/// What calibrate and calibrate-camera are computed from.
+struct ScanSpec {
+  std::vector<std::string> capture_jobs;  ///< "jobs/5"; of calibrate one
+  std::vector<InputFile> frames;          ///< in their place: "view1/frames.json", ...
+  std::optional<InputFile> layout;        ///< calibrate only; none: the daemon's
+  std::string camera_calibration;   ///< calibrate only: "calibrations/2"; empty: the active one
+  std::optional<InputFile> camera;  ///< in its place
+  std::optional<double> gripper_mm;
+};
+
 /// What a job computes: the worker's flags (contract). What is not set is left to the worker.
 struct Spec {
   Verb verb = Verb::kSimulate;
   /// Print-image and template only: "jobs/7", whose film image, or object, is taken, in place of
   /// the files, `scale`, `pose`, `film` and `dpi` here; empty: none.
   std::string simulate_job;
-  InputFile mesh;                       ///< all but validate and print-image
+  InputFile mesh;                       ///< all but validate, print-image and calibrate-camera
   std::vector<InputFile> extra_files;   ///< files that others refer to by name
   std::optional<InputFile> texture;     ///< simulate only
   std::optional<InputFile> film_image;  ///< predict and print-image only, and needed there
@@ -77,6 +96,10 @@ struct Spec {
   std::vector<std::string> free;         ///< fit only: what to fit; none: all that can be
   bool drop_outliers = false;            ///< fit only
   PageSpec page;                         ///< print-image and template only
+  ScanSpec scan;                         ///< calibrate and calibrate-camera only
+  /// Simulate only: "calibrations/3", whose pose, film and scale are taken; empty: none.
+  std::string calibration;
+  bool allow_stale_calibration = false;  ///< simulate only
 };
 
 enum class JobState {
@@ -126,13 +149,14 @@ struct Job {
   std::optional<DipSpec> dip;                  ///< of a dip
   std::optional<DipStatus> dip_status;         ///< of an open dip
   std::optional<std::string> print_image_job;  ///< of a print: "jobs/7", whose pages are printed
+  std::optional<double> capture_s;             ///< of a capture: how long; 0: the daemon's default
 };
 
 /// Whether the job's state will not change any more.
 [[nodiscard]] bool is_finished(const Job& job);
 
-/// Whether this is so of every job in that state: INTERRUPTED is the end of dips and prints
-/// alone.
+/// Whether this is so of every job in that state: INTERRUPTED is the end of dips, prints
+/// and captures alone.
 [[nodiscard]] bool is_finished(JobState state);
 
 /// Something that happened to a job.

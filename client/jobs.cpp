@@ -125,6 +125,14 @@ Result<Job> create_print(Connection& connection, const std::string& print_image_
   return to_job(call(connection, *connection.impl().jobs, &JobStub::CreateJob, request));
 }
 
+Result<Job> create_capture(Connection& connection, std::optional<double> seconds,
+                           const JobOptions& options) {
+  v1::CreateJobRequest request = creation(options);
+  v1::CaptureSpec& spec = *request.mutable_job()->mutable_capture();
+  if (seconds) spec.set_seconds(*seconds);
+  return to_job(call(connection, *connection.impl().jobs, &JobStub::CreateJob, request));
+}
+
 Result<Job> get_job(Connection& connection, const std::string& name) {
   return to_job(
       call(connection, *connection.impl().jobs, &JobStub::GetJob, named<v1::GetJobRequest>(name)));

@@ -38,6 +38,12 @@ struct JobOptions {
 [[nodiscard]] Result<Job> create_print(Connection& connection, const std::string& print_image_job,
                                        const JobOptions& options = {});
 
+/// Takes frames of the daemon's camera, at once. Errors: CAMERA_MISSING, STATE_FORBIDS,
+/// MOTION_IN_PROGRESS.
+/// @param seconds  none: the daemon's default
+[[nodiscard]] Result<Job> create_capture(Connection& connection, std::optional<double> seconds,
+                                         const JobOptions& options = {});
+
 [[nodiscard]] Result<Job> get_job(Connection& connection, const std::string& name);
 
 /// Which jobs are listed.

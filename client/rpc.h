@@ -13,6 +13,7 @@
 #include "client/connection.h"
 #include "hydroprint/v1/artifact_service.grpc.pb.h"
 #include "hydroprint/v1/asset_service.grpc.pb.h"
+#include "hydroprint/v1/calibration_service.grpc.pb.h"
 #include "hydroprint/v1/job_service.grpc.pb.h"
 #include "hydroprint/v1/lease_service.grpc.pb.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
@@ -30,6 +31,7 @@ struct Connection::Impl {
   std::shared_ptr<grpc::Channel> channel;
   std::unique_ptr<v1::ArtifactService::Stub> artifacts;
   std::unique_ptr<v1::AssetService::Stub> assets;
+  std::unique_ptr<v1::CalibrationService::Stub> calibrations;
   std::unique_ptr<v1::JobService::Stub> jobs;
   std::unique_ptr<v1::LeaseService::Stub> leases;
   std::unique_ptr<v1::QueueService::Stub> queue;

@@ -1,6 +1,7 @@
 #include "hardware/virtual/eyes.h"
 
 #include "hardware/depth_scene/codec.h"
+#include "sim/base/pose_file.h"
 
 namespace hydroprint::virtual_rig {
 
@@ -38,6 +39,14 @@ Status Eyes::set(const std::string& marker, depth_scene::MarkerState state) {
   return fail(Code::kInvalidArgument, "no marker is called \"" + marker.substr(0, 40) +
                                           "\". Name one of " +
                                           (names.empty() ? "a --scene's" : names));
+}
+
+Status Eyes::hang(const std::filesystem::path& pose) {
+  HP_ASSIGN_OR_RETURN(const PoseFile file, read_pose_file(pose));
+  const std::scoped_lock lock(mutex_);
+  scene_.X_GO = file.pose();
+  scenery_.reset();
+  return {};
 }
 
 void Eyes::clear() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -24,12 +25,15 @@ class Eyes {
   void set(depth_scene::CameraState state);
   /// Refuses (kInvalidArgument) a name that no marker has.
   [[nodiscard]] Status set(const std::string& marker, depth_scene::MarkerState state);
+  /// The object hangs otherwise from now on, for whoever looks anew: as the pose file says, in
+  /// place of the scene's. Refuses what read_pose_file refuses.
+  [[nodiscard]] Status hang(const std::filesystem::path& pose);
   /// All well again.
   void clear();
 
  private:
-  const Scene scene_;
   std::mutex mutex_;
+  Scene scene_;
   std::optional<std::string> scenery_;  // once asked for
   depth_scene::Sight sight_;
 };

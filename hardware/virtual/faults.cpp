@@ -149,7 +149,7 @@ std::optional<State> look_up_state(const std::string_view (&words)[N], std::stri
   return static_cast<State>(found - std::begin(words));
 }
 
-/// "camera gone", "marker left hidden".
+/// "camera gone", "marker left hidden", "hang held.json".
 std::optional<Action> parse_sight(const Words& words) {
   Action out;
   if (words[0] == "camera" && words.size() == 2) {
@@ -158,6 +158,11 @@ std::optional<Action> parse_sight(const Words& words) {
     if (!state) return std::nullopt;
     out.kind = Action::Kind::kCamera;
     out.camera = *state;
+    return out;
+  }
+  if (words[0] == "hang" && words.size() == 2) {
+    out.kind = Action::Kind::kHang;
+    out.name = words[1];
     return out;
   }
   if (words[0] != "marker" || words.size() != 3) return std::nullopt;
@@ -189,7 +194,9 @@ std::string_view action_help() {
          "wrong-length|busy [COUNT|all], silent, press|release "
          "stop|positive-end|negative-end|stall|"
          "freeze, stall, freeze, unplug, replug, reboot [DURATION], "
-         "camera gone|frozen|black|hung|well, marker NAME hidden|knocked-over|well, clear, state, "
+         "camera gone|frozen|black|hung|well, marker NAME hidden|knocked-over|well, hang "
+         "POSE.json, clear, "
+         "state, "
          "help "
          "(a DURATION is 700ms or 2s)";
 }

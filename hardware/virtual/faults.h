@@ -43,6 +43,7 @@ struct Action {
     kReboot,  ///< silent for `pause`, then switched on
     kCamera,  ///< becomes `camera`
     kMarker,  ///< that of name `name` becomes `marker`
+    kHang,    ///< the object hangs as the pose file `name` says
     kState,
     kScenery,  ///< for the camera's driver: what there is to see, and what of it changes
     kSight,

@@ -126,6 +126,9 @@ Result<std::string> VirtualRig::perform(const Action& action) {
     case Action::Kind::kMarker:
       HP_RETURN_IF_ERROR(eyes_.set(action.name, action.marker));
       break;
+    case Action::Kind::kHang:
+      HP_RETURN_IF_ERROR(eyes_.hang(action.name));
+      break;
     case Action::Kind::kScenery:
       return eyes_.scenery_json();
     case Action::Kind::kSight: {

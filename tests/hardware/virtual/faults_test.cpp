@@ -32,6 +32,8 @@ TEST(Faults, LinesOfTheControlSocketAreUnderstood) {
   EXPECT_EQ(marker->kind, Action::Kind::kMarker);
   EXPECT_EQ(marker->name, "left");
   EXPECT_EQ(marker->marker, depth_scene::MarkerState::kKnockedOver);
+  EXPECT_EQ(parse_action("hang held.json")->kind, Action::Kind::kHang);
+  EXPECT_EQ(parse_action("hang held.json")->name, "held.json");
 }
 
 TEST(Faults, OtherLinesAreRefusedWithWhatThereIs) {

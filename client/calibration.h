@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/connection.h"
+#include "client/job.h"
+#include "client/time.h"
+#include "sim/base/result.h"
+
+namespace hydroprint::client {
+
+/// What became of one marker.
+struct CalibrationMarker {
+  std::string name;
+  bool used = false;
+  std::string why_not;
+  double rms_mm = 0;
+  double residual_mm = 0;
+};
+
+/// How an object hangs, or a camera's lens; the fields are those of the API's Calibration.
+struct Calibration {
+  std::string name;  ///< "calibrations/3"
+  std::string kind;  ///< "OBJECT", "CAMERA"
+  std::string display_name;
+  std::string owner;
+  std::optional<Time> create_time;
+  std::optional<Time> capture_time;
+  bool active = false;
+  std::string job;                 ///< that made it; empty: entered by hand
+  std::string picture;             ///< "jobs/7/artifacts/alignment.png"
+  std::vector<std::string> stale;  ///< "MOVED", "HOMED", "DIPPED"
+  InputFile mesh;
+  double scale = 1;
+  std::string film;
+  std::optional<PoseSpec> pose;
+  std::vector<double> covariance;  ///< 6 x 6, row by row: turn (rad), shift (mm) about centre_mm
+  std::vector<double> centre_mm;
+  std::optional<double> error_p50_mm, error_p95_mm, error_max_mm;  ///< on the object's surface
+  std::vector<std::string> from_nominal_pose;  ///< motions that the scan does not tell
+  std::vector<CalibrationMarker> markers;
+  std::optional<double> water_z_mm, water_sigma_mm;
+  std::optional<double> height_mm;   ///< of the lowest point over the water
+  std::optional<double> axis_mm;     ///< where the axis was
+  std::optional<double> contact_mm;  ///< where it is at first contact
+  int views = 0;                     ///< of a camera
+  double rms_mm = 0;                 ///< of a camera
+};
+
+/// Newest first.
+[[nodiscard]] Result<std::vector<Calibration>> list_calibrations(Connection& connection, int limit);
+
+/// @param name  "calibrations/3", or "calibrations/active"
+[[nodiscard]] Result<Calibration> get_calibration(Connection& connection, const std::string& name);
+
+/// Enters one by hand: `display_name`, `mesh`, `scale`, `film` and `pose` count.
+[[nodiscard]] Result<Calibration> create_calibration(Connection& connection,
+                                                     const Calibration& entered);
+
+/// Makes it the one of its kind that is used where none is named.
+[[nodiscard]] Result<Calibration> activate_calibration(Connection& connection,
+                                                       const std::string& name);
+
+[[nodiscard]] Status delete_calibration(Connection& connection, const std::string& name);
+
+}  // namespace hydroprint::client
