@@ -1,5 +1,6 @@
 #include "sim/worker/calibrate.h"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <utility>
@@ -51,6 +52,13 @@ Status write_pictures(const std::filesystem::path& folder, const mesh::Surface& 
       image::write_png(folder / "alignment.png", alignment, image::kScreenDpi, context));
   HP_ASSIGN_OR_RETURN(const auto error, error_picture(surface, X_FO, found.error_mm, context));
   return image::write_png(folder / "error.png", error, image::kScreenDpi, context);
+}
+
+/// z of the lowest point where the object hangs.
+double lowest_mm(const mesh::Surface& surface, const Pose& X_FO) {
+  double out = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& p : surface.points) out = std::min(out, (X_FO * p).z());
+  return out;
 }
 
 /// Frames, and the camera that took them.
@@ -106,13 +114,15 @@ Status run_calibrate(const Options& options, const pipeline::DipOptions& dip, Ou
   task.half_film_mm = (dip.outline.max_mm - dip.outline.min_mm) / 2;
   HP_ASSIGN_OR_RETURN(calibrate::Calibration found, calibrate::calibrate(task, context));
   report.X_FO = found.object.X_FO;
+  report.lowest_mm = lowest_mm(task.surface, report.X_FO);
   report.warnings = model.warnings;
   report.warnings.insert(report.warnings.end(), found.warnings.begin(), found.warnings.end());
   HP_RETURN_IF_ERROR(folder.create());
   HP_RETURN_IF_ERROR(write_pictures(folder.partial(), task.surface, found, context));
   context.progress("writing", 0);
-  HP_RETURN_IF_ERROR(image::write_artifact(folder.partial() / "calibration.json",
-                                           calibration_json(found).dump(1) + "\n"));
+  HP_RETURN_IF_ERROR(
+      image::write_artifact(folder.partial() / "calibration.json",
+                            calibration_json(found, report.lowest_mm).dump(1) + "\n"));
   HP_RETURN_IF_ERROR(image::write_artifact(folder.partial() / "pose.json",
                                            pose_json(found.object.X_FO).dump(1) + "\n"));
   report.artifacts = {"calibration.json", "pose.json", "alignment.png", "error.png"};

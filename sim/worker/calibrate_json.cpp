@@ -57,7 +57,7 @@ Json pose_json(const Pose& X_FO) {
           {"translation_mm", list_of(X_FO.translation())}};
 }
 
-Json calibration_json(const calibrate::Calibration& c) {
+Json calibration_json(const calibrate::Calibration& c, double lowest_mm) {
   const registration::PoseFit& frame = c.film_frame.fit;
   Json out = {{"pose", pose_json(c.object.X_FO)},
               {"uncertainty",
@@ -76,6 +76,7 @@ Json calibration_json(const calibrate::Calibration& c) {
     out["water"] = {{"z_mm", c.water->z_mm}, {"sigma_mm", c.water->sigma_mm}};
   else
     out["water"] = nullptr;
+  out["height_mm"] = lowest_mm - (c.water ? c.water->z_mm : 0);
   return out;
 }
 

@@ -14,7 +14,9 @@ namespace hydroprint::worker {
 [[nodiscard]] nlohmann::ordered_json pose_json(const Pose& X_FO);
 
 /// calibration.json: pose, covariance, what is not known, film frame and markers, water, scan.
-[[nodiscard]] nlohmann::ordered_json calibration_json(const calibrate::Calibration& calibration);
+/// @param lowest_mm  z of the object's lowest point (F), for its height over the water
+[[nodiscard]] nlohmann::ordered_json calibration_json(const calibrate::Calibration& calibration,
+                                                      double lowest_mm);
 
 /// A line or two for people.
 [[nodiscard]] std::string calibration_text(const calibrate::Calibration& calibration,

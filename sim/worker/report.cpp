@@ -151,7 +151,7 @@ Json calibration_report(const Report& report) {
         {"scale", o.scale}, {"film", film_json(report.outline)}, {"threads", o.threads}};
     out["parameters"]["gripper_mm"] = o.gripper_mm ? Json(*o.gripper_mm) : Json();
     out["mesh"] = {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}};
-    out["calibration"] = calibration_json(*report.calibration);
+    out["calibration"] = calibration_json(*report.calibration, report.lowest_mm);
   } else {
     out["camera"] = Json::parse(calibrate::camera_json(*report.camera));
   }
@@ -166,7 +166,7 @@ Json calibration_report(const Report& report) {
 Json calibration_summary(const Report& report, const std::filesystem::path& dir) {
   Json out = {{"out", dir.string()}, {"artifacts", report.artifacts}};
   if (report.calibration) {
-    out.update(calibration_json(*report.calibration));
+    out.update(calibration_json(*report.calibration, report.lowest_mm));
   } else {
     out.update({{"views", report.camera->views}, {"rms_mm", report.camera->rms_mm}});
   }

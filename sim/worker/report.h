@@ -45,7 +45,8 @@ struct Report {
   std::optional<fit::Outcome> fit;             ///< of `fit`, which has no figures
   std::optional<print::Print> print;           ///< of `print-image`, which has none; without images
   std::optional<print::Placement> placement;   ///< of `template`, which has none; without pages
-  std::optional<calibrate::Calibration> calibration;      ///< of `calibrate`, which has none
+  std::optional<calibrate::Calibration> calibration;  ///< of `calibrate`, which has none
+  double lowest_mm = 0;  ///< of `calibrate`: z of the object's lowest point, F
   std::optional<registration::CameraCalibration> camera;  ///< of `calibrate-camera`
   std::vector<std::pair<std::string, double>> stage_seconds;
   double total_s = 0;
