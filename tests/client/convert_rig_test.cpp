@@ -15,6 +15,8 @@ TEST(ConvertRig, EveryFieldOfADipGoesToTheMessageAndBack) {
   DipSpec spec;
   spec.simulate_job = "jobs/7";
   spec.yes_to_all = true;
+  spec.calibration = "calibrations/3";
+  spec.allow_stale_calibration = true;
   double value = 1;
   for (auto* field :
        {&spec.depth_mm, &spec.speed_mm_per_s, &spec.hold_s, &spec.retract_speed_mm_per_s,

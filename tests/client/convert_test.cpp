@@ -59,6 +59,8 @@ void expect_round_trip(const v1::Job& job, const google::protobuf::Message& mess
 TEST(Convert, EveryFieldOfSimulateGoesToTheMessageAndBack) {
   Spec spec = full_spec(Verb::kSimulate);
   spec.texture = file("spot.png");
+  spec.calibration = "calibrations/3";
+  spec.allow_stale_calibration = true;
   const v1::Job job = message_of(spec);
   expect_round_trip(job, job.simulate());
   EXPECT_TRUE(job.simulate().inertia());
@@ -118,6 +120,40 @@ TEST(Convert, EveryFieldOfTemplateGoesToTheMessageAndBack) {
   spec.page.date = "2025-03-14";
   const v1::Job job = message_of(spec);
   expect_round_trip(job, job.template_());
+}
+
+TEST(Convert, EveryFieldOfCalibrateGoesToTheMessageAndBack) {
+  Spec spec;
+  spec.verb = Verb::kCalibrate;
+  spec.mesh = file("spot.obj");
+  spec.extra_files = {file("film.json")};
+  spec.scale = 50;
+  spec.pose = PoseSpec{{0.6, 0, 0, 0.8}, {1.5, -2, 3}};
+  spec.film = "polygon:film.json";
+  spec.threads = 2;
+  spec.scan = {{"jobs/5"},       {file("frames/frames.json")}, file("layout.toml"),
+               "calibrations/2", file("camera.json"),          -3.5};
+  const v1::Job job = message_of(spec);
+  expect_round_trip(job, job.calibrate());
+}
+
+TEST(Convert, EveryFieldOfCalibrateCameraGoesToTheMessageAndBack) {
+  Spec spec;
+  spec.verb = Verb::kCalibrateCamera;
+  spec.threads = 2;
+  spec.scan.capture_jobs = {"jobs/5", "jobs/6"};
+  spec.scan.frames = {file("view1/frames.json")};
+  const v1::Job job = message_of(spec);
+  expect_round_trip(job, job.calibrate_camera());
+}
+
+TEST(Convert, ACaptureIsHowLong) {
+  v1::Job message;
+  message.mutable_capture()->set_seconds(2.5);
+  message.set_state(v1::Job::INTERRUPTED);
+  const Job job = from_proto(message);
+  EXPECT_EQ(job.capture_s, 2.5);
+  EXPECT_TRUE(is_finished(job)) << "it is of its moment";
 }
 
 TEST(Convert, APrintIsWhatIsPrinted) {

@@ -300,7 +300,8 @@ v1::CreateJobRequest simulate_request(const std::string& asset, const std::strin
 bool finished(const v1::Job& job) {
   return job.state() == v1::Job::SUCCEEDED || job.state() == v1::Job::FAILED ||
          job.state() == v1::Job::CANCELLED ||
-         ((job.has_dip() || job.has_print()) && job.state() == v1::Job::INTERRUPTED);
+         ((job.has_dip() || job.has_print() || job.has_capture()) &&
+          job.state() == v1::Job::INTERRUPTED);
 }
 
 }  // namespace hydroprint::tests
