@@ -31,8 +31,8 @@ function(hydroprint_use_precompiled folder name)
   get_directory_property(flags DIRECTORY ${folder} DEFINITION CMAKE_CXX_FLAGS_RELEASE)
   if(CMAKE_BUILD_TYPE STREQUAL "Release" AND flags MATCHES "-O3")
     set(name optimised)
-  elseif(place MATCHES "^sim|daemon/dip$")
-    set(name sim)  # daemon/dip: the part of the daemon that knows no network
+  elseif(place MATCHES "^sim|(daemon/dip|client/loop)$")
+    set(name sim)  # the last two: parts of daemon and client that know no network
   elseif(place MATCHES "client/cli$")
     set(name cli)
   elseif(place MATCHES "(daemon|client)$")

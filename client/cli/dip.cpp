@@ -26,7 +26,7 @@ namespace {
 struct DipOptions {
   client::DipSpec spec;
   client::JobOptions job;
-  std::string simulate_job, out;
+  std::string simulate_job, calibration, out;
   bool no_guide = false;
 };
 
@@ -90,6 +90,8 @@ Status finish(const Program& program, const client::Job& job, const DipOptions& 
 Status dip(Program& program, DipOptions options) {
   HP_RETURN_IF_ERROR(check_terminal(options));
   if (!options.simulate_job.empty()) options.spec.simulate_job = job_name(options.simulate_job);
+  if (!options.calibration.empty())
+    options.spec.calibration = calibration_name(options.calibration);
   HP_ASSIGN_OR_RETURN(const auto lease,
                       HeldLease::take_or_acquire(program, purpose_of(options.spec)));
   HP_ASSIGN_OR_RETURN(const client::Job job,
@@ -178,6 +180,12 @@ void add_dip(CLI::App& app, Program& program) {
           "--simulate-job", options->simulate_job,
           "The simulation whose film image was printed: jobs/7, or 7; gives depth and speed")
       ->type_name("JOB");
+  command
+      ->add_option("--calibration", options->calibration,
+                   "How the object hangs, and where first contact is: calibrations/3, 3 or active; "
+                   "default: what the simulation went by")
+      ->type_name("CALIBRATION");
+  add_stale_flag(*command, options->spec.allow_stale_calibration);
   add_motion_flags(*command, options->spec);
   add_film_flags(*command, options->spec);
   command->add_option("--name", options->job.display_name, "What people call the job")

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 #include <string_view>
 #include <utility>
@@ -39,6 +40,29 @@ Result<std::optional<client::InputFile>> Inputs::add(const std::filesystem::path
     name = std::to_string(i) + "-" + file.filename().string();
   HP_ASSIGN_OR_RETURN(auto input, add_as(name, file));
   return input;
+}
+
+Result<std::vector<client::InputFile>> Inputs::add_frames(
+    const std::vector<std::filesystem::path>& folders) {
+  std::vector<client::InputFile> out;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    std::error_code error;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folders[i], error)) {
+      if (entry.is_regular_file()) files.push_back(entry.path());
+    }
+    if (error || !std::filesystem::exists(folders[i] / "frames.json")) {
+      return fail(Code::kNotFound, folders[i].string() +
+                                       ": no frames.json there; give a folder that "
+                                       "hydroprint-capture, or 'hydroprint capture', wrote");
+    }
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+      const std::string name = "view" + std::to_string(i + 1) + "/" + file.filename().string();
+      HP_ASSIGN_OR_RETURN(out.emplace_back(), add_as(name, file));
+    }
+  }
+  return out;
 }
 
 Result<std::string> Inputs::add_film(const std::string& film, client::Spec& spec) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "client/assets.h"
 #include "client/job.h"
@@ -26,6 +27,10 @@ class Inputs {
 
   /// A file that nothing refers to by name; nothing for an empty path.
   [[nodiscard]] Result<std::optional<client::InputFile>> add(const std::filesystem::path& file);
+
+  /// Folders that hydroprint-capture wrote, each under its own name: "view1/frames.json", ...
+  [[nodiscard]] Result<std::vector<client::InputFile>> add_frames(
+      const std::vector<std::filesystem::path>& folders);
 
   /// The worker's --film; the file of a polygon is uploaded.
   [[nodiscard]] Result<std::string> add_film(const std::string& film, client::Spec& spec);

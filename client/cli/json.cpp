@@ -1,6 +1,7 @@
 #include "client/cli/json.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <iostream>
 #include <string>
 
@@ -82,6 +83,50 @@ void put(Json& json, const client::PageSpec& page) {
   if (!page.formats.empty()) json["formats"] = page.formats;
 }
 
+void put(Json& json, const char* key, const std::vector<std::string>& values) {
+  if (!values.empty()) json[key] = values;
+}
+
+void put(Json& json, const client::ScanSpec& scan, client::Verb verb) {
+  if (verb == client::Verb::kCalibrateCamera) put(json, "capture_jobs", scan.capture_jobs);
+  if (verb == client::Verb::kCalibrate && !scan.capture_jobs.empty())
+    json["capture_job"] = scan.capture_jobs.front();
+  for (const auto& file : scan.frames) json["frames"].push_back(value_of(file));
+  put(json, "layout", scan.layout);
+  put(json, "camera_calibration", scan.camera_calibration);
+  put(json, "camera", scan.camera);
+  put(json, "gripper_mm", scan.gripper_mm);
+}
+
+std::string text_of(const Json& value) {
+  return printable(value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+Json marker_json(const client::CalibrationMarker& marker) {
+  Json json{{"name", marker.name}, {"used", marker.used}};
+  put(json, "why_not", marker.why_not);
+  if (!marker.used) return json;
+  json["rms_mm"] = marker.rms_mm;
+  json["residual_mm"] = marker.residual_mm;
+  return json;
+}
+
+void put_found(Json& json, const client::Calibration& found) {
+  put(json, "pose", found.pose);
+  put(json, "error_p50_mm", found.error_p50_mm);
+  put(json, "error_p95_mm", found.error_p95_mm);
+  put(json, "error_max_mm", found.error_max_mm);
+  put(json, "from_nominal_pose", found.from_nominal_pose);
+  for (const auto& marker : found.markers) json["markers"].push_back(marker_json(marker));
+  put(json, "water_z_mm", found.water_z_mm);
+  put(json, "water_sigma_mm", found.water_sigma_mm);
+  put(json, "height_mm", found.height_mm);
+  put(json, "axis_mm", found.axis_mm);
+  put(json, "contact_mm", found.contact_mm);
+  if (!found.covariance.empty()) json["covariance"] = found.covariance;
+  if (!found.centre_mm.empty()) json["centre_mm"] = found.centre_mm;
+}
+
 // As the API's Job has it.
 std::string kind_of(client::Verb verb) {
   std::string out(client::name_of(verb));
@@ -118,6 +163,9 @@ Json spec_json(const client::Spec& spec) {
   if (!spec.free.empty()) json["free"] = spec.free;
   if (spec.drop_outliers) json["drop_outliers"] = true;
   put(json, spec.page);
+  put(json, spec.scan, spec.verb);
+  put(json, "calibration", spec.calibration);
+  if (spec.allow_stale_calibration) json["allow_stale_calibration"] = true;
   return json;
 }
 
@@ -142,6 +190,7 @@ Json to_json(const client::Job& job) {
   json["cache_hit"] = job.cache_hit;
   if (job.spec) json[kind_of(job.spec->verb)] = spec_json(*job.spec);
   if (job.print_image_job) json["print"] = {{"print_image_job", *job.print_image_job}};
+  if (job.capture_s) json["capture"] = {{"seconds", *job.capture_s}};
   if (job.dip) json["dip"] = to_json(*job.dip);
   if (job.dip_status) json["dip_status"] = to_json(*job.dip_status);
   return json;
@@ -173,6 +222,8 @@ Json to_json(const client::DipSpec& spec) {
   put(json, "activator_wait_s", spec.activator_wait_s);
   put(json, "activation_window_s", spec.activation_window_s);
   put(json, "water_temperature_c", spec.water_temperature_c);
+  put(json, "calibration", spec.calibration);
+  if (spec.allow_stale_calibration) json["allow_stale_calibration"] = true;
   if (spec.yes_to_all) json["yes_to_all"] = true;
   return json;
 }
@@ -241,12 +292,50 @@ Json to_json(const client::Artifact& artifact) {
           {"media_type", artifact.media_type}};
 }
 
+Json to_json(const client::Calibration& calibration) {
+  Json json{{"name", calibration.name}, {"kind", calibration.kind}};
+  json["display_name"] = calibration.display_name;
+  json["owner"] = calibration.owner;
+  put(json, "create_time", calibration.create_time);
+  put(json, "capture_time", calibration.capture_time);
+  json["active"] = calibration.active;
+  put(json, "stale", calibration.stale);
+  put(json, "job", calibration.job);
+  put(json, "picture", calibration.picture);
+  if (calibration.kind == "CAMERA") {
+    json["views"] = calibration.views;
+    json["rms_mm"] = calibration.rms_mm;
+    return json;
+  }
+  json["mesh"] = value_of(calibration.mesh);
+  json["scale"] = calibration.scale;
+  put(json, "film", calibration.film);
+  put_found(json, calibration);
+  return json;
+}
+
 Json to_json(const Error& error) {
   Json json{{"code", code_name(error.code)}};
   put(json, "reason", error.reason);
   json["message"] = error.message;
   if (!error.metadata.empty()) json["metadata"] = error.metadata;
   return json;
+}
+
+void print_tree(const Json& json, const std::string& indent) {
+  for (const auto& [key, value] : json.items()) {
+    std::cout << indent << std::left << std::setw(20) << key;
+    if (value.is_object()) {
+      std::cout << "\n";
+      print_tree(value, indent + "  ");
+    } else if (value.is_array() && !value.empty() && !value.front().is_number()) {
+      for (const Json& line : value)  // one below the other
+        std::cout << (&line == &value.front() ? "" : indent + std::string(20, ' ')) << text_of(line)
+                  << "\n";
+    } else {
+      std::cout << text_of(value) << "\n";
+    }
+  }
 }
 
 void print(const Json& json) {

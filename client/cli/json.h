@@ -4,6 +4,7 @@
 
 #include "client/artifacts.h"
 #include "client/assets.h"
+#include "client/calibration.h"
 #include "client/job.h"
 #include "client/lease.h"
 #include "client/queue.h"
@@ -25,6 +26,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const client::Queue& queue);
 [[nodiscard]] Json to_json(const client::Asset& asset);
 [[nodiscard]] Json to_json(const client::Artifact& artifact);
+[[nodiscard]] Json to_json(const client::Calibration& calibration);
 [[nodiscard]] Json to_json(const Error& error);
 
 /// An array of them.
@@ -34,6 +36,9 @@ template <class T>
   for (const T& value : values) array.push_back(to_json(value));
   return array;
 }
+
+/// Prints it for people: one key a line, lists one below the other.
+void print_tree(const Json& json, const std::string& indent = "");
 
 /// Prints one line of JSON to standard output.
 void print(const Json& json);

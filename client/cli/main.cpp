@@ -59,6 +59,11 @@ void add_commands(CLI::App& app, Program& program) {
   add_assets(app, program);
   add_queue(app, program);
   add_rig(app, program);
+  add_capture(app, program);
+  add_calibrate(app, program);
+  add_calibrate_camera(app, program);
+  add_calibrations(app, program);
+  add_loop(app, program);
   add_print(app, program);
   add_dip(app, program);
   add_confirm(app, program);

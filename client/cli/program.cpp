@@ -71,6 +71,16 @@ std::string job_name(const std::string& text) {
   return is_number ? "jobs/" + text : text;
 }
 
+std::string calibration_name(const std::string& text) {
+  const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return is_number || text == "active" ? "calibrations/" + text : text;
+}
+
+void add_stale_flag(CLI::App& command, bool& is_allowed) {
+  command.add_flag("--allow-stale-calibration", is_allowed,
+                   "Go by the calibration even if the rig moved since, or it is of another object");
+}
+
 void add_job_argument(CLI::App& command, std::string& job) {
   command.add_option("job", job, "The job: jobs/7, or 7")->type_name("JOB")->required();
 }

@@ -46,6 +46,12 @@ class Program {
 /// "7" or "jobs/7" to "jobs/7"; anything else is left to the daemon to refuse.
 [[nodiscard]] std::string job_name(const std::string& text);
 
+/// "3", "active" or "calibrations/3" to "calibrations/3", "calibrations/active".
+[[nodiscard]] std::string calibration_name(const std::string& text);
+
+/// Adds --allow-stale-calibration.
+void add_stale_flag(CLI::App& command, bool& is_allowed);
+
 /// Adds the positional argument JOB.
 void add_job_argument(CLI::App& command, std::string& job);
 

@@ -13,26 +13,6 @@
 namespace hydroprint::cli {
 namespace {
 
-std::string text_of(const Json& value) {
-  return printable(value.is_string() ? value.get<std::string>() : value.dump());
-}
-
-void print_tree(const Json& json, const std::string& indent) {
-  for (const auto& [key, value] : json.items()) {
-    std::cout << indent << std::left << std::setw(20) << key;
-    if (value.is_object()) {
-      std::cout << "\n";
-      print_tree(value, indent + "  ");
-    } else if (value.is_array() && !value.empty() && value.front().is_string()) {
-      for (const Json& line : value)  // one below the other
-        std::cout << (&line == &value.front() ? "" : indent + std::string(20, ' ')) << text_of(line)
-                  << "\n";
-    } else {
-      std::cout << text_of(value) << "\n";
-    }
-  }
-}
-
 Status show(Program& program, const std::string& name) {
   HP_ASSIGN_OR_RETURN(const client::Job job, client::get_job(program.daemon(), name));
   HP_ASSIGN_OR_RETURN(const auto artifacts, client::list_artifacts(program.daemon(), name));
@@ -42,7 +22,7 @@ Status show(Program& program, const std::string& name) {
     print(json);
     return {};
   }
-  print_tree(json, "");
+  print_tree(json);
   for (const client::Artifact& artifact : artifacts)
     std::cout << std::setw(20) << "artifact" << artifact.file_name() << "  "
               << format_bytes(artifact.size_bytes) << "\n";

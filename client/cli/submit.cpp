@@ -18,7 +18,7 @@ namespace {
 struct SubmitOptions {
   client::Spec spec;  // what needs no upload goes here at once
   std::string mesh, texture, film_image, motion, points, profile, ink_image, pose, film,
-      icc_profile, simulate_job;
+      icc_profile, simulate_job, calibration;
   std::optional<std::string> depth;
   client::JobOptions job;
   bool wait = false;
@@ -102,6 +102,14 @@ void add_worker_flags(CLI::App& command, SubmitOptions& options) {
     add_file(
         command, "--texture", options.texture,
         "Its texture: PNG, JPEG or TIFF; without it the model's own materials give the colour");
+    command
+        .add_option(
+            "--calibration", options.calibration,
+            "How the object hangs, in place of --pose, --film and --scale: calibrations/3, 3 "
+            "or active")
+        ->type_name("CALIBRATION")
+        ->excludes("--pose", "--film", "--scale");
+    add_stale_flag(command, spec.allow_stale_calibration);
   } else {
     add_film_image_flag(command, options, "The film image as printed")->required();
     add_file(command, "--motion", options.motion,
@@ -209,6 +217,7 @@ Result<client::Spec> upload_inputs(Program& program, const SubmitOptions& option
   client::Spec spec = options.spec;
   if (spec.verb == client::Verb::kValidate) return spec;  // it reads no files
   if (!options.simulate_job.empty()) spec.simulate_job = job_name(options.simulate_job);
+  if (!options.calibration.empty()) spec.calibration = calibration_name(options.calibration);
   HP_RETURN_IF_ERROR(set_depth(options.depth, spec));
   if (!options.pose.empty()) {
     HP_ASSIGN_OR_RETURN(spec.pose, client::read_pose_file(options.pose));

@@ -86,8 +86,9 @@ Error why(const client::Job& job) {
   if (job.state == client::JobState::kInterrupted)
     why = {Code::kInternal,
            job.name + " was interrupted: " +
-               (job.dip ? "the daemon was lost during the dip"
-                        : "the daemon ended before the print; look at the printer"),
+               (job.dip         ? "the daemon was lost during the dip"
+                : job.capture_s ? "the daemon ended before the capture; take another one"
+                                : "the daemon ended before the print; look at the printer"),
            {}};
   // Of a dip that ended early: what to do with film and object.
   const std::string advice = job.dip_status ? job.dip_status->instruction : "";

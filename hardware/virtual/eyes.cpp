@@ -1,7 +1,12 @@
 #include "hardware/virtual/eyes.h"
 
+#include <utility>
+
 #include "hardware/depth_scene/codec.h"
+#include "hardware/depth_scene/hand.h"
+#include "hardware/depth_scene/shapes.h"
 #include "sim/base/pose_file.h"
+#include "sim/mesh/read_model.h"
 
 namespace hydroprint::virtual_rig {
 
@@ -41,11 +46,33 @@ Status Eyes::set(const std::string& marker, depth_scene::MarkerState state) {
                                           (names.empty() ? "a --scene's" : names));
 }
 
-Status Eyes::hang(const std::filesystem::path& pose) {
+Status Eyes::hang(const std::filesystem::path& pose, const std::filesystem::path& mesh) {
   HP_ASSIGN_OR_RETURN(const PoseFile file, read_pose_file(pose));
   const std::scoped_lock lock(mutex_);
-  scene_.X_GO = file.pose();
+  Scene next = scene_;
+  next.X_GO = file.pose();
+  if (!mesh.empty()) {
+    next.mesh = mesh;
+    next.scale = 1;
+  }
+  HP_ASSIGN_OR_RETURN(const depth_scene::Scenery scenery, scenery_of(next));
+  scene_ = std::move(next);
+  scenery_ = depth_scene::to_json(scenery);
+  return {};
+}
+
+Status Eyes::show(const std::filesystem::path& pose, const std::filesystem::path& mesh) {
+  const std::scoped_lock lock(mutex_);
   scenery_.reset();
+  if (mesh.empty()) return {};
+  HP_ASSIGN_OR_RETURN(const PoseFile file, read_pose_file(pose));
+  HP_ASSIGN_OR_RETURN(depth_scene::Scenery scenery, scenery_of(scene_));
+  HP_ASSIGN_OR_RETURN(mesh::Model model, mesh::read_model(mesh, 1, {}));
+  const Pose X_FC = depth_scene::camera_pose(scenery.stand, scenery.seed, 0);
+  depth_scene::Mesh held{std::move(model.vertices), std::move(model.triangles)};
+  scenery.bodies = {{"held", depth_scene::moved(std::move(held), X_FC * file.pose()), false}};
+  scenery.markers.clear();
+  scenery_ = depth_scene::to_json(scenery);
   return {};
 }
 

@@ -26,15 +26,20 @@ class Eyes {
   /// Refuses (kInvalidArgument) a name that no marker has.
   [[nodiscard]] Status set(const std::string& marker, depth_scene::MarkerState state);
   /// The object hangs otherwise from now on, for whoever looks anew: as the pose file says, in
-  /// place of the scene's. Refuses what read_pose_file refuses.
-  [[nodiscard]] Status hang(const std::filesystem::path& pose);
+  /// place of the scene's, and with a mesh (in mm) another one does. Refuses what read_pose_file
+  /// and scenery_of refuse.
+  [[nodiscard]] Status hang(const std::filesystem::path& pose, const std::filesystem::path& mesh);
+  /// Whoever looks anew sees this mesh (in mm) alone, held where the pose file says in the camera's
+  /// frame (x to the right of its image, y down, z forward): a calibration board. Without names the
+  /// rig again. Refuses as `hang` does.
+  [[nodiscard]] Status show(const std::filesystem::path& pose, const std::filesystem::path& mesh);
   /// All well again.
   void clear();
 
  private:
   std::mutex mutex_;
   Scene scene_;
-  std::optional<std::string> scenery_;  // once asked for
+  std::optional<std::string> scenery_;  // once asked for; while something is shown, that
   depth_scene::Sight sight_;
 };
 

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <iomanip>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "hardware/depth_scene/codec.h"
@@ -60,6 +62,14 @@ Words split(std::string_view text, std::string_view separators) {
     if (end > 0) out.emplace_back(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
+  return out;
+}
+
+/// Words between blanks; one in double quotes may hold blanks.
+Words quoted_words(std::string_view text) {
+  Words out;
+  std::istringstream in{std::string(text)};
+  for (std::string word; in >> std::quoted(word);) out.push_back(word);
   return out;
 }
 
@@ -149,7 +159,20 @@ std::optional<State> look_up_state(const std::string_view (&words)[N], std::stri
   return static_cast<State>(found - std::begin(words));
 }
 
-/// "camera gone", "marker left hidden", "hang held.json".
+/// "hang held.json", "hang held.json mug.obj", "show held.json board.obj", "show nothing".
+std::optional<Action> parse_held(const Words& words) {
+  Action out;
+  const bool is_nothing = words == Words{"show", "nothing"};
+  out.kind = words[0] == "hang" ? Action::Kind::kHang : Action::Kind::kShow;
+  if (is_nothing) return out;
+  if (words[0] != "hang" && words[0] != "show") return std::nullopt;
+  if (words.size() != 3 && (words[0] != "hang" || words.size() != 2)) return std::nullopt;
+  out.name = words[1];
+  if (words.size() == 3) out.mesh = words[2];
+  return out;
+}
+
+/// "camera gone", "marker left hidden".
 std::optional<Action> parse_sight(const Words& words) {
   Action out;
   if (words[0] == "camera" && words.size() == 2) {
@@ -160,11 +183,7 @@ std::optional<Action> parse_sight(const Words& words) {
     out.camera = *state;
     return out;
   }
-  if (words[0] == "hang" && words.size() == 2) {
-    out.kind = Action::Kind::kHang;
-    out.name = words[1];
-    return out;
-  }
+  if (auto held = parse_held(words)) return held;
   if (words[0] != "marker" || words.size() != 3) return std::nullopt;
   const auto state = look_up_state<depth_scene::MarkerState>(depth_scene::kMarkerStates, words[2]);
   if (!state) return std::nullopt;
@@ -195,14 +214,12 @@ std::string_view action_help() {
          "stop|positive-end|negative-end|stall|"
          "freeze, stall, freeze, unplug, replug, reboot [DURATION], "
          "camera gone|frozen|black|hung|well, marker NAME hidden|knocked-over|well, hang "
-         "POSE.json, clear, "
-         "state, "
-         "help "
+         "POSE.json [MESH], show POSE.json MESH|nothing, clear, state, help "
          "(a DURATION is 700ms or 2s)";
 }
 
 Result<Action> parse_action(std::string_view line) {
-  if (const auto action = parse_words(split(line, " \t\r"))) return *action;
+  if (const auto action = parse_words(quoted_words(line))) return *action;
   return refuse(line);
 }
 

@@ -43,7 +43,8 @@ struct Action {
     kReboot,  ///< silent for `pause`, then switched on
     kCamera,  ///< becomes `camera`
     kMarker,  ///< that of name `name` becomes `marker`
-    kHang,    ///< the object hangs as the pose file `name` says
+    kHang,    ///< the object, or another `mesh`, hangs as the pose file `name` says
+    kShow,    ///< `mesh` is held before the camera as the pose file `name` says; none: nothing
     kState,
     kScenery,  ///< for the camera's driver: what there is to see, and what of it changes
     kSight,
@@ -57,9 +58,11 @@ struct Action {
   depth_scene::CameraState camera = depth_scene::CameraState::kWell;
   depth_scene::MarkerState marker = depth_scene::MarkerState::kWell;
   std::string name = {};
+  std::string mesh = {};
 };
 
 /// Reads one line of the control socket: "fault late 700ms 3", "press stop", "reboot 2s", ...
+/// A name with blanks in it stands in double quotes.
 /// Refuses anything else with kInvalidArgument, saying what there is.
 [[nodiscard]] Result<Action> parse_action(std::string_view line);
 

@@ -127,7 +127,10 @@ Result<std::string> VirtualRig::perform(const Action& action) {
       HP_RETURN_IF_ERROR(eyes_.set(action.name, action.marker));
       break;
     case Action::Kind::kHang:
-      HP_RETURN_IF_ERROR(eyes_.hang(action.name));
+      HP_RETURN_IF_ERROR(eyes_.hang(action.name, action.mesh));
+      break;
+    case Action::Kind::kShow:
+      HP_RETURN_IF_ERROR(eyes_.show(action.name, action.mesh));
       break;
     case Action::Kind::kScenery:
       return eyes_.scenery_json();

@@ -500,5 +500,78 @@ TEST_F(Cli, PrintNeedsAPrinterAndPages) {
   expect_error({"submit", "template", "--simulate-job", "1", "--scale", "2"}, 2, "--scale");
 }
 
+/// Frames as hydroprint-capture leaves them, for the fake worker.
+class CalibrateCli : public Cli {
+ protected:
+  CalibrateCli() {
+    start();
+    std::filesystem::create_directory(folder_.path() / "frames");
+    folder_.write("frames/frames.json", "{}");
+    folder_.write("frames/frame-0001.png", "depths");
+    layout_ = folder_.write("layout.toml", "").string();
+  }
+  Arguments calibrate(const std::string& work, const Arguments& more = {}) const {
+    Arguments out{"calibrate", "--mesh", mesh(work), "--frames", (folder_.path() / "frames"),
+                  "--layout",  layout_};
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+  }
+  std::string layout_;
+};
+
+TEST_F(CalibrateCli, CalibrateTellsWhatWasFoundAndSimulateGoesByIt) {
+  const Outcome ended = client(calibrate("sleep 0.1", {"--scale", "2", "--out", out()}));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  for (const char* words :
+       {"jobs/1\n", "alignment.png", "calibrations/1 (active)", "known to 0.40 mm",
+        "1 of 2 markers", "marker near left out: hidden", "from the nominal pose: turn"}) {
+    EXPECT_NE(ended.out.find(words), std::string::npos) << words << ended.out;
+  }
+  EXPECT_TRUE(std::filesystem::exists(out() / "calibration.json"));
+  const json job = client_json(
+      {"submit", "simulate", "--mesh", mesh("sleep 0.1"), "--calibration", "active", "--wait"});
+  EXPECT_EQ(job.at("simulate").at("calibration"), "calibrations/1");
+  EXPECT_EQ(job.at("simulate").at("scale"), 2);
+  expect_error({"submit", "simulate", "--mesh", mesh("sleep 0.2"), "--calibration", "1"}, 3,
+               "another object");
+  EXPECT_EQ(client({"submit", "simulate", "--mesh", mesh("sleep 0.2"), "--calibration", "1",
+                    "--allow-stale-calibration"})
+                .status,
+            0);
+  expect_error({"submit", "simulate", "--mesh", mesh("x"), "--calibration", "1", "--scale", "3"}, 2,
+               "--scale");
+  expect_error(calibrate("reason MIRRORED\nexit 3 it is its mirror image"), 3, "mirror image");
+  expect_error({"calibrate", "--mesh", mesh("x"), "--frames", folder_.path()}, 3, "frames.json");
+  expect_error({"calibrate", "--mesh", mesh("x")}, 3, "camera.device");
+  expect_error({"capture"}, 3, "camera.device");
+}
+
+TEST_F(CalibrateCli, CalibrationsAreListedShownEnteredActivatedAndDeleted) {
+  ASSERT_EQ(client(calibrate("sleep 0.1")).status, 0);
+  const Outcome lens = client(
+      {"calibrate-camera", "--frames", folder_.path() / "frames", folder_.path() / "frames"});
+  ASSERT_EQ(lens.status, 0) << lens.err;
+  EXPECT_NE(lens.out.find("12 views"), std::string::npos) << lens.out;
+  const std::string pose =
+      folder_.write("pose.json", R"({"rotation_wxyz":[1,0,0,0],"translation_mm":[1,2,0]})");
+  const json entered = client_json(
+      {"calibrations", "enter", "--mesh", mesh("sleep 0.1"), "--pose", pose, "--name", "by eye"});
+  EXPECT_EQ(entered.at("name"), "calibrations/3");
+  const json all = client_json({"calibrations", "list"}).at("calibrations");
+  ASSERT_EQ(all.size(), 3U);
+  EXPECT_EQ(all[0].at("display_name"), "by eye");
+  EXPECT_EQ(all[1].at("kind"), "CAMERA");
+  EXPECT_EQ(all[2].at("active"), false);
+  EXPECT_EQ(client_json({"calibrations", "activate", "1"}).at("active"), true);
+  EXPECT_EQ(client_json({"calibrations", "show", "active"}).at("name"), "calibrations/1");
+  EXPECT_EQ(client_json({"calibrations", "show", "1"}).at("covariance").size(), 36U);
+  EXPECT_NE(client({"calibrations", "list"}).out.find("by eye"), std::string::npos);
+  EXPECT_NE(client({"calibrations", "show", "1"}).out.find("water_z_mm"), std::string::npos);
+  expect_error({"delete", "1"}, 3, "calibrations/1");
+  EXPECT_EQ(client({"calibrations", "delete", "1"}).status, 0);
+  EXPECT_EQ(client({"delete", "1"}).status, 0);
+  expect_error({"calibrations", "show", "1"}, 3, "calibrations/1");
+}
+
 }  // namespace
 }  // namespace hydroprint::tests

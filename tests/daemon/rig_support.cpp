@@ -26,8 +26,10 @@ void check(const grpc::Status& status, const std::string& call) {
   throw std::runtime_error(call + ": " + reason_of(status) + ": " + status.error_message());
 }
 
-std::vector<std::string> arguments(const TemporaryFolder& folder) {
-  const auto scene = folder.write("scene.toml", "[axis]\nstart_mm = 1.0\n");
+std::vector<std::string> arguments(const TemporaryFolder& folder, const std::string& more,
+                                   const std::vector<std::pair<std::string, std::string>>& files) {
+  for (const auto& [name, content] : files) folder.write(name, content);
+  const auto scene = folder.write("scene.toml", "[axis]\nstart_mm = 1.0\n" + more);
   return {kRig,      "--profile", kProfile,
           "--scene", scene,       "--tcp",
           "0",       "--control", folder.path() / "control",
@@ -51,8 +53,9 @@ bool wait_until(const std::function<bool()>& until, double seconds) {
   return true;
 }
 
-VirtualRigProcess::VirtualRigProcess()
-    : process_(arguments(folder_), to_file(folder_.path() / "out")) {
+VirtualRigProcess::VirtualRigProcess(const std::string& scene,
+                                     const std::vector<std::pair<std::string, std::string>>& files)
+    : process_(arguments(folder_, scene, files), to_file(folder_.path() / "out")) {
   const auto out = folder_.path() / "out";
   if (!wait_until([&] { return content(out).ends_with("\n"); })) {
     throw std::runtime_error("hydroprint-virtual-rig did not get ready");

@@ -6,6 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hydroprint/v1/lease_service.grpc.pb.h"
@@ -21,7 +22,10 @@ namespace hydroprint::tests {
 /// hydroprint-virtual-rig on a free port of loopback, with a short way home.
 class VirtualRigProcess {
  public:
-  VirtualRigProcess();
+  /// @param scene  more of its scene
+  /// @param files  that the scene names, and what is in them
+  explicit VirtualRigProcess(const std::string& scene = "",
+                             const std::vector<std::pair<std::string, std::string>>& files = {});
 
   /// Does what a control line says; what came back.
   std::string act(const std::string& line);
@@ -38,6 +42,11 @@ class VirtualRigProcess {
 
   /// Lines of a daemon's configuration that name it.
   [[nodiscard]] std::string section() const;
+  /// OpenNI2's name of its camera.
+  [[nodiscard]] std::string camera() const {
+    return "hydroprint:" + (folder_.path() / "control").string();
+  }
+  void signal(int number) const { process_.signal(number); }
 
  private:
   TemporaryFolder folder_;

@@ -34,6 +34,13 @@ TEST(Faults, LinesOfTheControlSocketAreUnderstood) {
   EXPECT_EQ(marker->marker, depth_scene::MarkerState::kKnockedOver);
   EXPECT_EQ(parse_action("hang held.json")->kind, Action::Kind::kHang);
   EXPECT_EQ(parse_action("hang held.json")->name, "held.json");
+  EXPECT_EQ(parse_action("hang held.json mug.obj")->mesh, "mug.obj");
+  const auto shown = parse_action("show \"/my home/held.json\" board.obj");
+  ASSERT_TRUE(shown);
+  EXPECT_EQ(shown->kind, Action::Kind::kShow);
+  EXPECT_EQ(shown->name, "/my home/held.json");
+  EXPECT_EQ(shown->mesh, "board.obj");
+  EXPECT_EQ(parse_action("show nothing")->mesh, "");
 }
 
 TEST(Faults, OtherLinesAreRefusedWithWhatThereIs) {
@@ -57,6 +64,9 @@ TEST(Faults, OtherLinesAreRefusedWithWhatThereIs) {
                            "camera",
                            "camera blue",
                            "marker left",
+                           "hang",
+                           "show held.json",
+                           "show \"held.json board.obj",
                            "marker left gone"}) {
     const auto action = parse_action(line);
     ASSERT_FALSE(action) << line;

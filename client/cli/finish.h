@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "client/cli/program.h"
+#include "client/cli/wait.h"
+#include "client/job.h"
+
+namespace hydroprint::cli {
+
+/// What becomes of a job that a command has created.
+struct FinishOptions {
+  std::string out;       ///< folder for its artifacts; empty: none
+  bool no_wait = false;  ///< it is only named
+  WaitOptions wait;
+};
+
+/// Adds --out, --no-wait and --cancel-on-interrupt.
+void add_finish_flags(CLI::App& command, FinishOptions& options);
+
+/// Names a job, follows it to its end, and downloads what it made.
+[[nodiscard]] Status finish_job(Program& program, const client::Job& job,
+                                const FinishOptions& options);
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,102 @@
+// From the virtual rig's camera to a calibration, with every program the real one.
+#include <Eigen/Geometry>
+#include <chrono>
+#include <numbers>
+#include <sstream>
+#include <thread>
+
+#include "sim/calibrate/camera_file.h"
+#include "sim/sample/sample.h"
+#include "tests/daemon/calibrate_support.h"
+#include "tests/support/depth_scene.h"
+
+namespace hydroprint::tests {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+std::string json_of(const Pose& pose) {
+  const Eigen::Quaterniond q(pose.linear());
+  const auto t = pose.translation();
+  return nlohmann::json{{"rotation_wxyz", {q.w(), q.x(), q.y(), q.z()}},
+                        {"translation_mm", {t.x(), t.y(), t.z()}}}
+      .dump();
+}
+
+Pose pose_of(const v1::Pose& pose) {
+  const auto& q = pose.rotation_wxyz();
+  Pose out = Pose::Identity();
+  out.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().matrix();
+  out.translation() = Eigen::Vector3d(pose.translation_mm().data());
+  return out;
+}
+
+/// The sample board in the gripper, a little crooked.
+class CalibrateReal : public CameraTest {
+ protected:
+  CalibrateReal() {
+    EXPECT_TRUE(sample::write_sample("board", folder.path()));
+    board = content(folder.path() / "board.obj");
+    const auto surface = testing::surface_of(sample::make_model("board").value());
+    Eigen::AlignedBox3d box;
+    for (const auto& p : surface.points) box.extend(p);
+    const Eigen::Vector3d middle = box.center();
+    X_FO = Eigen::Translation3d(4, -3, 60) * testing::crooked(5 * kDegree, 0, 4) *
+           Eigen::Translation3d(-middle);
+    for (const auto& p : surface.points) lowest_mm = std::min(lowest_mm, (X_FO * p).z());
+    const double gripper_mm = 60 + box.sizes().z() / 2;
+    water_mm = gripper_mm + kAxis_mm;
+    const Pose X_GO = Eigen::Translation3d(0, 0, -gripper_mm) * X_FO;
+    start_rig("[object]\nmesh = \"board.obj\"\npose = \"held.json\"\n",
+              {{"board.obj", board}, {"held.json", json_of(X_GO)}});
+    start_daemon({}, 60);
+    registration::CameraCalibration camera;
+    camera.lens = testing::lens_of(depth_camera::drawn_lens(7));
+    camera.views = 1;
+    lens = ann->upload(calibrate::camera_json(camera));
+  }
+
+  /// However busy the machine is.
+  v1::Job ended(const v1::Job& job) {
+    for (;;) {
+      const v1::Job now = ann->job(job.name());
+      if (finished(now)) return now;
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+  }
+  v1::Job calibrate(const v1::Job& capture, double scale) {
+    v1::Job wanted = calibrate_of(capture, board);
+    wanted.mutable_calibrate()->mutable_camera()->set_name("lens.json");
+    wanted.mutable_calibrate()->mutable_camera()->set_asset(lens);
+    wanted.mutable_calibrate()->set_scale(scale);
+    return ended(create(wanted));
+  }
+
+  std::string board, lens;
+  Pose X_FO;
+  double lowest_mm = 1e9;
+};
+
+TEST_F(CalibrateReal, TheObjectIsFoundWhereItHangs) {
+  ann->make_ready();
+  ann->go_to(kAxis_mm);
+  const v1::Job capture = ended(create(capture_of(0.5)));
+  ASSERT_EQ(capture.state(), v1::Job::SUCCEEDED) << capture.error().message();
+  const v1::Job job = calibrate(capture, 1);
+  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  const v1::Calibration found = all().front();
+  const Pose off = pose_of(found.pose()) * X_FO.inverse();
+  EXPECT_LT((off * Eigen::Vector3d(4, -3, 60) - Eigen::Vector3d(4, -3, 60)).norm(), 2);
+  EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 1 * kDegree);
+  EXPECT_EQ(found.markers_size(), 4);
+  EXPECT_LT(found.error_p95_mm(), 2);
+  EXPECT_NEAR(found.contact_mm(), found.axis_mm() + lowest_mm, 2) << "first contact";
+  EXPECT_EQ(ann->download(found.picture()).substr(1, 3), "PNG");
+  const v1::Job metres = calibrate(capture, 0.001);
+  EXPECT_EQ(metres.state(), v1::Job::FAILED);
+  EXPECT_EQ(metres.error().reason(), "WRONG_UNITS") << metres.error().message();
+  EXPECT_EQ(all().size(), 1U);
+}
+
+}  // namespace
+}  // namespace hydroprint::tests
