@@ -1,11 +1,9 @@
 #include "client/cli/loop_round.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <sstream>
 #include <utility>
 
@@ -139,6 +137,7 @@ Result<client::Job> LoopRounds::print(const std::string& simulation, loop::Round
   spec.simulate_job = simulation;
   HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
   out.jobs.push_back(job.name);
+  HP_RETURN_IF_ERROR(fetch(job.name, "print.pdf", "print", out));
   return job;
 }
 
@@ -208,11 +207,7 @@ Status LoopRounds::compare(const client::Calibration& found, loop::Round& out) c
   seen.translation().z() += gripper_mm_;
   const Pose pose = pose_of(*found.pose);
   const Eigen::Matrix3d off = pose.linear().transpose() * seen.linear();
-  const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
-  // However a round body is turned about its own axis, it looks the same.
-  const double turn_rad = body_.is_round ? std::acos(std::min(1.0, axis.dot(off * axis)))
-                                         : Eigen::AngleAxisd(off).angle();
-  out.turn_off_deg = turn_rad / loop::kDegree;
+  out.turn_off_deg = Eigen::AngleAxisd(off).angle() / loop::kDegree;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : body_.points) box.extend(p);
   const Eigen::Vector3d middle = box.center();

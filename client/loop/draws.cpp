@@ -55,8 +55,11 @@ Result<Body> make_body(const std::string& name) {
     return fail(Code::kInvalidArgument, "no loop goes with '" + name + "'; give board or sphere80");
   }
   if (name == "board") {
-    out.nominal_turn =
-        Eigen::AngleAxisd(kHeldTilt_deg * kDegree, Eigen::Vector3d::UnitX()).matrix();
+    // Turned so that the camera, which stands at the near side, sees two of its upright faces: of
+    // the upper one alone it could not tell how the board lies along it.
+    const Eigen::AngleAxisd tilt(kHeldTilt_deg * kDegree, Eigen::Vector3d::UnitX());
+    const Eigen::AngleAxisd about(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
+    out.nominal_turn = (about * tilt).matrix();
   }
   HP_ASSIGN_OR_RETURN(const mesh::Model model, sample::make_model(name));
   out.points = model.vertices;
@@ -66,9 +69,9 @@ Result<Body> make_body(const std::string& name) {
 Truth draw(const Body& body, std::uint32_t seed, int index) {
   Draws draws(seed, index, 0x10090u);
   const auto even = [&] { return draws.even(); };
-  Eigen::Vector3d axis(even(), even(), even());
-  if (body.is_round) axis.z() = 0;
-  const double angle = kMostTilt_deg * kDegree * even();
+  const Eigen::Vector3d axis(even(), even(), even());
+  const double drawn = kMostTilt_deg * kDegree * even();
+  const double angle = body.is_round ? 0 : drawn;
   const Eigen::Matrix3d crooked = Eigen::AngleAxisd(angle, axis.normalized()).matrix();
   Truth out;
   out.X_GO = hung(body, crooked * body.nominal_turn);

@@ -15,9 +15,9 @@ inline constexpr double kDegree = std::numbers::pi / 180;
 
 /// What goes into the water, as the bundled samples have it.
 struct Body {
-  std::string name;              ///< of the sample
-  Eigen::Matrix3d nominal_turn;  ///< how it should hang, F
-  bool is_round = false;         ///< of revolution: its turn about the vertical stays nominal
+  std::string name;                     ///< of the sample
+  Eigen::Matrix3d nominal_turn;         ///< how it should hang, F
+  bool is_round = false;                ///< a sphere: no scan tells its turn, so that stays nominal
   std::vector<Eigen::Vector3d> points;  ///< of its mesh, O
 };
 

@@ -31,19 +31,31 @@ void Eyes::set(depth_scene::CameraState state) {
   sight_.camera = state;
 }
 
-Status Eyes::set(const std::string& marker, depth_scene::MarkerState state) {
-  const std::scoped_lock lock(mutex_);
+Result<std::size_t> Eyes::index_of(const std::string& marker) const {
   std::string names;
   for (std::size_t i = 0; i < scene_.markers.size(); ++i) {
     names += (names.empty() ? "" : ", ") + scene_.markers[i].name;
-    if (scene_.markers[i].name != marker) continue;
-    sight_.markers.resize(scene_.markers.size(), depth_scene::MarkerState::kWell);
-    sight_.markers[i] = state;
-    return {};
+    if (scene_.markers[i].name == marker) return i;
   }
   return fail(Code::kInvalidArgument, "no marker is called \"" + marker.substr(0, 40) +
                                           "\". Name one of " +
                                           (names.empty() ? "a --scene's" : names));
+}
+
+Status Eyes::set(const std::string& marker, depth_scene::MarkerState state) {
+  const std::scoped_lock lock(mutex_);
+  HP_ASSIGN_OR_RETURN(const std::size_t i, index_of(marker));
+  sight_.markers.resize(scene_.markers.size(), depth_scene::MarkerState::kWell);
+  sight_.markers[i] = state;
+  return {};
+}
+
+Status Eyes::push(const std::string& marker, const Eigen::Vector2d& by_mm) {
+  const std::scoped_lock lock(mutex_);
+  HP_ASSIGN_OR_RETURN(const std::size_t i, index_of(marker));
+  scene_.markers[i].at_mm.head<2>() += by_mm;
+  scenery_.reset();
+  return {};
 }
 
 Status Eyes::hang(const std::filesystem::path& pose, const std::filesystem::path& mesh) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
 #include <mutex>
 #include <optional>
@@ -25,6 +26,8 @@ class Eyes {
   void set(depth_scene::CameraState state);
   /// Refuses (kInvalidArgument) a name that no marker has.
   [[nodiscard]] Status set(const std::string& marker, depth_scene::MarkerState state);
+  /// The marker stands so much farther, for whoever looks anew. Refuses as above.
+  [[nodiscard]] Status push(const std::string& marker, const Eigen::Vector2d& by_mm);
   /// The object hangs otherwise from now on, for whoever looks anew: as the pose file says, in
   /// place of the scene's, and with a mesh (in mm) another one does. Refuses what read_pose_file
   /// and scenery_of refuse.
@@ -37,6 +40,8 @@ class Eyes {
   void clear();
 
  private:
+  [[nodiscard]] Result<std::size_t> index_of(const std::string& marker) const;
+
   std::mutex mutex_;
   Scene scene_;
   std::optional<std::string> scenery_;  // once asked for; while something is shown, that

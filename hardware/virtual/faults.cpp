@@ -172,6 +172,21 @@ std::optional<Action> parse_held(const Words& words) {
   return out;
 }
 
+/// "marker left pushed 3.5 -2".
+std::optional<Action> parse_push(const Words& words) {
+  if (words.size() != 5 || words[0] != "marker" || words[2] != "pushed") return std::nullopt;
+  constexpr double kFarthest_mm = 1000;
+  Action out;
+  out.kind = Action::Kind::kPush;
+  out.name = words[1];
+  std::istringstream numbers(words[3] + " " + words[4]);
+  if (!(numbers >> out.push_mm.x() >> out.push_mm.y()) || !(numbers >> std::ws).eof() ||
+      !(out.push_mm.norm() <= kFarthest_mm)) {
+    return std::nullopt;
+  }
+  return out;
+}
+
 /// "camera gone", "marker left hidden".
 std::optional<Action> parse_sight(const Words& words) {
   Action out;
@@ -184,6 +199,7 @@ std::optional<Action> parse_sight(const Words& words) {
     return out;
   }
   if (auto held = parse_held(words)) return held;
+  if (auto push = parse_push(words)) return push;
   if (words[0] != "marker" || words.size() != 3) return std::nullopt;
   const auto state = look_up_state<depth_scene::MarkerState>(depth_scene::kMarkerStates, words[2]);
   if (!state) return std::nullopt;
@@ -213,7 +229,8 @@ std::string_view action_help() {
          "wrong-length|busy [COUNT|all], silent, press|release "
          "stop|positive-end|negative-end|stall|"
          "freeze, stall, freeze, unplug, replug, reboot [DURATION], "
-         "camera gone|frozen|black|hung|well, marker NAME hidden|knocked-over|well, hang "
+         "camera gone|frozen|black|hung|well, marker NAME hidden|knocked-over|well|pushed X_MM "
+         "Y_MM, hang "
          "POSE.json [MESH], show POSE.json MESH|nothing, clear, state, help "
          "(a DURATION is 700ms or 2s)";
 }

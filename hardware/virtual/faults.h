@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <chrono>
 #include <string>
 #include <string_view>
@@ -43,6 +44,7 @@ struct Action {
     kReboot,  ///< silent for `pause`, then switched on
     kCamera,  ///< becomes `camera`
     kMarker,  ///< that of name `name` becomes `marker`
+    kPush,    ///< the marker `name` by `push_mm`
     kHang,    ///< the object, or another `mesh`, hangs as the pose file `name` says
     kShow,    ///< `mesh` is held before the camera as the pose file `name` says; none: nothing
     kState,
@@ -57,6 +59,7 @@ struct Action {
   std::chrono::milliseconds pause{0};
   depth_scene::CameraState camera = depth_scene::CameraState::kWell;
   depth_scene::MarkerState marker = depth_scene::MarkerState::kWell;
+  Eigen::Vector2d push_mm{0, 0};
   std::string name = {};
   std::string mesh = {};
 };

@@ -126,6 +126,9 @@ Result<std::string> VirtualRig::perform(const Action& action) {
     case Action::Kind::kMarker:
       HP_RETURN_IF_ERROR(eyes_.set(action.name, action.marker));
       break;
+    case Action::Kind::kPush:
+      HP_RETURN_IF_ERROR(eyes_.push(action.name, action.push_mm));
+      break;
     case Action::Kind::kHang:
       HP_RETURN_IF_ERROR(eyes_.hang(action.name, action.mesh));
       break;

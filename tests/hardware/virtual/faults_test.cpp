@@ -32,6 +32,10 @@ TEST(Faults, LinesOfTheControlSocketAreUnderstood) {
   EXPECT_EQ(marker->kind, Action::Kind::kMarker);
   EXPECT_EQ(marker->name, "left");
   EXPECT_EQ(marker->marker, depth_scene::MarkerState::kKnockedOver);
+  const auto push = parse_action("marker left pushed 3.5 -2");
+  ASSERT_TRUE(push);
+  EXPECT_EQ(push->kind, Action::Kind::kPush);
+  EXPECT_EQ(push->push_mm, Eigen::Vector2d(3.5, -2));
   EXPECT_EQ(parse_action("hang held.json")->kind, Action::Kind::kHang);
   EXPECT_EQ(parse_action("hang held.json")->name, "held.json");
   EXPECT_EQ(parse_action("hang held.json mug.obj")->mesh, "mug.obj");
@@ -64,6 +68,9 @@ TEST(Faults, OtherLinesAreRefusedWithWhatThereIs) {
                            "camera",
                            "camera blue",
                            "marker left",
+                           "marker left pushed 3",
+                           "marker left pushed 3 x",
+                           "marker left pushed 3 2000",
                            "hang",
                            "show held.json",
                            "show \"held.json board.obj",
