@@ -10,6 +10,7 @@
 #include "client/cli/loop_round.h"
 #include "client/cli/motion.h"
 #include "client/cli/program.h"
+#include "client/loop/control.h"
 #include "client/loop/report.h"
 #include "client/rig.h"
 #include "sim/image/artifact_file.h"
@@ -39,6 +40,7 @@ Status run_loop(Program& program, const LoopOptions& options) {
   HP_ASSIGN_OR_RETURN(loop::Body body, loop::make_body(options.object));
   const std::filesystem::path folder(options.out);
   loop::Report report{options.object, loop::bound_mm(body), options.seed, {}, {}};
+  HP_RETURN_IF_ERROR(loop::talk(options.control, "show nothing"));  // before anything moves
   HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take_or_acquire(program, "the loop"));
   HP_RETURN_IF_ERROR(make_ready(program, *lease));
   LoopRounds rounds(program, options, std::move(body), *lease);
@@ -100,6 +102,9 @@ void add_loop(CLI::App& app, Program& program) {
   command->add_option("--dpi", options->dpi, "Resolution of the film image")
       ->type_name("DPI")
       ->capture_default_str();
+  command->add_option("--model", options->model, "How the film flows; stokes is faster")
+      ->type_name("MODEL")
+      ->check(CLI::IsMember({"sheet", "stokes"}));
   command->add_option("--out", options->out, "Folder of report.html, report.json and the pictures")
       ->type_name("DIR")
       ->required();

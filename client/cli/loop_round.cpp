@@ -65,7 +65,6 @@ Status LoopRounds::hang(const Pose& X_GO) const {
 Status LoopRounds::prepare() {
   HP_RETURN_IF_ERROR(sample::write_sample(body_.name, file("sample")));
   HP_RETURN_IF_ERROR(inputs_.add_model(file("sample") / (body_.name + ".obj"), object_));
-  HP_RETURN_IF_ERROR(loop::talk(options_.control, "show nothing"));
   HP_RETURN_IF_ERROR(move_to_view());
   return take_camera();
 }
@@ -124,6 +123,7 @@ Result<client::Job> LoopRounds::simulate(const std::string& calibration, loop::R
   client::Spec spec = object_;
   spec.calibration = calibration;
   spec.dpi = options_.dpi;
+  spec.model = options_.model;
   if (body_.is_round) spec.depth_mm = kRoundDepth_mm;
   HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
   out.jobs.push_back(job.name);
@@ -173,7 +173,6 @@ Result<loop::SurfaceMap> LoopRounds::predict(client::Spec spec, const Pose& pose
   spec.pose = spec_of(pose);
   HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
   HP_ASSIGN_OR_RETURN(const std::string map, fetch(job.name, "surface_map.ply", as, out));
-  if (spec.artifacts != "map") HP_RETURN_IF_ERROR(fetch(job.name, "predicted.png", as, out));
   return loop::read_surface_map(file(map));
 }
 
@@ -226,9 +225,19 @@ Result<client::Spec> LoopRounds::landing(const client::Job& simulation, loop::Ro
   spec.verb = client::Verb::kPredict;
   spec.artifacts = "map";
   spec.dpi = options_.dpi;
+  spec.model = options_.model;
   spec.depth_mm = simulation.spec ? simulation.spec->depth_mm : std::nullopt;
   HP_ASSIGN_OR_RETURN(spec.film_image, inputs_.add(file(film)));
   return spec;
+}
+
+/// What became of it, to be looked at.
+Status LoopRounds::show_landed(client::Spec spec, loop::Round& out) {
+  spec.pose = spec_of(loop::pose_at_contact(body_, out.truth, gripper_mm_));
+  spec.artifacts = "all";
+  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
+  HP_RETURN_IF_ERROR(fetch(job.name, "predicted.png", "landed", out));
+  return {};
 }
 
 Status LoopRounds::measure(const client::Calibration& found, const client::Job& simulation,
@@ -250,12 +259,11 @@ Status LoopRounds::measure(const client::Calibration& found, const client::Job& 
   out.calibration = loop::cross_errors(body_, plan, map, well);
   say("as the axis was driven");
   HP_ASSIGN_OR_RETURN(spec.motion, driven(dip, out));
-  spec.artifacts = "all";
   HP_ASSIGN_OR_RETURN(
       map, predict(spec, loop::pose_at_contact(body_, out.truth, gripper_mm_), "landed", out));
   out.motion = loop::cross_errors(body_, plan, map, well);
   out.placement = loop::cross_errors(body_, plan, map, out.truth);
-  return {};
+  return number_ == 1 ? show_landed(spec, out) : Status();
 }
 
 Result<loop::Round> LoopRounds::round(int index) {

@@ -20,6 +20,7 @@ struct LoopOptions {
   int poses = 10;
   std::uint32_t seed = 1;
   double dpi = 150, seconds = 2;
+  std::optional<std::string> model;  ///< of the film: "sheet" or "stokes"
 };
 
 /// The object round the whole loop, pose by pose: from how it is hung to how its film lands.
@@ -52,6 +53,7 @@ class LoopRounds {
   Result<client::Spec> landing(const client::Job& simulation, loop::Round& out);
   Status measure(const client::Calibration& found, const client::Job& simulation,
                  const std::string& dip, loop::Round& out);
+  Status show_landed(client::Spec spec, loop::Round& out);
   Status compare(const client::Calibration& found, loop::Round& out) const;
   void say(const std::string& what) const;
 

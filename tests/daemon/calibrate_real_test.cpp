@@ -31,7 +31,8 @@ Pose pose_of(const v1::Pose& pose) {
   return out;
 }
 
-/// The sample board in the gripper, a little crooked.
+/// The sample board in the gripper, tilted so that the camera sees two of its sides, and a little
+/// crooked.
 class CalibrateReal : public CameraTest {
  protected:
   CalibrateReal() {
@@ -40,11 +41,18 @@ class CalibrateReal : public CameraTest {
     const auto surface = testing::surface_of(sample::make_model("board").value());
     Eigen::AlignedBox3d box;
     for (const auto& p : surface.points) box.extend(p);
-    const Eigen::Vector3d middle = box.center();
-    X_FO = Eigen::Translation3d(4, -3, 60) * testing::crooked(5 * kDegree, 0, 4) *
-           Eigen::Translation3d(-middle);
-    for (const auto& p : surface.points) lowest_mm = std::min(lowest_mm, (X_FO * p).z());
-    const double gripper_mm = 60 + box.sizes().z() / 2;
+    nominal = Eigen::Translation3d(0, 0, 75) *
+              Eigen::AngleAxisd(90 * kDegree, Eigen::Vector3d::UnitZ()) *
+              Eigen::AngleAxisd(30 * kDegree, Eigen::Vector3d::UnitX()) *
+              Eigen::Translation3d(-box.center());
+    const Eigen::Translation3d middle(kMiddle_mm);
+    X_FO = middle * testing::crooked(5 * kDegree, 0, 4) * middle.inverse() *
+           Eigen::Translation3d(4, -3, 0) * nominal;
+    double gripper_mm = 0;
+    for (const auto& p : surface.points) {
+      lowest_mm = std::min(lowest_mm, (X_FO * p).z());
+      gripper_mm = std::max(gripper_mm, (X_FO * p).z());
+    }
     water_mm = gripper_mm + kAxis_mm;
     const Pose X_GO = Eigen::Translation3d(0, 0, -gripper_mm) * X_FO;
     start_rig("[object]\nmesh = \"board.obj\"\npose = \"held.json\"\n",
@@ -69,33 +77,65 @@ class CalibrateReal : public CameraTest {
     wanted.mutable_calibrate()->mutable_camera()->set_name("lens.json");
     wanted.mutable_calibrate()->mutable_camera()->set_asset(lens);
     wanted.mutable_calibrate()->set_scale(scale);
+    const Eigen::Quaterniond q(nominal.linear());
+    const Eigen::Vector3d t = nominal.translation();
+    auto& pose = *wanted.mutable_calibrate()->mutable_pose();
+    for (const double x : {q.w(), q.x(), q.y(), q.z()}) pose.add_rotation_wxyz(x);
+    for (const double x : {t.x(), t.y(), t.z()}) pose.add_translation_mm(x);
     return ended(create(wanted));
   }
 
+  /// Looks, and calibrates. @return what is found
+  v1::Calibration calibrated() {
+    const v1::Job capture = ended(create(capture_of(0.5)));
+    EXPECT_EQ(capture.state(), v1::Job::SUCCEEDED) << capture.error().message();
+    const v1::Job job = calibrate(capture, 1);
+    EXPECT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+    return all().front();
+  }
+  void expect_near_truth(const v1::Calibration& found) const {
+    const Pose off = pose_of(found.pose()) * X_FO.inverse();
+    EXPECT_LT((off * kMiddle_mm - kMiddle_mm).norm(), 1.5);
+    EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 1 * kDegree);
+  }
+
+  const Eigen::Vector3d kMiddle_mm{4, -3, 75};
   std::string board, lens;
-  Pose X_FO;
+  Pose nominal, X_FO;
   double lowest_mm = 1e9;
 };
 
 TEST_F(CalibrateReal, TheObjectIsFoundWhereItHangs) {
   ann->make_ready();
   ann->go_to(kAxis_mm);
-  const v1::Job capture = ended(create(capture_of(0.5)));
-  ASSERT_EQ(capture.state(), v1::Job::SUCCEEDED) << capture.error().message();
-  const v1::Job job = calibrate(capture, 1);
-  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
-  const v1::Calibration found = all().front();
-  const Pose off = pose_of(found.pose()) * X_FO.inverse();
-  EXPECT_LT((off * Eigen::Vector3d(4, -3, 60) - Eigen::Vector3d(4, -3, 60)).norm(), 2);
-  EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 1 * kDegree);
-  EXPECT_EQ(found.markers_size(), 4);
+  const v1::Calibration found = calibrated();
+  expect_near_truth(found);
+  ASSERT_EQ(found.markers_size(), 4);
+  for (const auto& marker : found.markers()) EXPECT_TRUE(marker.used()) << marker.why_not();
   EXPECT_LT(found.error_p95_mm(), 2);
+  EXPECT_EQ(found.from_nominal_pose_size(), 0) << found.from_nominal_pose(0);
   EXPECT_NEAR(found.contact_mm(), found.axis_mm() + lowest_mm, 2) << "first contact";
   EXPECT_EQ(ann->download(found.picture()).substr(1, 3), "PNG");
+
+  rig->act("marker left pushed 9 -6");
+  const v1::Calibration again = calibrated();
+  expect_near_truth(again);
+  for (const auto& marker : again.markers())
+    EXPECT_EQ(marker.used(), marker.name() != "left") << marker.name() << ": " << marker.why_not();
+}
+
+TEST_F(CalibrateReal, ScansThatDoNotFitAreRefusedWithTheReason) {
+  const v1::Job capture = ended(create(capture_of(0.2)));
   const v1::Job metres = calibrate(capture, 0.001);
   EXPECT_EQ(metres.state(), v1::Job::FAILED);
   EXPECT_EQ(metres.error().reason(), "WRONG_UNITS") << metres.error().message();
-  EXPECT_EQ(all().size(), 1U);
+  EXPECT_NE(metres.error().message().find("metres"), std::string::npos) << metres.error().message();
+  for (const char* marker : {"left", "near"})
+    rig->act(std::string("marker ") + marker + " knocked-over");
+  const v1::Job toppled = calibrate(ended(create(capture_of(0.2))), 1);
+  EXPECT_EQ(toppled.state(), v1::Job::FAILED);
+  EXPECT_EQ(toppled.error().reason(), "TOO_FEW_MARKERS") << toppled.error().message();
+  EXPECT_EQ(all().size(), 0U);
 }
 
 }  // namespace

@@ -1,0 +1,89 @@
+// The whole loop as users run it, with every program the real one.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "sim/calibrate/camera_file.h"
+#include "tests/daemon/rig_support.h"
+#include "tests/support/depth_scene.h"
+
+namespace hydroprint::tests {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kCamera = 7, kWater_mm = 240;
+
+class LoopCli : public ::testing::Test {
+ protected:
+  LoopCli() {
+    DaemonProcess::Options options;
+    options.extra = rig.section() + "[camera]\ndevice = \"" + rig.camera() +
+                    "\"\npatience_s = 60\nlayout = \"" HYDROPRINT_LAYOUT "\"\n";
+    daemon = std::make_unique<DaemonProcess>(folder.path(), options);
+    registration::CameraCalibration camera;
+    camera.lens = testing::lens_of(depth_camera::drawn_lens(kCamera));
+    camera.views = 1;
+    lens = folder.write("lens.json", calibrate::camera_json(camera)).string();
+  }
+
+  hydroprint::testing::Ended loop(const std::vector<std::string>& more) const {
+    std::vector<std::string> all{"/usr/bin/env",
+                                 "XDG_RUNTIME_DIR=" + folder.path().string(),
+                                 HYDROPRINT_BIN_DIR "/hydroprint",
+                                 "--server",
+                                 daemon->address(),
+                                 "loop",
+                                 "--camera",
+                                 lens,
+                                 "--model",
+                                 "stokes",
+                                 "--dpi",
+                                 "75",
+                                 "--poses",
+                                 "1",
+                                 "--out",
+                                 out().string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return hydroprint::testing::run(all);
+  }
+  [[nodiscard]] std::filesystem::path out() const { return folder.path() / "the loop"; }
+
+  VirtualRigProcess rig{"[water]\nat_mm = " + std::to_string(kWater_mm) +
+                        ".0\n[camera]\nseed = " + std::to_string(kCamera) + "\n"};
+  TemporaryFolder folder;
+  std::unique_ptr<DaemonProcess> daemon;
+  std::string lens;
+};
+
+TEST_F(LoopCli, OnePoseFromHungCrookedlyToWhereItsFilmLands) {
+  const std::string control = rig.camera().substr(rig.camera().find(':') + 1);
+  const auto ended = loop({"--object", "board", "--control", control});
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.out.find("169 cross-points land within"), std::string::npos) << ended.out;
+  const json report = json::parse(std::ifstream(out() / "report.json"));
+  EXPECT_EQ(report["lost_cross_points"], 0);
+  const json& errors = report["errors"];
+  EXPECT_LT(errors["numerics"]["p95_mm"], 0.1) << "the same dip twice";
+  EXPECT_LT(errors["placement"]["p95_mm"], 2) << ended.out;
+  EXPECT_GT(errors["placement"]["p95_mm"], errors["numerics"]["p95_mm"]);
+  const json& round = report["rounds"][0];
+  EXPECT_NE(round["truth"]["printer_scale"], 1);
+  EXPECT_LT(round["turn_off_deg"], 1);
+  EXPECT_LT(std::abs(round["contact_off_mm"].get<double>()), 1);
+  EXPECT_EQ(round["jobs"].size(), 5U) << "capture, calibrate, simulate, print-image, dip";
+  for (const std::string picture : round["pictures"])
+    EXPECT_TRUE(std::filesystem::exists(out() / picture)) << picture;
+  EXPECT_TRUE(std::filesystem::exists(out() / "pose1-print.pdf"));
+  EXPECT_TRUE(std::filesystem::exists(out() / "report.html"));
+}
+
+TEST_F(LoopCli, SaysWhatItNeeds) {
+  const auto ended = loop({"--control", (folder.path() / "nothing").string()});
+  EXPECT_EQ(ended.status, 5);
+  EXPECT_NE(ended.err.find("no virtual rig answers there"), std::string::npos) << ended.err;
+}
+
+}  // namespace
+}  // namespace hydroprint::tests
