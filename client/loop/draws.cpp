@@ -57,9 +57,9 @@ Result<Body> make_body(const std::string& name) {
   if (name == "board") {
     // Turned so that the camera, which stands at the near side, sees two of its upright faces: of
     // the upper one alone it could not tell how the board lies along it.
-    const Eigen::AngleAxisd tilt(kHeldTilt_deg * kDegree, Eigen::Vector3d::UnitX());
-    const Eigen::AngleAxisd about(std::numbers::pi / 2, Eigen::Vector3d::UnitZ());
-    out.nominal_turn = (about * tilt).matrix();
+    const Eigen::AngleAxisd tilt(-kHeldTilt_deg * kDegree, Eigen::Vector3d::UnitX());
+    const Eigen::AngleAxisd about(std::numbers::pi / 4, Eigen::Vector3d::UnitZ());
+    out.nominal_turn = (tilt * about).matrix();
   }
   HP_ASSIGN_OR_RETURN(const mesh::Model model, sample::make_model(name));
   out.points = model.vertices;

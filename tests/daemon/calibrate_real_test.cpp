@@ -42,8 +42,8 @@ class CalibrateReal : public CameraTest {
     Eigen::AlignedBox3d box;
     for (const auto& p : surface.points) box.extend(p);
     nominal = Eigen::Translation3d(0, 0, 75) *
-              Eigen::AngleAxisd(90 * kDegree, Eigen::Vector3d::UnitZ()) *
-              Eigen::AngleAxisd(30 * kDegree, Eigen::Vector3d::UnitX()) *
+              Eigen::AngleAxisd(-30 * kDegree, Eigen::Vector3d::UnitX()) *
+              Eigen::AngleAxisd(45 * kDegree, Eigen::Vector3d::UnitZ()) *
               Eigen::Translation3d(-box.center());
     const Eigen::Translation3d middle(kMiddle_mm);
     X_FO = middle * testing::crooked(5 * kDegree, 0, 4) * middle.inverse() *
