@@ -67,11 +67,8 @@ tl::unexpected<Error> without_gripper(const Task& task, Error error) {
 Warnings all_warnings(const Task& task, const Calibration& found) {
   Warnings out = found.film_frame.warnings;
   out.insert(out.end(), found.object.warnings.begin(), found.object.warnings.end());
-  if (task.camera.views == 0)
-    out.push_back({"camera_not_calibrated",
-                   "lens and depth scale are the driver's: depths may be a per cent or two off; "
-                   "use calibrate-camera",
-                   "camera"});
+  const Warnings camera = camera_warnings(task.camera);
+  out.insert(out.end(), camera.begin(), camera.end());
   if (!found.water)
     out.push_back({"water_not_seen",
                    "too little of the water is in view to tell its level: "
@@ -114,6 +111,14 @@ registration::CameraCalibration uncalibrated(const scan::Lens& nominal) {
       kUnknownCentre_px, 0.1, 0.3, 0.002, 0.002, kUnknownScale;
   out.covariance = sigma.cwiseAbs2().asDiagonal();
   return out;
+}
+
+Warnings camera_warnings(const registration::CameraCalibration& camera) {
+  if (camera.views > 0) return {};
+  return {{"camera_not_calibrated",
+           "lens and depth scale are the driver's: depths may be a per cent or two off; "
+           "use calibrate-camera",
+           "camera"}};
 }
 
 }  // namespace hydroprint::calibrate

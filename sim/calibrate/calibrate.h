@@ -45,4 +45,7 @@ struct Calibration {
 /// first-generation Kinects: Khoshelham and Elberink 2012; Smisek, Jancosek and Pajdla 2011).
 [[nodiscard]] registration::CameraCalibration uncalibrated(const scan::Lens& nominal);
 
+/// `camera_not_calibrated`, where nobody did.
+[[nodiscard]] Warnings camera_warnings(const registration::CameraCalibration& camera);
+
 }  // namespace hydroprint::calibrate

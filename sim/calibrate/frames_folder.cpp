@@ -19,6 +19,7 @@ struct Listing {
   int width = 0, height = 0;
   double horizontal_fov_rad = 0, vertical_fov_rad = 0;
   std::vector<std::string> files;
+  std::vector<double> times_s;
 };
 
 bool is_plain(const std::string& name) {
@@ -37,8 +38,10 @@ Result<Listing> read_listing(const std::filesystem::path& path) {
     out.height = json.at("height").get<int>();
     out.horizontal_fov_rad = json.at("horizontal_fov_rad").get<double>();
     out.vertical_fov_rad = json.at("vertical_fov_rad").get<double>();
-    for (const auto& frame : json.at("frames"))
+    for (const auto& frame : json.at("frames")) {
       out.files.push_back(frame.at("file").get<std::string>());
+      out.times_s.push_back(frame.value("time_s", 0.0));
+    }
   } catch (const nlohmann::json::exception&) {
     return wrong("does not list frames with their size and fields of view");
   }
@@ -69,8 +72,9 @@ scan::Lens lens_of(const Listing& listing) {
 Result<Frames> read_frames(const std::filesystem::path& folder, const Context& context,
                            std::size_t most) {
   HP_ASSIGN_OR_RETURN(const Listing listing, read_listing(folder / "frames.json"));
-  Frames out{{}, lens_of(listing)};
+  Frames out{{}, listing.times_s, lens_of(listing)};
   out.frames.resize(std::min(most, listing.files.size()));
+  out.times_s.resize(out.frames.size());
   const auto read_one = [&](std::size_t i) -> Status {
     const std::filesystem::path path = folder / listing.files[i];
     HP_ASSIGN_OR_RETURN(const image::Grey16Image grey, image::read_grey16(path, context));

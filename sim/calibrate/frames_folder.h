@@ -13,6 +13,7 @@ namespace hydroprint::calibrate {
 /// Frames as a camera took them, and what its driver says of its lens.
 struct Frames {
   std::vector<scan::DepthFrame> frames;
+  std::vector<double> times_s;  ///< of the frames; 0 where frames.json tells none
   scan::Lens nominal_lens;
 };
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "sim/scan/point_grid.h"
+
 namespace hydroprint::scan {
 namespace {
 
@@ -13,21 +15,7 @@ constexpr double kSameSurface_mm = 15;       ///< between a pixel and those its 
 constexpr int kReach_px = 5, kEvery_px = 2;  ///< neighbours share their noise
 constexpr int kFewest = 6;                   ///< pixels for a normal
 
-/// A fused frame as points, before it is known which of them lie on surfaces.
-struct Grid {
-  int width, height;
-  std::vector<Eigen::Vector3d> points;  ///< z = 0: none
-
-  [[nodiscard]] const Eigen::Vector3d& at(int u, int v) const {
-    return points[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) +
-                  static_cast<std::size_t>(u)];
-  }
-  [[nodiscard]] bool holds(int u, int v) const {
-    return u >= 0 && v >= 0 && u < width && v < height && at(u, v).z() > 0;
-  }
-};
-
-bool on_a_surface(const Grid& grid, int u, int v) {
+bool on_a_surface(const PointGrid& grid, int u, int v) {
   if (!grid.holds(u, v)) return false;
   const double depth = grid.at(u, v).z();
   for (int dv = -1; dv <= 1; ++dv) {
@@ -40,7 +28,7 @@ bool on_a_surface(const Grid& grid, int u, int v) {
 }
 
 /// Zero if there are too few pixels around.
-Eigen::Vector3d normal_at(const Grid& grid, int u, int v) {
+Eigen::Vector3d normal_at(const PointGrid& grid, int u, int v) {
   const Eigen::Vector3d& centre = grid.at(u, v);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -63,10 +51,10 @@ Eigen::Vector3d normal_at(const Grid& grid, int u, int v) {
   return normal.dot(centre) > 0 ? Eigen::Vector3d(-normal) : normal;
 }
 
-ScanPoint point_at(const Grid& grid, const FusedFrame& fused, const Lens& lens,
+ScanPoint point_at(const PointGrid& grid, const FusedFrame& fused, const Lens& lens,
                    const DepthNoise& noise, int u, int v) {
   const std::size_t i = fused.mean.index(u, v);
-  const int patches_across = (grid.width + noise.patch_px - 1) / noise.patch_px;
+  const int patches_across = (grid.width_px + noise.patch_px - 1) / noise.patch_px;
   const double reported = fused.mean.depth_mm[i];
   return {grid.at(u, v),
           normal_at(grid, u, v),
@@ -96,14 +84,14 @@ Result<Cloud> make_cloud(const FusedFrame& fused, const Lens& lens, const DepthN
                     std::to_string(lens.height_px) + " pixels, the frames have " +
                     std::to_string(mean.width_px) + " x " + std::to_string(mean.height_px) +
                     ": calibrate the camera in this mode");
-  Grid grid{mean.width_px, mean.height_px, lens.rays()};
+  PointGrid grid{mean.width_px, mean.height_px, lens.rays()};
   for (std::size_t i = 0; i < grid.points.size(); ++i) {
     const double reported = mean.depth_mm[i];
     grid.points[i] *= reported > 0 ? lens.true_depth_mm(reported) : 0;
   }
-  std::vector<std::vector<ScanPoint>> rows(static_cast<std::size_t>(grid.height));
+  std::vector<std::vector<ScanPoint>> rows(static_cast<std::size_t>(grid.height_px));
   const auto find_row = [&](std::size_t v) -> Status {
-    for (int u = 0; u < grid.width; ++u) {
+    for (int u = 0; u < grid.width_px; ++u) {
       if (!on_a_surface(grid, u, static_cast<int>(v))) continue;
       ScanPoint p = point_at(grid, fused, lens, noise, u, static_cast<int>(v));
       if (p.normal.squaredNorm() > 0) rows[v].push_back(std::move(p));

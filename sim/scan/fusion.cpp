@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
+
+#include "sim/scan/check_frames.h"
 
 namespace hydroprint::scan {
 namespace {
@@ -15,30 +16,6 @@ constexpr double kUnsteadySigmas = 2.5;
 constexpr double kOutlierSigmas = 4;
 constexpr double kMadToSigma = 1.4826;
 constexpr std::size_t kFewFrames = 5;  ///< tell nothing of how depths vary
-
-Status check(std::span<const DepthFrame> frames) {
-  if (frames.empty()) return fail(Code::kInvalidArgument, "no depth frames: is the camera on?");
-  if (frames.size() > std::numeric_limits<std::uint16_t>::max())
-    return fail(Code::kInvalidArgument, "more than 65535 depth frames: give fewer");
-  const DepthFrame& first = frames.front();
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const DepthFrame& frame = frames[i];
-    if (frame.width_px <= 0 || frame.width_px != first.width_px ||
-        frame.height_px != first.height_px ||
-        frame.depth_mm.size() != frame.index(0, frame.height_px))
-      return fail(Code::kInvalidArgument, "depth frame " + std::to_string(i) +
-                                              " differs in size: record again with one setting");
-  }
-  const auto is_nothing = [](float depth_mm) { return depth_mm == 0; };
-  if (std::all_of(first.depth_mm.begin(), first.depth_mm.end(), is_nothing)) return {};  // black
-  const auto same = [&](const DepthFrame& frame) { return frame.depth_mm == first.depth_mm; };
-  if (frames.size() > 1 && std::all_of(frames.begin() + 1, frames.end(), same))
-    return fail(Code::kFailedPrecondition,
-                "all " + std::to_string(frames.size()) +
-                    " depth frames are the same bit by bit: the camera is frozen, reconnect it",
-                "CAMERA_FROZEN");
-  return {};
-}
 
 struct Pixel {
   double mean_mm = 0;
@@ -115,7 +92,7 @@ Result<FusedFrame> fuse(std::span<const DepthFrame> frames, const DepthNoise& no
 
 Result<FusedFrame> fuse(std::span<const DepthFrame> frames, const DepthNoise& noise,
                         const std::optional<DepthSteps>& steps, const Context& context) {
-  HP_RETURN_IF_ERROR(check(frames));
+  HP_RETURN_IF_ERROR(check_frames(frames));
   const int width = frames.front().width_px;
   const int height = frames.front().height_px;
   const std::size_t pixels = frames.front().depth_mm.size();

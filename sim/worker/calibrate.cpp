@@ -61,19 +61,6 @@ double lowest_mm(const mesh::Surface& surface, const Pose& X_FO) {
   return out;
 }
 
-/// Frames, and the camera that took them.
-Result<calibrate::Frames> read_scan(const Options& options, registration::CameraCalibration& camera,
-                                    const Context& context) {
-  HP_ASSIGN_OR_RETURN(calibrate::Frames out,
-                      calibrate::read_frames(options.frames.front(), context));
-  if (options.camera.empty()) {
-    camera = calibrate::uncalibrated(out.nominal_lens);
-  } else {
-    HP_ASSIGN_OR_RETURN(camera, calibrate::read_camera(options.camera));
-  }
-  return out;
-}
-
 /// Of the camera: no single view need tell them.
 Result<std::optional<scan::DepthSteps>> depth_steps(const std::vector<std::filesystem::path>& views,
                                                     const Context& context) {
@@ -94,6 +81,18 @@ std::vector<Stage> calibrate_stages() {
 
 std::vector<Stage> calibrate_camera_stages() {
   return {{"inputs", 1}, {"reading", 20}, {"boards", 60}, {"adjusting", 18}, {"writing", 1}};
+}
+
+Result<calibrate::Frames> read_scan(const Options& options, registration::CameraCalibration& camera,
+                                    const Context& context) {
+  HP_ASSIGN_OR_RETURN(calibrate::Frames out,
+                      calibrate::read_frames(options.frames.front(), context));
+  if (options.camera.empty()) {
+    camera = calibrate::uncalibrated(out.nominal_lens);
+  } else {
+    HP_ASSIGN_OR_RETURN(camera, calibrate::read_camera(options.camera));
+  }
+  return out;
 }
 
 Status run_calibrate(const Options& options, const pipeline::DipOptions& dip, OutFolder& folder,

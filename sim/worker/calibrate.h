@@ -4,6 +4,7 @@
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
+#include "sim/calibrate/frames_folder.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/worker/options.h"
 #include "sim/worker/out_folder.h"
@@ -14,6 +15,11 @@ namespace hydroprint::worker {
 
 [[nodiscard]] std::vector<Stage> calibrate_stages();
 [[nodiscard]] std::vector<Stage> calibrate_camera_stages();
+
+/// Frames, and the camera that took them: of --camera, or as its driver says.
+[[nodiscard]] Result<calibrate::Frames> read_scan(const Options& options,
+                                                  registration::CameraCalibration& camera,
+                                                  const Context& context);
 
 /// Finds where the object hangs, writes calibration.json, pose.json, alignment.png and error.png,
 /// and fills in what report.json is to tell.

@@ -57,8 +57,13 @@ Json pose_json(const Pose& X_FO) {
           {"translation_mm", list_of(X_FO.translation())}};
 }
 
+Json film_frame_json(const registration::FilmFrame& frame) {
+  return {{"camera", pose_json(frame.X_CF().inverse())},
+          {"rms_mm", frame.fit.rms_mm},
+          {"markers", markers_json(frame.markers)}};
+}
+
 Json calibration_json(const calibrate::Calibration& c, double lowest_mm) {
-  const registration::PoseFit& frame = c.film_frame.fit;
   Json out = {{"pose", pose_json(c.object.X_FO)},
               {"uncertainty",
                {{"about_mm", list_of(c.object.centre_mm)},
@@ -67,10 +72,7 @@ Json calibration_json(const calibrate::Calibration& c, double lowest_mm) {
                 {"error_p95_mm", share_of(c.error_mm, 0.95)},
                 {"error_max_mm", share_of(c.error_mm, 1)}}},
               {"from_nominal_pose", c.object.weak},
-              {"film_frame",
-               {{"camera", pose_json(frame.X_CB.inverse())},
-                {"rms_mm", frame.rms_mm},
-                {"markers", markers_json(c.film_frame.markers)}}},
+              {"film_frame", film_frame_json(c.film_frame)},
               {"scan", scan_json(c.object)}};
   if (c.water)
     out["water"] = {{"z_mm", c.water->z_mm}, {"sigma_mm", c.water->sigma_mm}};

@@ -42,9 +42,10 @@ void keep_freed_memory() {
 /// Runs and turns what libraries may throw into an error.
 Result<Finished> run_guarded(const Options& options, Ending& ending, int stderr_fd) {
   const bool is_print = options.verb == Verb::kPrintImage;
-  const std::string work = is_print               ? options.film_image.string()
-                           : options.mesh.empty() ? "validate"
-                                                  : options.mesh.string();
+  const std::string work = is_print                  ? options.film_image.string()
+                           : !options.frames.empty() ? options.frames.front().string()
+                           : options.mesh.empty()    ? "validate"
+                                                     : options.mesh.string();
   try {
     return run(options, ending, stderr_fd);
   } catch (const std::bad_alloc&) {

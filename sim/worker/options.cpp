@@ -96,6 +96,17 @@ Example:
 
 Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
 
+constexpr const char* kFuseExamples =
+    R"(scan.ply: the surface that a camera saw while it was swept by hand, by volume of signed distances, in mm; with
+--layout in the film frame and cut off outside the bars, else in the camera's frame at its first depth frame.
+camera_path.csv: where the camera was. Begin with the markers in view, keep 0.6 to 1.2 m away, and take 10 s.
+
+Examples:
+  hydroprint-capture --seconds 10 --record sweep.oni --out sweep
+  hydroprint-worker fuse --frames sweep --layout rig_layout.toml --camera camera.json --out fused
+
+Exit status: 0 done, 2 bad usage, 3 bad input (the camera was lost among it), 4 the computation failed, 130 cancelled.)";
+
 /// Options as typed: what cannot stand in Options is settled in `settle`.
 struct Typed {
   Options options;
@@ -300,6 +311,17 @@ void add_calibrate(CLI::App& app, Options& o) {
   app.footer(kCalibrateExamples);
 }
 
+void add_fuse(CLI::App& app, Options& o) {
+  add_run(app, o);
+  add_frames(app, o, "Depth frames of a camera swept by hand: a folder of hydroprint-capture")
+      ->expected(1);
+  add_path(app, "--layout", o.layout, "The rig's markers and camera", "FILE.toml");
+  add_path(app, "--camera", o.camera,
+           "The camera's lens, of calibrate-camera; default: what its driver says", "FILE.json");
+  app.add_option("--voxel-mm", o.voxel_mm, "How fine the volume is")->capture_default_str();
+  app.footer(kFuseExamples);
+}
+
 void add_calibrate_camera(CLI::App& app, Options& o) {
   add_run(app, o);
   add_frames(app, o, "Views of the board: folders of hydroprint-capture")->expected(1, -1);
@@ -333,8 +355,8 @@ std::string usage_objection(const Typed& typed) {
   if (o.progress_fd != -1 && (o.progress_fd < 0 || fcntl(o.progress_fd, F_GETFD) == -1)) {
     return "--progress-fd: not an open file descriptor. Open it before";
   }
-  const bool has_mesh =
-      o.verb != Verb::kValidate && o.verb != Verb::kPrintImage && o.verb != Verb::kCalibrateCamera;
+  const bool has_mesh = o.verb != Verb::kValidate && o.verb != Verb::kPrintImage &&
+                        o.verb != Verb::kCalibrateCamera && o.verb != Verb::kFuse;
   if (has_mesh && o.mesh.empty()) return "--mesh: empty. Name a file";
   if (const Status known = validate::check(o.validate); !known) {
     return "--only: " + known.error().message;
@@ -379,6 +401,7 @@ std::string range_objection(const Options& o) {
                             Quantity{"--dpi", o.dpi, image::kMinDpi, image::kMaxDpi},
                             Quantity{"--dip-speed-mm-per-s", o.dip_speed_mm_per_s, 1e-3, 1000},
                             Quantity{"--depth-mm", o.depth_mm.value_or(1), 1e-3, 1e4},
+                            Quantity{"--voxel-mm", o.voxel_mm, 1.5, 4},
                             Quantity{"--gripper-mm", o.gripper_mm.value_or(0), -1e4, 1e4}}) {
     if (q.value >= q.least && q.value <= q.most) continue;
     std::ostringstream out;
@@ -493,6 +516,10 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
       "calibrate-camera", "From views of the calibration board to a camera's lens and depth scale");
   add_calibrate_camera(*calibrate_camera, typed.options);
 
+  CLI::App* fuse = app.add_subcommand(
+      "fuse", "From depth frames of a camera swept by hand to the surface that they show");
+  add_fuse(*fuse, typed.options);
+
   CLI::App* validate = app.add_subcommand(
       "validate", "The paper's experiments in silico, as a report with pictures");
   add_validate(*validate, typed.options);
@@ -517,6 +544,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
   if (placement->parsed()) typed.options.verb = Verb::kTemplate;
   if (calibrate->parsed()) typed.options.verb = Verb::kCalibrate;
   if (calibrate_camera->parsed()) typed.options.verb = Verb::kCalibrateCamera;
+  if (fuse->parsed()) typed.options.verb = Verb::kFuse;
   if (print_image->parsed()) typed.options.verb = Verb::kPrintImage;
   return settle(typed);
 }

@@ -21,7 +21,8 @@ enum class Verb {
   kPrintImage,
   kTemplate,
   kCalibrate,
-  kCalibrateCamera
+  kCalibrateCamera,
+  kFuse
 };
 
 /// Files that print-image writes.
@@ -32,18 +33,20 @@ enum class PrintFormat { kPdf, kPng, kTiff };
 struct Options {
   Verb verb = Verb::kSimulate;
   std::filesystem::path mesh;
-  std::filesystem::path texture;              ///< simulate; empty: the model's own colours
-  std::filesystem::path film_image;           ///< predict, print-image
-  std::filesystem::path motion;               ///< predict; empty: straight down
-  validate::Options validate;                 ///< validate
-  std::filesystem::path points;               ///< fit
-  fit::Options fit;                           ///< fit
-  print::PrintSettings print;                 ///< print-image; its page: template, too
-  std::vector<PrintFormat> formats;           ///< print-image
-  std::vector<std::filesystem::path> frames;  ///< calibrate; calibrate-camera: one folder a view
-  std::filesystem::path layout;               ///< calibrate
-  std::filesystem::path camera;               ///< calibrate; empty: the driver's lens
-  std::optional<double> gripper_mm;           ///< calibrate; none: nobody knows
+  std::filesystem::path texture;     ///< simulate; empty: the model's own colours
+  std::filesystem::path film_image;  ///< predict, print-image
+  std::filesystem::path motion;      ///< predict; empty: straight down
+  validate::Options validate;        ///< validate
+  std::filesystem::path points;      ///< fit
+  fit::Options fit;                  ///< fit
+  print::PrintSettings print;        ///< print-image; its page: template, too
+  std::vector<PrintFormat> formats;  ///< print-image
+  std::vector<std::filesystem::path>
+      frames;                        ///< calibrate, fuse; calibrate-camera: one folder a view
+  std::filesystem::path layout;      ///< calibrate; fuse: empty, where there is none
+  std::filesystem::path camera;      ///< calibrate, fuse; empty: the driver's lens
+  std::optional<double> gripper_mm;  ///< calibrate; none: nobody knows
+  double voxel_mm = 3;               ///< fuse
   std::filesystem::path out;
   std::filesystem::path pose;     ///< empty: as in the file, centred
   std::filesystem::path profile;  ///< empty: the defaults of film::Profile

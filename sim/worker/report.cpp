@@ -11,6 +11,7 @@
 #include "sim/calibrate/camera_file.h"
 #include "sim/worker/calibrate_json.h"
 #include "sim/worker/fit_json.h"
+#include "sim/worker/fuse_json.h"
 #include "sim/worker/print_json.h"
 #include "sim/worker/validate_json.h"
 
@@ -136,6 +137,8 @@ const char* verb_name(Verb verb) {
       return "calibrate";
     case Verb::kCalibrateCamera:
       return "calibrate-camera";
+    case Verb::kFuse:
+      return "fuse";
   }
   return "";
 }
@@ -152,6 +155,10 @@ Json calibration_report(const Report& report) {
     out["parameters"]["gripper_mm"] = o.gripper_mm ? Json(*o.gripper_mm) : Json();
     out["mesh"] = {{"vertices", report.mesh_vertices}, {"triangles", report.mesh_triangles}};
     out["calibration"] = calibration_json(*report.calibration, report.lowest_mm);
+  } else if (report.swept) {
+    out["parameters"] = {{"voxel_mm", report.options.voxel_mm},
+                         {"threads", report.options.threads}};
+    out["scan"] = swept_json(*report.swept);
   } else {
     out["camera"] = Json::parse(calibrate::camera_json(*report.camera));
   }
@@ -167,6 +174,8 @@ Json calibration_summary(const Report& report, const std::filesystem::path& dir)
   Json out = {{"out", dir.string()}, {"artifacts", report.artifacts}};
   if (report.calibration) {
     out.update(calibration_json(*report.calibration, report.lowest_mm));
+  } else if (report.swept) {
+    out.update(swept_json(*report.swept));
   } else {
     out.update({{"views", report.camera->views}, {"rms_mm", report.camera->rms_mm}});
   }
@@ -240,7 +249,8 @@ std::string report_json(const Report& report) {
          {"artifacts", report.artifacts}},
         2);
   }
-  if (report.calibration || report.camera) return dump(calibration_report(report), 2);
+  if (report.calibration || report.camera || report.swept)
+    return dump(calibration_report(report), 2);
   const pipeline::DipFigures& f = report.figures;
   return dump({{"program", "hydroprint-worker"},
                {"version", HYDROPRINT_VERSION},
@@ -304,7 +314,8 @@ std::string summary_json(const Report& report, const std::filesystem::path& dir)
     out.update({{"seconds", report.total_s}, {"warnings", warnings_json(report.warnings)}});
     return dump(out, -1);
   }
-  if (report.calibration || report.camera) return dump(calibration_summary(report, dir), -1);
+  if (report.calibration || report.camera || report.swept)
+    return dump(calibration_summary(report, dir), -1);
   return dump({{"out", dir.string()},
                {"artifacts", report.artifacts},
                {"coverage", report.figures.coverage},
@@ -321,6 +332,7 @@ std::string summary_text(const Report& report, const std::filesystem::path& dir)
   if (report.print) return print_text(*report.print, report.artifacts, dir);
   if (report.placement) return placement_text(*report.placement, dir);
   if (report.calibration) return calibration_text(*report.calibration, dir);
+  if (report.swept) return swept_text(*report.swept, dir);
   if (report.camera) return camera_text(*report.camera, dir);
   std::string files;
   for (const std::string& name : report.artifacts) files += name + " ";

@@ -11,6 +11,7 @@
 #include "sim/base/pose.h"
 #include "sim/base/result.h"
 #include "sim/calibrate/calibrate.h"
+#include "sim/calibrate/swept_scan.h"
 #include "sim/film/outline.h"
 #include "sim/film/profile.h"
 #include "sim/fit/fit.h"
@@ -48,6 +49,7 @@ struct Report {
   std::optional<calibrate::Calibration> calibration;  ///< of `calibrate`, which has none
   double lowest_mm = 0;  ///< of `calibrate`: z of the object's lowest point, F
   std::optional<registration::CameraCalibration> camera;  ///< of `calibrate-camera`
+  std::optional<calibrate::SweptScan> swept;              ///< of `fuse`
   std::vector<std::pair<std::string, double>> stage_seconds;
   double total_s = 0;
   Warnings warnings;

@@ -18,6 +18,7 @@
 #include "sim/worker/artifacts.h"
 #include "sim/worker/calibrate.h"
 #include "sim/worker/fit.h"
+#include "sim/worker/fuse.h"
 #include "sim/worker/motion_file.h"
 #include "sim/worker/out_folder.h"
 #include "sim/worker/print_image.h"
@@ -188,6 +189,8 @@ Status run_verb(const Options& o, pipeline::DipOptions dip, OutFolder& folder, R
       return run_calibrate(o, dip, folder, report, context);
     case Verb::kCalibrateCamera:
       return run_calibrate_camera(o, folder, report, context);
+    case Verb::kFuse:
+      return run_fuse(o, folder, report, context);
   }
   return fail(Code::kInternal, "no such verb");
 }

@@ -2,6 +2,7 @@
 
 #include "sim/worker/calibrate.h"
 #include "sim/worker/fit.h"
+#include "sim/worker/fuse.h"
 #include "sim/worker/print_image.h"
 #include "sim/worker/template.h"
 #include "sim/worker/validate.h"
@@ -24,6 +25,7 @@ std::vector<Stage> stages(const Options& options) {
   if (options.verb == Verb::kTemplate) return template_stages();
   if (options.verb == Verb::kCalibrate) return calibrate_stages();
   if (options.verb == Verb::kCalibrateCamera) return calibrate_camera_stages();
+  if (options.verb == Verb::kFuse) return fuse_stages();
   const bool is_sheet = options.film_model == pipeline::FilmModel::kSheet;
   const bool is_simulation = options.verb == Verb::kSimulate;
   const int passes = is_sheet && options.ink_image.empty() ? options.ink_passes : 0;

@@ -7,6 +7,7 @@
 #include "sim/base/result.h"
 #include "sim/flow/surface_map.h"
 #include "sim/mesh/surface.h"
+#include "sim/scan/marching.h"
 
 namespace hydroprint::worker {
 
@@ -21,5 +22,9 @@ namespace hydroprint::worker {
 /// @param colours  per point, sRGB-coded in [0, 1]; NaN where no film arrives, which shows as white
 [[nodiscard]] Status write_landed(const std::filesystem::path& path, const mesh::Surface& surface,
                                   const std::vector<Eigen::Vector3f>& colours);
+
+/// Writes a scan's surface: per point x, y, z (mm); then the triangles. Fails as
+/// image::write_artifact does.
+[[nodiscard]] Status write_scan(const std::filesystem::path& path, const scan::TriangleMesh& mesh);
 
 }  // namespace hydroprint::worker

@@ -32,10 +32,11 @@ inline void write_frames(const std::filesystem::path& folder,
                             {"vertical_fov_rad", depth_camera::vertical_fov_rad()},
                             {"frames", nlohmann::json::array()}};
   for (const scan::DepthFrame& frame : frames) {
-    const std::string name = std::to_string(listing["frames"].size()) + ".png";
+    const std::size_t index = listing["frames"].size();
+    const std::string name = std::to_string(index) + ".png";
     const std::vector<std::uint16_t> grey(frame.depth_mm.begin(), frame.depth_mm.end());
     ASSERT_TRUE(image::write_png(folder / name, {frame.width_px, frame.height_px, grey}));
-    listing["frames"].push_back({{"file", name}});
+    listing["frames"].push_back({{"file", name}, {"time_s", static_cast<double>(index) / 30}});
   }
   std::ofstream(folder / "frames.json") << listing;
 }

@@ -1,0 +1,160 @@
+// A camera swept over the rig, against where it was and what was there.
+#include "sim/scan/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "hardware/depth_scene/shapes.h"
+#include "sim/registration/shape.h"
+#include "tests/support/depth_scene.h"
+#include "tests/support/swept_camera.h"
+
+namespace hydroprint::scan {
+namespace {
+
+using Eigen::Vector3d;
+using testing::SweptCamera;
+using testing::two_threads;
+
+std::vector<depth_scene::Body> block() {
+  return {{"block", depth_scene::box({-40, -25, 30}, {35, 30, 90}), false}};
+}
+
+std::vector<double> times_of(const std::vector<DepthFrame>& frames) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < frames.size(); ++i) out.push_back(static_cast<double>(i) / 30);
+  return out;
+}
+
+Result<Sweep> fuse(const std::vector<DepthFrame>& frames, const Lens& lens,
+                   const Context& context = two_threads()) {
+  const std::vector<double> times_s = times_of(frames);
+  return fuse_sweep({frames, times_s, lens, {}, {}}, context);
+}
+
+/// How far the tracked camera is off, at worst.
+double farthest_mm(const Sweep& sweep, const SweptCamera& camera) {
+  double out = 0;
+  for (std::size_t i = 0; i < sweep.path.X_WC.size(); ++i) {
+    if (!sweep.path.is_placed[i]) continue;
+    const Pose truth = camera.X_FC(0).inverse() * camera.X_FC(static_cast<int>(i));
+    out = std::max(out, (sweep.path.X_WC[i].translation() - truth.translation()).norm());
+  }
+  return out;
+}
+
+/// How far the surface is off, of the share of its points that are nearest.
+double surface_mm(const Sweep& sweep, const SweptCamera& camera, double share) {
+  const registration::Shape truth(camera.scene());
+  const double sigma_mm = DepthNoise{}.sigma_mm(800);
+  std::vector<double> off;
+  for (const Vector3d& p : sweep.volume.surface(3 / (sigma_mm * sigma_mm)).points_mm) {
+    const Vector3d p_F = camera.X_FC(0) * p;
+    off.push_back((truth.closest(p_F).point_mm - p_F).norm());
+  }
+  EXPECT_GT(off.size(), 100000U);
+  std::sort(off.begin(), off.end());
+  return off[static_cast<std::size_t>(share * static_cast<double>(off.size() - 1))];
+}
+
+TEST(Sweep, FollowsACameraWithoutErrors) {
+  const SweptCamera camera(block(), 4, false);
+  const auto sweep = fuse(camera.frames(10), camera.lens());
+  ASSERT_TRUE(sweep) << sweep.error().message;
+  EXPECT_EQ(sweep->path.lost(), 0U);
+  EXPECT_LT(farthest_mm(*sweep, camera), 0.3);
+}
+
+TEST(Sweep, FollowsACameraWithAllErrorsAndFindsTheSurface) {
+  const SweptCamera camera(block());
+  const auto sweep = fuse(camera.frames(25), camera.lens());
+  ASSERT_TRUE(sweep) << sweep.error().message;
+  EXPECT_EQ(sweep->path.lost(), 0U);
+  EXPECT_LT(farthest_mm(*sweep, camera), 0.6);
+  EXPECT_LT(surface_mm(*sweep, camera, 0.5), 0.4);
+}
+
+TEST(Sweep, IsTheSameWhateverTheNumberOfThreads) {
+  const SweptCamera camera(block());
+  const auto frames = camera.frames(7);
+  const auto one = fuse(frames, camera.lens(), {});
+  const auto two = fuse(frames, camera.lens());
+  ASSERT_TRUE(one && two);
+  for (std::size_t i = 0; i < frames.size(); ++i)
+    EXPECT_EQ(one->path.X_WC[i].matrix(), two->path.X_WC[i].matrix());
+  EXPECT_EQ(one->volume.surface().points_mm, two->volume.surface().points_mm);
+}
+
+TEST(Sweep, SaysWhichFrameLostItsPlace) {
+  const SweptCamera camera(block());
+  std::vector<DepthFrame> frames = camera.frames(4);
+  for (int i = 0; i < 12; ++i) frames.push_back(testing::wall_frame(600));  // turned away
+  const auto lost = fuse(frames, camera.lens());
+  ASSERT_FALSE(lost);
+  EXPECT_EQ(lost.error().reason, "CAMERA_LOST");
+  EXPECT_EQ(lost.error().message.rfind("depth frame 14 of 16 (at 0.4 s): ", 0), 0U)
+      << lost.error().message;
+}
+
+/// What each frame after a jump is worth: it is lost, or where it was.
+TEST(Sweep, LosesFramesAfterAJumpRatherThanMisplaceThem) {
+  const SweptCamera camera(block());
+  for (const int jump : {9, 70}) {  // 50 mm, half a metre
+    std::vector<DepthFrame> frames = camera.frames(4);
+    for (int i = 0; i < 2; ++i) frames.push_back(camera.frame(3 + jump + i));
+    const auto sweep = fuse(frames, camera.lens());
+    ASSERT_TRUE(sweep) << sweep.error().message;
+    for (std::size_t i = 4; i < frames.size(); ++i) {
+      if (!sweep->path.is_placed[i]) continue;
+      const Pose truth = camera.X_FC(0).inverse() * camera.X_FC(static_cast<int>(i) - 1 + jump);
+      EXPECT_LT((sweep->path.X_WC[i].translation() - truth.translation()).norm(), 1)
+          << "frame " << i << " after a jump of " << jump;
+    }
+  }
+}
+
+TEST(Sweep, FindsItsPlaceAgainAfterFramesThatShowNothingOfIt) {
+  const SweptCamera camera(block());
+  std::vector<DepthFrame> frames = camera.frames(6);
+  frames[4] = testing::wall_frame(600);
+  const auto sweep = fuse(frames, camera.lens());
+  ASSERT_TRUE(sweep) << sweep.error().message;
+  EXPECT_EQ(sweep->path.is_placed, (std::vector<bool>{true, true, true, true, false, true}));
+  EXPECT_LT(farthest_mm(*sweep, camera), 0.6);
+}
+
+TEST(Sweep, RefusesWhatACameraInTroubleGives) {
+  const Lens lens;
+  const DepthFrame dark{640, 480, std::vector<float>(640 * 480)};
+  const DepthFrame flat = testing::wall_frame(800);
+  const auto reason = [&](const std::vector<DepthFrame>& frames) {
+    const auto sweep = fuse(frames, lens);
+    return sweep ? "" : sweep.error().reason;
+  };
+  EXPECT_EQ(reason({dark, flat}), "CAMERA_BLACK");
+  EXPECT_EQ(reason({flat, flat, flat}), "CAMERA_FROZEN");
+  std::vector<DepthFrame> wall(12, flat);
+  for (std::size_t i = 0; i < wall.size(); ++i) wall[i].depth_mm[i] = 810;
+  EXPECT_EQ(reason(wall), "CAMERA_LOST");  // a plane tells nothing of motion along it
+  EXPECT_FALSE(fuse({}, lens));
+  Lens other;
+  other.width_px = 320;
+  EXPECT_FALSE(fuse({dark, flat}, other));
+  const std::vector<DepthFrame> frames{flat, wall[1]};
+  EXPECT_FALSE(fuse_sweep({frames, std::vector<double>{0, 0}, lens, {}, {}}, {}));
+}
+
+TEST(Sweep, StopsWhenToldTo) {
+  const SweptCamera camera(block());
+  Context context;
+  context.cancelled = [] { return true; };
+  const auto sweep = fuse(camera.frames(2), camera.lens(), context);
+  ASSERT_FALSE(sweep);
+  EXPECT_EQ(sweep.error().code, Code::kCancelled);
+}
+
+}  // namespace
+}  // namespace hydroprint::scan
