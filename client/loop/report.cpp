@@ -1,6 +1,7 @@
 #include "client/loop/report.h"
 
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -72,7 +73,9 @@ std::string text(double value, int digits = 2) {
   return out.str();
 }
 
-std::string percent(double share) { return text(100 * share, 0) + " %"; }
+std::string percent(double share) {
+  return text(std::round(100 * share) + 0.0, 0) + " %";
+}  // no -0
 
 std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
   std::string out = "<tr>";
@@ -126,6 +129,10 @@ constexpr const char* kHead =
     "padding:.2em .8em;text-align:left}figure{display:inline-block;margin:.5em}img{max-width:30em}"
     "</style></head><body>\n";
 
+std::string poses_of(const Report& report) {
+  return std::to_string(report.rounds.size()) + (report.rounds.size() == 1 ? " pose" : " poses");
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -151,8 +158,7 @@ std::string report_json(const Report& report) {
 std::string report_html(const Report& report) {
   const CrossErrors all = all_of(report);
   return kHead + ("<h1>The whole loop, in silico: " + report.object) + "</h1>\n<p>" +
-         std::to_string(report.rounds.size()) + " poses, seed " + std::to_string(report.seed) +
-         ", camera " + report.camera +
+         poses_of(report) + ", seed " + std::to_string(report.seed) + ", camera " + report.camera +
          ": calibrated through the camera, simulated, put on paper, dipped on the virtual rig, and "
          "that film image dipped in the computation at the true pose, as the axis was driven. 95 % "
          "of the " +
@@ -166,8 +172,8 @@ std::string report_html(const Report& report) {
 
 std::string report_text(const Report& report) {
   const CrossErrors all = all_of(report);
-  std::string out = std::to_string(report.rounds.size()) + " poses of the " + report.object +
-                    ": 95 % of " + std::to_string(all.size()) + " cross-points land within " +
+  std::string out = poses_of(report) + " of the " + report.object + ": 95 % of " +
+                    std::to_string(all.size()) + " cross-points land within " +
                     text(reached_mm(report)) + " mm (asked for: " + text(report.bound_mm) +
                     " mm), " + std::to_string(lost(all)) + " nowhere; of the squared error";
   for (const Stage& stage : kStages)
