@@ -14,13 +14,22 @@ void add_finish_flags(CLI::App& command, FinishOptions& options) {
   add_wait_flags(command, options.wait);
 }
 
+void tell_created(const Program& program, const client::Job& job) {
+  if (program.json())
+    print(to_json(job));
+  else
+    std::cout << job.name << std::endl;
+}
+
+void tell_valid(const Program& program, const client::Job& job) {
+  if (program.json())
+    print(to_json(job));
+  else
+    std::cout << "The daemon would take this job." << std::endl;
+}
+
 Status finish_job(Program& program, const client::Job& job, const FinishOptions& options) {
-  if (options.no_wait || !program.json()) {
-    if (program.json())
-      print(to_json(job));
-    else
-      std::cout << job.name << std::endl;
-  }
+  if (options.no_wait || !program.json()) tell_created(program, job);
   if (options.no_wait) return {};
   HP_ASSIGN_OR_RETURN(const client::Job ended, wait_for(program, job.name, options.wait));
   std::vector<Downloaded> files;

@@ -18,6 +18,12 @@ struct FinishOptions {
 /// Adds --out, --no-wait and --cancel-on-interrupt.
 void add_finish_flags(CLI::App& command, FinishOptions& options);
 
+/// Names a job that was created.
+void tell_created(const Program& program, const client::Job& job);
+
+/// Says that the daemon would take a job that was only to be checked.
+void tell_valid(const Program& program, const client::Job& job);
+
 /// Names a job, follows it to its end, and downloads what it made.
 [[nodiscard]] Status finish_job(Program& program, const client::Job& job,
                                 const FinishOptions& options);

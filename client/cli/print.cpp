@@ -1,9 +1,9 @@
-#include <iostream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "client/cli/commands.h"
+#include "client/cli/finish.h"
 #include "client/cli/json.h"
 #include "client/cli/program.h"
 #include "client/cli/wait.h"
@@ -18,15 +18,6 @@ struct PrintOptions {
   bool no_wait = false;
   WaitOptions wait;
 };
-
-void tell_created(const Program& program, const client::Job& job, const PrintOptions& options) {
-  if (program.json())
-    print(to_json(job));
-  else if (options.job.validate_only)
-    std::cout << "The daemon would take this job." << std::endl;
-  else
-    std::cout << job.name << std::endl;
-}
 
 // However it ended, it has a record.
 Status follow_to_end(Program& program, const std::string& name, const PrintOptions& options) {
@@ -47,9 +38,12 @@ Status print_pages(Program& program, const PrintOptions& options) {
   HP_ASSIGN_OR_RETURN(
       const client::Job job,
       client::create_print(program.daemon(), job_name(options.print_image_job), options.job));
-  const bool waits = !options.no_wait && !options.job.validate_only;
-  if (!waits || !program.json()) tell_created(program, job, options);
-  return waits ? follow_to_end(program, job.name, options) : Status();
+  if (options.job.validate_only) {
+    tell_valid(program, job);
+    return {};
+  }
+  if (options.no_wait || !program.json()) tell_created(program, job);
+  return options.no_wait ? Status() : follow_to_end(program, job.name, options);
 }
 
 }  // namespace

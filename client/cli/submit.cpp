@@ -1,11 +1,10 @@
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "client/cli/commands.h"
+#include "client/cli/finish.h"
 #include "client/cli/inputs.h"
-#include "client/cli/json.h"
 #include "client/cli/program.h"
 #include "client/cli/wait.h"
 #include "client/jobs.h"
@@ -237,38 +236,16 @@ Result<client::Spec> upload_inputs(Program& program, const SubmitOptions& option
   return spec;
 }
 
-void print_created(const Program& program, const client::Job& job, const SubmitOptions& options) {
-  if (program.json())
-    print(to_json(job));
-  else if (options.job.validate_only)
-    std::cout << "The daemon would take this job." << std::endl;
-  else
-    std::cout << job.name << std::endl;
-}
-
-Status wait_and_fetch(Program& program, const std::string& name, const SubmitOptions& options) {
-  HP_ASSIGN_OR_RETURN(const client::Job job, wait_for(program, name, options.wait_options));
-  std::vector<Downloaded> files;
-  if (!options.out.empty()) {
-    HP_ASSIGN_OR_RETURN(files, download_all(program.daemon(), name, {}, options.out));
-  }
-  if (program.json()) {
-    Json json = to_json(job);
-    if (!options.out.empty()) json["files"] = to_json(files);
-    print(json);
-  } else {
-    for (const Downloaded& file : files) std::cout << file.path.string() << std::endl;
-  }
-  return {};
-}
-
 Status submit(Program& program, const SubmitOptions& options) {
   HP_ASSIGN_OR_RETURN(const client::Spec spec, upload_inputs(program, options));
   HP_ASSIGN_OR_RETURN(const client::Job job,
                       client::create_job(program.daemon(), spec, options.job));
-  const bool wait = (options.wait || !options.out.empty()) && !options.job.validate_only;
-  if (!wait || !program.json()) print_created(program, job, options);
-  return wait ? wait_and_fetch(program, job.name, options) : Status();
+  if (options.job.validate_only) {
+    tell_valid(program, job);
+    return {};
+  }
+  const bool waits = options.wait || !options.out.empty();
+  return finish_job(program, job, {options.out, !waits, options.wait_options});
 }
 
 void add_verb(CLI::App& parent, Program& program, client::Verb verb, const char* help,
