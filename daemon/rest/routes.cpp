@@ -211,4 +211,10 @@ bool is_written_as_value(const pb::FieldDescriptor& field) {
          kValues.count(type->name()) > 0;
 }
 
+bool is_wrapper(const pb::FieldDescriptor& field) {
+  if (!is_written_as_value(field)) return false;
+  const pb::Descriptor& type = *field.message_type();
+  return type.field_count() == 1 && type.field(0)->name() == "value";
+}
+
 }  // namespace hydroprint::rest

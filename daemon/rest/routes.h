@@ -61,4 +61,7 @@ struct Route {
 /// FieldMask and the wrappers.
 [[nodiscard]] bool is_written_as_value(const google::protobuf::FieldDescriptor& field);
 
+/// Whether it is one of the wrappers, which hold one value (BoolValue, StringValue, ...).
+[[nodiscard]] bool is_wrapper(const google::protobuf::FieldDescriptor& field);
+
 }  // namespace hydroprint::rest
