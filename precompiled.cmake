@@ -35,7 +35,7 @@ function(hydroprint_use_precompiled folder name)
     set(name sim)  # the last three: parts of daemon and client that know no network
   elseif(place MATCHES "client/cli$")
     set(name cli)
-  elseif(place MATCHES "(daemon|client)$")
+  elseif(place MATCHES "(daemon|daemon/http|client)$")
     set(name service)
   endif()
   get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)

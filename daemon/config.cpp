@@ -51,6 +51,9 @@ std::vector<Key> make_keys() {
   std::vector<Key> all{
       {"server", "grpc", Text{&Config::server_grpc}},
       {"server", "reflection", Flag{&Config::server_reflection}},
+      {"server", "http", Text{&Config::server_http}},
+      {"server", "host_names", Text{&Config::server_host_names}},
+      {"server", "web_dir", Text{&Config::server_web_dir}},
       {"store", "state_dir", Text{&Config::store_state_dir}},
       {"store", "keep_finished_days", Number{&Config::store_keep_finished_days, 1, 36500, "days"}},
       {"store", "min_free_mib", Number{&Config::store_min_free_mib, 1, 1 << 30, "MiB"}},

@@ -16,6 +16,9 @@ namespace hydroprint::daemon {
 struct Config {
   std::string server_grpc = "127.0.0.1:50051";  ///< server.grpc: loopback address and port, 0: any
   bool server_reflection = true;                ///< server.reflection
+  std::string server_http = "127.0.0.1:8080";   ///< server.http: the same for HTTP
+  std::string server_host_names;                ///< server.host_names, with blanks between
+  std::string server_web_dir;                   ///< server.web_dir; empty: where it was installed
   std::string store_state_dir;                  ///< store.state_dir; empty: the user's own
   std::int64_t store_keep_finished_days = 30;   ///< store.keep_finished_days
   std::int64_t store_min_free_mib = 512;        ///< store.min_free_mib

@@ -3,9 +3,11 @@
 #include <sched.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "daemon/file_fence.h"
 #include "daemon/log.h"
+#include "daemon/observed.h"
 #include "daemon/rig_setup.h"
 #include "daemon/schema.h"
 
@@ -128,6 +130,7 @@ Status Daemon::start_serving(const Config& config) {
                         stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
+  HP_RETURN_IF_ERROR(start_http(config, backend));
   if (!fences_work()) {
     log(LogLevel::kWarning, "files_not_fenced",
         {{"message", "this kernel has no Landlock: workers see all files of this user"}});
@@ -135,6 +138,25 @@ Status Daemon::start_serving(const Config& config) {
   pool_->start();
   guard_ = std::make_unique<RigGuard>(*desk_, *places_,
                                       [this](bool works) { server_->set_rig_serving(works); });
+  return {};
+}
+
+Status Daemon::start_http(const Config& config, const Backend& backend) {
+  HP_ASSIGN_OR_RETURN(http_endpoint_, parse_endpoint(config.server_http));
+  meter_ = std::make_unique<JobMeter>(*jobs_);
+  http::Options options{
+      http_endpoint_.host, http_endpoint_.port, {}, config.server_web_dir, http::Limits{}};
+  std::istringstream names(config.server_host_names);
+  for (std::string name; names >> name;) options.host_names.push_back(name);
+  http::Sources sources;
+  sources.health = [backend] {
+    HealthReport report = health_report(backend);
+    return http::Health{report.is_good, std::move(report.json)};
+  };
+  sources.metrics = [backend, this] { return metrics_text(backend, *meter_); };
+  HP_ASSIGN_OR_RETURN(http_,
+                      http::Server::start(options, server_->in_process(), std::move(sources)));
+  http_endpoint_.port = http_->port();
   return {};
 }
 
@@ -147,6 +169,7 @@ void Daemon::clean_up() {
 
 void Daemon::stop() {
   if (stopping_.exchange(true) || !server_) return;
+  if (http_) http_->stop_accepting();
   jobs_->bell().ring();
   dips_->stop();
   prints_->stop();
@@ -155,6 +178,8 @@ void Daemon::stop() {
   pool_->stop();
   guard_.reset();
   server_->stop(kPatience);
+  if (http_) http_->stop();
+  meter_.reset();
   rig_.reset();  // brings the axis to rest
   log_failure("jobs_not_queued_again", jobs_->interrupt_all(Interruption::kShutdown));
 }

@@ -9,6 +9,8 @@
 #include "daemon/config.h"
 #include "daemon/database.h"
 #include "daemon/dip_runner.h"
+#include "daemon/http/server.h"
+#include "daemon/job_meter.h"
 #include "daemon/job_store.h"
 #include "daemon/lease.h"
 #include "daemon/pool.h"
@@ -33,6 +35,7 @@ class Daemon {
   Daemon& operator=(const Daemon&) = delete;
 
   [[nodiscard]] const Endpoint& endpoint() const { return server_->endpoint(); }
+  [[nodiscard]] const Endpoint& http_endpoint() const { return http_endpoint_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
 
   /// Deletes what is too old; to be called now and then.
@@ -48,6 +51,7 @@ class Daemon {
   [[nodiscard]] Status open_printer(const Config& config);
   [[nodiscard]] Status open_camera(const Config& config);
   [[nodiscard]] Status start_serving(const Config& config);
+  [[nodiscard]] Status start_http(const Config& config, const Backend& backend);
 
   Layout layout_;
   UniqueFd lock_;
@@ -65,6 +69,9 @@ class Daemon {
   std::unique_ptr<CaptureRunner> captures_;
   std::unique_ptr<WorkerPool> pool_;
   std::unique_ptr<Server> server_;
+  std::unique_ptr<JobMeter> meter_;
+  std::unique_ptr<http::Server> http_;
+  Endpoint http_endpoint_;
   std::unique_ptr<RigGuard> guard_;
   std::atomic<bool> stopping_{false};
 };

@@ -395,14 +395,23 @@ Result<Artifact> JobStore::artifact(std::int64_t id, const std::string& name) {
   return found.front();
 }
 
-Result<std::vector<JobEvent>> JobStore::events(std::int64_t id, std::int64_t after_seq, int limit) {
+Status JobStore::check_was_given(std::int64_t seq) {
   HP_ASSIGN_OR_RETURN(const std::int64_t newest, last_seq());
-  if (after_seq < 0 || after_seq > newest) {
-    return fail(Code::kOutOfRange,
-                "after_seq: this store never gave event " + std::to_string(after_seq) +
-                    "; get the job anew and watch without it",
-                "EVENTS_GONE");
-  }
+  if (seq >= 0 && seq <= newest) return {};
+  return fail(Code::kOutOfRange,
+              "after_seq: this store never gave event " + std::to_string(seq) +
+                  "; get the job anew and watch without it",
+              "EVENTS_GONE");
+}
+
+Result<std::vector<JobEvent>> JobStore::all_events(std::int64_t after_seq, int limit) {
+  HP_RETURN_IF_ERROR(check_was_given(after_seq));
+  return select_events(database_, "WHERE seq>? ORDER BY seq LIMIT ?",
+                       {after_seq, std::int64_t{limit}});
+}
+
+Result<std::vector<JobEvent>> JobStore::events(std::int64_t id, std::int64_t after_seq, int limit) {
+  HP_RETURN_IF_ERROR(check_was_given(after_seq));
   return select_events(database_, "WHERE job=? AND seq>? ORDER BY seq LIMIT ?",
                        {id, after_seq, std::int64_t{limit}});
 }

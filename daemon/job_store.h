@@ -125,6 +125,8 @@ class JobStore {
   /// given.
   [[nodiscard]] Result<std::vector<JobEvent>> events(std::int64_t id, std::int64_t after_seq,
                                                      int limit);
+  /// The same of all jobs.
+  [[nodiscard]] Result<std::vector<JobEvent>> all_events(std::int64_t after_seq, int limit);
   /// The newest event's number, 0 if there never was one.
   [[nodiscard]] Result<std::int64_t> last_seq();
 
@@ -145,6 +147,7 @@ class JobStore {
 
  private:
   [[nodiscard]] Result<std::int64_t> insert(const NewJob& made);
+  [[nodiscard]] Status check_was_given(std::int64_t seq);
   [[nodiscard]] Status check_queue();
   [[nodiscard]] Status check_none_open(const std::string& verb);
   [[nodiscard]] Status store_dip_status(std::int64_t id, const std::string& dip_status);

@@ -28,6 +28,7 @@ struct Options {
   bool check_config = false;
   std::string state_dir;
   std::string grpc;
+  std::string http;
   std::string rig;
   std::string rig_profile;
 };
@@ -49,6 +50,15 @@ std::string beside(const char* argv0, const char* program) {
   return self.parent_path() / program;
 }
 
+// Where the web client's files are: as installed, or else in a build tree.
+std::string web_dir(const char* argv0) {
+  const std::filesystem::path bin = beside(argv0, "");
+  const auto installed = (bin / "../share/hydroprint/web").lexically_normal();
+  std::error_code ignored;
+  if (std::filesystem::is_directory(installed, ignored)) return installed;
+  return (bin / "../../web").lexically_normal();
+}
+
 Result<Config> configure(const Options& options, const char* argv0) {
   Config config;
   if (!options.config_file.empty()) {
@@ -56,12 +66,17 @@ Result<Config> configure(const Options& options, const char* argv0) {
   }
   if (!options.state_dir.empty()) config.store_state_dir = options.state_dir;
   if (!options.grpc.empty()) config.server_grpc = options.grpc;
+  if (!options.http.empty()) config.server_http = options.http;
   if (!options.rig.empty()) config.rig_drive = options.rig;
   if (!options.rig_profile.empty()) config.rig_profile = options.rig_profile;
   if (config.workers_program.empty()) config.workers_program = beside(argv0, "hydroprint-worker");
   if (config.camera_program.empty()) config.camera_program = beside(argv0, "hydroprint-capture");
+  if (config.server_web_dir.empty()) config.server_web_dir = web_dir(argv0);
   if (const auto endpoint = parse_endpoint(config.server_grpc); !endpoint) {
     return fail(Code::kInvalidArgument, "--grpc: " + endpoint.error().message);
+  }
+  if (const auto endpoint = parse_endpoint(config.server_http); !endpoint) {
+    return fail(Code::kInvalidArgument, "--http: " + endpoint.error().message);
   }
   HP_RETURN_IF_ERROR(read_rig_setup(config));
   return config;
@@ -107,10 +122,10 @@ int run(const Config& config) {
   }
   const auto daemon = Daemon::start(config);
   if (!daemon) return refuse(daemon.error().message, ExitStatus::kFailed);
-  const std::string address = (*daemon)->endpoint().text();
+  const std::string grpc = (*daemon)->endpoint().text(), http = (*daemon)->http_endpoint().text();
   log(LogLevel::kInfo, "ready",
-      {{"grpc", address}, {"state_dir", (*daemon)->layout().root.string()}});
-  std::cout << "hydroprintd ready grpc=" << address
+      {{"grpc", grpc}, {"http", http}, {"state_dir", (*daemon)->layout().root.string()}});
+  std::cout << "hydroprintd ready grpc=" << grpc << " http=" << http
             << " state_dir=" << (*daemon)->layout().root.string() << std::endl;
   serve_until_signal(**daemon, signals);
   (*daemon)->stop();
@@ -120,7 +135,8 @@ int run(const Config& config) {
 
 int obey(int argc, char** argv) {
   Options options;
-  CLI::App app("Keeps the job queue of Hydroprint and runs its workers; serves gRPC on loopback.");
+  CLI::App app(
+      "Keeps the job queue of Hydroprint and runs its workers; serves gRPC and HTTP on loopback.");
   app.name("hydroprintd");
   app.set_version_flag("--version", "hydroprintd " HYDROPRINT_VERSION);
   app.add_option("--config", options.config_file, "TOML file; without it, defaults")
@@ -132,6 +148,8 @@ int obey(int argc, char** argv) {
       ->type_name("DIR");
   app.add_option("--grpc", options.grpc,
                  "Loopback address and port to listen at; default 127.0.0.1:50051; port 0: any")
+      ->type_name("HOST:PORT");
+  app.add_option("--http", options.http, "The same for HTTP; default 127.0.0.1:8080")
       ->type_name("HOST:PORT");
   app.add_option("--rig", options.rig,
                  "Where the motor's drive is, like tcp:127.0.0.1:1502; default: there is no rig")

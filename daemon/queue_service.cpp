@@ -1,14 +1,13 @@
 #include "daemon/convert.h"
 #include "daemon/log.h"
 #include "daemon/names.h"
+#include "daemon/queue_convert.h"
 #include "daemon/services.h"
 #include "daemon/status.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
 
 namespace hydroprint::daemon {
 namespace {
-
-constexpr std::size_t kMostShown = 1000;
 
 class QueueService final : public v1::QueueService::Service {
  public:
@@ -40,23 +39,7 @@ class QueueService final : public v1::QueueService::Service {
 
  private:
   Status show(v1::Queue& reply) {
-    HP_ASSIGN_OR_RETURN(const QueuePause pause, backend_.jobs.pause());
-    HP_ASSIGN_OR_RETURN(const auto order, backend_.pool.order(kMostShown));
-    HP_ASSIGN_OR_RETURN(const auto queued, backend_.jobs.ids_in_state(JobState::kQueued));
-    reply.set_paused(pause.paused);
-    reply.set_pause_reason(pause.reason);
-    for (const std::int64_t id : order) reply.add_queued_jobs(job_name(id));
-    reply.set_queued_count(static_cast<std::int32_t>(queued.size()));
-    for (const JobState state : {JobState::kRunning, JobState::kCancelling}) {
-      HP_ASSIGN_OR_RETURN(const auto ids, backend_.jobs.ids_in_state(state));
-      for (const std::int64_t id : ids) {
-        const bool is_computed = id != backend_.desk.dip() && id != backend_.prints.job() &&
-                                 id != backend_.captures.job();
-        if (is_computed) reply.add_running_jobs(job_name(id));
-      }
-    }
-    reply.set_worker_slots(backend_.pool.slots());
-    reply.set_daemon_version(HYDROPRINT_VERSION);
+    HP_ASSIGN_OR_RETURN(reply, queue_message(backend_));
     return {};
   }
 

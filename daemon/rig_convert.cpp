@@ -1,5 +1,7 @@
 #include "daemon/rig_convert.h"
 
+#include <google/protobuf/util/message_differencer.h>
+
 #include "daemon/convert.h"
 #include "daemon/names.h"
 #include "hardware/rig/errors.h"
@@ -139,6 +141,14 @@ void set_drive(const rig::Controller& controller, v1::Rig& out) {
 }
 
 }  // namespace
+
+bool looks_same(v1::Rig a, v1::Rig b) {
+  for (v1::Rig* rig : {&a, &b}) {
+    rig->clear_sample_time();
+    rig->clear_link_quality();
+  }
+  return google::protobuf::util::MessageDifferencer::Equals(a, b);
+}
 
 v1::Rig rig_message(const RigDesk& desk) {
   v1::Rig out;

@@ -9,6 +9,9 @@ namespace hydroprint::daemon {
 /// nothing.
 [[nodiscard]] v1::Rig rig_message(const RigDesk& desk);
 
+/// True if a watcher would see the same; that the drive was looked at is no change.
+[[nodiscard]] bool looks_same(v1::Rig a, v1::Rig b);
+
 /// A lease as everyone may see it; its holder sees the id as well.
 [[nodiscard]] v1::Lease to_message(const Lease& lease, bool with_id);
 

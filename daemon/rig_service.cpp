@@ -1,5 +1,3 @@
-#include <google/protobuf/util/message_differencer.h>
-
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -33,15 +31,6 @@ Status check_number(const char* field, bool is_there, double value) {
   if (!is_there) return invalid_field(field, "is missing");
   if (!std::isfinite(value)) return invalid_field(field, "must be a finite number");
   return {};
-}
-
-/// True if a watcher would see the same; that the drive was looked at is no change.
-bool same(v1::Rig a, v1::Rig b) {
-  for (v1::Rig* rig : {&a, &b}) {
-    rig->clear_sample_time();
-    rig->clear_link_quality();
-  }
-  return google::protobuf::util::MessageDifferencer::Equals(a, b);
 }
 
 /// StopMotion is answered by threads of its own, which no other call can use up.
@@ -211,7 +200,7 @@ class RigService final
       // A sleep may be short by a little, and the rate must not halve for it.
       if (!first && since < period - kWatchLook / 10) continue;
       v1::Rig now = rig_message(backend_.desk);
-      if (!first && since < quietest && same(now, sent)) continue;
+      if (!first && since < quietest && looks_same(now, sent)) continue;
       if (!writer.Write(now)) return fail(Code::kCancelled, "the client left");
       first = false;
       sent_at = SteadyClock::now();

@@ -11,7 +11,9 @@ namespace hydroprint::daemon {
 namespace {
 
 // Every watch and every running transfer holds a thread.
-constexpr int kMostThreads = 256;
+constexpr int kMostThreads = 512;
+// Of an answer, which has no limit but that of what it lists.
+constexpr int kMostAnswer_bytes = 64 << 20;
 
 constexpr const char* kRigService = "hydroprint.v1.RigService";  // serves while the rig works
 constexpr const char* kServices[] = {"",
@@ -20,7 +22,8 @@ constexpr const char* kServices[] = {"",
                                      "hydroprint.v1.AssetService",
                                      "hydroprint.v1.ArtifactService",
                                      "hydroprint.v1.CalibrationService",
-                                     "hydroprint.v1.LeaseService"};
+                                     "hydroprint.v1.LeaseService",
+                                     "hydroprint.v1.EventService"};
 
 }  // namespace
 
@@ -56,6 +59,7 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   impl.services.push_back(make_calibration_service(backend));
   impl.services.push_back(make_rig_service(backend));
   impl.services.push_back(make_lease_service(backend));
+  impl.services.push_back(make_event_service(backend));
 
   grpc::ServerBuilder builder;
   // Without this a second daemon would silently share the port.
@@ -75,6 +79,12 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   impl.set_rig_serving(false);
   impl.set_serving(true);
   return made;
+}
+
+std::shared_ptr<grpc::Channel> Server::in_process() const {
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(kMostAnswer_bytes);
+  return impl_->server->InProcessChannel(arguments);
 }
 
 const Endpoint& Server::endpoint() const { return impl_->endpoint; }

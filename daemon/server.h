@@ -7,6 +7,10 @@
 #include "daemon/call.h"
 #include "daemon/config.h"
 
+namespace grpc {
+class Channel;
+}
+
 namespace hydroprint::daemon {
 
 /// The gRPC server: the services, health for each of them, reflection if wanted.
@@ -21,6 +25,8 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
+  /// A way to the same services without a socket; may outlive this.
+  [[nodiscard]] std::shared_ptr<grpc::Channel> in_process() const;
   /// Where it listens, with the real port.
   [[nodiscard]] const Endpoint& endpoint() const;
   /// What health says of the RigService; false at first.

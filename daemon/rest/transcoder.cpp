@@ -189,6 +189,8 @@ std::string Transcoder::event_id(std::string_view method, std::string_view respo
   const MessagePtr message = parsed(*called->output_type(), response);
   if (message == nullptr) return {};
   const auto* seq = number_called(*called->output_type(), "seq");
+  const bool is_there = !seq->has_presence() || message->GetReflection()->HasField(*message, seq);
+  if (!is_there) return {};
   return std::to_string(message->GetReflection()->GetInt64(*message, seq));
 }
 

@@ -49,7 +49,7 @@ class Transcoder {
   [[nodiscard]] Result<std::string> write(std::string_view method, std::string_view response) const;
 
   /// Of a stream whose messages carry a number `seq` and whose request takes `after_seq`: the text
-  /// of `seq`; empty for others.
+  /// of `seq`; empty for others, and for a message in which it is optional and not set.
   [[nodiscard]] std::string event_id(std::string_view method, std::string_view response) const;
 
   /// The call that goes on after that event: its `after_seq` is the Last-Event-ID of the request,

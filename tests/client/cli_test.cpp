@@ -305,8 +305,8 @@ TEST_F(Cli, FindsADaemonThatStartsAMomentLater) {
   Process early({kClient, "--server", address, "status"});
   Process watch({kClient, "--server", address, "watch", "jobs/1"});
   std::this_thread::sleep_for(std::chrono::milliseconds(150));  // it has been refused by then
-  Process daemon({HYDROPRINT_BIN_DIR "/hydroprintd", "--grpc", address, "--state-dir",
-                  (folder_.path() / "another").string()});
+  Process daemon({HYDROPRINT_BIN_DIR "/hydroprintd", "--grpc", address, "--http", "127.0.0.1:0",
+                  "--state-dir", (folder_.path() / "another").string()});
   const Outcome ended = early.wait();
   EXPECT_EQ(ended.status, 0) << ended.err;
   const Outcome watched = watch.wait();

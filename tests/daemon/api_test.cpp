@@ -416,6 +416,11 @@ TEST_F(Api, SecondDaemonIsKeptOffThePortAndOffTheState) {
       {"--config", config, "--state-dir", other.path().string(), "--grpc", daemon.address()});
   EXPECT_EQ(port.status, 4);
   EXPECT_NE(port.words.find(daemon.address()), std::string::npos) << port.words;
+  const Ended http = run_daemon({"--config", config, "--state-dir", other.path().string(), "--grpc",
+                                 "127.0.0.1:0", "--http", daemon.http()});
+  EXPECT_EQ(http.status, 4);
+  EXPECT_NE(http.words.find(daemon.http()), std::string::npos) << http.words;
+  EXPECT_NE(http.words.find("--http"), std::string::npos) << http.words;
   const Ended state = run_daemon(
       {"--config", config, "--state-dir", daemon.state().string(), "--grpc", "127.0.0.1:0"});
   EXPECT_EQ(state.status, 4);
@@ -428,6 +433,9 @@ TEST(Program, AddressesBeyondLoopbackAreRefused) {
     const Ended ended = run_daemon({"--grpc", address});
     EXPECT_EQ(ended.status, 3);
     EXPECT_NE(ended.words.find("loopback"), std::string::npos) << ended.words;
+    const Ended http = run_daemon({"--http", address});
+    EXPECT_EQ(http.status, 3);
+    EXPECT_NE(http.words.find("loopback"), std::string::npos) << http.words;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <fstream>
 #include <stdexcept>
@@ -71,7 +72,10 @@ bool real_worker_is_built() {
   return std::filesystem::exists(std::string(HYDROPRINT_BIN_DIR) + "/hydroprint-worker");
 }
 
-Ended run_daemon(const std::vector<std::string>& arguments) {
+Ended run_daemon(std::vector<std::string> arguments) {
+  if (std::find(arguments.begin(), arguments.end(), "--http") == arguments.end()) {
+    arguments.insert(arguments.end(), {"--http", "127.0.0.1:0"});
+  }
   const TemporaryFolder folder;
   const auto out = folder.path() / "out", err = folder.path() / "err";
   const pid_t pid = spawn_daemon(arguments, out, err);
@@ -117,17 +121,19 @@ DaemonProcess::~DaemonProcess() {
 void DaemonProcess::start() {
   const auto out = folder_ / "out";
   std::filesystem::remove(out);
-  pid_ = spawn_daemon(
-      {"--config", config().string(), "--state-dir", state().string(), "--grpc", "127.0.0.1:0"},
-      out, folder_ / "err");
+  pid_ = spawn_daemon({"--config", config().string(), "--state-dir", state().string(), "--grpc",
+                       "127.0.0.1:0", "--http", "127.0.0.1:0"},
+                      out, folder_ / "err");
   const auto deadline = SteadyClock::now() + kPatience;
-  const std::string marker = "ready grpc=";
+  const auto named = [](const std::string& words, const std::string& name) {
+    const std::size_t from = words.find(" " + name + "=") + name.size() + 2;
+    return words.substr(from, words.find(' ', from) - from);
+  };
   while (SteadyClock::now() < deadline) {
     const std::string words = content(out);
-    const std::size_t begin = words.find(marker);
-    if (begin != std::string::npos && words.find('\n', begin) != std::string::npos) {
-      const std::size_t from = begin + marker.size();
-      address_ = words.substr(from, words.find(' ', from) - from);
+    if (words.ends_with('\n')) {
+      address_ = named(words, "grpc");
+      http_ = named(words, "http");
       return;
     }
     std::this_thread::sleep_for(milliseconds(10));

@@ -40,8 +40,8 @@ struct Ended {
   std::string words;  ///< stdout and stderr
 };
 
-/// Runs hydroprintd with these arguments until it ends by itself.
-Ended run_daemon(const std::vector<std::string>& arguments);
+/// Runs hydroprintd with these arguments until it ends by itself; HTTP at any port unless they say.
+Ended run_daemon(std::vector<std::string> arguments);
 
 /// What a reply's status says in its details; empty reason if it has none.
 google::rpc::ErrorInfo error_info(const grpc::Status& status);
@@ -76,6 +76,8 @@ class DaemonProcess {
   int terminate();
   [[nodiscard]] pid_t pid() const { return pid_; }
   [[nodiscard]] const std::string& address() const { return address_; }
+  /// Where HTTP listens: "127.0.0.1:40123".
+  [[nodiscard]] const std::string& http() const { return http_; }
   [[nodiscard]] std::filesystem::path state() const { return folder_ / "state"; }
   [[nodiscard]] std::filesystem::path config() const { return folder_ / "hydroprintd.toml"; }
   /// What it logged.
@@ -87,7 +89,7 @@ class DaemonProcess {
   std::filesystem::path folder_;
   Options options_;
   pid_t pid_ = -1;
-  std::string address_;
+  std::string address_, http_;
 };
 
 /// Calls to a daemon. What is not expected to fail throws if it does.

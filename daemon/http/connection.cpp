@@ -1,0 +1,103 @@
+// One connection, from its first request to its end.
+#include "daemon/http/site.h"
+
+namespace hydroprint::http {
+namespace {
+
+constexpr milliseconds kLinger{1000};
+constexpr std::size_t kMostLingering_bytes = 1 << 20;
+
+// What the client has sent meanwhile is taken off its hands: else the kernel would take back the
+// answer that it has not read yet.
+Task<void> say_goodbye(Socket& socket) {
+  socket.end_writing();
+  std::string dropped(16 << 10, '\0');
+  for (std::size_t taken = 0; taken < kMostLingering_bytes;) {
+    const Socket::Got got = co_await socket.read(dropped.data(), dropped.size(), kLinger);
+    if (got.bytes == 0) break;
+    taken += got.bytes;
+  }
+  socket.close();
+}
+
+Response refused_head(Exchange::Begun begun) {
+  switch (begun) {
+    case Exchange::Begun::kHeaderTooLarge:
+      return refusal({Code::kOutOfRange,
+                      "the header is longer than this server takes; send less of it",
+                      "HEADER_TOO_LARGE",
+                      {}},
+                     431);
+    case Exchange::Begun::kTimedOut:
+      return refusal({Code::kCancelled,
+                      "the request did not come in time; send it anew",
+                      "REQUEST_TIMED_OUT",
+                      {}},
+                     408);
+    default:
+      return refusal(
+          {Code::kInvalidArgument, "this is no HTTP/1.1 request", "REQUEST_MALFORMED", {}}, 400);
+  }
+}
+
+// A request that cannot be read ends the connection: nobody knows where the next one begins.
+Task<void> refuse_head(Socket& socket, const Limits& limits, Exchange::Begun begun) {
+  const Response response = refused_head(begun);
+  const std::string text =
+      head_text(response, Head{}, {response.body.size(), false}) + response.body;
+  co_await socket.written(text, limits.write_time);
+}
+
+// True if another request may follow.
+Task<bool> serve_one(Site& site, const std::shared_ptr<Socket>& socket, std::string& buffered,
+                     bool is_first) {
+  Exchange exchange(socket, site.options.limits, buffered);
+  const Exchange::Begun begun = co_await exchange.begin_request(is_first);
+  if (begun == Exchange::Begun::kGone) co_return false;
+  if (begun != Exchange::Begun::kYes) {
+    const int status = refused_head(begun).status;
+    site.counters.count_request("unreadable", "", status);
+    co_await refuse_head(*socket, site.options.limits, begun);
+    co_return false;
+  }
+  const std::string route = co_await answer(site, exchange);
+  site.counters.count_request(route, exchange.head().method, exchange.status());
+  co_return co_await exchange.end_request();
+}
+
+Task<void> serve_all(Site& site, std::shared_ptr<Socket> socket) {
+  std::string buffered;
+  for (bool is_first = true;; is_first = false) {
+    const bool goes_on = co_await serve_one(site, socket, buffered, is_first);
+    if (!goes_on) break;
+  }
+  if (!socket->is_closed()) co_await say_goodbye(*socket);
+}
+
+}  // namespace
+
+Detached serve(Site& site, std::shared_ptr<Socket> socket) {
+  try {
+    co_await serve_all(site, socket);
+  } catch (const std::exception&) {  // no memory
+    socket->close();
+  }
+  site.connections.remove(socket);
+}
+
+Detached turn_away(Site& site, std::shared_ptr<Socket> socket) {
+  site.counters.count_refused_connection();
+  Response response = refusal({Code::kUnavailable,
+                               "too many connections are open; try again in a while",
+                               "CONNECTIONS_FULL",
+                               {}});
+  response.fields.set("Retry-After", "5");
+  const std::string text =
+      head_text(response, Head{}, {response.body.size(), false}) + response.body;
+  const bool sent = co_await socket->written(text, kLinger);
+  if (sent) co_await say_goodbye(*socket);
+  socket->close();
+  site.connections.remove(socket);
+}
+
+}  // namespace hydroprint::http

@@ -1,0 +1,171 @@
+// The bytes of an artifact, as fast as they are read.
+#include "daemon/http/byte_range.h"
+#include "daemon/http/site.h"
+#include "daemon/http/waiting.h"
+#include "hydroprint/v1/artifact_service.pb.h"
+
+namespace hydroprint::http {
+namespace {
+
+constexpr milliseconds kDiskPatience{60'000};
+const std::string kService = "/hydroprint.v1.ArtifactService/";
+
+Result<v1::Artifact> artifact_of(const Reply& reply) {
+  v1::Artifact artifact;
+  if (artifact.ParseFromString(reply.response)) return artifact;
+  return fail(Code::kInternal, "the daemon's answer is none");
+}
+
+// What the request's head makes of it.
+struct Wanted {
+  ByteRange range;
+  Response response;
+};
+
+Wanted wanted(const Head& head, const v1::Artifact& artifact, bool is_inline) {
+  Wanted out;
+  const std::string tag = '"' + artifact.sha256() + '"';
+  const std::string file = artifact.name().substr(artifact.name().rfind('/') + 1);
+  const bool is_shown = is_inline && may_be_shown(artifact.media_type());
+  Fields& fields = out.response.fields;
+  fields.set("ETag", tag);
+  fields.set("Cache-Control", "private, no-cache");
+  fields.set("Accept-Ranges", "bytes");
+  if (lists_tag(head.fields.find("If-None-Match").value_or(""), tag)) {
+    out.response.status = 304;
+    return out;
+  }
+  const bool is_same = head.fields.find("If-Range").value_or(tag) == tag;
+  const std::string_view range = is_same ? head.fields.find("Range").value_or("") : "";
+  out.range = byte_range(range, artifact.size_bytes());
+  const std::string size = std::to_string(artifact.size_bytes());
+  if (out.range.kind == ByteRange::Kind::kNone) {
+    out.response = refusal({Code::kOutOfRange,
+                            "the artifact has " + size + " bytes, and none in this range",
+                            "RANGE_UNSATISFIABLE",
+                            {}},
+                           416);
+    out.response.fields.set("Content-Range", "bytes */" + size);
+    return out;
+  }
+  fields.set("Content-Type", artifact.media_type());
+  fields.set("Content-Disposition", content_disposition(is_shown, file));
+  if (out.range.kind == ByteRange::Kind::kPart) {
+    out.response.status = 206;
+    fields.set("Content-Range", "bytes " + std::to_string(out.range.begin) + '-' +
+                                    std::to_string(out.range.end - 1) + '/' + size);
+  }
+  return out;
+}
+
+/// One download. The next piece is asked for when the one before has got away.
+class Download {
+ public:
+  Download(Site& site, Exchange& exchange, const Rpc::Metadata& metadata)
+      : exchange_(exchange), stream_(site.rpc.stream(kService + "DownloadArtifact", metadata)) {}
+
+  Task<void> run(const std::string& name, Wanted wanted) {
+    v1::DownloadArtifactRequest request;
+    request.set_name(name);
+    request.set_offset(wanted.range.begin);
+    Coming<bool> written(exchange_.shared_socket());
+    stream_->write(request.SerializeAsString(), true, written.receiver());
+    co_await written.wait(kDiskPatience);
+
+    std::int64_t left = wanted.range.end - wanted.range.begin;
+    std::optional<std::string> piece = co_await next();
+    if (!piece) {
+      co_await refuse_all();
+      co_return;
+    }
+    bool goes_on = co_await exchange_.begin_answer(std::move(wanted.response), left);
+    while (goes_on && left > 0 && piece) {
+      if (static_cast<std::int64_t>(piece->size()) > left) {
+        piece->resize(static_cast<std::size_t>(left));
+      }
+      left -= static_cast<std::int64_t>(piece->size());
+      goes_on = co_await exchange_.write(std::move(*piece));
+      if (goes_on && left > 0) piece = co_await next();
+    }
+    if (left > 0) exchange_.break_off();
+  }
+
+ private:
+  // Nothing if the call ended.
+  Task<std::optional<std::string>> next() {
+    Coming<std::optional<std::string>> coming(exchange_.shared_socket());
+    stream_->read(coming.receiver());
+    const bool came = co_await coming.wait(kDiskPatience);
+    v1::DownloadArtifactResponse message;
+    std::optional<std::string> bytes;
+    if (came) bytes = coming.take();
+    if (!bytes || !message.ParseFromString(*bytes)) co_return std::nullopt;
+    co_return std::move(*message.mutable_data());
+  }
+
+  Task<void> refuse_all() {
+    Coming<Reply> coming(exchange_.shared_socket());
+    stream_->cancel();
+    stream_->finish(coming.receiver());
+    const bool came = co_await coming.wait(kDiskPatience);
+    const Reply reply = came ? coming.take() : Reply{4, "the store did not answer in time", "", ""};
+    co_await exchange_.send(refusal(reply));
+  }
+
+  Exchange& exchange_;
+  std::unique_ptr<Stream> stream_;
+};
+
+// What a browser would take for the file must not be an answer to another method.
+Response only_get() {
+  Response response =
+      refusal({Code::kUnimplemented, "an artifact can only be got", "METHOD_NOT_ALLOWED", {}}, 405);
+  response.fields.set("Allow", "GET, HEAD, OPTIONS");
+  return response;
+}
+
+}  // namespace
+
+Task<std::string> answer_download(Site& site, Exchange& exchange, ArtifactTarget target) {
+  const std::string route = "download";
+  const Head& head = exchange.head();
+  if (head.method != "GET" && head.method != "HEAD") {
+    co_await exchange.send(only_get());
+    co_return route;
+  }
+  const auto metadata = metadata_of(head, exchange.socket().peer());
+  if (!metadata || !target.is_good) {
+    Error error{Code::kInvalidArgument,
+                "of a download only inline=1 can be asked",
+                "PARAMETER_INVALID",
+                {}};
+    if (!metadata) error = metadata.error();
+    co_await refuse(exchange, std::move(error));
+    co_return route;
+  }
+  v1::GetArtifactRequest request;
+  request.set_name(target.name);
+  rest::Call get{kService + "GetArtifact", false, request.SerializeAsString()};
+  const Reply reply = co_await call(site, exchange, std::move(get), *metadata);
+  const Result<v1::Artifact> artifact = artifact_of(reply);
+  if (!reply.ok() || !artifact) {
+    Response refused = refusal(reply);
+    if (reply.ok()) refused = refusal(artifact.error());
+    co_await exchange.send(std::move(refused));
+    co_return route;
+  }
+  Wanted asked = wanted(head, *artifact, target.is_inline);
+  const bool has_bytes = asked.response.status == 200 || asked.response.status == 206;
+  if (head.method == "HEAD" && has_bytes) {
+    const std::int64_t length = asked.range.end - asked.range.begin;
+    co_await exchange.begin_answer(std::move(asked.response), length);
+  } else if (!has_bytes) {
+    co_await exchange.send(std::move(asked.response));
+  } else {
+    Download download(site, exchange, *metadata);
+    co_await download.run(target.name, std::move(asked));
+  }
+  co_return route;
+}
+
+}  // namespace hydroprint::http

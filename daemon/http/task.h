@@ -1,0 +1,134 @@
+#pragma once
+
+#include <coroutine>
+#include <exception>
+#include <functional>
+#include <optional>
+#include <utility>
+
+namespace hydroprint::http {
+
+/// What waits for a task, and what the task threw.
+class TaskPromiseBase {
+ public:
+  std::coroutine_handle<> waiting = std::noop_coroutine();
+  std::exception_ptr thrown;
+
+  std::suspend_always initial_suspend() noexcept { return {}; }
+  struct Final {
+    bool await_ready() noexcept { return false; }
+    template <class Promise>
+    std::coroutine_handle<> await_suspend(std::coroutine_handle<Promise> done) noexcept {
+      return done.promise().waiting;
+    }
+    void await_resume() noexcept {}
+  };
+  Final final_suspend() noexcept { return {}; }
+  void unhandled_exception() noexcept { thrown = std::current_exception(); }
+};
+
+/// GCC 12 destroys twice what `?:` makes within a co_await: name it before.
+///
+/// A coroutine that begins when it is awaited and is awaited once. It always goes on where what it
+/// waits for calls back: here, on the strand of its connection.
+template <class T = void>
+class [[nodiscard]] Task {
+ public:
+  struct promise_type : TaskPromiseBase {
+    std::optional<T> value;
+    Task get_return_object() {
+      return Task(std::coroutine_handle<promise_type>::from_promise(*this));
+    }
+    void return_value(T result) { value.emplace(std::move(result)); }
+  };
+
+  Task(Task&& other) noexcept : handle_(std::exchange(other.handle_, {})) {}
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
+  ~Task() {
+    if (handle_) handle_.destroy();
+  }
+
+  bool await_ready() const noexcept { return false; }
+  std::coroutine_handle<> await_suspend(std::coroutine_handle<> waiting) noexcept {
+    handle_.promise().waiting = waiting;
+    return handle_;
+  }
+  T await_resume() {
+    if (handle_.promise().thrown) std::rethrow_exception(handle_.promise().thrown);
+    return std::move(*handle_.promise().value);
+  }
+
+ private:
+  explicit Task(std::coroutine_handle<promise_type> handle) : handle_(handle) {}
+  std::coroutine_handle<promise_type> handle_;
+};
+
+/// The same without a value.
+template <>
+class [[nodiscard]] Task<void> {
+ public:
+  struct promise_type : TaskPromiseBase {
+    Task get_return_object() {
+      return Task(std::coroutine_handle<promise_type>::from_promise(*this));
+    }
+    void return_void() noexcept {}
+  };
+
+  Task(Task&& other) noexcept : handle_(std::exchange(other.handle_, {})) {}
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
+  ~Task() {
+    if (handle_) handle_.destroy();
+  }
+
+  bool await_ready() const noexcept { return false; }
+  std::coroutine_handle<> await_suspend(std::coroutine_handle<> waiting) noexcept {
+    handle_.promise().waiting = waiting;
+    return handle_;
+  }
+  void await_resume() {
+    if (handle_.promise().thrown) std::rethrow_exception(handle_.promise().thrown);
+  }
+
+ private:
+  explicit Task(std::coroutine_handle<promise_type> handle) : handle_(handle) {}
+  std::coroutine_handle<promise_type> handle_;
+};
+
+/// Waits for what calls back: `co_await Awaiting<T>{[&](auto done) { socket.read(..., done); }}`.
+/// The call back comes later than the start, never from within it.
+template <class T>
+class Awaiting {
+ public:
+  using Done = std::function<void(T)>;
+  explicit Awaiting(std::function<void(Done)> start) : start_(std::move(start)) {}
+
+  bool await_ready() const noexcept { return false; }
+  void await_suspend(std::coroutine_handle<> waiting) {
+    // Moved out: once it is started this may end at any time.
+    const std::function<void(Done)> start = std::move(start_);
+    start([this, waiting](T value) {
+      value_.emplace(std::move(value));
+      waiting.resume();
+    });
+  }
+  T await_resume() { return std::move(*value_); }
+
+ private:
+  std::function<void(Done)> start_;
+  std::optional<T> value_;
+};
+
+/// A coroutine that nobody waits for. What it throws ends the program.
+struct Detached {
+  struct promise_type {
+    Detached get_return_object() noexcept { return {}; }
+    std::suspend_never initial_suspend() noexcept { return {}; }
+    std::suspend_never final_suspend() noexcept { return {}; }
+    void return_void() noexcept {}
+    void unhandled_exception() noexcept { std::terminate(); }
+  };
+};
+
+}  // namespace hydroprint::http

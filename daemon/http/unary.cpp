@@ -1,0 +1,142 @@
+// Calls of the services: one request, one answer.
+#include <algorithm>
+
+#include "daemon/http/artifact_target.h"
+#include "daemon/http/site.h"
+#include "daemon/http/waiting.h"
+#include "daemon/rest/answer.h"
+
+namespace hydroprint::http {
+namespace {
+
+constexpr milliseconds kGrace{5000};  // for gRPC to say itself that the time is up
+
+// "/hydroprint.v1.JobService/GetJob" -> "JobService/GetJob".
+std::string short_name(const std::string& method) {
+  return method.substr(method.rfind('.', method.rfind('/')) + 1);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+// The methods of a path, with those that HTTP itself adds.
+std::string allowed_at(const Site& site, const std::string& target) {
+  std::vector<std::string> methods = site.transcoder.methods_at(target);
+  const bool is_artifact = artifact_target(target).has_value();
+  if (is_artifact) methods = {"GET"};
+  if (std::find(methods.begin(), methods.end(), "GET") != methods.end()) {
+    methods.emplace_back("HEAD");
+  }
+  if (!methods.empty() && target.starts_with("/v1/uploads/")) {
+    methods.emplace_back("PATCH");
+  }
+  if (!methods.empty()) methods.emplace_back("OPTIONS");
+  return joined(methods);
+}
+
+Task<std::string> answer_options(const Site& site, Exchange& exchange) {
+  Response response;
+  response.status = 204;
+  const std::string allowed = allowed_at(site, exchange.head().target);
+  if (allowed.empty()) {
+    response = refusal(
+        {Code::kNotFound, "nothing is at this path; see /openapi.json", "ROUTE_NOT_FOUND", {}});
+  } else {
+    response.fields.set("Allow", allowed);
+  }
+  co_await exchange.send(std::move(response));
+  co_return "options";
+}
+
+Task<void> answer_unary(Site& site, Exchange& exchange, rest::Call request) {
+  auto metadata = metadata_of(exchange.head(), exchange.socket().peer());
+  if (!metadata) {
+    co_await refuse(exchange, metadata.error());
+    co_return;
+  }
+  const std::string method = request.method;
+  const Reply reply = co_await call(site, exchange, std::move(request), std::move(*metadata));
+  if (!reply.ok()) {
+    co_await exchange.send(refusal(reply));
+    co_return;
+  }
+  Result<std::string> json = site.transcoder.write(method, reply.response);
+  if (!json) {
+    co_await refuse(exchange, json.error());
+    co_return;
+  }
+  co_await exchange.send(json_response(200, std::move(*json)));
+}
+
+// Answers what the transcoder refuses.
+Task<std::string> refuse_call(const Site& site, Exchange& exchange, Error error) {
+  Response response = refusal(error);
+  if (error.reason == "METHOD_NOT_ALLOWED") {
+    response = refusal(error, 405);
+    response.fields.set("Allow", allowed_at(site, exchange.head().target));
+  }
+  co_await exchange.send(std::move(response));
+  co_return "refused";
+}
+
+}  // namespace
+
+Response refusal(const Reply& reply) {
+  rest::Answer answer = rest::error_answer(reply.code, reply.message, reply.details);
+  return json_response(answer.http_status, std::move(answer.json));
+}
+
+Task<Reply> call(Site& site, Exchange& exchange, rest::Call request, Rpc::Metadata metadata) {
+  Coming<Reply> coming(exchange.shared_socket());
+  const milliseconds patience = site.options.limits.call_time;
+  const auto under_way =
+      site.rpc.unary(request.method, request.request, metadata, patience, coming.receiver());
+  exchange.socket().watch([under_way] { under_way->cancel(); });
+  const bool came = co_await coming.wait(patience + kGrace);
+  exchange.socket().unwatch();
+  if (came) co_return coming.take();
+  under_way->cancel();
+  co_return Reply{4, "the daemon did not answer in time; look whether it was done", "", ""};
+}
+
+Task<std::string> answer_call(Site& site, Exchange& exchange) {
+  const Head& head = exchange.head();
+  if (head.method == "OPTIONS") co_return co_await answer_options(site, exchange);
+  if (auto artifact = artifact_target(head.target)) {
+    co_return co_await answer_download(site, exchange, std::move(*artifact));
+  }
+  Result<std::string> body = co_await exchange.read_body();
+  if (!body) {
+    const bool is_too_long = body.error().reason == "BODY_TOO_LARGE";
+    const bool is_late = body.error().reason == "REQUEST_TIMED_OUT";
+    const std::optional<int> status = is_too_long ? std::optional(413)
+                                      : is_late   ? std::optional(408)
+                                                  : std::nullopt;
+    co_await refuse(exchange, body.error(), status);
+    co_return "refused";
+  }
+  const bool wants_head = head.method == "HEAD";
+  Result<rest::Call> request =
+      site.transcoder.read(wants_head ? "GET" : head.method, head.target, *body);
+  if (request && request->streams && wants_head) {
+    request = fail(Code::kUnimplemented, "a stream has no head of its own; use GET",
+                   "METHOD_NOT_ALLOWED");
+  }
+  const auto last_event = head.fields.find("Last-Event-ID");
+  if (request && request->streams && last_event) {
+    request = site.transcoder.resume(std::move(*request), *last_event);
+  }
+  if (!request) co_return co_await refuse_call(site, exchange, request.error());
+  const std::string name = short_name(request->method);
+  if (request->streams) {
+    co_await answer_events(site, exchange, std::move(*request));
+  } else {
+    co_await answer_unary(site, exchange, std::move(*request));
+  }
+  co_return name;
+}
+
+}  // namespace hydroprint::http

@@ -1,0 +1,160 @@
+// Bytes of an upload, on their way from the connection to the store.
+#include <charconv>
+
+#include "daemon/http/site.h"
+#include "daemon/http/waiting.h"
+#include "daemon/rest/percent.h"
+#include "hydroprint/v1/asset_service.pb.h"
+
+namespace hydroprint::http {
+namespace {
+
+constexpr milliseconds kStorePatience{60'000};  // with a disk that is slow
+constexpr const char* kChunks = "/hydroprint.v1.AssetService/UploadChunk";
+
+Result<std::string> upload_name(std::string_view path) {
+  HP_ASSIGN_OR_RETURN(std::string name, rest::decode(path.substr(std::string_view("/v1/").size())));
+  return name;
+}
+
+Result<std::int64_t> upload_offset(const Head& head) {
+  const std::string_view text = head.fields.find("Upload-Offset").value_or("");
+  std::int64_t offset = -1;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), offset);
+  if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size() && offset >= 0) {
+    return offset;
+  }
+  auto error =
+      fail(Code::kInvalidArgument,
+           "the header Upload-Offset must say where these bytes go; HEAD tells", "SPEC_INVALID");
+  error.value().metadata["field"] = "Upload-Offset";
+  return error;
+}
+
+Response state_of(const v1::Upload& upload) {
+  Response response;
+  response.status = 204;
+  response.fields.set("Upload-Offset", std::to_string(upload.received_bytes()));
+  response.fields.set("Upload-Length", std::to_string(upload.size_bytes()));
+  return response;
+}
+
+/// Passes a body on. The next piece is read when the store has taken the one before.
+class Passing {
+ public:
+  Passing(Site& site, Exchange& exchange, std::string name, std::int64_t offset,
+          const Rpc::Metadata& metadata)
+      : exchange_(exchange),
+        stream_(site.rpc.stream(kChunks, metadata)),
+        name_(std::move(name)),
+        offset_(offset) {}
+
+  // How the call ended; an Error if the body broke off (then what came of it stays).
+  Task<Result<Reply>> run() {
+    bool is_taken = co_await pass_on({});  // opens the upload, even if nothing follows
+    while (is_taken) {
+      Result<std::string> piece = co_await exchange_.read_body_piece();
+      if (!piece) co_return tl::unexpected(piece.error());
+      if (piece->empty()) break;
+      is_taken = co_await pass_on(std::move(*piece));
+    }
+    co_return co_await finish();
+  }
+
+ private:
+  Task<bool> pass_on(std::string bytes) {
+    v1::UploadChunkRequest chunk;
+    chunk.set_upload(name_);
+    chunk.set_offset(offset_);
+    offset_ += static_cast<std::int64_t>(bytes.size());
+    chunk.set_data(std::move(bytes));
+    Coming<bool> written(exchange_.shared_socket());
+    stream_->write(chunk.SerializeAsString(), false, written.receiver());
+    const bool came = co_await written.wait(kStorePatience);
+    co_return came&& written.take();
+  }
+
+  Task<Reply> finish() {
+    const Reply late{4, "the store did not answer in time", "", ""};
+    Coming<std::optional<std::string>> response(exchange_.shared_socket());
+    Coming<Reply> coming(exchange_.shared_socket());
+    stream_->end_writing();
+    stream_->read(response.receiver());
+    const bool answered = co_await response.wait(kStorePatience);
+    if (!answered) co_return late;
+    stream_->finish(coming.receiver());
+    const bool came = co_await coming.wait(kStorePatience);
+    if (!came) co_return late;
+    Reply reply = coming.take();
+    reply.response = response.take().value_or("");
+    co_return reply;
+  }
+
+  Exchange& exchange_;
+  std::unique_ptr<Stream> stream_;
+  std::string name_;
+  std::int64_t offset_;
+};
+
+Task<void> answer_bytes(Site& site, Exchange& exchange, std::string name, Rpc::Metadata metadata) {
+  const Result<std::int64_t> offset = upload_offset(exchange.head());
+  if (!offset) {
+    co_await refuse(exchange, offset.error());
+    co_return;
+  }
+  Passing passing(site, exchange, std::move(name), *offset, metadata);
+  const Result<Reply> reply = co_await passing.run();
+  if (!reply) {
+    const bool is_late = reply.error().reason == "REQUEST_TIMED_OUT";
+    std::optional<int> status;
+    if (is_late) status = 408;
+    co_await refuse(exchange, reply.error(), status);
+    co_return;
+  }
+  v1::UploadChunkResponse result;
+  if (!reply->ok() || !result.ParseFromString(reply->response)) {
+    co_await exchange.send(refusal(*reply));
+  } else if (result.has_upload()) {
+    co_await exchange.send(state_of(result.upload()));
+  } else {
+    Result<std::string> json = site.transcoder.write("/hydroprint.v1.AssetService/GetAsset",
+                                                     result.asset().SerializeAsString());
+    Response response = json ? json_response(200, std::move(*json)) : refusal(json.error());
+    response.fields.set("Upload-Offset", std::to_string(result.asset().size_bytes()));
+    co_await exchange.send(std::move(response));
+  }
+}
+
+Task<void> answer_state(Site& site, Exchange& exchange, std::string name, Rpc::Metadata metadata) {
+  v1::GetUploadRequest request;
+  request.set_name(name);
+  rest::Call get{"/hydroprint.v1.AssetService/GetUpload", false, request.SerializeAsString()};
+  const Reply reply = co_await call(site, exchange, std::move(get), std::move(metadata));
+  v1::Upload upload;
+  if (!reply.ok() || !upload.ParseFromString(reply.response)) {
+    co_await exchange.send(refusal(reply));
+    co_return;
+  }
+  co_await exchange.send(state_of(upload));
+}
+
+}  // namespace
+
+Task<std::string> answer_upload(Site& site, Exchange& exchange) {
+  const Head& head = exchange.head();
+  Result<std::string> name = upload_name(head.path());
+  Result<Rpc::Metadata> metadata = metadata_of(head, exchange.socket().peer());
+  if (!name || !metadata) {
+    const Error& error = name ? metadata.error() : name.error();
+    co_await refuse(exchange, error);
+    co_return "refused";
+  }
+  if (head.method == "HEAD") {
+    co_await answer_state(site, exchange, std::move(*name), std::move(*metadata));
+    co_return "upload state";
+  }
+  co_await answer_bytes(site, exchange, std::move(*name), std::move(*metadata));
+  co_return "upload";
+}
+
+}  // namespace hydroprint::http

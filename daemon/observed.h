@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "daemon/call.h"
+#include "daemon/job_meter.h"
+
+namespace hydroprint::daemon {
+
+/// The daemon as /healthz shows it.
+struct HealthReport {
+  bool is_good = true;  ///< it takes work: the store answers and nothing goes down
+  std::string json;
+};
+
+/// Asks the store, so it may take its time. A rig or camera that is not there or wants help is told
+/// and harms nothing else.
+[[nodiscard]] HealthReport health_report(const Backend& backend);
+
+/// All figures but the HTTP server's, as Prometheus reads them. Asks the store.
+[[nodiscard]] std::string metrics_text(const Backend& backend, const JobMeter& meter);
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+
+#include "daemon/http/server.h"
+#include "tests/daemon/http/http_client.h"
+#include "tests/daemon/support.h"
+
+namespace hydroprint::tests {
+
+/// A daemon, asked over HTTP as it is.
+class HttpTest : public ::testing::Test {
+ protected:
+  HttpAnswer get(const std::string& target, const std::string& fields = "") {
+    return ask(daemon.http(), "GET", target, "", fields);
+  }
+  HttpAnswer post(const std::string& target, const std::string& body) {
+    return ask(daemon.http(), "POST", target, body);
+  }
+  /// Uploads over HTTP; "assets/{sha256}".
+  std::string upload(const std::string& bytes);
+  /// Creates a job over HTTP whose mesh has this content; "jobs/{number}".
+  std::string simulate(const std::string& mesh);
+
+  TemporaryFolder folder;
+  DaemonProcess daemon{folder.path(), DaemonProcess::fake()};
+  Client client{daemon.address()};
+};
+
+/// The HTTP server alone, in this process, before a daemon that runs beside it: for what its limits
+/// do, which the daemon leaves as they are.
+class HttpLimits : public HttpTest {
+ protected:
+  /// Starts it anew.
+  void serve(const http::Limits& limits);
+  [[nodiscard]] const std::string& address() const { return address_; }
+  [[nodiscard]] HttpConnection connect(int receive_buffer_bytes = 0) const {
+    return HttpConnection(address_, receive_buffer_bytes);
+  }
+
+  std::unique_ptr<http::Server> server;
+
+ private:
+  std::string address_;
+};
+
+/// Resident memory of a process, by /proc.
+[[nodiscard]] std::size_t memory_bytes(pid_t pid);
+
+}  // namespace hydroprint::tests

@@ -1,0 +1,162 @@
+// What a client may have, and what becomes of who wants more: the HTTP server with short times and
+// small sizes, before a daemon.
+#include <chrono>
+#include <thread>
+
+#include "tests/daemon/http/http_support.h"
+
+namespace hydroprint::tests {
+namespace {
+
+using http::Limits;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kShort{200};
+
+TEST_F(HttpLimits, WhoSaysNothingIsLetGo) {
+  Limits limits;
+  limits.header_time = kShort;
+  limits.idle_time = kShort;
+  serve(limits);
+  EXPECT_TRUE(connect().is_ended());
+  HttpConnection idle = connect();
+  EXPECT_EQ(idle.ask("GET", "/v1/queue").status, 200);
+  EXPECT_TRUE(idle.is_ended());
+}
+
+TEST_F(HttpLimits, AHeaderThatDoesNotComeToItsEndIsTimedOut) {
+  Limits limits;
+  limits.header_time = kShort;
+  serve(limits);
+  HttpConnection slow = connect();
+  slow.send("GET / HTTP/1.1\r\nHost: ");
+  const HttpAnswer answer = slow.read_answer();
+  EXPECT_EQ(answer.status, 408);
+  EXPECT_EQ(answer.reason(), "REQUEST_TIMED_OUT");
+  EXPECT_TRUE(slow.is_ended());
+}
+
+TEST_F(HttpLimits, ABodyThatDoesNotComeIsTimedOut) {
+  Limits limits;
+  limits.body_time = kShort;
+  serve(limits);
+  HttpConnection slow = connect();
+  slow.send("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{");
+  EXPECT_EQ(slow.read_answer().status, 408);
+  EXPECT_TRUE(slow.is_ended());
+}
+
+TEST_F(HttpLimits, ThereAreOnlySoManyConnections) {
+  Limits limits;
+  limits.connections = 3;
+  serve(limits);
+  std::vector<HttpConnection> open;
+  for (int i = 0; i < 3; ++i) {
+    open.push_back(connect());
+    EXPECT_EQ(open.back().ask("GET", "/v1/queue").status, 200);
+  }
+  HttpConnection more = connect();
+  more.send(request_text("GET", "/v1/queue"));
+  const HttpAnswer refused = more.read_answer();
+  EXPECT_EQ(refused.status, 503);
+  EXPECT_EQ(refused.reason(), "CONNECTIONS_FULL");
+  EXPECT_EQ(refused.field("retry-after"), "5");
+  EXPECT_TRUE(more.is_ended());
+  open.pop_back();
+  more.close();
+  int status = 503;
+  for (int i = 0; i < 1000 && status == 503; ++i) {
+    HttpConnection next = connect();
+    next.send(request_text("GET", "/v1/queue"));
+    status = next.read_answer().status;
+  }
+  EXPECT_EQ(status, 200);
+}
+
+TEST_F(HttpLimits, AStreamThatIsQuietShowsThatItLives) {
+  Limits limits;
+  limits.ping_time = milliseconds(50);
+  serve(limits);
+  HttpConnection stream = connect();
+  stream.send(request_text("GET", "/v1/events:watch?topics=job"));
+  stream.read_head();
+  EXPECT_EQ(stream.read_event().kind, "begin");
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(stream.read_event().kind, "");
+}
+
+// The kernel takes 256 KiB and more for the server, and what it likes for the client.
+TEST_F(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
+  Limits limits;
+  limits.write_time = milliseconds(500);
+  serve(limits);
+  const std::string name = simulate("");
+  client.wait_for_end(name);
+  HttpConnection stream = connect(4096);
+  stream.send(request_text("GET", "/v1/events:watch?topics=queue&topics=job"));
+  stream.read_head();
+  const HttpEvent begin = stream.read_event();
+  // Each change of the queue is an event of a few hundred bytes; long reasons make it fill up soon.
+  Client other(daemon.address());
+  HttpConnection changer = connect();
+  for (int i = 0; i < 400 && server; ++i) {
+    v1::PauseQueueRequest request;
+    request.set_reason(std::to_string(i) + std::string(150, 'x'));
+    changer.ask("POST", "/v1/queue:pause", "{\"reason\": \"" + request.reason() + "\"}");
+    const std::string again = simulate("# " + std::to_string(i));
+    client.cancel(again);
+    if (i % 50 == 0 &&
+        changer.ask("GET", "/metrics").body.find("_connections 1\n") != std::string::npos) {
+      break;
+    }
+  }
+  HttpConnection back = connect();
+  back.send(request_text("GET", "/v1/events:watch?topics=job", "",
+                         "Last-Event-ID: " + begin.id + "\r\n"));
+  EXPECT_EQ(back.read_head().status, 200);
+  EXPECT_EQ(back.read_event().id, begin.id);
+  EXPECT_EQ(back.read_event().kind, "job");
+}
+
+TEST_F(HttpLimits, WhoLeavesCancelsItsCall) {
+  serve({});
+  const std::string name = simulate("sleep 30");
+  {
+    HttpConnection stream = connect();
+    stream.send(request_text("GET", "/v1/" + name + ":watch"));
+    stream.read_head();
+    stream.read_event();
+  }
+  HttpConnection connection = connect();
+  std::string metrics;
+  for (int i = 0; i < 1000 && metrics.find("http_connections 1\n") == std::string::npos; ++i) {
+    metrics = connection.ask("GET", "/metrics").body;
+  }
+  EXPECT_NE(metrics.find("http_connections 1\n"), std::string::npos) << metrics;
+}
+
+TEST_F(HttpLimits, TheServerEndsWithStreamsUploadsAndIdleOnesOpen) {
+  serve({});
+  std::vector<HttpConnection> open;
+  for (int i = 0; i < 30; ++i) open.push_back(connect());
+  for (int i = 0; i < 10; ++i) {
+    open[i].send(request_text("GET", "/v1/events:watch"));
+    open[i].read_head();
+    open[10 + i].send("POST /v1/jobs HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n{");
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  server.reset();
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+}
+
+TEST_F(HttpLimits, AServerWithoutAServiceSaysSo) {
+  serve({});
+  HttpConnection connection = connect();
+  EXPECT_EQ(connection.ask("GET", "/v1/queue").status, 200);
+  EXPECT_EQ(daemon.terminate(), 0);
+  const HttpAnswer answer = connection.ask("GET", "/v1/queue");
+  EXPECT_EQ(answer.status, 503);
+  EXPECT_EQ(answer.json().at("error").at("status"), "UNAVAILABLE");
+}
+
+}  // namespace
+}  // namespace hydroprint::tests
