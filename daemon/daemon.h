@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "daemon/asset_store.h"
 #include "daemon/calibration_store.h"
@@ -35,6 +37,9 @@ class Daemon {
 
   [[nodiscard]] const Endpoint& endpoint() const { return server_->endpoint(); }
   [[nodiscard]] const Layout& layout() const { return layout_; }
+
+  /// How often the loop that looks at the drive has gone round; none: no drive is configured.
+  [[nodiscard]] std::optional<std::uint64_t> control_rounds() const;
 
   /// Deletes what is too old; to be called now and then.
   void clean_up();
