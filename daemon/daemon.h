@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "daemon/asset_store.h"
 #include "daemon/calibration_store.h"
@@ -14,6 +16,7 @@
 #include "daemon/job_store.h"
 #include "daemon/lease.h"
 #include "daemon/pool.h"
+#include "daemon/preview_desk.h"
 #include "daemon/print_runner.h"
 #include "daemon/rig_desk.h"
 #include "daemon/rig_guard.h"
@@ -37,6 +40,9 @@ class Daemon {
   [[nodiscard]] const Endpoint& endpoint() const { return server_->endpoint(); }
   [[nodiscard]] const Endpoint& http_endpoint() const { return http_endpoint_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
+
+  /// How often the loop that looks at the drive has gone round; none: no drive is configured.
+  [[nodiscard]] std::optional<std::uint64_t> control_rounds() const;
 
   /// Deletes what is too old; to be called now and then.
   void clean_up();
@@ -68,6 +74,7 @@ class Daemon {
   CameraSetup camera_;
   std::unique_ptr<CaptureRunner> captures_;
   std::unique_ptr<WorkerPool> pool_;
+  std::unique_ptr<PreviewDesk> previews_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<JobMeter> meter_;
   std::unique_ptr<http::Server> http_;

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "daemon/rest/transcoder.h"
-#include "tests/daemon/rest/rules.pb.h"
+#include "tests/daemon/rest/rules/rules.pb.h"
 
 namespace hydroprint::rest {
 namespace {
