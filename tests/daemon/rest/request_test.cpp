@@ -114,23 +114,26 @@ TEST(Query, WhatIsNoValueIsRefusedByName) {
       {"time=1970-01-01T00:00:00Z&time=1970-01-01T00:00:00Z", "time: is given twice"},
       {"left=a&right=1", "right: excludes left, which is given, too"},
       {"both.text=a&left=", "left: excludes both, which is given, too"},
-      {"name=x", "name: the request has no such field"},
-      {"Text=x", "Text: the request has no such field"},
-      {"=x", ": the request has no such field"},
-      {"inner.name=x", "inner.name: the request has no such field"},
-      {"inner.=x", "inner.: the request has no such field"},
-      {".text=x", ".text: the request has no such field"},
-      {"text.text=x", "text.text: the request has no such field"},
-      {"time.seconds=1", "time.seconds: the request has no such field"},
-      {"inners.text=1", "inners.text: the request has no such field"},
+      {"name=x", "name: Everything has no such field"},
+      {"Text=x", "Text: Everything has no such field"},
+      {"=x", ": Everything has no such field"},
+      {"inner.name=x", "inner.name: Inner has no such field"},
+      {"inner.=x", "inner.: Inner has no such field"},
+      {".text=x", ".text: Everything has no such field"},
+      {"text.text=x", "text.text: text has no fields to name"},
+      {"time.seconds=1", "time.seconds: time has no fields to name"},
+      {"inners.text=1", "inners.text: inners has no fields to name"},
       {"inner=x", "inner: is a message and has no place in a URL"},
       {"inners=x", "inners: is a message and has no place in a URL"},
       {"labels=x", "labels: is a map and has no place in a URL"},
-      {"$alt=json", "$alt: the request has no such field"},
+      {"$alt=json", "$alt: Everything has no such field"},
   };
   for (const auto& [text, expected] : cases) {
     EXPECT_EQ(query(text), "PARAMETER_INVALID " + expected) << text;
   }
+  std::string deep = "inner";
+  for (int i = 0; i < 1000; ++i) deep += ".deeper";
+  EXPECT_NE(query(deep + ".text=x").find("...: is nested too deeply"), std::string::npos);
   const auto call = rules().read("GET", "/r/query?inner.seq=x", "");
   EXPECT_EQ(call.error().metadata.at("field"), "inner.seq");
 }
