@@ -21,7 +21,6 @@ using nlohmann::json;
 
 using Type = pb::FieldDescriptor::CppType;
 
-constexpr std::size_t kMostLevels = 32;
 constexpr double kExactBelow = 9007199254740992;  // 2^53
 
 enum class ValueKind { kNull, kBool, kNumber, kString, kObject, kList };

@@ -214,6 +214,7 @@ class Document {
       }
       schema = schemas_.reference_without(request, bound);
     }
+    if (schemas_.at(schema).contains("required")) body["required"] = true;
     body["content"] = {{"application/json", {{"schema", std::move(schema)}}}};
     return body;
   }

@@ -50,7 +50,7 @@ OtherRoute upload_bytes() {
                        "All bytes are here and their hash is right.",
                        "application/json",
                        "hydroprint.v1.Asset",
-                       {}},
+                       {upload_headers().front()}},
                       {204, "Some are missing.", "", "", upload_headers()}}};
 }
 
@@ -61,26 +61,28 @@ OtherRoute download(const std::string& http_method) {
       in_header("ETag", "string", "SHA-256 of the file, in quotes."),
       in_header("Accept-Ranges", "string", "\"bytes\"."),
       in_header("Content-Disposition", "string", "To be kept as a file, by its name.")};
-  return {
-      .http_method = http_method,
-      .path = "/v1/jobs/{job}/artifacts/{artifact}:download",
-      .operation = has_body ? "DownloadArtifact" : "HeadArtifact",
-      .tag = "ArtifactService",
-      .summary =
-          has_body ? "The bytes of an artifact" : "What a download would answer, without the bytes",
-      .description =
-          "Content-Type is the artifact's media type. A file never changes, so that a\n"
-          "download that broke off can go on with Range. Refused as DownloadArtifact\n"
-          "of the gRPC API refuses.",
-      .parameters = {in_path("job", "Number of the job."), in_path("artifact", "Name of the file."),
-                     in_header("Range", "string", "\"bytes=1000-\": only these bytes."),
-                     in_header("If-Range", "string",
-                               "Range holds only for the file with this ETag."),
-                     in_header("If-None-Match", "string", "ETag of what is there already.")},
-      .content_type = {},
-      .answers = {{200, "The file.", type, "", headers},
-                  {206, "The bytes that were asked for.", type, "", headers},
-                  {304, "It is what If-None-Match says.", "", "", {}}}};
+  return {.http_method = http_method,
+          .path = "/v1/jobs/{job}/artifacts/{artifact}:download",
+          .operation = has_body ? "DownloadArtifact" : "HeadArtifact",
+          .tag = "ArtifactService",
+          .summary = has_body ? "The bytes of an artifact"
+                              : "What a download would answer, without the bytes",
+          .description =
+              "Content-Type is the artifact's media type. A file never changes, so that a\n"
+              "download that broke off can go on with Range. Refused as DownloadArtifact\n"
+              "of the gRPC API refuses.",
+          .parameters = {in_path("job", "Number of the job."),
+                         in_path("artifact", "Name of the file."),
+                         in_header("Range", "string", "\"bytes=1000-\": only these bytes."),
+                         in_header("If-Range", "string",
+                                   "Range holds only for the file with this ETag."),
+                         in_header("If-None-Match", "string", "ETag of what is there already."),
+                         {"inline", "query", "string", false,
+                          "\"1\": to be shown, not kept as a file."}},
+          .content_type = {},
+          .answers = {{200, "The file.", type, "", headers},
+                      {206, "The bytes that were asked for.", type, "", headers},
+                      {304, "It is what If-None-Match says.", "", "", {}}}};
 }
 
 // What needs no parameter and answers in one way.
@@ -101,8 +103,8 @@ OtherRoute plain_get(std::string path, std::string operation, std::string summar
 
 const std::vector<OtherRoute>& other_routes() {
   static const std::vector<OtherRoute> routes = {
-      plain_get("/healthz", "GetHealth", "The daemon answers",
-                "503 while it goes down. Says nothing of the rig: see GetRig.", "text/plain"),
+      plain_get("/healthz", "GetHealth", "How the daemon is",
+                "503, with the same JSON, if it cannot do its work.", "application/json"),
       plain_get("/metrics", "GetMetrics", "Figures for Prometheus", "", "text/plain"),
       plain_get("/openapi.json", "GetOpenApi", "This document", "", "application/json"),
       download("GET"),

@@ -8,7 +8,7 @@ namespace hydroprint::rest {
 /// A parameter of a route that is written by hand.
 struct OtherParameter {
   std::string name;
-  std::string in;    ///< "path" or "header"
+  std::string in;    ///< "path", "query" or "header"
   std::string type;  ///< "string" or "integer"
   bool required = false;
   std::string description;

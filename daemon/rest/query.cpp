@@ -31,7 +31,7 @@ Status read_pair(std::string_view pair, const Route& route, std::set<FieldPath>&
   const std::size_t equals = pair.find('=');
   HP_ASSIGN_OR_RETURN(const std::string name, decode_query(pair.substr(0, equals)));
   const auto path = find_field(*request.GetDescriptor(), name);
-  if (!path) return bad_parameter(plain(name), "the request has no such field");
+  if (!path) return bad_parameter(plain(name), path.error().message);
   HP_RETURN_IF_ERROR(check_free(route, *path));
   if (equals == std::string_view::npos) return bad_parameter(path_text(*path), "\"=\" is missing");
   if (!given.insert(*path).second && !path->back()->is_repeated()) {

@@ -7,7 +7,6 @@
 #include <set>
 #include <utility>
 
-#include "daemon/rest/percent.h"
 #include "google/api/annotations.pb.h"
 #include "proto/described.h"
 
@@ -68,7 +67,7 @@ Status check_method(const pb::MethodDescriptor& method) {
 Status read_path_fields(const pb::MethodDescriptor& method, Route& route) {
   for (const Variable& variable : route.path.variables) {
     const auto field = find_field(*method.input_type(), variable.field_path);
-    if (!field) return refuse(method, field.error().message);
+    if (!field) return refuse(method, variable.field_path + ": " + field.error().message);
     const pb::FieldDescriptor& last = *field->back();
     if (last.is_repeated() || last.message_type() != nullptr) {
       return refuse(method, variable.field_path + " must be one value, not a list or a message");
@@ -154,6 +153,7 @@ std::string rpc_name(const pb::MethodDescriptor& method) {
 }
 
 Result<std::vector<Route>> read_routes(const std::vector<std::string>& services) {
+  if (services.empty()) return fail(Code::kInternal, "there are no services");
   std::vector<Route> routes;
   for (const std::string& name : services) {
     const auto* service = pb::DescriptorPool::generated_pool()->FindServiceByName(name);
@@ -176,7 +176,6 @@ const pb::FieldDescriptor* field_called(const pb::Descriptor& message, const std
 Result<FieldPath> find_field(const pb::Descriptor& message, std::string_view path) {
   FieldPath found;
   const pb::Descriptor* inside = &message;
-  const std::string whole = plain(path);
   for (bool more = true; more;) {
     const std::size_t dot = path.find('.');
     const std::string name(path.substr(0, dot));
@@ -184,12 +183,15 @@ Result<FieldPath> find_field(const pb::Descriptor& message, std::string_view pat
     if (more) path.remove_prefix(dot + 1);
     const pb::FieldDescriptor* field = field_called(*inside, name);
     if (field == nullptr) {
-      return fail(Code::kInvalidArgument, whole + ": " + message.name() + " has no such field");
+      return fail(Code::kInvalidArgument, inside->name() + " has no such field");
     }
     found.push_back(field);
+    if (found.size() > kMostLevels) {
+      return fail(Code::kInvalidArgument, "is nested too deeply");
+    }
     if (!more) break;
     if (field->message_type() == nullptr || field->is_repeated() || is_written_as_value(*field)) {
-      return fail(Code::kInvalidArgument, whole + ": " + field->name() + " has no fields to name");
+      return fail(Code::kInvalidArgument, field->name() + " has no fields to name");
     }
     inside = field->message_type();
   }

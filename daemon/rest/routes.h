@@ -18,6 +18,9 @@ namespace hydroprint::rest {
 /// A field of a message, or of one in it: the fields that lead there.
 using FieldPath = std::vector<const google::protobuf::FieldDescriptor*>;
 
+/// How deep a request may be nested, as JSON or by a name in the query; gRPC's limit is 100.
+inline constexpr std::size_t kMostLevels = 32;
+
 /// What of a request is its body.
 enum class Body {
   kNone,   ///< nothing: what the path does not give is in the query
@@ -50,7 +53,8 @@ struct Route {
     const google::protobuf::Descriptor& message, const std::string& name);
 
 /// Finds the field at "job.display_name" by its name or its JSON name ("job.displayName"). Refused
-/// (kInvalidArgument): no such field, or one that is in something repeated or that is no message.
+/// (kInvalidArgument): no such field, one in something repeated or in what is no message, or one
+/// deeper than kMostLevels; the message does not name it.
 [[nodiscard]] Result<FieldPath> find_field(const google::protobuf::Descriptor& message,
                                            std::string_view path);
 

@@ -22,7 +22,9 @@ std::string short_name(const Descriptor& descriptor) {
   return descriptor.full_name().substr(package.empty() ? 0 : package.size() + 1);
 }
 
-Json reference_to(const std::string& name) { return {{"$ref", "#/components/schemas/" + name}}; }
+const std::string kPlace = "#/components/schemas/";
+
+Json reference_to(const std::string& name) { return {{"$ref", kPlace + name}}; }
 
 bool is_oneof_member(const pb::FieldDescriptor& field) {
   return field.real_containing_oneof() != nullptr;
@@ -166,6 +168,10 @@ Json Schemas::reference(const pb::EnumDescriptor& names) {
 }
 
 void Schemas::add(const std::string& name, Json schema) { all_[name] = std::move(schema); }
+
+const Json& Schemas::at(const Json& reference) const {
+  return all_.at(reference.at("$ref").get<std::string>().substr(kPlace.size()));
+}
 
 Json Schemas::of_value(const pb::FieldDescriptor& field, Way way) {
   if (is_written_as_value(field)) return of_well_known(*field.message_type());

@@ -41,6 +41,9 @@ class Schemas {
   /// Adds one that no message has.
   void add(const std::string& name, nlohmann::ordered_json schema);
 
+  /// What a reference leads to; it must be one from here.
+  [[nodiscard]] const nlohmann::ordered_json& at(const nlohmann::ordered_json& reference) const;
+
   /// All of them, by name.
   [[nodiscard]] const nlohmann::ordered_json& all() const { return all_; }
 

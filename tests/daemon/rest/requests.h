@@ -2,12 +2,12 @@
 
 #include <google/protobuf/message.h>
 
-#include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "daemon/rest/routes.h"
+#include "tests/daemon/rest/random_message.h"
 
 namespace hydroprint::rest {
 
@@ -16,14 +16,6 @@ std::string some_path(const Route& route);
 
 /// "GET, POST".
 std::string joined(const std::vector<std::string>& words);
-
-/// An empty message of that type.
-std::unique_ptr<google::protobuf::Message> new_message(const google::protobuf::Descriptor& type);
-
-/// A message of that type whose fields were drawn, and those of the messages in it down to
-/// `levels`; finite numbers, enum values that exist, texts with anything in them but NUL.
-std::unique_ptr<google::protobuf::Message> random_message(const google::protobuf::Descriptor& type,
-                                                          std::mt19937& random, int levels);
 
 /// A request as a client writes it.
 struct Sent {
