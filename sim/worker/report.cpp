@@ -160,7 +160,7 @@ Json calibration_report(const Report& report) {
                          {"threads", report.options.threads}};
     out["scan"] = swept_json(*report.swept);
   } else {
-    out["camera"] = Json::parse(calibrate::camera_json(*report.camera));
+    out["camera"] = Json::parse(calibrate::camera_summary_json(*report.camera));
   }
   out.update({{"stage_seconds", seconds_json(report.stage_seconds)},
               {"total_seconds", report.total_s},
