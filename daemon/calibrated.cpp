@@ -14,6 +14,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t kLargestFile = 4 << 20;
+constexpr std::size_t kLargestCamera = 16 << 20;  ///< with its fixed pattern; as calibrate reads it
 constexpr std::size_t kMostEntries = 100;
 constexpr std::size_t kLongestText = 1000;
 constexpr double kFarthest_mm = 1e5;
@@ -167,7 +168,7 @@ Result<std::optional<NewCalibration>> calibration_of(const Job& job,
   } else {
     out.kind = CalibrationKind::kCamera;
     HP_ASSIGN_OR_RETURN(const std::string text,
-                        read_text_file(artifacts / "camera.json", kLargestFile));
+                        read_text_file(artifacts / "camera.json", kLargestCamera));
     HP_RETURN_IF_ERROR(read_camera(text, found));
   }
   found.set_display_name(job.made.display_name);

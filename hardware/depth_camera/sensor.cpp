@@ -53,16 +53,6 @@ float normal(std::uint64_t word) {
   return quantiles[word % kQuantiles];
 }
 
-/// The part of the noise that each patch keeps, as normal numbers.
-std::vector<float> patches(std::uint64_t seed) {
-  constexpr int kAcross = (kWidth_px + kPatch_px - 1) / kPatch_px;
-  constexpr int kDown = (kHeight_px + kPatch_px - 1) / kPatch_px;
-  std::vector<float> out(static_cast<std::size_t>(kAcross) * kDown);
-  const std::uint64_t key = mixed(seed ^ 0x7061746368U);
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = normal(mixed(key + i));
-  return out;
-}
-
 bool is_edge(const Depths& depths, int x, int y) {
   const auto at = [&](int dx, int dy) { return depths[(y + dy) * kWidth_px + (x + dx)]; };
   const float here = at(0, 0);
@@ -88,12 +78,21 @@ double noise_sigma_mm(double depth_mm) {
   return 1.2 + 1.9 * beyond_m * beyond_m;
 }
 
+std::vector<float> constant_noise(std::uint64_t seed) {
+  constexpr int kAcross = (kWidth_px + kPatch_px - 1) / kPatch_px;
+  constexpr int kDown = (kHeight_px + kPatch_px - 1) / kPatch_px;
+  std::vector<float> out(static_cast<std::size_t>(kAcross) * kDown);
+  const std::uint64_t key = mixed(seed ^ 0x7061746368U);
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = normal(mixed(key + i));
+  return out;
+}
+
 Frame sense(const Depths& depths, double depth_scale, const Errors& errors, std::uint64_t seed,
             double time_s) {
   constexpr int kAcross = (kWidth_px + kPatch_px - 1) / kPatch_px;
   const auto time_us = static_cast<std::uint64_t>(std::llround(time_s * 1e6));
   const std::uint64_t key = mixed(mixed(seed) + time_us);
-  const std::vector<float> constant = errors.noise ? patches(seed) : std::vector<float>();
+  const std::vector<float> constant = errors.noise ? constant_noise(seed) : std::vector<float>();
   const double share = std::sqrt(kConstantShare);
   const double rest = std::sqrt(1 - kConstantShare);
   Frame out(depths.size(), 0);

@@ -31,6 +31,9 @@ struct Errors {
 inline constexpr int kPatch_px = 4;
 inline constexpr double kConstantShare = 0.5;
 
+/// That constant part, in its standard deviations: per patch, row by row from the top left.
+[[nodiscard]] std::vector<float> constant_noise(std::uint64_t seed);
+
 /// The disparity, f b / z, comes in steps of this many pixels (Konolige and Mihelich, 2011).
 inline constexpr double kDisparityStep_px = 0.125;
 

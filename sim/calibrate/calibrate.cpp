@@ -28,7 +28,6 @@ registration::ObjectTask object_task(const Task& task) {
   out.nominal_FO = nominal_pose(task);
   out.surroundings = task.layout.surroundings;
   if (task.gripper_mm) out.surroundings.gripper_from_mm = *task.gripper_mm - kOnSurface_mm;
-  out.lens_covariance = task.camera.covariance;
   return out;
 }
 
@@ -83,7 +82,7 @@ Result<Calibration> calibrate(const Task& task, const Context& context) {
   const scan::DepthNoise noise;
   HP_ASSIGN_OR_RETURN(const scan::FusedFrame fused, scan::fuse(task.frames, noise, context));
   HP_ASSIGN_OR_RETURN(const scan::Cloud cloud,
-                      scan::make_cloud(fused, task.camera.lens, noise, context));
+                      scan::make_cloud(fused, task.camera, noise, context));
   Calibration out;
   context.progress("markers", 0);
   HP_ASSIGN_OR_RETURN(out.film_frame,
@@ -94,8 +93,7 @@ Result<Calibration> calibrate(const Task& task, const Context& context) {
       registration::find_object(cloud, fused.mean, out.film_frame, object_task(task), context);
   if (!object) return without_gripper(task, std::move(object).error());
   out.object = std::move(*object);
-  const auto water =
-      registration::water_level(cloud, out.film_frame, task.half_film_mm, task.camera.covariance);
+  const auto water = registration::water_level(cloud, out.film_frame, task.half_film_mm);
   if (water) out.water = *water;
   HP_RETURN_IF_ERROR(add_points(cloud, task, out, context));
   out.error_mm = error_map(task, out.object);

@@ -3,8 +3,10 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "sim/base/json_file.h"
+#include "sim/calibrate/pattern_json.h"
 
 namespace hydroprint::calibrate {
 namespace {
@@ -24,9 +26,7 @@ bool is_lens(const Lens& lens) {
          lens.depth_scale < 10;
 }
 
-}  // namespace
-
-std::string camera_json(const registration::CameraCalibration& camera) {
+Json summary(const registration::CameraCalibration& camera) {
   Json out = {{"width_px", camera.lens.width_px}, {"height_px", camera.lens.height_px}};
   const Lens::Vector parameters = camera.lens.parameters();
   for (Eigen::Index i = 0; i < Lens::kParameters; ++i)
@@ -36,12 +36,25 @@ std::string camera_json(const registration::CameraCalibration& camera) {
     out["covariance"].push_back(std::vector<double>(row.begin(), row.end()));
   out.update(
       {{"views", camera.views}, {"rms_mm", camera.rms_mm}, {"rms_sigmas", camera.rms_sigmas}});
+  return out;
+}
+
+}  // namespace
+
+std::string camera_summary_json(const registration::CameraCalibration& camera) {
+  return summary(camera).dump(1) + "\n";
+}
+
+std::string camera_json(const registration::CameraCalibration& camera) {
+  Json out = summary(camera);
+  if (camera.pattern.is_known()) out["pattern"] = pattern_json(camera.pattern);
   return out.dump(1) + "\n";
 }
 
 Result<registration::CameraCalibration> read_camera(const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(const nlohmann::json json, read_json_file(path));
   registration::CameraCalibration out;
+  bool has_pattern = true;
   try {
     Lens::Vector parameters;
     for (Eigen::Index i = 0; i < Lens::kParameters; ++i) {
@@ -58,6 +71,11 @@ Result<registration::CameraCalibration> read_camera(const std::filesystem::path&
     out.views = json.at("views").get<std::size_t>();
     out.rms_mm = json.at("rms_mm").get<double>();
     out.rms_sigmas = json.at("rms_sigmas").get<double>();
+    if (json.contains("pattern") && is_lens(out.lens)) {
+      auto pattern = pattern_of(json["pattern"], out.lens.width_px, out.lens.height_px);
+      has_pattern = pattern.has_value();
+      if (pattern) out.pattern = std::move(*pattern);
+    }
   } catch (const nlohmann::json::exception&) {
     return fail(Code::kInvalidArgument,
                 path.string() + ": not a camera's calibration. Make one with calibrate-camera");
@@ -65,6 +83,10 @@ Result<registration::CameraCalibration> read_camera(const std::filesystem::path&
   if (!is_lens(out.lens) || !out.covariance.allFinite())
     return fail(Code::kInvalidArgument,
                 path.string() + ": no camera has such a lens. Calibrate it anew");
+  if (!has_pattern)
+    return fail(Code::kInvalidArgument, path.string() +
+                                            ": its pattern is broken, or not of its image's size. "
+                                            "Calibrate the camera anew");
   return out;
 }
 

@@ -38,11 +38,13 @@ Result<registration::FilmFrame> film_frame_of(const scan::Sweep& sweep, const Sw
                                               const Context& context) {
   context.progress("markers", 0);
   const scan::Lens& lens = task.camera.lens;
+  // The volume has the camera's fixed pattern taken off already.
+  const scan::Camera camera{lens, task.camera.covariance, {}};
   HP_ASSIGN_OR_RETURN(const scan::PointGrid seen,
                       sweep.volume.look(scan::Optics(lens), Pose::Identity(), context));
   HP_ASSIGN_OR_RETURN(
       const scan::Cloud cloud,
-      scan::make_cloud(first_frame(seen, lens, noise, sweep.fused), lens, noise, context));
+      scan::make_cloud(first_frame(seen, lens, noise, sweep.fused), camera, noise, context));
   return registration::find_film_frame(cloud, task.layout->surroundings.layout,
                                        task.layout->nominal_FC.inverse(), context);
 }
@@ -96,7 +98,7 @@ Result<SweptScan> fuse_swept(const SweptTask& task, const Context& context) {
   const scan::DepthNoise noise;
   HP_ASSIGN_OR_RETURN(
       scan::Sweep sweep,
-      scan::fuse_sweep({task.frames, task.times_s, task.camera.lens, noise, task.volume}, context));
+      scan::fuse_sweep({task.frames, task.times_s, task.camera, noise, task.volume}, context));
   SweptScan out;
   out.path = sweep.path;
   out.warnings = camera_warnings(task.camera);

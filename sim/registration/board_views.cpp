@@ -109,7 +109,7 @@ Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud, const Shap
     if (size < kLeastSize || size > kMostSize) continue;
     BoardView view{one_a_patch(cloud, piece, patch_px), {}};
     const auto try_from = [&](const Pose& start) {
-      const auto fit = fit_pose(board, view.points, cloud.lens, start, start, options, context);
+      const auto fit = fit_pose(board, view.points, cloud.camera, start, start, options, context);
       if (!fit || fit->paired_share / fit->rms_sigmas <= most) return;
       most = fit->paired_share / fit->rms_sigmas;
       view.X_CB = fit->X_CB;

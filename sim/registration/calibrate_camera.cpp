@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "sim/registration/board_views.h"
-#include "sim/registration/pairs.h"
+#include "sim/registration/learn_pattern.h"
 #include "sim/registration/robust.h"
+#include "sim/registration/sightings.h"
 
 namespace hydroprint::registration {
 namespace {
@@ -40,10 +41,6 @@ Lens::Vector believed(const Lens& nominal) {
   return out;
 }
 
-/// How a residual goes with the lens's parameters, in units of what was believed, and with the
-/// pose of its view.
-using Row = Eigen::Matrix<double, kLens + 6, 1>;
-
 /// Least squares over the lens and the board's pose in each view.
 struct System {
   explicit System(std::size_t views)
@@ -51,9 +48,7 @@ struct System {
                               kLens + 6 * static_cast<Index>(views))),
         right(VectorXd::Zero(matrix.rows())) {}
 
-  static Index place_of(std::size_t view) { return kLens + 6 * static_cast<Index>(view); }
-
-  void add(std::size_t view, const Row& row, double weight, double residual) {
+  void add(std::size_t view, const SightingRow& row, double weight, double residual) {
     const Index at = place_of(view);
     const auto lens = row.head<kLens>();
     const auto pose = row.tail<6>();
@@ -71,11 +66,12 @@ struct System {
 
 class Adjuster {
  public:
-  Adjuster(std::vector<BoardView> views, const Shape& board, const Lens& nominal,
+  Adjuster(std::vector<BoardView> views, const Shape& board, const Lens& nominal, int patch_px,
            const Context& context)
       : views_(std::move(views)),
         board_(board),
         nominal_(nominal),
+        patch_px_(patch_px),
         lens_(nominal),
         believed_(believed(nominal)),
         context_(context) {}
@@ -98,27 +94,6 @@ class Adjuster {
   }
 
  private:
-  /// A point of one view on the board, as lens and pose are believed now.
-  struct Sighting {
-    std::size_t view;
-    Pair pair;
-    double robust = 1;  ///< its weight
-
-    [[nodiscard]] double weight() const { return robust / std::pow(pair.own_sigma_mm(), 2); }
-  };
-
-  /// What the sightings of one patch say of its constant noise, in units of its standard deviation:
-  /// pull over square.
-  struct Constant {
-    double square = 1, pull = 0;
-
-    void add(const Sighting& s, double sign = 1) {
-      const double by_constant = sign * s.weight() * s.pair.constant_sigma_mm;
-      square += by_constant * s.pair.constant_sigma_mm;
-      pull += by_constant * s.pair.residual_mm;
-    }
-  };
-
   Status look(double reach) {
     const Pairing pairing = reach > kLeastReach_mm ? Pairing::kNearest : Pairing::kOnRay;
     sightings_.clear();
@@ -135,25 +110,6 @@ class Adjuster {
     std::stable_sort(sightings_.begin(), sightings_.end(), by_patch);
     weigh();
     return {};
-  }
-
-  /// Calls `use` with all sightings of one patch, for each patch.
-  template <class All, class Use>
-  static void for_each_patch(All& sightings, Use use) {
-    for (auto first = sightings.begin(); first != sightings.end();) {
-      const auto is_other = [&](const Sighting& s) {
-        return s.pair.scan->patch != first->pair.scan->patch;
-      };
-      const auto last = std::find_if(first, sightings.end(), is_other);
-      use(std::span(first, last));
-      first = last;
-    }
-  }
-
-  static Constant constant_of(std::span<const Sighting> patch) {
-    Constant out;
-    for (const Sighting& s : patch) out.add(s);
-    return out;
   }
 
   /// How far off each is from what the others of its patch say, in standard deviations.
@@ -187,10 +143,10 @@ class Adjuster {
 
   /// Where the board is, not where the scan has it: noise in the rows would go with that in the
   /// residuals, and pull relief flat, by its variance over that of the relief (3 %).
-  [[nodiscard]] Row row_of(const Sighting& s) const {
+  [[nodiscard]] SightingRow row_of(const Sighting& s) const {
     const Pair& pair = s.pair;
     const double reported_mm = pair.on_mm.z() / lens_.depth_scale;
-    Row out;
+    SightingRow out;
     out << (pair.normal.transpose() * lens_.derivatives(pair.scan->u, pair.scan->v, reported_mm))
                .transpose()
                .cwiseProduct(believed_),
@@ -211,11 +167,10 @@ class Adjuster {
       auto column = eliminated.col(patches++);
       for (const Sighting& s : patch) {
         if (s.robust == 0) continue;
-        const Row row = row_of(s);
+        const SightingRow row = row_of(s);
         out.add(s.view, row, s.weight(), s.pair.residual_mm);
-        const double share = s.weight() * s.pair.constant_sigma_mm / std::sqrt(constant.square);
-        column.head<kLens>() += share * row.head<kLens>();
-        column.segment<6>(System::place_of(s.view)) += share * row.tail<6>();
+        add_row(column, s.view, row,
+                s.weight() * s.pair.constant_sigma_mm / std::sqrt(constant.square));
       }
       out.right += column * (constant.pull / std::sqrt(constant.square));
     });
@@ -227,16 +182,17 @@ class Adjuster {
   void take(const VectorXd& step) {
     lens_ = lens_.with(lens_.parameters() + step.head<kLens>().cwiseProduct(believed_));
     for (std::size_t k = 0; k < views_.size(); ++k) {
-      const Vector6 twist = step.segment<6>(System::place_of(k));
+      const Vector6 twist = step.segment<6>(place_of(k));
       views_[k].X_CB = motion(twist, views_[k].X_CB.translation()) * views_[k].X_CB;
     }
   }
 
   [[nodiscard]] Result<CameraCalibration> told() const {
     const System system = build();
-    const MatrixXd gain =
+    const MatrixXd all =
+        spread_ * spread_ *
         system.matrix.ldlt().solve(MatrixXd::Identity(system.matrix.rows(), system.matrix.cols()));
-    const Lens::Matrix scaled = spread_ * spread_ * gain.topLeftCorner<kLens, kLens>();
+    const Lens::Matrix scaled = all.topLeftCorner<kLens, kLens>();
     CameraCalibration out;
     out.lens = lens_;
     out.covariance = believed_.asDiagonal() * scaled * believed_.asDiagonal();
@@ -251,6 +207,8 @@ class Adjuster {
         return poor(std::string("they do not tell the ") + kNames[j] +
                     ": take more, nearer, and tilted more");
     }
+    out.pattern = learn_pattern(sightings_, [this](const Sighting& s) { return row_of(s); }, all,
+                                spread_, {lens_.width_px, lens_.height_px, patch_px_});
     return out;
   }
 
@@ -271,6 +229,7 @@ class Adjuster {
   double spread_ = 1;                ///< how much farther off they are than noise explains
   const Shape& board_;
   const Lens& nominal_;
+  int patch_px_;
   Lens lens_;
   Lens::Vector believed_;
   const Context& context_;
@@ -286,12 +245,12 @@ Result<CameraCalibration> calibrate_camera(std::span<const scan::FusedFrame> vie
   for (std::size_t k = 0; k < views.size(); ++k) {
     HP_RETURN_IF_ERROR(check_cancelled(context));
     context.progress("boards", static_cast<double>(k) / static_cast<double>(views.size()));
-    HP_ASSIGN_OR_RETURN(const auto cloud, scan::make_cloud(views[k], nominal, noise, context));
+    HP_ASSIGN_OR_RETURN(const auto cloud, scan::make_cloud(views[k], {nominal}, noise, context));
     HP_ASSIGN_OR_RETURN(auto view, find_board(cloud, shape, noise.patch_px, context));
     if (view) found.push_back(std::move(*view));
   }
   if (const std::string what = lacking(found, nominal); !what.empty()) return poor(what);
-  return Adjuster(std::move(found), shape, nominal, context).adjust();
+  return Adjuster(std::move(found), shape, nominal, noise.patch_px, context).adjust();
 }
 
 }  // namespace hydroprint::registration

@@ -4,15 +4,13 @@
 
 #include "sim/base/context.h"
 #include "sim/mesh/surface.h"
+#include "sim/scan/camera.h"
 #include "sim/scan/fusion.h"
-#include "sim/scan/lens.h"
 
 namespace hydroprint::registration {
 
-/// A camera's lens and depth scale.
-struct CameraCalibration {
-  scan::Lens lens;
-  scan::Lens::Matrix covariance = scan::Lens::Matrix::Zero();  ///< of Lens::parameters()
+/// A camera as views of a board tell it.
+struct CameraCalibration : scan::Camera {
   double rms_mm = 0;      ///< of the board's points from the board, along its normals
   double rms_sigmas = 0;  ///< the same in units of what noise explains
   std::size_t views = 0;  ///< in which the board was found
@@ -20,7 +18,7 @@ struct CameraCalibration {
 
 /// Lens and depth scale for which a board of known shape has its shape in every view: least squares
 /// over the lens and the board's pose in each view together. One point a patch of constant noise is
-/// used; that noise is taken to be the same in every view.
+/// used; that noise is taken to be the same in every view, and comes out with the lens.
 /// @param views    each of a board (calibration_board(), say) that nothing else touches in the
 ///                 image, more than 30 mm before what is behind it, seen whole
 /// @param nominal  believed to a tenth in focal length, 15 pixels in the middle, 0.3 and 1 in

@@ -79,7 +79,7 @@ std::string reason(const Marker& marker, const MarkerLayout& layout,
 }
 
 scan::DepthFrame depths_of(const scan::Cloud& cloud) {
-  scan::DepthFrame out{cloud.lens.width_px, cloud.lens.height_px,
+  scan::DepthFrame out{cloud.camera.lens.width_px, cloud.camera.lens.height_px,
                        std::vector<float>(cloud.at_pixel.size())};
   for (const auto& p : cloud.points)
     out.depth_mm[out.index(p.u, p.v)] = static_cast<float>(p.reported_mm);
@@ -101,7 +101,7 @@ std::vector<MarkerReport> report(const std::vector<FoundMarker>& found, const Ma
       one.rms_mm = rms_of(shape, X_CM.inverse(), own.points);
       one.residual_mm = (own.place_C() - X_CM.translation()).norm();
     } else {
-      one.why_not = reason(marker, layout, found, matching, depth, cloud.lens, X_CF);
+      one.why_not = reason(marker, layout, found, matching, depth, cloud.camera.lens, X_CF);
     }
     out.push_back(std::move(one));
   }
@@ -158,7 +158,7 @@ Result<FilmFrame> find_film_frame(const scan::Cloud& cloud, const MarkerLayout& 
   options.reach_mm = kSight_mm;
   FilmFrame out;
   HP_ASSIGN_OR_RETURN(out.fit,
-                      fit_pose(body_of(layout, matching), points_of(found, matching), cloud.lens,
+                      fit_pose(body_of(layout, matching), points_of(found, matching), cloud.camera,
                                matching.X_CF, matching.X_CF, options, context));
   out.markers = report(found, matching, layout, out.X_CF(), cloud);
   for (const MarkerReport& m : out.markers)

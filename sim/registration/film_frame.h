@@ -23,6 +23,15 @@ struct FilmFrame {
   Warnings warnings;                  ///< `marker_left_out`, one each
 
   [[nodiscard]] const Pose& X_CF() const { return fit.X_CB; }
+  /// How `motion` of the frame's twist goes with the camera's unknowns; nothing of a frame that no
+  /// camera found.
+  template <int Rows>
+  [[nodiscard]] Eigen::Matrix<double, Rows, Eigen::Dynamic> camera_gain(
+      const Eigen::Matrix<double, Rows, 6>& motion, Eigen::Index unknowns) const {
+    if (fit.camera_gain.cols() == 0)
+      return Eigen::Matrix<double, Rows, Eigen::Dynamic>::Zero(Rows, unknowns);
+    return motion * fit.camera_gain;
+  }
 };
 
 /// Finds the markers (find_markers), tells which is which by the distances between them (match),

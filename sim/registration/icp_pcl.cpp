@@ -4,6 +4,7 @@
 #include <pcl/registration/icp.h>
 #include <pcl/registration/transformation_estimation_point_to_plane_lls.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
@@ -17,8 +18,10 @@ using Points = pcl::PointCloud<Point>;
 
 constexpr double kMostTurn_rad = 60 * std::numbers::pi / 180;
 constexpr std::size_t kFewestPairs = 6;
-constexpr float kFarthest_mm = 1e4;
-constexpr double kSettled = 1e-8;  ///< PCL's: of squared steps, radian and mm alike
+constexpr double kFarthest_mm = 1e4;  ///< numbers that are none end the program in PCL's search
+constexpr double kLever_mm = 50;      ///< at which turns count as shifts
+constexpr double kLeastTold = 2e-3;   ///< of what the pairs tell of the motion that they tell best
+constexpr double kSettled = 1e-8;     ///< PCL's: of squared steps, radian and mm alike
 
 Points::Ptr to_pcl(std::span<const SurfacePoint> points) {
   auto out = pcl::make_shared<Points>();
@@ -40,8 +43,9 @@ Pose to_pose(const Eigen::Matrix4f& matrix) {
   return pose;
 }
 
-/// Stands still where the pairs do not tell a motion: numbers that are none end the program in
-/// PCL's search.
+/// Least squares of distances along the target's normals, by the shortest motion where the pairs do
+/// not tell all of it. PCL's own inverts a matrix that is singular as soon as all pairs lie on one
+/// flat face: most of what a camera sees of a board, which so would never be turned at all.
 class Estimation : public pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point> {
  public:
   using Base = pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point>;
@@ -49,11 +53,50 @@ class Estimation : public pcl::registration::TransformationEstimationPointToPlan
   void estimateRigidTransformation(const Points& scan, const Points& target,
                                    const pcl::Correspondences& pairs,
                                    Matrix4& motion) const override {
-    if (pairs.size() >= kFewestPairs)
-      Base::estimateRigidTransformation(scan, target, pairs, motion);
-    if (pairs.size() < kFewestPairs || !motion.allFinite() ||
-        motion.cwiseAbs().maxCoeff() > kFarthest_mm)
-      motion.setIdentity();
+    motion.setIdentity();
+    if (pairs.size() < kFewestPairs) return;
+    const Eigen::Vector3d centre = middle(scan, pairs);
+    const auto [turn, shift] = step(scan, target, pairs, centre);
+    const Eigen::Matrix3d about =
+        Eigen::AngleAxisd(turn.norm(), turn.stableNormalized()).toRotationMatrix();
+    Eigen::Matrix4d out = Eigen::Matrix4d::Identity();
+    out.topLeftCorner<3, 3>() = about;
+    out.topRightCorner<3, 1>() = centre - about * centre + shift;
+    if (out.allFinite() && out.cwiseAbs().maxCoeff() < kFarthest_mm) motion = out.cast<float>();
+  }
+
+ private:
+  static Eigen::Vector3d place(const Points& points, int i) {
+    return points[static_cast<std::size_t>(i)].getVector3fMap().cast<double>();
+  }
+  static Eigen::Vector3d middle(const Points& scan, const pcl::Correspondences& pairs) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& pair : pairs) sum += place(scan, pair.index_query);
+    return sum / static_cast<double>(pairs.size());
+  }
+  /// Turn (radians) about the centre, and shift.
+  static std::pair<Eigen::Vector3d, Eigen::Vector3d> step(const Points& scan, const Points& target,
+                                                          const pcl::Correspondences& pairs,
+                                                          const Eigen::Vector3d& centre) {
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
+    Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
+    Vector6 pull = Vector6::Zero();
+    for (const auto& pair : pairs) {
+      const Eigen::Vector3d from = place(scan, pair.index_query);
+      const Eigen::Vector3d normal =
+          target[static_cast<std::size_t>(pair.index_match)].getNormalVector3fMap().cast<double>();
+      Vector6 row;
+      row << (from - centre).cross(normal) / kLever_mm, normal;
+      squares += row * row.transpose();
+      pull += normal.dot(place(target, pair.index_match) - from) * row;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> axes(squares);
+    const double least = kLeastTold * axes.eigenvalues()[5];
+    Vector6 along = axes.eigenvectors().transpose() * pull;
+    for (int k = 0; k < 6; ++k)
+      along[k] = axes.eigenvalues()[k] > least ? along[k] / axes.eigenvalues()[k] : 0;
+    const Vector6 out = axes.eigenvectors() * along;
+    return {out.head<3>() / kLever_mm, out.tail<3>()};
   }
 };
 

@@ -135,7 +135,7 @@ std::optional<FoundMarker> fitted_from(const Search& s, Pose X_CM, const Context
   for (int round = 0; round < 2; ++round) {
     out.points = around(s, X_CM);
     if (out.points.size() < kFewestPoints) return {};
-    const auto fit = fit_pose(s.shape, out.points, s.cloud.lens, X_CM, X_CM, options, context);
+    const auto fit = fit_pose(s.shape, out.points, s.cloud.camera, X_CM, X_CM, options, context);
     if (!fit) return {};
     out.fit = *fit;
     X_CM = fit->X_CB;

@@ -73,12 +73,12 @@ double misfit_of(const std::vector<Pair>& pairs, int width_px) {
 class Finder {
  public:
   Finder(const Shape& shape, const std::vector<scan::ScanPoint>& points,
-         const scan::DepthFrame& depth, const scan::Lens& lens, const Pose& nominal_CO,
+         const scan::DepthFrame& depth, const scan::Camera& camera, const Pose& nominal_CO,
          const FitOptions& options, const Context& context)
       : shape_(shape),
         points_(points),
         depth_(depth),
-        lens_(lens),
+        camera_(camera),
         nominal_(nominal_CO),
         options_(options),
         context_(context) {}
@@ -89,14 +89,14 @@ class Finder {
     std::vector<Candidate> tried;
     for (const Pose& start : starts) {
       HP_RETURN_IF_ERROR(check_cancelled(context_));
-      const auto fit = fit_pose(shape_, some(), lens_, start, nominal_, options_, context_);
+      const auto fit = fit_pose(shape_, some(), camera_, start, nominal_, options_, context_);
       if (!fit) continue;
       HP_ASSIGN_OR_RETURN(Candidate candidate, judged(*fit));
       tried.push_back(std::move(candidate));
     }
     if (tried.empty()) return not_this("no way to hold the mesh brings it near the scan");
     const Candidate& chosen = choose(tried);
-    HP_ASSIGN_OR_RETURN(const PoseFit fit, fit_pose(shape_, points_, lens_, chosen.fit.X_CB,
+    HP_ASSIGN_OR_RETURN(const PoseFit fit, fit_pose(shape_, points_, camera_, chosen.fit.X_CB,
                                                     nominal_, options_, context_));
     return judged(fit);
   }
@@ -134,14 +134,15 @@ class Finder {
   }
 
   Result<Candidate> judged(const PoseFit& fit) const {
-    Candidate out{fit, look_at(visible(shape_, fit.X_CB, kSightSamples), depth_, lens_, kSight_mm),
-                  0, 0};
+    Candidate out{
+        fit, look_at(visible(shape_, fit.X_CB, kSightSamples), depth_, camera_.lens, kSight_mm), 0,
+        0};
     const Pose X_BC = fit.X_CB.inverse();
     for (const auto& p : points_) out.on_share += distance(X_BC, p) < kOn_mm ? 1 : 0;
     out.on_share /= static_cast<double>(points_.size());
     HP_ASSIGN_OR_RETURN(const auto pairs,
                         pair_up(shape_, points_, fit.X_CB, Pairing::kOnRay, kOn_mm, context_));
-    out.misfit_mm = misfit_of(pairs, lens_.width_px);
+    out.misfit_mm = misfit_of(pairs, camera_.lens.width_px);
     return out;
   }
 
@@ -160,7 +161,7 @@ class Finder {
   const Shape& shape_;
   const std::vector<scan::ScanPoint>& points_;
   const scan::DepthFrame& depth_;
-  const scan::Lens& lens_;
+  const scan::Camera& camera_;
   const Pose& nominal_;
   const FitOptions& options_;
   const Context& context_;
@@ -179,14 +180,14 @@ std::string how_wrong(const Candidate& c) {
   return buffer;
 }
 
-/// Into the film frame, with what the frame and the lens add to what is not known.
-void place_in_film(const FilmFrame& frame, const scan::Lens::Matrix& lens, ObjectPose& out) {
+/// Into the film frame, with what the frame and the camera add to what is not known.
+void place_in_film(const FilmFrame& frame, ObjectPose& out) {
   const Pose X_FC = frame.X_CF().inverse();
   const PoseFit& fit = out.fit;
   const Matrix6 shift = recentred(frame.fit.centre_mm, fit.centre_mm);
-  const LensGain gain = fit.lens_gain - shift * frame.fit.lens_gain;
-  const Matrix6 in_camera = fit.covariance + shift * frame.fit.covariance * shift.transpose() +
-                            gain * lens * gain.transpose();
+  const CameraGain gain = fit.camera_gain - frame.camera_gain(shift, fit.camera_gain.cols());
+  const Matrix6 in_camera =
+      fit.covariance + shift * frame.fit.covariance * shift.transpose() + gain * gain.transpose();
   const Matrix6 turn = turned(X_FC.linear());
   out.X_FO = X_FC * fit.X_CB;
   out.centre_mm = X_FC * fit.centre_mm;
@@ -226,7 +227,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
   const Shape shape(task.surface);
   HP_RETURN_IF_ERROR(check_size(shape, std::span(points).first(found.largest)));
   const Pose nominal_CO = film_frame.X_CF() * task.nominal_FO;
-  const Finder finder(shape, points, depth, cloud.lens, nominal_CO, task.fit, context);
+  const Finder finder(shape, points, depth, cloud.camera, nominal_CO, task.fit, context);
   HP_ASSIGN_OR_RETURN(const Candidate best, finder.best());
   const double other = finder.other_share(best, cloud);
   if (other > kOtherShare && best.sight.on > kMostlySeen && best.sight.through < kMostThrough)
@@ -237,7 +238,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
   if (!best.explains()) {
     const Shape mirror(mirrored(task.surface));
     const auto turned_round =
-        Finder(mirror, points, depth, cloud.lens, nominal_CO, task.fit, context).best();
+        Finder(mirror, points, depth, cloud.camera, nominal_CO, task.fit, context).best();
     if (turned_round && turned_round->explains())
       return fail(Code::kFailedPrecondition,
                   "the object is the mesh's mirror image: export the mesh without mirroring",
@@ -249,7 +250,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
   out.misfit_mm = best.misfit_mm;
   out.on_share = best.on_share;
   out.sight = best.sight;
-  place_in_film(film_frame, task.lens_covariance, out);
+  place_in_film(film_frame, out);
   warn(out);
   return out;
 }

@@ -16,7 +16,7 @@ struct ObjectPose {
   Pose X_FO = Pose::Identity();
   Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< film frame; the covariance is about it
   /// Of the twist (film frame) between X_FO and the truth: noise in the object's and in the
-  /// markers' depths, the lens's uncertainty, the nominal pose's along weak directions.
+  /// markers' depths, the camera's uncertainty, the nominal pose's along weak directions.
   Matrix6 covariance = Matrix6::Zero();
   PoseFit fit;                    ///< in the camera frame
   std::vector<std::string> weak;  ///< what the scan does not tell, in words, film frame
@@ -31,7 +31,6 @@ struct ObjectTask {
   mesh::Surface surface;  ///< frame O
   Pose nominal_FO = Pose::Identity();
   Surroundings surroundings;
-  scan::Lens::Matrix lens_covariance = scan::Lens::Matrix::Zero();
   FitOptions fit;
 };
 

@@ -5,6 +5,8 @@
 #include <optional>
 #include <unordered_map>
 
+#include "sim/scan/camera_errors.h"
+
 namespace hydroprint::registration {
 namespace {
 
@@ -33,6 +35,7 @@ bool make_pair(const scan::ScanPoint& scan, const SurfacePoint& on_B, const Pose
   out.residual_mm = out.normal.dot(away);
   out.changing_sigma_mm = across * scan.sigma_mm;
   out.constant_sigma_mm = across * scan.constant_sigma_mm;
+  out.usual_constant_mm = across * scan.usual_constant_mm;
   return true;
 }
 
@@ -44,6 +47,8 @@ double weight_of(const Pair& pair, double robust) {
 }  // namespace
 
 double Pair::sigma_mm() const { return std::hypot(own_sigma_mm(), constant_sigma_mm); }
+
+double Pair::usual_sigma_mm() const { return std::hypot(own_sigma_mm(), usual_constant_mm); }
 
 double Pair::own_sigma_mm() const { return std::hypot(changing_sigma_mm, kSurfaceError_mm); }
 
@@ -94,14 +99,16 @@ Normals normal_equations(std::span<const Pair> pairs, std::span<const double> we
   return out;
 }
 
-void add_lens(Normals& normals, std::span<const Pair> pairs, std::span<const double> weights,
-              const Eigen::Vector3d& centre, double length_mm, const scan::Lens& lens) {
+void add_camera(Normals& normals, std::span<const Pair> pairs, std::span<const double> weights,
+                const Eigen::Vector3d& centre, double length_mm, const scan::Camera& camera) {
+  const scan::CameraErrors errors(camera);
+  normals.camera = CameraGain::Zero(6, errors.count());
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const Pair& pair = pairs[i];
     const double w = weight_of(pair, weights[i]);
     if (w == 0) continue;
-    const auto by_lens = lens.derivatives(pair.scan->u, pair.scan->v, pair.scan->reported_mm);
-    normals.lens += w * direction(pair, centre, length_mm) * (pair.normal.transpose() * by_lens);
+    normals.camera +=
+        w * direction(pair, centre, length_mm) * errors.along(pair.normal, *pair.scan);
   }
 }
 

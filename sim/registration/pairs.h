@@ -18,8 +18,11 @@ struct Pair {
   double residual_mm = 0;        ///< of the point, outward
   double changing_sigma_mm = 0;  ///< along the normal, as the constant one
   double constant_sigma_mm = 0;
+  double usual_constant_mm = 0;  ///< the same where nothing is known of the camera's pattern
 
   [[nodiscard]] double sigma_mm() const;
+  /// What it would be if nothing were known of the camera's pattern.
+  [[nodiscard]] double usual_sigma_mm() const;
   /// Without what is constant.
   [[nodiscard]] double own_sigma_mm() const;
 };
@@ -42,7 +45,7 @@ struct Normals {
   Matrix6 information = Matrix6::Zero();  ///< sum of weight times direction squared
   Matrix6 scatter = Matrix6::Zero();      ///< covariance of `pull` by noise
   Vector6 pull = Vector6::Zero();
-  LensGain lens = LensGain::Zero();  ///< derivative of `pull` by the lens's parameters
+  CameraGain camera;  ///< derivative of `pull` by the camera's unknowns; by none at first
 };
 
 /// How the surface's distance along the pair's normal goes with its motion about `centre`.
@@ -53,8 +56,8 @@ struct Normals {
 [[nodiscard]] Normals normal_equations(std::span<const Pair> pairs, std::span<const double> weights,
                                        const Eigen::Vector3d& centre, double length_mm);
 
-/// Adds derivatives by the lens.
-void add_lens(Normals& normals, std::span<const Pair> pairs, std::span<const double> weights,
-              const Eigen::Vector3d& centre, double length_mm, const scan::Lens& lens);
+/// Adds derivatives by what is not known of the camera.
+void add_camera(Normals& normals, std::span<const Pair> pairs, std::span<const double> weights,
+                const Eigen::Vector3d& centre, double length_mm, const scan::Camera& camera);
 
 }  // namespace hydroprint::registration

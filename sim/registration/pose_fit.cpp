@@ -21,10 +21,27 @@ constexpr double kMostStep_mm = 10;
 constexpr double kNil = 1e-12;      ///< of information over the most there is: rounding
 constexpr double kOnSurface = 0.3;  ///< robust weight from which a point counts as on the surface
 
-std::vector<double> sigmas_off(std::span<const Pair> pairs) {
-  std::vector<double> out;
-  out.reserve(pairs.size());
-  for (const Pair& pair : pairs) out.push_back(pair.residual_mm / pair.sigma_mm());
+/// By which noise a point is judged to be the surface's or not: that of a camera whose fixed
+/// pattern is not known, or what is left of it. On the way there, it is the usual one: by less, the
+/// few points of a narrow face, off by more than their noise, would be left out for good, and with
+/// them the motions that they alone tell.
+enum class Gate { kUsual, kOwn };
+
+/// Residuals in units of noise, and how little of each is explained by it.
+struct Judged {
+  std::vector<double> off, weights;
+  double spread = 1;
+};
+
+Judged judged(std::span<const Pair> pairs, Gate gate) {
+  Judged out;
+  out.off.reserve(pairs.size());
+  for (const Pair& pair : pairs)
+    out.off.push_back(pair.residual_mm /
+                      (gate == Gate::kOwn ? pair.sigma_mm() : pair.usual_sigma_mm()));
+  out.spread = spread_of(out.off);
+  out.weights.reserve(pairs.size());
+  for (const double off : out.off) out.weights.push_back(robust_weight(off, out.spread));
   return out;
 }
 
@@ -72,30 +89,45 @@ Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::I
 /// One look at the pairs from one pose.
 struct Look {
   std::vector<Pair> pairs;
-  std::vector<double> off, weights;
-  double spread = 1;
+  Judged judged;
   Eigen::Vector3d centre;
   Normals normals;
 };
 
 class Fitter {
  public:
-  Fitter(const Shape& shape, std::span<const scan::ScanPoint> points, const scan::Lens& lens,
+  Fitter(const Shape& shape, std::span<const scan::ScanPoint> points, const scan::Camera& camera,
          const Pose& nominal_CB, const FitOptions& options, const Context& context)
       : shape_(shape),
         points_(points),
-        lens_(lens),
+        camera_(camera),
         nominal_(nominal_CB),
         options_(options),
         context_(context),
         length_mm_(shape.radius_mm()) {}
 
-  Result<PoseFit> fit(Pose pose) const {
-    double reach = std::max(options_.reach_mm, kLeastReach_mm);
-    std::optional<Eigen::Index> weak;
+  Result<PoseFit> fit(const Pose& start) const {
+    Way way{start, std::max(options_.reach_mm, kLeastReach_mm), {}};
+    if (camera_.pattern.is_known()) HP_RETURN_IF_ERROR(settle(way, Gate::kUsual));
+    way.weak.reset();
+    HP_RETURN_IF_ERROR(settle(way, Gate::kOwn));
+    HP_ASSIGN_OR_RETURN(Look look, look_from(way.pose, way.reach, Gate::kOwn));
+    return told(look, way.pose, way.weak);
+  }
+
+ private:
+  /// How far a fit has come.
+  struct Way {
+    Pose pose;
+    double reach;
+    std::optional<Eigen::Index> weak;  ///< how many directions are, once that is settled
+  };
+
+  Status settle(Way& way, Gate gate) const {
+    auto& [pose, reach, weak] = way;
     for (int i = 0; i < options_.most_iterations; ++i) {
       HP_RETURN_IF_ERROR(check_cancelled(context_));
-      HP_ASSIGN_OR_RETURN(const Look look, look_from(pose, reach));
+      HP_ASSIGN_OR_RETURN(const Look look, look_from(pose, reach, gate));
       const Split parts = split(look.normals, options_.weak_sigma_mm, weak);
       const Vector6 step = step_of(look, parts, pose);
       pose = motion(unscaled(step), look.centre) * pose;
@@ -105,16 +137,14 @@ class Fitter {
       if (step.norm() < kSettled_mm) break;
       if (step.norm() < kNearlySettled_mm) weak = parts.weak.count();
     }
-    HP_ASSIGN_OR_RETURN(Look look, look_from(pose, reach));
-    return told(look, pose, weak);
+    return {};
   }
 
- private:
   static Pairing pairing_at(double reach) {
     return reach > kLeastReach_mm ? Pairing::kNearest : Pairing::kOnRay;
   }
 
-  Result<Look> look_from(const Pose& pose, double reach) const {
+  Result<Look> look_from(const Pose& pose, double reach, Gate gate) const {
     Look out;
     HP_ASSIGN_OR_RETURN(out.pairs,
                         pair_up(shape_, points_, pose, pairing_at(reach), reach, context_));
@@ -123,11 +153,9 @@ class Fitter {
                   "only " + std::to_string(out.pairs.size()) +
                       " scan points lie near the surface: is it in the camera's view?",
                   "TOO_FEW_POINTS");
-    out.off = sigmas_off(out.pairs);
-    out.spread = spread_of(out.off);
-    for (const double off : out.off) out.weights.push_back(robust_weight(off, out.spread));
+    out.judged = judged(out.pairs, gate);
     out.centre = pose * shape_.centroid();
-    out.normals = normal_equations(out.pairs, out.weights, out.centre, length_mm_);
+    out.normals = normal_equations(out.pairs, out.judged.weights, out.centre, length_mm_);
     return out;
   }
 
@@ -146,9 +174,9 @@ class Fitter {
 
   [[nodiscard]] PoseFit told(Look& look, const Pose& pose,
                              const std::optional<Eigen::Index>& weak) const {
-    add_lens(look.normals, look.pairs, look.weights, look.centre, length_mm_, lens_);
+    add_camera(look.normals, look.pairs, look.judged.weights, look.centre, length_mm_, camera_);
     // Where points are farther off than noise explains, so is what they tell.
-    look.normals.scatter *= look.spread * look.spread;
+    look.normals.scatter *= look.judged.spread * look.judged.spread;
     const Split parts = split(look.normals, options_.weak_sigma_mm, weak);
     const Matrix6 inverse = parts.inverse(), onto_weak = parts.onto_weak();
     Vector6 nominal;
@@ -160,21 +188,23 @@ class Fitter {
     out.X_CB = pose;
     out.centre_mm = look.centre;
     out.covariance = scale().asDiagonal() * scaled * scale().asDiagonal();
-    out.lens_gain = scale().asDiagonal() * (inverse * look.normals.lens);
+    out.camera_gain = scale().asDiagonal() * (inverse * look.normals.camera);
     for (int k = 0; k < 6; ++k)
       if (parts.weak[k]) out.weak.push_back({unscaled(parts.directions.col(k)), parts.sigma_mm[k]});
-    judge(look, out);
+    judge(look.pairs, out);
     return out;
   }
 
-  void judge(const Look& look, PoseFit& out) const {
+  /// What passes for the shape is not to be nearer to it because the camera is known better.
+  void judge(std::span<const Pair> pairs, PoseFit& out) const {
+    const Judged usual = judged(pairs, Gate::kUsual);
     double squares_mm = 0, squares = 0;
     std::size_t on = 0;
-    for (std::size_t i = 0; i < look.pairs.size(); ++i) {
-      if (look.weights[i] < kOnSurface) continue;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (usual.weights[i] < kOnSurface) continue;
       ++on;
-      squares_mm += look.pairs[i].residual_mm * look.pairs[i].residual_mm;
-      squares += look.off[i] * look.off[i];
+      squares_mm += pairs[i].residual_mm * pairs[i].residual_mm;
+      squares += usual.off[i] * usual.off[i];
     }
     const auto count = static_cast<double>(std::max<std::size_t>(on, 1));
     out.points = on;
@@ -185,7 +215,7 @@ class Fitter {
 
   const Shape& shape_;
   std::span<const scan::ScanPoint> points_;
-  const scan::Lens& lens_;
+  const scan::Camera& camera_;
   const Pose& nominal_;
   const FitOptions& options_;
   const Context& context_;
@@ -202,9 +232,9 @@ std::string text(const Eigen::Vector3d& v, int digits) {
 }  // namespace
 
 Result<PoseFit> fit_pose(const Shape& shape, std::span<const scan::ScanPoint> points,
-                         const scan::Lens& lens, const Pose& start_CB, const Pose& nominal_CB,
+                         const scan::Camera& camera, const Pose& start_CB, const Pose& nominal_CB,
                          const FitOptions& options, const Context& context) {
-  return Fitter(shape, points, lens, nominal_CB, options, context).fit(start_CB);
+  return Fitter(shape, points, camera, nominal_CB, options, context).fit(start_CB);
 }
 
 std::vector<double> error_at(std::span<const Eigen::Vector3d> points_mm,

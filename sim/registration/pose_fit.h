@@ -25,13 +25,15 @@ struct PoseFit {
   /// Of the twist (camera frame) between X_CB and the truth, from the depths' noise, and from the
   /// nominal pose's uncertainty along weak directions. Radians and mm.
   Matrix6 covariance = Matrix6::Zero();
-  /// How that twist goes with errors of the lens's parameters.
-  LensGain lens_gain = LensGain::Zero();
+  /// How that twist goes with what is not known of the camera, which `covariance` leaves out: the
+  /// gain times itself transposed comes to it.
+  CameraGain camera_gain = CameraGain::Zero(6, 0);
   std::vector<WeakDirection> weak;
   std::size_t points = 0;   ///< that were paired with the surface
   double paired_share = 0;  ///< of the points given that lie on the surface within their noise
   double rms_mm = 0;        ///< of the distances of those
-  double rms_sigmas = 0;    ///< the same in units of what noise explains
+  double rms_sigmas = 0;    ///< the same in units of what noise explains, of a camera whose fixed
+                            ///< pattern is not known; as the share above
 };
 
 struct FitOptions {
@@ -45,10 +47,11 @@ struct FitOptions {
 
 /// Least squares of the distances of scan points from a surface, along its normals, weighted by
 /// each point's noise and by how little of it is explained (Tukey), from a start within a few mm
-/// and degrees. The covariance counts that part of the noise which a patch of pixels shares.
+/// and degrees. What is known of the camera's fixed pattern decides at last only what belongs to
+/// the surface. The covariance counts that part of the noise which a patch of pixels shares.
 /// Refuses (kFailedPrecondition) fewer than 30 points on the surface.
 [[nodiscard]] Result<PoseFit> fit_pose(const Shape& shape, std::span<const scan::ScanPoint> points,
-                                       const scan::Lens& lens, const Pose& start_CB,
+                                       const scan::Camera& camera, const Pose& start_CB,
                                        const Pose& nominal_CB, const FitOptions& options,
                                        const Context& context);
 

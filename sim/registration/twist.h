@@ -4,13 +4,13 @@
 #include <Eigen/Geometry>
 
 #include "sim/base/pose.h"
-#include "sim/scan/lens.h"
 
 namespace hydroprint::registration {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-using LensGain = Eigen::Matrix<double, 6, scan::Lens::kParameters>;
+/// How a motion goes with what is not known of the camera (scan::CameraErrors), a column each.
+using CameraGain = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// A small motion about `centre`: turn (radians) first, then shift (mm).
 [[nodiscard]] inline Pose motion(const Vector6& twist, const Eigen::Vector3d& centre) {

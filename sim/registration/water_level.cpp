@@ -5,6 +5,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sim/scan/camera_errors.h"
+
 namespace hydroprint::registration {
 namespace {
 
@@ -12,9 +14,7 @@ constexpr std::size_t kFewest = 200;
 constexpr double kSearch_mm = 15;
 constexpr double kNear_mm = 4;
 constexpr double kLeastLevel = 0.8;   ///< cosine between a point's normal and up
-constexpr std::size_t kLooked = 500;  ///< points by which the lens is judged
-
-using ByLens = Eigen::Matrix<double, 1, scan::Lens::kParameters>;
+constexpr std::size_t kLooked = 500;  ///< points by which the camera is judged
 
 struct Height {
   double z_mm;
@@ -50,30 +50,30 @@ double noise_of_mean(const std::vector<Height>& all) {
   return variance;
 }
 
-/// Variance of the water's height by the film frame, and by the lens that both are seen through.
-double frame_and_lens(const std::vector<Height>& all, const scan::Lens& lens,
-                      const FilmFrame& frame, const scan::Lens::Matrix& lens_covariance) {
+/// Variance of the water's height by the film frame, and by the camera that both are seen through.
+double frame_and_camera(const std::vector<Height>& all, const scan::Camera& camera,
+                        const FilmFrame& frame) {
+  const scan::CameraErrors errors(camera);
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-  ByLens by_lens = ByLens::Zero();
-  const Eigen::RowVector3d up_C = frame.X_CF().linear().col(2).transpose();
+  Eigen::RowVectorXd by_camera = Eigen::RowVectorXd::Zero(errors.count());
+  const Eigen::Vector3d up_C = frame.X_CF().linear().col(2);
   const std::size_t step = std::max<std::size_t>(1, all.size() / kLooked);
   double count = 0;
   for (std::size_t i = 0; i < all.size(); i += step, ++count) {
     const scan::ScanPoint& p = *all[i].scan;
     middle += p.point_mm;
-    by_lens += up_C * lens.derivatives(p.u, p.v, p.reported_mm);
+    by_camera += errors.along(up_C, p);
   }
   const Matrix6 shift = recentred(frame.fit.centre_mm, middle / count);
-  const Eigen::Matrix<double, 1, 6> lift = up_C * shift.bottomRows<3>();
-  const ByLens gain = by_lens / count - lift * frame.fit.lens_gain;
-  return lift.dot(lift * frame.fit.covariance) + gain.dot(gain * lens_covariance);
+  const Eigen::Matrix<double, 1, 6> lift = up_C.transpose() * shift.bottomRows<3>();
+  const Eigen::RowVectorXd gain = by_camera / count - frame.camera_gain(lift, errors.count());
+  return lift.dot(lift * frame.fit.covariance) + gain.squaredNorm();
 }
 
 }  // namespace
 
 Result<WaterLevel> water_level(const scan::Cloud& cloud, const FilmFrame& frame,
-                               const Eigen::Vector2d& half_film_mm,
-                               const scan::Lens::Matrix& lens_covariance) {
+                               const Eigen::Vector2d& half_film_mm) {
   const Pose X_FC = frame.X_CF().inverse();
   auto all = heights(cloud, X_FC, half_film_mm);
   if (all.size() < kFewest)
@@ -87,8 +87,7 @@ Result<WaterLevel> water_level(const scan::Cloud& cloud, const FilmFrame& frame,
   WaterLevel out;
   out.points = all.size();
   for (const Height& h : all) out.z_mm += h.z_mm / static_cast<double>(all.size());
-  out.sigma_mm =
-      std::sqrt(noise_of_mean(all) + frame_and_lens(all, cloud.lens, frame, lens_covariance));
+  out.sigma_mm = std::sqrt(noise_of_mean(all) + frame_and_camera(all, cloud.camera, frame));
   return out;
 }
 

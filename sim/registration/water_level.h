@@ -12,11 +12,10 @@ struct WaterLevel {
 };
 
 /// Mean height of the points near z = 0 over the film; its error from noise, the film frame's
-/// covariance and the lens's.
+/// covariance and the camera's.
 /// @param half_film_mm  half of the film's width and height
 /// Refuses (kFailedPrecondition, NO_WATER) fewer than 200 points within 15 mm of z = 0.
 [[nodiscard]] Result<WaterLevel> water_level(const scan::Cloud& cloud, const FilmFrame& frame,
-                                             const Eigen::Vector2d& half_film_mm,
-                                             const scan::Lens::Matrix& lens_covariance);
+                                             const Eigen::Vector2d& half_film_mm);
 
 }  // namespace hydroprint::registration

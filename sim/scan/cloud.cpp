@@ -51,55 +51,72 @@ Eigen::Vector3d normal_at(const PointGrid& grid, int u, int v) {
   return normal.dot(centre) > 0 ? Eigen::Vector3d(-normal) : normal;
 }
 
-ScanPoint point_at(const PointGrid& grid, const FusedFrame& fused, const Lens& lens,
+ScanPoint point_at(const PointGrid& grid, const FusedFrame& fused, const Camera& camera,
                    const DepthNoise& noise, int u, int v) {
   const std::size_t i = fused.mean.index(u, v);
   const int patches_across = (grid.width_px + noise.patch_px - 1) / noise.patch_px;
-  const double reported = fused.mean.depth_mm[i];
+  const double scale = camera.lens.depth_scale;
+  const double reported = grid.at(u, v).z() / scale;
+  const double usual = scale * noise.constant_sigma_mm(reported);
   return {grid.at(u, v),
           normal_at(grid, u, v),
           reported,
-          lens.depth_scale * fused.sigma_mm[i],
-          lens.depth_scale * noise.constant_sigma_mm(reported),
+          scale * fused.sigma_mm[i],
+          usual * camera.pattern.left(u, v),
+          usual,
           u,
           v,
           v / noise.patch_px * patches_across + u / noise.patch_px};
 }
 
+PointGrid points_of(const DepthFrame& mean, const Camera& camera, const DepthNoise& noise) {
+  PointGrid out{mean.width_px, mean.height_px, camera.lens.rays()};
+  for (int v = 0; v < mean.height_px; ++v) {
+    for (int u = 0; u < mean.width_px; ++u) {
+      const std::size_t i = mean.index(u, v);
+      const double reported = mean.depth_mm[i];
+      out.points[i] *=
+          reported > 0
+              ? camera.lens.true_depth_mm(camera.pattern.taken_off_mm(u, v, reported, noise))
+              : 0;
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 const ScanPoint* Cloud::at(int u, int v) const {
-  if (u < 0 || v < 0 || u >= lens.width_px || v >= lens.height_px) return nullptr;
-  const int i = at_pixel[static_cast<std::size_t>(v) * static_cast<std::size_t>(lens.width_px) +
-                         static_cast<std::size_t>(u)];
+  if (u < 0 || v < 0 || u >= camera.lens.width_px || v >= camera.lens.height_px) return nullptr;
+  const int i =
+      at_pixel[static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.lens.width_px) +
+               static_cast<std::size_t>(u)];
   return i < 0 ? nullptr : &points[static_cast<std::size_t>(i)];
 }
 
-Result<Cloud> make_cloud(const FusedFrame& fused, const Lens& lens, const DepthNoise& noise,
+Result<Cloud> make_cloud(const FusedFrame& fused, const Camera& camera, const DepthNoise& noise,
                          const Context& context) {
   const DepthFrame& mean = fused.mean;
+  const Lens& lens = camera.lens;
   if (mean.width_px != lens.width_px || mean.height_px != lens.height_px)
     return fail(Code::kInvalidArgument,
                 "the lens model is for " + std::to_string(lens.width_px) + " x " +
                     std::to_string(lens.height_px) + " pixels, the frames have " +
                     std::to_string(mean.width_px) + " x " + std::to_string(mean.height_px) +
                     ": calibrate the camera in this mode");
-  PointGrid grid{mean.width_px, mean.height_px, lens.rays()};
-  for (std::size_t i = 0; i < grid.points.size(); ++i) {
-    const double reported = mean.depth_mm[i];
-    grid.points[i] *= reported > 0 ? lens.true_depth_mm(reported) : 0;
-  }
+  HP_RETURN_IF_ERROR(camera.pattern.check_for(mean.width_px, mean.height_px, noise));
+  const PointGrid grid = points_of(mean, camera, noise);
   std::vector<std::vector<ScanPoint>> rows(static_cast<std::size_t>(grid.height_px));
   const auto find_row = [&](std::size_t v) -> Status {
     for (int u = 0; u < grid.width_px; ++u) {
       if (!on_a_surface(grid, u, static_cast<int>(v))) continue;
-      ScanPoint p = point_at(grid, fused, lens, noise, u, static_cast<int>(v));
+      ScanPoint p = point_at(grid, fused, camera, noise, u, static_cast<int>(v));
       if (p.normal.squaredNorm() > 0) rows[v].push_back(std::move(p));
     }
     return {};
   };
   HP_RETURN_IF_ERROR(parallel_for(context, "normals", rows.size(), find_row));
-  Cloud cloud{lens, {}, std::vector<int>(grid.points.size(), -1)};
+  Cloud cloud{camera, {}, std::vector<int>(grid.points.size(), -1)};
   for (const auto& row : rows) {
     for (const ScanPoint& p : row) {
       cloud.at_pixel[mean.index(p.u, p.v)] = static_cast<int>(cloud.points.size());

@@ -27,7 +27,7 @@ constexpr const char* kLost = "CAMERA_LOST";
 Status check(const SweepTask& task) {
   HP_RETURN_IF_ERROR(check_frames(task.frames));
   const DepthFrame& first = task.frames.front();
-  if (first.width_px != task.lens.width_px || first.height_px != task.lens.height_px)
+  if (first.width_px != task.camera.lens.width_px || first.height_px != task.camera.lens.height_px)
     return fail(Code::kInvalidArgument,
                 "the lens is of another image size than the frames: calibrate the camera as it is "
                 "set now");
@@ -35,26 +35,34 @@ Status check(const SweepTask& task) {
       std::adjacent_find(task.times_s.begin(), task.times_s.end(), std::greater_equal<>()) !=
           task.times_s.end())
     return fail(Code::kInvalidArgument, "the frames have no rising times: record again");
-  return {};
+  return task.camera.pattern.check_for(first.width_px, first.height_px, task.noise);
 }
 
-/// Frames come one by one, without rounding and without what is too far.
+/// Frames come one by one, without rounding, the camera's fixed pattern and what is too far.
 class Source {
  public:
   explicit Source(const SweepTask& task) : task_(task), steps_(find_depth_steps(task.frames)) {}
 
   [[nodiscard]] DepthFrame frame(std::size_t i) const {
     DepthFrame out = task_.frames[i];
-    for (float& d : out.depth_mm) {
-      if (!(d > 0 && task_.lens.true_depth_mm(d) < kFarthest_mm))
-        d = 0;
-      else if (steps_)
-        d = steps_->before_rounding_mm(d);
+    for (int v = 0; v < out.height_px; ++v) {
+      for (int u = 0; u < out.width_px; ++u) {
+        float& depth = out.depth_mm[out.index(u, v)];
+        depth = is_near(depth) ? as_seen_mm(u, v, depth) : 0;
+      }
     }
     return out;
   }
 
  private:
+  [[nodiscard]] bool is_near(float reported_mm) const {
+    return reported_mm > 0 && task_.camera.lens.true_depth_mm(reported_mm) < kFarthest_mm;
+  }
+  [[nodiscard]] float as_seen_mm(int u, int v, float reported_mm) const {
+    const float depth_mm = steps_ ? steps_->before_rounding_mm(reported_mm) : reported_mm;
+    return static_cast<float>(task_.camera.pattern.taken_off_mm(u, v, depth_mm, task_.noise));
+  }
+
   const SweepTask& task_;
   std::optional<DepthSteps> steps_;
 };
@@ -158,7 +166,7 @@ Result<Path> follow(const SweepTask& task, const Source& source, const Optics& o
 Result<Sweep> fuse_sweep(const SweepTask& task, const Context& context) {
   HP_RETURN_IF_ERROR(check(task));
   const Source source(task);
-  const Optics optics(task.lens);
+  const Optics optics(task.camera.lens);
   HP_ASSIGN_OR_RETURN(const Eigen::AlignedBox3d box, box_of(source.frame(0), optics));
   HP_ASSIGN_OR_RETURN(const Path path, follow(task, source, optics, box, context));
   Sweep out{Volume(box, task.volume), path, 0};

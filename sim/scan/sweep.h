@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/scan/camera.h"
 #include "sim/scan/tracking.h"
 
 namespace hydroprint::scan {
@@ -31,16 +32,17 @@ struct Sweep {
 struct SweepTask {
   std::span<const DepthFrame> frames;
   std::span<const double> times_s;  ///< of the frames, rising
-  Lens lens;
+  Camera camera;
   DepthNoise noise;
   Volume::Options volume;
 };
 
 /// Frames of a camera in motion as one volume. Each frame is placed by what the frames before it
 /// show (frame to model, KinectFusion, Izadi et al. 2011), smoothed; then every third is fused as
-/// it is. Refuses what check_frames refuses, and (kInvalidArgument) frames that are not of the
-/// lens's size or have other times; with kFailedPrecondition and a reason: CAMERA_BLACK where the
-/// first frame has hardly a depth, CAMERA_LOST where ten frames on end find no place.
+/// it is. What is known of the camera's fixed pattern is taken off all of them. Refuses what
+/// check_frames refuses, and (kInvalidArgument) frames that are not of the lens's size or have
+/// other times; with kFailedPrecondition and a reason: CAMERA_BLACK where the first frame has
+/// hardly a depth, CAMERA_LOST where ten frames on end find no place.
 [[nodiscard]] Result<Sweep> fuse_sweep(const SweepTask& task, const Context& context);
 
 }  // namespace hydroprint::scan

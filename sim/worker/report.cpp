@@ -123,7 +123,8 @@ Json found_json(const Report& report) {
     return {{"parameters", {{"voxel_mm", o.voxel_mm}, {"threads", o.threads}}},
             {"scan", swept_json(*report.swept)}};
   }
-  if (report.camera) return {{"camera", Json::parse(calibrate::camera_json(*report.camera))}};
+  if (report.camera)
+    return {{"camera", Json::parse(calibrate::camera_summary_json(*report.camera))}};
   return dip_json(report);
 }
 

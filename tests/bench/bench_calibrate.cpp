@@ -211,7 +211,6 @@ Scene draw_scene(const Body& body, const Camera& camera, std::mt19937& random) {
   out.rig.more = {testing::body_of(body.surface, out.X_FO)};
   out.task.surroundings.gripper_from_mm = out.rig.gripper_mm - 12;
   out.task.surroundings.layout = testing::nominal_layout();
-  out.task.lens_covariance = camera.calibration.covariance;
   return out;
 }
 
@@ -249,7 +248,7 @@ Outcome calibrate(const Scene& scene, const Camera& camera,
   const auto start = std::chrono::steady_clock::now();
   const Context context = two_threads();
   const auto fused = value_of(scan::fuse(frames, {}, context));
-  const auto cloud = value_of(scan::make_cloud(fused, camera.calibration.lens, {}, context));
+  const auto cloud = value_of(scan::make_cloud(fused, camera.calibration, {}, context));
   auto frame = registration::find_film_frame(cloud, scene.task.surroundings.layout,
                                              scene.nominal_CF, context);
   if (frame) {
@@ -279,9 +278,9 @@ void measure(const Body& body, const Camera& camera, int frames, std::uint32_t s
   }
   figures.seconds.push_back(found.seconds);
   const auto& fit = found.frame->fit;
-  const Matrix6 by_lens = fit.lens_gain * scene.task.lens_covariance * fit.lens_gain.transpose();
+  const Matrix6 by_camera = fit.camera_gain * fit.camera_gain.transpose();
   const Told film = told(registration::twist_between(fit.X_CB, scene.rig.X_CF(), fit.centre_mm),
-                         fit.covariance + by_lens, fit, 1);
+                         fit.covariance + by_camera, fit, 1);
   figures.film_mm.push_back(film.mm);
   figures.film_deg.push_back(film.deg);
   figures.seen_mm.push_back(seen_error_mm(scene, camera, fit.X_CB));

@@ -114,7 +114,7 @@ void run(int cameras, int count) {
       times_s.push_back(static_cast<double>(i) / depth_camera::kRate_hz);
     const double begin_s = seconds_now();
     const auto sweep =
-        scan::fuse_sweep({frames, times_s, camera.lens(), {}, {}}, testing::two_threads());
+        scan::fuse_sweep({frames, times_s, {camera.lens()}, {}, {}}, testing::two_threads());
     figures.seconds.push_back(seconds_now() - begin_s);
     if (!sweep) {
       std::fprintf(stderr, "camera %d: %s\n", k, sweep.error().message.c_str());

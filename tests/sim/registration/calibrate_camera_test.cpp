@@ -15,8 +15,10 @@
 namespace hydroprint::registration {
 namespace {
 
+constexpr std::uint64_t kSeed = 3;
+
 /// One of those that the virtual camera may have.
-depth_camera::Lens real_lens() { return depth_camera::drawn_lens(3); }
+depth_camera::Lens real_lens() { return depth_camera::drawn_lens(kSeed); }
 scan::Lens truth() { return testing::lens_of(real_lens()); }
 
 /// How a board is held: distance, where in the image (shares of half of it), tilt, turn.
@@ -53,7 +55,7 @@ std::vector<scan::FusedFrame> views(const std::vector<Hold>& holds, bool noise) 
   for (const Hold& hold : holds) {
     rig.more = {testing::body_of(calibration_board(), rig.X_CF().inverse() * held(hold))};
     const int first = static_cast<int>(100 * out.size());
-    const auto frames = noise ? rig.frames(8, 3, first) : std::vector{rig.exact()};
+    const auto frames = noise ? rig.frames(8, kSeed, first) : std::vector{rig.exact()};
     out.push_back(scan::fuse(frames, {}, testing::two_threads()).value());
   }
   return out;
@@ -94,6 +96,59 @@ TEST(CalibrateCamera, NoiseStaysWithinTheStatedCovariance) {
   EXPECT_LT(off.dot(found->covariance.inverse() * off), kSquare999of9);
   EXPECT_LT(distance_error_mm(found->lens), 0.6);
   EXPECT_NEAR(found->rms_sigmas, 1, 0.2);
+}
+
+/// How far off the learned pattern is from the camera's own, in standard deviations, where the
+/// views told anything of it; and the same of the mean of all.
+struct PatternError {
+  std::vector<double> sigmas;
+  double mean_sigmas = 0;
+};
+
+PatternError error_of(const scan::FixedPattern& pattern) {
+  const std::vector<float> truth = depth_camera::constant_noise(kSeed);
+  PatternError out;
+  double sum = 0, own = 0;
+  Eigen::VectorXd together = Eigen::VectorXd::Zero(pattern.shared.rows());
+  for (std::size_t i = 0; i < pattern.patches(); ++i) {
+    if (pattern.sigma[i] == 1) continue;
+    const double off = pattern.offset[i] - truth[i], sigma = pattern.sigma[i];
+    const Eigen::VectorXd shared = pattern.shared.col(static_cast<Eigen::Index>(i))
+                                       .cast<double>()
+                                       .cwiseProduct(pattern.step.cast<double>());
+    out.sigmas.push_back(off / std::sqrt(sigma * sigma + shared.squaredNorm()));
+    sum += off;
+    own += sigma * sigma;
+    together += shared;
+  }
+  out.mean_sigmas = sum / std::sqrt(own + together.squaredNorm());
+  return out;
+}
+
+TEST(CalibrateCamera, LearnsTheFixedPatternAsWellAsItSays) {
+  const auto found = calibrated(good_holds(), true);
+  ASSERT_TRUE(found) << found.error().message;
+  const scan::FixedPattern& pattern = found->pattern;
+  ASSERT_EQ(pattern.patches(), depth_camera::constant_noise(kSeed).size());
+  // Half of the image, in these views of eight frames.
+  const auto is_known = [](float sigma) { return sigma < 0.4; };
+  EXPECT_GT(std::count_if(pattern.sigma.begin(), pattern.sigma.end(), is_known),
+            static_cast<std::ptrdiff_t>(pattern.patches() / 3));
+  const PatternError error = error_of(pattern);
+  const auto within = static_cast<double>(std::count_if(
+      error.sigmas.begin(), error.sigmas.end(), [](double x) { return std::abs(x) < 1.96; }));
+  EXPECT_NEAR(within / static_cast<double>(error.sigmas.size()), 0.95, 0.03);
+  EXPECT_LT(std::abs(error.mean_sigmas), 3.5);
+}
+
+TEST(CalibrateCamera, ManyViewsLeaveNoMoreToBeSharedThanTwelve) {
+  const auto found = calibrated(good_holds(15), false);
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->pattern.shared.rows(), 9 + 72);
+  double largest = 0;
+  for (const float offset : found->pattern.offset)
+    largest = std::max(largest, std::abs(static_cast<double>(offset)));
+  EXPECT_LT(largest, 0.5);  // there is no noise in these, but pixels at creases
 }
 
 TEST(CalibrateCamera, TooFewViewsAreRefused) {

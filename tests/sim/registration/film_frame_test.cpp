@@ -20,7 +20,7 @@ using testing::Rig;
 scan::Cloud cloud_of(const std::vector<scan::DepthFrame>& frames, const scan::Lens& lens) {
   auto fused = scan::fuse(frames, {}, testing::two_threads());
   if (!fused) throw std::runtime_error(fused.error().message);
-  auto cloud = scan::make_cloud(*fused, lens, {}, testing::two_threads());
+  auto cloud = scan::make_cloud(*fused, {lens}, {}, testing::two_threads());
   if (!cloud) throw std::runtime_error(cloud.error().message);
   return std::move(*cloud);
 }

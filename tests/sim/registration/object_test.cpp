@@ -66,7 +66,7 @@ struct Hanging {
   }
   [[nodiscard]] scan::Cloud cloud(const scan::FusedFrame& f) const {
     const auto lens = testing::cropped(testing::lens_of(rig.lens), window);
-    return scan::make_cloud(f, lens, {}, testing::two_threads()).value();
+    return scan::make_cloud(f, {lens}, {}, testing::two_threads()).value();
   }
   [[nodiscard]] Result<ObjectPose> find() const {
     const auto f = fused({rig.exact()});
@@ -188,7 +188,7 @@ TEST(Object, NormalisedErrorsStayWithinTheirEllipsoid) {
     const auto cloud = hanging.cloud(hanging.fused(hanging.rig.frames(8, seed)));
     const auto points = object_points(cloud, hanging.frame(), hanging.task.surroundings).all;
     const Pose truth = hanging.rig.X_CF() * hanging.X_FO;
-    const auto fit = fit_pose(shape, points, cloud.lens, truth * crooked(2 * kDegree, 2, seed),
+    const auto fit = fit_pose(shape, points, cloud.camera, truth * crooked(2 * kDegree, 2, seed),
                               truth, {}, testing::two_threads());
     ASSERT_TRUE(fit) << fit.error().message;
     ASSERT_TRUE(fit->weak.empty());
@@ -226,7 +226,7 @@ TEST(WaterLevel, IsThatOfTheWaterAndUncertainAsStated) {
   const auto cloud = hanging.cloud(hanging.fused(hanging.rig.frames(12, 77)));
   FilmFrame frame = hanging.frame();
   frame.fit.X_CB.translation() += frame.fit.X_CB.linear() * Eigen::Vector3d(0, 0, 2.5);
-  const auto level = water_level(cloud, frame, {100, 140}, scan::Lens::Matrix::Zero());
+  const auto level = water_level(cloud, frame, {100, 140});
   ASSERT_TRUE(level) << level.error().message;
   EXPECT_NEAR(level->z_mm, -2.5, 4 * level->sigma_mm);
   EXPECT_LT(level->sigma_mm, 0.1);

@@ -44,6 +44,44 @@ TEST(PoseFit, MakesNoStepAlongWhatNothingTells) {
   EXPECT_TRUE(fit->covariance.allFinite());
 }
 
+/// The face of a plate and one narrow side of it; the camera's pattern is known to a tenth.
+std::vector<scan::ScanPoint> points_of_two_faces(double z_mm) {
+  std::vector<scan::ScanPoint> out;
+  const auto add = [&](const Eigen::Vector3d& at, const Eigen::Vector3d& normal) {
+    scan::ScanPoint p;
+    p.point_mm = at;
+    p.normal = normal;
+    p.reported_mm = at.z();
+    p.sigma_mm = 0.05;
+    p.constant_sigma_mm = 0.1;
+    p.usual_constant_mm = 1;
+    p.patch = static_cast<int>(out.size());
+    out.push_back(p);
+  };
+  for (int i = -20; i <= 20; ++i)
+    for (int k = -20; k <= 20; ++k) add({-300 + 2.5 * i, 2.5 * k, z_mm}, -Eigen::Vector3d::UnitZ());
+  for (int k = -20; k <= 20; ++k)
+    for (int i = 2; i <= 8; ++i) add({-240, 2.5 * k, z_mm + i}, Eigen::Vector3d::UnitX());
+  return out;
+}
+
+/// The better a camera is known, the less far off a point may be by chance; but before a fit has
+/// found its way, points are far off whatever the noise.
+TEST(PoseFit, ANarrowSideIsReachedHoweverWellTheCameraIsKnown) {
+  const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
+  const auto points = points_of_two_faces(800);
+  const Pose truth(Eigen::Translation3d(-300, 0, 800));
+  const Pose start = truth * Eigen::Translation3d(-1.2, 0, 0);
+  scan::Camera camera;
+  camera.pattern = {640, 480, 4};
+  camera.pattern.set_shared(
+      Eigen::MatrixXd::Zero(scan::Lens::kParameters, static_cast<Eigen::Index>(points.size())));
+  const auto fit = fit_pose(plate, points, camera, start, start, {}, testing::two_threads());
+  ASSERT_TRUE(fit) << fit.error().message;
+  EXPECT_EQ(fit->weak.size(), 1U);  // along the side
+  EXPECT_NEAR(fit->X_CB.translation().x(), -300, 0.1);
+}
+
 TEST(PoseFit, RefusesAStartThatIsNoNumber) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   Pose start = Pose::Identity();

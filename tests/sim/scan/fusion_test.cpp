@@ -94,7 +94,7 @@ TEST(Cloud, PlaneHasItsNormalTowardsTheCameraAndEdgesAreLeftOut) {
           static_cast<float>((normal.z() * kDepth_mm) / normal.dot(lens.ray(u, v)) + jump);
     }
   }
-  const auto cloud = make_cloud(fused, lens, {}, {});
+  const auto cloud = make_cloud(fused, {lens}, {}, {});
   ASSERT_TRUE(cloud);
   EXPECT_EQ(cloud->at(kWidth / 2, 10), nullptr);
   EXPECT_EQ(cloud->at(kWidth / 2 - 1, 10), nullptr);
@@ -103,7 +103,7 @@ TEST(Cloud, PlaneHasItsNormalTowardsTheCameraAndEdgesAreLeftOut) {
   EXPECT_LT((p->normal - normal).norm(), 1e-4);
   EXPECT_EQ(p->patch, 2 * (kWidth / 4) + 2);
   lens.width_px = 640;
-  EXPECT_FALSE(make_cloud(fused, lens, {}, {}));
+  EXPECT_FALSE(make_cloud(fused, {lens}, {}, {}));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "hardware/depth_camera/sensor.h"
 #include "hardware/depth_scene/shapes.h"
 #include "sim/registration/shape.h"
 #include "tests/support/depth_scene.h"
@@ -29,10 +30,21 @@ std::vector<double> times_of(const std::vector<DepthFrame>& frames) {
   return out;
 }
 
-Result<Sweep> fuse(const std::vector<DepthFrame>& frames, const Lens& lens,
+Result<Sweep> fuse(const std::vector<DepthFrame>& frames, const Camera& camera,
                    const Context& context = two_threads()) {
   const std::vector<double> times_s = times_of(frames);
-  return fuse_sweep({frames, times_s, lens, {}, {}}, context);
+  return fuse_sweep({frames, times_s, camera, {}, {}}, context);
+}
+Result<Sweep> fuse(const std::vector<DepthFrame>& frames, const Lens& lens,
+                   const Context& context = two_threads()) {
+  return fuse(frames, Camera{lens}, context);
+}
+
+/// What calibrate-camera would tell of a camera's constant noise at best.
+FixedPattern pattern_of(std::uint64_t seed) {
+  FixedPattern out{640, 480, 4, depth_camera::constant_noise(seed)};
+  out.sigma.assign(out.patches(), 0);
+  return out;
 }
 
 /// How far the tracked camera is off, at worst.
@@ -75,6 +87,23 @@ TEST(Sweep, FollowsACameraWithAllErrorsAndFindsTheSurface) {
   EXPECT_EQ(sweep->path.lost(), 0U);
   EXPECT_LT(farthest_mm(*sweep, camera), 0.6);
   EXPECT_LT(surface_mm(*sweep, camera, 0.5), 0.4);
+}
+
+TEST(Sweep, TakesTheCamerasFixedPatternOff) {
+  constexpr std::uint64_t kSeed = 4;
+  const SweptCamera camera(block(), kSeed);
+  const auto frames = camera.frames(10);
+  const auto as_they_are = fuse(frames, camera.lens());
+  const auto taken_off = fuse(frames, Camera{camera.lens(), {}, pattern_of(kSeed)});
+  ASSERT_TRUE(as_they_are && taken_off);
+  EXPECT_LT(taken_off->path.rms_mm, 0.8 * as_they_are->path.rms_mm);
+  EXPECT_LT(surface_mm(*taken_off, camera, 0.5), 0.8 * surface_mm(*as_they_are, camera, 0.5));
+  FixedPattern other = pattern_of(kSeed);
+  other.width_px = 320;
+  const auto refused = fuse(frames, Camera{camera.lens(), {}, other});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("fixed pattern is for 320 x 480"), std::string::npos)
+      << refused.error().message;
 }
 
 TEST(Sweep, IsTheSameWhateverTheNumberOfThreads) {
@@ -144,7 +173,7 @@ TEST(Sweep, RefusesWhatACameraInTroubleGives) {
   other.width_px = 320;
   EXPECT_FALSE(fuse({dark, flat}, other));
   const std::vector<DepthFrame> frames{flat, wall[1]};
-  EXPECT_FALSE(fuse_sweep({frames, std::vector<double>{0, 0}, lens, {}, {}}, {}));
+  EXPECT_FALSE(fuse_sweep({frames, std::vector<double>{0, 0}, {lens}, {}, {}}, {}));
 }
 
 TEST(Sweep, StopsWhenToldTo) {

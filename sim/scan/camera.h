@@ -1,0 +1,15 @@
+#pragma once
+
+#include "sim/scan/fixed_pattern.h"
+#include "sim/scan/lens.h"
+
+namespace hydroprint::scan {
+
+/// What is known of a depth camera.
+struct Camera {
+  Lens lens;
+  Lens::Matrix covariance = Lens::Matrix::Zero();  ///< of Lens::parameters()
+  FixedPattern pattern = {};                       ///< may be unknown
+};
+
+}  // namespace hydroprint::scan
