@@ -1,0 +1,62 @@
+import { useEffect, useState } from 'preact/hooks';
+import { route } from '../../route';
+import { orComplain } from '../../state/notices';
+import { may } from '../../state/session';
+import { refreshCalibrations } from './calibration';
+import { clear, draft, restore, shape, startFrom } from './draft';
+import { shapeOfJob } from './from_job';
+import { Intake, Taken } from './intake_panel';
+import { isReading, reread } from './intake';
+import { ObjectView } from './object_view';
+import { PosePanel } from './pose_panel';
+import { FilmPanel, MorePanel } from './settings_panel';
+import { Submit } from './submit_panel';
+
+let isRestored = false;
+
+/** Brings back what was begun, or begins with the job that the address names. */
+async function prepare(from: string | null): Promise<void> {
+  if (!isRestored) await restore();
+  isRestored = true;
+  if (from && draft.value.from?.job !== from) {
+    if (!orComplain(await startFrom(from))) return;
+  }
+  if (draft.value.files.length > 0) await reread();
+  else if (draft.value.from) orComplain(await shapeOfJob(draft.value.from.job));
+}
+
+export function NewPrint() {
+  const from = route.value.query.get('from');
+  const [isReady, setReady] = useState(false);
+  useEffect(() => {
+    void prepare(from).then(() => setReady(true));
+    void refreshCalibrations();
+  }, [from]);
+
+  const hasObject = shape.value !== undefined;
+  return (
+    <div class="new-print">
+      <h1 class="hidden">New print</h1>
+      <div class="scene">
+        {hasObject ? <ObjectView /> : <Intake isBusy={!isReady || isReading.value} />}
+      </div>
+      <div class="panel">
+        {!may('MAKER') && (
+          <p class="note">
+            You may look, but not submit: ask whoever looks after this machine to make you a maker.
+          </p>
+        )}
+        <Taken />
+        <PosePanel />
+        <FilmPanel />
+        <MorePanel />
+        <Submit />
+        {(hasObject || draft.value.files.length > 0 || draft.value.from) && (
+          <button type="button" class="plain" onClick={clear}>
+            Start over
+          </button>
+        )}
+      </div>
+    </div>
+  );
+}
