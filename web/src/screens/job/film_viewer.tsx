@@ -77,7 +77,7 @@ export function FilmViewer({ film, straight, askStraight }: Props) {
       </div>
       {straight ? (
         <label class="compare">
-          <span>without compensation</span>
+          <span>film image</span>
           <input
             type="range"
             min={0}
@@ -86,7 +86,7 @@ export function FilmViewer({ film, straight, askStraight }: Props) {
             aria-label="Where the film image ends and the one without compensation begins, from the left"
             onInput={(event) => setSplit(Number(event.currentTarget.value))}
           />
-          <span>film image</span>
+          <span>without compensation</span>
         </label>
       ) : (
         <Button

@@ -5,8 +5,8 @@ import { may } from '../../state/session';
 import { refreshCalibrations } from './calibration';
 import { clear, draft, restore, shape, startFrom } from './draft';
 import { shapeOfJob } from './from_job';
-import { Intake, Taken } from './intake_panel';
-import { isReading, reread } from './intake';
+import { Intake, Taken, useDrop } from './intake_panel';
+import { isReading, problems, reread } from './intake';
 import { ObjectView } from './object_view';
 import { PosePanel } from './pose_panel';
 import { FilmPanel, MorePanel } from './settings_panel';
@@ -33,11 +33,12 @@ export function NewPrint() {
     void refreshCalibrations();
   }, [from]);
 
+  const isOver = useDrop();
   const hasObject = shape.value !== undefined;
   return (
     <div class="new-print">
       <h1 class="hidden">New print</h1>
-      <div class="scene">
+      <div class={`scene ${isOver ? 'over' : ''}`}>
         {hasObject ? <ObjectView /> : <Intake isBusy={!isReady || isReading.value} />}
       </div>
       <div class="panel">
@@ -46,11 +47,11 @@ export function NewPrint() {
             You may look, but not submit: ask whoever looks after this machine to make you a maker.
           </p>
         )}
-        <Taken />
+        {hasObject || problems.value.length > 0 ? <Taken /> : <HowItGoes />}
         <PosePanel />
         <FilmPanel />
         <MorePanel />
-        <Submit />
+        {hasObject && <Submit />}
         {(hasObject || draft.value.files.length > 0 || draft.value.from) && (
           <button type="button" class="plain" onClick={clear}>
             Start over
@@ -60,3 +61,16 @@ export function NewPrint() {
     </div>
   );
 }
+
+/** For whoever is here for the first time. */
+const HowItGoes = () => (
+  <section>
+    <h2>How it goes</h2>
+    <ol>
+      <li>Drop a model, see it above the film, and turn it the way it will hang.</li>
+      <li>The film image is computed: distorted so that it fits once the film has stretched.</li>
+      <li>Print it on film, and dip: the rig leads you through, one step at a time.</li>
+    </ol>
+    <p class="quiet">Nothing is printed and nothing moves before you say so.</p>
+  </section>
+);

@@ -34,7 +34,7 @@ function Browse({ label }: { label: string }) {
 }
 
 /** Files may be dropped anywhere on the page. */
-function useDrop(): boolean {
+export function useDrop(): boolean {
   const [isOver, setOver] = useState(false);
   useEffect(() => {
     const over = (event: DragEvent) => {
@@ -91,13 +91,11 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
 
 /** What was taken, how large it is, and what was refused. */
 export function Taken() {
-  const isOver = useDrop();
   const { files, from, scale } = draft.value;
   const hasAny = files.length > 0 || from;
   return (
-    <section aria-labelledby="object-title" class={isOver ? 'over' : ''}>
+    <section aria-labelledby="object-title">
       <h2 id="object-title">1 Object</h2>
-      {isOver && <p class="note">Let go to take the files</p>}
       {from && files.length === 0 && <p>As in {from.job.replace('jobs/', 'job ')}</p>}
       {files.length > 0 && (
         <ul class="files">
