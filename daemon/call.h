@@ -13,6 +13,7 @@
 #include "daemon/dip_runner.h"
 #include "daemon/job_store.h"
 #include "daemon/pool.h"
+#include "daemon/preview_desk.h"
 #include "daemon/print_runner.h"
 #include "daemon/rig_desk.h"
 
@@ -29,6 +30,7 @@ struct Backend {
   PrintRunner& prints;
   CaptureRunner& captures;
   CalibrationStore& calibrations;
+  PreviewDesk& previews;
   PlaceKeeper& places;
   CameraSetup camera;
   Layout layout;

@@ -20,6 +20,7 @@ constexpr const char* kServices[] = {"",
                                      "hydroprint.v1.AssetService",
                                      "hydroprint.v1.ArtifactService",
                                      "hydroprint.v1.CalibrationService",
+                                     "hydroprint.v1.PreviewService",
                                      "hydroprint.v1.LeaseService"};
 
 }  // namespace
@@ -54,6 +55,7 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   impl.services.push_back(make_asset_service(backend));
   impl.services.push_back(make_artifact_service(backend));
   impl.services.push_back(make_calibration_service(backend));
+  impl.services.push_back(make_preview_service(backend));
   impl.services.push_back(make_rig_service(backend));
   impl.services.push_back(make_lease_service(backend));
 

@@ -23,7 +23,7 @@ const char* default_reason(Code code) {
 }
 
 bool helps_to_wait(const std::string& reason) {
-  return reason == "QUEUE_FULL" || reason == "UPLOADS_FULL";
+  return reason == "QUEUE_FULL" || reason == "UPLOADS_FULL" || reason == "PREVIEWS_FULL";
 }
 
 }  // namespace
