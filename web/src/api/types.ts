@@ -29,3 +29,4 @@ export type Session = With<Schemas['Session'], 'name' | 'user'>;
 export type AuditEntry = Schemas['AuditEntry'];
 export type WhoAmI = With<Schemas['WhoAmIResponse'], 'user' | 'role' | 'csrfToken' | 'accounts'>;
 export type SignedIn = With<Schemas['SignInResponse'], 'csrfToken'>;
+export type Preview = Schemas['Preview'];

@@ -31,6 +31,8 @@ export class PoseView {
   // At the centre of the object's box; turns about it.
   private readonly holder = new Group();
   private readonly gizmo: TransformControls;
+  private object: Mesh3 | undefined;
+  private heat = new Mesh3();
   private box: Box = { min: [0, 0, 0], max: [0, 0, 0] };
   private positions = new Float32Array();
   private scale = 1;
@@ -71,7 +73,30 @@ export class PoseView {
     const [x, y, z] = centreOf(box);
     object.position.set(-x * scale, -y * scale, -z * scale);
     object.scale.setScalar(scale);
+    this.object = object;
     this.holder.add(object);
+    this.stage.draw();
+  }
+
+  /** Shows colours in place of the pictures: of a mesh in the object's frame, mm; or the pictures again. */
+  setHeat(heat?: { positions: Float32Array; corners: Uint32Array; colours: Uint8Array }): void {
+    this.holder.remove(this.heat);
+    disposeOf(this.heat);
+    if (this.object) this.object.visible = heat === undefined;
+    if (heat) {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute('position', new BufferAttribute(heat.positions, 3));
+      geometry.setAttribute('color', new BufferAttribute(heat.colours, 3, true));
+      geometry.setIndex(new BufferAttribute(heat.corners, 1));
+      geometry.computeVertexNormals();
+      this.heat = new Mesh3(
+        geometry,
+        new MeshStandardMaterial({ roughness: 0.9, side: DoubleSide, vertexColors: true }),
+      );
+      const [x, y, z] = centreOf(this.box);
+      this.heat.position.set(-x * this.scale, -y * this.scale, -z * this.scale);
+      this.holder.add(this.heat);
+    }
     this.stage.draw();
   }
 

@@ -186,8 +186,8 @@ function Player(props: { end_s: number; time_s: number; onTime: (time_s: number)
       <input
         type="range"
         min={0}
-        max={end_s}
-        step={end_s / 200 || 1}
+        max={Math.ceil(10 * end_s) / 10}
+        step={0.1}
         value={time_s}
         aria-label="Time of the dip"
         aria-valuetext={`${time_s.toFixed(1)} s`}

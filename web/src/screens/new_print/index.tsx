@@ -10,6 +10,7 @@ import { isReading, problems, reread } from './intake';
 import { ObjectView } from './object_view';
 import { PosePanel } from './pose_panel';
 import { FilmPanel, MorePanel } from './settings_panel';
+import { PreviewPanel } from './preview_panel';
 import { Submit } from './submit_panel';
 
 let isRestored = false;
@@ -49,6 +50,7 @@ export function NewPrint() {
         )}
         {hasObject || problems.value.length > 0 ? <Taken /> : <HowItGoes />}
         <PosePanel />
+        {hasObject && <PreviewPanel />}
         <FilmPanel />
         <MorePanel />
         {hasObject && <Submit />}

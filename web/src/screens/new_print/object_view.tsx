@@ -3,12 +3,17 @@ import { computed, effect, signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { PoseView, Gizmo, Look } from '../../view3d/pose_view';
 import type { Side } from '../../view3d/stage';
+import { colourOf, place, type Scale } from '../../model/colour_map';
 import { Switch } from '../../ui/controls';
+import { Legend } from '../../ui/legend';
 import { calibrated } from './calibration';
 import { change, draft, film, shape } from './draft';
 import { arrangement } from './intake';
+import { shown, type Shown } from './preview';
 
 const gizmo = signal<Gizmo>('rotate');
+const coat = signal<'picture' | 'stretch'>('picture');
+const kStretch: Scale = { map: 'viridis', min: 1, max: 3, log: true };
 // Apart from the rest of the draft, so that the mesh is not built anew while it is turned.
 const scale = computed(() => draft.value.scale);
 const pose = computed(() => calibrated.value?.pose ?? draft.value.pose);
@@ -84,6 +89,17 @@ export function ObjectView() {
             { value: 'none', label: 'Look' },
           ]}
         />
+        {shown.value && (
+          <Switch<'picture' | 'stretch'>
+            label="What the object wears"
+            value={coat.value}
+            onValue={(value) => (coat.value = value)}
+            choices={[
+              { value: 'picture', label: 'Picture' },
+              { value: 'stretch', label: 'Stretch' },
+            ]}
+          />
+        )}
         <span class="group" role="group" aria-label="Look from">
           {(['corner', 'front', 'right', 'top', 'below'] as const).map((side) => (
             <button type="button" class="plain" key={side} onClick={() => look(side)}>
@@ -92,13 +108,30 @@ export function ObjectView() {
           ))}
         </span>
       </div>
+      {shown.value && coat.value === 'stretch' && (
+        <Legend
+          title="Stretch of the film, estimated"
+          unit="times"
+          scale={kStretch}
+          values={[1, 1.3, 1.6, 2, 2.5, 3]}
+          beyond="There most films tear."
+        />
+      )}
     </div>
   );
 }
 
+/** The preview's heat map. */
+function heatOf({ positions, corners, stretch }: Shown) {
+  const colours = new Uint8Array(positions.length);
+  for (let i = 0; i < stretch.length; i += 1)
+    colours.set(colourOf(kStretch.map, place(kStretch, stretch[i]!)), 3 * i);
+  return { positions, corners, colours };
+}
+
 /** Shows what is chosen, as it changes. */
 function follow(view: PoseView): () => void {
-  let shown = 0;
+  let count = 0;
   const ends = [
     effect(() => {
       view.setFilm(film.value);
@@ -107,13 +140,14 @@ function follow(view: PoseView): () => void {
       const now = shape.value;
       const factor = scale.value;
       void arrangement.value;
-      shown += 1;
-      const turn = shown;
+      count += 1;
+      const turn = count;
       if (!now) return view.clear();
       return void pictures().then((ready) => {
-        if (turn !== shown) return;
+        if (turn !== count) return;
         view.setMesh(now.mesh, now.box, factor, (material) => lookOf(material, ready));
         view.setPose(pose.peek());
+        view.setHeat(shown.value && coat.peek() === 'stretch' ? heatOf(shown.value) : undefined);
       });
     }),
     effect(() => {
@@ -121,6 +155,9 @@ function follow(view: PoseView): () => void {
     }),
     effect(() => {
       view.setGizmo(calibrated.value ? 'none' : gizmo.value);
+    }),
+    effect(() => {
+      view.setHeat(shown.value && coat.value === 'stretch' ? heatOf(shown.value) : undefined);
     }),
     // Again from afar when there is another object or film, not while it is turned.
     effect(() => {
