@@ -73,13 +73,13 @@ function again(): void {
 function take(topic: string, event: MessageEvent<string>): void {
   heard = Date.now();
   if (link.value !== 'live') link.value = 'live';
-  let data: unknown;
+  let news: unknown;
   try {
-    data = JSON.parse(event.data);
+    news = (JSON.parse(event.data) as Record<string, unknown>)[topic];
   } catch {
     return;
   }
-  for (const listener of listeners.get(topic) ?? []) listener(data);
+  if (news !== undefined) for (const listener of listeners.get(topic) ?? []) listener(news);
 }
 
 function checkSilence(): void {

@@ -39,7 +39,11 @@ export function address(path: string, query: Options['query'] = {}): string {
 }
 
 /** Asks the daemon; T is what it then answers. */
-export async function call<T>(method: Method, path: string, options: Options = {}): Promise<Result<T>> {
+export async function call<T>(
+  method: Method,
+  path: string,
+  options: Options = {},
+): Promise<Result<T>> {
   const answer = await send(method, path, options);
   if (!answer.ok) return answer;
   const { value: response } = answer;
@@ -50,7 +54,9 @@ export async function call<T>(method: Method, path: string, options: Options = {
     try {
       return done((text === '' ? {} : JSON.parse(text)) as T);
     } catch {
-      return refused('the daemon answered what nobody understands', 'Reload the page', { status: 0 });
+      return refused('the daemon answered what nobody understands', 'Reload the page', {
+        status: 0,
+      });
     }
   }
   return { ok: false, failure: await failureOf(response) };
@@ -68,7 +74,8 @@ export async function fetchBytes(path: string, signal?: AbortSignal): Promise<Re
 async function send(method: Method, path: string, options: Options): Promise<Result<Response>> {
   const headers: Record<string, string> = { Accept: 'application/json', ...options.headers };
   if (options.json !== undefined) headers['Content-Type'] = 'application/json';
-  if (method !== 'GET' && method !== 'HEAD' && csrf.value) headers['X-Hydroprint-Csrf'] = csrf.value;
+  if (method !== 'GET' && method !== 'HEAD' && csrf.value)
+    headers['X-Hydroprint-Csrf'] = csrf.value;
   const body = options.bytes ?? (options.json === undefined ? null : JSON.stringify(options.json));
   try {
     const response = await fetch(address(path, options.query), {
@@ -98,7 +105,8 @@ function readClock(response: Response): void {
   if (Number.isNaN(date)) return;
   const ahead = (date - Date.now()) / 1000;
   // Below what whole seconds and the way here make of it, the clocks agree.
-  ahead_s.value = Math.abs(ahead) < 2 ? 0 : Math.abs(ahead - ahead_s.value) < 2 ? ahead_s.value : ahead;
+  ahead_s.value =
+    Math.abs(ahead) < 2 ? 0 : Math.abs(ahead - ahead_s.value) < 2 ? ahead_s.value : ahead;
 }
 
 interface Status {

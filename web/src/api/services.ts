@@ -7,6 +7,7 @@ import type {
   AuditEntry,
   Calibration,
   Job,
+  JobInput,
   JobState,
   Lease,
   Queue,
@@ -28,13 +29,14 @@ export const jobs = {
   list: (query: { owner?: string; states?: readonly JobState[]; pageToken?: string }) =>
     call<Page<'jobs', Job>>('GET', 'jobs', { query: { ...query, pageSize: 30 } }),
   get: (name: string) => call<Job>('GET', name),
-  create: (job: Partial<Job>, requestId: string, leaseId?: string) =>
+  create: (job: JobInput, requestId: string, leaseId?: string) =>
     call<Job>('POST', 'jobs', { json: job, query: { requestId, leaseId } }),
   cancel: (name: string) => call<Job>('POST', `${name}:cancel`, { json: {} }),
   retry: (name: string, requestId: string) =>
     call<Job>('POST', `${name}:retry`, { json: { requestId } }),
   remove: (name: string) => call<None>('DELETE', name),
-  share: (name: string, shared: boolean) => call<Job>('POST', `${name}:share`, { json: { shared } }),
+  share: (name: string, shared: boolean) =>
+    call<Job>('POST', `${name}:share`, { json: { shared } }),
   moveToFront: (name: string, before: string) =>
     call<Job>('POST', `${name}:move`, { json: { before } }),
   confirm: (name: string, step: string, leaseId: string) =>

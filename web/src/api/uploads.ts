@@ -77,11 +77,16 @@ async function step(
   const known = await call<Upload>('GET', begun.name, { signal });
   if (!known.ok) return known;
   const offset = Number(known.value.receivedBytes);
-  return call<Answer>('PATCH', begun.name, {
+  const sent = await call<Partial<Asset>>('PATCH', begun.name, {
     bytes: file.slice(offset, offset + kChunk),
     headers: { 'Upload-Offset': String(offset), 'Content-Type': 'application/offset+octet-stream' },
     signal,
   });
+  if (!sent.ok) return sent;
+  // With the last byte comes the asset; before, nothing.
+  if (sent.value.name) return done({ asset: sent.value as Asset });
+  const receivedBytes = String(Math.min(offset + kChunk, file.size));
+  return done({ upload: { ...known.value, receivedBytes } });
 }
 
 /** Which upload was begun for these bytes, kept over reloads. */

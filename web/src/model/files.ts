@@ -64,19 +64,25 @@ export function contradiction(role: Role, name: string, head: Uint8Array): strin
   const text = new TextDecoder('latin1').decode(head);
   if (/\.ply$/i.test(name) && !text.startsWith('ply'))
     return 'it does not begin like a PLY file. Export it again as PLY';
-  if (/\.obj$/i.test(name) && (head.includes(0) || !/^\s*(#|v|o|g|f|mtllib|usemtl|s)\b/m.test(text)))
+  if (
+    /\.obj$/i.test(name) &&
+    (head.includes(0) || !/^\s*(#|v|o|g|f|mtllib|usemtl|s)\b/m.test(text))
+  )
     return 'it does not read like an OBJ file. Export it again as OBJ';
   return undefined;
 }
 
-const baseOf = (path: string): string => path.replaceAll('\\', '/').split('/').at(-1)!.toLowerCase();
+const baseOf = (path: string): string =>
+  path.replaceAll('\\', '/').split('/').at(-1)!.toLowerCase();
 
 /** True for a name that the API takes for a job's file (InputFile.name). */
 export const isPlain = (name: string): boolean =>
   name.length > 0 &&
   new TextEncoder().encode(name).length <= 255 &&
   !/[\\\p{Cc}]/u.test(name) &&
-  name.split('/').every((part) => part !== '' && part !== '.' && part !== '..' && !part.startsWith('-'));
+  name
+    .split('/')
+    .every((part) => part !== '' && part !== '.' && part !== '..' && !part.startsWith('-'));
 
 /** The name under which a job sees a file: the one by which others refer to it, if that is plain. */
 export function nameFor(file: Named, references: readonly string[]): string {
@@ -116,7 +122,8 @@ export function arrange<F extends Named>(
     extra.push({ name: nameFor(file, libraries), file });
     for (const [name, material] of readMtl(text)) {
       const image = images.find((i) => material.map && baseOf(i.name) === baseOf(material.map));
-      if (material.map && !image) missing.push(`the picture "${material.map}" of material "${name}"`);
+      if (material.map && !image)
+        missing.push(`the picture "${material.map}" of material "${name}"`);
       if (material.map && image && !named.has(image)) {
         named.add(image);
         extra.push({ name: nameFor(image, [material.map]), file: image });

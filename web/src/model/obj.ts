@@ -124,7 +124,10 @@ export function readMtl(text: string): Map<string, Material> {
       if ([r, g, b].every((c) => Number.isFinite(c))) current.colour = [r!, g!, b!];
     } else if (keyword === 'map_Kd' && current) {
       // Options come before the name, which may have blanks.
-      current.map = line.slice(6).trim().replace(/^(-\w+\s+([\d.+-]+\s+|on\s+|off\s+)*)*/, '');
+      current.map = line
+        .slice(6)
+        .trim()
+        .replace(/^(-\w+\s+([\d.+-]+\s+|on\s+|off\s+)*)*/, '');
     }
   }
   return materials;

@@ -42,7 +42,12 @@ export function pan(view: View, dx: number, dy: number, picture: Size, window: S
 }
 
 /** The pixel of the picture under a place of the window; undefined beside the picture. */
-export function pixelAt(view: View, x: number, y: number, picture: Size): [number, number] | undefined {
+export function pixelAt(
+  view: View,
+  x: number,
+  y: number,
+  picture: Size,
+): [number, number] | undefined {
   const i = Math.floor((x - view.x) / view.zoom);
   const j = Math.floor((y - view.y) / view.zoom);
   return i >= 0 && j >= 0 && i < picture.width && j < picture.height ? [i, j] : undefined;

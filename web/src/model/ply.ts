@@ -48,7 +48,9 @@ export function readPly(bytes: ArrayBuffer): Map<string, PlyElement> {
 }
 
 function readHeader(bytes: ArrayBuffer): Header {
-  const text = new TextDecoder('latin1').decode(new Uint8Array(bytes, 0, Math.min(bytes.byteLength, 65536)));
+  const text = new TextDecoder('latin1').decode(
+    new Uint8Array(bytes, 0, Math.min(bytes.byteLength, 65536)),
+  );
   const end = /^ply\r?\n[\s\S]*?\nend_header\r?\n/.exec(text);
   if (!end) throw new Refusal('this is no PLY file: it has no header', kAgain);
   const header: Header = { format: '', elements: [], size: end[0].length };

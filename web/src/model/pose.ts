@@ -46,12 +46,7 @@ export function rotate(q: Quaternion, v: Vec3): Vec3 {
 export function turn(axis: 'x' | 'y' | 'z', degrees: number): Quaternion {
   const half = (degrees * Math.PI) / 360;
   const s = Math.sin(half);
-  return [
-    Math.cos(half),
-    axis === 'x' ? s : 0,
-    axis === 'y' ? s : 0,
-    axis === 'z' ? s : 0,
-  ];
+  return [Math.cos(half), axis === 'x' ? s : 0, axis === 'y' ? s : 0, axis === 'z' ? s : 0];
 }
 
 /** Turns about the film's x, then y, then z axis, degrees, as a person types them. */
@@ -64,7 +59,7 @@ export function toAngles(q: Quaternion): Vec3 {
   const [w, x, y, z] = normalized(q);
   const degrees = (rad: number) => (rad * 180) / Math.PI;
   const sinY = Math.max(-1, Math.min(1, 2 * (w * y - z * x)));
-  if (Math.abs(sinY) > 0.9999999) {
+  if (Math.abs(sinY) > 1 - 1e-12) {
     // Level with the pole: x and z turn about the same axis, so all of it is given to x.
     return [degrees(2 * Math.atan2(x, w)), degrees(Math.asin(sinY)), 0];
   }
@@ -76,7 +71,10 @@ export function toAngles(q: Quaternion): Vec3 {
 }
 
 /** As the API has it. `box_mm` is the centre of the object's box in its own frame, after the scale. */
-export function toApi(pose: Pose, box_mm: Vec3): { rotationWxyz: number[]; translationMm: number[] } {
+export function toApi(
+  pose: Pose,
+  box_mm: Vec3,
+): { rotationWxyz: number[]; translationMm: number[] } {
   const q = normalized(pose.rotation);
   const [x, y, z] = rotate(q, box_mm);
   return {

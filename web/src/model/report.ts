@@ -30,7 +30,9 @@ export const warningsOf = (report: Report | undefined): Warning[] => report?.war
 /** "12.30 mm immersion, at (-4.00, 17.50) mm": a place in the film frame at first contact, mm. */
 export function placeOf(where: string): readonly [number, number, number] | undefined {
   const number = '(-?\\d+(?:\\.\\d+)?)';
-  const found = new RegExp(`^${number} mm immersion, at \\(${number}, ${number}\\) mm$`).exec(where);
+  const found = new RegExp(`^${number} mm immersion, at \\(${number}, ${number}\\) mm$`).exec(
+    where,
+  );
   if (!found) return undefined;
   return [Number(found[2]), Number(found[3]), Number(found[1])];
 }

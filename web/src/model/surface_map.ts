@@ -34,7 +34,12 @@ export function readSurfaceMap(bytes: ArrayBuffer): SurfaceMap {
 }
 
 /** Triangles (their numbers) that a warning is about; none if it is not about places on the surface. */
-export function placesOf(code: string, map: SurfaceMap, limits: { tear: number }, up: UpOf): number[] {
+export function placesOf(
+  code: string,
+  map: SurfaceMap,
+  limits: { tear: number },
+  up: UpOf,
+): number[] {
   const isThere = testOf(code, map, limits, up);
   if (!isThere) return [];
   const out: number[] = [];

@@ -70,7 +70,12 @@ effect(() => {
   });
 });
 
-export const kFinished: readonly Job['state'][] = ['SUCCEEDED', 'FAILED', 'CANCELLED', 'INTERRUPTED'];
+export const kFinished: readonly Job['state'][] = [
+  'SUCCEEDED',
+  'FAILED',
+  'CANCELLED',
+  'INTERRUPTED',
+];
 export const kOpen: readonly Job['state'][] = [
   'QUEUED',
   'WAITING_FOR_OPERATOR',

@@ -104,7 +104,9 @@ async function renew(): Promise<void> {
 window.setInterval(() => void renew(), 20_000);
 
 /** What a command of ours answered: a lost lease is noticed, a refusal said. */
-export async function command(work: (leaseId: string) => ReturnType<typeof api.arm>): Promise<boolean> {
+export async function command(
+  work: (leaseId: string) => ReturnType<typeof api.arm>,
+): Promise<boolean> {
   const answer = await work(leaseId.value);
   if (answer.ok) {
     rig.value = answer.value;

@@ -222,11 +222,7 @@ export function Switch<T extends string>(props: {
   );
 }
 
-export function Check(props: {
-  label: string;
-  value: boolean;
-  onValue: (value: boolean) => void;
-}) {
+export function Check(props: { label: string; value: boolean; onValue: (value: boolean) => void }) {
   return (
     <label class="check">
       <input
@@ -240,7 +236,11 @@ export function Check(props: {
 }
 
 /** Figures with their names. */
-export const Figures = ({ rows }: { rows: readonly (readonly [string, ComponentChildren] | false)[] }) => (
+export const Figures = ({
+  rows,
+}: {
+  rows: readonly (readonly [string, ComponentChildren] | false)[];
+}) => (
   <dl class="figures">
     {rows.map(
       (row) =>

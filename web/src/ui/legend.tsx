@@ -2,7 +2,13 @@ import { useEffect, useRef } from 'preact/hooks';
 import { colourOf, place, ticks, type Scale } from '../model/colour_map';
 
 /** A colour map with its numbers. */
-export function Legend(props: { title: string; unit: string; scale: Scale; values?: number[]; beyond?: string }) {
+export function Legend(props: {
+  title: string;
+  unit: string;
+  scale: Scale;
+  values?: number[];
+  beyond?: string;
+}) {
   const { scale } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
   useEffect(() => {
@@ -27,9 +33,7 @@ export function Legend(props: { title: string; unit: string; scale: Scale; value
           </span>
         ))}
       </div>
-      <p class="quiet">
-        Grey: no film arrives.{props.beyond ? ` ${props.beyond}` : ''}
-      </p>
+      <p class="quiet">Grey: no film arrives.{props.beyond ? ` ${props.beyond}` : ''}</p>
     </figure>
   );
 }

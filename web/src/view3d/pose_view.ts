@@ -158,7 +158,13 @@ export class PoseView {
 /** z of the lowest point from `centre` once it is turned. */
 function lowest(positions: Float32Array, centre: Vec3, pose: Pose): number {
   // The third row of the rotation: how each axis of the object counts upwards.
-  const ups = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as const).map((axis) => rotate(pose.rotation, axis)[2]);
+  const ups = (
+    [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ] as const
+  ).map((axis) => rotate(pose.rotation, axis)[2]);
   const [ux, uy, uz] = [ups[0]!, ups[1]!, ups[2]!];
   let least = 0;
   for (let i = 0; i < positions.length; i += 3) {

@@ -47,7 +47,12 @@ export class ResultView {
   private readonly mesh: Mesh3;
   private readonly mark = new Mesh3(
     new BufferGeometry(),
-    new MeshBasicMaterial({ color: 0xff2bd6, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: -2 }),
+    new MeshBasicMaterial({
+      color: 0xff2bd6,
+      side: DoubleSide,
+      polygonOffset: true,
+      polygonOffsetFactor: -2,
+    }),
   );
   private readonly pin = new Mesh3(
     new SphereGeometry(2.5, 16, 12),
@@ -66,7 +71,10 @@ export class ResultView {
     this.stage = new Stage(host);
     this.stage.setFilm(film);
     this.geometry.setAttribute('position', new BufferAttribute(map.positions, 3));
-    this.geometry.setAttribute('color', new BufferAttribute(new Uint8Array(map.positions.length), 3, true));
+    this.geometry.setAttribute(
+      'color',
+      new BufferAttribute(new Uint8Array(map.positions.length), 3, true),
+    );
     this.geometry.setAttribute('uv', new BufferAttribute(filmUvs(map, film), 2));
     const { wet, bare } = split(map);
     this.geometry.setIndex(new BufferAttribute(Uint32Array.from(wet.concat(bare)), 1));
@@ -83,7 +91,9 @@ export class ResultView {
     this.stage.scene.add(this.object, this.pin);
     this.sink(0);
     const { min, max } = map.box;
-    const middle = new Vector3(min[0] + max[0], min[1] + max[1], min[2] + max[2]).multiplyScalar(0.5);
+    const middle = new Vector3(min[0] + max[0], min[1] + max[1], min[2] + max[2]).multiplyScalar(
+      0.5,
+    );
     this.object.updateMatrixWorld();
     this.centre = middle.applyMatrix4(this.object.matrixWorld);
     this.reach_mm = 0.62 * Math.hypot(max[0] - min[0], max[1] - min[1], max[2] - min[2]);

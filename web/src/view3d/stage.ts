@@ -194,7 +194,10 @@ function linesOn(film: Film): Object3D {
 function topOf(film: Film): Object3D {
   const y = film.height_mm / 2 + 4;
   const shape = new Shape();
-  shape.moveTo(-7, y).lineTo(7, y).lineTo(0, y + 11);
+  shape
+    .moveTo(-7, y)
+    .lineTo(7, y)
+    .lineTo(0, y + 11);
   const material = new MeshBasicMaterial({ color: 0x0b6e99, side: DoubleSide });
   return new Mesh(new ShapeGeometry(shape), material);
 }

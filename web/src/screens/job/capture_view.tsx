@@ -9,7 +9,9 @@ import { fileOf, type Results } from './results';
 
 /** What the depth camera saw: one frame at a time, by depth. */
 export function CaptureView({ results }: { results: Results }) {
-  const frames = (results.artifacts.value ?? []).map(fileOf).filter((name) => /^frame-\d+\.png$/.test(name));
+  const frames = (results.artifacts.value ?? [])
+    .map(fileOf)
+    .filter((name) => /^frame-\d+\.png$/.test(name));
   const [at, setAt] = useState(0);
   const [frame, setFrame] = useState<Grey16>();
   const canvas = useRef<HTMLCanvasElement>(null);

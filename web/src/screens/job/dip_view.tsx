@@ -22,7 +22,10 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
   }, [hasRecord]);
   const status = job.dipStatus;
   const warnings = [
-    ...new Set([...(status?.warnings ?? []), ...warningsOf(results.report.value).map((w) => w.message)]),
+    ...new Set([
+      ...(status?.warnings ?? []),
+      ...warningsOf(results.report.value).map((w) => w.message),
+    ]),
   ];
   const last = samples.at(-1);
   return (
@@ -42,10 +45,20 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
       ))}
       <Figures
         rows={[
-          ['Simulation', job.dip?.simulateJob ? <a href={`#/${job.dip.simulateJob}`}>{job.dip.simulateJob}</a> : '–'],
+          [
+            'Simulation',
+            job.dip?.simulateJob ? (
+              <a href={`#/${job.dip.simulateJob}`}>{job.dip.simulateJob}</a>
+            ) : (
+              '–'
+            ),
+          ],
           ['Depth', `${job.dip?.depthMm ?? '–'} mm`],
           ['Speed', `${job.dip?.speedMmPerS ?? '–'} mm/s`],
-          status?.contactMm !== undefined && ['First contact at', `${status.contactMm.toFixed(2)} mm`],
+          status?.contactMm !== undefined && [
+            'First contact at',
+            `${status.contactMm.toFixed(2)} mm`,
+          ],
           last !== undefined && ['Recorded', formatSeconds(last.t_s)],
         ]}
       />
@@ -69,12 +82,25 @@ function Chart({ samples }: { samples: Sample[] }) {
     .filter((_, i) => i % step === 0 || i === samples.length - 1)
     .map((sample) => `${x(sample.t_s).toFixed(1)},${y(sample.position_mm).toFixed(1)}`);
   return (
-    <svg class="chart" viewBox="0 0 400 165" role="img" aria-label={`Position over time: from ${low.toFixed(1)} to ${high.toFixed(1)} mm in ${formatSeconds(t1 - t0)}`}>
+    <svg
+      class="chart"
+      viewBox="0 0 400 165"
+      role="img"
+      aria-label={`Position over time: from ${low.toFixed(1)} to ${high.toFixed(1)} mm in ${formatSeconds(t1 - t0)}`}
+    >
       <polyline points={points.join(' ')} />
-      <text x="36" y={y(low) + 4} text-anchor="end">{low.toFixed(0)} mm</text>
-      <text x="36" y={y(high) + 4} text-anchor="end">{high.toFixed(0)} mm</text>
-      <text x={x(t0)} y="160">0 s</text>
-      <text x={x(t1)} y="160" text-anchor="end">{(t1 - t0).toFixed(0)} s</text>
+      <text x="36" y={y(low) + 4} text-anchor="end">
+        {low.toFixed(0)} mm
+      </text>
+      <text x="36" y={y(high) + 4} text-anchor="end">
+        {high.toFixed(0)} mm
+      </text>
+      <text x={x(t0)} y="160">
+        0 s
+      </text>
+      <text x={x(t1)} y="160" text-anchor="end">
+        {(t1 - t0).toFixed(0)} s
+      </text>
     </svg>
   );
 }

@@ -68,7 +68,11 @@ export function Pictures({ results, only }: { results: Results; only?: readonly 
         return (
           <figure key={name}>
             <a href={artifactAddress(results.job, name, true)}>
-              <img src={artifactAddress(results.job, name, true)} alt={kWhat[name] ?? name} loading="lazy" />
+              <img
+                src={artifactAddress(results.job, name, true)}
+                alt={kWhat[name] ?? name}
+                loading="lazy"
+              />
             </a>
             <figcaption>{kWhat[name] ?? name}</figcaption>
           </figure>

@@ -64,7 +64,11 @@ export function FilmViewer({ film, straight, askStraight }: Props) {
           <button type="button" class="plain" aria-label="Farther" onClick={() => zoomBy(1 / 1.5)}>
             −
           </button>
-          <button type="button" class="plain" onClick={() => setView(fit(picture, canvas.current!))}>
+          <button
+            type="button"
+            class="plain"
+            onClick={() => setView(fit(picture, canvas.current!))}
+          >
             All
           </button>
           <button type="button" class="plain" onClick={() => zoomBy(1 / view!.zoom)}>

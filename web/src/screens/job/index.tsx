@@ -1,6 +1,6 @@
 import { useEffect, useMemo } from 'preact/hooks';
 import { jobs as api, newRequestId } from '../../api/services';
-import type { Job } from '../../api/types';
+import type { Job, JobInput, PrintImageSpecInput } from '../../api/types';
 import { beginnings } from '../../events';
 import { formatSeconds } from '../../model/units';
 import { go } from '../../route';
@@ -25,8 +25,8 @@ export function JobScreen({ name }: { name: string }) {
       <>
         <h1>Job {numberOf(name)}</h1>
         <p class="quiet">
-          Asking for it… If it was deleted, or never was, <a href="#/jobs">the list</a> has those that
-          there are.
+          Asking for it… If it was deleted, or never was, <a href="#/jobs">the list</a> has those
+          that there are.
         </p>
       </>
     );
@@ -45,7 +45,8 @@ function Head({ job }: { job: Job }) {
         {job.displayName || job.name} <State state={job.state} />
       </h1>
       <p class="quiet">
-        Job {numberOf(job.name)}, {kindText(job)}, by {job.owner}, begun <When time={job.createTime} />
+        Job {numberOf(job.name)}, {kindText(job)}, by {job.owner}, begun{' '}
+        <When time={job.createTime} />
         {job.endTime && (
           <>
             , ended <When time={job.endTime} />
@@ -67,7 +68,7 @@ function Actions({ job }: { job: Job }) {
   const kind = kindOf(job);
   const isDone = job.state === 'SUCCEEDED';
   const mine = mayChange(job.owner);
-  const begin = async (spec: Partial<Job>) => {
+  const begin = async (spec: JobInput) => {
     const made = orComplain(await api.create(spec, newRequestId()));
     if (!made) return;
     remember(made);
@@ -91,7 +92,9 @@ function Actions({ job }: { job: Job }) {
         </Button>
       )}
       {kind === 'simulate' && isDone && may('MAKER') && (
-        <Button onPress={() => begin({ template: { simulateJob: job.name } })}>Placement page</Button>
+        <Button onPress={() => begin({ template: { simulateJob: job.name } })}>
+          Placement page
+        </Button>
       )}
       {kind === 'simulate' && isFinished(job) && may('MAKER') && (
         <a class="button" href={`#/?from=${job.name}`}>
@@ -109,18 +112,23 @@ function Actions({ job }: { job: Job }) {
           Cancel
         </Careful>
       )}
-      {mine && isFinished(job) && !isDone && kind !== 'dip' && kind !== 'print' && kind !== 'capture' && (
-        <Button
-          onPress={async () => {
-            const again = orComplain(await api.retry(job.name, newRequestId()));
-            if (!again) return;
-            remember(again);
-            go(`/${again.name}`);
-          }}
-        >
-          Try again
-        </Button>
-      )}
+      {mine &&
+        isFinished(job) &&
+        !isDone &&
+        kind !== 'dip' &&
+        kind !== 'print' &&
+        kind !== 'capture' && (
+          <Button
+            onPress={async () => {
+              const again = orComplain(await api.retry(job.name, newRequestId()));
+              if (!again) return;
+              remember(again);
+              go(`/${again.name}`);
+            }}
+          >
+            Try again
+          </Button>
+        )}
       {mine && isFinished(job) && <Keeping job={job} />}
     </div>
   );
@@ -132,7 +140,7 @@ function Keeping({ job }: { job: Job }) {
     <>
       <Check
         label="Shared with everyone"
-        value={job.shared ?? false}
+        value={job.shared}
         onValue={(shared) =>
           void api.share(job.name, shared).then((answer) => {
             const changed = orComplain(answer);
@@ -157,8 +165,8 @@ function Keeping({ job }: { job: Job }) {
 }
 
 /** The pages as the printer was chosen when the print was begun. */
-function pagesOf(job: Job): NonNullable<Job['printImage']> {
-  const { paper, colours } = job.labels ?? {};
+function pagesOf(job: Job): PrintImageSpecInput {
+  const { paper, colours } = job.labels;
   return {
     simulateJob: job.name,
     jobName: job.displayName,
@@ -179,7 +187,9 @@ function Underway({ job }: { job: Job }) {
           <span class="quiet"> left</span>
         </p>
       )}
-      <p class="quiet">You may leave this page: the job goes on, and this is where its result will be.</p>
+      <p class="quiet">
+        You may leave this page: the job goes on, and this is where its result will be.
+      </p>
     </section>
   );
 }

@@ -25,7 +25,13 @@ export function startOf(results: Results): Start | undefined {
   if (!pose || !map) return undefined;
   const [w = 1, x = 0, y = 0, z = 0] = pose.rotation_wxyz;
   const rotation: Quaternion = [w, x, y, z];
-  const ups = ([[1, 0, 0], [0, 1, 0], [0, 0, 1]] as const).map((axis) => rotate(rotation, axis)[2]);
+  const ups = (
+    [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ] as const
+  ).map((axis) => rotate(rotation, axis)[2]);
   let lowest = Infinity;
   const { positions } = map;
   for (let i = 0; i < positions.length; i += 3)
@@ -67,7 +73,9 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
       try {
         made = new View(host.current, map, start, shape, speed);
       } catch {
-        setTrouble('This browser shows no 3D (WebGL is off or missing); see the pictures under Files.');
+        setTrouble(
+          'This browser shows no 3D (WebGL is off or missing); see the pictures under Files.',
+        );
         return;
       }
       setView(made);

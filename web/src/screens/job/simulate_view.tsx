@@ -50,9 +50,18 @@ export function SimulateView({ results }: { results: Results }) {
               rows={[
                 report.coverage !== undefined && ['Surface reached', formatShare(report.coverage)],
                 report.depth_mm !== undefined && ['Depth', formatMm(report.depth_mm)],
-                report.stretch !== undefined && ['Stretch, median', formatFactor(report.stretch.p50)],
-                report.stretch !== undefined && ['Stretch, 95 % below', formatFactor(report.stretch.p95)],
-                report.stretch !== undefined && ['Stretch, largest', formatFactor(report.stretch.max)],
+                report.stretch !== undefined && [
+                  'Stretch, median',
+                  formatFactor(report.stretch.p50),
+                ],
+                report.stretch !== undefined && [
+                  'Stretch, 95 % below',
+                  formatFactor(report.stretch.p95),
+                ],
+                report.stretch !== undefined && [
+                  'Stretch, largest',
+                  formatFactor(report.stretch.max),
+                ],
                 ['Dip speed', `${report.parameters?.dip_speed_mm_per_s ?? '–'} mm/s`],
                 ['Film', report.parameters?.film?.name ?? '–'],
                 [
@@ -128,8 +137,7 @@ function Warnings(props: {
             >
               <Icon name="warning" />
               <span>
-                {warning.message}.
-                {warning.where && <span class="quiet"> {warning.where}</span>}
+                {warning.message}.{warning.where && <span class="quiet"> {warning.where}</span>}
               </span>
             </button>
           </li>

@@ -1,11 +1,11 @@
 /** What somebody is about to print: kept with its files over a reload, until it is submitted. */
 import { batch, computed, effect, signal } from '@preact/signals';
 import { jobs as jobsApi } from '../../api/services';
-import type { InputFile, Job, SimulateSpec } from '../../api/types';
+import type { InputFile, Job, JobInput, SimulateSpec, SimulateSpecInput } from '../../api/types';
 import { filmOf, type Film } from '../../model/film';
 import { centreOf, longestOf, type Box, type Mesh } from '../../model/mesh';
 import { fromApi, kUpright, toApi, type Pose, type Vec3 } from '../../model/pose';
-import { done, type Result } from '../../model/result';
+import { done, refused, type Result } from '../../model/result';
 import { load, save } from '../../state/store';
 
 /** What is chosen; plain values and files, as the browser's database takes them. */
@@ -104,8 +104,8 @@ export function clear(): void {
 export async function startFrom(name: string): Promise<Result<Job>> {
   const answer = await jobsApi.get(name);
   if (!answer.ok) return answer;
-  const spec = answer.value.simulate ?? {};
-  const labels = answer.value.labels ?? {};
+  const { simulate: spec, labels } = answer.value;
+  if (!spec) return refused(`${name} is no simulation`, 'Run one again from its own page');
   batch(() => {
     shape.value = undefined;
     draft.value = {
@@ -142,9 +142,13 @@ export interface Inputs {
 }
 
 /** The job that is asked for. */
-export function jobOf(value: Draft, inputs: Inputs, box_mm: Vec3): Partial<Job> {
+export function jobOf(
+  value: Draft,
+  inputs: Inputs,
+  box_mm: Vec3,
+): JobInput & { simulate: SimulateSpecInput } {
   const measured = value.calibration !== '';
-  const simulate: SimulateSpec = {
+  const simulate: SimulateSpecInput = {
     ...inputs,
     ...(measured
       ? { calibration: value.calibration }

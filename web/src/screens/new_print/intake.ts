@@ -1,6 +1,13 @@
 /** Takes the files that are dropped: sorts them, reads the model, and says of each that is refused why. */
 import { batch, signal } from '@preact/signals';
-import { arrange, contradiction, nameFor, roleOf, type Arrangement, type Role } from '../../model/files';
+import {
+  arrange,
+  contradiction,
+  nameFor,
+  roleOf,
+  type Arrangement,
+  type Role,
+} from '../../model/files';
 import { refused, type Result } from '../../model/result';
 import { readMesh } from '../../worker/reader';
 import { change, draft, firstScale, shape } from './draft';
@@ -15,7 +22,8 @@ const withRole = (files: readonly File[], role: Role) =>
 
 /** The model among the files. */
 export const meshOf = (files: readonly File[]): File | undefined => withRole(files, 'mesh')[0];
-export const profileOf = (files: readonly File[]): File | undefined => withRole(files, 'profile')[0];
+export const profileOf = (files: readonly File[]): File | undefined =>
+  withRole(files, 'profile')[0];
 
 /** Adds files to the draft. A model takes the place of the one before, with all that belonged to it. */
 export async function take(dropped: readonly File[]): Promise<void> {
@@ -134,4 +142,3 @@ export function inputsOf(
     ...(profile ? [{ role: 'profile' as const, name: nameFor(profile, []), file: profile }] : []),
   ];
 }
-

@@ -71,8 +71,8 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
     <div class="intake">
       <h2>{isBusy ? 'Reading…' : 'Drop a model here'}</h2>
       <p>
-        The object to print on, as OBJ, PLY or STL, with its picture (PNG or JPEG; for an OBJ its MTL,
-        too).
+        The object to print on, as OBJ, PLY or STL, with its picture (PNG or JPEG; for an OBJ its
+        MTL, too).
       </p>
       <Browse label="Choose files" />
       {ready.length > 0 && (
@@ -141,7 +141,8 @@ export function Taken() {
       )}
       {shape.value && scale !== 1 && files.length > 0 && (
         <p class="quiet">
-          In its own units the model would be {formatMm(longest_mm.value / scale)} long. Check its size.
+          In its own units the model would be {formatMm(longest_mm.value / scale)} long. Check its
+          size.
         </p>
       )}
     </section>

@@ -96,8 +96,22 @@ function ByHand() {
         ))}
       </div>
       <div class="row">
-        <NumberField label="To the right" unit="mm" value={pose.centre_mm[0]} min={-1000} max={1000} onValue={(mm) => move(0, mm)} />
-        <NumberField label="To the top" unit="mm" value={pose.centre_mm[1]} min={-1000} max={1000} onValue={(mm) => move(1, mm)} />
+        <NumberField
+          label="To the right"
+          unit="mm"
+          value={pose.centre_mm[0]}
+          min={-1000}
+          max={1000}
+          onValue={(mm) => move(0, mm)}
+        />
+        <NumberField
+          label="To the top"
+          unit="mm"
+          value={pose.centre_mm[1]}
+          min={-1000}
+          max={1000}
+          onValue={(mm) => move(1, mm)}
+        />
         <button type="button" onClick={() => change({ pose: kUpright })}>
           As in the file
         </button>

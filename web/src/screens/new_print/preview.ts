@@ -5,7 +5,7 @@
  */
 import { computed, effect, signal } from '@preact/signals';
 import { call } from '../../api/call';
-import type { Preview, SimulateSpec } from '../../api/types';
+import type { Preview, SimulateSpecInput } from '../../api/types';
 import { upload } from '../../api/uploads';
 import type { Warning } from '../../model/report';
 import type { Result } from '../../model/result';
@@ -67,8 +67,14 @@ class Asker {
 
   /** Uploads what a preview reads, which submitting needs anyway. */
   async bring(inputs: ReturnType<typeof inputsOf>): Promise<void> {
-    const wanted = inputs.filter(({ role, name }) => role === 'mesh' || role === 'profile' || /\.mtl$/i.test(name));
-    if (wanted.length === this.files.length && wanted.every(({ file }, i) => file === this.files[i])) return;
+    const wanted = inputs.filter(
+      ({ role, name }) => role === 'mesh' || role === 'profile' || /\.mtl$/i.test(name),
+    );
+    if (
+      wanted.length === this.files.length &&
+      wanted.every(({ file }, i) => file === this.files[i])
+    )
+      return;
     this.files = wanted.map(({ file }) => file);
     this.bringing.abort();
     this.bringing = new AbortController();
@@ -118,7 +124,7 @@ class Asker {
     const { simulate } = jobOf(draft.value, inputs, centre_mm.value);
     const key = `${inputs.mesh.asset} ${calibrated.value?.calibration.name ?? draft.value.scale}`;
     isComputing.value = true;
-    const answer = await compute(partOf(simulate!, inputs), this.known?.key !== key, goOn);
+    const answer = await compute(partOf(simulate, inputs), this.known?.key !== key, goOn);
     if (goOn.aborted) return;
     isComputing.value = false;
     if (answer.ok) return this.show(answer.value, key);
@@ -135,25 +141,29 @@ class Asker {
         corners: new Uint32Array(bytesOf(preview.triangleCorners)),
       };
     if (!this.known) return;
-    const map = new Float32Array(bytesOf(preview.vertexMap ?? ''));
+    const map = new Float32Array(bytesOf(preview.vertexMap));
     refusal.value = '';
     shown.value = {
       positions: this.known.positions,
       corners: this.known.corners,
       stretch: Float32Array.from({ length: map.length / 4 }, (_, i) => map[4 * i + 3]!),
-      coverage: preview.coverage ?? 0,
-      stretchP95: preview.stretchP95 ?? NaN,
-      seconds: preview.seconds ?? NaN,
-      warnings: (preview.warnings ?? []) as Warning[],
+      coverage: preview.coverage,
+      stretchP95: preview.stretchP95,
+      seconds: preview.seconds,
+      warnings: preview.warnings,
     };
   }
 }
 
-const compute = (simulate: SimulateSpec, withMesh: boolean, goOn: AbortSignal): Promise<Result<Preview>> =>
+const compute = (
+  simulate: SimulateSpecInput,
+  withMesh: boolean,
+  goOn: AbortSignal,
+): Promise<Result<Preview>> =>
   call<Preview>('POST', 'previews:compute', { json: { simulate, withMesh }, signal: goOn });
 
 /** What counts of a job for its preview. */
-function partOf(simulate: SimulateSpec, inputs: Inputs): SimulateSpec {
+function partOf(simulate: SimulateSpecInput, inputs: Inputs): SimulateSpecInput {
   const calibration = calibrated.value?.calibration;
   const measured = calibration
     ? { pose: calibration.pose, scale: calibration.scale, film: calibration.film }
@@ -162,7 +172,7 @@ function partOf(simulate: SimulateSpec, inputs: Inputs): SimulateSpec {
     mesh: inputs.mesh,
     extraFiles: inputs.extraFiles.filter((file) => /\.(mtl|json)$/i.test(file.name)),
     ...(inputs.profile ? { profile: inputs.profile } : {}),
-    ...(measured as Pick<SimulateSpec, 'pose' | 'scale' | 'film'>),
+    ...(measured as Pick<SimulateSpecInput, 'pose' | 'scale' | 'film'>),
     ...(simulate.depthMm ? { depthMm: simulate.depthMm } : {}),
     ...(simulate.dipSpeedMmPerS ? { dipSpeedMmPerS: simulate.dipSpeedMmPerS } : {}),
   };

@@ -66,8 +66,22 @@ function FilmChoice() {
       />
       {!isListed && (
         <div class="row">
-          <NumberField label="Film width" unit="mm" value={width_mm} min={10} max={3000} onValue={(mm) => setSize(mm, height_mm)} />
-          <NumberField label="Film height" unit="mm" value={height_mm} min={10} max={3000} onValue={(mm) => setSize(width_mm, mm)} />
+          <NumberField
+            label="Film width"
+            unit="mm"
+            value={width_mm}
+            min={10}
+            max={3000}
+            onValue={(mm) => setSize(mm, height_mm)}
+          />
+          <NumberField
+            label="Film height"
+            unit="mm"
+            value={height_mm}
+            min={10}
+            max={3000}
+            onValue={(mm) => setSize(width_mm, mm)}
+          />
         </div>
       )}
     </>
@@ -81,7 +95,12 @@ export function MorePanel() {
   return (
     <details>
       <summary>More settings</summary>
-      <TextField label="Name of the job" value={name} maxLength={100} onValue={(value) => change({ name: value })} />
+      <TextField
+        label="Name of the job"
+        value={name}
+        maxLength={100}
+        onValue={(value) => change({ name: value })}
+      />
       <div class="row">
         <NumberField
           label="Depth"

@@ -30,8 +30,8 @@ export function People() {
       <h1>People</h1>
       {!who.value?.accounts && (
         <p class="note">
-          There are no users yet: everybody on this machine may do everything. Add an admin, and from
-          then on people sign in.
+          There are no users yet: everybody on this machine may do everything. Add an admin, and
+          from then on people sign in.
         </p>
       )}
       <Switch<Tab> label="Show" value={tab} onValue={setTab} choices={tabs} />

@@ -21,7 +21,12 @@ export function Lease() {
               ['Ends', <When time={lease.expireTime} />],
             ]}
           />
-          <TextField label="Why it is taken away; it is logged" value={reason} onValue={setReason} maxLength={150} />
+          <TextField
+            label="Why it is taken away; it is logged"
+            value={reason}
+            onValue={setReason}
+            maxLength={150}
+          />
           <Careful
             kind="danger"
             sure={`Take it away from ${lease.holder}`}

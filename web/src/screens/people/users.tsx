@@ -114,7 +114,9 @@ function NewUser({ isFirst, again }: { isFirst: boolean; again: () => Promise<vo
         <TextField label="Name" value={name} onValue={setName} maxLength={64} />
         {!isFirst && <Choice label="Role" value={role} choices={kRoles} onValue={setRole} />}
         <TextField
-          label={isFirst ? 'Password (10 characters or more)' : 'Password (or leave it, and make a link)'}
+          label={
+            isFirst ? 'Password (10 characters or more)' : 'Password (or leave it, and make a link)'
+          }
           type="password"
           autocomplete="new-password"
           value={password}

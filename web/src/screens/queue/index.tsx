@@ -108,7 +108,13 @@ function Line() {
         ) : (
           <details>
             <summary>Pause the queue</summary>
-            <TextField label="Why" value={reason} onValue={setReason} placeholder="new film" maxLength={150} />
+            <TextField
+              label="Why"
+              value={reason}
+              onValue={setReason}
+              placeholder="new film"
+              maxLength={150}
+            />
             <Button
               onPress={async () => {
                 queue.value = orComplain(await queueApi.pause(reason)) ?? line;

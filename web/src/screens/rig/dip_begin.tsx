@@ -1,6 +1,6 @@
 import { useEffect, useState } from 'preact/hooks';
 import { jobs as api, newRequestId } from '../../api/services';
-import type { DipSpec } from '../../api/types';
+import type { DipSpecInput } from '../../api/types';
 import { jobPath } from '../../route';
 import { known, refresh, remember } from '../../state/jobs';
 import { orComplain } from '../../state/notices';
@@ -11,7 +11,7 @@ import { numberOf } from '../../ui/job_text';
 /** Begins the guided dip of a film image. */
 export function BeginDip({ simulateJob }: { simulateJob: string }) {
   const [requestId] = useState(newRequestId);
-  const [spec, setSpec] = useState<Partial<DipSpec>>({});
+  const [spec, setSpec] = useState<DipSpecInput>({});
   useEffect(() => void refresh(simulateJob), [simulateJob]);
   const simulated = known.value.get(simulateJob);
   const isReady = isOurs.value && rig.value?.state === 'IDLE';
@@ -23,7 +23,13 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
     remember(job);
     await refreshRig();
   };
-  const field = (key: 'holdS' | 'clearanceMm' | 'waterTemperatureC', label: string, unit: string, usual: string, max: number) => (
+  const field = (
+    key: 'holdS' | 'clearanceMm' | 'waterTemperatureC',
+    label: string,
+    unit: string,
+    usual: string,
+    max: number,
+  ) => (
     <NumberField
       label={label}
       unit={unit}
@@ -39,8 +45,9 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
     <section class="dip" aria-labelledby="begin-title">
       <h2 id="begin-title">Dip</h2>
       <p>
-        The film image of <a href={jobPath(simulateJob)}>{simulated?.displayName || simulateJob}</a> (
-        {numberOf(simulateJob)}), step by step: printing, hanging, laying the film, activator, descent.
+        The film image of <a href={jobPath(simulateJob)}>{simulated?.displayName || simulateJob}</a>{' '}
+        ({numberOf(simulateJob)}), step by step: printing, hanging, laying the film, activator,
+        descent.
       </p>
       <details>
         <summary>Settings of the dip</summary>
@@ -55,8 +62,8 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
       </Button>
       {!isReady && (
         <p class="quiet">
-          {isOurs.value ? 'Arm and home the rig first.' : 'Take the rig first.'} Nothing moves before you
-          confirm its steps.
+          {isOurs.value ? 'Arm and home the rig first.' : 'Take the rig first.'} Nothing moves
+          before you confirm its steps.
         </p>
       )}
     </section>

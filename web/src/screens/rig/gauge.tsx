@@ -5,7 +5,9 @@ export function Gauge({ now }: { now: Rig }) {
   const { minMm = 0, maxMm = 1 } = now.axis ?? {};
   const at = now.positionMm;
   const place = (mm: number) => 8 + (184 * (mm - minMm)) / (maxMm - minMm);
-  const marks = [0, 50, 100, 150, 200, 250, 300, 400, 500].filter((mm) => mm >= minMm && mm <= maxMm);
+  const marks = [0, 50, 100, 150, 200, 250, 300, 400, 500].filter(
+    (mm) => mm >= minMm && mm <= maxMm,
+  );
   return (
     <svg
       class="gauge"
@@ -23,7 +25,10 @@ export function Gauge({ now }: { now: Rig }) {
         </g>
       ))}
       {at !== undefined && (
-        <g transform={`translate(0 ${place(Math.max(minMm, Math.min(maxMm, at)))})`} class={now.homed ? 'here' : 'here unsure'}>
+        <g
+          transform={`translate(0 ${place(Math.max(minMm, Math.min(maxMm, at)))})`}
+          class={now.homed ? 'here' : 'here unsure'}
+        >
           <path d="M42 0l9-6v12z" />
           <text x="54" y="4">
             {at.toFixed(1)} mm

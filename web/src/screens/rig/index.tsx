@@ -3,7 +3,17 @@ import { rig as api } from '../../api/services';
 import type { Rig } from '../../api/types';
 import { formatSeconds } from '../../model/units';
 import { route } from '../../route';
-import { breakLease, command, isMoving, isOurs, leaseId, refreshRig, releaseLease, rig, takeLease } from '../../state/rig';
+import {
+  breakLease,
+  command,
+  isMoving,
+  isOurs,
+  leaseId,
+  refreshRig,
+  releaseLease,
+  rig,
+  takeLease,
+} from '../../state/rig';
 import { may, me } from '../../state/session';
 import { secondsUntil } from '../../ui/clock';
 import { Button, Careful, Figures, NumberField, TextField } from '../../ui/controls';
@@ -36,7 +46,11 @@ export function RigScreen() {
       <div class="columns">
         <div>
           <Standing now={now} />
-          {now.dip ? <DipGuide name={now.dip} /> : from && <BeginDip simulateJob={`jobs/${from}`} />}
+          {now.dip ? (
+            <DipGuide name={now.dip} />
+          ) : (
+            from && <BeginDip simulateJob={`jobs/${from}`} />
+          )}
         </div>
         <div>
           <LeasePanel now={now} />
@@ -58,7 +72,9 @@ function Standing({ now }: { now: Rig }) {
         {kStates[now.state] ?? now.state}
       </p>
       {now.trouble && <p class="warning">{now.trouble}</p>}
-      {now.state === 'DISARMED' && <p class="quiet">The drive holds no torque: arm, then home it.</p>}
+      {now.state === 'DISARMED' && (
+        <p class="quiet">The drive holds no torque: arm, then home it.</p>
+      )}
       {now.state === 'UNHOMED' && <p class="quiet">Where the axis is, is not known: home it.</p>}
       {now.axis && <Gauge now={now} />}
       <Figures
@@ -69,7 +85,10 @@ function Standing({ now }: { now: Rig }) {
             'Reach',
             `${now.axis.minMm} to ${now.axis.maxMm} mm, at most ${now.axis.maxSpeedMmPerS} mm/s`,
           ],
-          now.axis !== undefined && ['Drive', `${now.axis.drive}${now.axis.isVirtual ? ' (virtual)' : ''}`],
+          now.axis !== undefined && [
+            'Drive',
+            `${now.axis.drive}${now.axis.isVirtual ? ' (virtual)' : ''}`,
+          ],
         ]}
       />
     </section>
@@ -94,8 +113,16 @@ function LeasePanel({ now }: { now: Rig }) {
     return (
       <section>
         <h2>Take the rig</h2>
-        <p class="quiet">One person at a time commands it. It stays yours while this page is open.</p>
-        <TextField label="What for" value={purpose} onValue={setPurpose} placeholder="the mug" maxLength={150} />
+        <p class="quiet">
+          One person at a time commands it. It stays yours while this page is open.
+        </p>
+        <TextField
+          label="What for"
+          value={purpose}
+          onValue={setPurpose}
+          placeholder="the mug"
+          maxLength={150}
+        />
         <Button kind="primary" onPress={() => takeLease(purpose.trim() || 'the web page')}>
           Take the rig
         </Button>
@@ -123,8 +150,17 @@ function LeasePanel({ now }: { now: Rig }) {
           {may('ADMIN') && (
             <details>
               <summary>Take it away from {lease.holder}</summary>
-              <TextField label="Why; it is logged" value={reason} onValue={setReason} maxLength={150} />
-              <Careful sure="Take it away" kind="danger" onPress={() => breakLease(reason.trim() || 'no reason given')}>
+              <TextField
+                label="Why; it is logged"
+                value={reason}
+                onValue={setReason}
+                maxLength={150}
+              />
+              <Careful
+                sure="Take it away"
+                kind="danger"
+                onPress={() => breakLease(reason.trim() || 'no reason given')}
+              >
                 Break the lease
               </Careful>
             </details>
@@ -161,7 +197,11 @@ function Commands({ now }: { now: Rig }) {
           </Button>
         )}
         {now.enabled && !isMoving.value && (
-          <Careful sure="Disarm: the axis may sink" kind="plain" onPress={() => command(api.disarm)}>
+          <Careful
+            sure="Disarm: the axis may sink"
+            kind="plain"
+            onPress={() => command(api.disarm)}
+          >
             Disarm
           </Careful>
         )}
@@ -184,7 +224,9 @@ function Commands({ now }: { now: Rig }) {
           </Button>
         </div>
       )}
-      {(isIdle || now.state === 'MOVING') && !now.dip && <Jog fastest_mm_per_s={axis.maxSpeedMmPerS ?? 10} />}
+      {(isIdle || now.state === 'MOVING') && !now.dip && (
+        <Jog fastest_mm_per_s={axis.maxSpeedMmPerS ?? 10} />
+      )}
     </section>
   );
 }

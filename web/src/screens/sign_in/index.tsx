@@ -32,7 +32,11 @@ export function SignIn() {
           {failure.what}.
         </p>
       )}
-      <button type="submit" class="primary large" disabled={isBusy || user === '' || password === ''}>
+      <button
+        type="submit"
+        class="primary large"
+        disabled={isBusy || user === '' || password === ''}
+      >
         Sign in
       </button>
       <p class="quiet">
