@@ -64,10 +64,14 @@ export async function picture({ page }: Person, name: string): Promise<void> {
     await page.setViewportSize({ width, height: width < 600 ? 844 : 860 });
     await page.waitForTimeout(300); // for what follows the window's size
     await page.screenshot({ path: join(kScreens, `${name}-${width}.png`) });
-    const wider = await page.evaluate(
-      () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
-    );
-    expect(wider, `${name} at ${width} px is wider than its window`).toBe(0);
+    const wide = await page.evaluate(() => {
+      const { scrollWidth, clientWidth } = document.documentElement;
+      if (scrollWidth <= clientWidth) return [];
+      return [...document.querySelectorAll('main *')]
+        .filter((element) => element.getBoundingClientRect().right > clientWidth)
+        .map((element) => element.outerHTML.slice(0, 120));
+    });
+    expect(wide, `${name} at ${width} px is wider than its window`).toEqual([]);
   }
   await page.setViewportSize(before);
 }

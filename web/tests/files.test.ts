@@ -22,7 +22,9 @@ describe('files', () => {
 
   test('whose first bytes are something else are refused', () => {
     expect(contradiction('image', 'a.png', bytes('<svg/>'))).toBeDefined();
-    expect(contradiction('image', 'a.png', new Uint8Array([0x89, 0x50, 0x4e, 0x47]))).toBeUndefined();
+    expect(
+      contradiction('image', 'a.png', new Uint8Array([0x89, 0x50, 0x4e, 0x47])),
+    ).toBeUndefined();
     expect(contradiction('mesh', 'a.ply', bytes('solid x'))).toBeDefined();
     expect(contradiction('mesh', 'a.obj', bytes('MZ\0\0'))).toBeDefined();
     expect(contradiction('mesh', 'a.obj', bytes('# by hand\nv 1 2 3'))).toBeUndefined();
@@ -41,7 +43,11 @@ describe('files', () => {
   });
 
   test('what is named and missing is told', () => {
-    const { missing } = arrange(['b.mtl'], [{ file: file('a.mtl'), text: 'newmtl m\nmap_Kd x.png' }], []);
+    const { missing } = arrange(
+      ['b.mtl'],
+      [{ file: file('a.mtl'), text: 'newmtl m\nmap_Kd x.png' }],
+      [],
+    );
     expect(missing).toEqual(['the material file "b.mtl"', 'the picture "x.png" of material "m"']);
   });
 

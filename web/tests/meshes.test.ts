@@ -42,7 +42,9 @@ describe('OBJ', () => {
   });
 
   test("materials' pictures may have options and blanks", () => {
-    const materials = readMtl('newmtl a b\nKd 1 0 0.5\nmap_Kd -s 1 1 1 -clamp on my skin.png\nnewmtl c\n');
+    const materials = readMtl(
+      'newmtl a b\nKd 1 0 0.5\nmap_Kd -s 1 1 1 -clamp on my skin.png\nnewmtl c\n',
+    );
     expect(materials.get('a b')).toEqual({ colour: [1, 0, 0.5], map: 'my skin.png' });
     expect(materials.get('c')).toEqual({ colour: [1, 1, 1] });
   });
@@ -64,7 +66,9 @@ describe('STL', () => {
   });
 
   test('text is read', () => {
-    const mesh = readStl(bytesOf('solid\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e0 0\nendloop'));
+    const mesh = readStl(
+      bytesOf('solid\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e0 0\nendloop'),
+    );
     expect([...mesh.positions]).toEqual(triangle.slice(3));
   });
 

@@ -1,5 +1,14 @@
 import { describe, expect, test } from 'vitest';
-import { fromAngles, fromApi, product, rotate, toAngles, toApi, turn, type Vec3 } from '../src/model/pose';
+import {
+  fromAngles,
+  fromApi,
+  product,
+  rotate,
+  toAngles,
+  toApi,
+  turn,
+  type Vec3,
+} from '../src/model/pose';
 
 const close = (a: readonly number[], b: readonly number[]) =>
   a.forEach((value, i) => expect(value).toBeCloseTo(b[i]!, 9));
@@ -44,7 +53,9 @@ describe('a pose', () => {
 
   test('that lacks numbers is none', () => {
     expect(fromApi(undefined, [0, 0, 0])).toBeUndefined();
-    expect(fromApi({ rotationWxyz: [1, 0, 0], translationMm: [0, 0, 0] }, [0, 0, 0])).toBeUndefined();
+    expect(
+      fromApi({ rotationWxyz: [1, 0, 0], translationMm: [0, 0, 0] }, [0, 0, 0]),
+    ).toBeUndefined();
     expect(fromApi({ rotationWxyz: [1, 0, 0, 0], translationMm: [] }, [0, 0, 0])).toBeUndefined();
   });
 });

@@ -17,7 +17,12 @@ describe('figures', () => {
       '2 d 7 h',
       '-5 s',
     ]);
-    expect([0, 999, 1500, 4_293_056].map(formatBytes)).toEqual(['0 B', '999 B', '1.5 kB', '4.3 MB']);
+    expect([0, 999, 1500, 4_293_056].map(formatBytes)).toEqual([
+      '0 B',
+      '999 B',
+      '1.5 kB',
+      '4.3 MB',
+    ]);
     expect(secondsOf('3.5s')).toBe(3.5);
     expect(secondsOf('3.5')).toBeNaN();
   });
@@ -25,7 +30,8 @@ describe('figures', () => {
   test('are read with a comma, too, and nothing else is', () => {
     expect(parseNumber(' 1,5 ')).toBe(1.5);
     expect(parseNumber('-2e1')).toBe(-20);
-    for (const text of ['', 'x', '1.2.3', 'Infinity', '1 mm']) expect(parseNumber(text)).toBeUndefined();
+    for (const text of ['', 'x', '1.2.3', 'Infinity', '1 mm'])
+      expect(parseNumber(text)).toBeUndefined();
   });
 });
 
@@ -34,7 +40,8 @@ describe('films', () => {
     expect(filmOf('A4')).toMatchObject({ width_mm: 210, height_mm: 297 });
     expect(filmOf('100x50.5')).toMatchObject({ width_mm: 100, height_mm: 50.5 });
     expect(filmOf('circle:105')).toMatchObject({ width_mm: 210, radius_mm: 105 });
-    for (const name of ['A5', '0x10', 'circle:0', '10x', 'polygon:x']) expect(filmOf(name)).toBeUndefined();
+    for (const name of ['A5', '0x10', 'circle:0', '10x', 'polygon:x'])
+      expect(filmOf(name)).toBeUndefined();
   });
 });
 
@@ -44,7 +51,8 @@ describe('colour maps', () => {
       let before = -1;
       for (let i = 0; i <= 100; i += 1) {
         const [r, g, b] = colourOf(map, i / 100);
-        const lightness = 0.2126 * (r / 255) ** 2.2 + 0.7152 * (g / 255) ** 2.2 + 0.0722 * (b / 255) ** 2.2;
+        const lightness =
+          0.2126 * (r / 255) ** 2.2 + 0.7152 * (g / 255) ** 2.2 + 0.0722 * (b / 255) ** 2.2;
         expect(lightness).toBeGreaterThan(before - 0.002);
         before = lightness;
       }

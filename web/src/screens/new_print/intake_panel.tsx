@@ -17,9 +17,7 @@ function Browse({ label }: { label: string }) {
         type="file"
         multiple
         accept={kEndings}
-        class="hidden"
-        tabIndex={-1}
-        aria-label={label}
+        hidden
         onChange={(event) => {
           const { files } = event.currentTarget;
           if (files) void take([...files]);
@@ -109,13 +107,15 @@ export function Taken() {
       )}
       {isReading.value && <p role="status">Reading the model…</p>}
       {problems.value.length > 0 && (
-        <ul class="problems" role="alert">
-          {problems.value.map(({ name, why }) => (
-            <li key={name}>
-              <Icon name="warning" /> <b>{name}</b>: {why}.
-            </li>
-          ))}
-        </ul>
+        <div role="alert">
+          <ul class="problems">
+            {problems.value.map(({ name, why }) => (
+              <li key={name}>
+                <Icon name="warning" /> <b>{name}</b>: {why}.
+              </li>
+            ))}
+          </ul>
+        </div>
       )}
       {hasAny && <Browse label="Add or replace files" />}
       {shape.value && (
