@@ -23,11 +23,11 @@ const files = () => makeBall(mkdtempSync(join(daemon.folder, 'model-')));
 test('the first screen is small, there within a second, and says what to do', async () => {
   const person = await visit(browser, 'about:blank');
   const sizes: number[] = [];
-  person.page.on('response', (response) => {
-    void response
-      .request()
-      .sizes()
-      .then(({ responseBodySize }) => sizes.push(responseBodySize));
+  person.page.on('requestfinished', (request) => {
+    request.sizes().then(
+      ({ responseBodySize }) => sizes.push(responseBodySize),
+      () => {}, // of the stream, which ends with the page
+    );
   });
   const begun = Date.now();
   await person.page.goto(daemon.address);

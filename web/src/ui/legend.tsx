@@ -33,7 +33,9 @@ export function Legend(props: {
           </span>
         ))}
       </div>
-      <p class="quiet">Grey: no film arrives.{props.beyond ? ` ${props.beyond}` : ''}</p>
+      <p class="quiet">
+        Grey: no film arrives.{props.beyond && ` ≥ ${marks.at(-1)}: ${props.beyond}.`}
+      </p>
     </figure>
   );
 }

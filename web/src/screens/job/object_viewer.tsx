@@ -143,7 +143,7 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
           unit="times"
           scale={stretch}
           values={[1, 1.3, 1.6, 2, 2.5, 3, 4, 6].filter((value) => value < tear).concat(tear)}
-          beyond="There the film tears."
+          beyond="the film tears"
         />
       )}
       {mode === 'contact' && map && (

@@ -114,7 +114,7 @@ export function ObjectView() {
           unit="times"
           scale={kStretch}
           values={[1, 1.3, 1.6, 2, 2.5, 3]}
-          beyond="There most films tear."
+          beyond="most films tear"
         />
       )}
     </div>
