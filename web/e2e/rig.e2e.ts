@@ -1,0 +1,129 @@
+/** Commanding the rig, and a dip from its first step to its last. */
+import { mkdtempSync } from 'node:fs';
+import { join } from 'node:path';
+import type { Browser, Page } from 'playwright-core';
+import { afterAll, beforeAll, expect, test } from 'vitest';
+import { isAccessible, launch, open, picture, visit } from './browser';
+import { Daemon } from './daemon';
+import { makeBall } from './models';
+
+let daemon: Daemon;
+let browser: Browser;
+beforeAll(async () => {
+  [daemon, browser] = await Promise.all([Daemon.start(), launch()]);
+});
+afterAll(async () => {
+  await browser?.close();
+  await daemon?.stop();
+});
+
+const press = (page: Page, name: string | RegExp) =>
+  page.getByRole('button', { name, exact: typeof name === 'string' }).click({ timeout: 60_000 });
+const position_mm = async (page: Page): Promise<number> =>
+  Number(/Position\s*([-\d.]+) mm/.exec(await page.locator('.figures').first().innerText())![1]);
+
+async function becomesReady(page: Page): Promise<void> {
+  await page.locator('.big', { hasText: 'Ready' }).waitFor({ timeout: 60_000 });
+}
+
+test('the rig is taken, armed, homed, moved, jogged, and stopped from every screen', async () => {
+  const operator = await visit(browser, `${daemon.address}/#/rig`);
+  const { page } = operator;
+  await page.getByText('Disarmed').waitFor();
+  await picture(operator, 'rig-free');
+  await isAccessible(operator, 'rig, free');
+
+  const other = await visit(browser, `${daemon.address}/#/rig`, 390);
+  await page.getByLabel('What for').fill('<b>the mug</b>');
+  await press(page, 'Take the rig');
+  await press(page, 'Arm');
+  await press(page, 'Home');
+  await becomesReady(page);
+  // Names from strangers are text.
+  await other.page.getByText('<b>the mug</b>').waitFor();
+  expect(await other.page.getByRole('button', { name: 'Move', exact: true }).count()).toBe(0);
+  await picture(other, 'rig-taken');
+
+  await page.getByLabel('Move to').fill('120');
+  await press(page, 'Move');
+  await page.locator('.big', { hasText: 'Moving' }).waitFor();
+  // Stop, from another screen and without the lease.
+  await open(other, '/');
+  await press(other.page, 'Stop');
+  await becomesReady(page);
+  const stopped = await position_mm(page);
+  expect(stopped).toBeLessThan(110);
+
+  const down = page.getByRole('button', { name: 'Down' });
+  await down.focus();
+  await page.keyboard.down('Space');
+  await expect.poll(() => position_mm(page), { timeout: 20_000 }).toBeGreaterThan(stopped + 1);
+  await page.keyboard.up('Space');
+  await becomesReady(page);
+  const rest = await position_mm(page);
+  await page.waitForTimeout(700);
+  expect(await position_mm(page)).toBeCloseTo(rest, 1);
+  await picture(operator, 'rig-commands');
+  await isAccessible(operator, 'rig, commands');
+
+  // A reload loses nothing: the rig is still theirs.
+  await page.reload();
+  await page.getByText('The rig is yours').waitFor();
+  await page.getByLabel('Move to').fill('20');
+  await press(page, 'Move');
+  await page.locator('.big', { hasText: 'Moving' }).waitFor();
+  await page.keyboard.press('Escape');
+  await becomesReady(page);
+  await press(page, 'Give it back');
+  await page.getByRole('heading', { name: 'Take the rig' }).waitFor();
+  expect(operator.complaints.concat(other.complaints)).toEqual([]);
+  await other.context.close();
+  await operator.context.close();
+});
+
+test('a dip, one large button a step', async () => {
+  const person = await visit(browser, daemon.address);
+  const { page } = person;
+  const { obj, mtl, png } = makeBall(mkdtempSync(join(daemon.folder, 'model-')));
+  await page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
+  await page.getByLabel('Longest side').fill('30');
+  await page.getByText('More settings').click();
+  await page.getByLabel('Depth').fill('4');
+  await page.getByLabel('Computation').selectOption('MODEL_STOKES');
+  await page.getByLabel('Resolution').selectOption('150 dpi');
+  await press(page, 'Compute the film image');
+  await page.getByRole('link', { name: 'Dip it' }).click({ timeout: 80_000 });
+
+  await press(page, 'Take the rig');
+  await becomesReady(page);
+  await picture(person, 'rig-dip-begin');
+  await press(page, 'Begin the dip');
+  await press(page, 'The film is printed');
+  await press(page, 'The object hangs');
+  await page.getByText(/step 3 of 12/).waitFor();
+  const down = page.getByRole('button', { name: 'Down' });
+  await page.getByRole('radio', { name: '10 mm/s' }).check();
+  await down.focus();
+  await page.keyboard.down('Space');
+  await expect.poll(() => position_mm(page), { timeout: 30_000 }).toBeGreaterThan(45);
+  await page.keyboard.up('Space');
+  await becomesReady(page);
+  await picture(person, 'rig-dip-contact');
+  await isAccessible(person, 'rig, dip');
+  await press(page, 'It all but touches the water');
+  await press(page, 'The film floats between the bars');
+  await page.getByRole('timer').first().waitFor();
+  await picture(person, 'rig-dip-soak');
+  await page.getByRole('link', { name: 'Record of this dip' }).click();
+  await page.getByRole('button', { name: 'Cancel', exact: true }).waitFor();
+  await open(person, '/rig');
+  await press(page, 'Abort the dip');
+  await press(page, 'Abort: the film is lost');
+  await page.locator('.dip').waitFor({ state: 'hidden' });
+  await open(person, '/jobs');
+  await page.getByRole('link', { name: /dip/ }).first().click();
+  await page.getByRole('link', { name: 'positions.csv' }).waitFor();
+  await picture(person, 'job-dip');
+  expect(person.complaints).toEqual([]);
+  await person.context.close();
+});

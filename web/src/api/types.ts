@@ -1,0 +1,32 @@
+/**
+ * The API's messages, as generated from its OpenAPI document (schema.d.ts): as they are answered, and, as `...Input`,
+ * as they are sent.
+ */
+import type { components } from './schema';
+
+type Schemas = components['schemas'];
+
+export type Job = Schemas['Job'];
+export type JobInput = Schemas['JobInput'];
+export type JobState = Job['state'];
+export type JobEvent = Schemas['JobEvent'];
+export type SimulateSpec = Schemas['SimulateSpec'];
+export type SimulateSpecInput = Schemas['SimulateSpecInput'];
+export type DipSpecInput = Schemas['DipSpecInput'];
+export type PrintImageSpecInput = Schemas['PrintImageSpecInput'];
+export type InputFile = Schemas['InputFile'];
+export type Rig = Schemas['Rig'];
+export type Lease = Schemas['Lease'];
+export type Queue = Schemas['Queue'];
+export type Artifact = Schemas['Artifact'];
+export type Calibration = Schemas['Calibration'];
+export type Asset = Schemas['Asset'];
+export type Upload = Schemas['Upload'];
+export type Preview = Schemas['Preview'];
+export type User = Schemas['User'];
+export type Role = User['role'];
+export type ApiKey = Schemas['ApiKey'];
+export type Session = Schemas['Session'];
+export type AuditEntry = Schemas['AuditEntry'];
+export type WhoAmI = Schemas['WhoAmIResponse'];
+export type SignedIn = Schemas['SignInResponse'];

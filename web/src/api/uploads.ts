@@ -1,0 +1,109 @@
+/** Uploads that go on where they broke off, after a lost connection and after a reload alike. */
+import { done, refused, type Result } from '../model/result';
+import { call } from './call';
+import type { Asset, Upload } from './types';
+
+const kChunk = 4 << 20;
+const kWaits_s = [0.5, 1, 2, 4, 8, 15];
+
+type Answer = { asset?: Asset; upload?: Upload };
+
+/** Lower-case hex. */
+export async function sha256(bytes: ArrayBuffer): Promise<string> {
+  const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', bytes));
+  return [...digest].map((byte) => byte.toString(16).padStart(2, '0')).join('');
+}
+
+const wait = (seconds: number) => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
+
+/**
+ * Brings a file to the daemon, unless it is there already, and returns its asset ("assets/...").
+ * @param tell  called with the share that is there, and with true while the connection is lost
+ */
+export async function upload(
+  file: Blob,
+  tell: (share: number, isLost: boolean) => void,
+  signal: AbortSignal,
+): Promise<Result<string>> {
+  const bytes = await file.arrayBuffer().catch(() => undefined);
+  if (!bytes)
+    return refused('the file can no longer be read', 'It was moved or changed: choose it again');
+  const hash = await sha256(bytes);
+  const begun = new Begun(hash);
+  let share = 0;
+  for (let lost = 0; ; ) {
+    const answer = await step(file, hash, begun, signal);
+    if (answer.ok) {
+      if (answer.value.asset) {
+        begun.forget();
+        return done(answer.value.asset.name);
+      }
+      lost = 0;
+      const got = Number(answer.value.upload?.receivedBytes ?? 0);
+      share = file.size > 0 ? got / file.size : 1;
+      tell(share, false);
+      continue;
+    }
+    const { failure } = answer;
+    if (signal.aborted || !passes(failure.status, failure.reason)) return answer;
+    // The daemon gave this one up, or has it elsewhere: from the start, or from where it is.
+    if (failure.reason === 'UPLOAD_NOT_FOUND') begun.forget();
+    tell(share, failure.status === 0);
+    await wait(kWaits_s[Math.min(lost, kWaits_s.length - 1)]!);
+    lost += 1;
+  }
+}
+
+const passes = (status: number | undefined, reason: string | undefined): boolean =>
+  status === 0 ||
+  status === 503 ||
+  ['UPLOAD_NOT_FOUND', 'UPLOAD_BUSY', 'OFFSET_MISMATCH', 'UPLOADS_FULL'].includes(reason ?? '');
+
+/** Asks how far it is, or sends the next piece; whatever happens, asking again is right. */
+async function step(
+  file: Blob,
+  hash: string,
+  begun: Begun,
+  signal: AbortSignal,
+): Promise<Result<Answer>> {
+  if (!begun.name) {
+    const answer = await call<Answer>('POST', 'uploads', {
+      json: { sizeBytes: String(file.size), sha256: hash, mediaType: file.type || undefined },
+      signal,
+    });
+    if (answer.ok && answer.value.upload) begun.remember(answer.value.upload.name);
+    return answer;
+  }
+  const known = await call<Upload>('GET', begun.name, { signal });
+  if (!known.ok) return known;
+  const offset = Number(known.value.receivedBytes);
+  const sent = await call<Partial<Asset>>('PATCH', begun.name, {
+    bytes: file.slice(offset, offset + kChunk),
+    headers: { 'Upload-Offset': String(offset), 'Content-Type': 'application/offset+octet-stream' },
+    signal,
+  });
+  if (!sent.ok) return sent;
+  // With the last byte comes the asset; before, nothing.
+  if (sent.value.name) return done({ asset: sent.value as Asset });
+  const receivedBytes = String(Math.min(offset + kChunk, file.size));
+  return done({ upload: { ...known.value, receivedBytes } });
+}
+
+/** Which upload was begun for these bytes, kept over reloads. */
+class Begun {
+  name: string | undefined;
+  private readonly key: string;
+
+  constructor(hash: string) {
+    this.key = `upload:${hash}`;
+    this.name = localStorage.getItem(this.key) ?? undefined;
+  }
+  remember(name: string): void {
+    this.name = name;
+    localStorage.setItem(this.key, name);
+  }
+  forget(): void {
+    this.name = undefined;
+    localStorage.removeItem(this.key);
+  }
+}

@@ -1,0 +1,164 @@
+import type { ComponentChildren } from 'preact';
+import { useEffect } from 'preact/hooks';
+import { link } from './events';
+import { route } from './route';
+import { JobScreen } from './screens/job';
+import { NewPrint } from './screens/new_print';
+import { People } from './screens/people';
+import { QueueScreen } from './screens/queue';
+import { RigScreen } from './screens/rig';
+import { SignIn } from './screens/sign_in';
+import { dismiss, notices } from './state/notices';
+import { isMoving, stop, stopState } from './state/rig';
+import { may, mustSignIn, signOut, who } from './state/session';
+import { nextTheme, theme } from './theme';
+import { Icon } from './ui/icon';
+
+const kScreens = [
+  { path: '', label: 'New print', icon: 'new' },
+  { path: 'jobs', label: 'Jobs', icon: 'jobs' },
+  { path: 'rig', label: 'Rig', icon: 'rig' },
+  { path: 'people', label: 'People', icon: 'people' },
+] as const;
+
+export function App() {
+  if (mustSignIn.value)
+    return (
+      <Frame>
+        <SignIn />
+      </Frame>
+    );
+  return <Frame>{who.value ? <Screen /> : <p class="quiet">Asking the daemon…</p>}</Frame>;
+}
+
+function Screen() {
+  const [first, second] = route.value.parts;
+  if (first === 'jobs' && second) return <JobScreen key={second} name={`jobs/${second}`} />;
+  if (first === 'jobs') return <QueueScreen />;
+  if (first === 'rig') return <RigScreen />;
+  if (first === 'people') return <People />;
+  return <NewPrint />;
+}
+
+function Frame({ children }: { children: ComponentChildren }) {
+  useEscapeToStop();
+  return (
+    <>
+      <a class="skip" href="#main" onClick={toMain}>
+        Skip to the content
+      </a>
+      <header class="bar">
+        <span class="brand">Hydroprint</span>
+        {who.value && <Navigation />}
+        <Account />
+        {who.value && <StopButton />}
+      </header>
+      <ConnectionBanner />
+      <main id="main" tabIndex={-1}>
+        {children}
+      </main>
+      <Notices />
+    </>
+  );
+}
+
+// The hash is the route's: the browser's own jump would leave it.
+function toMain(event: Event): void {
+  event.preventDefault();
+  document.getElementById('main')?.focus();
+}
+
+function Navigation() {
+  const current = route.value.parts[0] ?? '';
+  return (
+    <nav aria-label="Screens">
+      {kScreens.map(({ path, label, icon }) => (
+        <a href={`#/${path}`} aria-current={current === path ? 'page' : undefined}>
+          <Icon name={icon} />
+          <span>{label}</span>
+        </a>
+      ))}
+    </nav>
+  );
+}
+
+function Account() {
+  const name = who.value?.user;
+  return (
+    <div class="account">
+      {name && who.value?.accounts && (
+        <>
+          <span class="quiet" title={`Role: ${who.value.role.toLowerCase()}`}>
+            {name}
+          </span>
+          <button type="button" class="plain" onClick={() => void signOut()}>
+            Sign out
+          </button>
+        </>
+      )}
+      <button
+        type="button"
+        class="plain"
+        onClick={nextTheme}
+        aria-label={`Colours: ${theme.value}. Change`}
+        title={`Colours: ${theme.value}`}
+      >
+        <Icon name={theme.value} />
+      </button>
+    </div>
+  );
+}
+
+const kStopText = { ready: 'Stop', sending: 'Stopping…', stopped: 'Stopped', failed: 'Stop again' };
+
+/** Always in reach, for everyone who is signed in; needs no lease and does no harm. */
+function StopButton() {
+  return (
+    <button
+      type="button"
+      class={`stop ${isMoving.value ? 'moving' : ''}`}
+      onClick={() => void stop()}
+      title="Stops the rig (Escape, while it moves)"
+    >
+      {kStopText[stopState.value]}
+    </button>
+  );
+}
+
+function useEscapeToStop(): void {
+  useEffect(() => {
+    const take = (event: KeyboardEvent) => {
+      if (event.key === 'Escape' && isMoving.value && may('VIEWER')) void stop();
+    };
+    window.addEventListener('keydown', take, { capture: true });
+    return () => window.removeEventListener('keydown', take, { capture: true });
+  }, []);
+}
+
+function ConnectionBanner() {
+  if (!who.value || link.value !== 'lost') return null;
+  return (
+    <p class="banner" role="status">
+      The connection to the daemon is lost; trying again. What you see may be old. Stop is still
+      tried: if it fails, press the stop button on the rig.
+    </p>
+  );
+}
+
+function Notices() {
+  return (
+    <div class="notices" role="status" aria-live="polite">
+      {notices.value.map(({ id, kind, what, remedy }) => (
+        <div key={id} class={`notice ${kind}`}>
+          <p>
+            {what}
+            {remedy && <span class="remedy">{remedy}.</span>}
+          </p>
+          <button type="button" class="plain" aria-label="Dismiss" onClick={() => dismiss(id)}>
+            <Icon name="close" />
+          </button>
+        </div>
+      ))}
+    </div>
+  );
+}

@@ -1,0 +1,23 @@
+import { render } from 'preact';
+import { App } from './app';
+import { mustSignIn, begin, signIn } from './state/session';
+import { complain } from './state/notices';
+import './theme';
+import './style.css';
+
+/** A one-time link is "/sign-in#TOKEN"; the token leaves the address bar at once. */
+async function start(): Promise<void> {
+  const token = location.pathname === '/sign-in' ? location.hash.slice(1) : '';
+  if (location.pathname !== '/') history.replaceState(null, '', '/');
+  if (!token) return begin();
+  const answer = await signIn({ linkToken: token });
+  if (answer.ok) return;
+  mustSignIn.value = true;
+  complain({
+    ...answer.failure,
+    remedy: 'A link works once, for 15 minutes: ask for a new one, or sign in with your password',
+  });
+}
+
+render(<App />, document.getElementById('app')!);
+void start();

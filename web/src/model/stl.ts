@@ -1,0 +1,51 @@
+import { Refusal } from './result';
+import type { Mesh } from './mesh';
+
+/** Reads an STL, binary or text; every triangle has corners of its own. */
+export function readStl(bytes: ArrayBuffer): Mesh {
+  return isBinary(bytes) ? readBinary(bytes) : readText(new TextDecoder().decode(bytes));
+}
+
+// "solid" stands at the head of many a binary file, too; its length is what tells.
+function isBinary(bytes: ArrayBuffer): boolean {
+  if (bytes.byteLength < 84) return false;
+  const count = new DataView(bytes).getUint32(80, true);
+  if (bytes.byteLength === 84 + 50 * count) return true;
+  const head = new TextDecoder().decode(new Uint8Array(bytes, 0, 5));
+  if (head.toLowerCase() === 'solid') return false;
+  throw new Refusal(
+    `the file says ${count} triangles but is ${bytes.byteLength} bytes long`,
+    'It is cut off or damaged: copy or export it again',
+  );
+}
+
+function readBinary(bytes: ArrayBuffer): Mesh {
+  const view = new DataView(bytes);
+  const count = view.getUint32(80, true);
+  const positions = new Float32Array(9 * count);
+  for (let face = 0; face < count; face += 1)
+    for (let i = 0; i < 9; i += 1)
+      positions[9 * face + i] = view.getFloat32(84 + 50 * face + 12 + 4 * i, true);
+  return meshOf(positions);
+}
+
+function readText(text: string): Mesh {
+  const numbers: number[] = [];
+  const vertex = /vertex\s+(\S+)\s+(\S+)\s+(\S+)/g;
+  for (let m = vertex.exec(text); m; m = vertex.exec(text)) {
+    const corner = [Number(m[1]), Number(m[2]), Number(m[3])];
+    if (corner.some((n) => !Number.isFinite(n)))
+      throw new Refusal(`corner ${numbers.length / 3 + 1} is no place`, 'Export the model again');
+    numbers.push(...corner);
+  }
+  if (numbers.length === 0 || numbers.length % 9 !== 0)
+    throw new Refusal('this is no complete STL', 'Copy or export the file again');
+  return meshOf(Float32Array.from(numbers));
+}
+
+const meshOf = (positions: Float32Array): Mesh => ({
+  positions,
+  indices: Uint32Array.from({ length: positions.length / 3 }, (_, i) => i),
+  parts: [{ material: '', first: 0, count: positions.length / 3 }],
+  libraries: [],
+});

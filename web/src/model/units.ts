@@ -1,0 +1,53 @@
+/** Numbers with their units, as people read them; never a number without one. */
+
+export const formatMm = (value: number, digits = 1): string => `${value.toFixed(digits)} mm`;
+
+export const formatShare = (share: number): string => `${(share * 100).toFixed(1)} %`;
+
+export const formatFactor = (value: number): string => `${value.toFixed(2)} ×`;
+
+/** "850 ms", "12 s", "3 min 05 s", "2 h 10 min", "3 d 4 h". */
+export function formatSeconds(seconds: number): string {
+  if (!Number.isFinite(seconds)) return '–';
+  if (seconds < 0) return `-${formatSeconds(-seconds)}`;
+  if (seconds < 1) return `${Math.round(seconds * 1000)} ms`;
+  const whole = Math.round(seconds);
+  const two = (n: number) => String(n).padStart(2, '0');
+  if (whole < 60) return `${whole} s`;
+  if (whole < 3600) return `${Math.floor(whole / 60)} min ${two(whole % 60)} s`;
+  if (whole < 86400) return `${Math.floor(whole / 3600)} h ${two(Math.floor(whole / 60) % 60)} min`;
+  return `${Math.floor(whole / 86400)} d ${Math.floor(whole / 3600) % 24} h`;
+}
+
+/** "812 B", "1.4 MB". */
+export function formatBytes(bytes: number): string {
+  const units = ['B', 'kB', 'MB', 'GB', 'TB'];
+  let value = bytes;
+  let unit = 0;
+  while (value >= 1000 && unit < units.length - 1) {
+    value /= 1000;
+    unit += 1;
+  }
+  return `${unit === 0 ? value : value.toFixed(1)} ${units[unit]}`;
+}
+
+/** "14:05", "Mon 14:05" or "3 Nov 14:05", by how long ago it is. */
+export function formatTime(time: Date, now: Date): string {
+  const clock = time.toLocaleTimeString([], { hour: '2-digit', minute: '2-digit', hour12: false });
+  if (time.toDateString() === now.toDateString()) return clock;
+  const days = Math.abs(now.getTime() - time.getTime()) / 86_400_000;
+  if (days < 6) return `${time.toLocaleDateString('en-GB', { weekday: 'short' })} ${clock}`;
+  return `${time.toLocaleDateString('en-GB', { day: 'numeric', month: 'short' })} ${clock}`;
+}
+
+/** Seconds of a proto3 JSON Duration ("3.5s"); NaN if it is none. */
+export const secondsOf = (duration: string | undefined): number =>
+  duration?.endsWith('s') ? Number(duration.slice(0, -1)) : NaN;
+
+/** What a person typed as a number, a comma for the point too; undefined if it is none. */
+export function parseNumber(text: string): number | undefined {
+  const plain = text.trim().replace(',', '.');
+  if (plain === '') return undefined;
+  const value = Number(plain);
+  return Number.isFinite(value) ? value : undefined;
+}

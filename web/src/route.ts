@@ -1,0 +1,24 @@
+/** Where in the page we are: "#/jobs/7". */
+import { computed, signal } from '@preact/signals';
+
+const read = (): string => location.hash.replace(/^#/, '') || '/';
+const hash = signal(typeof location === 'undefined' ? '/' : read());
+
+if (typeof window !== 'undefined')
+  window.addEventListener('hashchange', () => {
+    hash.value = read();
+    window.scrollTo(0, 0);
+  });
+
+/** The parts of the path, and the query. */
+export const route = computed(() => {
+  const [path = '', query = ''] = hash.value.split('?');
+  return { parts: path.split('/').filter(Boolean), query: new URLSearchParams(query) };
+});
+
+export const go = (path: string): void => {
+  location.hash = path;
+};
+
+/** Address of a job's screen. */
+export const jobPath = (name: string): string => `#/${name}`;

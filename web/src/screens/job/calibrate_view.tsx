@@ -1,0 +1,101 @@
+import { useEffect, useState } from 'preact/hooks';
+import { calibrations as api } from '../../api/services';
+import type { Calibration, Job } from '../../api/types';
+import { warningsOf } from '../../model/report';
+import { formatMm } from '../../model/units';
+import { Figures } from '../../ui/controls';
+import { staleness } from '../new_print/calibration';
+import { Files, Pictures } from './files';
+import type { Results } from './results';
+
+/** What a calibrate job found: where the object hangs, and how well that is known. */
+export function CalibrateView({ job, results }: { job: Job; results: Results }) {
+  const [found, setFound] = useState<Calibration>();
+  useEffect(() => {
+    void api.list().then((page) => {
+      if (page.ok) setFound(page.value.calibrations.find((one) => one.job === job.name));
+    });
+  }, [job.name]);
+  return (
+    <div class="columns">
+      <div>
+        <Pictures results={results} />
+        <Files results={results} />
+      </div>
+      <div>
+        {found && <Found calibration={found} />}
+        {warningsOf(results.report.value).map((warning) => (
+          <p class="warning" key={warning.code}>
+            {warning.message}
+          </p>
+        ))}
+      </div>
+    </div>
+  );
+}
+
+const orDash = (value: number | undefined) => (value === undefined ? '–' : formatMm(value, 2));
+
+function Found({ calibration }: { calibration: Calibration }) {
+  const why = staleness(calibration);
+  return (
+    <section>
+      <h2>
+        {calibration.name} {calibration.active ? '(active)' : ''}
+      </h2>
+      {why && <p class="warning">It does not hold any more: {why}. Measure again.</p>}
+      {calibration.kind === 'CAMERA' ? (
+        <Figures
+          rows={[
+            ['Views', String(calibration.views ?? 0)],
+            ['Board fits to', orDash(calibration.rmsMm)],
+          ]}
+        />
+      ) : (
+        <Figures
+          rows={[
+            ['Error on the surface, median', orDash(calibration.errorP50Mm)],
+            ['Error, 95 % below', orDash(calibration.errorP95Mm)],
+            ['Error, largest', orDash(calibration.errorMaxMm)],
+            ['Height over the water', orDash(calibration.heightMm)],
+            ['First contact at', orDash(calibration.contactMm)],
+            ['Water level', orDash(calibration.waterZMm)],
+          ]}
+        />
+      )}
+      {(calibration.fromNominalPose ?? []).map((text) => (
+        <p class="quiet" key={text}>
+          Not seen by the scan, taken from the nominal pose: {text}
+        </p>
+      ))}
+      {(calibration.markers ?? []).length > 0 && <Markers markers={calibration.markers!} />}
+    </section>
+  );
+}
+
+const Markers = ({ markers }: { markers: NonNullable<Calibration['markers']> }) => (
+  <table>
+    <thead>
+      <tr>
+        <th scope="col">Marker</th>
+        <th scope="col">Fits to</th>
+        <th scope="col">Off</th>
+      </tr>
+    </thead>
+    <tbody>
+      {markers.map((marker) => (
+        <tr key={marker.name}>
+          <th scope="row">{marker.name}</th>
+          {marker.used ? (
+            <>
+              <td>{orDash(marker.rmsMm)}</td>
+              <td>{orDash(marker.residualMm)}</td>
+            </>
+          ) : (
+            <td colSpan={2}>left out: {marker.whyNot}</td>
+          )}
+        </tr>
+      ))}
+    </tbody>
+  </table>
+);

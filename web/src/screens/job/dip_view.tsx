@@ -1,0 +1,106 @@
+import { useEffect, useState } from 'preact/hooks';
+import { fetchBytes } from '../../api/call';
+import { artifactPath } from '../../api/services';
+import type { Job } from '../../api/types';
+import { readPositions, type Sample } from '../../model/positions';
+import { isFinished } from '../../state/jobs';
+import { warningsOf } from '../../model/report';
+import { formatSeconds } from '../../model/units';
+import { Figures } from '../../ui/controls';
+import { Files } from './files';
+import type { Results } from './results';
+
+/** A dip: how it went, or where to go on. */
+export function DipView({ job, results }: { job: Job; results: Results }) {
+  const [samples, setSamples] = useState<Sample[]>([]);
+  const hasRecord = results.has('positions.csv');
+  useEffect(() => {
+    if (!hasRecord) return;
+    void fetchBytes(artifactPath(job.name, 'positions.csv')).then((bytes) => {
+      if (bytes.ok) setSamples(readPositions(new TextDecoder().decode(bytes.value)));
+    });
+  }, [hasRecord]);
+  const status = job.dipStatus;
+  const warnings = [
+    ...new Set([
+      ...(status?.warnings ?? []),
+      ...warningsOf(results.report.value).map((w) => w.message),
+    ]),
+  ];
+  const last = samples.at(-1);
+  return (
+    <>
+      {!isFinished(job) && (
+        <p>
+          <a class="button primary" href="#/rig">
+            Go on at the rig
+          </a>
+        </p>
+      )}
+      {status?.instruction && <p class="instruction">{status.instruction}</p>}
+      {warnings.map((warning) => (
+        <p class="warning" key={warning}>
+          {warning}
+        </p>
+      ))}
+      <Figures
+        rows={[
+          [
+            'Simulation',
+            job.dip?.simulateJob ? (
+              <a href={`#/${job.dip.simulateJob}`}>{job.dip.simulateJob}</a>
+            ) : (
+              '–'
+            ),
+          ],
+          ['Depth', `${job.dip?.depthMm ?? '–'} mm`],
+          ['Speed', `${job.dip?.speedMmPerS ?? '–'} mm/s`],
+          status?.contactMm !== undefined && [
+            'First contact at',
+            `${status.contactMm.toFixed(2)} mm`,
+          ],
+          last !== undefined && ['Recorded', formatSeconds(last.t_s)],
+        ]}
+      />
+      {samples.length > 1 && <Chart samples={samples} />}
+      <Files results={results} />
+    </>
+  );
+}
+
+/** Where the axis was, over time; down is down. */
+function Chart({ samples }: { samples: Sample[] }) {
+  const t = samples.map((sample) => sample.t_s);
+  const at = samples.map((sample) => sample.position_mm);
+  const [t0, t1] = [t[0]!, t.at(-1)!];
+  const low = Math.min(...at);
+  const high = Math.max(...at);
+  const x = (s: number) => 40 + (350 * (s - t0)) / (t1 - t0 || 1);
+  const y = (mm: number) => 10 + (130 * (mm - low)) / (high - low || 1);
+  const step = Math.max(1, Math.floor(samples.length / 700));
+  const points = samples
+    .filter((_, i) => i % step === 0 || i === samples.length - 1)
+    .map((sample) => `${x(sample.t_s).toFixed(1)},${y(sample.position_mm).toFixed(1)}`);
+  return (
+    <svg
+      class="chart"
+      viewBox="0 0 400 165"
+      role="img"
+      aria-label={`Position over time: from ${low.toFixed(1)} to ${high.toFixed(1)} mm in ${formatSeconds(t1 - t0)}`}
+    >
+      <polyline points={points.join(' ')} />
+      <text x="36" y={y(low) + 4} text-anchor="end">
+        {low.toFixed(0)} mm
+      </text>
+      <text x="36" y={y(high) + 4} text-anchor="end">
+        {high.toFixed(0)} mm
+      </text>
+      <text x={x(t0)} y="160">
+        0 s
+      </text>
+      <text x={x(t1)} y="160" text-anchor="end">
+        {(t1 - t0).toFixed(0)} s
+      </text>
+    </svg>
+  );
+}

@@ -1,0 +1,244 @@
+import { useEffect, useMemo } from 'preact/hooks';
+import { jobs as api, newRequestId } from '../../api/services';
+import type { Job, JobInput, PrintImageSpecInput } from '../../api/types';
+import { beginnings } from '../../events';
+import { formatSeconds } from '../../model/units';
+import { go } from '../../route';
+import { forget, isFinished, known, refresh, remember } from '../../state/jobs';
+import { orComplain, say } from '../../state/notices';
+import { may, mayChange } from '../../state/session';
+import { secondsUntil } from '../../ui/clock';
+import { Button, Careful, Check } from '../../ui/controls';
+import { HowFar, kindOf, kindText, numberOf, State, When } from '../../ui/job_text';
+import { CalibrateView } from './calibrate_view';
+import { CaptureView } from './capture_view';
+import { DipView } from './dip_view';
+import { Files, Pictures } from './files';
+import { Results } from './results';
+import { SimulateView } from './simulate_view';
+
+export function JobScreen({ name }: { name: string }) {
+  useEffect(() => void refresh(name), [name, beginnings.value]);
+  const job = known.value.get(name);
+  if (!job)
+    return (
+      <>
+        <h1>Job {numberOf(name)}</h1>
+        <p class="quiet">
+          Asking for it… If it was deleted, or never was, <a href="#/jobs">the list</a> has those
+          that there are.
+        </p>
+      </>
+    );
+  return (
+    <article class="job">
+      <Head job={job} />
+      {isFinished(job) ? <Left job={job} key={job.state} /> : <Underway job={job} />}
+    </article>
+  );
+}
+
+function Head({ job }: { job: Job }) {
+  return (
+    <header>
+      <h1>
+        {job.displayName || job.name} <State state={job.state} />
+      </h1>
+      <p class="quiet">
+        Job {numberOf(job.name)}, {kindText(job)}, by {job.owner}, begun{' '}
+        <When time={job.createTime} />
+        {job.endTime && (
+          <>
+            , ended <When time={job.endTime} />
+          </>
+        )}
+        {job.cacheHit && ', the same as an earlier one'}
+        {job.retryOf && (
+          <>
+            , another try of <a href={`#/${job.retryOf}`}>{numberOf(job.retryOf)}</a>
+          </>
+        )}
+      </p>
+      <Actions job={job} />
+    </header>
+  );
+}
+
+function Actions({ job }: { job: Job }) {
+  const kind = kindOf(job);
+  const isDone = job.state === 'SUCCEEDED';
+  const mine = mayChange(job.owner);
+  const begin = async (spec: JobInput) => {
+    const made = orComplain(await api.create(spec, newRequestId()));
+    if (!made) return;
+    remember(made);
+    go(`/${made.name}`);
+  };
+  return (
+    <div class="row actions">
+      {kind === 'simulate' && isDone && may('MAKER') && (
+        <Button kind="primary" onPress={() => begin({ printImage: pagesOf(job) })}>
+          Make the PDF to print
+        </Button>
+      )}
+      {kind === 'simulate' && isDone && may('OPERATOR') && (
+        <a class="button" href={`#/rig?job=${numberOf(job.name)}`}>
+          Dip it
+        </a>
+      )}
+      {kind === 'printImage' && isDone && may('MAKER') && (
+        <Button onPress={() => begin({ print: { printImageJob: job.name } })}>
+          Print on the daemon's printer
+        </Button>
+      )}
+      {kind === 'simulate' && isDone && may('MAKER') && (
+        <Button onPress={() => begin({ template: { simulateJob: job.name } })}>
+          Placement page
+        </Button>
+      )}
+      {kind === 'simulate' && isFinished(job) && may('MAKER') && (
+        <a class="button" href={`#/?from=${job.name}`}>
+          Run again with changes
+        </a>
+      )}
+      {mine && !isFinished(job) && job.state !== 'CANCELLING' && (
+        <Careful
+          sure="Cancel it"
+          onPress={async () => {
+            const cancelled = orComplain(await api.cancel(job.name));
+            if (cancelled) remember(cancelled);
+          }}
+        >
+          Cancel
+        </Careful>
+      )}
+      {mine &&
+        isFinished(job) &&
+        !isDone &&
+        kind !== 'dip' &&
+        kind !== 'print' &&
+        kind !== 'capture' && (
+          <Button
+            onPress={async () => {
+              const again = orComplain(await api.retry(job.name, newRequestId()));
+              if (!again) return;
+              remember(again);
+              go(`/${again.name}`);
+            }}
+          >
+            Try again
+          </Button>
+        )}
+      {mine && isFinished(job) && <Keeping job={job} />}
+    </div>
+  );
+}
+
+/** Who else may see it, and whether it is kept. */
+function Keeping({ job }: { job: Job }) {
+  return (
+    <>
+      <Check
+        label="Shared with everyone"
+        value={job.shared}
+        onValue={(shared) =>
+          void api.share(job.name, shared).then((answer) => {
+            const changed = orComplain(answer);
+            if (changed) remember(changed);
+          })
+        }
+      />
+      <Careful
+        kind="plain"
+        sure="Delete it with its files"
+        onPress={async () => {
+          if (!orComplain(await api.remove(job.name))) return;
+          forget(job.name);
+          say('The job was deleted');
+          go('/jobs');
+        }}
+      >
+        Delete
+      </Careful>
+    </>
+  );
+}
+
+/** The pages as the printer was chosen when the print was begun. */
+function pagesOf(job: Job): PrintImageSpecInput {
+  const { paper, colours } = job.labels;
+  return {
+    simulateJob: job.name,
+    jobName: job.displayName,
+    ...(paper ? { paper } : {}),
+    ...(colours === 'COLOURS_CMYK' ? { colours } : {}),
+  };
+}
+
+function Underway({ job }: { job: Job }) {
+  const left = secondsUntil(job.etaTime);
+  if (kindOf(job) === 'dip') return <Left job={job} />;
+  return (
+    <section class="underway" role="status">
+      <HowFar job={job} />
+      {job.state === 'RUNNING' && left !== undefined && left > 0 && (
+        <p class="clock">
+          {formatSeconds(Math.ceil(left))}
+          <span class="quiet"> left</span>
+        </p>
+      )}
+      <p class="quiet">
+        You may leave this page: the job goes on, and this is where its result will be.
+      </p>
+    </section>
+  );
+}
+
+/** What the job left. */
+function Left({ job }: { job: Job }) {
+  const results = useMemo(() => new Results(job.name), [job.name]);
+  useEffect(() => results.loadReport(), [results, beginnings.value]);
+  const failure = results.failure.value;
+  return (
+    <>
+      {job.error && (
+        <p class="warning" role="alert">
+          {job.error.message}
+          <span class="quiet"> {job.error.reason}</span>
+        </p>
+      )}
+      {job.state === 'INTERRUPTED' && (
+        <p class="warning">
+          The daemon or the power was lost while this ran, and it is not begun again by itself.
+        </p>
+      )}
+      {failure && (
+        <p class="warning" role="alert">
+          {failure.what}. {failure.remedy}
+        </p>
+      )}
+      <Body job={job} results={results} />
+    </>
+  );
+}
+
+function Body({ job, results }: { job: Job; results: Results }) {
+  switch (kindOf(job)) {
+    case 'simulate':
+      return job.state === 'SUCCEEDED' ? <SimulateView results={results} /> : null;
+    case 'dip':
+      return <DipView job={job} results={results} />;
+    case 'capture':
+      return <CaptureView results={results} />;
+    case 'calibrate':
+    case 'calibrateCamera':
+      return <CalibrateView job={job} results={results} />;
+    default:
+      return (
+        <>
+          <Files results={results} />
+          <Pictures results={results} />
+        </>
+      );
+  }
+}

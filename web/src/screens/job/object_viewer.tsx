@@ -1,0 +1,207 @@
+/** The dipped object in 3D. */
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { Scale } from '../../model/colour_map';
+import { placeOf, type Warning } from '../../model/report';
+import { rotate, type Quaternion } from '../../model/pose';
+import { placesOf } from '../../model/surface_map';
+import { Switch } from '../../ui/controls';
+import { Legend } from '../../ui/legend';
+import type { Mode, ResultView, Start } from '../../view3d/result_view';
+import type { Side } from '../../view3d/stage';
+import type { Results } from './results';
+
+interface Props {
+  results: Results;
+  /** The warning that is pointed at. */
+  pointed: Warning | undefined;
+  /** Given the view once it is there, for what else it can draw. */
+  onView?: (view: ResultView) => void;
+}
+
+/** How the object hangs at first contact, its lowest point on the water. */
+export function startOf(results: Results): Start | undefined {
+  const pose = results.report.value?.parameters?.pose;
+  const map = results.map.value;
+  if (!pose || !map) return undefined;
+  const [w = 1, x = 0, y = 0, z = 0] = pose.rotation_wxyz;
+  const rotation: Quaternion = [w, x, y, z];
+  const ups = (
+    [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ] as const
+  ).map((axis) => rotate(rotation, axis)[2]);
+  let lowest = Infinity;
+  const { positions } = map;
+  for (let i = 0; i < positions.length; i += 3)
+    lowest = Math.min(
+      lowest,
+      ups[0]! * positions[i]! + ups[1]! * positions[i + 1]! + ups[2]! * positions[i + 2]!,
+    );
+  const [tx = 0, ty = 0] = pose.translation_mm;
+  return { rotation, translation_mm: [tx, ty, -lowest] };
+}
+
+/** The largest stretch on the scale: where the film tears. */
+const tearOf = (results: Results): number =>
+  results.report.value?.parameters?.profile?.tear_stretch ?? 3;
+
+export function ObjectViewer({ results, pointed, onView }: Props) {
+  const host = useRef<HTMLDivElement>(null);
+  const [view, setView] = useState<ResultView>();
+  const [trouble, setTrouble] = useState('');
+  const [mode, setMode] = useState<Mode>('predicted');
+  const [time, setTime] = useState(Infinity);
+  const map = results.map.value;
+  const film = results.film.value;
+
+  useEffect(() => {
+    results.loadMap();
+    results.loadFilm();
+  }, [results]);
+
+  useEffect(() => {
+    const start = startOf(results);
+    const shape = results.filmShape();
+    if (!map || !start || !shape) return undefined;
+    let made: ResultView | undefined;
+    let isGone = false;
+    void import('../../view3d/result_view').then(({ ResultView: View }) => {
+      if (isGone || !host.current) return;
+      const speed = results.report.value?.parameters?.dip_speed_mm_per_s ?? 5;
+      try {
+        made = new View(host.current, map, start, shape, speed);
+      } catch {
+        setTrouble(
+          'This browser shows no 3D (WebGL is off or missing); see the pictures under Files.',
+        );
+        return;
+      }
+      setView(made);
+    });
+    return () => {
+      isGone = true;
+      made?.dispose();
+      setView(undefined);
+    };
+  }, [map]);
+
+  useEffect(() => {
+    if (!view || !film) return;
+    view.setPicture(film.picture);
+    onView?.(view);
+  }, [view, film]);
+
+  const tear = tearOf(results);
+  const stretch: Scale = { map: 'viridis', min: 1, max: tear, log: true };
+  const contact: Scale = { map: 'cividis', min: 0, max: map?.contactMax_s || 1 };
+  const end_s = map?.contactMax_s ?? 0;
+  const shown_s = Math.min(time, end_s);
+  useEffect(() => {
+    if (!view || !map) return;
+    if (mode === 'predicted') view.showPredicted();
+    if (mode === 'stretch') view.showValues(map.stretch, stretch);
+    if (mode === 'contact') view.showContact(shown_s, contact);
+  }, [view, mode, shown_s]);
+
+  useEffect(() => {
+    const start = startOf(results);
+    if (!view || !map || !start) return;
+    const place = pointed && placeOf(pointed.where);
+    const up = (v: readonly [number, number, number]) => rotate(start.rotation, v)[2];
+    view.point(pointed && !place ? placesOf(pointed.code, map, { tear }, up) : [], place);
+  }, [view, pointed]);
+
+  return (
+    <div class="view3d">
+      <div class="stage" ref={host} role="img" aria-label={`The object, ${kWords[mode]}`} />
+      {!view && !trouble && <p class="quiet waiting">Fetching the surface map…</p>}
+      {trouble && <p class="trouble">{trouble}</p>}
+      <div class="tools">
+        <Switch<Mode>
+          label="What is shown"
+          value={mode}
+          onValue={setMode}
+          choices={[
+            { value: 'predicted', label: 'As predicted' },
+            { value: 'stretch', label: 'Stretch' },
+            { value: 'contact', label: 'Contact time' },
+          ]}
+        />
+        <span class="group" role="group" aria-label="Look from">
+          {(['corner', 'front', 'right', 'top', 'below'] as const).map((side: Side) => (
+            <button type="button" class="plain" key={side} onClick={() => view?.look(side)}>
+              {side[0]!.toUpperCase() + side.slice(1)}
+            </button>
+          ))}
+        </span>
+      </div>
+      {mode === 'stretch' && (
+        <Legend
+          title="Stretch of the film"
+          unit="times"
+          scale={stretch}
+          values={[1, 1.3, 1.6, 2, 2.5, 3, 4, 6].filter((value) => value < tear).concat(tear)}
+          beyond="the film tears"
+        />
+      )}
+      {mode === 'contact' && map && (
+        <>
+          <Player end_s={end_s} time_s={shown_s} onTime={setTime} />
+          <Legend title="When the water gets there" unit="s" scale={contact} />
+        </>
+      )}
+    </div>
+  );
+}
+
+const kWords: Record<Mode, string> = {
+  predicted: 'as it will look after the dip',
+  stretch: 'coloured by how far the film is stretched',
+  contact: 'coloured by when the water gets there',
+};
+
+/** Lets the waterline rise. */
+function Player(props: { end_s: number; time_s: number; onTime: (time_s: number) => void }) {
+  const { end_s, time_s, onTime } = props;
+  const [isPlaying, setPlaying] = useState(false);
+  const at = useRef(time_s);
+  at.current = time_s;
+  useEffect(() => {
+    if (!isPlaying) return undefined;
+    let frame = 0;
+    let last = performance.now();
+    const step = (now: number) => {
+      const next = at.current + (now - last) / 1000;
+      last = now;
+      onTime(Math.min(next, end_s));
+      if (next < end_s) frame = requestAnimationFrame(step);
+      else setPlaying(false);
+    };
+    frame = requestAnimationFrame(step);
+    return () => cancelAnimationFrame(frame);
+  }, [isPlaying]);
+  const toggle = () => {
+    if (!isPlaying && time_s >= end_s) onTime(0);
+    setPlaying(!isPlaying);
+  };
+  return (
+    <div class="player">
+      <button type="button" onClick={toggle}>
+        {isPlaying ? 'Pause' : 'Play'}
+      </button>
+      <input
+        type="range"
+        min={0}
+        max={Math.ceil(10 * end_s) / 10}
+        step={0.1}
+        value={time_s}
+        aria-label="Time of the dip"
+        aria-valuetext={`${time_s.toFixed(1)} s`}
+        onInput={(event) => onTime(Number(event.currentTarget.value))}
+      />
+      <span class="readout">{time_s.toFixed(1)} s</span>
+    </div>
+  );
+}

@@ -1,0 +1,166 @@
+/** What somebody is about to print: kept with its files over a reload, until it is submitted. */
+import { batch, computed, effect, signal } from '@preact/signals';
+import { jobs as jobsApi } from '../../api/services';
+import type { InputFile, Job, JobInput, SimulateSpec, SimulateSpecInput } from '../../api/types';
+import { filmOf, type Film } from '../../model/film';
+import { centreOf, longestOf, type Box, type Mesh } from '../../model/mesh';
+import { fromApi, kUpright, toApi, type Pose, type Vec3 } from '../../model/pose';
+import { done, refused, type Result } from '../../model/result';
+import { load, save } from '../../state/store';
+
+/** What is chosen; plain values and files, as the browser's database takes them. */
+export interface Draft {
+  /** Dropped here; none if the job's own are taken. */
+  files: File[];
+  /** The job that is run again with changes, and what it was made of. */
+  from?: { job: string; spec: SimulateSpec };
+  name: string;
+  scale: number;
+  pose: Pose;
+  /** "calibrations/7": hangs as was measured, instead of `pose`. */
+  calibration: string;
+  film: string;
+  dpi: number;
+  paper: string;
+  colours: 'COLOURS_RGB' | 'COLOURS_CMYK';
+  model: 'MODEL_SHEET' | 'MODEL_STOKES';
+  /** Not set: all of it. */
+  depth_mm?: number;
+  speed_mm_per_s: number;
+  /** The same request twice makes one job; a new one with every change. */
+  requestId: string;
+}
+
+export const kEmpty: Draft = {
+  files: [],
+  name: '',
+  scale: 1,
+  pose: kUpright,
+  calibration: '',
+  film: 'A4',
+  dpi: 300,
+  paper: 'A4',
+  colours: 'COLOURS_RGB',
+  model: 'MODEL_SHEET',
+  speed_mm_per_s: 5,
+  requestId: '',
+};
+
+/** The model as it was read, in its own units. */
+export interface Shape {
+  mesh: Mesh;
+  box: Box;
+}
+
+export const draft = signal<Draft>(kEmpty);
+export const shape = signal<Shape | undefined>(undefined);
+
+export const change = (part: Partial<Draft>): void => {
+  draft.value = { ...draft.value, requestId: crypto.randomUUID(), ...part };
+};
+
+export const film = computed<Film>(() => filmOf(draft.value.film) ?? filmOf('A4')!);
+
+/** Centre of the object's box in its own frame, mm. */
+export const centre_mm = computed<Vec3>(() => {
+  const { scale } = draft.value;
+  const [x, y, z] = shape.value ? centreOf(shape.value.box) : [0, 0, 0];
+  return [x * scale, y * scale, z * scale];
+});
+
+/** Longest side of the object's box, mm. */
+export const longest_mm = computed(() =>
+  shape.value ? longestOf(shape.value.box) * draft.value.scale : 0,
+);
+
+const kDraftKey = 'new-print';
+
+/** Brings back what was begun; then keeps every change. */
+export async function restore(): Promise<void> {
+  const kept = await load<Draft>(kDraftKey);
+  if (kept) draft.value = { ...kEmpty, ...kept };
+  let timer = 0;
+  effect(() => {
+    const value = draft.value;
+    window.clearTimeout(timer);
+    timer = window.setTimeout(() => void save(kDraftKey, value), 200);
+  });
+}
+
+/** A first size for a model whose unit is not known: as it is if that can be dipped, else 100 mm. */
+export const firstScale = (box: Box): number => {
+  const longest = longestOf(box);
+  return longest >= 15 && longest <= 400 ? 1 : Number((100 / longest).toPrecision(4));
+};
+
+export function clear(): void {
+  batch(() => {
+    shape.value = undefined;
+    draft.value = { ...kEmpty };
+  });
+}
+
+/** Begins with what a job was made of. Its model's shape is brought by whoever shows it. */
+export async function startFrom(name: string): Promise<Result<Job>> {
+  const answer = await jobsApi.get(name);
+  if (!answer.ok) return answer;
+  const { simulate: spec, labels } = answer.value;
+  if (!spec) return refused(`${name} is no simulation`, 'Run one again from its own page');
+  batch(() => {
+    shape.value = undefined;
+    draft.value = {
+      ...kEmpty,
+      from: { job: name, spec },
+      name: answer.value.displayName,
+      scale: spec.scale ?? 1,
+      film: spec.film ?? 'A4',
+      dpi: spec.dpi ?? 300,
+      paper: labels['paper'] ?? kEmpty.paper,
+      colours: labels['colours'] === 'COLOURS_CMYK' ? 'COLOURS_CMYK' : 'COLOURS_RGB',
+      model: spec.model === 'MODEL_STOKES' ? 'MODEL_STOKES' : 'MODEL_SHEET',
+      speed_mm_per_s: spec.dipSpeedMmPerS ?? 5,
+      ...(spec.depthMm ? { depth_mm: spec.depthMm } : {}),
+      requestId: crypto.randomUUID(),
+    };
+  });
+  return done(answer.value);
+}
+
+/** Takes over where the job's object hung, once its shape is known. */
+export function takePoseOfJob(): void {
+  const { from } = draft.value;
+  const pose = fromApi(from?.spec.pose, centre_mm.value);
+  if (pose) change({ pose });
+}
+
+/** What of the job's files is used as it is, and what was uploaded in its place. */
+export interface Inputs {
+  mesh: InputFile;
+  texture?: InputFile;
+  extraFiles: InputFile[];
+  profile?: InputFile;
+}
+
+/** The job that is asked for. */
+export function jobOf(
+  value: Draft,
+  inputs: Inputs,
+  box_mm: Vec3,
+): JobInput & { simulate: SimulateSpecInput } {
+  const measured = value.calibration !== '';
+  const simulate: SimulateSpecInput = {
+    ...inputs,
+    ...(measured
+      ? { calibration: value.calibration }
+      : { scale: value.scale, pose: toApi(value.pose, box_mm), film: value.film }),
+    dpi: value.dpi,
+    model: value.model,
+    dipSpeedMmPerS: value.speed_mm_per_s,
+    ...(value.depth_mm ? { depthMm: value.depth_mm } : {}),
+  };
+  return {
+    displayName: value.name,
+    labels: { paper: value.paper, colours: value.colours },
+    simulate,
+  };
+}

@@ -1,0 +1,78 @@
+import { useEffect, useState } from 'preact/hooks';
+import { route } from '../../route';
+import { orComplain } from '../../state/notices';
+import { may } from '../../state/session';
+import { refreshCalibrations } from './calibration';
+import { clear, draft, restore, shape, startFrom } from './draft';
+import { shapeOfJob } from './from_job';
+import { Intake, Taken, useDrop } from './intake_panel';
+import { isReading, problems, reread } from './intake';
+import { ObjectView } from './object_view';
+import { PosePanel } from './pose_panel';
+import { FilmPanel, MorePanel } from './settings_panel';
+import { PreviewPanel } from './preview_panel';
+import { Submit } from './submit_panel';
+
+let isRestored = false;
+
+/** Brings back what was begun, or begins with the job that the address names. */
+async function prepare(from: string | null): Promise<void> {
+  if (!isRestored) await restore();
+  isRestored = true;
+  if (from && draft.value.from?.job !== from) {
+    if (!orComplain(await startFrom(from))) return;
+  }
+  if (draft.value.files.length > 0) await reread();
+  else if (draft.value.from) orComplain(await shapeOfJob(draft.value.from.job));
+}
+
+export function NewPrint() {
+  const from = route.value.query.get('from');
+  const [isReady, setReady] = useState(false);
+  useEffect(() => {
+    void prepare(from).then(() => setReady(true));
+    void refreshCalibrations();
+  }, [from]);
+
+  const isOver = useDrop();
+  const hasObject = shape.value !== undefined;
+  return (
+    <div class="new-print">
+      <h1 class="hidden">New print</h1>
+      <div class={`scene ${isOver ? 'over' : ''}`}>
+        {hasObject ? <ObjectView /> : <Intake isBusy={!isReady || isReading.value} />}
+      </div>
+      <div class="panel">
+        {!may('MAKER') && (
+          <p class="note">
+            You may look, but not submit: ask whoever looks after this machine to make you a maker.
+          </p>
+        )}
+        {hasObject || problems.value.length > 0 ? <Taken /> : <HowItGoes />}
+        <PosePanel />
+        {hasObject && <PreviewPanel />}
+        <FilmPanel />
+        <MorePanel />
+        {hasObject && <Submit />}
+        {(hasObject || draft.value.files.length > 0 || draft.value.from) && (
+          <button type="button" class="plain" onClick={clear}>
+            Start over
+          </button>
+        )}
+      </div>
+    </div>
+  );
+}
+
+/** For whoever is here for the first time. */
+const HowItGoes = () => (
+  <section>
+    <h2>How it goes</h2>
+    <ol>
+      <li>Drop a model, see it above the film, and turn it the way it will hang.</li>
+      <li>The film image is computed: distorted so that it fits once the film has stretched.</li>
+      <li>Print it on film, and dip: the rig leads you through, one step at a time.</li>
+    </ol>
+    <p class="quiet">Nothing is printed and nothing moves before you say so.</p>
+  </section>
+);

@@ -1,0 +1,144 @@
+/** Takes the files that are dropped: sorts them, reads the model, and says of each that is refused why. */
+import { batch, signal } from '@preact/signals';
+import {
+  arrange,
+  contradiction,
+  nameFor,
+  roleOf,
+  type Arrangement,
+  type Role,
+} from '../../model/files';
+import { refused, type Result } from '../../model/result';
+import { readMesh } from '../../worker/reader';
+import { change, draft, firstScale, shape } from './draft';
+
+/** What was not taken, and what is missing; in words. */
+export const problems = signal<{ name: string; why: string }[]>([]);
+export const arrangement = signal<Arrangement<File>>(arrange([], [], []));
+export const isReading = signal(false);
+
+const withRole = (files: readonly File[], role: Role) =>
+  files.filter((file) => roleOf(file.name) === role);
+
+/** The model among the files. */
+export const meshOf = (files: readonly File[]): File | undefined => withRole(files, 'mesh')[0];
+export const profileOf = (files: readonly File[]): File | undefined =>
+  withRole(files, 'profile')[0];
+
+/** Adds files to the draft. A model takes the place of the one before, with all that belonged to it. */
+export async function take(dropped: readonly File[]): Promise<void> {
+  const good: File[] = [];
+  const bad: { name: string; why: string }[] = [];
+  for (const file of dropped) {
+    const why = await whyNot(file);
+    if (why) bad.push({ name: file.name, why });
+    else good.push(file);
+  }
+  const meshes = withRole(good, 'mesh');
+  for (const extra of meshes.slice(1))
+    bad.push({ name: extra.name, why: 'one object is dipped at a time. Drop it alone' });
+  problems.value = bad;
+  const usable = good.filter((file) => !meshes.slice(1).includes(file));
+  if (usable.length === 0) return;
+  const { files } = draft.value;
+  const kept = meshes.length > 0 ? withRole(files, 'profile') : files;
+  // A picture that is dropped by itself is the new texture: the older ones that nothing names go.
+  const images = withRole(usable, 'image');
+  const stale = images.length > 0 && arrangement.value.texture;
+  const merged = [
+    ...usable,
+    ...kept.filter((file) => file !== stale && !usable.some((other) => other.name === file.name)),
+  ];
+  await readAll(merged, meshes.length > 0, bad);
+}
+
+/** Reads again what a reload brought back. */
+export const reread = (): Promise<void> => readAll(draft.value.files, false, []);
+
+async function whyNot(file: File): Promise<string | undefined> {
+  const role = roleOf(file.name);
+  if (typeof role !== 'string') return role.why;
+  const head = await file
+    .slice(0, 4096)
+    .arrayBuffer()
+    .catch(() => undefined);
+  if (!head) return 'it cannot be read. If it is a folder, drop the files in it';
+  return contradiction(role, file.name, new Uint8Array(head));
+}
+
+async function readAll(
+  files: File[],
+  isNew: boolean,
+  bad: { name: string; why: string }[],
+): Promise<void> {
+  isReading.value = true;
+  const mesh = meshOf(files);
+  const read = mesh && (await readMesh(mesh));
+  const mtl = await Promise.all(
+    withRole(files, 'material').map(async (file) => ({ file, text: await file.text() })),
+  );
+  isReading.value = false;
+  if (mesh && read && !read.ok) {
+    const { what, remedy } = read.failure;
+    problems.value = [...bad, { name: mesh.name, why: remedy ? `${what}. ${remedy}` : what }];
+    return;
+  }
+  const { from } = draft.value;
+  batch(() => {
+    const libraries = read?.ok ? read.value.mesh.libraries : [];
+    arrangement.value = arrange(libraries, mtl, withRole(files, 'image'));
+    problems.value = [
+      ...bad,
+      ...(read ? arrangement.value.missing : []).map((name) => ({
+        name,
+        why: 'it is named, but not here. Drop it too, or drop a picture to take in its place',
+      })),
+    ];
+    if (read?.ok) shape.value = read.value;
+    if (isNew && mesh && read?.ok) {
+      const { from: _, ...rest } = draft.value;
+      draft.value = { ...rest, files };
+      change({ name: mesh.name.replace(/\.\w+$/, ''), scale: firstScale(read.value.box) });
+    } else {
+      change({ files, ...(from ? { from } : {}) });
+    }
+  });
+}
+
+interface Sample {
+  name: string;
+  label: string;
+}
+
+export async function samples(): Promise<Sample[]> {
+  const response = await fetch('/samples.json').catch(() => undefined);
+  return response?.ok ? ((await response.json()) as Sample[]) : [];
+}
+
+/** Fetches a sample and takes it like dropped files. */
+export async function takeSample(name: string): Promise<Result<void>> {
+  const files: File[] = [];
+  for (const ending of ['obj', 'mtl', 'png']) {
+    const response = await fetch(`/samples/${name}.${ending}`).catch(() => undefined);
+    if (!response?.ok)
+      return refused('the sample cannot be fetched', 'Try again, or drop a model of your own');
+    files.push(new File([await response.blob()], `${name}.${ending}`));
+  }
+  await take(files);
+  return { ok: true, value: undefined };
+}
+
+/** The draft's files with the names that the job sees, and what each is there. */
+export function inputsOf(
+  files: readonly File[],
+): { role: 'mesh' | 'texture' | 'extra' | 'profile'; name: string; file: File }[] {
+  const { extra, texture } = arrangement.value;
+  const mesh = meshOf(files);
+  const profile = profileOf(files);
+  return [
+    ...(mesh ? [{ role: 'mesh' as const, name: nameFor(mesh, []), file: mesh }] : []),
+    ...(texture ? [{ role: 'texture' as const, name: nameFor(texture, []), file: texture }] : []),
+    ...extra.map(({ name, file }) => ({ role: 'extra' as const, name, file })),
+    ...(profile ? [{ role: 'profile' as const, name: nameFor(profile, []), file: profile }] : []),
+  ];
+}

@@ -1,0 +1,150 @@
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { formatBytes, formatMm } from '../../model/units';
+import { Button, NumberField } from '../../ui/controls';
+import { Icon } from '../../ui/icon';
+import { orComplain } from '../../state/notices';
+import { change, draft, longest_mm, shape } from './draft';
+import { isReading, problems, samples, take, takeSample } from './intake';
+
+const kEndings = '.obj,.mtl,.ply,.stl,.png,.jpg,.jpeg,.tif,.tiff,.toml';
+
+function Browse({ label }: { label: string }) {
+  const input = useRef<HTMLInputElement>(null);
+  return (
+    <>
+      <input
+        ref={input}
+        type="file"
+        multiple
+        accept={kEndings}
+        hidden
+        onChange={(event) => {
+          const { files } = event.currentTarget;
+          if (files) void take([...files]);
+          event.currentTarget.value = '';
+        }}
+      />
+      <button type="button" onClick={() => input.current?.click()}>
+        {label}
+      </button>
+    </>
+  );
+}
+
+/** Files may be dropped anywhere on the page. */
+export function useDrop(): boolean {
+  const [isOver, setOver] = useState(false);
+  useEffect(() => {
+    const over = (event: DragEvent) => {
+      if (!event.dataTransfer?.types.includes('Files')) return;
+      event.preventDefault();
+      setOver(true);
+    };
+    const leave = (event: DragEvent) => {
+      if (!event.relatedTarget) setOver(false);
+    };
+    const drop = (event: DragEvent) => {
+      event.preventDefault();
+      setOver(false);
+      const files = event.dataTransfer?.files;
+      if (files && files.length > 0) void take([...files]);
+    };
+    window.addEventListener('dragover', over);
+    window.addEventListener('dragleave', leave);
+    window.addEventListener('drop', drop);
+    return () => {
+      window.removeEventListener('dragover', over);
+      window.removeEventListener('dragleave', leave);
+      window.removeEventListener('drop', drop);
+    };
+  }, []);
+  return isOver;
+}
+
+/** The first thing there is to do. */
+export function Intake({ isBusy }: { isBusy: boolean }) {
+  const [ready, setReady] = useState<{ name: string; label: string }[]>([]);
+  useEffect(() => void samples().then(setReady), []);
+  return (
+    <div class="intake">
+      <h2>{isBusy ? 'Reading…' : 'Drop a model here'}</h2>
+      <p>
+        The object to print on, as OBJ, PLY or STL, with its picture (PNG or JPEG; for an OBJ its
+        MTL, too).
+      </p>
+      <Browse label="Choose files" />
+      {ready.length > 0 && (
+        <p class="samples">
+          Or try a sample:{' '}
+          {ready.map(({ name, label }) => (
+            <Button key={name} onPress={async () => orComplain(await takeSample(name))}>
+              {label}
+            </Button>
+          ))}
+        </p>
+      )}
+    </div>
+  );
+}
+
+/** What was taken, how large it is, and what was refused. */
+export function Taken() {
+  const { files, from, scale } = draft.value;
+  const hasAny = files.length > 0 || from;
+  return (
+    <section aria-labelledby="object-title">
+      <h2 id="object-title">1 Object</h2>
+      {from && files.length === 0 && <p>As in {from.job.replace('jobs/', 'job ')}</p>}
+      {files.length > 0 && (
+        <ul class="files">
+          {files.map((file) => (
+            <li key={file.name}>
+              <span class="name">{file.name}</span>
+              <span class="quiet">{formatBytes(file.size)}</span>
+            </li>
+          ))}
+        </ul>
+      )}
+      {isReading.value && <p role="status">Reading the model…</p>}
+      {problems.value.length > 0 && (
+        <div role="alert">
+          <ul class="problems">
+            {problems.value.map(({ name, why }) => (
+              <li key={name}>
+                <Icon name="warning" /> <b>{name}</b>: {why}.
+              </li>
+            ))}
+          </ul>
+        </div>
+      )}
+      {hasAny && <Browse label="Add or replace files" />}
+      {shape.value && (
+        <div class="row">
+          <NumberField
+            label="Longest side"
+            unit="mm"
+            value={longest_mm.value}
+            min={1}
+            max={2000}
+            onValue={(value) => change({ scale: (scale * value) / longest_mm.value })}
+          />
+          <NumberField
+            label="One unit is"
+            unit="mm"
+            digits={4}
+            value={scale}
+            min={0.000002}
+            max={100000}
+            onValue={(value) => change({ scale: value })}
+          />
+        </div>
+      )}
+      {shape.value && scale !== 1 && files.length > 0 && (
+        <p class="quiet">
+          In its own units the model would be {formatMm(longest_mm.value / scale)} long. Check its
+          size.
+        </p>
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,170 @@
+/** The object over the film in 3D; that part of the program is fetched when there is something to show. */
+import { computed, effect, signal } from '@preact/signals';
+import { useEffect, useRef, useState } from 'preact/hooks';
+import type { PoseView, Gizmo, Look } from '../../view3d/pose_view';
+import type { Side } from '../../view3d/stage';
+import { colourOf, place, type Scale } from '../../model/colour_map';
+import { Switch } from '../../ui/controls';
+import { Legend } from '../../ui/legend';
+import { calibrated } from './calibration';
+import { change, draft, film, shape } from './draft';
+import { arrangement } from './intake';
+import { shown, type Shown } from './preview';
+
+const gizmo = signal<Gizmo>('rotate');
+const coat = signal<'picture' | 'stretch'>('picture');
+const kStretch: Scale = { map: 'viridis', min: 1, max: 3, log: true };
+// Apart from the rest of the draft, so that the mesh is not built anew while it is turned.
+const scale = computed(() => draft.value.scale);
+const pose = computed(() => calibrated.value?.pose ?? draft.value.pose);
+
+/** Pictures by file; what this browser cannot show (TIFF) is left out. */
+async function pictures(): Promise<Map<File, ImageBitmap>> {
+  const { materials, texture } = arrangement.value;
+  const out = new Map<File, ImageBitmap>();
+  const files = [texture, ...[...materials.values()].map((material) => material.file)];
+  for (const file of files) {
+    if (!file || out.has(file)) continue;
+    const bitmap = await createImageBitmap(file).catch(() => undefined);
+    if (bitmap) out.set(file, bitmap);
+  }
+  return out;
+}
+
+function lookOf(material: string, ready: Map<File, ImageBitmap>): Look {
+  const { materials, texture } = arrangement.value;
+  const known = materials.get(material);
+  const file = texture ?? known?.file;
+  const picture = file && ready.get(file);
+  if (picture) return { colour: [1, 1, 1], picture };
+  return { colour: known?.colour ?? [0.85, 0.85, 0.85] };
+}
+
+export function ObjectView() {
+  const host = useRef<HTMLDivElement>(null);
+  const view = useRef<PoseView>();
+  const [trouble, setTrouble] = useState('');
+
+  useEffect(() => {
+    let isGone = false;
+    let end = () => {};
+    void import('../../view3d/pose_view').then(({ PoseView: View }) => {
+      if (isGone || !host.current) return;
+      try {
+        view.current = new View(host.current, (turned) => change({ pose: turned }));
+      } catch {
+        setTrouble(
+          'This browser shows no 3D (WebGL is off or missing). Turn the object by numbers; all else works.',
+        );
+        return;
+      }
+      end = follow(view.current);
+    });
+    return () => {
+      isGone = true;
+      end();
+      view.current?.dispose();
+      view.current = undefined;
+    };
+  }, []);
+
+  const look = (side: Side) => view.current?.look(side, film.value);
+  return (
+    <div class="view3d">
+      <div
+        class="stage"
+        ref={host}
+        role="img"
+        aria-label="The object above the film, in 3D. Turn and move it with the fields beside it."
+      />
+      {trouble && <p class="trouble">{trouble}</p>}
+      <div class="tools">
+        <Switch<Gizmo>
+          label="What dragging does"
+          value={gizmo.value}
+          onValue={(value) => (gizmo.value = value)}
+          choices={[
+            { value: 'rotate', label: 'Turn' },
+            { value: 'translate', label: 'Move' },
+            { value: 'none', label: 'Look' },
+          ]}
+        />
+        {shown.value && (
+          <Switch<'picture' | 'stretch'>
+            label="What the object wears"
+            value={coat.value}
+            onValue={(value) => (coat.value = value)}
+            choices={[
+              { value: 'picture', label: 'Picture' },
+              { value: 'stretch', label: 'Stretch' },
+            ]}
+          />
+        )}
+        <span class="group" role="group" aria-label="Look from">
+          {(['corner', 'front', 'right', 'top', 'below'] as const).map((side) => (
+            <button type="button" class="plain" key={side} onClick={() => look(side)}>
+              {side[0]!.toUpperCase() + side.slice(1)}
+            </button>
+          ))}
+        </span>
+      </div>
+      {shown.value && coat.value === 'stretch' && (
+        <Legend
+          title="Stretch of the film, estimated"
+          unit="times"
+          scale={kStretch}
+          values={[1, 1.3, 1.6, 2, 2.5, 3]}
+          beyond="most films tear"
+        />
+      )}
+    </div>
+  );
+}
+
+/** The preview's heat map. */
+function heatOf({ positions, corners, stretch }: Shown) {
+  const colours = new Uint8Array(positions.length);
+  for (let i = 0; i < stretch.length; i += 1)
+    colours.set(colourOf(kStretch.map, place(kStretch, stretch[i]!)), 3 * i);
+  return { positions, corners, colours };
+}
+
+/** Shows what is chosen, as it changes. */
+function follow(view: PoseView): () => void {
+  let count = 0;
+  const ends = [
+    effect(() => {
+      view.setFilm(film.value);
+    }),
+    effect(() => {
+      const now = shape.value;
+      const factor = scale.value;
+      void arrangement.value;
+      count += 1;
+      const turn = count;
+      if (!now) return view.clear();
+      return void pictures().then((ready) => {
+        if (turn !== count) return;
+        view.setMesh(now.mesh, now.box, factor, (material) => lookOf(material, ready));
+        view.setPose(pose.peek());
+        view.setHeat(shown.value && coat.peek() === 'stretch' ? heatOf(shown.value) : undefined);
+      });
+    }),
+    effect(() => {
+      view.setPose(pose.value);
+    }),
+    effect(() => {
+      view.setGizmo(calibrated.value ? 'none' : gizmo.value);
+    }),
+    effect(() => {
+      view.setHeat(shown.value && coat.value === 'stretch' ? heatOf(shown.value) : undefined);
+    }),
+    // Again from afar when there is another object or film, not while it is turned.
+    effect(() => {
+      void shape.value;
+      void scale.value;
+      view.look('corner', film.value);
+    }),
+  ];
+  return () => ends.forEach((end) => end());
+}

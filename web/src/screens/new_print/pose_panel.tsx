@@ -1,0 +1,121 @@
+import { fromAngles, kUpright, product, toAngles, turn, type Vec3 } from '../../model/pose';
+import { formatMm } from '../../model/units';
+import { Choice, NumberField } from '../../ui/controls';
+import { calibrated, calibrations, staleness } from './calibration';
+import { change, draft, shape } from './draft';
+
+const kAxes = ['x', 'y', 'z'] as const;
+
+/** How the object hangs: by numbers, by quarter turns, or as a calibration measured it. */
+export function PosePanel() {
+  if (!shape.value) return null;
+  return (
+    <section aria-labelledby="pose-title">
+      <h2 id="pose-title">2 How it hangs</h2>
+      <From />
+      {calibrated.value ? <Measured /> : <ByHand />}
+    </section>
+  );
+}
+
+function From() {
+  if (calibrations.value.length === 0) return null;
+  return (
+    <Choice
+      label="Pose"
+      value={draft.value.calibration}
+      onValue={(calibration) => change({ calibration })}
+      choices={[
+        { value: '', label: 'By hand' },
+        ...calibrations.value.map((one) => ({
+          value: one.name,
+          label: `Measured: ${one.displayName || one.name}${one.active ? ' (active)' : ''}`,
+        })),
+      ]}
+    />
+  );
+}
+
+function Measured() {
+  const { calibration } = calibrated.value!;
+  const why = staleness(calibration);
+  return (
+    <>
+      <p>
+        The calibration gives pose, film and scale
+        {calibration.errorP95Mm !== undefined &&
+          `; it is good to ${formatMm(calibration.errorP95Mm, 2)} for 95 % of the surface`}
+        .
+      </p>
+      {why && (
+        <p class="warning">
+          It does not hold any more: {why}. Measure again ("hydroprint calibrate"), or turn by hand.
+        </p>
+      )}
+    </>
+  );
+}
+
+function ByHand() {
+  const { pose } = draft.value;
+  const angles = toAngles(pose.rotation);
+  const setAngle = (axis: number, degrees: number) => {
+    const next = angles.map((angle, i) => (i === axis ? degrees : angle)) as unknown as Vec3;
+    change({ pose: { ...pose, rotation: fromAngles(next) } });
+  };
+  const move = (axis: 0 | 1, mm: number) =>
+    change({
+      pose: { ...pose, centre_mm: axis === 0 ? [mm, pose.centre_mm[1]] : [pose.centre_mm[0], mm] },
+    });
+  return (
+    <>
+      <div class="row">
+        {kAxes.map((axis, i) => (
+          <NumberField
+            key={axis}
+            label={`Turn about ${axis}`}
+            unit="°"
+            value={angles[i]}
+            min={-360}
+            max={360}
+            onValue={(value) => setAngle(i, value)}
+          />
+        ))}
+      </div>
+      <div class="row">
+        {kAxes.map((axis) => (
+          <button
+            type="button"
+            key={axis}
+            onClick={() =>
+              change({ pose: { ...pose, rotation: product(turn(axis, 90), pose.rotation) } })
+            }
+          >
+            +90° about {axis}
+          </button>
+        ))}
+      </div>
+      <div class="row">
+        <NumberField
+          label="To the right"
+          unit="mm"
+          value={pose.centre_mm[0]}
+          min={-1000}
+          max={1000}
+          onValue={(mm) => move(0, mm)}
+        />
+        <NumberField
+          label="To the top"
+          unit="mm"
+          value={pose.centre_mm[1]}
+          min={-1000}
+          max={1000}
+          onValue={(mm) => move(1, mm)}
+        />
+        <button type="button" onClick={() => change({ pose: kUpright })}>
+          As in the file
+        </button>
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,186 @@
+/**
+ * The quick simulation while an object is turned: how far the film reaches and stretches, and what to heed, well
+ * under a second after the last change. All that the page knows of it is here. Until a preview came, nothing of it
+ * is shown; that none comes is no failure.
+ */
+import { computed, effect, signal } from '@preact/signals';
+import { call } from '../../api/call';
+import type { Preview, SimulateSpecInput } from '../../api/types';
+import { upload } from '../../api/uploads';
+import type { Warning } from '../../model/report';
+import type { Result } from '../../model/result';
+import { may } from '../../state/session';
+import { calibrated } from './calibration';
+import { centre_mm, draft, jobOf, shape, type Inputs } from './draft';
+import { inputsOf } from './intake';
+
+/** What is shown of the last preview. */
+export interface Shown {
+  /** Frame O, mm. */
+  positions: Float32Array;
+  corners: Uint32Array;
+  /** For each vertex; not a number where no film arrives. */
+  stretch: Float32Array;
+  coverage: number;
+  stretchP95: number;
+  seconds: number;
+  warnings: Warning[];
+}
+
+export const shown = signal<Shown | undefined>(undefined);
+/** Why there is none, where the object is to blame (it hangs beside the film). */
+export const refusal = signal('');
+export const isComputing = signal(false);
+
+const kPause_ms = 60;
+
+/** Keeps the preview up to date until the returned function is called. */
+export function followPreview(): () => void {
+  const asker = new Asker();
+  const inputs = computed(() => (shape.value ? inputsOf(draft.value.files) : []));
+  const ends = [
+    effect(() => {
+      void draft.value.files;
+      void asker.bring(inputs.value);
+    }),
+    effect(() => {
+      void draft.value;
+      void calibrated.value;
+      asker.askSoon();
+    }),
+  ];
+  return () => {
+    ends.forEach((end) => end());
+    asker.end();
+  };
+}
+
+class Asker {
+  private mesh: Inputs | undefined;
+  private files: readonly File[] = [];
+  private bringing = new AbortController();
+  private asking = new AbortController();
+  private timer = 0;
+  /** What the mesh that is known belongs to: its asset and scale. */
+  private known: { key: string; positions: Float32Array; corners: Uint32Array } | undefined;
+  private isOff = false;
+
+  /** Uploads what a preview reads, which submitting needs anyway. */
+  async bring(inputs: ReturnType<typeof inputsOf>): Promise<void> {
+    const wanted = inputs.filter(
+      ({ role, name }) => role === 'mesh' || role === 'profile' || /\.mtl$/i.test(name),
+    );
+    if (
+      wanted.length === this.files.length &&
+      wanted.every(({ file }, i) => file === this.files[i])
+    )
+      return;
+    this.files = wanted.map(({ file }) => file);
+    this.bringing.abort();
+    this.bringing = new AbortController();
+    const { signal: goOn } = this.bringing;
+    this.mesh = undefined;
+    shown.value = undefined;
+    if (wanted.length === 0 || !may('MAKER')) return;
+    const out: Partial<Inputs> & { extraFiles: Inputs['extraFiles'] } = { extraFiles: [] };
+    for (const { role, name, file } of wanted) {
+      const asset = await upload(file, () => {}, goOn);
+      if (!asset.ok || goOn.aborted) return;
+      const input = { name, asset: asset.value };
+      if (role === 'mesh') out.mesh = input;
+      else if (role === 'profile') out.profile = input;
+      else out.extraFiles.push(input);
+    }
+    if (!out.mesh) return;
+    this.mesh = { ...out, mesh: out.mesh };
+    this.askSoon();
+  }
+
+  askSoon(): void {
+    window.clearTimeout(this.timer);
+    this.timer = window.setTimeout(() => void this.ask(), kPause_ms);
+  }
+
+  end(): void {
+    this.bringing.abort();
+    this.asking.abort();
+    window.clearTimeout(this.timer);
+    shown.value = undefined;
+    refusal.value = '';
+  }
+
+  private inputs(): Inputs | undefined {
+    const { from, files } = draft.value;
+    if (this.mesh || files.length > 0 || !from) return this.mesh;
+    return from.spec as Inputs;
+  }
+
+  private async ask(): Promise<void> {
+    const inputs = this.inputs();
+    if (this.isOff || !inputs?.mesh || !shape.value) return;
+    this.asking.abort();
+    this.asking = new AbortController();
+    const { signal: goOn } = this.asking;
+    const { simulate } = jobOf(draft.value, inputs, centre_mm.value);
+    const key = `${inputs.mesh.asset} ${calibrated.value?.calibration.name ?? draft.value.scale}`;
+    isComputing.value = true;
+    const answer = await compute(partOf(simulate, inputs), this.known?.key !== key, goOn);
+    if (goOn.aborted) return;
+    isComputing.value = false;
+    if (answer.ok) return this.show(answer.value, key);
+    if (answer.failure.status === 404 || answer.failure.status === 501) this.isOff = true;
+    shown.value = undefined;
+    refusal.value = answer.failure.reason === 'PREVIEW_REFUSED' ? answer.failure.what : '';
+  }
+
+  private show(preview: Preview, key: string): void {
+    if (preview.vertexPositions && preview.triangleCorners)
+      this.known = {
+        key,
+        positions: new Float32Array(bytesOf(preview.vertexPositions)),
+        corners: new Uint32Array(bytesOf(preview.triangleCorners)),
+      };
+    if (!this.known) return;
+    const map = new Float32Array(bytesOf(preview.vertexMap));
+    refusal.value = '';
+    shown.value = {
+      positions: this.known.positions,
+      corners: this.known.corners,
+      stretch: Float32Array.from({ length: map.length / 4 }, (_, i) => map[4 * i + 3]!),
+      coverage: preview.coverage,
+      stretchP95: preview.stretchP95,
+      seconds: preview.seconds,
+      warnings: preview.warnings,
+    };
+  }
+}
+
+const compute = (
+  simulate: SimulateSpecInput,
+  withMesh: boolean,
+  goOn: AbortSignal,
+): Promise<Result<Preview>> =>
+  call<Preview>('POST', 'previews:compute', { json: { simulate, withMesh }, signal: goOn });
+
+/** What counts of a job for its preview. */
+function partOf(simulate: SimulateSpecInput, inputs: Inputs): SimulateSpecInput {
+  const calibration = calibrated.value?.calibration;
+  const measured = calibration
+    ? { pose: calibration.pose, scale: calibration.scale, film: calibration.film }
+    : { pose: simulate.pose, scale: simulate.scale, film: simulate.film };
+  return {
+    mesh: inputs.mesh,
+    extraFiles: inputs.extraFiles.filter((file) => /\.(mtl|json)$/i.test(file.name)),
+    ...(inputs.profile ? { profile: inputs.profile } : {}),
+    ...(measured as Pick<SimulateSpecInput, 'pose' | 'scale' | 'film'>),
+    ...(simulate.depthMm ? { depthMm: simulate.depthMm } : {}),
+    ...(simulate.dipSpeedMmPerS ? { dipSpeedMmPerS: simulate.dipSpeedMmPerS } : {}),
+  };
+}
+
+function bytesOf(base64: string): ArrayBuffer {
+  const text = atob(base64);
+  const out = new Uint8Array(text.length);
+  for (let i = 0; i < text.length; i += 1) out[i] = text.charCodeAt(i);
+  return out.buffer;
+}

@@ -1,0 +1,140 @@
+import { filmOf, kFilmChoices } from '../../model/film';
+import { Choice, NumberField, TextField } from '../../ui/controls';
+import { calibrated } from './calibration';
+import { change, draft, film, shape } from './draft';
+
+const kOwn = 'own';
+
+/** Film and printer. */
+export function FilmPanel() {
+  if (!shape.value) return null;
+  const { dpi, paper, colours } = draft.value;
+  return (
+    <section aria-labelledby="film-title">
+      <h2 id="film-title">3 Film and printer</h2>
+      {!calibrated.value && <FilmChoice />}
+      <div class="row">
+        <Choice
+          label="Resolution"
+          value={String(dpi)}
+          onValue={(value) => change({ dpi: Number(value) })}
+          choices={[...new Set([150, 300, 600, 1200, dpi])].map((value) => ({
+            value: String(value),
+            label: `${value} dpi`,
+          }))}
+        />
+        <Choice
+          label="Paper"
+          value={paper}
+          onValue={(value) => change({ paper: value })}
+          choices={['A4', 'A3', 'letter'].map((value) => ({ value, label: value }))}
+        />
+        <Choice
+          label="Colours"
+          value={colours}
+          onValue={(value) => change({ colours: value })}
+          choices={[
+            { value: 'COLOURS_RGB', label: 'RGB (most printers)' },
+            { value: 'COLOURS_CMYK', label: 'CMYK' },
+          ]}
+        />
+      </div>
+    </section>
+  );
+}
+
+function FilmChoice() {
+  const name = draft.value.film;
+  const isListed = kFilmChoices.some((one) => one.name === name);
+  const { width_mm, height_mm } = film.value;
+  const setSize = (width: number, height: number) => {
+    const made = `${Number(width.toFixed(1))}x${Number(height.toFixed(1))}`;
+    if (filmOf(made)) change({ film: made });
+  };
+  return (
+    <>
+      <Choice
+        label="Film"
+        value={isListed ? name : kOwn}
+        onValue={(value) =>
+          value === kOwn ? setSize(width_mm + 0.1, height_mm) : change({ film: value })
+        }
+        choices={[
+          ...kFilmChoices.map((one) => ({ value: one.name, label: one.label })),
+          { value: kOwn, label: 'Another size' },
+        ]}
+      />
+      {!isListed && (
+        <div class="row">
+          <NumberField
+            label="Film width"
+            unit="mm"
+            value={width_mm}
+            min={10}
+            max={3000}
+            onValue={(mm) => setSize(mm, height_mm)}
+          />
+          <NumberField
+            label="Film height"
+            unit="mm"
+            value={height_mm}
+            min={10}
+            max={3000}
+            onValue={(mm) => setSize(width_mm, mm)}
+          />
+        </div>
+      )}
+    </>
+  );
+}
+
+/** What has good defaults. */
+export function MorePanel() {
+  if (!shape.value) return null;
+  const { model, speed_mm_per_s, depth_mm, name } = draft.value;
+  return (
+    <details>
+      <summary>More settings</summary>
+      <TextField
+        label="Name of the job"
+        value={name}
+        maxLength={100}
+        onValue={(value) => change({ name: value })}
+      />
+      <div class="row">
+        <NumberField
+          label="Depth"
+          unit="mm"
+          placeholder="all of it"
+          value={depth_mm}
+          min={0.1}
+          max={2000}
+          onValue={(value) => change({ depth_mm: value })}
+          onEmpty={() => {
+            const { depth_mm: _, ...rest } = draft.value;
+            draft.value = rest;
+            change({});
+          }}
+        />
+        <NumberField
+          label="Dip speed"
+          unit="mm/s"
+          value={speed_mm_per_s}
+          min={0.1}
+          max={1000}
+          onValue={(value) => change({ speed_mm_per_s: value })}
+        />
+      </div>
+      <Choice
+        label="Computation"
+        value={model}
+        onValue={(value) => change({ model: value })}
+        choices={[
+          { value: 'MODEL_SHEET', label: 'Exact: viscous sheet with its ink' },
+          { value: 'MODEL_STOKES', label: 'Fast: Stokes flow, for stretch below 1.3' },
+        ]}
+      />
+      <p class="quiet">A film profile (TOML) is dropped like the other files.</p>
+    </details>
+  );
+}

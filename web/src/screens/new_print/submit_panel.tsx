@@ -1,0 +1,135 @@
+import { signal } from '@preact/signals';
+import { jobs as jobsApi } from '../../api/services';
+import { upload } from '../../api/uploads';
+import { done, refused, type Failure, type Result } from '../../model/result';
+import { go } from '../../route';
+import { remember } from '../../state/jobs';
+import { complain } from '../../state/notices';
+import { may } from '../../state/session';
+import { Progress } from '../../ui/controls';
+import { calibrated, staleness } from './calibration';
+import { centre_mm, change, draft, film, jobOf, shape, type Inputs } from './draft';
+import { inputsOf } from './intake';
+
+interface Sending {
+  name: string;
+  share: number;
+  isLost: boolean;
+}
+
+const sending = signal<Sending | undefined>(undefined);
+const failure = signal<Failure | undefined>(undefined);
+let giveUp: AbortController | undefined;
+
+/** Brings all files to the daemon and creates the job. */
+async function submit(): Promise<void> {
+  giveUp = new AbortController();
+  failure.value = undefined;
+  if (!draft.value.requestId) change({});
+  const result = await send(giveUp.signal);
+  sending.value = undefined;
+  if (!result.ok) {
+    if (result.failure.reason === 'ABORTED_HERE') return;
+    failure.value = result.failure;
+    return complain(result.failure);
+  }
+  change({});
+  go(`/${result.value}`);
+}
+
+async function send(signal: AbortSignal): Promise<Result<string>> {
+  const value = draft.value;
+  const inputs = await bring(signal);
+  if (!inputs.ok) return inputs;
+  sending.value = { name: 'the job', share: 1, isLost: false };
+  const job = jobOf(value, inputs.value, centre_mm.value);
+  const answer = await jobsApi.create(job, value.requestId);
+  if (!answer.ok) return answer;
+  remember(answer.value);
+  return done(answer.value.name);
+}
+
+async function bring(signal: AbortSignal): Promise<Result<Inputs>> {
+  const { files, from } = draft.value;
+  const brought = { mesh: undefined, texture: undefined, profile: undefined } as Partial<Inputs>;
+  const extraFiles: Inputs['extraFiles'] = [];
+  for (const { role, name, file } of inputsOf(files)) {
+    sending.value = { name, share: 0, isLost: false };
+    const asset = await upload(
+      file,
+      (share, isLost) => (sending.value = { name, share, isLost }),
+      signal,
+    );
+    if (!asset.ok) return asset;
+    const input = { name, asset: asset.value };
+    if (role === 'extra') extraFiles.push(input);
+    else brought[role] = input;
+  }
+  const spec = brought.mesh ? undefined : from?.spec;
+  const mesh = brought.mesh ?? (spec?.mesh as Inputs['mesh'] | undefined);
+  if (!mesh) return refused('there is no model', 'Drop one, or pick a sample');
+  const texture = brought.texture ?? (spec?.texture as Inputs['texture']);
+  const profile = brought.profile ?? (spec?.profile as Inputs['profile']);
+  const kept = (spec?.extraFiles ?? []) as Inputs['extraFiles'];
+  const names = new Set(extraFiles.map((file) => file.name));
+  return done({
+    mesh,
+    extraFiles: [...extraFiles, ...kept.filter((file) => !names.has(file.name))],
+    ...(texture ? { texture } : {}),
+    ...(profile ? { profile } : {}),
+  });
+}
+
+/** What speaks against submitting; undefined: nothing. */
+function obstacle(): string | undefined {
+  if (!shape.value) return 'Drop a model, or pick a sample';
+  const [x, y] = (calibrated.value?.pose ?? draft.value.pose).centre_mm;
+  const { width_mm, height_mm } = film.value;
+  if (Math.abs(x) > width_mm / 2 || Math.abs(y) > height_mm / 2)
+    return 'The object hangs beside the film: move it over it';
+  const calibration = calibrated.value?.calibration;
+  if (calibration && staleness(calibration)) return 'The calibration does not hold any more';
+  return undefined;
+}
+
+export function Submit() {
+  if (sending.value) return <Underway {...sending.value} />;
+  const why = obstacle();
+  return (
+    <div class="submit">
+      {failure.value && (
+        <p class="error" role="alert">
+          {failure.value.what}
+          {failure.value.remedy ? `. ${failure.value.remedy}` : ''}.
+        </p>
+      )}
+      <button
+        type="button"
+        class="primary large"
+        disabled={why !== undefined || !may('MAKER')}
+        aria-describedby="submit-why"
+        onClick={() => void submit()}
+      >
+        Compute the film image
+      </button>
+      <p class="quiet" id="submit-why">
+        {why ?? 'Takes seconds to minutes. Nothing is printed and nothing moves yet.'}
+      </p>
+    </div>
+  );
+}
+
+function Underway({ name, share, isLost }: Sending) {
+  return (
+    <div class="submit" role="status">
+      <p>
+        {isLost ? `The connection is lost; ${name} goes on by itself` : `Sending ${name}`} (
+        {Math.round(100 * share)} %)
+      </p>
+      <Progress share={share} label={`Sending ${name}`} />
+      <button type="button" onClick={() => giveUp?.abort()}>
+        Give up
+      </button>
+    </div>
+  );
+}

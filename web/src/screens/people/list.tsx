@@ -1,0 +1,74 @@
+import type { ComponentChildren } from 'preact';
+import { useEffect, useState } from 'preact/hooks';
+import type { Asked } from '../../api/services';
+import type { Failure } from '../../model/result';
+
+/** What the daemon has of something, and how to ask again. */
+export function useAsked<T>(ask: () => Asked<T>): {
+  value: T | undefined;
+  failure: Failure | undefined;
+  again: () => Promise<void>;
+} {
+  const [value, setValue] = useState<T>();
+  const [failure, setFailure] = useState<Failure>();
+  const again = async () => {
+    const answer = await ask();
+    if (answer.ok) setValue(answer.value);
+    setFailure(answer.ok ? undefined : answer.failure);
+  };
+  useEffect(() => void again(), []);
+  return { value, failure, again };
+}
+
+export function List(props: {
+  heads: readonly string[];
+  failure: Failure | undefined;
+  isEmpty: boolean;
+  empty: string;
+  children: ComponentChildren;
+}) {
+  if (props.failure)
+    return (
+      <p class="warning" role="alert">
+        {props.failure.what}
+      </p>
+    );
+  if (props.isEmpty) return <p class="quiet">{props.empty}</p>;
+  return (
+    <table>
+      <thead>
+        <tr>
+          {props.heads.map((head) => (
+            <th scope="col" key={head}>
+              {head || <span class="hidden">Actions</span>}
+            </th>
+          ))}
+        </tr>
+      </thead>
+      <tbody>{props.children}</tbody>
+    </table>
+  );
+}
+
+/** What is shown this once: a key, a link. */
+export function Once({ title, secret }: { title: string; secret: string }) {
+  const [isCopied, setCopied] = useState(false);
+  const copy = async () => {
+    await navigator.clipboard.writeText(secret).then(
+      () => setCopied(true),
+      () => setCopied(false),
+    );
+  };
+  return (
+    <div class="once" role="status">
+      <p>{title}</p>
+      <code>{secret}</code>
+      <button type="button" onClick={() => void copy()}>
+        {isCopied ? 'Copied' : 'Copy'}
+      </button>
+    </div>
+  );
+}
+
+/** "users/ann" as people say it. */
+export const plainName = (name: string): string => name.replace(/^\w+\//, '');

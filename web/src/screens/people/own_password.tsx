@@ -1,0 +1,43 @@
+import { useState } from 'preact/hooks';
+import { people as api } from '../../api/services';
+import { orComplain, say } from '../../state/notices';
+import { begin, me, who } from '../../state/session';
+import { Button, TextField } from '../../ui/controls';
+
+export function OwnPassword() {
+  const [before, setBefore] = useState('');
+  const [after, setAfter] = useState('');
+  const set = async () => {
+    if (!orComplain(await api.setPassword(`users/${me.value}`, after, before || undefined))) return;
+    setBefore('');
+    setAfter('');
+    say('The password was changed; your other sessions ended');
+    await begin();
+  };
+  return (
+    <details open={!who.value?.hasPassword}>
+      <summary>{who.value?.hasPassword ? 'Change my password' : 'Set my password'}</summary>
+      <div class="row">
+        {who.value?.hasPassword && (
+          <TextField
+            label="The old one"
+            type="password"
+            autocomplete="current-password"
+            value={before}
+            onValue={setBefore}
+          />
+        )}
+        <TextField
+          label="The new one (10 characters or more)"
+          type="password"
+          autocomplete="new-password"
+          value={after}
+          onValue={setAfter}
+        />
+        <Button disabled={after.length < 10} onPress={set}>
+          Set it
+        </Button>
+      </div>
+    </details>
+  );
+}

@@ -1,0 +1,226 @@
+import { useEffect, useState } from 'preact/hooks';
+import { jobs as api, newRequestId, queue as queueApi } from '../../api/services';
+import type { Job } from '../../api/types';
+import { beginnings } from '../../events';
+import { go, jobPath } from '../../route';
+import { arrivals, isFinished, kFinished, kOpen, known, queue, remember } from '../../state/jobs';
+import { orComplain, say } from '../../state/notices';
+import { may, mayChange, me } from '../../state/session';
+import { Button, Switch, TextField } from '../../ui/controls';
+import { HowFar, kindText, numberOf, State, When } from '../../ui/job_text';
+
+type Whose = 'mine' | 'all';
+type Which = 'all' | 'open' | 'finished';
+
+/** Pages of jobs, newest first, asked again whenever something arrives. */
+function usePages(whose: Whose, which: Which) {
+  const [names, setNames] = useState<string[]>();
+  const [next, setNext] = useState('');
+  const query = {
+    ...(whose === 'mine' ? { owner: me.value } : {}),
+    ...(which === 'all' ? {} : { states: which === 'open' ? kOpen : kFinished }),
+  };
+  const more = async (pageToken: string, before: string[]) => {
+    const page = orComplain(await api.list({ ...query, pageToken }));
+    if (!page) return;
+    remember(...page.jobs);
+    setNames([...before, ...page.jobs.map((job) => job.name)]);
+    setNext(page.nextPageToken);
+  };
+  const key = `${whose} ${which} ${me.value}`;
+  useEffect(() => setNames(undefined), [key]);
+  useEffect(() => {
+    const timer = window.setTimeout(() => void more('', []), 50);
+    return () => window.clearTimeout(timer);
+  }, [key, arrivals.value, beginnings.value]);
+  return { names, next, more: () => more(next, names ?? []) };
+}
+
+export function QueueScreen() {
+  const [whose, setWhose] = useState<Whose>('all');
+  const [which, setWhich] = useState<Which>('all');
+  const { names, next, more } = usePages(whose, which);
+  const rows = (names ?? []).flatMap((name) => known.value.get(name) ?? []);
+  return (
+    <div class="queue">
+      <h1>Jobs</h1>
+      <div class="row">
+        <Switch<Whose>
+          label="Whose"
+          value={whose}
+          onValue={setWhose}
+          choices={[
+            { value: 'all', label: 'Everyone' },
+            { value: 'mine', label: 'Mine' },
+          ]}
+        />
+        <Switch<Which>
+          label="Which"
+          value={which}
+          onValue={setWhich}
+          choices={[
+            { value: 'all', label: 'All' },
+            { value: 'open', label: 'Open' },
+            { value: 'finished', label: 'Finished' },
+          ]}
+        />
+      </div>
+      <Line />
+      {names === undefined && <p class="quiet">Asking…</p>}
+      {names && rows.length === 0 && (
+        <p class="quiet">
+          No jobs here yet. <a href="#/">Begin a new print</a>.
+        </p>
+      )}
+      {rows.length > 0 && <Table rows={rows} />}
+      {next && <Button onPress={more}>Older</Button>}
+    </div>
+  );
+}
+
+/** What stands in line, and whether it moves. */
+function Line() {
+  const [reason, setReason] = useState('');
+  const line = queue.value;
+  if (!line) return null;
+  const running = line.runningJobs.length;
+  return (
+    <div class={`line ${line.paused ? 'paused' : ''}`}>
+      <p>
+        {running} of {line.workerSlots} workers busy, {line.queuedCount} waiting.
+        {line.paused && (
+          <strong>
+            {' '}
+            The queue is paused{line.pauseReason ? `: ${line.pauseReason}` : ''}. What runs goes on;
+            nothing new begins.
+          </strong>
+        )}
+      </p>
+      {may('OPERATOR') &&
+        (line.paused ? (
+          <Button
+            onPress={async () => {
+              queue.value = orComplain(await queueApi.resume()) ?? line;
+            }}
+          >
+            Resume
+          </Button>
+        ) : (
+          <details>
+            <summary>Pause the queue</summary>
+            <TextField
+              label="Why"
+              value={reason}
+              onValue={setReason}
+              placeholder="new film"
+              maxLength={150}
+            />
+            <Button
+              onPress={async () => {
+                queue.value = orComplain(await queueApi.pause(reason)) ?? line;
+              }}
+            >
+              Pause
+            </Button>
+          </details>
+        ))}
+    </div>
+  );
+}
+
+const Table = ({ rows }: { rows: Job[] }) => (
+  <table class="jobs">
+    <thead>
+      <tr>
+        <th scope="col">Job</th>
+        <th scope="col">State</th>
+        <th scope="col">Owner</th>
+        <th scope="col">Begun</th>
+        <th scope="col">
+          <span class="hidden">Actions</span>
+        </th>
+      </tr>
+    </thead>
+    <tbody>
+      {rows.map((job) => (
+        <Row key={job.name} job={job} />
+      ))}
+    </tbody>
+  </table>
+);
+
+function Row({ job }: { job: Job }) {
+  const place = queue.value?.queuedJobs.indexOf(job.name) ?? -1;
+  return (
+    <tr>
+      <th scope="row">
+        <a href={jobPath(job.name)}>{job.displayName || job.name}</a>
+        <span class="quiet">
+          {numberOf(job.name)} · {kindText(job)}
+        </span>
+      </th>
+      <td>
+        <State state={job.state} />
+        {(job.state === 'RUNNING' || job.state === 'CANCELLING') && <HowFar job={job} />}
+        {place >= 0 && <span class="quiet">place {place + 1}</span>}
+        {job.state === 'FAILED' && <span class="why">{job.error?.message}</span>}
+      </td>
+      <td>{job.owner}</td>
+      <td>
+        <When time={job.createTime} />
+      </td>
+      <td class="actions">
+        <Actions job={job} place={place} />
+      </td>
+    </tr>
+  );
+}
+
+function Actions({ job, place }: { job: Job; place: number }) {
+  if (!mayChange(job.owner)) return null;
+  const id = `job ${numberOf(job.name)}`;
+  const first = queue.value?.queuedJobs.find((name) => known.value.get(name)?.owner === job.owner);
+  return (
+    <>
+      {place > 0 && first && first !== job.name && (
+        <Button
+          kind="plain"
+          label={`Do ${id} first`}
+          onPress={async () => {
+            const moved = orComplain(await api.moveToFront(job.name, first));
+            if (moved) remember(moved);
+          }}
+        >
+          First
+        </Button>
+      )}
+      {!isFinished(job) && job.state !== 'CANCELLING' && (
+        <Button
+          kind="plain"
+          label={`Cancel ${id}`}
+          onPress={async () => {
+            const cancelled = orComplain(await api.cancel(job.name));
+            if (cancelled) remember(cancelled);
+          }}
+        >
+          Cancel
+        </Button>
+      )}
+      {isFinished(job) && job.state !== 'SUCCEEDED' && !job.dip && (
+        <Button
+          kind="plain"
+          label={`Try ${id} again`}
+          onPress={async () => {
+            const again = orComplain(await api.retry(job.name, newRequestId()));
+            if (!again) return;
+            remember(again);
+            say(`${job.displayName} is tried again`);
+            go(`/${again.name}`);
+          }}
+        >
+          Retry
+        </Button>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,117 @@
+import { useEffect } from 'preact/hooks';
+import { jobs as api } from '../../api/services';
+import type { Job } from '../../api/types';
+import { formatSeconds } from '../../model/units';
+import { jobPath } from '../../route';
+import { known, refresh, remember } from '../../state/jobs';
+import { orComplain } from '../../state/notices';
+import { isOurs, leaseId, rig } from '../../state/rig';
+import { secondsUntil } from '../../ui/clock';
+import { Button, Careful } from '../../ui/controls';
+import { Jog } from './jog';
+
+/** The steps of a dip in their order; those that wait for the operator have the words of their button. */
+const kSteps: { step: string; title: string; confirm?: string }[] = [
+  { step: 'PRINT_FILM', title: 'Print the film', confirm: 'The film is printed' },
+  { step: 'LOAD_OBJECT', title: 'Hang the object', confirm: 'The object hangs' },
+  { step: 'FIND_CONTACT', title: 'Find first contact', confirm: 'It all but touches the water' },
+  { step: 'CLEAR', title: 'Rise to make room' },
+  { step: 'LAY_FILM', title: 'Lay the film', confirm: 'The film floats between the bars' },
+  { step: 'SOAK', title: 'Soak' },
+  { step: 'SPRAY_ACTIVATOR', title: 'Spray the activator', confirm: 'The activator is sprayed' },
+  { step: 'ACTIVATE', title: 'Activator works' },
+  { step: 'START_DIP', title: 'Start the dip', confirm: 'Hands are off: dip now' },
+  { step: 'DESCEND', title: 'Descend' },
+  { step: 'HOLD', title: 'Hold' },
+  { step: 'RETRACT', title: 'Rise again' },
+];
+
+/** The dip that is open: what to do now, its clock, and one large button. */
+export function DipGuide({ name }: { name: string }) {
+  useEffect(() => void refresh(name), [name]);
+  const job = known.value.get(name);
+  if (!job?.dipStatus) return <p class="quiet">Asking for the dip…</p>;
+  const { dipStatus: status } = job;
+  const at = kSteps.findIndex(({ step }) => step === status.step);
+  const here = kSteps[at];
+  const left = secondsUntil(status.stepEndTime);
+  const film = secondsUntil(status.activationEndTime);
+  return (
+    <section class="dip" aria-labelledby="dip-title">
+      <h2 id="dip-title">
+        Dip, step {at + 1} of {kSteps.length}: {here?.title}
+      </h2>
+      <p class="instruction" role="status">
+        {status.instruction}
+      </p>
+      {left !== undefined && (
+        <p class="clock" role="timer">
+          {formatSeconds(Math.max(0, Math.ceil(left)))}
+          <span class="quiet"> left of this step</span>
+        </p>
+      )}
+      {film !== undefined && (
+        <p class={film > 0 ? '' : 'warning'} role="timer">
+          {film > 0
+            ? `The film is good for ${formatSeconds(Math.ceil(film))}`
+            : `The film is too old since ${formatSeconds(-Math.floor(film))}: the print may suffer`}
+        </p>
+      )}
+      {(status.warnings ?? []).map((warning) => (
+        <p class="warning" key={warning}>
+          {warning}
+        </p>
+      ))}
+      {status.step === 'FIND_CONTACT' && isOurs.value && (
+        <Jog fastest_mm_per_s={rig.value?.axis?.maxSpeedMmPerS ?? 10} />
+      )}
+      <Confirm job={job} words={here?.confirm} />
+      <Steps at={at} />
+      <p class="row">
+        <a href={jobPath(name)}>Record of this dip</a>
+        {isOurs.value && (
+          <Careful sure="Abort: the film is lost" kind="plain" onPress={() => abort(name)}>
+            Abort the dip
+          </Careful>
+        )}
+      </p>
+    </section>
+  );
+}
+
+async function abort(name: string): Promise<void> {
+  const job = orComplain(await api.cancel(name));
+  if (job) remember(job);
+}
+
+function Confirm({ job, words }: { job: Job; words: string | undefined }) {
+  if (!words || job.state !== 'WAITING_FOR_OPERATOR') return null;
+  if (!isOurs.value)
+    return <p class="quiet">Whoever has the rig goes on here; take the rig to do so yourself.</p>;
+  return (
+    <Button
+      kind="primary"
+      onPress={async () => {
+        const step = job.dipStatus?.step ?? '';
+        const next = orComplain(await api.confirm(job.name, step, leaseId.value));
+        if (next) remember(next);
+      }}
+    >
+      {words}
+    </Button>
+  );
+}
+
+const Steps = ({ at }: { at: number }) => (
+  <ol class="steps">
+    {kSteps.map(({ step, title }, i) => (
+      <li
+        key={step}
+        class={i < at ? 'past' : i === at ? 'here' : ''}
+        aria-current={i === at ? 'step' : undefined}
+      >
+        {title}
+      </li>
+    ))}
+  </ol>
+);

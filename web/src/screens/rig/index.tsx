@@ -1,0 +1,232 @@
+import { useEffect, useState } from 'preact/hooks';
+import { rig as api } from '../../api/services';
+import type { Rig } from '../../api/types';
+import { formatSeconds } from '../../model/units';
+import { route } from '../../route';
+import {
+  breakLease,
+  command,
+  isMoving,
+  isOurs,
+  leaseId,
+  refreshRig,
+  releaseLease,
+  rig,
+  takeLease,
+} from '../../state/rig';
+import { may, me } from '../../state/session';
+import { secondsUntil } from '../../ui/clock';
+import { Button, Careful, Figures, NumberField, TextField } from '../../ui/controls';
+import { DepthPicture } from './depth_picture';
+import { DipGuide } from './dip_guide';
+import { BeginDip } from './dip_begin';
+import { Gauge } from './gauge';
+import { Jog } from './jog';
+
+const kStates: Record<string, string> = {
+  OFFLINE: 'Offline',
+  DISARMED: 'Disarmed',
+  UNHOMED: 'Not homed',
+  IDLE: 'Ready',
+  MOVING: 'Moving',
+  DIPPING: 'Dipping',
+  STOPPING: 'Stopping',
+  FAULT: 'Fault',
+  ESTOPPED: 'Stop button pressed',
+};
+
+export function RigScreen() {
+  useEffect(() => void refreshRig(), []);
+  const now = rig.value;
+  const from = route.value.query.get('job');
+  if (!now) return <p class="quiet">Asking the daemon…</p>;
+  return (
+    <div class="rig">
+      <h1>Rig</h1>
+      <div class="columns">
+        <div>
+          <Standing now={now} />
+          {now.dip ? (
+            <DipGuide name={now.dip} />
+          ) : (
+            from && <BeginDip simulateJob={`jobs/${from}`} />
+          )}
+        </div>
+        <div>
+          <LeasePanel now={now} />
+          {isOurs.value && now.axis && <Commands now={now} />}
+          <DepthPicture />
+        </div>
+      </div>
+    </div>
+  );
+}
+
+function Standing({ now }: { now: Rig }) {
+  return (
+    <section class="standing" aria-labelledby="standing-title">
+      <h2 id="standing-title" class="hidden">
+        State
+      </h2>
+      <p class={`big ${now.state.toLowerCase()}`} role="status">
+        {kStates[now.state] ?? now.state}
+      </p>
+      {now.trouble && <p class="warning">{now.trouble}</p>}
+      {now.state === 'DISARMED' && (
+        <p class="quiet">The drive holds no torque: arm, then home it.</p>
+      )}
+      {now.state === 'UNHOMED' && <p class="quiet">Where the axis is, is not known: home it.</p>}
+      {now.axis && <Gauge now={now} />}
+      <Figures
+        rows={[
+          ['Position', now.positionMm === undefined ? '–' : `${now.positionMm.toFixed(2)} mm`],
+          ['Speed', `${(now.velocityMmPerS ?? 0).toFixed(1)} mm/s`],
+          now.axis !== undefined && [
+            'Reach',
+            `${now.axis.minMm} to ${now.axis.maxMm} mm, at most ${now.axis.maxSpeedMmPerS} mm/s`,
+          ],
+          now.axis !== undefined && [
+            'Drive',
+            `${now.axis.drive}${now.axis.isVirtual ? ' (virtual)' : ''}`,
+          ],
+        ]}
+      />
+    </section>
+  );
+}
+
+/** Who may command. */
+function LeasePanel({ now }: { now: Rig }) {
+  const [purpose, setPurpose] = useState('');
+  const [reason, setReason] = useState('');
+  const { lease } = now;
+  const left = secondsUntil(lease?.expireTime);
+  if (!may('OPERATOR'))
+    return (
+      <section>
+        <h2>Who commands</h2>
+        <p>{lease ? `${lease.holder}: ${lease.purpose}` : 'Nobody.'}</p>
+        <p class="quiet">You may look, and stop. Commands are for operators.</p>
+      </section>
+    );
+  if (!lease)
+    return (
+      <section>
+        <h2>Take the rig</h2>
+        <p class="quiet">
+          One person at a time commands it. It stays yours while this page is open.
+        </p>
+        <TextField
+          label="What for"
+          value={purpose}
+          onValue={setPurpose}
+          placeholder="the mug"
+          maxLength={150}
+        />
+        <Button kind="primary" onPress={() => takeLease(purpose.trim() || 'the web page')}>
+          Take the rig
+        </Button>
+      </section>
+    );
+  return (
+    <section>
+      <h2>{leaseId.value ? 'The rig is yours' : `${lease.holder} has the rig`}</h2>
+      <p>
+        {lease.purpose}
+        {left !== undefined && (
+          <span class="quiet">
+            {left > 0 ? `, for ${formatSeconds(left)} more` : ', just ended'}
+            {leaseId.value ? ' (renewed by itself)' : ''}
+          </span>
+        )}
+      </p>
+      {leaseId.value ? (
+        <Button onPress={releaseLease}>Give it back</Button>
+      ) : (
+        <>
+          {lease.holder === me.value && (
+            <p class="quiet">It was taken in another browser or program of yours.</p>
+          )}
+          {may('ADMIN') && (
+            <details>
+              <summary>Take it away from {lease.holder}</summary>
+              <TextField
+                label="Why; it is logged"
+                value={reason}
+                onValue={setReason}
+                maxLength={150}
+              />
+              <Careful
+                sure="Take it away"
+                kind="danger"
+                onPress={() => breakLease(reason.trim() || 'no reason given')}
+              >
+                Break the lease
+              </Careful>
+            </details>
+          )}
+        </>
+      )}
+    </section>
+  );
+}
+
+/** What may be asked of the rig now; what it would refuse is not offered. */
+function Commands({ now }: { now: Rig }) {
+  const [target, setTarget] = useState<number>();
+  const isIdle = now.state === 'IDLE';
+  const wantsReset = now.state === 'FAULT' || now.state === 'ESTOPPED';
+  const axis = now.axis!;
+  return (
+    <section>
+      <h2>Commands</h2>
+      <div class="row">
+        {wantsReset && (
+          <Button kind="primary" onPress={() => command(api.reset)}>
+            Reset
+          </Button>
+        )}
+        {now.state === 'DISARMED' && (
+          <Button kind="primary" onPress={() => command(api.arm)}>
+            Arm
+          </Button>
+        )}
+        {(now.state === 'UNHOMED' || isIdle) && (
+          <Button kind={isIdle ? 'plain' : 'primary'} onPress={() => command(api.home)}>
+            Home
+          </Button>
+        )}
+        {now.enabled && !isMoving.value && (
+          <Careful
+            sure="Disarm: the axis may sink"
+            kind="plain"
+            onPress={() => command(api.disarm)}
+          >
+            Disarm
+          </Careful>
+        )}
+      </div>
+      {isIdle && (
+        <div class="row">
+          <NumberField
+            label="Move to"
+            unit="mm"
+            value={target}
+            min={axis.minMm ?? 0}
+            max={axis.maxMm ?? 0}
+            onValue={setTarget}
+          />
+          <Button
+            disabled={target === undefined}
+            onPress={() => command((id) => api.moveTo(id, target!))}
+          >
+            Move
+          </Button>
+        </div>
+      )}
+      {(isIdle || now.state === 'MOVING') && !now.dip && (
+        <Jog fastest_mm_per_s={axis.maxSpeedMmPerS ?? 10} />
+      )}
+    </section>
+  );
+}

@@ -1,0 +1,95 @@
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { rig as api } from '../../api/services';
+import { complain } from '../../state/notices';
+import { leaseId, rig } from '../../state/rig';
+import { Switch } from '../../ui/controls';
+import { Icon } from '../../ui/icon';
+
+// The daemon stops a jog that it is not told of for 250 ms.
+const kEvery_ms = 100;
+const kSpeeds = ['0.5', '2', '5', '10'];
+
+/** Moves for as long as a button or key is held; letting go stops. */
+export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
+  const [speed, setSpeed] = useState('2');
+  const held = useRef(0);
+  const isTelling = useRef(false);
+
+  const tell = async () => {
+    if (held.current === 0 || isTelling.current) return;
+    isTelling.current = true;
+    const answer = await api.jog(leaseId.value, held.current * Number(speed));
+    isTelling.current = false;
+    if (answer.ok) {
+      rig.value = answer.value;
+    } else {
+      held.current = 0;
+      complain(answer.failure);
+    }
+  };
+  const letGo = () => {
+    if (held.current === 0) return;
+    held.current = 0;
+    void api.stop();
+  };
+  const hold = (direction: number) => {
+    if (held.current === direction) return;
+    held.current = direction;
+    void tell();
+  };
+
+  useEffect(() => {
+    const timer = window.setInterval(() => void tell(), kEvery_ms);
+    // Whatever takes the page away lets go.
+    window.addEventListener('blur', letGo);
+    window.addEventListener('pointerup', letGo);
+    window.addEventListener('pointercancel', letGo);
+    return () => {
+      window.clearInterval(timer);
+      window.removeEventListener('blur', letGo);
+      window.removeEventListener('pointerup', letGo);
+      window.removeEventListener('pointercancel', letGo);
+      letGo();
+    };
+  });
+
+  const button = (direction: 1 | -1, label: string) => (
+    <button
+      type="button"
+      class="large hold"
+      onPointerDown={(event) => {
+        event.preventDefault();
+        event.currentTarget.focus();
+        hold(direction);
+      }}
+      onContextMenu={(event) => event.preventDefault()}
+      onKeyDown={(event) => {
+        if (event.key === ' ' || event.key === 'Enter') {
+          event.preventDefault();
+          hold(direction);
+        }
+      }}
+      onKeyUp={letGo}
+      onBlur={letGo}
+    >
+      <Icon name={direction > 0 ? 'down' : 'up'} /> {label}
+    </button>
+  );
+  return (
+    <div class="jog">
+      <p class="quiet">Moves while you hold the button (or Space on it).</p>
+      <div class="row">
+        {button(-1, 'Up')}
+        {button(1, 'Down')}
+      </div>
+      <Switch
+        label="Speed"
+        value={speed}
+        onValue={setSpeed}
+        choices={kSpeeds
+          .filter((value) => Number(value) <= fastest_mm_per_s)
+          .map((value) => ({ value, label: `${value} mm/s` }))}
+      />
+    </div>
+  );
+}

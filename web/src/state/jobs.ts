@@ -1,0 +1,86 @@
+/** The jobs that the page has seen, kept up to date by events. */
+import { effect, signal } from '@preact/signals';
+import { jobs as api, queue as queueApi } from '../api/services';
+import type { Job, JobEvent, Queue } from '../api/types';
+import { beginnings, on } from '../events';
+
+export const known = signal<ReadonlyMap<string, Job>>(new Map());
+export const queue = signal<Queue | undefined>(undefined);
+/** Counts events of jobs that the page had not seen: lists ask anew. */
+export const arrivals = signal(0);
+
+export function remember(...jobs: Job[]): void {
+  const all = new Map(known.value);
+  for (const job of jobs) all.set(job.name, job);
+  known.value = all;
+}
+
+export function forget(name: string): void {
+  const all = new Map(known.value);
+  all.delete(name);
+  known.value = all;
+}
+
+const asked = new Set<string>();
+
+/** Fetches a job; several wishes at once are one request. */
+export async function refresh(name: string): Promise<void> {
+  if (asked.has(name)) return;
+  asked.add(name);
+  const answer = await api.get(name);
+  asked.delete(name);
+  if (answer.ok) remember(answer.value);
+}
+
+on('job', (data) => {
+  const { job, event } = data as { job?: Job; event?: JobEvent };
+  if (job?.name) {
+    if (!known.value.has(job.name)) arrivals.value += 1;
+    remember(job);
+    return;
+  }
+  if (event?.job) take(event);
+});
+
+// An event tells less than the job: it is filled in, and the job asked for if its state changed.
+function take(event: JobEvent): void {
+  const job = known.value.get(event.job ?? '');
+  if (!job) {
+    arrivals.value += 1;
+    return;
+  }
+  remember({
+    ...job,
+    state: event.state ?? job.state,
+    progressFraction: event.progressFraction ?? job.progressFraction,
+    phase: event.phase ?? job.phase,
+    ...(event.etaTime ? { etaTime: event.etaTime } : {}),
+  });
+  if (event.kind !== 'PROGRESS') void refresh(job.name);
+}
+
+on('queue', (data) => {
+  queue.value = data as Queue;
+});
+
+effect(() => {
+  if (beginnings.value === 0) return;
+  void queueApi.get().then((answer) => {
+    if (answer.ok) queue.value = answer.value;
+  });
+});
+
+export const kFinished: readonly Job['state'][] = [
+  'SUCCEEDED',
+  'FAILED',
+  'CANCELLED',
+  'INTERRUPTED',
+];
+export const kOpen: readonly Job['state'][] = [
+  'QUEUED',
+  'WAITING_FOR_OPERATOR',
+  'RUNNING',
+  'CANCELLING',
+];
+/** INTERRUPTED is the end of what is of its moment alone; the daemon queues a computation again. */
+export const isFinished = (job: Job): boolean => kFinished.includes(job.state);

@@ -1,0 +1,78 @@
+/** Who uses this page, and what they may do. */
+import { computed, signal } from '@preact/signals';
+import { csrf } from '../api/call';
+import { session as api } from '../api/services';
+import type { Role, SignedIn, WhoAmI } from '../api/types';
+import { connect, disconnect } from '../events';
+import { complain } from './notices';
+import { done, type Result } from '../model/result';
+
+/** Undefined until the daemon told. */
+export const who = signal<WhoAmI | undefined>(undefined);
+/** True once it is known that somebody has to sign in. */
+export const mustSignIn = signal(false);
+
+const kRoles: Role[] = ['VIEWER', 'MAKER', 'OPERATOR', 'ADMIN'];
+
+/** Whether whoever uses the page may do what that role may. */
+export const may = (role: Role): boolean =>
+  who.value !== undefined && kRoles.indexOf(who.value.role) >= kRoles.indexOf(role);
+
+/** The name that jobs are owned by. */
+export const me = computed(() => who.value?.user ?? '');
+
+/** Whether a job of that owner is theirs to change. */
+export const mayChange = (owner: string): boolean =>
+  may('OPERATOR') || (may('MAKER') && owner === me.value);
+
+const kAnybody: WhoAmI = {
+  user: 'anonymous',
+  role: 'ADMIN',
+  via: 'loopback',
+  csrfToken: '',
+  accounts: false,
+  hasPassword: false,
+};
+
+/** Asks who we are; with that, events begin. */
+export async function begin(): Promise<void> {
+  const asked = await api.who();
+  // A daemon that knows no people: everybody on its machine may do everything.
+  const answer = !asked.ok && asked.failure.reason === 'ROUTE_NOT_FOUND' ? done(kAnybody) : asked;
+  if (answer.ok) {
+    csrf.value = answer.value.csrfToken;
+    who.value = answer.value;
+    mustSignIn.value = false;
+    connect();
+  } else if (answer.failure.status === 401) {
+    end();
+  } else {
+    // The daemon is away or just starting: the page waits for it.
+    window.setTimeout(() => void begin(), 1500);
+    if (answer.failure.status !== 0) complain(answer.failure);
+  }
+}
+
+function end(): void {
+  disconnect();
+  who.value = undefined;
+  csrf.value = '';
+  mustSignIn.value = true;
+}
+
+export async function signIn(
+  by: { user: string; password: string } | { linkToken: string },
+): Promise<Result<SignedIn>> {
+  const answer = await api.signIn(by);
+  if (answer.ok) {
+    csrf.value = answer.value.csrfToken;
+    await begin();
+  }
+  return answer;
+}
+
+export async function signOut(): Promise<void> {
+  const answer = await api.signOut();
+  if (!answer.ok && answer.failure.status !== 401) return complain(answer.failure);
+  end();
+}

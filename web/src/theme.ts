@@ -1,0 +1,21 @@
+/** Light or dark: the system's choice, or this person's. */
+import { effect, signal } from '@preact/signals';
+
+export type Theme = 'system' | 'light' | 'dark';
+const kKey = 'theme';
+const read = (): Theme => {
+  const kept = localStorage.getItem(kKey);
+  return kept === 'light' || kept === 'dark' ? kept : 'system';
+};
+
+export const theme = signal<Theme>(read());
+
+effect(() => {
+  document.documentElement.dataset['theme'] = theme.value;
+  localStorage.setItem(kKey, theme.value);
+});
+
+const kNext: Record<Theme, Theme> = { system: 'light', light: 'dark', dark: 'system' };
+export const nextTheme = (): void => {
+  theme.value = kNext[theme.value];
+};

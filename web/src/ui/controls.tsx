@@ -1,0 +1,263 @@
+/** The few controls that all screens share. */
+import type { ComponentChildren, JSX } from 'preact';
+import { useEffect, useId, useRef, useState } from 'preact/hooks';
+import { parseNumber } from '../model/units';
+
+/** A button that shows that it is at work, and takes no second press meanwhile. */
+export function Button(props: {
+  children: ComponentChildren;
+  onPress: () => unknown;
+  kind?: 'primary' | 'danger' | 'plain';
+  disabled?: boolean;
+  label?: string;
+  title?: string;
+}) {
+  const [isBusy, setBusy] = useState(false);
+  const press = async () => {
+    setBusy(true);
+    await props.onPress();
+    setBusy(false);
+  };
+  return (
+    <button
+      type="button"
+      class={props.kind ?? ''}
+      disabled={props.disabled || isBusy}
+      aria-label={props.label}
+      title={props.title}
+      onClick={() => void press()}
+    >
+      {props.children}
+    </button>
+  );
+}
+
+/** A button that asks once more before it does what cannot be undone. */
+export function Careful(props: {
+  children: ComponentChildren;
+  sure: string;
+  onPress: () => unknown;
+  kind?: 'danger' | 'plain';
+}) {
+  const [isAsking, setAsking] = useState(false);
+  useEffect(() => {
+    if (!isAsking) return undefined;
+    const timer = window.setTimeout(() => setAsking(false), 6000);
+    return () => window.clearTimeout(timer);
+  }, [isAsking]);
+  if (!isAsking)
+    return (
+      <button type="button" class={props.kind ?? ''} onClick={() => setAsking(true)}>
+        {props.children}
+      </button>
+    );
+  return (
+    <Button
+      kind="danger"
+      onPress={async () => {
+        await props.onPress();
+        setAsking(false);
+      }}
+    >
+      {props.sure}
+    </Button>
+  );
+}
+
+/** A number with its unit. Told once it is a number in range; what is not says so and changes nothing. */
+export function NumberField(props: {
+  label: string;
+  unit: string;
+  value: number | undefined;
+  onValue: (value: number) => void;
+  /** Called when the field is emptied; without it that is an error. */
+  onEmpty?: () => void;
+  min?: number;
+  max?: number;
+  digits?: number;
+  step?: number;
+  placeholder?: string;
+  disabled?: boolean;
+}) {
+  const id = useId();
+  const shown =
+    props.value === undefined ? '' : String(Number(props.value.toFixed(props.digits ?? 1)));
+  const [text, setText] = useState(shown);
+  const [error, setError] = useState('');
+  const isEdited = useRef(false);
+  useEffect(() => {
+    if (!isEdited.current) setText(shown);
+  }, [shown]);
+  const take = (typed: string) => {
+    setText(typed);
+    if (typed.trim() === '' && props.onEmpty) {
+      setError('');
+      return props.onEmpty();
+    }
+    const value = parseNumber(typed);
+    if (value === undefined) return setError('This is no number');
+    if (props.min !== undefined && value < props.min) return setError(`At least ${props.min}`);
+    if (props.max !== undefined && value > props.max) return setError(`At most ${props.max}`);
+    setError('');
+    return props.onValue(value);
+  };
+  const nudge = (event: KeyboardEvent) => {
+    const step = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const size = (props.step ?? 1) * (event.shiftKey ? 10 : 1);
+    take(String(Number(((parseNumber(text) ?? 0) + step * size).toFixed(6))));
+  };
+  return (
+    <div class="field">
+      <label for={id}>{props.label}</label>
+      <span class="with-unit">
+        <input
+          id={id}
+          inputMode="decimal"
+          autocomplete="off"
+          value={text}
+          placeholder={props.placeholder}
+          disabled={props.disabled}
+          aria-invalid={error !== ''}
+          aria-describedby={error ? `${id}-error` : undefined}
+          onInput={(event) => {
+            isEdited.current = true;
+            take(event.currentTarget.value);
+          }}
+          onBlur={() => {
+            isEdited.current = false;
+            if (error || text !== shown) setText(shown);
+            setError('');
+          }}
+          onKeyDown={nudge}
+        />
+        <span class="unit">{props.unit}</span>
+      </span>
+      {error && (
+        <span class="error" id={`${id}-error`} role="alert">
+          {error}
+        </span>
+      )}
+    </div>
+  );
+}
+
+export function TextField(props: {
+  label: string;
+  value: string;
+  onValue: (value: string) => void;
+  placeholder?: string;
+  type?: string;
+  autocomplete?: JSX.InputHTMLAttributes<HTMLInputElement>['autocomplete'];
+  maxLength?: number;
+}) {
+  const id = useId();
+  return (
+    <div class="field">
+      <label for={id}>{props.label}</label>
+      <input
+        id={id}
+        type={props.type ?? 'text'}
+        value={props.value}
+        placeholder={props.placeholder}
+        autocomplete={props.autocomplete ?? 'off'}
+        maxLength={props.maxLength}
+        onInput={(event) => props.onValue(event.currentTarget.value)}
+      />
+    </div>
+  );
+}
+
+export function Choice<T extends string>(props: {
+  label: string;
+  value: T;
+  choices: readonly { value: T; label: string }[];
+  onValue: (value: T) => void;
+  disabled?: boolean;
+}) {
+  const id = useId();
+  return (
+    <div class="field">
+      <label for={id}>{props.label}</label>
+      <select
+        id={id}
+        value={props.value}
+        disabled={props.disabled}
+        onChange={(event) => props.onValue(event.currentTarget.value as T)}
+      >
+        {props.choices.map(({ value, label }) => (
+          <option key={value} value={value} selected={value === props.value}>
+            {label}
+          </option>
+        ))}
+      </select>
+    </div>
+  );
+}
+
+/** One of a few, all of them in sight. */
+export function Switch<T extends string>(props: {
+  label: string;
+  value: T;
+  choices: readonly { value: T; label: string }[];
+  onValue: (value: T) => void;
+}) {
+  const name = useId();
+  return (
+    <fieldset class="switch">
+      <legend class="hidden">{props.label}</legend>
+      {props.choices.map(({ value, label }) => (
+        <label key={value}>
+          <input
+            type="radio"
+            name={name}
+            checked={value === props.value}
+            onChange={() => props.onValue(value)}
+          />
+          <span>{label}</span>
+        </label>
+      ))}
+    </fieldset>
+  );
+}
+
+export function Check(props: { label: string; value: boolean; onValue: (value: boolean) => void }) {
+  return (
+    <label class="check">
+      <input
+        type="checkbox"
+        checked={props.value}
+        onChange={(event) => props.onValue(event.currentTarget.checked)}
+      />
+      {props.label}
+    </label>
+  );
+}
+
+/** Figures with their names. */
+export const Figures = ({
+  rows,
+}: {
+  rows: readonly (readonly [string, ComponentChildren] | false)[];
+}) => (
+  <dl class="figures">
+    {rows.map(
+      (row) =>
+        row && (
+          <div key={row[0]}>
+            <dt>{row[0]}</dt>
+            <dd>{row[1]}</dd>
+          </div>
+        ),
+    )}
+  </dl>
+);
+
+export function Progress({ share, label }: { share: number; label: string }) {
+  return (
+    <progress max={1} value={share} aria-label={label}>
+      {Math.round(100 * share)} %
+    </progress>
+  );
+}

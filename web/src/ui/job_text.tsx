@@ -1,0 +1,74 @@
+/** Jobs in words, the same on every screen. */
+import type { Job, JobState } from '../api/types';
+import { formatSeconds, formatTime } from '../model/units';
+import { now, secondsUntil } from './clock';
+import { Progress } from './controls';
+
+const kStates: Record<JobState, string> = {
+  STATE_UNSPECIFIED: 'unknown',
+  QUEUED: 'queued',
+  WAITING_FOR_OPERATOR: 'waits for you',
+  RUNNING: 'running',
+  CANCELLING: 'being cancelled',
+  SUCCEEDED: 'done',
+  FAILED: 'failed',
+  CANCELLED: 'cancelled',
+  INTERRUPTED: 'interrupted',
+};
+
+const kKinds = {
+  simulate: 'film image',
+  predict: 'prediction',
+  fit: 'film profile',
+  validate: 'validation',
+  dip: 'dip',
+  printImage: 'pages to print',
+  template: 'placement page',
+  print: 'print',
+  capture: 'camera frames',
+  calibrateCamera: 'camera calibration',
+  calibrate: 'calibration',
+} as const;
+
+export type Kind = keyof typeof kKinds;
+
+/** What a job does, by the spec that it has. */
+export const kindOf = (job: Job): Kind | undefined =>
+  (Object.keys(kKinds) as Kind[]).find((kind) => job[kind as keyof Job] != null);
+
+export const kindText = (job: Job): string => {
+  const kind = kindOf(job);
+  return kind ? kKinds[kind] : 'job';
+};
+
+export const numberOf = (name: string): string => name.split('/')[1] ?? name;
+
+export const State = ({ state }: { state: JobState }) => (
+  <span class={`state ${state.toLowerCase()}`}>{kStates[state] ?? state.toLowerCase()}</span>
+);
+
+/** How far it is, and how long it will take. */
+export function HowFar({ job }: { job: Job }) {
+  if (job.state === 'QUEUED') return <span class="quiet">waits for its turn</span>;
+  const left = secondsUntil(job.etaTime);
+  return (
+    <span class="how-far">
+      <Progress share={job.progressFraction} label={`Progress of job ${numberOf(job.name)}`} />
+      <span>
+        {Math.round(100 * job.progressFraction)} %
+        {left !== undefined && left > 0 && `, ${formatSeconds(left)} left`}
+        {job.phase && <span class="quiet"> {job.phase.toLowerCase().replaceAll('_', ' ')}</span>}
+      </span>
+    </span>
+  );
+}
+
+export const When = ({ time }: { time: string | undefined }) => {
+  if (!time) return null;
+  const date = new Date(time);
+  return (
+    <time dateTime={time} title={date.toLocaleString()}>
+      {formatTime(date, now.peek())}
+    </time>
+  );
+};

@@ -1,0 +1,216 @@
+/** The object over the film, to be turned and moved by hand. */
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Group,
+  Mesh as Mesh3,
+  MeshStandardMaterial,
+  Quaternion as Quaternion3,
+  RepeatWrapping,
+  SRGBColorSpace,
+  Texture,
+  Vector3,
+} from 'three';
+import { TransformControls } from 'three/addons/controls/TransformControls.js';
+import type { Film } from '../model/film';
+import { centreOf, type Box, type Mesh } from '../model/mesh';
+import { rotate, type Pose, type Vec3 } from '../model/pose';
+import { Stage, disposeOf, type Side } from './stage';
+
+/** What a part of the mesh looks like; `picture` has its first row at the top. */
+export interface Look {
+  colour: readonly [number, number, number];
+  picture?: ImageBitmap;
+}
+
+export type Gizmo = 'none' | 'rotate' | 'translate';
+
+export class PoseView {
+  private readonly stage: Stage;
+  // At the centre of the object's box; turns about it.
+  private readonly holder = new Group();
+  private readonly gizmo: TransformControls;
+  private object: Mesh3 | undefined;
+  private heat = new Mesh3();
+  private box: Box = { min: [0, 0, 0], max: [0, 0, 0] };
+  private positions = new Float32Array();
+  private scale = 1;
+
+  /** @param onPose  called while the object is turned or moved by hand */
+  constructor(
+    host: HTMLElement,
+    private readonly onPose: (pose: Pose) => void,
+  ) {
+    this.stage = new Stage(host);
+    this.gizmo = new TransformControls(this.stage.camera, this.stage.renderer.domElement);
+    this.gizmo.setSpace('world');
+    this.gizmo.attach(this.holder);
+    this.gizmo.addEventListener('change', () => this.stage.draw());
+    this.gizmo.addEventListener('dragging-changed', (event) => {
+      this.stage.controls.enabled = !event.value;
+    });
+    this.gizmo.addEventListener('objectChange', () => this.tell());
+    this.stage.scene.add(this.holder, this.gizmo.getHelper());
+    this.setGizmo('rotate');
+  }
+
+  setFilm(film: Film): void {
+    this.stage.setFilm(film);
+  }
+
+  /** `lookOf` says what a material looks like. */
+  setMesh(mesh: Mesh, box: Box, scale: number, lookOf: (material: string) => Look): void {
+    disposeOf(this.holder);
+    this.holder.clear();
+    this.box = box;
+    this.scale = scale;
+    this.positions = new Float32Array(mesh.positions);
+    const object = new Mesh3(
+      geometryOf(mesh),
+      mesh.parts.map((part) => materialOf(lookOf(part.material), mesh.colours !== undefined)),
+    );
+    const [x, y, z] = centreOf(box);
+    object.position.set(-x * scale, -y * scale, -z * scale);
+    object.scale.setScalar(scale);
+    this.object = object;
+    this.holder.add(object);
+    this.stage.draw();
+  }
+
+  /** Shows colours in place of the pictures: of a mesh in the object's frame, mm; or the pictures again. */
+  setHeat(heat?: { positions: Float32Array; corners: Uint32Array; colours: Uint8Array }): void {
+    this.holder.remove(this.heat);
+    disposeOf(this.heat);
+    if (this.object) this.object.visible = heat === undefined;
+    if (heat) {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute('position', new BufferAttribute(heat.positions, 3));
+      geometry.setAttribute('color', new BufferAttribute(heat.colours, 3, true));
+      geometry.setIndex(new BufferAttribute(heat.corners, 1));
+      geometry.computeVertexNormals();
+      this.heat = new Mesh3(
+        geometry,
+        new MeshStandardMaterial({ roughness: 0.9, side: DoubleSide, vertexColors: true }),
+      );
+      const [x, y, z] = centreOf(this.box);
+      this.heat.position.set(-x * this.scale, -y * this.scale, -z * this.scale);
+      this.holder.add(this.heat);
+    }
+    this.stage.draw();
+  }
+
+  clear(): void {
+    disposeOf(this.holder);
+    this.holder.clear();
+    this.positions = new Float32Array();
+    this.stage.draw();
+  }
+
+  setPose(pose: Pose): void {
+    const [w, x, y, z] = pose.rotation;
+    this.holder.quaternion.copy(new Quaternion3(x, y, z, w));
+    this.holder.position.set(pose.centre_mm[0], pose.centre_mm[1], this.heightFor(pose));
+    this.stage.draw();
+  }
+
+  setGizmo(gizmo: Gizmo): void {
+    const helper = this.gizmo.getHelper();
+    helper.visible = gizmo !== 'none';
+    this.gizmo.enabled = gizmo !== 'none';
+    if (gizmo !== 'none') this.gizmo.setMode(gizmo);
+    this.gizmo.showZ = gizmo === 'rotate';
+    this.stage.draw();
+  }
+
+  /** All of the object and the film, from that side. */
+  look(side: Side, film: Film): void {
+    const size = new Vector3(
+      this.box.max[0] - this.box.min[0],
+      this.box.max[1] - this.box.min[1],
+      this.box.max[2] - this.box.min[2],
+    ).multiplyScalar(this.scale);
+    const reach = Math.max(0.55 * Math.hypot(film.width_mm, film.height_mm), 0.7 * size.length());
+    this.stage.look(side, reach, new Vector3(0, 0, Math.min(size.length() / 3, reach / 2)));
+  }
+
+  dispose(): void {
+    this.gizmo.dispose();
+    this.stage.dispose();
+  }
+
+  private tell(): void {
+    const { x, y, z, w } = this.holder.quaternion;
+    const pose: Pose = {
+      rotation: [w, x, y, z],
+      centre_mm: [this.holder.position.x, this.holder.position.y],
+    };
+    this.holder.position.z = this.heightFor(pose);
+    this.onPose(pose);
+  }
+
+  /** How high the box's centre is while the lowest point touches the water. */
+  private heightFor(pose: Pose): number {
+    return -lowest(this.positions, centreOf(this.box), pose) * this.scale;
+  }
+}
+
+/** z of the lowest point from `centre` once it is turned. */
+function lowest(positions: Float32Array, centre: Vec3, pose: Pose): number {
+  // The third row of the rotation: how each axis of the object counts upwards.
+  const ups = (
+    [
+      [1, 0, 0],
+      [0, 1, 0],
+      [0, 0, 1],
+    ] as const
+  ).map((axis) => rotate(pose.rotation, axis)[2]);
+  const [ux, uy, uz] = [ups[0]!, ups[1]!, ups[2]!];
+  let least = 0;
+  for (let i = 0; i < positions.length; i += 3) {
+    const z =
+      ux * (positions[i]! - centre[0]) +
+      uy * (positions[i + 1]! - centre[1]) +
+      uz * (positions[i + 2]! - centre[2]);
+    if (z < least) least = z;
+  }
+  return least;
+}
+
+function geometryOf(mesh: Mesh): BufferGeometry {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(mesh.positions, 3));
+  if (mesh.uvs) geometry.setAttribute('uv', new BufferAttribute(mesh.uvs, 2));
+  if (mesh.colours) geometry.setAttribute('color', new BufferAttribute(mesh.colours, 3, true));
+  geometry.setIndex(new BufferAttribute(mesh.indices, 1));
+  mesh.parts.forEach((part, i) => geometry.addGroup(part.first, part.count, i));
+  geometry.computeVertexNormals();
+  return geometry;
+}
+
+function materialOf(look: Look, hasColours: boolean): MeshStandardMaterial {
+  const material = new MeshStandardMaterial({
+    roughness: 0.85,
+    side: DoubleSide,
+    vertexColors: hasColours && !look.picture,
+  });
+  material.color.setRGB(...look.colour, SRGBColorSpace);
+  if (look.picture) {
+    material.map = textureOf(look.picture);
+    material.map.wrapS = material.map.wrapT = RepeatWrapping;
+  }
+  return material;
+}
+
+/** For v upwards, as models have it. */
+export function textureOf(picture: ImageBitmap): Texture {
+  const texture = new Texture(picture);
+  // The browser flips no ImageBitmap for WebGL: the texture's own transform does.
+  texture.flipY = false;
+  texture.matrixAutoUpdate = false;
+  texture.matrix.set(1, 0, 0, 0, -1, 1, 0, 0, 1);
+  texture.colorSpace = SRGBColorSpace;
+  texture.anisotropy = 8;
+  texture.needsUpdate = true;
+  return texture;
+}

@@ -1,0 +1,29 @@
+/** Reads models and maps off the page's thread, so that the page goes on answering. */
+import { boxOf } from '../model/mesh';
+import { readObj } from '../model/obj';
+import { readPlyMesh } from '../model/ply';
+import { attempt } from '../model/result';
+import { readStl } from '../model/stl';
+import { readSurfaceMap } from '../model/surface_map';
+import type { Answer, Question } from './reader';
+
+function read(question: Question): Answer {
+  const { bytes } = question;
+  if (question.what === 'surface_map')
+    return { what: 'surface_map', result: attempt(() => readSurfaceMap(bytes)) };
+  const result = attempt(() => {
+    const ending = question.name.toLowerCase().split('.').at(-1);
+    const mesh =
+      ending === 'stl'
+        ? readStl(bytes)
+        : ending === 'ply'
+          ? readPlyMesh(bytes)
+          : readObj(new TextDecoder().decode(bytes));
+    return { mesh, box: boxOf(mesh) };
+  });
+  return { what: 'mesh', result };
+}
+
+self.onmessage = ({ data }: MessageEvent<{ id: number; question: Question }>) => {
+  self.postMessage({ id: data.id, answer: read(data.question) });
+};

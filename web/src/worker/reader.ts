@@ -1,0 +1,58 @@
+/** The page's side of mesh_worker. */
+import type { Box, Mesh } from '../model/mesh';
+import { refused, type Result } from '../model/result';
+import type { SurfaceMap } from '../model/surface_map';
+
+export type Question =
+  | { what: 'mesh'; name: string; bytes: ArrayBuffer }
+  | { what: 'surface_map'; bytes: ArrayBuffer };
+export type Answer =
+  | { what: 'mesh'; result: Result<{ mesh: Mesh; box: Box }> }
+  | { what: 'surface_map'; result: Result<SurfaceMap> };
+
+let worker: Worker | undefined;
+let count = 0;
+const waiting = new Map<number, (answer: Answer | undefined) => void>();
+
+function start(): Worker {
+  const made = new Worker(new URL('./mesh_worker.ts', import.meta.url), { type: 'module' });
+  made.onmessage = ({ data }: MessageEvent<{ id: number; answer: Answer }>) => {
+    waiting.get(data.id)?.(data.answer);
+    waiting.delete(data.id);
+  };
+  // Out of memory, most likely: the next question gets a new worker.
+  made.onerror = () => {
+    for (const give of waiting.values()) give(undefined);
+    waiting.clear();
+    made.terminate();
+    worker = undefined;
+  };
+  return made;
+}
+
+function ask(question: Question): Promise<Answer | undefined> {
+  worker ??= start();
+  count += 1;
+  const id = count;
+  return new Promise((resolve) => {
+    waiting.set(id, resolve);
+    worker!.postMessage({ id, question }, [question.bytes]);
+  });
+}
+
+const kTooMuch = refused(
+  'this browser could not read the file',
+  'It may be too large for it: try a desktop computer, or a model with fewer faces',
+);
+
+/** Reads an OBJ, PLY or STL, told apart by the name's ending. */
+export async function readMesh(file: File): Promise<Result<{ mesh: Mesh; box: Box }>> {
+  const answer = await ask({ what: 'mesh', name: file.name, bytes: await file.arrayBuffer() });
+  return answer?.what === 'mesh' ? answer.result : kTooMuch;
+}
+
+/** Reads a job's surface_map.ply. */
+export async function readMap(bytes: ArrayBuffer): Promise<Result<SurfaceMap>> {
+  const answer = await ask({ what: 'surface_map', bytes });
+  return answer?.what === 'surface_map' ? answer.result : kTooMuch;
+}

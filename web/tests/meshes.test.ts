@@ -1,0 +1,157 @@
+import { describe, expect, test } from 'vitest';
+import { boxOf } from '../src/model/mesh';
+import { readMtl, readObj } from '../src/model/obj';
+import { readPlyMesh } from '../src/model/ply';
+import { attempt, Refusal } from '../src/model/result';
+import { readStl } from '../src/model/stl';
+import { placesOf, readSurfaceMap } from '../src/model/surface_map';
+
+const bytesOf = (text: string): ArrayBuffer => new TextEncoder().encode(text).buffer as ArrayBuffer;
+
+describe('OBJ', () => {
+  test('a square is two triangles, a corner with two texture places two vertices', () => {
+    const mesh = readObj(
+      'mtllib a b.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nvt 0 0\nvt 1 1\n' +
+        'usemtl red\nf 1/1 2/1 3/1 4/1\nusemtl blue\nf -4/2 -3/2 -2/2\n',
+    );
+    expect([...mesh.indices]).toEqual([0, 1, 2, 0, 2, 3, 4, 5, 6]);
+    expect(mesh.libraries).toEqual(['a b.mtl']);
+    expect(mesh.parts).toEqual([
+      { material: 'red', first: 0, count: 6 },
+      { material: 'blue', first: 6, count: 3 },
+    ]);
+    expect([...mesh.uvs!.slice(8)]).toEqual([1, 1, 1, 1, 1, 1]);
+    expect(boxOf(mesh)).toEqual({ min: [0, 0, 0], max: [2, 2, 0] });
+  });
+
+  test.each([
+    ['v 0 0\n', 'line 1'],
+    ['v 0 0 nan\n', 'line 1'],
+    ['v 0 0 0\nf 1 2 3\n', 'line 2'],
+    ['v 0 0 0\nf 1 1\n', 'line 2'],
+    ['v 0 0 0\nf 1 1 0\n', 'line 2'],
+    ['v 0 0 0\nf 1 1 -2\n', 'line 2'],
+  ])('%j is refused with its line', (text, line) => {
+    const result = attempt(() => readObj(text));
+    expect(result.ok).toBe(false);
+    if (!result.ok) expect(result.failure.what).toContain(line);
+  });
+
+  test('without faces is refused', () => {
+    expect(() => boxOf(readObj('v 0 0 0\n'))).toThrow(Refusal);
+  });
+
+  test("materials' pictures may have options and blanks", () => {
+    const materials = readMtl(
+      'newmtl a b\nKd 1 0 0.5\nmap_Kd -s 1 1 1 -clamp on my skin.png\nnewmtl c\n',
+    );
+    expect(materials.get('a b')).toEqual({ colour: [1, 0, 0.5], map: 'my skin.png' });
+    expect(materials.get('c')).toEqual({ colour: [1, 1, 1] });
+  });
+});
+
+describe('STL', () => {
+  const triangle = [0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0];
+  const binary = (head: string, count = 1) => {
+    const view = new DataView(new ArrayBuffer(134));
+    [...head].forEach((c, i) => view.setUint8(i, c.charCodeAt(0)));
+    view.setUint32(80, count, true);
+    triangle.forEach((value, i) => view.setFloat32(84 + 4 * i, value, true));
+    return view.buffer;
+  };
+
+  test('binary is read, even if it begins with "solid"', () => {
+    for (const head of ['', 'solid x'])
+      expect([...readStl(binary(head)).positions]).toEqual(triangle.slice(3));
+  });
+
+  test('text is read', () => {
+    const mesh = readStl(
+      bytesOf('solid\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e0 0\nendloop'),
+    );
+    expect([...mesh.positions]).toEqual(triangle.slice(3));
+  });
+
+  test('that is shorter than it says is refused', () => {
+    expect(() => readStl(binary('', 1000))).toThrow(/1000 triangles/);
+    expect(() => readStl(bytesOf('solid nothing'))).toThrow(Refusal);
+  });
+});
+
+/** One triangle as a binary surface map; `nan` of its corners without film. */
+function surfaceMap(stretch: number[]): ArrayBuffer {
+  const head =
+    'ply\nformat binary_little_endian 1.0\nelement vertex 3\n' +
+    ['x', 'y', 'z', 'film_x', 'film_y', 'contact_time', 'stretch']
+      .map((name) => `property double ${name}\n`)
+      .join('') +
+    'element face 1\nproperty list uchar int vertex_indices\nend_header\n';
+  const out = new Uint8Array(head.length + 3 * 7 * 8 + 13);
+  out.set(new TextEncoder().encode(head));
+  const view = new DataView(out.buffer, head.length);
+  const corners = [
+    [0, 0, 0],
+    [10, 0, 0],
+    [0, 10, 0],
+  ];
+  corners.forEach(([x, y, z], i) =>
+    [x!, y!, z!, 2 * x!, 2 * y!, 3 * i, stretch[i]!].forEach((value, k) =>
+      view.setFloat64(56 * i + 8 * k, value, true),
+    ),
+  );
+  view.setUint8(168, 3);
+  [0, 1, 2].forEach((index, i) => view.setInt32(169 + 4 * i, index, true));
+  return out.buffer;
+}
+
+describe('PLY', () => {
+  const text =
+    'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n' +
+    'property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n' +
+    'property list uchar int vertex_index\nend_header\n' +
+    '0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 9 9 9\n4 0 1 2 3\n';
+
+  test('text with colours and a square is read', () => {
+    const mesh = readPlyMesh(bytesOf(text));
+    expect([...mesh.indices]).toEqual([0, 1, 2, 0, 2, 3]);
+    expect([...mesh.colours!.slice(0, 6)]).toEqual([255, 0, 0, 0, 255, 0]);
+  });
+
+  test.each([
+    ['no header', 'hello'],
+    ['more rows than bytes', text.replace('vertex 4', 'vertex 400000000')],
+    ['a count that is none', text.replace('vertex 4', 'vertex -4')],
+    ['an unknown type', text.replace('float x', 'quad x')],
+    ['an end that is too early', text.slice(0, -8)],
+    ['no faces', text.replace('vertex_index', 'neighbours')],
+  ])('%s is refused', (_, broken) => {
+    const result = attempt(() => readPlyMesh(bytesOf(broken)));
+    expect(result.ok).toBe(false);
+  });
+
+  test('a surface map has its film places, times and stretch', () => {
+    const map = readSurfaceMap(surfaceMap([1, 1.5, 4]));
+    expect([...map.film_mm]).toEqual([0, 0, 20, 0, 0, 20]);
+    expect([...map.stretch]).toEqual([1, 1.5, 4]);
+    expect(map.contactMax_s).toBe(6);
+    expect(map.box.max).toEqual([10, 10, 0]);
+  });
+
+  test('warnings are about the triangles they speak of', () => {
+    const torn = readSurfaceMap(surfaceMap([1, 1.5, 4]));
+    const bare = readSurfaceMap(surfaceMap([1, NaN, 1]));
+    const flat = (v: readonly [number, number, number]) => v[2];
+    expect(placesOf('film_torn', torn, { tear: 3 }, flat)).toEqual([0]);
+    expect(placesOf('film_torn', torn, { tear: 5 }, flat)).toEqual([]);
+    expect(placesOf('parts_not_reached', bare, { tear: 3 }, flat)).toEqual([0]);
+    expect(placesOf('parts_not_reached', torn, { tear: 3 }, flat)).toEqual([]);
+    expect(placesOf('theta_clamped', torn, { tear: 3 }, flat)).toEqual([0]);
+    expect(placesOf('theta_clamped', torn, { tear: 3 }, (v) => -v[2])).toEqual([]);
+    expect(placesOf('face_uvs_ignored', torn, { tear: 3 }, flat)).toEqual([]);
+  });
+
+  test('a map that is cut off or another PLY is refused', () => {
+    expect(() => readSurfaceMap(surfaceMap([1, 1, 1]).slice(0, -1))).toThrow(Refusal);
+    expect(() => readSurfaceMap(bytesOf(text))).toThrow(Refusal);
+  });
+});

@@ -1,0 +1,148 @@
+import { describe, expect, test } from 'vitest';
+import { colourOf, kNoValue, place, ticks } from '../src/model/colour_map';
+import { filmOf } from '../src/model/film';
+import { readGrey16 } from '../src/model/grey16';
+import { fit, pan, pixelAt, zoomAt } from '../src/model/pan_zoom';
+import { readPositions } from '../src/model/positions';
+import { placeOf } from '../src/model/report';
+import { formatBytes, formatSeconds, parseNumber, secondsOf } from '../src/model/units';
+
+describe('figures', () => {
+  test('have the unit that suits them', () => {
+    expect([0.25, 59.4, 125, 7300, 200_000, -5].map(formatSeconds)).toEqual([
+      '250 ms',
+      '59 s',
+      '2 min 05 s',
+      '2 h 01 min',
+      '2 d 7 h',
+      '-5 s',
+    ]);
+    expect([0, 999, 1500, 4_293_056].map(formatBytes)).toEqual([
+      '0 B',
+      '999 B',
+      '1.5 kB',
+      '4.3 MB',
+    ]);
+    expect(secondsOf('3.5s')).toBe(3.5);
+    expect(secondsOf('3.5')).toBeNaN();
+  });
+
+  test('are read with a comma, too, and nothing else is', () => {
+    expect(parseNumber(' 1,5 ')).toBe(1.5);
+    expect(parseNumber('-2e1')).toBe(-20);
+    for (const text of ['', 'x', '1.2.3', 'Infinity', '1 mm'])
+      expect(parseNumber(text)).toBeUndefined();
+  });
+});
+
+describe('films', () => {
+  test('are known by name and by size', () => {
+    expect(filmOf('A4')).toMatchObject({ width_mm: 210, height_mm: 297 });
+    expect(filmOf('100x50.5')).toMatchObject({ width_mm: 100, height_mm: 50.5 });
+    expect(filmOf('circle:105')).toMatchObject({ width_mm: 210, radius_mm: 105 });
+    for (const name of ['A5', '0x10', 'circle:0', '10x', 'polygon:x'])
+      expect(filmOf(name)).toBeUndefined();
+  });
+});
+
+describe('colour maps', () => {
+  test('rise in lightness from end to end, so that no hue is needed to read them', () => {
+    for (const map of ['viridis', 'cividis'] as const) {
+      let before = -1;
+      for (let i = 0; i <= 100; i += 1) {
+        const [r, g, b] = colourOf(map, i / 100);
+        const lightness =
+          0.2126 * (r / 255) ** 2.2 + 0.7152 * (g / 255) ** 2.2 + 0.0722 * (b / 255) ** 2.2;
+        expect(lightness).toBeGreaterThan(before - 0.002);
+        before = lightness;
+      }
+    }
+  });
+
+  test('clamp, and have a colour of its own for what has no value', () => {
+    expect(colourOf('viridis', -1)).toEqual(colourOf('viridis', 0));
+    expect(colourOf('viridis', 7)).toEqual(colourOf('viridis', 1));
+    expect(colourOf('viridis', NaN)).toEqual(kNoValue);
+  });
+
+  test('by ratios put the root of the ends in the middle', () => {
+    const scale = { map: 'viridis', min: 1, max: 4, log: true } as const;
+    expect(place(scale, 2)).toBeCloseTo(0.5);
+    expect(ticks({ map: 'viridis', min: 0, max: 23.9 })).toEqual([0, 5, 10, 15, 20]);
+    expect(ticks({ map: 'viridis', min: 3, max: 3 })).toEqual([3]);
+  });
+});
+
+describe('a picture in its window', () => {
+  const picture = { width: 1000, height: 2000 };
+  const window = { width: 500, height: 500 };
+
+  test('is all in sight at first', () => {
+    expect(fit(picture, window)).toEqual({ zoom: 0.25, x: 125, y: 0 });
+  });
+
+  test('keeps the pixel under the pointer when it comes nearer', () => {
+    const view = fit(picture, window);
+    const nearer = zoomAt(view, 10, 200, 300, 0.1);
+    expect(pixelAt(nearer, 200, 300, picture)).toEqual(pixelAt(view, 200, 300, picture));
+    expect(pixelAt(view, 10, 10, picture)).toBeUndefined();
+  });
+
+  test('cannot be lost', () => {
+    const away = pan(fit(picture, window), 1e6, -1e6, picture, window);
+    expect(away.x).toBeLessThan(window.width);
+    expect(away.y + away.zoom * picture.height).toBeGreaterThan(0);
+  });
+});
+
+describe('what the daemon wrote', () => {
+  test('a warning that names a place points there', () => {
+    expect(placeOf('12.30 mm immersion, at (-4.00, 17.50) mm')).toEqual([-4, 17.5, 12.3]);
+    expect(placeOf('surface')).toBeUndefined();
+    expect(placeOf('12.30 mm immersion')).toBeUndefined();
+  });
+
+  test('positions are read up to where the record breaks off', () => {
+    const text = 't_s,depth_mm,position_mm\n0.0,-20.0,100.5\n0.1,-19.5,101.0\n0.2,-1';
+    expect(readPositions(text)).toEqual([
+      { t_s: 0, position_mm: 100.5 },
+      { t_s: 0.1, position_mm: 101 },
+    ]);
+    expect(readPositions('nothing')).toEqual([]);
+  });
+
+  test('a 16-bit picture keeps its sixteen bits', async () => {
+    const values = [0, 1, 255, 256, 1000, 65535];
+    const png = await grey16Png(3, 2, values);
+    const picture = await readGrey16(png);
+    expect([picture.width, picture.height]).toEqual([3, 2]);
+    expect([...picture.values]).toEqual(values);
+    await expect(readGrey16(png.slice(0, 40))).rejects.toThrow();
+  });
+});
+
+/** A PNG whose second row is told by differences from the first. */
+async function grey16Png(width: number, height: number, values: number[]): Promise<ArrayBuffer> {
+  const bytes = values.flatMap((value) => [value >> 8, value & 255]);
+  const rows = Array.from({ length: height }, (_, y) => {
+    const row = bytes.slice(2 * width * y, 2 * width * (y + 1));
+    const above = bytes.slice(2 * width * (y - 1), 2 * width * y);
+    return y === 0 ? [0, ...row] : [2, ...row.map((value, i) => (value - above[i]!) & 255)];
+  }).flat();
+  const deflated = await new Response(
+    new Blob([Uint8Array.from(rows)]).stream().pipeThrough(new CompressionStream('deflate')),
+  ).arrayBuffer();
+  const number = (value: number) => [24, 16, 8, 0].map((shift) => (value >>> shift) & 255);
+  const chunk = (name: string, data: number[]) => [
+    ...number(data.length),
+    ...[...name].map((c) => c.charCodeAt(0)),
+    ...data,
+    ...number(0),
+  ];
+  return Uint8Array.from([
+    0x89, 0x50, 0x4e, 0x47, 13, 10, 26, 10,
+    ...chunk('IHDR', [...number(width), ...number(height), 16, 0, 0, 0, 0]),
+    ...chunk('IDAT', [...new Uint8Array(deflated)]),
+    ...chunk('IEND', []),
+  ]).buffer; // prettier-ignore
+}
