@@ -128,7 +128,7 @@ int run(const Config& config) {
       {{"grpc", grpc}, {"http", http}, {"state_dir", (*daemon)->layout().root.string()}});
   std::cout << "hydroprintd ready grpc=" << grpc << " http=" << http
             << " state_dir=" << (*daemon)->layout().root.string() << std::endl;
-  notify_ready("serving " + address);
+  notify_ready("serving gRPC at " + grpc + ", http://" + http + "/");
   {
     const WatchdogFeeder feeder([&daemon] { return (*daemon)->control_rounds(); });
     serve_until_signal(**daemon, signals);
