@@ -18,12 +18,16 @@
 namespace hydroprint::cli {
 namespace {
 
-/// The axis armed and homed.
+/// The axis armed and homed, whatever happened to it: on a machine that is too busy the drive's
+/// watchdog stops it between two poses, and it hurts nobody.
 Status make_ready(Program& program, const HeldLease& lease) {
   HP_ASSIGN_OR_RETURN(client::Rig rig, client::get_rig(program.daemon()));
   if (!rig.axis || !rig.axis->is_virtual)
     return fail(Code::kFailedPrecondition,
                 "the loop runs on hydroprint-virtual-rig alone; start the daemon with one");
+  if (rig.state == client::RigState::kFault) {
+    HP_ASSIGN_OR_RETURN(rig, client::reset_rig(program.daemon(), lease.id()));
+  }
   if (rig.state == client::RigState::kDisarmed)
     HP_RETURN_IF_ERROR(client::arm_rig(program.daemon(), lease.id()));
   if (rig.homed) return {};
@@ -47,6 +51,7 @@ Status run_loop(Program& program, const LoopOptions& options) {
   HP_RETURN_IF_ERROR(rounds.prepare());
   report.camera = rounds.camera();
   for (int i = 0; i < options.poses; ++i) {
+    HP_RETURN_IF_ERROR(make_ready(program, *lease));
     HP_ASSIGN_OR_RETURN(report.rounds.emplace_back(), rounds.round(i));
     HP_RETURN_IF_ERROR(write(report, folder));
   }
