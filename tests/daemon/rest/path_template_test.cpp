@@ -1,9 +1,11 @@
 #include "daemon/rest/path_template.h"
 
 #include <gtest/gtest.h>
+#include <regex.h>
 
+#include <memory>
 #include <random>
-#include <regex>
+#include <stdexcept>
 
 #include "daemon/rest/percent.h"
 
@@ -90,6 +92,35 @@ TEST(PathTemplate, WhatIsNoUrlIsRefused) {
   }
 }
 
+// A POSIX regular expression that must match the whole text.
+class Regex {
+ public:
+  explicit Regex(const std::string& pattern) {
+    if (regcomp(&regex_, ("^" + pattern + "$").c_str(), REG_EXTENDED) != 0) {
+      throw std::logic_error(pattern);
+    }
+  }
+  ~Regex() { regfree(&regex_); }
+  Regex(const Regex&) = delete;
+  Regex& operator=(const Regex&) = delete;
+
+  // What its groups match, from 1 on.
+  [[nodiscard]] std::optional<Values> groups(const std::string& text) const {
+    regmatch_t found[10];
+    if (regexec(&regex_, text.c_str(), std::size(found), found, 0) != 0) return std::nullopt;
+    Values values;
+    for (const regmatch_t& group : found) {
+      const auto length = static_cast<std::size_t>(group.rm_eo - group.rm_so);
+      values.push_back(
+          group.rm_so < 0 ? "" : text.substr(static_cast<std::size_t>(group.rm_so), length));
+    }
+    return values;
+  }
+
+ private:
+  regex_t regex_{};
+};
+
 // Templates of up to three segments over few words, and all paths over these and one more.
 class Drawn {
  public:
@@ -97,16 +128,19 @@ class Drawn {
     std::string text;
     std::string pattern;
     int names = 0;
+    groups_.clear();
+    std::size_t group = 0;
     for (std::size_t left = 1 + below(3); left > 0;) {
       const bool is_variable = below(2) == 0;
       const std::size_t inner = is_variable ? 1 + below(left) : 1;
       text += is_variable ? std::string("/{v") + std::to_string(names++) + "=" : "/";
       pattern += is_variable ? "(" : "";
+      if (is_variable) groups_.push_back(++group);
       for (std::size_t i = 0; i < inner; ++i) {
         const bool is_last = i + 1 == left;
         const std::size_t kind = below(is_last ? 4 : 3);
         static constexpr const char* kTexts[] = {"a", "b", "*", "**"};
-        static constexpr const char* kPatterns[] = {"/a", "/b", "/[^/:]+", "(?:/[^/:]+)*"};
+        static constexpr const char* kPatterns[] = {"/a", "/b", "/[^/:]+", "(/[^/:]+)*"};
         text += std::string(i == 0 ? "" : "/") + kTexts[kind];
         pattern += kPatterns[kind];
       }
@@ -115,17 +149,17 @@ class Drawn {
       left -= inner;
     }
     const bool has_verb = below(3) == 0;
-    regex_ = std::regex(pattern + (has_verb ? ":v" : ""));
+    regex_ = std::make_unique<Regex>(pattern + (has_verb ? ":v" : ""));
     return text + (has_verb ? ":v" : "");
   }
 
   // The same by a regular expression, which knows nothing of segments.
   [[nodiscard]] std::optional<Values> expected(const std::string& path) const {
-    std::smatch found;
-    if (!std::regex_match(path, found, regex_)) return std::nullopt;
+    const auto found = regex_->groups(path);
+    if (!found) return std::nullopt;
     Values values;
-    for (std::size_t i = 1; i < found.size(); ++i) {
-      const std::string value = found[i];
+    for (const std::size_t group : groups_) {
+      const std::string& value = found->at(group);
       values.push_back(value.empty() ? value : value.substr(1));
     }
     return values;
@@ -151,7 +185,8 @@ class Drawn {
   std::size_t below(std::size_t count) { return random_() % count; }
 
   std::mt19937 random_{7};
-  std::regex regex_;
+  std::unique_ptr<Regex> regex_;
+  std::vector<std::size_t> groups_;  // of the variables
 };
 
 TEST(PathTemplate, MatchesWhatARegularExpressionDoes) {
