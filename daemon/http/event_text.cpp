@@ -1,10 +1,11 @@
 #include "daemon/http/event_text.h"
 
-#include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
 #include <algorithm>
 #include <memory>
+
+#include "daemon/http/method.h"
 
 namespace hydroprint::http {
 namespace {
@@ -22,17 +23,11 @@ std::string watched(std::string_view method) {
   return name;
 }
 
-const pb::Descriptor* streamed_type(std::string_view method) {
-  std::string name(method.substr(std::min<std::size_t>(1, method.size())));
-  std::replace(name.begin(), name.end(), '/', '.');
-  const auto* found = pb::DescriptorPool::generated_pool()->FindMethodByName(name);
-  return found == nullptr ? nullptr : found->output_type();
-}
-
 }  // namespace
 
 std::string event_kind(std::string_view method, const std::string& message) {
-  const pb::Descriptor* type = streamed_type(method);
+  const pb::MethodDescriptor* called = method_called(method);
+  const pb::Descriptor* type = called == nullptr ? nullptr : called->output_type();
   if (type == nullptr || type->real_oneof_decl_count() == 0) return watched(method);
   const pb::Message* prototype = pb::MessageFactory::generated_factory()->GetPrototype(type);
   const std::unique_ptr<pb::Message> parsed(prototype->New());

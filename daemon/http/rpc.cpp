@@ -102,8 +102,11 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
   }
 
   void write(const std::string& message, bool is_last, std::function<void(bool)> done) {
-    outgoing_ = packed(message);
-    write_done_ = std::move(done);
+    {
+      const std::lock_guard lock(mutex_);
+      outgoing_ = packed(message);
+      write_done_ = std::move(done);
+    }
     is_last ? StartWriteLast(&outgoing_, {}) : StartWrite(&outgoing_);
   }
 
@@ -136,7 +139,14 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
       StartRead(&incoming_);
     }
   }
-  void OnWriteDone(bool ok) override { std::exchange(write_done_, nullptr)(ok); }
+  void OnWriteDone(bool ok) override {
+    std::function<void(bool)> done;
+    {
+      const std::lock_guard lock(mutex_);
+      done = std::exchange(write_done_, nullptr);
+    }
+    done(ok);
+  }
 
   void OnDone(const grpc::Status& status) override {
     const auto kept = std::exchange(itself_, nullptr);
@@ -151,10 +161,11 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
  private:
   OneCall one_;
   grpc::ClientContext context_;
-  grpc::ByteBuffer incoming_, outgoing_;
+  grpc::ByteBuffer incoming_;
+  std::mutex mutex_;  // of what follows
+  grpc::ByteBuffer outgoing_;
   std::function<void(std::optional<std::string>)> read_done_;
   std::function<void(bool)> write_done_;
-  std::mutex mutex_;  // of what follows, with read_done_
   bool is_reading_ = false;
   std::function<void(Reply)> done_;
   std::shared_ptr<Reactor> itself_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "daemon/http/artifact_target.h"
+#include "daemon/http/request_key.h"
 #include "daemon/http/site.h"
 #include "daemon/http/waiting.h"
 #include "daemon/rest/answer.h"
@@ -130,6 +131,9 @@ Task<std::string> answer_call(Site& site, Exchange& exchange) {
     request = site.transcoder.resume(std::move(*request), *last_event);
   }
   if (!request) co_return co_await refuse_call(site, exchange, request.error());
+  if (const auto key = head.fields.find("Idempotency-Key")) {
+    request->request = with_request_id(request->method, request->request, *key);
+  }
   const std::string name = short_name(request->method);
   if (request->streams) {
     co_await answer_events(site, exchange, std::move(*request));

@@ -27,6 +27,21 @@ TEST_F(HttpTest, TheOwnerIsWhomTheHeaderNames) {
   EXPECT_EQ(bad.reason(), "SPEC_INVALID");
 }
 
+TEST_F(HttpTest, TheSameRequestUnderTheSameKeyIsDoneOnce) {
+  const std::string asset = upload("");
+  const nlohmann::json job = {{"simulate", {{"mesh", {{"name", "m.obj"}, {"asset", asset}}}}}};
+  const auto create = [&](const std::string& key, const std::string& query = "") {
+    return ask(daemon.http(), "POST", "/v1/jobs" + query, job.dump(),
+               "Idempotency-Key: " + key + "\r\n")
+        .json()
+        .at("name");
+  };
+  const auto first = create("a");
+  EXPECT_EQ(create("a"), first);
+  EXPECT_EQ(create("b", "?requestId=a"), first);
+  EXPECT_NE(create("b"), first);
+}
+
 TEST_F(HttpTest, RefusalsAreGoogleRpcStatus) {
   const HttpAnswer missing = get("/v1/jobs/77");
   EXPECT_EQ(missing.status, 404);
@@ -138,6 +153,24 @@ TEST_F(HttpTest, MetricsTellOfJobsRigAndTheServerItself) {
       has("hydroprint_http_requests_total{route=\"JobService/GetJob\",method=\"GET\",code=\"404\"} "
           "1\n"));
   EXPECT_EQ(get("/metrics").field("content-type"), "text/plain; version=0.0.4; charset=utf-8");
+}
+
+TEST(HttpConfig, NamesAndTheClientsFolderAreAsConfigured) {
+  TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "web");
+  folder.write("web/index.html", "the client");
+  auto options = DaemonProcess::fake();
+  options.extra = "[server]\nhost_names = \"print.lab studio\"\nweb_dir = \"" +
+                  (folder.path() / "web").string() + "\"\n";
+  const DaemonProcess daemon(folder.path(), options);
+  for (const char* host : {"print.lab", "STUDIO:8080", "localhost"}) {
+    HttpConnection connection(daemon.http());
+    connection.send("GET / HTTP/1.1\r\nHost: " + std::string(host) + "\r\n\r\n");
+    EXPECT_EQ(connection.read_answer().body, "the client") << host;
+  }
+  HttpConnection other(daemon.http());
+  other.send("GET / HTTP/1.1\r\nHost: lab\r\n\r\n");
+  EXPECT_EQ(other.read_answer().status, 421);
 }
 
 TEST_F(HttpTest, TheDocumentOfAllRoutesIsServed) {
