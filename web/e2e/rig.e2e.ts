@@ -95,7 +95,17 @@ test('a dip, one large button a step', async () => {
   await page.getByRole('link', { name: 'Dip it' }).click({ timeout: 80_000 });
 
   await press(page, 'Take the rig');
+  // As whoever was there before left it.
+  await page.locator('.big', { hasText: /Ready|Disarmed/ }).waitFor();
+  if ((await page.locator('.big').innerText()) === 'Disarmed') {
+    await press(page, 'Arm');
+    await press(page, 'Home');
+  }
   await becomesReady(page);
+  await page.getByText('Settings of the dip').click();
+  await page.getByLabel('Film soaks').fill('3');
+  await page.getByLabel('Activator works').fill('2');
+  await page.getByLabel('Hold at the depth').fill('1');
   await picture(person, 'rig-dip-begin');
   await press(page, 'Begin the dip');
   await press(page, 'The film is printed');
@@ -114,14 +124,15 @@ test('a dip, one large button a step', async () => {
   await press(page, 'The film floats between the bars');
   await page.getByRole('timer').first().waitFor();
   await picture(person, 'rig-dip-soak');
+  await press(page, 'The activator is sprayed');
+  await page.getByText(/The film is good for/).waitFor();
+  await press(page, 'Hands are off: dip now');
+  await page.locator('.big', { hasText: 'Dipping' }).waitFor();
+  await picture(person, 'rig-dipping');
+  await page.getByText('The dip has ended').waitFor({ timeout: 60_000 });
+  await picture(person, 'rig-dip-end');
   await page.getByRole('link', { name: 'Record of this dip' }).click();
-  await page.getByRole('button', { name: 'Cancel', exact: true }).waitFor();
-  await open(person, '/rig');
-  await press(page, 'Abort the dip');
-  await press(page, 'Abort: the film is lost');
-  await page.locator('.dip').waitFor({ state: 'hidden' });
-  await open(person, '/jobs');
-  await page.getByRole('link', { name: /dip/ }).first().click();
+  await page.locator('h1', { hasText: 'done' }).waitFor();
   await page.getByRole('link', { name: 'positions.csv' }).waitFor();
   await picture(person, 'job-dip');
   expect(person.complaints).toEqual([]);

@@ -5,7 +5,7 @@ import { readGrey16 } from '../src/model/grey16';
 import { fit, pan, pixelAt, zoomAt } from '../src/model/pan_zoom';
 import { readPositions } from '../src/model/positions';
 import { placeOf } from '../src/model/report';
-import { formatBytes, formatSeconds, parseNumber, secondsOf } from '../src/model/units';
+import { formatBytes, formatSeconds, formatTime, parseNumber, secondsOf } from '../src/model/units';
 
 describe('figures', () => {
   test('have the unit that suits them', () => {
@@ -25,6 +25,15 @@ describe('figures', () => {
     ]);
     expect(secondsOf('3.5s')).toBe(3.5);
     expect(secondsOf('3.5')).toBeNaN();
+  });
+
+  test('times are as exact as they are near', () => {
+    const now = new Date(2026, 10, 22, 12, 0);
+    const at = (...when: [number, number, number]) => formatTime(new Date(...when, 9, 5), now);
+    expect(at(2026, 10, 22)).toBe('09:05');
+    expect(at(2026, 10, 19)).toBe('Thu 09:05');
+    expect(at(2026, 9, 3)).toBe('3 Oct 09:05');
+    expect(at(2027, 10, 22)).toBe('22 Nov 2027');
   });
 
   test('are read with a comma, too, and nothing else is', () => {

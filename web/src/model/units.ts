@@ -31,13 +31,16 @@ export function formatBytes(bytes: number): string {
   return `${unit === 0 ? value : value.toFixed(1)} ${units[unit]}`;
 }
 
-/** "14:05", "Mon 14:05" or "3 Nov 14:05", by how long ago it is. */
+/** "14:05", "Mon 14:05", "3 Nov 14:05" or "3 Nov 2027", by how far off it is. */
 export function formatTime(time: Date, now: Date): string {
   const clock = time.toLocaleTimeString([], { hour: '2-digit', minute: '2-digit', hour12: false });
   if (time.toDateString() === now.toDateString()) return clock;
   const days = Math.abs(now.getTime() - time.getTime()) / 86_400_000;
   if (days < 6) return `${time.toLocaleDateString('en-GB', { weekday: 'short' })} ${clock}`;
-  return `${time.toLocaleDateString('en-GB', { day: 'numeric', month: 'short' })} ${clock}`;
+  const day = { day: 'numeric', month: 'short' } as const;
+  if (time.getFullYear() !== now.getFullYear())
+    return time.toLocaleDateString('en-GB', { ...day, year: 'numeric' });
+  return `${time.toLocaleDateString('en-GB', day)} ${clock}`;
 }
 
 /** Seconds of a proto3 JSON Duration ("3.5s"); NaN if it is none. */

@@ -138,16 +138,18 @@ function Actions({ job }: { job: Job }) {
 function Keeping({ job }: { job: Job }) {
   return (
     <>
-      <Check
-        label="Shared with everyone"
-        value={job.shared}
-        onValue={(shared) =>
-          void api.share(job.name, shared).then((answer) => {
-            const changed = orComplain(answer);
-            if (changed) remember(changed);
-          })
-        }
-      />
+      {job.shared !== undefined && (
+        <Check
+          label="Shared with everyone"
+          value={job.shared}
+          onValue={(shared) =>
+            void api.share(job.name, shared).then((answer) => {
+              const changed = orComplain(answer);
+              if (changed) remember(changed);
+            })
+          }
+        />
+      )}
       <Careful
         kind="plain"
         sure="Delete it with its files"

@@ -87,11 +87,12 @@ function ByHand() {
           <button
             type="button"
             key={axis}
+            aria-label={`+90° about ${axis}`}
             onClick={() =>
               change({ pose: { ...pose, rotation: product(turn(axis, 90), pose.rotation) } })
             }
           >
-            +90° about {axis}
+            +90° {axis}
           </button>
         ))}
       </div>

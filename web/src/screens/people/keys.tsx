@@ -35,10 +35,10 @@ export function Keys() {
         {keys.map((key) => (
           <tr key={key.name}>
             <th scope="row">{key.displayName || plainName(key.name)}</th>
-            <td>{plainName(key.user)}</td>
-            <td>{key.role?.toLowerCase()}</td>
-            <td>{key.useTime ? <When time={key.useTime} /> : 'never'}</td>
-            <td>{key.expireTime ? <When time={key.expireTime} /> : 'never'}</td>
+            <td data-label="User">{plainName(key.user)}</td>
+            <td data-label="Role">{key.role?.toLowerCase()}</td>
+            <td data-label="Last used">{key.useTime ? <When time={key.useTime} /> : 'never'}</td>
+            <td data-label="Ends">{key.expireTime ? <When time={key.expireTime} /> : 'never'}</td>
             <td class="actions">
               <Careful
                 kind="plain"

@@ -23,14 +23,14 @@ export function Sessions() {
               {plainName(session.user)}
               {session.current && <span class="quiet">this one</span>}
             </th>
-            <td>{session.peer}</td>
-            <td>
+            <td data-label="From">{session.peer}</td>
+            <td data-label="Begun">
               <When time={session.createTime} />
             </td>
-            <td>
+            <td data-label="Last used">
               <When time={session.useTime} />
             </td>
-            <td>
+            <td data-label="Ends">
               <When time={session.expireTime} />
             </td>
             <td class="actions">

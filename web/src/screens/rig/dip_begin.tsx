@@ -24,7 +24,7 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
     await refreshRig();
   };
   const field = (
-    key: 'holdS' | 'clearanceMm' | 'waterTemperatureC',
+    key: 'soakS' | 'activatorWaitS' | 'holdS' | 'clearanceMm' | 'waterTemperatureC',
     label: string,
     unit: string,
     usual: string,
@@ -52,6 +52,8 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
       <details>
         <summary>Settings of the dip</summary>
         <div class="row">
+          {field('soakS', 'Film soaks', 's', '60', 3600)}
+          {field('activatorWaitS', 'Activator works', 's', '20', 3600)}
           {field('holdS', 'Hold at the depth', 's', '2', 600)}
           {field('clearanceMm', 'Room for the film', 'mm', '20', 200)}
           {field('waterTemperatureC', 'Water', '°C', 'for the record', 100)}

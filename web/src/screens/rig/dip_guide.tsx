@@ -8,6 +8,7 @@ import { orComplain } from '../../state/notices';
 import { isOurs, leaseId, rig } from '../../state/rig';
 import { secondsUntil } from '../../ui/clock';
 import { Button, Careful } from '../../ui/controls';
+import { State } from '../../ui/job_text';
 import { Jog } from './jog';
 
 /** The steps of a dip in their order; those that wait for the operator have the words of their button. */
@@ -74,6 +75,27 @@ export function DipGuide({ name }: { name: string }) {
             Abort the dip
           </Careful>
         )}
+      </p>
+    </section>
+  );
+}
+
+/** How a dip ended, and what is to be done now. */
+export function DipEnd({ name, again }: { name: string; again: () => void }) {
+  useEffect(() => void refresh(name), [name]);
+  const job = known.value.get(name);
+  return (
+    <section class="dip" aria-labelledby="end-title">
+      <h2 id="end-title">The dip has ended: {job ? <State state={job.state} /> : '…'}</h2>
+      {job?.dipStatus?.instruction && <p class="instruction">{job.dipStatus.instruction}</p>}
+      {job?.error && <p class="warning">{job.error.message}</p>}
+      <p class="row">
+        <a class="button" href={jobPath(name)}>
+          Record of this dip
+        </a>
+        <button type="button" class="plain" onClick={again}>
+          Close
+        </button>
       </p>
     </section>
   );

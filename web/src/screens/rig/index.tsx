@@ -18,7 +18,7 @@ import { may, me } from '../../state/session';
 import { secondsUntil } from '../../ui/clock';
 import { Button, Careful, Figures, NumberField, TextField } from '../../ui/controls';
 import { DepthPicture } from './depth_picture';
-import { DipGuide } from './dip_guide';
+import { DipEnd, DipGuide } from './dip_guide';
 import { BeginDip } from './dip_begin';
 import { Gauge } from './gauge';
 import { Jog } from './jog';
@@ -38,7 +38,6 @@ const kStates: Record<string, string> = {
 export function RigScreen() {
   useEffect(() => void refreshRig(), []);
   const now = rig.value;
-  const from = route.value.query.get('job');
   if (!now) return <p class="quiet">Asking the daemon…</p>;
   return (
     <div class="rig">
@@ -46,11 +45,7 @@ export function RigScreen() {
       <div class="columns">
         <div>
           <Standing now={now} />
-          {now.dip ? (
-            <DipGuide name={now.dip} />
-          ) : (
-            from && <BeginDip simulateJob={`jobs/${from}`} />
-          )}
+          <Dipping dip={now.dip} />
         </div>
         <div>
           <LeasePanel now={now} />
@@ -60,6 +55,18 @@ export function RigScreen() {
       </div>
     </div>
   );
+}
+
+/** The dip that is open, how the last one ended, or how to begin one. */
+function Dipping({ dip }: { dip: string }) {
+  const from = route.value.query.get('job');
+  const [last, setLast] = useState(dip);
+  useEffect(() => {
+    if (dip) setLast(dip);
+  }, [dip]);
+  if (dip) return <DipGuide name={dip} />;
+  if (last) return <DipEnd name={last} again={() => setLast('')} />;
+  return from ? <BeginDip simulateJob={`jobs/${from}`} /> : null;
 }
 
 function Standing({ now }: { now: Rig }) {

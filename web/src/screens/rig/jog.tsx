@@ -12,13 +12,15 @@ const kSpeeds = ['0.5', '2', '5', '10'];
 /** Moves for as long as a button or key is held; letting go stops. */
 export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
   const [speed, setSpeed] = useState('2');
+  const speedNow = useRef(speed);
+  speedNow.current = speed;
   const held = useRef(0);
   const isTelling = useRef(false);
 
   const tell = async () => {
     if (held.current === 0 || isTelling.current) return;
     isTelling.current = true;
-    const answer = await api.jog(leaseId.value, held.current * Number(speed));
+    const answer = await api.jog(leaseId.value, held.current * Number(speedNow.current));
     isTelling.current = false;
     if (answer.ok) {
       rig.value = answer.value;
@@ -51,7 +53,8 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
       window.removeEventListener('pointercancel', letGo);
       letGo();
     };
-  });
+    // Once: what is drawn anew while the rig moves must not let go.
+  }, []);
 
   const button = (direction: 1 | -1, label: string) => (
     <button
