@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 
+#include "daemon/access.h"
 #include "daemon/asset_store.h"
 #include "daemon/calibration_store.h"
 #include "daemon/capture_runner.h"
@@ -11,6 +12,7 @@
 #include "daemon/dip_runner.h"
 #include "daemon/job_store.h"
 #include "daemon/lease.h"
+#include "daemon/people/audit.h"
 #include "daemon/pool.h"
 #include "daemon/print_runner.h"
 #include "daemon/rig_desk.h"
@@ -35,6 +37,11 @@ class Daemon {
   [[nodiscard]] const Endpoint& endpoint() const { return server_->endpoint(); }
   [[nodiscard]] const Layout& layout() const { return layout_; }
 
+  /// A link's token by which this user signs in once, within 15 minutes. A user who is not there is
+  /// made, as an admin.
+  /// @return ID_INVALID; kFailedPrecondition, STATE_FORBIDS for one who is there and no admin
+  [[nodiscard]] Result<std::string> first_admin(const std::string& name);
+
   /// Deletes what is too old; to be called now and then.
   void clean_up();
   /// Takes no more calls, ends the workers and queues their jobs again for the next start; takes a
@@ -44,6 +51,7 @@ class Daemon {
  private:
   Daemon() = default;
   [[nodiscard]] Status open_store(const Config& config);
+  [[nodiscard]] Status open_people(const Config& config);
   [[nodiscard]] Status open_rig(const Config& config);
   [[nodiscard]] Status open_printer(const Config& config);
   [[nodiscard]] Status open_camera(const Config& config);
@@ -52,6 +60,9 @@ class Daemon {
   Layout layout_;
   UniqueFd lock_;
   std::unique_ptr<Database> database_;
+  std::unique_ptr<people::Accounts> accounts_;
+  std::unique_ptr<people::AuditLog> audit_;
+  std::unique_ptr<Access> access_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<AssetStore> assets_;
   std::unique_ptr<CalibrationStore> calibrations_;

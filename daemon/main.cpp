@@ -22,12 +22,14 @@ using namespace hydroprint;          // NOLINT(google-build-using-namespace): th
 using namespace hydroprint::daemon;  // NOLINT(google-build-using-namespace)
 
 constexpr timespec kCleanUpEvery{3600, 0};
+constexpr const char* kPage = "http://127.0.0.1:8080";
 
 struct Options {
   std::string config_file;
   bool check_config = false;
   std::string state_dir;
   std::string grpc;
+  std::string first_admin;
   std::string rig;
   std::string rig_profile;
 };
@@ -97,7 +99,7 @@ void serve_until_signal(Daemon& daemon, const sigset_t& signals) {
   }
 }
 
-int run(const Config& config) {
+int run(const Config& config, const std::string& first_admin) {
   const sigset_t signals = block_signals();
   raise_descriptor_limit();
   umask(077);
@@ -107,6 +109,12 @@ int run(const Config& config) {
   }
   const auto daemon = Daemon::start(config);
   if (!daemon) return refuse(daemon.error().message, ExitStatus::kFailed);
+  if (!first_admin.empty()) {
+    const auto token = (*daemon)->first_admin(first_admin);
+    if (!token) return refuse(token.error().message, ExitStatus::kBadInput);
+    std::cout << "hydroprintd sign-in link, once within 15 minutes: " << kPage << "/sign-in#"
+              << *token << std::endl;
+  }
   const std::string address = (*daemon)->endpoint().text();
   log(LogLevel::kInfo, "ready",
       {{"grpc", address}, {"state_dir", (*daemon)->layout().root.string()}});
@@ -133,6 +141,10 @@ int obey(int argc, char** argv) {
   app.add_option("--grpc", options.grpc,
                  "Loopback address and port to listen at; default 127.0.0.1:50051; port 0: any")
       ->type_name("HOST:PORT");
+  app.add_option("--first-admin", options.first_admin,
+                 "Print a link by which this user signs in as admin, once and within 15 minutes; "
+                 "makes the user if there is none of that name")
+      ->type_name("NAME");
   app.add_option("--rig", options.rig,
                  "Where the motor's drive is, like tcp:127.0.0.1:1502; default: there is no rig")
       ->type_name("ENDPOINT");
@@ -144,7 +156,7 @@ int obey(int argc, char** argv) {
   }
   const auto config = configure(options, argv[0]);
   if (!config) return refuse(config.error().message, ExitStatus::kBadInput);
-  if (!options.check_config) return run(*config);
+  if (!options.check_config) return run(*config, options.first_admin);
   std::cout << "the configuration is good\n";
   return 0;
 }

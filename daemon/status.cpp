@@ -1,5 +1,6 @@
 #include "daemon/status.h"
 
+#include "daemon/names.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 
@@ -22,8 +23,11 @@ const char* default_reason(Code code) {
   }
 }
 
-bool helps_to_wait(const std::string& reason) {
-  return reason == "QUEUE_FULL" || reason == "UPLOADS_FULL";
+// Seconds after which trying again may help; 0: it does not.
+std::int64_t retry_after_s(const Error& error) {
+  if (error.reason == "QUEUE_FULL" || error.reason == "UPLOADS_FULL") return 10;
+  const auto told = error.metadata.find("retry_s");
+  return told == error.metadata.end() ? 0 : parse_number(told->second);
 }
 
 }  // namespace
@@ -56,6 +60,8 @@ int number_of(Code code) {
       return grpc::StatusCode::UNAVAILABLE;
     case Code::kDataLoss:
       return grpc::StatusCode::DATA_LOSS;
+    case Code::kUnauthenticated:
+      return grpc::StatusCode::UNAUTHENTICATED;
   }
   return grpc::StatusCode::INTERNAL;
 }
@@ -69,9 +75,9 @@ grpc::Status to_grpc(const Error& error) {
   info.set_reason(error.reason.empty() ? default_reason(error.code) : error.reason);
   info.mutable_metadata()->insert(error.metadata.begin(), error.metadata.end());
   details.add_details()->PackFrom(info);
-  if (helps_to_wait(error.reason)) {
+  if (const std::int64_t seconds = retry_after_s(error); seconds > 0) {
     google::rpc::RetryInfo retry;
-    retry.mutable_retry_delay()->set_seconds(10);
+    retry.mutable_retry_delay()->set_seconds(seconds);
     details.add_details()->PackFrom(retry);
   }
   return {static_cast<grpc::StatusCode>(number_of(error.code)), error.message,

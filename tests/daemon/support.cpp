@@ -117,9 +117,10 @@ DaemonProcess::~DaemonProcess() {
 void DaemonProcess::start() {
   const auto out = folder_ / "out";
   std::filesystem::remove(out);
-  pid_ = spawn_daemon(
-      {"--config", config().string(), "--state-dir", state().string(), "--grpc", "127.0.0.1:0"},
-      out, folder_ / "err");
+  std::vector<std::string> arguments = options_.arguments;
+  arguments.insert(arguments.end(), {"--config", config().string(), "--state-dir", state().string(),
+                                     "--grpc", "127.0.0.1:0"});
+  pid_ = spawn_daemon(arguments, out, folder_ / "err");
   const auto deadline = SteadyClock::now() + kPatience;
   const std::string marker = "ready grpc=";
   while (SteadyClock::now() < deadline) {
@@ -168,6 +169,7 @@ Client::Client(const std::string& address, const std::string& owner) : owner_(ow
   queues = v1::QueueService::NewStub(channel);
   assets = v1::AssetService::NewStub(channel);
   artifacts = v1::ArtifactService::NewStub(channel);
+  people = v1::PeopleService::NewStub(channel);
 }
 
 std::unique_ptr<grpc::ClientContext> Client::context() const {
@@ -175,6 +177,8 @@ std::unique_ptr<grpc::ClientContext> Client::context() const {
   context->set_deadline(std::chrono::system_clock::now() + 2 * kPatience);
   context->set_wait_for_ready(patient);
   if (!owner_.empty()) context->AddMetadata("hydroprint-owner", owner_);
+  if (!key.empty()) context->AddMetadata("authorization", "Bearer " + key);
+  if (!session.empty()) context->AddMetadata("hydroprint-session", session);
   return context;
 }
 
