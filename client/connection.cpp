@@ -14,6 +14,7 @@ grpc::ChannelArguments channel_arguments() {
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);  // also the limit for connecting
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  arguments.SetMaxReceiveMessageSize(64 << 20);  // a preview of a large mesh
   return arguments;
 }
 
@@ -28,6 +29,7 @@ Connection::Impl::Impl(ConnectionOptions connection_options)
       calibrations(v1::CalibrationService::NewStub(channel)),
       jobs(v1::JobService::NewStub(channel)),
       leases(v1::LeaseService::NewStub(channel)),
+      previews(v1::PreviewService::NewStub(channel)),
       queue(v1::QueueService::NewStub(channel)),
       rig(v1::RigService::NewStub(channel)) {}
 

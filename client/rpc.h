@@ -16,6 +16,7 @@
 #include "hydroprint/v1/calibration_service.grpc.pb.h"
 #include "hydroprint/v1/job_service.grpc.pb.h"
 #include "hydroprint/v1/lease_service.grpc.pb.h"
+#include "hydroprint/v1/preview_service.grpc.pb.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
 #include "hydroprint/v1/rig_service.grpc.pb.h"
 #include "sim/base/result.h"
@@ -34,6 +35,7 @@ struct Connection::Impl {
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;
   std::unique_ptr<v1::JobService::Stub> jobs;
   std::unique_ptr<v1::LeaseService::Stub> leases;
+  std::unique_ptr<v1::PreviewService::Stub> previews;
   std::unique_ptr<v1::QueueService::Stub> queue;
   std::unique_ptr<v1::RigService::Stub> rig;
 };

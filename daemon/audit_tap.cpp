@@ -25,6 +25,7 @@ using grpc::experimental::ServerRpcInfo;
 
 constexpr std::int64_t kQuietAbout_ms = 60'000;
 constexpr std::size_t kLongestDetail = 300;
+constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // only computes
 
 // "/hydroprint.v1.RigService/MoveTo" to "RigService.MoveTo".
 std::string short_name(const std::string& method) {
@@ -191,7 +192,7 @@ class TapFactory final : public grpc::experimental::ServerInterceptorFactoryInte
     std::replace(method.begin(), method.end(), '/', '.');
     const auto* const found =
         google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
-    if (found == nullptr || found->client_streaming()) return false;
+    if (found == nullptr || found->client_streaming() || method == kPreview) return false;
     const auto& options = found->options();
     return options.HasExtension(v1::role) && !options.GetExtension(google::api::http).has_get();
   }

@@ -11,8 +11,8 @@ namespace hydroprint::daemon {
 
 /// Sees the calls that change something (by their google.api.http: all but those that get) and
 /// notes who made them, on what, and how they ended. Left out: calls of nobody known, SignIn, which
-/// notes itself, uploaded chunks, and of what is said again and again (Jog, RenewLease) all but
-/// once a minute.
+/// notes itself, uploaded chunks, previews, and of what is said again and again (Jog, RenewLease)
+/// all but once a minute.
 [[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_audit_tap(
     const Access& access, people::AuditLog& audit);
 

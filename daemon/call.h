@@ -15,6 +15,7 @@
 #include "daemon/job_store.h"
 #include "daemon/people/audit.h"
 #include "daemon/pool.h"
+#include "daemon/preview_desk.h"
 #include "daemon/print_runner.h"
 #include "daemon/rig_desk.h"
 
@@ -34,6 +35,7 @@ struct Backend {
   PrintRunner& prints;
   CaptureRunner& captures;
   CalibrationStore& calibrations;
+  PreviewDesk& previews;
   PlaceKeeper& places;
   CameraSetup camera;
   Layout layout;

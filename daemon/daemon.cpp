@@ -34,6 +34,13 @@ PoolOptions pool_options(const Config& config) {
   return options;
 }
 
+PreviewOptions preview_options(const PoolOptions& pool) {
+  const std::int64_t a_day_s = 24LL * 3600;  // for as long as somebody asks
+  return {pool.program,
+          pool.threads > 0 ? pool.threads : pool.cores,
+          {pool.memory_bytes, a_day_s, pool.file_bytes}};
+}
+
 Result<std::filesystem::path> state_dir(const Config& config) {
   if (config.store_state_dir.empty()) return default_state_dir();
   return std::filesystem::absolute(config.store_state_dir).lexically_normal();
@@ -144,10 +151,24 @@ Status Daemon::open_camera(const Config& config) {
 Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(pool_,
                       WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
-  const Backend backend{*database_, *accounts_, *audit_,    *access_,
-                        *jobs_,     *assets_,   *pool_,     *desk_,
-                        *dips_,     *prints_,   *captures_, *calibrations_,
-                        *places_,   camera_,    layout_,    config.store_min_free_mib * kMiB,
+  HP_ASSIGN_OR_RETURN(previews_, PreviewDesk::make(preview_options(pool_options(config)), layout_));
+  const Backend backend{*database_,
+                        *accounts_,
+                        *audit_,
+                        *access_,
+                        *jobs_,
+                        *assets_,
+                        *pool_,
+                        *desk_,
+                        *dips_,
+                        *prints_,
+                        *captures_,
+                        *calibrations_,
+                        *previews_,
+                        *places_,
+                        camera_,
+                        layout_,
+                        config.store_min_free_mib * kMiB,
                         stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
@@ -177,6 +198,7 @@ void Daemon::stop() {
   dips_->stop();
   prints_->stop();
   captures_->stop();
+  previews_->stop();
   if (rig_) rig_->stop();
   pool_->stop();
   guard_.reset();

@@ -14,6 +14,7 @@
 #include "daemon/lease.h"
 #include "daemon/people/audit.h"
 #include "daemon/pool.h"
+#include "daemon/preview_desk.h"
 #include "daemon/print_runner.h"
 #include "daemon/rig_desk.h"
 #include "daemon/rig_guard.h"
@@ -75,6 +76,7 @@ class Daemon {
   CameraSetup camera_;
   std::unique_ptr<CaptureRunner> captures_;
   std::unique_ptr<WorkerPool> pool_;
+  std::unique_ptr<PreviewDesk> previews_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<RigGuard> guard_;
   std::atomic<bool> stopping_{false};

@@ -31,6 +31,10 @@ struct Layout {
   [[nodiscard]] std::filesystem::path run_pose(std::int64_t job) const {
     return run_work(job) / "pose.json";
   }
+  /// The resident worker of one who is shown previews.
+  [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {
+    return runs() / ("preview-" + std::to_string(number));
+  }
   /// Records of dips that are not finished.
   [[nodiscard]] std::filesystem::path dips() const { return root / "dips"; }
   [[nodiscard]] std::filesystem::path dip(std::int64_t job) const {

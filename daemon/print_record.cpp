@@ -8,7 +8,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kSamePaper_mm = 0.5;
 constexpr double kSameMargin_mm = 0.05;
@@ -25,8 +25,8 @@ std::string number_text(double value) {
   return out.str();
 }
 
-Json news_json(const std::vector<PrinterNews>& news) {
-  Json out = Json::array();
+OrderedJson news_json(const std::vector<PrinterNews>& news) {
+  OrderedJson out = OrderedJson::array();
   for (const PrinterNews& item : news) {
     out.push_back({{"time_s", item.time_s},
                    {"state", printer::job_state_name(item.report.state)},
@@ -37,8 +37,8 @@ Json news_json(const std::vector<PrinterNews>& news) {
   return out;
 }
 
-Json warnings_json(const Warnings& warnings) {
-  Json out = Json::array();
+OrderedJson warnings_json(const Warnings& warnings) {
+  OrderedJson out = OrderedJson::array();
   for (const Warning& warning : warnings) {
     out.push_back({{"code", warning.code}, {"message", warning.message}, {"where", warning.where}});
   }
@@ -55,25 +55,26 @@ bool has_paper(const printer::Attributes& printer, const Eigen::Vector2d& size_m
 
 std::string report_json(const PrintFacts& facts) {
   const PrintPlan& plan = facts.plan;
-  const Json out = {{"verb", "print"},
-                    {"job", facts.job},
-                    {"create_time", facts.create_time},
-                    {"print_image_job", plan.print_image_job},
-                    {"document",
-                     {{"sha256", plan.sha256},
-                      {"pages", plan.pages},
-                      {"paper_mm", {plan.paper_mm.x(), plan.paper_mm.y()}}}},
-                    {"printer",
-                     {{"address", facts.address},
-                      {"name", facts.printer.name},
-                      {"make_and_model", facts.printer.make_and_model},
-                      {"job", facts.news.empty() ? Json() : Json(facts.news.back().report.id)}}},
-                    {"states", news_json(facts.news)},
-                    {"outcome", facts.outcome},
-                    {"reason", facts.reason},
-                    {"message", facts.message},
-                    {"warnings", warnings_json(facts.warnings)}};
-  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const OrderedJson out = {
+      {"verb", "print"},
+      {"job", facts.job},
+      {"create_time", facts.create_time},
+      {"print_image_job", plan.print_image_job},
+      {"document",
+       {{"sha256", plan.sha256},
+        {"pages", plan.pages},
+        {"paper_mm", {plan.paper_mm.x(), plan.paper_mm.y()}}}},
+      {"printer",
+       {{"address", facts.address},
+        {"name", facts.printer.name},
+        {"make_and_model", facts.printer.make_and_model},
+        {"job", facts.news.empty() ? OrderedJson() : OrderedJson(facts.news.back().report.id)}}},
+      {"states", news_json(facts.news)},
+      {"outcome", facts.outcome},
+      {"reason", facts.reason},
+      {"message", facts.message},
+      {"warnings", warnings_json(facts.warnings)}};
+  return out.dump(2, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 Warnings warnings_of(const PrintPlan& plan, const printer::Attributes& printer) {

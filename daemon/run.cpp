@@ -23,20 +23,6 @@ constexpr std::chrono::seconds kTryAgainAfter{1};
 constexpr std::size_t kWordsKept = 16 << 10;
 constexpr std::size_t kLongestLine = 4 << 10;
 
-// Appends what is there to read now; false at the end of the pipe.
-bool drain(const UniqueFd& pipe, std::string& bytes, std::size_t most) {
-  std::array<char, 16 << 10> buffer{};
-  for (std::size_t read = 0; read < most;) {
-    const ssize_t count = ::read(pipe.get(), buffer.data(), buffer.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return errno == EAGAIN;
-    if (count == 0) return false;
-    bytes.append(buffer.data(), static_cast<std::size_t>(count));
-    read += static_cast<std::size_t>(count);
-  }
-  return true;
-}
-
 // Trying again would not help: the job is not what it was.
 bool is_settled(const Error& error) {
   return error.code == Code::kFailedPrecondition || error.code == Code::kNotFound;
@@ -63,11 +49,7 @@ Result<std::unique_ptr<Run>> Run::start(const Job& job, const Launch& launch_pla
 }
 
 Run::~Run() {
-  if (worker_.pid > 0 && !wait_status_) {
-    signal_group(worker_, SIGKILL);
-    while (::waitpid(worker_.pid, nullptr, 0) < 0 && errno == EINTR) {
-    }
-  }
+  if (!wait_status_) kill_and_wait(worker_);
   if (publishing_.valid()) publishing_.wait();
   discard(layout_.run(job_.id));
 }

@@ -25,6 +25,7 @@ constexpr Made kServices[] = {{"hydroprint.v1.JobService", make_job_service},
                               {"hydroprint.v1.AssetService", make_asset_service},
                               {"hydroprint.v1.ArtifactService", make_artifact_service},
                               {"hydroprint.v1.CalibrationService", make_calibration_service},
+                              {"hydroprint.v1.PreviewService", make_preview_service},
                               {"hydroprint.v1.LeaseService", make_lease_service},
                               {"hydroprint.v1.PeopleService", make_people_service},
                               {kRigService, make_rig_service}};

@@ -25,7 +25,9 @@ const char* default_reason(Code code) {
 
 // Seconds after which trying again may help; 0: it does not.
 std::int64_t retry_after_s(const Error& error) {
-  if (error.reason == "QUEUE_FULL" || error.reason == "UPLOADS_FULL") return 10;
+  for (const char* const full : {"QUEUE_FULL", "UPLOADS_FULL", "PREVIEWS_FULL"}) {
+    if (error.reason == full) return 10;
+  }
   const auto told = error.metadata.find("retry_s");
   return told == error.metadata.end() ? 0 : parse_number(told->second);
 }

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -23,17 +24,24 @@ struct Pipe {
 };
 
 // Both ends above the descriptors that the child puts in place; ours does not block.
-Result<Pipe> make_pipe() {
+Result<Pipe> make_pipe(UniqueFd Pipe::*ours = &Pipe::read) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return system_failure("pipe", "cannot be made");
   const UniqueFd low_read(ends[0]), low_write(ends[1]);
   Pipe pipe{UniqueFd(::fcntl(ends[0], F_DUPFD_CLOEXEC, 10)),
             UniqueFd(::fcntl(ends[1], F_DUPFD_CLOEXEC, 10))};
   if (!pipe.read.valid() || !pipe.write.valid() ||
-      ::fcntl(pipe.read.get(), F_SETFL, O_NONBLOCK) != 0) {
+      ::fcntl((pipe.*ours).get(), F_SETFL, O_NONBLOCK) != 0) {
     return system_failure("pipe", "cannot be made");
   }
   return pipe;
+}
+
+/// What a worker finds at stdin.
+Result<Pipe> make_stdin(bool is_asked) {
+  if (is_asked) return make_pipe(&Pipe::write);
+  const UniqueFd null(::open("/dev/null", O_RDWR | O_CLOEXEC));
+  return Pipe{UniqueFd(::fcntl(null.get(), F_DUPFD_CLOEXEC, 10)), {}};
 }
 
 // Little of the daemon's environment reaches a worker: what sanitizers and the loader need.
@@ -61,7 +69,7 @@ struct ChildPlan {
   char* const* arguments;
   char* const* environment;
   const char* folder;
-  int null, progress, errors, answer, fence;
+  int requests, progress, errors, answer, fence;
   pid_t parent;
   bool confined;
 };
@@ -77,7 +85,7 @@ struct ChildPlan {
 [[noreturn]] void become_worker(const ChildPlan& plan, const Limits& limits,
                                 const Sandbox& sandbox) {
   ::dup2(plan.errors, 2);
-  ::dup2(plan.null, 0);
+  ::dup2(plan.requests, 0);
   ::dup2(plan.answer, 1);
   ::dup2(plan.progress, kProgressFd);
   ::setpgid(0, 0);
@@ -103,16 +111,15 @@ Result<WorkerProcess> launch(const Launch& what, const Sandbox& sandbox) {
   HP_ASSIGN_OR_RETURN(Pipe progress, make_pipe());
   HP_ASSIGN_OR_RETURN(Pipe errors, make_pipe());
   HP_ASSIGN_OR_RETURN(Pipe answer, make_pipe());
-  const UniqueFd null_low(::open("/dev/null", O_RDWR | O_CLOEXEC));
-  const UniqueFd null(::fcntl(null_low.get(), F_DUPFD_CLOEXEC, 10));
+  HP_ASSIGN_OR_RETURN(Pipe requests, make_stdin(what.is_asked));
   HP_ASSIGN_OR_RETURN(const UniqueFd fence, make_fence(what.program, what.inputs, what.work));
   std::vector<std::string> arguments = what.arguments;
   arguments.insert(arguments.begin(), what.program.string());
   std::vector<std::string> environment = make_environment(what.work);
   const std::vector<char*> argv = pointers(arguments), envp = pointers(environment);
-  const ChildPlan plan{what.program.c_str(), argv.data(),        envp.data(),
-                       what.inputs.c_str(),  null.get(),         progress.write.get(),
-                       errors.write.get(),   answer.write.get(), fence.get(),
+  const ChildPlan plan{what.program.c_str(), argv.data(),         envp.data(),
+                       what.inputs.c_str(),  requests.read.get(), progress.write.get(),
+                       errors.write.get(),   answer.write.get(),  fence.get(),
                        ::getpid(),           what.confined};
   WorkerProcess worker;
   worker.pid = ::fork();
@@ -128,11 +135,34 @@ Result<WorkerProcess> launch(const Launch& what, const Sandbox& sandbox) {
   worker.progress = std::move(progress.read);
   worker.errors = std::move(errors.read);
   worker.answer = std::move(answer.read);
+  worker.requests = std::move(requests.write);
   return worker;
 }
 
 void signal_group(const WorkerProcess& worker, int signal) {
   if (worker.pid > 0) ::kill(-worker.pid, signal);
+}
+
+int kill_and_wait(const WorkerProcess& worker) {
+  int wait_status = 0;
+  if (worker.pid <= 0) return wait_status;
+  signal_group(worker, SIGKILL);
+  while (::waitpid(worker.pid, &wait_status, 0) < 0 && errno == EINTR) {
+  }
+  return wait_status;
+}
+
+bool drain(const UniqueFd& pipe, std::string& bytes, std::size_t most) {
+  std::array<char, 16 << 10> buffer{};
+  for (std::size_t read = 0; read < most;) {
+    const ssize_t count = ::read(pipe.get(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno == EAGAIN;
+    if (count == 0) return false;
+    bytes.append(buffer.data(), static_cast<std::size_t>(count));
+    read += static_cast<std::size_t>(count);
+  }
+  return true;
 }
 
 std::int64_t resident_bytes(const WorkerProcess& worker) {

@@ -18,7 +18,8 @@ struct Launch {
   std::filesystem::path inputs;        ///< working folder: what it may read
   std::filesystem::path work;          ///< the only folder it may write in
   Limits limits;
-  bool confined = true;  ///< false: of limits alone; for a program of ours that needs a device
+  bool is_asked = false;  ///< true: it reads requests on stdin
+  bool confined = true;   ///< false: of limits alone; for a program of ours that needs a device
 };
 
 /// A running worker: leader of a process group of its own, which dies with the thread that started
@@ -30,6 +31,7 @@ struct WorkerProcess {
   UniqueFd progress;
   UniqueFd errors;
   UniqueFd answer;
+  UniqueFd requests;  ///< its stdin, if it is asked
 };
 
 /// The file descriptor that a worker finds its progress pipe at.
@@ -42,6 +44,13 @@ inline constexpr int kProgressFd = 3;
 
 /// Sends a signal to the worker and all its children.
 void signal_group(const WorkerProcess& worker, int signal);
+
+/// Ends it and all its children at once.
+/// @return as waitpid() gives it
+int kill_and_wait(const WorkerProcess& worker);
+
+/// Appends what there is to read now, `most` bytes or a little more; false at the end of the pipe.
+[[nodiscard]] bool drain(const UniqueFd& pipe, std::string& bytes, std::size_t most);
 
 /// Bytes the worker has in memory now; 0 if it is gone.
 [[nodiscard]] std::int64_t resident_bytes(const WorkerProcess& worker);

@@ -55,14 +55,18 @@ Pose PoseFile::pose() const {
 
 Result<PoseFile> read_pose_file(const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(const nlohmann::json json, read_json_file(path));
+  return parse_pose(json, path.string());
+}
+
+Result<PoseFile> parse_pose(const nlohmann::json& json, const std::string& name) {
   const std::string example =
       R"(. Write {"rotation_wxyz": [1, 0, 0, 0], "translation_mm": [0, 0, 0]})";
   if (!json.is_object()) {
-    return fail(Code::kInvalidArgument, path.string() + ": not a pose" + example);
+    return fail(Code::kInvalidArgument, name + ": not a pose" + example);
   }
   PoseFile file;
   for (const auto& [key, value] : json.items()) {
-    std::string where = path.string() + ": " + key;
+    std::string where = name + ": " + key;
     if (key == "rotation_wxyz") {
       HP_ASSIGN_OR_RETURN(file.rotation_wxyz, read_rotation(where, value));
     } else if (key == "translation_mm") {

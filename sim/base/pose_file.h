@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "sim/base/pose.h"
 #include "sim/base/result.h"
@@ -21,5 +23,8 @@ struct PoseFile {
 /// Refuses, naming file and key: unknown keys, lists of the wrong length, coordinates beyond 1e6
 /// mm, a quaternion too short to have a direction.
 [[nodiscard]] Result<PoseFile> read_pose_file(const std::filesystem::path& path);
+
+/// The same of JSON that came from `name`.
+[[nodiscard]] Result<PoseFile> parse_pose(const nlohmann::json& json, const std::string& name);
 
 }  // namespace hydroprint

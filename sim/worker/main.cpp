@@ -7,12 +7,14 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <optional>
 #include <string>
 
 #include "sim/base/one_line.h"
 #include "sim/worker/ending.h"
 #include "sim/worker/errors.h"
 #include "sim/worker/options.h"
+#include "sim/worker/preview.h"
 #include "sim/worker/quiet_stderr.h"
 #include "sim/worker/report.h"
 #include "sim/worker/run.h"
@@ -39,22 +41,32 @@ void keep_freed_memory() {
   ::mallopt(M_TRIM_THRESHOLD, kMany);
 }
 
-/// Runs and turns what libraries may throw into an error.
-Result<Finished> run_guarded(const Options& options, Ending& ending, int stderr_fd) {
+/// Does `work`, and turns what libraries may throw into an error.
+template <class Work>
+auto guarded(const Options& options, const Work& work) -> decltype(work()) {
   const bool is_print = options.verb == Verb::kPrintImage;
-  const std::string work = is_print                  ? options.film_image.string()
+  const std::string what = is_print                  ? options.film_image.string()
                            : !options.frames.empty() ? options.frames.front().string()
                            : options.mesh.empty()    ? "validate"
                                                      : options.mesh.string();
   try {
-    return run(options, ending, stderr_fd);
+    return work();
   } catch (const std::bad_alloc&) {
     return fail(Code::kInternal,
-                work + ": out of memory. Use a smaller model, a lower --dpi or more memory",
+                what + ": out of memory. Use a smaller model, a lower --dpi or more memory",
                 "OUT_OF_MEMORY");
   } catch (const std::exception& error) {
-    return fail(Code::kInternal, work + ": " + error.what() + ". Please report this");
+    return fail(Code::kInternal, what + ": " + error.what() + ". Please report this");
   }
+}
+
+/// Does what is asked; only what leaves a folder has something to sum up.
+Result<std::optional<Finished>> obey(const Options& options, Ending& ending, int stderr_fd) {
+  if (options.verb == Verb::kPreview) {
+    HP_RETURN_IF_ERROR(run_preview(options, ending));
+    return std::nullopt;
+  }
+  return run(options, ending, stderr_fd);
 }
 
 void sum_up(const Finished& finished, bool json) {
@@ -89,15 +101,16 @@ int main_of(int argc, char** argv) {
     quiet.restore();
     tell({Code::kCancelled, "cancelled", {}, {}}, ExitStatus::kCancelled, json);
   });
-  const Result<Finished> finished = run_guarded(command.options, ending, quiet.own());
+  const Result<std::optional<Finished>> finished =
+      guarded(command.options, [&] { return obey(command.options, ending, quiet.own()); });
   ending.decide();
   quiet.restore();
-  if (finished) {
-    sum_up(*finished, json);
-    return 0;
+  if (!finished) {
+    tell(finished.error(), exit_status(finished.error()), json);
+    return static_cast<int>(exit_status(finished.error()));
   }
-  tell(finished.error(), exit_status(finished.error()), json);
-  return static_cast<int>(exit_status(finished.error()));
+  if (*finished) sum_up(**finished, json);
+  return 0;
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ enum class Verb {
   kTemplate,
   kCalibrate,
   kCalibrateCamera,
-  kFuse
+  kFuse,
+  kPreview
 };
 
 /// Files that print-image writes.

@@ -191,6 +191,8 @@ Status run_verb(const Options& o, pipeline::DipOptions dip, OutFolder& folder, R
       return run_calibrate_camera(o, folder, report, context);
     case Verb::kFuse:
       return run_fuse(o, folder, report, context);
+    case Verb::kPreview:
+      break;  // answers, and leaves no folder: run_preview
   }
   return fail(Code::kInternal, "no such verb");
 }

@@ -489,6 +489,20 @@ TEST_F(Cli, GlobeGoesInAndPaperComesOut) {
   EXPECT_EQ(json::parse(content_of(paper + "/record/report.json")).at("outcome"), "SUCCEEDED");
 }
 
+TEST_F(Cli, PreviewAnswersWithoutAJob) {
+  start();
+  const json preview =
+      client_json({"preview", "--mesh", mesh("a"), "--film", "A3", "--depth-mm", "12"});
+  EXPECT_EQ(preview.at("coverage"), 0.5);
+  EXPECT_EQ(preview.at("stretch_p95"), 2);
+  EXPECT_TRUE(preview.at("stretch_max").is_null()) << "not told";
+  const Outcome shown = client({"preview", "--mesh", mesh("a")});
+  EXPECT_NE(shown.out.find("film reaches 50 % of the surface"), std::string::npos) << shown.out;
+  EXPECT_NE(shown.err.find("warning: m (w)"), std::string::npos) << shown.err;
+  expect_error({"preview", "--mesh", mesh("exit 3 line 7 is wrong")}, 3, "line 7 is wrong");
+  EXPECT_TRUE(client_json({"list"}).at("jobs").empty());
+}
+
 TEST_F(Cli, PrintNeedsAPrinterAndPages) {
   start();
   submit("sleep 0");

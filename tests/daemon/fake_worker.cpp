@@ -160,6 +160,28 @@ void print_image(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) report << argv[i] << '\n';
 }
 
+void answer(const std::string& head, const std::string& bytes) {
+  std::cout << head << ",\"bytes\":" << bytes.size() << "}\n" << bytes << std::flush;
+}
+
+// With "mute" in the mesh it answers nothing, with "rubbish" what is no answer, with "end" it ends.
+void preview() {
+  std::stringstream mesh;
+  mesh << std::ifstream(flags["--mesh"]).rdbuf();
+  answer(R"({"vertices":1,"triangles":0,"warnings":[])", std::string(12, 'v'));
+  for (std::string line; std::getline(std::cin, line);) {
+    if (mesh.str().find("mute") != std::string::npos) continue;
+    if (mesh.str().find("rubbish") != std::string::npos) std::cout << std::string(300000, '[');
+    if (mesh.str().find("end") != std::string::npos) std::_Exit(4);
+    answer(line.substr(0, line.size() - 1) +
+               R"(,"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[0,0,0]},"coverage":0.5,)"
+               R"("theta_clamped_share":null,"stretch":{"p50":1,"p95":2,"max":null},"seconds":0.1,)"
+               R"("depth_mm":)" +
+               std::to_string(getpid()) + R"(,"warnings":[{"code":"c","message":"m","where":"w"}])",
+           std::string(16, 'm'));
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -167,9 +189,14 @@ int main(int argc, char** argv) {
     const std::string text = argv[i];
     flags[text.substr(0, text.find('='))] = text.substr(text.find('=') + 1);
   }
-  std::filesystem::create_directory(flags["--out"]);
+  const bool is_preview = std::string(argv[1]) == "preview";
+  if (!is_preview) std::filesystem::create_directory(flags["--out"]);
   std::ifstream mesh(flags["--mesh"]);
   for (std::string line; std::getline(mesh, line);) obey(line);
+  if (is_preview) {
+    preview();
+    return 0;
+  }
   if (std::string(argv[1]).starts_with("calibrate")) {
     calibrate(argc, argv);
     return 0;

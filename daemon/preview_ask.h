@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "daemon/job.h"
+
+namespace hydroprint::v1 {
+class ComputePreviewRequest;
+}
+
+namespace hydroprint::daemon {
+
+/// What a preview is asked of, ready for a worker's verb `preview` (sim/worker/preview.h).
+struct PreviewAsk {
+  std::string key;  ///< the same for whatever one worker can answer, which has the mesh in memory
+  Work object;      ///< that worker's flags and files
+  std::string dip;  ///< keys of one request, as the inside of a JSON object; empty: none
+};
+
+/// Checks and translates a request; refuses as check_job() does.
+[[nodiscard]] Result<PreviewAsk> check_preview(const v1::ComputePreviewRequest& request);
+
+}  // namespace hydroprint::daemon

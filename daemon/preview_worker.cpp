@@ -1,0 +1,125 @@
+#include "daemon/preview_worker.h"
+
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "daemon/artifact_files.h"
+#include "daemon/files.h"
+#include "daemon/outcome.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::size_t kLongestHead = 256 << 10;
+constexpr std::size_t kMostBytes = 256 << 20;
+constexpr std::size_t kAtOnce = 4 << 20;
+constexpr std::size_t kWordsKept = 16 << 10;
+constexpr int kToEnd_ms = 500;
+
+/// How many bytes follow a head; none for what is no head. (Its reader may be a stranger's, and
+/// deeply nested text would exhaust the parser's stack.)
+std::optional<std::size_t> bytes_after(const std::string& head) {
+  int depth = 0;
+  for (const char c : head) {
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (depth > 16) return {};
+  }
+  const auto json = nlohmann::json::parse(head, nullptr, /*allow_exceptions=*/false);
+  if (!json.is_object()) return {};
+  const auto bytes = json.find("bytes");
+  if (bytes == json.end() || !bytes->is_number_unsigned()) return {};
+  const auto count = bytes->get<std::size_t>();
+  return count <= kMostBytes ? std::optional(count) : std::nullopt;
+}
+
+Error unusable() {
+  return {Code::kInternal,
+          "the worker says what no preview says; check that workers.program is hydroprint-worker",
+          "WORKER_UNUSABLE",
+          {}};
+}
+
+}  // namespace
+
+PreviewWorker::PreviewWorker(std::string key, std::filesystem::path folder)
+    : key_(std::move(key)), folder_(std::move(folder)) {}
+
+PreviewWorker::~PreviewWorker() {
+  if (worker_.pid > 0) kill_and_wait(worker_);
+  discard(folder_);
+}
+
+Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
+    const PreviewAsk& ask, std::int64_t number, const std::filesystem::path& program,
+    const Limits& limits, int threads, const Sandbox& sandbox, const Layout& layout) {
+  std::unique_ptr<PreviewWorker> made(new PreviewWorker(ask.key, layout.preview(number)));
+  Launch plan;
+  plan.program = program;
+  plan.arguments = {"preview", "--threads=" + std::to_string(threads)};
+  plan.arguments.insert(plan.arguments.end(), ask.object.flags.begin(), ask.object.flags.end());
+  plan.inputs = made->folder_ / "in";
+  plan.work = made->folder_ / "work";
+  plan.limits = limits;
+  plan.is_asked = true;
+  HP_RETURN_IF_ERROR(lay_out_inputs(layout, ask.object.inputs, plan.inputs));
+  HP_RETURN_IF_ERROR(make_folder(plan.work));
+  HP_ASSIGN_OR_RETURN(made->worker_, launch(plan, sandbox));
+  return made;
+}
+
+void PreviewWorker::ask(std::int64_t id, const std::string& dip) {
+  const std::string line = "{\"id\":" + std::to_string(id) + (dip.empty() ? "" : ",") + dip + "}\n";
+  // A few hundred bytes: a pipe takes all of them or none.
+  ssize_t written = 0;
+  do {
+    written = ::write(worker_.requests.get(), line.data(), line.size());
+  } while (written < 0 && errno == EINTR);
+  if (written != static_cast<ssize_t>(line.size())) judge_end();
+}
+
+std::vector<PreviewFrame> PreviewWorker::read() {
+  std::vector<PreviewFrame> frames;
+  if (failure_) return frames;
+  const bool goes_on = drain(worker_.answer, bytes_, kAtOnce);
+  while (cut(frames)) {
+  }
+  if (!goes_on && !failure_) judge_end();
+  return frames;
+}
+
+/// Takes one whole frame from what was read.
+bool PreviewWorker::cut(std::vector<PreviewFrame>& frames) {
+  const std::size_t end = bytes_.find('\n');
+  if (end == std::string::npos || failure_) {
+    if (bytes_.size() > kLongestHead && end == std::string::npos) failure_ = unusable();
+    return false;
+  }
+  PreviewFrame frame{bytes_.substr(0, end), {}};
+  const auto count = bytes_after(frame.head);
+  if (!count) failure_ = unusable();
+  if (!count || bytes_.size() - end - 1 < *count) return false;
+  frame.bytes = bytes_.substr(end + 1, *count);
+  bytes_.erase(0, end + 1 + *count);
+  frames.push_back(std::move(frame));
+  return true;
+}
+
+void PreviewWorker::judge_end() {
+  // It closes its pipes a little before it has ended.
+  pollfd ended{worker_.handle.get(), POLLIN, 0};
+  ::poll(&ended, 1, kToEnd_ms);
+  (void)drain(worker_.errors, words_, kWordsKept);
+  int wait_status = 0;
+  if (::waitpid(worker_.pid, &wait_status, WNOHANG) == 0) wait_status = kill_and_wait(worker_);
+  worker_.pid = -1;
+  const auto why = judge(wait_status, StoppedFor::kNothing, words_);
+  failure_ = why ? why->error : unusable();
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,242 @@
+// The verb that stays: requests in, answers out, as a page sees it on which an object is turned.
+
+#include <fcntl.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "tests/sim/worker/worker_fixture.h"
+
+namespace hydroprint::worker {
+namespace {
+
+/// One end of a pipe, which children do not inherit by themselves.
+class End {
+ public:
+  explicit End(int fd) : fd_(fd) { ::fcntl(fd, F_SETFD, FD_CLOEXEC); }
+  ~End() { close(); }
+  End(const End&) = delete;
+  End& operator=(const End&) = delete;
+  [[nodiscard]] int get() const { return fd_; }
+  void close() {
+    if (fd_ >= 0) ::close(std::exchange(fd_, -1));
+  }
+
+ private:
+  int fd_;
+};
+
+std::array<int, 2> make_pipe() {
+  std::array<int, 2> ends{};
+  EXPECT_EQ(::pipe(ends.data()), 0);
+  return ends;
+}
+
+struct Answer {
+  nlohmann::json head;
+  std::vector<float> floats;  ///< its bytes
+};
+
+/// The program, and whoever talks to it.
+class Session {
+ public:
+  explicit Session(const Arguments& arguments, std::array<int, 2> in = make_pipe(),
+                   std::array<int, 2> out = make_pipe())
+      : child_in_(in[0]),
+        child_out_(out[1]),
+        requests_(in[1]),
+        answers_(out[0]),
+        process_(arguments, {{}, false, {}, {{STDIN_FILENO, in[0]}, {STDOUT_FILENO, out[1]}}}) {
+    child_in_.close();
+    child_out_.close();
+  }
+
+  void ask(const std::string& lines) {
+    ASSERT_EQ(::write(requests_.get(), lines.data(), lines.size()),
+              static_cast<ssize_t>(lines.size()));
+  }
+  void hang_up() { requests_.close(); }
+  /// Asks one thing and hears of it.
+  Answer answer_to(const nlohmann::json& request) {
+    ask(request.dump() + "\n");
+    return next();
+  }
+  Answer next() {
+    std::string line;
+    for (char c = 0; c != '\n'; line += c) {
+      if (::read(answers_.get(), &c, 1) != 1) return {nlohmann::json::object(), {}};
+    }
+    Answer answer{nlohmann::json::parse(line), {}};
+    answer.floats.resize(answer.head.at("bytes").get<std::size_t>() / sizeof(float));
+    read(reinterpret_cast<char*>(answer.floats.data()), answer.floats.size() * sizeof(float));
+    return answer;
+  }
+  void signal(int number) { process_.signal(number); }
+  Ended wait() { return process_.wait(); }
+
+ private:
+  void read(char* to, std::size_t bytes) {
+    while (bytes > 0) {
+      const ssize_t got = ::read(answers_.get(), to, bytes);
+      ASSERT_GT(got, 0);
+      to += got;
+      bytes -= static_cast<std::size_t>(got);
+    }
+  }
+
+  End child_in_, child_out_, requests_, answers_;
+  Process process_;
+};
+
+nlohmann::json turned(int id, double quarter_turns) {
+  const double half_rad = quarter_turns * std::acos(-1) / 4;
+  return {{"id", id},
+          {"pose", {{"rotation_wxyz", {std::cos(half_rad), std::sin(half_rad), 0, 0}}}},
+          {"film", "60x70"}};
+}
+
+class Preview : public Worker {
+ protected:
+  [[nodiscard]] Arguments preview(const Arguments& more = {}) const {
+    Arguments all = {HYDROPRINT_BIN_DIR "/hydroprint-worker", "preview", "--threads", "2"};
+    all.insert(all.end(), more.begin(), more.end());
+    if (more.empty()) all.insert(all.end(), {"--mesh", path("sphere.obj")});
+    return all;
+  }
+};
+
+TEST_F(Preview, TellsTheModelFirstAndThenWhereFilmLandsOnIt) {
+  Session session(preview());
+  const Answer model = session.next();
+  const std::size_t vertices = model.head.at("vertices");
+  const std::size_t triangles = model.head.at("triangles");
+  EXPECT_EQ(vertices, 13u * 25u);
+  ASSERT_EQ(model.floats.size(), 3 * vertices + 3 * triangles);
+  for (std::size_t v = 0; v < vertices; ++v) {
+    EXPECT_NEAR(std::hypot(model.floats[3 * v], model.floats[3 * v + 1], model.floats[3 * v + 2]),
+                12, 1e-4);
+  }
+  for (std::size_t t = 3 * vertices; t < model.floats.size(); ++t) {
+    std::uint32_t corner = 0;
+    std::memcpy(&corner, &model.floats[t], sizeof corner);
+    EXPECT_LT(corner, vertices);
+  }
+
+  nlohmann::json request = turned(7, 0);
+  request["depth_mm"] = 12;
+  const Answer dip = session.answer_to(request);
+  EXPECT_EQ(dip.head.at("id"), 7);
+  EXPECT_NEAR(dip.head.at("depth_mm").get<double>(), 12, 1e-9);
+  EXPECT_GE(dip.head.at("coverage").get<double>(), 0.5) << "the lower half";
+  EXPECT_LT(dip.head.at("coverage").get<double>(), 0.6) << "and the faces that it wets in part";
+  ASSERT_EQ(dip.floats.size(), 4 * vertices);
+  int below = 0;
+  for (std::size_t v = 0; v < vertices; ++v) {
+    const float z_mm = model.floats[3 * v + 2];
+    const float* const at = &dip.floats[4 * v];
+    if (z_mm > 0.01) {
+      EXPECT_TRUE(std::isnan(at[0]) && std::isnan(at[3])) << "no film above the water";
+    } else if (z_mm < -0.01) {
+      ++below;
+      EXPECT_TRUE(std::isfinite(at[0]) && std::isfinite(at[1])) << v;
+      EXPECT_NEAR(at[2], (z_mm + 12) / 5, 0.05) << "reached by the water at 5 mm/s";
+      EXPECT_GT(at[3], 0.9) << v;
+    }
+  }
+  EXPECT_GT(below, 100);
+  session.hang_up();
+  EXPECT_EQ(session.wait().status, 0);
+}
+
+TEST_F(Preview, IsAskedAgainWithAnotherPose) {
+  Session session(preview());
+  const Answer model = session.next();
+  const Answer upright = session.answer_to(turned(1, 0));
+  const Answer turned_over = session.answer_to(turned(2, 2));
+  const auto first_to_touch = [&](const Answer& dip) {
+    std::size_t first = 0;
+    for (std::size_t v = 0; 4 * v < dip.floats.size(); ++v) {
+      const float time_s = dip.floats[4 * v + 2];
+      if (!std::isnan(time_s) && !(time_s >= dip.floats[4 * first + 2])) first = v;
+    }
+    return model.floats[3 * first + 2];
+  };
+  EXPECT_NEAR(first_to_touch(upright), -12, 1e-3);
+  EXPECT_NEAR(first_to_touch(turned_over), 12, 1e-3);
+}
+
+TEST_F(Preview, ANewerRequestEndsTheOneBefore) {
+  Session session(preview());
+  ASSERT_GT(session.next().floats.size(), 0u);
+  constexpr int kMany = 40;
+  std::string lines;
+  for (int id = 1; id <= kMany; ++id) lines += turned(id, id / 20.0).dump() + "\n";
+  session.ask(lines);
+  int done = 0;
+  for (int id = 1; id <= kMany; ++id) {
+    const Answer answer = session.next();
+    ASSERT_EQ(answer.head.at("id"), id) << "each is answered, in their order";
+    if (answer.head.contains("error")) {
+      EXPECT_EQ(answer.head.at("error").at("reason"), "SUPERSEDED");
+    } else {
+      ++done;
+    }
+    if (id == kMany) {
+      EXPECT_FALSE(answer.head.contains("error")) << answer.head;
+    }
+  }
+  EXPECT_LT(done, kMany) << "not all were computed";
+}
+
+TEST_F(Preview, RefusesWhatIsNoRequestAndGoesOn) {
+  Session session(preview());
+  ASSERT_GT(session.next().floats.size(), 0u);
+  const auto refused = [&](const std::string& line, int id) {
+    session.ask(line + "\n");
+    const Answer answer = session.next();
+    EXPECT_TRUE(answer.head.contains("error")) << line;
+    EXPECT_EQ(answer.head.value("id", 0), id) << line;
+    EXPECT_TRUE(answer.floats.empty());
+    return answer.head.value("/error/message"_json_pointer, std::string());
+  };
+  refused("", -1);
+  refused("{", -1);
+  refused("[1]", -1);
+  refused(R"({"film":"A4"})", -1);
+  refused(R"({"id":-4})", -1);
+  refused(std::string(1 << 17, 'x'), -1);
+  EXPECT_NE(refused(R"({"id":1,"film":"A9"})", 1).find("A9"), std::string::npos);
+  refused(R"({"id":2,"film":"polygon:/etc/passwd"})", 2);
+  refused(R"({"id":3,"depth_mm":-1})", 3);
+  refused(R"({"id":4,"depth_mm":1e999})", -1);
+  refused(R"({"id":5,"pose":{"rotation_wxyz":[0,0,0,0]}})", 5);
+  refused(R"({"id":6,"pose":{"translation_mm":[400,0,0]}})", 6);  // beside the film
+  refused(R"({"id":7,"colour":"red"})", 7);
+  EXPECT_FALSE(session.answer_to(turned(8, 1)).head.contains("error"));
+}
+
+TEST_F(Preview, AnswersTheLastRequestThoughNothingFollows) {
+  Session session(preview());
+  session.ask(turned(1, 0).dump() + "\n");
+  session.hang_up();
+  ASSERT_GT(session.next().floats.size(), 0u);
+  EXPECT_EQ(session.next().head.value("id", 0), 1);
+  EXPECT_EQ(session.wait().status, 0);
+}
+
+TEST_F(Preview, EndsAsOtherVerbsDo) {
+  Session session(preview());
+  ASSERT_GT(session.next().floats.size(), 0u);
+  session.signal(SIGTERM);
+  EXPECT_EQ(session.wait().status, 130);
+  expect_refusal(3, preview({"--mesh", path("none.obj")}), {"none.obj"});
+  expect_refusal(2, preview({"--mesh", path("sphere.obj"), "--film", "A9"}), {"--film", "A9"});
+}
+
+}  // namespace
+}  // namespace hydroprint::worker
