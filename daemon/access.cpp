@@ -59,7 +59,12 @@ bool is_loopback(const std::string& address) {
          address.starts_with("::ffff:127.");
 }
 
-Result<people::Caller> Access::caller(const grpc::ServerContextBase& context) const {
+Status Access::check_still(const grpc::ServerContextBase& context) const {
+  HP_RETURN_IF_ERROR(caller(context, false));
+  return {};
+}
+
+Result<people::Caller> Access::caller(const grpc::ServerContextBase& context, bool is_use) const {
   if (open_on_loopback_ && !accounts_.any() && is_loopback(peer_address(context))) {
     HP_ASSIGN_OR_RETURN(const std::string name, claimed_name(context));
     return people::Caller{name, people::Role::kAdmin, "loopback", "", false};
@@ -70,10 +75,10 @@ Result<people::Caller> Access::caller(const grpc::ServerContextBase& context) co
   if (!authorization.empty()) {
     // A key that does not hold is not made up for by a session.
     if (authorization.starts_with(kBearer)) {
-      caller = accounts_.by_key(std::string_view(authorization).substr(kBearer.size()));
+      caller = accounts_.by_key(std::string_view(authorization).substr(kBearer.size()), is_use);
     }
   } else if (!session.empty()) {
-    caller = accounts_.by_session(session);
+    caller = accounts_.by_session(session, is_use);
   }
   if (caller) return *caller;
   const bool has_some = !authorization.empty() || !session.empty();

@@ -22,12 +22,21 @@ class Access {
   /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for a `hydroprint-owner` that is no
   /// name,
   ///   where that counts
-  [[nodiscard]] Result<people::Caller> caller(const grpc::ServerContextBase& context) const;
+  [[nodiscard]] Result<people::Caller> caller(const grpc::ServerContextBase& context) const {
+    return caller(context, true);
+  }
+  /// Whether whoever makes a call that goes on and on may still make it: streams ask this a few
+  /// times a second, and end with it. Being watched does not keep a session alive.
+  /// @return kUnauthenticated, SIGN_IN_NEEDED
+  [[nodiscard]] Status check_still(const grpc::ServerContextBase& context) const;
   /// Who calls, if their role is enough. As above; kPermissionDenied, ROLE_TOO_LOW.
   [[nodiscard]] Result<people::Caller> admit(const grpc::ServerContextBase& context,
                                              people::Role needed) const;
 
  private:
+  [[nodiscard]] Result<people::Caller> caller(const grpc::ServerContextBase& context,
+                                              bool is_use) const;
+
   people::Accounts& accounts_;
   bool open_on_loopback_;
 };

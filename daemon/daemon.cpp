@@ -92,7 +92,12 @@ Status Daemon::open_people(const Config& config) {
   options.session_most_ms = config.people_session_days * 24 * kHourMs;
   HP_ASSIGN_OR_RETURN(accounts_, people::Accounts::open(*database_, options, system_clock_ms));
   audit_ = std::make_unique<people::AuditLog>(*database_, system_clock_ms);
-  access_ = std::make_unique<Access>(*accounts_, config.people_accounts == "loopback-open");
+  const bool is_open = config.people_accounts == "loopback-open";
+  access_ = std::make_unique<Access>(*accounts_, is_open);
+  if (!is_open && !accounts_->any()) {
+    log(LogLevel::kWarning, "no_users",
+        {{"message", "accounts are required and there is no user; start with --first-admin NAME"}});
+  }
   return {};
 }
 

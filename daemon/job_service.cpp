@@ -334,7 +334,12 @@ class JobService final : public v1::JobService::Service {
       if (item.event) *message.mutable_event() = to_message(*item.event);
       return writer.Write(message);
     };
-    return watch_job(backend_, id, after, send, [&] { return context.IsCancelled(); });
+    Status still;
+    const Status end = watch_job(backend_, id, after, send, [&] {
+      still = backend_.access.check_still(context);
+      return !still || context.IsCancelled();
+    });
+    return still ? end : still;
   }
 
   Backend backend_;

@@ -213,6 +213,7 @@ class RigService final
     SteadyClock::time_point sent_at;
     for (bool first = true;; std::this_thread::sleep_for(kWatchLook)) {
       HP_RETURN_IF_ERROR(check_serving(backend_));
+      HP_RETURN_IF_ERROR(backend_.access.check_still(context));
       if (context.IsCancelled()) return fail(Code::kCancelled, "the client left");
       const auto since = SteadyClock::now() - sent_at;
       // A sleep may be short by a little, and the rate must not halve for it.

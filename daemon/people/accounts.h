@@ -72,9 +72,10 @@ class Accounts {
   /// Whether there is any user.
   [[nodiscard]] bool any() const;
   /// The caller with this key ("hp_ID_SECRET"), if it holds.
-  [[nodiscard]] std::optional<Caller> by_key(std::string_view key);
-  /// The caller with this session's token, if it holds.
-  [[nodiscard]] std::optional<Caller> by_session(std::string_view token);
+  /// @param is_use  whether it counts as used now
+  [[nodiscard]] std::optional<Caller> by_key(std::string_view key, bool is_use = true);
+  /// The caller with this session's token, if it holds. As above.
+  [[nodiscard]] std::optional<Caller> by_session(std::string_view token, bool is_use = true);
   /// How many attempts to sign in failed since the daemon began.
   [[nodiscard]] std::int64_t failed_attempts() const { return attempts_.failures(); }
 

@@ -19,7 +19,7 @@ bool has_control_characters(const std::string& text) {
 
 }  // namespace
 
-std::optional<Caller> Accounts::by_key(std::string_view key) {
+std::optional<Caller> Accounts::by_key(std::string_view key, bool is_use) {
   if (!key.starts_with(kKeyPrefix)) return std::nullopt;
   key.remove_prefix(kKeyPrefix.size());
   const std::size_t between = key.find('_');
@@ -34,7 +34,7 @@ std::optional<Caller> Accounts::by_key(std::string_view key) {
   const std::int64_t now_ms = clock_();
   const User* const user = admitted(held.user);
   if (user == nullptr || (held.expire_ms != 0 && held.expire_ms <= now_ms)) return std::nullopt;
-  held.use_ms = now_ms;
+  if (is_use) held.use_ms = now_ms;
   return Caller{user->name, std::min(user->role, held.role), "key " + held.id, "", true};
 }
 

@@ -32,7 +32,7 @@ std::int64_t Accounts::expire_ms(const Session& session) const {
 
 bool Accounts::holds(const Session& session) const { return clock_() < expire_ms(session); }
 
-std::optional<Caller> Accounts::by_session(std::string_view token) {
+std::optional<Caller> Accounts::by_session(std::string_view token, bool is_use) {
   if (token.size() > kLongestToken) return std::nullopt;
   const std::string hash = sha256(token);
   const std::lock_guard lock(now_);
@@ -40,7 +40,7 @@ std::optional<Caller> Accounts::by_session(std::string_view token) {
   if (found == sessions_.end() || !holds(found->second)) return std::nullopt;
   const User* const user = admitted(found->second.user);
   if (user == nullptr) return std::nullopt;
-  found->second.use_ms = clock_();
+  if (is_use) found->second.use_ms = clock_();
   return Caller{user->name, user->role, "session", found->second.id, true};
 }
 

@@ -213,6 +213,44 @@ TEST_F(PeopleApi, ASessionEndsWhenSignedOutAndWhenRevoked) {
                  StatusCode::UNAUTHENTICATED, "SIGN_IN_NEEDED");
 }
 
+TEST_F(PeopleApi, AStreamEndsWithTheSessionItWasBegunIn) {
+  Client client(daemon.address());
+  client.session = sign_in("maker").session_token();
+  const std::string job = client.simulate("sleep 60").name();
+  v1::WatchJobRequest request;
+  request.set_name(job);
+  const auto job_call = client.context(), rig_call = client.context();
+  const auto job_events = client.jobs->WatchJob(job_call.get(), request);
+  const auto rig = v1::RigService::NewStub(client.channel);
+  const auto rig_events = rig->WatchRig(rig_call.get(), {});
+  v1::WatchJobResponse event;
+  v1::Rig state;
+  ASSERT_TRUE(job_events->Read(&event));
+  ASSERT_TRUE(rig_events->Read(&state));
+  google::protobuf::Empty empty;
+  ASSERT_TRUE(client.people->SignOut(client.context().get(), {}, &empty).ok());
+  while (job_events->Read(&event)) {
+  }
+  while (rig_events->Read(&state)) {
+  }
+  expect_refusal(job_events->Finish(), StatusCode::UNAUTHENTICATED, "SIGN_IN_NEEDED");
+  expect_refusal(rig_events->Finish(), StatusCode::UNAUTHENTICATED, "SIGN_IN_NEEDED");
+  EXPECT_TRUE(cancel(*as("maker"), job).ok());
+}
+
+TEST_F(PeopleApi, AKeyDoesNotSetTheFirstPasswordOfItsUser) {
+  const auto admin = as("admin");
+  v1::SetPasswordRequest none;
+  none.set_name("users/operator");
+  v1::User user;
+  ASSERT_TRUE(admin->people->SetPassword(admin->context().get(), none, &user).ok());
+  EXPECT_FALSE(user.has_password());
+  none.set_new_password("battery staple");
+  const auto boss = as("operator");
+  expect_refusal(boss->people->SetPassword(boss->context().get(), none, &user),
+                 StatusCode::PERMISSION_DENIED, "SIGN_IN_FAILED");
+}
+
 TEST_F(PeopleApi, AKeyMayBeLessThanItsUserAndNeverMore) {
   const auto admin = as("operator");
   v1::CreateApiKeyRequest request;

@@ -176,6 +176,15 @@ TEST_F(Sessions, EndWhenTheyAreNotUsed) {
   EXPECT_FALSE(accounts->by_session(in.token));  // gone for good
 }
 
+TEST_F(Sessions, AreNotKeptAliveByBeingLookedAt) {
+  add("ann", Role::kAdmin);
+  const auto in = accounts->sign_in("ann", kPassword, "p").value();
+  now_ms += 11 * kHour_ms;
+  EXPECT_TRUE(accounts->by_session(in.token, false));
+  now_ms += kHour_ms;
+  EXPECT_FALSE(accounts->by_session(in.token));
+}
+
 TEST_F(Sessions, EndAfterAWeekHoweverTheyAreUsed) {
   add("ann", Role::kAdmin);
   const auto in = accounts->sign_in("ann", kPassword, "p").value();
