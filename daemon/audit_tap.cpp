@@ -192,7 +192,9 @@ class TapFactory final : public grpc::experimental::ServerInterceptorFactoryInte
     std::replace(method.begin(), method.end(), '/', '.');
     const auto* const found =
         google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
-    if (found == nullptr || found->client_streaming() || method == kPreview) return false;
+    if (found == nullptr || found->client_streaming() || found->server_streaming() ||
+        method == kPreview)
+      return false;
     const auto& options = found->options();
     return options.HasExtension(v1::role) && !options.GetExtension(google::api::http).has_get();
   }

@@ -189,6 +189,11 @@ Status Daemon::start_serving(const Config& config) {
 
 Daemon::~Daemon() { stop(); }
 
+std::optional<std::uint64_t> Daemon::control_rounds() const {
+  if (!rig_) return {};
+  return rig_->snapshot().jitter.ticks;
+}
+
 void Daemon::clean_up() {
   log_failure("jobs_not_purged", jobs_->purge());
   log_failure("uploads_not_purged", assets_->purge());

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "daemon/access.h"
 #include "daemon/asset_store.h"
@@ -42,6 +44,8 @@ class Daemon {
   /// made, as an admin.
   /// @return ID_INVALID; kFailedPrecondition, STATE_FORBIDS for one who is there and no admin
   [[nodiscard]] Result<std::string> first_admin(const std::string& name);
+  /// How often the loop that looks at the drive has gone round; none: no drive is configured.
+  [[nodiscard]] std::optional<std::uint64_t> control_rounds() const;
 
   /// Deletes what is too old; to be called now and then.
   void clean_up();

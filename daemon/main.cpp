@@ -14,6 +14,7 @@
 #include "daemon/log.h"
 #include "daemon/own_program.h"
 #include "daemon/rig_setup.h"
+#include "daemon/service_manager.h"
 #include "sim/base/one_line.h"
 
 namespace {
@@ -120,7 +121,12 @@ int run(const Config& config, const std::string& first_admin) {
       {{"grpc", address}, {"state_dir", (*daemon)->layout().root.string()}});
   std::cout << "hydroprintd ready grpc=" << address
             << " state_dir=" << (*daemon)->layout().root.string() << std::endl;
-  serve_until_signal(**daemon, signals);
+  notify_ready("serving " + address);
+  {
+    const WatchdogFeeder feeder([&daemon] { return (*daemon)->control_rounds(); });
+    serve_until_signal(**daemon, signals);
+  }
+  notify_stopping();
   (*daemon)->stop();
   log(LogLevel::kInfo, "stopped");
   return 0;

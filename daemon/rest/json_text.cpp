@@ -1,0 +1,104 @@
+#include "daemon/rest/json_text.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <cmath>
+#include <vector>
+
+#include "daemon/rest/json_check.h"
+#include "daemon/rest/percent.h"
+
+namespace hydroprint::rest {
+namespace {
+
+namespace pb = google::protobuf;
+using Type = pb::FieldDescriptor::CppType;
+
+tl::unexpected<Error> refuse_value(const std::string& place, const std::string& what) {
+  auto error = fail(Code::kInvalidArgument, place + ": " + what, "JSON_INVALID");
+  error.value().metadata["field"] = place;
+  return error;
+}
+
+// One value of a field; `index` counts in a repeated one and is -1 else.
+Status check_value(const pb::Message& message, const pb::FieldDescriptor& field, int index,
+                   const std::string& place);
+
+Status check_inside(const pb::Message& message, const std::string& before) {
+  std::vector<const pb::FieldDescriptor*> fields;
+  message.GetReflection()->ListFields(message, &fields);
+  for (const pb::FieldDescriptor* field : fields) {
+    const std::string place = before + field->json_name();
+    if (!field->is_repeated()) {
+      HP_RETURN_IF_ERROR(check_value(message, *field, -1, place));
+      continue;
+    }
+    const int count = message.GetReflection()->FieldSize(message, field);
+    for (int i = 0; i < count; ++i) {
+      HP_RETURN_IF_ERROR(check_value(message, *field, i, place + "[" + std::to_string(i) + "]"));
+    }
+  }
+  return {};
+}
+
+Status check_value(const pb::Message& message, const pb::FieldDescriptor& field, int index,
+                   const std::string& place) {
+  const pb::Reflection& look = *message.GetReflection();
+  const bool one = index < 0;
+  switch (field.cpp_type()) {
+    case Type::CPPTYPE_MESSAGE:
+      return check_inside(
+          one ? look.GetMessage(message, &field) : look.GetRepeatedMessage(message, &field, index),
+          place + ".");
+    case Type::CPPTYPE_DOUBLE:
+    case Type::CPPTYPE_FLOAT: {
+      const bool is_double = field.cpp_type() == Type::CPPTYPE_DOUBLE;
+      const double value =
+          is_double ? (one ? look.GetDouble(message, &field)
+                           : look.GetRepeatedDouble(message, &field, index))
+                    : static_cast<double>(one ? look.GetFloat(message, &field)
+                                              : look.GetRepeatedFloat(message, &field, index));
+      return std::isfinite(value) ? Status{} : refuse_value(place, "must be a finite number");
+    }
+    case Type::CPPTYPE_ENUM: {
+      const int number = one ? look.GetEnumValue(message, &field)
+                             : look.GetRepeatedEnumValue(message, &field, index);
+      if (field.enum_type()->FindValueByNumber(number) != nullptr) return {};
+      return refuse_value(place,
+                          field.enum_type()->name() + " has no value " + std::to_string(number));
+    }
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+Status check_values(const pb::Message& message) { return check_inside(message, {}); }
+
+Status read_json(std::string_view text, pb::Message& message) {
+  HP_RETURN_IF_ERROR(check_json(text, *message.GetDescriptor()));
+  const pb::StringPiece whole(text.data(), text.size());
+  const auto status = pb::util::JsonStringToMessage(whole, &message);
+  if (!status.ok()) {
+    const std::string words = status.message().ToString();
+    return fail(Code::kInvalidArgument, "the body: " + plain(words), "JSON_INVALID");
+  }
+  return check_values(message);
+}
+
+Result<std::string> write_json(const pb::Message& message) {
+  pb::util::JsonPrintOptions options;
+  options.always_print_primitive_fields = true;
+  std::string text;
+  const auto status = pb::util::MessageToJsonString(message, &text, options);
+  if (!status.ok()) {
+    return fail(Code::kInternal,
+                message.GetTypeName() + " has no JSON: " + plain(status.message().ToString()));
+  }
+  return text;
+}
+
+}  // namespace hydroprint::rest

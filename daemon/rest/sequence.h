@@ -1,0 +1,23 @@
+#pragma once
+
+#include <google/protobuf/descriptor.h>
+
+namespace hydroprint::rest {
+
+/// A field of this name that is one int64, set or not; null: none.
+[[nodiscard]] inline const google::protobuf::FieldDescriptor* number_called(
+    const google::protobuf::Descriptor& message, const char* name) {
+  const auto* field = message.FindFieldByName(name);
+  const bool is_number = field != nullptr && !field->is_repeated() &&
+                         field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_INT64;
+  return is_number ? field : nullptr;
+}
+
+/// Whether a stream can go on where it broke off: its messages carry `seq`, its request
+/// `after_seq`.
+[[nodiscard]] inline bool is_resumable(const google::protobuf::MethodDescriptor& method) {
+  return method.server_streaming() && number_called(*method.output_type(), "seq") != nullptr &&
+         number_called(*method.input_type(), "after_seq") != nullptr;
+}
+
+}  // namespace hydroprint::rest

@@ -1,0 +1,90 @@
+#include "daemon/rest/status.h"
+
+#include <cstdlib>
+
+#include "google/rpc/code.pb.h"
+#include "google/rpc/error_details.pb.h"
+#include "google/rpc/status.pb.h"
+
+namespace hydroprint::rest {
+namespace {
+
+// Where the reason is not given, the code's name is one.
+const char* default_reason(Code code) {
+  switch (code) {
+    case Code::kCancelled:
+      return "CANCELLED";
+    case Code::kInvalidArgument:
+      return "SPEC_INVALID";
+    case Code::kResourceExhausted:
+      return "DISK_FULL";
+    case Code::kFailedPrecondition:
+      return "STATE_FORBIDS";
+    default:
+      return "STORE_FAILED";
+  }
+}
+
+// Seconds after which trying again may help; 0: it does not.
+int retry_after_s(const Error& error) {
+  for (const char* const full : {"QUEUE_FULL", "UPLOADS_FULL", "PREVIEWS_FULL"}) {
+    if (error.reason == full) return 10;
+  }
+  const auto told = error.metadata.find("retry_s");
+  return told == error.metadata.end() ? 0 : std::atoi(told->second.c_str());
+}
+
+}  // namespace
+
+int number_of(Code code) {
+  switch (code) {
+    case Code::kCancelled:
+      return google::rpc::CANCELLED;
+    case Code::kInvalidArgument:
+      return google::rpc::INVALID_ARGUMENT;
+    case Code::kNotFound:
+      return google::rpc::NOT_FOUND;
+    case Code::kAlreadyExists:
+      return google::rpc::ALREADY_EXISTS;
+    case Code::kPermissionDenied:
+      return google::rpc::PERMISSION_DENIED;
+    case Code::kResourceExhausted:
+      return google::rpc::RESOURCE_EXHAUSTED;
+    case Code::kFailedPrecondition:
+      return google::rpc::FAILED_PRECONDITION;
+    case Code::kAborted:
+      return google::rpc::ABORTED;
+    case Code::kOutOfRange:
+      return google::rpc::OUT_OF_RANGE;
+    case Code::kUnimplemented:
+      return google::rpc::UNIMPLEMENTED;
+    case Code::kInternal:
+      return google::rpc::INTERNAL;
+    case Code::kUnavailable:
+      return google::rpc::UNAVAILABLE;
+    case Code::kDataLoss:
+      return google::rpc::DATA_LOSS;
+    case Code::kUnauthenticated:
+      return google::rpc::UNAUTHENTICATED;
+  }
+  return google::rpc::INTERNAL;
+}
+
+std::string status_details(const Error& error) {
+  google::rpc::Status details;
+  details.set_code(number_of(error.code));
+  details.set_message(error.message);
+  google::rpc::ErrorInfo info;
+  info.set_domain("hydroprint");
+  info.set_reason(error.reason.empty() ? default_reason(error.code) : error.reason);
+  info.mutable_metadata()->insert(error.metadata.begin(), error.metadata.end());
+  details.add_details()->PackFrom(info);
+  if (const int seconds = retry_after_s(error); seconds > 0) {
+    google::rpc::RetryInfo retry;
+    retry.mutable_retry_delay()->set_seconds(seconds);
+    details.add_details()->PackFrom(retry);
+  }
+  return details.SerializeAsString();
+}
+
+}  // namespace hydroprint::rest

@@ -1,0 +1,98 @@
+// Messages that were drawn, sent as a client would, arrive as they were; answers can be read back.
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "daemon/rest/json_text.h"
+#include "daemon/rest/transcoder.h"
+#include "tests/daemon/rest/requests.h"
+
+namespace hydroprint::rest {
+namespace {
+
+namespace pb = google::protobuf;
+using pb::util::MessageDifferencer;
+
+std::vector<std::string> all_services() {
+  std::vector<std::string> services = api_services();
+  services.emplace_back("hydroprint.rest.test.Rules");
+  return services;
+}
+
+TEST(RoundTrip, EveryRouteGetsWhatWasSent) {
+  const auto routes = read_routes(all_services());
+  const auto transcoder = Transcoder::make(all_services());
+  ASSERT_TRUE(routes && transcoder);
+  std::mt19937 random(11);
+  for (const Route& route : *routes) {
+    for (int i = 0; i < 60; ++i) {
+      const auto message = random_message(*route.method->input_type(), random, i % 4);
+      const Sent request = sent(route, *message, random);
+      const auto call = transcoder->read(route.http_method, request.target, request.body);
+      ASSERT_TRUE(call) << call.error().message << "\n" << request.target << "\n" << request.body;
+      EXPECT_EQ(call->method, rpc_name(*route.method)) << request.target;
+      const auto read = new_message(*route.method->input_type());
+      ASSERT_TRUE(read->ParseFromString(call->request));
+      ASSERT_TRUE(MessageDifferencer::Equals(*message, *read))
+          << request.target << "\n"
+          << request.body << "\n"
+          << message->ShortDebugString() << "\n"
+          << read->ShortDebugString();
+    }
+  }
+}
+
+TEST(RoundTrip, EveryAnswerCanBeReadBack) {
+  const auto routes = read_routes(all_services());
+  const auto transcoder = Transcoder::make(all_services());
+  ASSERT_TRUE(routes && transcoder);
+  std::mt19937 random(12);
+  for (const Route& route : *routes) {
+    for (int i = 0; i < 60; ++i) {
+      const auto message = random_message(*route.method->output_type(), random, i % 4);
+      const auto text = transcoder->write(rpc_name(*route.method), message->SerializeAsString());
+      ASSERT_TRUE(text) << text.error().message;
+      const auto read = new_message(*route.method->output_type());
+      const Status status = read_json(*text, *read);
+      ASSERT_TRUE(status) << status.error().message << "\n" << *text;
+      ASSERT_TRUE(MessageDifferencer::Equals(*message, *read)) << *text;
+    }
+  }
+}
+
+TEST(Answer, HasAllFieldsThatCannotBeUnset) {
+  const auto transcoder = Transcoder::make();
+  ASSERT_TRUE(transcoder);
+  const auto text = transcoder->write("/hydroprint.v1.JobService/ListJobs", "");
+  EXPECT_EQ(text, R"({"jobs":[],"nextPageToken":""})");
+  const auto rig =
+      nlohmann::json::parse(*transcoder->write("/hydroprint.v1.RigService/GetRig", ""));
+  EXPECT_EQ(rig.at("state"), "STATE_UNSPECIFIED");
+  EXPECT_EQ(rig.at("homed"), false);
+  EXPECT_FALSE(rig.contains("positionMm"));  // optional
+  EXPECT_FALSE(rig.contains("axis"));        // a message
+  EXPECT_EQ(transcoder->write("/hydroprint.v1.JobService/DeleteJob", ""), "{}");
+}
+
+TEST(Answer, OfACallThatStreamsIntoTheDaemonCanBeWrittenToo) {
+  const auto transcoder = Transcoder::make();
+  ASSERT_TRUE(transcoder);
+  EXPECT_EQ(transcoder->write("/hydroprint.v1.AssetService/UploadChunk", ""), "{}");
+}
+
+TEST(Answer, ThatIsNoneIsRefused) {
+  const auto transcoder = Transcoder::make();
+  ASSERT_TRUE(transcoder);
+  for (const auto& [method, bytes] :
+       {std::pair("/hydroprint.v1.JobService/None", ""), std::pair("", ""),
+        std::pair("/hydroprint.v1.JobService/GetJob", "\x0a\xff")}) {
+    const auto text = transcoder->write(method, bytes);
+    ASSERT_FALSE(text) << method;
+    EXPECT_EQ(text.error().code, Code::kInternal);
+  }
+}
+
+}  // namespace
+}  // namespace hydroprint::rest

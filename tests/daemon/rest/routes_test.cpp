@@ -1,0 +1,157 @@
+// Which services have routes, and what of a rule is refused at start.
+#include "daemon/rest/routes.h"
+
+#include <google/protobuf/descriptor.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "daemon/rest/other_routes.h"
+#include "daemon/rest/transcoder.h"
+#include "tests/daemon/rest/requests.h"
+
+namespace hydroprint::rest {
+namespace {
+
+std::string refusal_of(const std::string& service) {
+  const auto made = Transcoder::make({"hydroprint.rest.test." + service});
+  if (made) return "nothing is refused";
+  EXPECT_EQ(made.error().code, Code::kInternal);
+  return made.error().message;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Routes, ARuleThatCannotBeMeantIsRefusedAtStart) {
+  const std::map<std::string, std::string> words = {
+      {"SamePath", "some path is that of hydroprint.rest.test.SamePath.One"},
+      {"SamePathTwice", "some path is that of"},
+      {"UnknownVariable", "name: Inner has no such field"},
+      {"RepeatedVariable", "texts must be one value"},
+      {"MessageVariable", "time must be one value"},
+      {"VariableInList", "inners has no fields to name"},
+      {"VariableTwice", "text is bound twice"},
+      {"BadTemplate", "} is missing"},
+      {"UnknownBody", "there is no field name"},
+      {"TextBody", "text must be one message"},
+      {"ListBody", "children must be one message"},
+      {"BodyInPath", "inner is bound by the path too"},
+      {"GetWithBody", "GET has no body"},
+      {"DeleteWithBody", "DELETE has no body"},
+      {"ClientStreams", "the client streams"},
+      {"BothStream", "the client streams"},
+      {"OwnVerb", "no GET, PUT"},
+      {"NoPattern", "no GET, PUT"},
+      {"PartOfAnswer", "response_body is not supported"},
+      {"StructRequest", "holds Any, Struct"},
+      {"AnyRequest", "holds Any, Struct"},
+      {"DeepRequest", "holds Any, Struct"},
+      {"Missing", "is not linked in"},
+  };
+  for (const auto& [service, part] : words) {
+    EXPECT_TRUE(contains(refusal_of(service), part)) << service << ": " << refusal_of(service);
+  }
+}
+
+TEST(Routes, OnePathMayServeDifferentMethods) {
+  const auto made = Transcoder::make({"hydroprint.rest.test.OtherMethod"});
+  ASSERT_TRUE(made) << made.error().message;
+  EXPECT_EQ(made->methods_at("/x/y"), (std::vector<std::string>{"GET", "POST"}));
+  EXPECT_EQ(made->methods_at("/x/z?text=7"), (std::vector<std::string>{"GET"}));
+  EXPECT_TRUE(made->methods_at("/y").empty());
+  EXPECT_TRUE(made->methods_at("/x/%").empty());
+}
+
+TEST(Routes, OfTheApiAllServicesAreThere) {
+  EXPECT_GE(api_services().size(), 7U);
+  ASSERT_TRUE(Transcoder::make()) << Transcoder::make().error().message;
+  for (const std::string& name : api_services()) {
+    EXPECT_NE(google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(name), nullptr)
+        << name;
+  }
+}
+
+TEST(Routes, OfTheApiEachIsReachedByItsOwnMethodAndNoOther) {
+  const auto transcoder = Transcoder::make();
+  const auto routes = read_routes(api_services());
+  ASSERT_TRUE(transcoder && routes);
+  ASSERT_GE(routes->size(), 30U);
+  for (const Route& route : *routes) {
+    const std::string path = some_path(route);
+    const auto call = transcoder->read(route.http_method, path, "");
+    ASSERT_TRUE(call) << path << ": " << call.error().message;
+    EXPECT_EQ(call->method, rpc_name(*route.method)) << path;
+    EXPECT_EQ(call->streams, route.method->server_streaming()) << path;
+    const auto allowed = transcoder->methods_at(path);
+    for (const char* other : {"GET", "PUT", "POST", "DELETE", "PATCH", "HEAD", "OPTIONS", "get"}) {
+      if (std::count(allowed.begin(), allowed.end(), other) > 0) continue;
+      const auto refused = transcoder->read(other, path, "");
+      ASSERT_FALSE(refused) << other << " " << path;
+      EXPECT_EQ(refused.error().reason, "METHOD_NOT_ALLOWED");
+      EXPECT_EQ(refused.error().code, Code::kUnimplemented);
+      EXPECT_EQ(refused.error().metadata.at("allow"), joined(allowed));
+    }
+  }
+}
+
+// What a browser fetches on its own account must not change anything.
+TEST(Routes, OfTheApiOnlyWhatReadsIsGet) {
+  const auto routes = read_routes(api_services());
+  ASSERT_TRUE(routes);
+  for (const Route& route : *routes) {
+    const std::string& name = route.method->name();
+    bool reads = false;
+    for (const char* word : {"Get", "List", "Watch", "Download", "WhoAmI"}) {
+      reads |= name.rfind(word, 0) == 0;
+    }
+    EXPECT_EQ(route.http_method == "GET", reads) << name;
+    const bool deletes = name.rfind("Delete", 0) == 0 || name == "RevokeSession";
+    EXPECT_EQ(route.http_method == "DELETE", deletes) << name;
+  }
+}
+
+TEST(Routes, WhatIsWrittenByHandIsNoRouteOfTheApi) {
+  const auto transcoder = Transcoder::make();
+  ASSERT_TRUE(transcoder);
+  for (const OtherRoute& route : other_routes()) {
+    const auto call = transcoder->read(route.http_method, route.path, "");
+    EXPECT_FALSE(call) << route.http_method << " " << route.path;
+  }
+}
+
+TEST(Routes, AtNoPathOfTheApiThereIsNothing) {
+  const auto transcoder = Transcoder::make();
+  ASSERT_TRUE(transcoder);
+  for (const char* path : {"",
+                           "/",
+                           "*",
+                           "v1/jobs",
+                           "/v1",
+                           "/v1/jobs/",
+                           "//v1/jobs",
+                           "/v1//jobs",
+                           "/v1/jobs/7/",
+                           "/V1/jobs",
+                           "/v1/Jobs",
+                           "/v1/jobs:cancel",
+                           "/v1/jobs/7:",
+                           "/v1/jobs/7:cancel/",
+                           "/v1/jobs/7:Cancel",
+                           "/v1/jobs/7/:cancel",
+                           "/v1/jobs/7/8",
+                           "/v1/jobs%2F7",
+                           "/v1/rig:stop:stop",
+                           "/v1/jobs/7%3Acancel:x",
+                           "http://localhost/v1/jobs"}) {
+    const auto call = transcoder->read("GET", path, "");
+    ASSERT_FALSE(call) << path;
+    EXPECT_EQ(call.error().reason, "ROUTE_NOT_FOUND") << path << ": " << call.error().message;
+    EXPECT_EQ(call.error().code, Code::kNotFound) << path;
+    EXPECT_TRUE(transcoder->methods_at(path).empty()) << path;
+  }
+}
+
+}  // namespace
+}  // namespace hydroprint::rest
