@@ -29,6 +29,7 @@ Connection::Impl::Impl(ConnectionOptions connection_options)
       calibrations(v1::CalibrationService::NewStub(channel)),
       jobs(v1::JobService::NewStub(channel)),
       leases(v1::LeaseService::NewStub(channel)),
+      people(v1::PeopleService::NewStub(channel)),
       previews(v1::PreviewService::NewStub(channel)),
       queue(v1::QueueService::NewStub(channel)),
       rig(v1::RigService::NewStub(channel)) {}

@@ -9,13 +9,15 @@ namespace hydroprint::client {
 /// Where the daemon is and who asks it.
 struct ConnectionOptions {
   std::string server = "127.0.0.1:50051";  ///< "host:port"
-  std::string owner;     ///< sent as the call metadata `hydroprint-owner`; empty: nothing is sent
+  std::string owner;     ///< a name for what is created, where there are no users; empty: none
+  std::string api_key;   ///< "hp_ID_SECRET"; empty: none
+  std::string session;   ///< token that sign_in() gave; empty: none
   std::stop_token stop;  ///< once requested, every call ends soon with kCancelled
 };
 
 /// A connection to one daemon, made on first use and made anew when it breaks. The functions that
-/// take one (jobs.h, rig.h, lease.h, assets.h, artifacts.h, calibration.h, queue.h, health.h) may
-/// be called from several threads.
+/// take one (jobs.h, rig.h, lease.h, assets.h, artifacts.h, calibration.h, people.h, queue.h,
+/// health.h) may be called from several threads.
 ///
 /// Calls that may safely be repeated are repeated a few times, for about a second, when the daemon
 /// does not answer; creating calls carry a request_id, which makes them safe as well. After that

@@ -354,6 +354,7 @@ Job from_proto(const v1::Job& message) {
   job.retry_of = message.retry_of();
   job.input_digest = message.input_digest();
   job.cache_hit = message.cache_hit();
+  job.shared = message.shared();
   job.spec = spec_from_proto(message);
   if (message.has_dip()) job.dip = from_proto(message.dip());
   if (message.has_print()) job.print_image_job = message.print().print_image_job();

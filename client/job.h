@@ -145,6 +145,7 @@ struct Job {
   std::string retry_of;
   std::string input_digest;
   bool cache_hit = false;
+  bool shared = false;       ///< whether all who may look see its artifacts and files
   std::optional<Spec> spec;  ///< of a computation; none if of a kind that this client does not know
   std::optional<DipSpec> dip;                  ///< of a dip
   std::optional<DipStatus> dip_status;         ///< of an open dip

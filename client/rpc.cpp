@@ -28,8 +28,9 @@ Code to_code(grpc::StatusCode code) {
     case grpc::StatusCode::ALREADY_EXISTS:
       return Code::kAlreadyExists;
     case grpc::StatusCode::PERMISSION_DENIED:
-    case grpc::StatusCode::UNAUTHENTICATED:
       return Code::kPermissionDenied;
+    case grpc::StatusCode::UNAUTHENTICATED:
+      return Code::kUnauthenticated;
     case grpc::StatusCode::RESOURCE_EXHAUSTED:
       return Code::kResourceExhausted;
     case grpc::StatusCode::FAILED_PRECONDITION:
@@ -65,8 +66,10 @@ void take_error_info(const grpc::Status& status, Error& error) {
 
 Call::Call(Connection& connection)
     : on_stop_(connection.options().stop, [this] { context_.TryCancel(); }) {
-  if (!connection.options().owner.empty())
-    context_.AddMetadata("hydroprint-owner", connection.options().owner);
+  const ConnectionOptions& options = connection.options();
+  if (!options.owner.empty()) context_.AddMetadata("hydroprint-owner", options.owner);
+  if (!options.api_key.empty()) context_.AddMetadata("authorization", "Bearer " + options.api_key);
+  if (!options.session.empty()) context_.AddMetadata("hydroprint-session", options.session);
 }
 
 Call::Call(Connection& connection, std::chrono::milliseconds limit) : Call(connection) {

@@ -16,6 +16,7 @@
 #include "hydroprint/v1/calibration_service.grpc.pb.h"
 #include "hydroprint/v1/job_service.grpc.pb.h"
 #include "hydroprint/v1/lease_service.grpc.pb.h"
+#include "hydroprint/v1/people_service.grpc.pb.h"
 #include "hydroprint/v1/preview_service.grpc.pb.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
 #include "hydroprint/v1/rig_service.grpc.pb.h"
@@ -35,12 +36,13 @@ struct Connection::Impl {
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;
   std::unique_ptr<v1::JobService::Stub> jobs;
   std::unique_ptr<v1::LeaseService::Stub> leases;
+  std::unique_ptr<v1::PeopleService::Stub> people;
   std::unique_ptr<v1::PreviewService::Stub> previews;
   std::unique_ptr<v1::QueueService::Stub> queue;
   std::unique_ptr<v1::RigService::Stub> rig;
 };
 
-/// What every call carries: the owner, a time limit, and an end when the connection is to stop.
+/// What every call carries: who makes it, a time limit, and an end when the connection is to stop.
 class Call {
  public:
   explicit Call(Connection& connection);

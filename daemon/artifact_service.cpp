@@ -7,6 +7,7 @@
 #include "daemon/convert.h"
 #include "daemon/names.h"
 #include "daemon/services.h"
+#include "daemon/sight.h"
 #include "daemon/status.h"
 #include "hydroprint/v1/artifact_service.grpc.pb.h"
 
@@ -19,24 +20,33 @@ class ArtifactService final : public v1::ArtifactService::Service {
  public:
   explicit ArtifactService(const Backend& backend) : backend_(backend) {}
 
-  grpc::Status ListArtifacts(grpc::ServerContext*, const v1::ListArtifactsRequest* request,
+  grpc::Status ListArtifacts(grpc::ServerContext* context, const v1::ListArtifactsRequest* request,
                              v1::ListArtifactsResponse* reply) override {
-    return to_grpc(list(*request, *reply));
+    return to_grpc(list(*context, *request, *reply));
   }
 
-  grpc::Status GetArtifact(grpc::ServerContext*, const v1::GetArtifactRequest* request,
+  grpc::Status GetArtifact(grpc::ServerContext* context, const v1::GetArtifactRequest* request,
                            v1::Artifact* reply) override {
-    return to_grpc(get(*request, *reply));
+    return to_grpc(get(*context, *request, *reply));
   }
 
-  grpc::Status DownloadArtifact(grpc::ServerContext*, const v1::DownloadArtifactRequest* request,
+  grpc::Status DownloadArtifact(grpc::ServerContext* context,
+                                const v1::DownloadArtifactRequest* request,
                                 grpc::ServerWriter<v1::DownloadArtifactResponse>* writer) override {
-    return to_grpc(download(*request, *writer));
+    return to_grpc(download(*context, *request, *writer));
   }
 
  private:
-  Status list(const v1::ListArtifactsRequest& request, v1::ListArtifactsResponse& reply) {
+  Status check_sight(const grpc::ServerContext& context, std::int64_t id) {
+    HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Job job, backend_.jobs.get(id));
+    return check_may_see(caller, job);
+  }
+
+  Status list(const grpc::ServerContext& context, const v1::ListArtifactsRequest& request,
+              v1::ListArtifactsResponse& reply) {
     HP_ASSIGN_OR_RETURN(const std::int64_t job, parse_job_name(request.parent()));
+    HP_RETURN_IF_ERROR(check_sight(context, job));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     const std::string& token = request.page_token();
     if (!token.empty() && !check_file_name("page_token", token)) return bad_page_token();
@@ -48,16 +58,19 @@ class ArtifactService final : public v1::ArtifactService::Service {
     return {};
   }
 
-  Status get(const v1::GetArtifactRequest& request, v1::Artifact& reply) {
+  Status get(const grpc::ServerContext& context, const v1::GetArtifactRequest& request,
+             v1::Artifact& reply) {
     HP_ASSIGN_OR_RETURN(const auto name, parse_artifact_name(request.name()));
+    HP_RETURN_IF_ERROR(check_sight(context, name.first));
     HP_ASSIGN_OR_RETURN(const auto artifact, backend_.jobs.artifact(name.first, name.second));
     reply = to_message(name.first, artifact);
     return {};
   }
 
-  Status download(const v1::DownloadArtifactRequest& request,
+  Status download(const grpc::ServerContext& context, const v1::DownloadArtifactRequest& request,
                   grpc::ServerWriter<v1::DownloadArtifactResponse>& writer) {
     HP_ASSIGN_OR_RETURN(const auto name, parse_artifact_name(request.name()));
+    HP_RETURN_IF_ERROR(check_sight(context, name.first));
     HP_ASSIGN_OR_RETURN(const auto artifact, backend_.jobs.artifact(name.first, name.second));
     if (request.offset() < 0 || request.offset() > artifact.size_bytes) {
       auto error = fail(Code::kOutOfRange,

@@ -78,7 +78,7 @@ class AssetService final : public v1::AssetService::Service {
     HP_RETURN_IF_ERROR(check_text("media_type", request.media_type(), 100));
     if (request.size_bytes() < 0) return invalid_field("size_bytes", "must not be negative");
     HP_ASSIGN_OR_RETURN(const std::string hash, parse_asset_name("assets/" + request.sha256()));
-    HP_ASSIGN_OR_RETURN(const std::string owner, owner_of(context));
+    HP_ASSIGN_OR_RETURN(const std::string owner, owner_of(backend_, context));
     const Upload wanted{"", hash, request.size_bytes(), 0, request.media_type(), 0};
     return backend_.assets.start(wanted, owner, request_key("StartUpload", request));
   }

@@ -3,6 +3,7 @@
 #include "daemon/log.h"
 #include "daemon/names.h"
 #include "daemon/services.h"
+#include "daemon/sight.h"
 #include "daemon/spec.h"
 #include "daemon/status.h"
 #include "hydroprint/v1/calibration_service.grpc.pb.h"
@@ -14,26 +15,28 @@ class CalibrationService final : public v1::CalibrationService::Service {
  public:
   explicit CalibrationService(const Backend& backend) : backend_(backend) {}
 
-  grpc::Status ListCalibrations(grpc::ServerContext*, const v1::ListCalibrationsRequest* request,
+  grpc::Status ListCalibrations(grpc::ServerContext* context,
+                                const v1::ListCalibrationsRequest* request,
                                 v1::ListCalibrationsResponse* reply) override {
-    return to_grpc(list(*request, *reply));
+    return to_grpc(list(*context, *request, *reply));
   }
 
-  grpc::Status GetCalibration(grpc::ServerContext*, const v1::GetCalibrationRequest* request,
+  grpc::Status GetCalibration(grpc::ServerContext* context,
+                              const v1::GetCalibrationRequest* request,
                               v1::Calibration* reply) override {
-    return answer(find_calibration(request->name(), backend_.calibrations), reply);
+    return answer(*context, find_calibration(request->name(), backend_.calibrations), reply);
   }
 
   grpc::Status CreateCalibration(grpc::ServerContext* context,
                                  const v1::CreateCalibrationRequest* request,
                                  v1::Calibration* reply) override {
-    return answer(create(*context, *request), reply);
+    return answer(*context, create(*context, *request), reply);
   }
 
-  grpc::Status ActivateCalibration(grpc::ServerContext*,
+  grpc::Status ActivateCalibration(grpc::ServerContext* context,
                                    const v1::ActivateCalibrationRequest* request,
                                    v1::Calibration* reply) override {
-    return answer(activate(request->name()), reply);
+    return answer(*context, activate(request->name()), reply);
   }
 
   grpc::Status DeleteCalibration(grpc::ServerContext*, const v1::DeleteCalibrationRequest* request,
@@ -42,20 +45,28 @@ class CalibrationService final : public v1::CalibrationService::Service {
   }
 
  private:
-  grpc::Status answer(const Result<Calibration>& calibration, v1::Calibration* reply) {
+  grpc::Status answer(const grpc::ServerContext& context, const Result<Calibration>& calibration,
+                      v1::Calibration* reply) {
+    const auto caller = backend_.access.caller(context);
+    if (!caller) return to_grpc(caller.error());
     if (!calibration) return to_grpc(calibration.error());
     *reply = to_message(*calibration, backend_.places.place());
+    hide_files(*caller, *reply);
     return grpc::Status::OK;
   }
 
-  Status list(const v1::ListCalibrationsRequest& request, v1::ListCalibrationsResponse& reply) {
+  Status list(const grpc::ServerContext& context, const v1::ListCalibrationsRequest& request,
+              v1::ListCalibrationsResponse& reply) {
+    HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     HP_ASSIGN_OR_RETURN(const std::int64_t before, number_token(request.page_token()));
     HP_ASSIGN_OR_RETURN(auto found, backend_.calibrations.list(before, size + 1));
     if (cut_page(found, size)) reply.set_next_page_token(std::to_string(found.back().id));
     const RigPlace now = backend_.places.place();
     for (const Calibration& calibration : found) {
-      *reply.add_calibrations() = to_message(calibration, now);
+      v1::Calibration& told = *reply.add_calibrations();
+      told = to_message(calibration, now);
+      hide_files(caller, told);
     }
     return {};
   }
@@ -68,7 +79,7 @@ class CalibrationService final : public v1::CalibrationService::Service {
     HP_ASSIGN_OR_RETURN(const std::string mesh, parse_asset_name(entered.mesh().asset()));
     HP_RETURN_IF_ERROR(backend_.jobs.check_inputs({{entered.mesh().name(), mesh}}));
     NewCalibration made;
-    HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
+    HP_ASSIGN_OR_RETURN(made.owner, owner_of(backend_, context));
     made.body = entered.SerializeAsString();
     HP_ASSIGN_OR_RETURN(
         const Calibration out,

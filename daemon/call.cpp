@@ -4,18 +4,9 @@
 
 namespace hydroprint::daemon {
 
-Result<std::string> owner_of(const grpc::ServerContextBase& context) {
-  const auto& metadata = context.client_metadata();
-  const auto found = metadata.find("hydroprint-owner");
-  if (found == metadata.end()) return std::string("anonymous");
-  const std::string owner(found->second.data(), found->second.size());
-  const bool printable =
-      std::all_of(owner.begin(), owner.end(), [](char c) { return c > ' ' && c < 0x7f; });
-  if (owner.empty() || owner.size() > 64 || !printable) {
-    return invalid_field("hydroprint-owner",
-                         "must be 1 to 64 printable ASCII characters without blanks");
-  }
-  return owner;
+Result<std::string> owner_of(const Backend& backend, const grpc::ServerContextBase& context) {
+  HP_ASSIGN_OR_RETURN(people::Caller caller, backend.access.caller(context));
+  return std::move(caller).name;
 }
 
 Result<int> page_size(std::int32_t asked, int otherwise) {

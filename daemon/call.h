@@ -7,11 +7,13 @@
 #include <cstdint>
 #include <string>
 
+#include "daemon/access.h"
 #include "daemon/asset_store.h"
 #include "daemon/calibration_store.h"
 #include "daemon/capture_runner.h"
 #include "daemon/dip_runner.h"
 #include "daemon/job_store.h"
+#include "daemon/people/audit.h"
 #include "daemon/pool.h"
 #include "daemon/preview_desk.h"
 #include "daemon/print_runner.h"
@@ -22,6 +24,9 @@ namespace hydroprint::daemon {
 /// What the services work on.
 struct Backend {
   Database& database;
+  people::Accounts& accounts;
+  people::AuditLog& audit;
+  const Access& access;
   JobStore& jobs;
   AssetStore& assets;
   WorkerPool& pool;
@@ -39,10 +44,9 @@ struct Backend {
   const std::atomic<bool>& stopping;
 };
 
-/// Who calls: the metadata "hydroprint-owner", "anonymous" without it. A claim, trusted for
-/// fairness between owners alone. Refuses (SPEC_INVALID) more than 64 bytes or anything but
-/// printable ASCII.
-[[nodiscard]] Result<std::string> owner_of(const grpc::ServerContextBase& context);
+/// The name of whoever calls (see Access::caller): what is created is theirs.
+[[nodiscard]] Result<std::string> owner_of(const Backend& backend,
+                                           const grpc::ServerContextBase& context);
 
 /// Size of a page: the default for 0, at most 1000; negative sizes are refused (SPEC_INVALID).
 [[nodiscard]] Result<int> page_size(std::int32_t asked, int otherwise);

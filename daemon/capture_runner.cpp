@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds kStoreAgainAfter{500};
 constexpr int kMargin_s = 60;
 constexpr std::int64_t kLargestFile = 64 << 20;
 
-std::string text(double value) {
+std::string seconds_text(double value) {
   std::ostringstream out;
   out << value;
   return out.str();
@@ -30,7 +30,7 @@ Launch plan(const CameraSetup& camera, const Layout& layout, std::int64_t job, d
   out.program = camera.program;
   out.inputs = layout.run_inputs(job);
   out.work = layout.run_work(job);
-  out.arguments = {"--seconds=" + text(seconds),
+  out.arguments = {"--seconds=" + seconds_text(seconds),
                    "--patience-s=" + std::to_string(camera.patience_s),
                    "--out=" + layout.run_out(job).string(),
                    "--progress-fd=" + std::to_string(kProgressFd), "--json"};

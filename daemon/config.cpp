@@ -82,6 +82,15 @@ std::vector<Key> make_keys() {
   all.push_back({"camera", "patience_s", Number{&Config::camera_patience_s, 1, 600, "seconds"}});
   all.push_back({"camera", "layout", Text{&Config::camera_layout}});
   all.push_back({"camera", "gripper_water_mm", Length{&Config::camera_gripper_water_mm, 0, 1e4}});
+  all.push_back(
+      {"people", "accounts", Text{&Config::people_accounts, {"loopback-open", "required"}}});
+  all.push_back({"people", "password_memory_mib",
+                 Number{&Config::people_password_memory_mib, 1, 4096, "MiB"}});
+  all.push_back(
+      {"people", "password_passes", Number{&Config::people_password_passes, 1, 100, "passes"}});
+  all.push_back(
+      {"people", "session_idle_h", Number{&Config::people_session_idle_h, 1, 8760, "hours"}});
+  all.push_back({"people", "session_days", Number{&Config::people_session_days, 1, 365, "days"}});
   all.push_back({"log", "level", Text{&Config::log_level, {"debug", "info", "warning", "error"}}});
   all.push_back({"log", "file", Text{&Config::log_file}});
   return all;
@@ -243,7 +252,7 @@ Result<Config> parse_config(std::string_view text, const std::string& name) {
         return refuse(name, section.source(),
                       "unknown section \"" + std::string(section.str()) +
                           "\"; there are [server], [store], [assets], [queue], [workers], [rig], "
-                          "[printer], [camera], [log]");
+                          "[printer], [camera], [people], [log]");
       }
       HP_RETURN_IF_ERROR(read_section(name, section.str(), *table, config));
     }

@@ -43,8 +43,13 @@ struct Config {
   std::int64_t camera_patience_s = 5;        ///< camera.patience_s with one that does not answer
   std::string camera_layout;                 ///< camera.layout: file of markers and camera
   double camera_gripper_water_mm = 0;        ///< camera.gripper_water_mm of the axis; 0: not known
-  std::string log_level = "info";            ///< log.level: debug, info, warning, error
-  std::string log_file;                      ///< log.file besides stderr; empty: none
+  std::string people_accounts = "loopback-open";  ///< people.accounts: or "required"
+  std::int64_t people_password_memory_mib = 64;   ///< people.password_memory_mib
+  std::int64_t people_password_passes = 3;        ///< people.password_passes
+  std::int64_t people_session_idle_h = 12;        ///< people.session_idle_h
+  std::int64_t people_session_days = 7;           ///< people.session_days
+  std::string log_level = "info";                 ///< log.level: debug, info, warning, error
+  std::string log_file;                           ///< log.file besides stderr; empty: none
 
   bool operator==(const Config&) const = default;
 };

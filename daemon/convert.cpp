@@ -57,6 +57,7 @@ v1::Job to_message(const Job& job) {
   if (job.made.retry_of != 0) out.set_retry_of(job_name(job.made.retry_of));
   out.set_input_digest(job.made.digest);
   out.set_cache_hit(job.cache_hit);
+  out.set_shared(job.shared);
   if (!job.dip_status.empty()) out.mutable_dip_status()->ParseFromString(job.dip_status);
   return out;
 }

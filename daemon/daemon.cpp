@@ -59,6 +59,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config) {
   HP_ASSIGN_OR_RETURN(daemon->layout_.root, state_dir(config));
   HP_ASSIGN_OR_RETURN(daemon->lock_, lock_state(daemon->layout_));
   HP_RETURN_IF_ERROR(daemon->open_store(config));
+  HP_RETURN_IF_ERROR(daemon->open_people(config));
   HP_RETURN_IF_ERROR(daemon->open_rig(config));
   HP_RETURN_IF_ERROR(daemon->open_printer(config));
   HP_RETURN_IF_ERROR(daemon->open_camera(config));
@@ -67,7 +68,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config) {
 }
 
 Status Daemon::open_store(const Config& config) {
-  HP_ASSIGN_OR_RETURN(database_, Database::open(layout_.database(), kSchema));
+  HP_ASSIGN_OR_RETURN(database_, daemon::open_store(layout_.database()));
   jobs_ = std::make_unique<JobStore>(
       *database_, layout_,
       JobStoreOptions{config.queue_max_jobs, config.store_keep_finished_days * 24 * kHourMs},
@@ -84,6 +85,42 @@ Status Daemon::open_store(const Config& config) {
   HP_RETURN_IF_ERROR(assets_->sweep());
   clean_up();
   return {};
+}
+
+Status Daemon::open_people(const Config& config) {
+  people::AccountsOptions options;
+  options.password_cost = {config.people_password_memory_mib << 10, config.people_password_passes};
+  options.session_idle_ms = config.people_session_idle_h * kHourMs;
+  options.session_most_ms = config.people_session_days * 24 * kHourMs;
+  HP_ASSIGN_OR_RETURN(accounts_, people::Accounts::open(*database_, options, system_clock_ms));
+  audit_ = std::make_unique<people::AuditLog>(*database_, system_clock_ms);
+  const bool is_open = config.people_accounts == "loopback-open";
+  access_ = std::make_unique<Access>(*accounts_, is_open);
+  if (!is_open && !accounts_->any()) {
+    log(LogLevel::kWarning, "no_users",
+        {{"message", "accounts are required and there is no user; start with --first-admin NAME"}});
+  }
+  return {};
+}
+
+Result<std::string> Daemon::first_admin(const std::string& name) {
+  HP_RETURN_IF_ERROR(people::check_user_name("name", name));
+  const auto found = accounts_->user(name);
+  if (!found) {
+    HP_RETURN_IF_ERROR(accounts_->create({name, people::Role::kAdmin, false, "", 0}, ""));
+  } else if (found->role != people::Role::kAdmin || found->disabled) {
+    return fail(Code::kFailedPrecondition,
+                "--first-admin: " + name + " is there and is no admin; name another user",
+                "STATE_FORBIDS");
+  }
+  HP_ASSIGN_OR_RETURN(const auto link, accounts_->make_link(name));
+  people::AuditEntry entry;
+  entry.via = "command line";
+  entry.what = "hydroprintd --first-admin";
+  entry.object = "users/" + name;
+  entry.outcome = "OK";
+  audit_->note(std::move(entry));
+  return link.first;
 }
 
 // The drive need not be there: it is looked for from here on.
@@ -122,13 +159,23 @@ Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(pool_,
                       WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
   HP_ASSIGN_OR_RETURN(previews_, PreviewDesk::make(preview_options(pool_options(config)), layout_));
-  const Backend backend{*database_,     *jobs_,
-                        *assets_,       *pool_,
-                        *desk_,         *dips_,
-                        *prints_,       *captures_,
-                        *calibrations_, *previews_,
-                        *places_,       camera_,
-                        layout_,        config.store_min_free_mib * kMiB,
+  const Backend backend{*database_,
+                        *accounts_,
+                        *audit_,
+                        *access_,
+                        *jobs_,
+                        *assets_,
+                        *pool_,
+                        *desk_,
+                        *dips_,
+                        *prints_,
+                        *captures_,
+                        *calibrations_,
+                        *previews_,
+                        *places_,
+                        camera_,
+                        layout_,
+                        config.store_min_free_mib * kMiB,
                         stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
@@ -172,6 +219,9 @@ std::optional<std::uint64_t> Daemon::control_rounds() const {
 void Daemon::clean_up() {
   log_failure("jobs_not_purged", jobs_->purge());
   log_failure("uploads_not_purged", assets_->purge());
+  if (!accounts_) return;  // before people are there
+  log_failure("sessions_not_purged", accounts_->clean_up());
+  log_failure("audit_not_purged", audit_->clean_up());
 }
 
 void Daemon::stop() {

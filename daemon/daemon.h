@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "daemon/access.h"
 #include "daemon/asset_store.h"
 #include "daemon/calibration_store.h"
 #include "daemon/capture_runner.h"
@@ -15,6 +16,7 @@
 #include "daemon/job_meter.h"
 #include "daemon/job_store.h"
 #include "daemon/lease.h"
+#include "daemon/people/audit.h"
 #include "daemon/pool.h"
 #include "daemon/preview_desk.h"
 #include "daemon/print_runner.h"
@@ -41,6 +43,10 @@ class Daemon {
   [[nodiscard]] const Endpoint& http_endpoint() const { return http_endpoint_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
 
+  /// A link's token by which this user signs in once, within 15 minutes. A user who is not there is
+  /// made, as an admin.
+  /// @return ID_INVALID; kFailedPrecondition, STATE_FORBIDS for one who is there and no admin
+  [[nodiscard]] Result<std::string> first_admin(const std::string& name);
   /// How often the loop that looks at the drive has gone round; none: no drive is configured.
   [[nodiscard]] std::optional<std::uint64_t> control_rounds() const;
 
@@ -53,6 +59,7 @@ class Daemon {
  private:
   Daemon() = default;
   [[nodiscard]] Status open_store(const Config& config);
+  [[nodiscard]] Status open_people(const Config& config);
   [[nodiscard]] Status open_rig(const Config& config);
   [[nodiscard]] Status open_printer(const Config& config);
   [[nodiscard]] Status open_camera(const Config& config);
@@ -62,6 +69,9 @@ class Daemon {
   Layout layout_;
   UniqueFd lock_;
   std::unique_ptr<Database> database_;
+  std::unique_ptr<people::Accounts> accounts_;
+  std::unique_ptr<people::AuditLog> audit_;
+  std::unique_ptr<Access> access_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<AssetStore> assets_;
   std::unique_ptr<CalibrationStore> calibrations_;

@@ -71,6 +71,7 @@ class EventWatch {
       HP_RETURN_IF_ERROR(send_lease());
       HP_RETURN_IF_ERROR(send_queue());
       HP_RETURN_IF_ERROR(check_serving(backend_));
+      HP_RETURN_IF_ERROR(backend_.access.check_still(context));
       if (context.IsCancelled()) return fail(Code::kCancelled, "the client left");
       if (is_all) backend_.jobs.bell().wait(rings, topics_.rig ? kRigPeriod : kEventNap);
     }

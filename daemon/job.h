@@ -120,6 +120,7 @@ struct Job {
   std::int64_t create_ms = 0, start_ms = 0, end_ms = 0, update_ms = 0, purge_ms = 0;
   std::int64_t version = 0;  ///< increases with every change
   bool cache_hit = false;
+  bool shared = false;  ///< see hydroprint.v1.Job.shared
   std::optional<JobFailure> failure;
   std::string dip_status;  ///< of a dip: where it stands, as NewJob::dip_status
 };

@@ -67,6 +67,13 @@ Result<Job> JobStore::move(std::int64_t id, std::int64_t before) {
   });
 }
 
+Result<Job> JobStore::share(std::int64_t id, bool shared) {
+  return changed(id, [&](const Job&) {
+    return database_.run("UPDATE jobs SET shared=?, update_ms=?, version=version+1 WHERE id=?",
+                         {std::int64_t{shared}, clock_(), id});
+  });
+}
+
 Result<QueuePause> JobStore::pause() {
   QueuePause pause;
   HP_RETURN_IF_ERROR(

@@ -6,6 +6,7 @@
 #include "daemon/names.h"
 #include "daemon/print_plan.h"
 #include "daemon/services.h"
+#include "daemon/sight.h"
 #include "daemon/simulated.h"
 #include "daemon/spec.h"
 #include "daemon/status.h"
@@ -23,46 +24,47 @@ class JobService final : public v1::JobService::Service {
 
   grpc::Status CreateJob(grpc::ServerContext* context, const v1::CreateJobRequest* request,
                          v1::Job* reply) override {
-    return answer(create(*context, *request), reply);
+    return answer(*context, create(*context, *request), reply);
   }
 
-  grpc::Status GetJob(grpc::ServerContext*, const v1::GetJobRequest* request,
+  grpc::Status GetJob(grpc::ServerContext* context, const v1::GetJobRequest* request,
                       v1::Job* reply) override {
-    return answer(with_job(request->name(), [&](auto id) { return backend_.jobs.get(id); }), reply);
+    return answer(*context, get(request->name()), reply);
   }
 
-  grpc::Status ListJobs(grpc::ServerContext*, const v1::ListJobsRequest* request,
+  grpc::Status ListJobs(grpc::ServerContext* context, const v1::ListJobsRequest* request,
                         v1::ListJobsResponse* reply) override {
-    return to_grpc(list(*request, *reply));
+    return to_grpc(list(*context, *request, *reply));
   }
 
-  grpc::Status DeleteJob(grpc::ServerContext*, const v1::DeleteJobRequest* request,
+  grpc::Status DeleteJob(grpc::ServerContext* context, const v1::DeleteJobRequest* request,
                          google::protobuf::Empty*) override {
-    const auto id = parse_job_name(request->name());
-    return id ? to_grpc(backend_.jobs.remove(*id)) : to_grpc(id.error());
+    const auto job = own(*context, request->name());
+    return job ? to_grpc(backend_.jobs.remove(job->id)) : to_grpc(job.error());
   }
 
-  grpc::Status CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request,
+  grpc::Status CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,
                          v1::Job* reply) override {
-    const auto job = with_job(request->name(), [&](auto id) {
-      if (id == backend_.desk.dip()) return backend_.dips.cancel(id);
-      if (id == backend_.captures.job()) return backend_.captures.cancel(id);
-      return id == backend_.prints.job() ? backend_.prints.cancel(id) : backend_.jobs.cancel(id);
-    });
+    const auto job = cancel(*context, request->name());
     backend_.pool.wake();
-    return answer(job, reply);
+    return answer(*context, job, reply);
   }
 
-  grpc::Status ConfirmStep(grpc::ServerContext*, const v1::ConfirmStepRequest* request,
+  grpc::Status ConfirmStep(grpc::ServerContext* context, const v1::ConfirmStepRequest* request,
                            v1::Job* reply) override {
     auto job = confirm(*request);
     if (!job) return to_grpc(never_again(std::move(job).error()));
-    return answer(job, reply);
+    return answer(*context, job, reply);
+  }
+
+  grpc::Status ShareJob(grpc::ServerContext* context, const v1::ShareJobRequest* request,
+                        v1::Job* reply) override {
+    return answer(*context, share(*context, *request), reply);
   }
 
   grpc::Status RetryJob(grpc::ServerContext* context, const v1::RetryJobRequest* request,
                         v1::Job* reply) override {
-    return answer(retry(*context, *request), reply);
+    return answer(*context, retry(*context, *request), reply);
   }
 
   grpc::Status WatchJob(grpc::ServerContext* context, const v1::WatchJobRequest* request,
@@ -83,27 +85,52 @@ class JobService final : public v1::JobService::Service {
   }
 
  private:
-  static grpc::Status answer(const Result<Job>& job, v1::Job* reply) {
+  grpc::Status answer(const grpc::ServerContext& context, const Result<Job>& job,
+                      v1::Job* reply) const {
+    const auto caller = backend_.access.caller(context);
+    if (!caller) return to_grpc(caller.error());
     if (!job) return to_grpc(job.error());
-    *reply = to_message(*job);
+    *reply = shown_to(*caller, *job);
     return grpc::Status::OK;
   }
 
-  template <class Action>
-  static Result<Job> with_job(const std::string& name, const Action& action) {
+  Result<Job> get(const std::string& name) const {
     HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(name));
-    return action(id);
+    return backend_.jobs.get(id);
+  }
+
+  // A job that the caller may change.
+  Result<Job> own(const grpc::ServerContext& context, const std::string& name) const {
+    HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Job job, get(name));
+    HP_RETURN_IF_ERROR(check_may_change(caller, job));
+    return job;
+  }
+
+  Result<Job> cancel(const grpc::ServerContext& context, const std::string& name) {
+    HP_ASSIGN_OR_RETURN(const Job job, own(context, name));
+    const std::int64_t id = job.id;
+    if (id == backend_.desk.dip()) return backend_.dips.cancel(id);
+    if (id == backend_.captures.job()) return backend_.captures.cancel(id);
+    return id == backend_.prints.job() ? backend_.prints.cancel(id) : backend_.jobs.cancel(id);
+  }
+
+  Result<Job> share(const grpc::ServerContext& context, const v1::ShareJobRequest& request) {
+    HP_ASSIGN_OR_RETURN(const Job job, own(context, request.name()));
+    return backend_.jobs.share(job.id, request.shared());
   }
 
   Result<Job> create(const grpc::ServerContext& context, const v1::CreateJobRequest& request) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
+    HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
+    HP_RETURN_IF_ERROR(check_may_create(caller, request.job(), backend_.jobs));
     HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
     HP_ASSIGN_OR_RETURN(const v1::Job named, with_named_calibration(request.job(), backend_.jobs,
                                                                     backend_.calibrations));
     HP_ASSIGN_OR_RETURN(const v1::Job filled, fill_in(named));
     HP_ASSIGN_OR_RETURN(NewJob made, check_job(filled));
     made.body = body_of(told(named, filled));
-    HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
+    made.owner = caller.name;
     if (named.has_dip()) return create_dip(std::move(made), named, request);
     if (named.has_print()) return create_print(std::move(made), request);
     if (named.has_capture()) return create_capture(std::move(made), request);
@@ -232,8 +259,8 @@ class JobService final : public v1::JobService::Service {
   Result<Job> retry(const grpc::ServerContext& context, const v1::RetryJobRequest& request) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
     HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
-    HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.name()));
-    HP_ASSIGN_OR_RETURN(const Job old, backend_.jobs.get(id));
+    HP_ASSIGN_OR_RETURN(const Job old, own(context, request.name()));
+    const std::int64_t id = old.id;
     if (!is_finished(old.state)) {
       return fail(Code::kFailedPrecondition,
                   job_name(id) + " is " + name_of(old.state) + "; wait for its end or cancel it",
@@ -257,13 +284,17 @@ class JobService final : public v1::JobService::Service {
                   "STATE_FORBIDS");
     }
     NewJob made = old.made;
-    HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
+    HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
+    HP_RETURN_IF_ERROR(check_may_create(caller, to_message(old), backend_.jobs));
+    made.owner = caller.name;
     made.retry_of = id;
     made.use_cache = false;
     return store(std::move(made), request_key("RetryJob", request));
   }
 
-  Status list(const v1::ListJobsRequest& request, v1::ListJobsResponse& reply) {
+  Status list(const grpc::ServerContext& context, const v1::ListJobsRequest& request,
+              v1::ListJobsResponse& reply) {
+    HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     JobFilter filter;
     for (const int state : request.states()) {
@@ -275,7 +306,7 @@ class JobService final : public v1::JobService::Service {
     filter.limit = size + 1;
     HP_ASSIGN_OR_RETURN(auto jobs, backend_.jobs.list(filter));
     if (cut_page(jobs, size)) reply.set_next_page_token(std::to_string(jobs.back().id));
-    for (const Job& job : jobs) *reply.add_jobs() = to_message(job);
+    for (const Job& job : jobs) *reply.add_jobs() = shown_to(caller, job);
     return {};
   }
 
@@ -294,15 +325,21 @@ class JobService final : public v1::JobService::Service {
   Status watch(const grpc::ServerContext& context, const v1::WatchJobRequest& request,
                grpc::ServerWriter<v1::WatchJobResponse>& writer) {
     HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.name()));
+    HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
     const auto after = request.has_after_seq() ? std::optional(request.after_seq()) : std::nullopt;
     const auto send = [&](const WatchItem& item) {
       v1::WatchJobResponse message;
       message.set_seq(item.seq);
-      if (item.job) *message.mutable_job() = to_message(*item.job);
+      if (item.job) *message.mutable_job() = shown_to(caller, *item.job);
       if (item.event) *message.mutable_event() = to_message(*item.event);
       return writer.Write(message);
     };
-    return watch_job(backend_, id, after, send, [&] { return context.IsCancelled(); });
+    Status still;
+    const Status end = watch_job(backend_, id, after, send, [&] {
+      still = backend_.access.check_still(context);
+      return !still || context.IsCancelled();
+    });
+    return still ? end : still;
   }
 
   Backend backend_;

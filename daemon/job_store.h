@@ -85,6 +85,8 @@ class JobStore {
   /// Deletes a finished job with all that belongs to it. STATE_FORBIDS, too, while there is the
   /// calibration that it made.
   [[nodiscard]] Status remove(std::int64_t id);
+  /// Lets all who may look see its artifacts, or no longer.
+  [[nodiscard]] Result<Job> share(std::int64_t id, bool shared);
   /// QUEUED -> CANCELLED, RUNNING or WAITING_FOR_OPERATOR -> CANCELLING; CANCELLING and CANCELLED
   /// stay.
   [[nodiscard]] Result<Job> cancel(std::int64_t id);

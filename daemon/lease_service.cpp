@@ -95,7 +95,7 @@ class LeaseService final : public v1::LeaseService::Service {
     HP_RETURN_IF_ERROR(check_words("purpose", request.purpose()));
     HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
     HP_ASSIGN_OR_RETURN(const std::int64_t ttl_ms, ttl_of(request));
-    HP_ASSIGN_OR_RETURN(const std::string holder, owner_of(context));
+    HP_ASSIGN_OR_RETURN(const std::string holder, owner_of(backend_, context));
     return leases().acquire(holder, request.purpose(), ttl_ms,
                             request_key("AcquireLease", request));
   }
@@ -107,7 +107,7 @@ class LeaseService final : public v1::LeaseService::Service {
 
   Status take_away(const grpc::ServerContext& context, const v1::BreakLeaseRequest& request) {
     HP_RETURN_IF_ERROR(check_words("reason", request.reason()));
-    HP_ASSIGN_OR_RETURN(const std::string breaker, owner_of(context));
+    HP_ASSIGN_OR_RETURN(const std::string breaker, owner_of(backend_, context));
     HP_ASSIGN_OR_RETURN(const auto ended, leases().take_away());
     if (!ended) return {};
     backend_.desk.end_jog();

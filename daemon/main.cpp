@@ -30,6 +30,7 @@ struct Options {
   std::string state_dir;
   std::string grpc;
   std::string http;
+  std::string first_admin;
   std::string rig;
   std::string rig_profile;
 };
@@ -113,7 +114,7 @@ void serve_until_signal(Daemon& daemon, const sigset_t& signals) {
   }
 }
 
-int run(const Config& config) {
+int run(const Config& config, const std::string& first_admin) {
   const sigset_t signals = block_signals();
   raise_descriptor_limit();
   umask(077);
@@ -124,6 +125,12 @@ int run(const Config& config) {
   const auto daemon = Daemon::start(config);
   if (!daemon) return refuse(daemon.error().message, ExitStatus::kFailed);
   const std::string grpc = (*daemon)->endpoint().text(), http = (*daemon)->http_endpoint().text();
+  if (!first_admin.empty()) {
+    const auto token = (*daemon)->first_admin(first_admin);
+    if (!token) return refuse(token.error().message, ExitStatus::kBadInput);
+    std::cout << "hydroprintd sign-in link, once within 15 minutes: http://" << http << "/sign-in#"
+              << *token << std::endl;
+  }
   log(LogLevel::kInfo, "ready",
       {{"grpc", grpc}, {"http", http}, {"state_dir", (*daemon)->layout().root.string()}});
   std::cout << "hydroprintd ready grpc=" << grpc << " http=" << http
@@ -157,6 +164,10 @@ int obey(int argc, char** argv) {
       ->type_name("HOST:PORT");
   app.add_option("--http", options.http, "The same for HTTP; default 127.0.0.1:8080")
       ->type_name("HOST:PORT");
+  app.add_option("--first-admin", options.first_admin,
+                 "Print a link by which this user signs in as admin, once and within 15 minutes; "
+                 "makes the user if there is none of that name")
+      ->type_name("NAME");
   app.add_option("--rig", options.rig,
                  "Where the motor's drive is, like tcp:127.0.0.1:1502; default: there is no rig")
       ->type_name("ENDPOINT");
@@ -168,7 +179,7 @@ int obey(int argc, char** argv) {
   }
   const auto config = configure(options, argv[0]);
   if (!config) return refuse(config.error().message, ExitStatus::kBadInput);
-  if (!options.check_config) return run(*config);
+  if (!options.check_config) return run(*config, options.first_admin);
   std::cout << "the configuration is good\n";
   return 0;
 }

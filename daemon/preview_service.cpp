@@ -66,7 +66,7 @@ class PreviewService final : public v1::PreviewService::Service {
   Status compute(const grpc::ServerContext& context, const v1::ComputePreviewRequest& request,
                  v1::Preview& reply) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
-    HP_ASSIGN_OR_RETURN(const std::string owner, owner_of(context));
+    HP_ASSIGN_OR_RETURN(const std::string owner, owner_of(backend_, context));
     HP_ASSIGN_OR_RETURN(const PreviewAsk ask, check_preview(request));
     HP_ASSIGN_OR_RETURN(Previewed shown, backend_.previews.compute(owner, ask, [&context] {
       return context.IsCancelled();

@@ -41,10 +41,15 @@ class RigService final
 
   grpc::ServerUnaryReactor* StopMotion(grpc::CallbackServerContext* context,
                                        const v1::StopMotionRequest*, v1::Rig* reply) override {
-    if (backend_.desk.controller() != nullptr) backend_.desk.controller()->stop();
-    backend_.desk.note_stop(owner_of(*context).value_or("somebody"));
-    *reply = rig_message(backend_.desk);
     grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
+    const auto caller = backend_.access.caller(*context);  // whoever is known may stop
+    if (!caller && caller.error().code == Code::kUnauthenticated) {
+      reactor->Finish(to_grpc(caller.error()));
+      return reactor;
+    }
+    if (backend_.desk.controller() != nullptr) backend_.desk.controller()->stop();
+    backend_.desk.note_stop(caller ? caller->name : "somebody");
+    *reply = rig_message(backend_.desk);
     reactor->Finish(grpc::Status::OK);
     return reactor;
   }
@@ -141,7 +146,8 @@ class RigService final
       HP_ASSIGN_OR_RETURN(auto taken, backend_.desk.order(request.lease_id(), order));
       HP_ASSIGN_OR_RETURN(const std::uint64_t motion, taken.get());
       log(LogLevel::kInfo, event,
-          {{"by", owner_of(context).value_or("")}, {"motion", static_cast<std::int64_t>(motion)}});
+          {{"by", owner_of(backend_, context).value_or("")},
+           {"motion", static_cast<std::int64_t>(motion)}});
       return {};
     }();
     return answer(done, reply);
@@ -154,7 +160,7 @@ class RigService final
     if (request.request_id().empty()) return action();
     const std::lock_guard lock(once_mutex_);  // the same request may come twice at a time
     const RequestKey key = request_key(method, request);
-    const auto owner = owner_of(context);
+    const auto owner = owner_of(backend_, context);
     const Status good = check_text("request_id", request.request_id(), 100);
     if (!good || !owner) return to_grpc(good ? owner.error() : good.error());
     const auto is_new = first_time(backend_.database, *owner, key, system_clock_ms());
@@ -177,7 +183,8 @@ class RigService final
     HP_ASSIGN_OR_RETURN(const std::uint64_t motion, taken.get());
     if (last_jog_.exchange(motion) != motion) {
       log(LogLevel::kInfo, "rig_jogging",
-          {{"by", owner_of(context).value_or("")}, {"motion", static_cast<std::int64_t>(motion)}});
+          {{"by", owner_of(backend_, context).value_or("")},
+           {"motion", static_cast<std::int64_t>(motion)}});
     }
     return {};
   }
@@ -195,6 +202,7 @@ class RigService final
     SteadyClock::time_point sent_at;
     for (bool first = true;; std::this_thread::sleep_for(kWatchLook)) {
       HP_RETURN_IF_ERROR(check_serving(backend_));
+      HP_RETURN_IF_ERROR(backend_.access.check_still(context));
       if (context.IsCancelled()) return fail(Code::kCancelled, "the client left");
       const auto since = SteadyClock::now() - sent_at;
       // A sleep may be short by a little, and the rate must not halve for it.

@@ -1,11 +1,23 @@
 #pragma once
 
+#include <filesystem>
+#include <memory>
+
+#include "daemon/database.h"
+
 namespace hydroprint::daemon {
 
-/// Tables of the store. `jobs.flags` holds one flag a line; `jobs.body` is a serialised message;
-/// `losses.count` says how often the daemon was lost while the job ran; `dips.status` is a
-/// serialised message; `lease` has one row or none; `calibrations.body` is a serialised message,
-/// its `job` 0 if it was entered by hand; `captures` outlive their jobs, since calibrations do.
+/// Opens the store, or makes it, and brings one that an earlier version made to this version; all
+/// of that is done, or none.
+/// @return as Database::open(); kFailedPrecondition, STORE_TOO_NEW for one that a later version
+/// made
+[[nodiscard]] Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path);
+
+/// Tables of the store as version 1 made them; what came later is in schema.cpp. `jobs.flags` holds
+/// one flag a line; `jobs.body` is a serialised message; `losses.count` says how often the daemon
+/// was lost while the job ran; `dips.status` is a serialised message; `lease` has one row or none;
+/// `calibrations.body` is a serialised message, its `job` 0 if it was entered by hand; `captures`
+/// outlive their jobs, since calibrations do.
 inline constexpr const char* kSchema = R"sql(
 CREATE TABLE IF NOT EXISTS settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 INSERT OR IGNORE INTO settings VALUES ('schema', '1');

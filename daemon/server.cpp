@@ -5,6 +5,8 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
 
+#include "daemon/audit_tap.h"
+#include "daemon/gate.h"
 #include "daemon/services.h"
 
 namespace hydroprint::daemon {
@@ -16,15 +18,20 @@ constexpr int kMostThreads = 512;
 constexpr int kMostAnswer_bytes = 64 << 20;
 
 constexpr const char* kRigService = "hydroprint.v1.RigService";  // serves while the rig works
-constexpr const char* kServices[] = {"",
-                                     "hydroprint.v1.JobService",
-                                     "hydroprint.v1.QueueService",
-                                     "hydroprint.v1.AssetService",
-                                     "hydroprint.v1.ArtifactService",
-                                     "hydroprint.v1.CalibrationService",
-                                     "hydroprint.v1.PreviewService",
-                                     "hydroprint.v1.LeaseService",
-                                     "hydroprint.v1.EventService"};
+struct Made {
+  const char* name;
+  std::unique_ptr<grpc::Service> (*make)(const Backend&);
+};
+constexpr Made kServices[] = {{"hydroprint.v1.JobService", make_job_service},
+                              {"hydroprint.v1.QueueService", make_queue_service},
+                              {"hydroprint.v1.AssetService", make_asset_service},
+                              {"hydroprint.v1.ArtifactService", make_artifact_service},
+                              {"hydroprint.v1.CalibrationService", make_calibration_service},
+                              {"hydroprint.v1.PreviewService", make_preview_service},
+                              {"hydroprint.v1.LeaseService", make_lease_service},
+                              {"hydroprint.v1.PeopleService", make_people_service},
+                              {"hydroprint.v1.EventService", make_event_service},
+                              {kRigService, make_rig_service}};
 
 }  // namespace
 
@@ -33,12 +40,14 @@ struct Server::Impl {
   std::vector<std::unique_ptr<grpc::Service>> services;
   std::unique_ptr<grpc::Server> server;
 
-  void set_rig_serving(bool serving) const {
-    server->GetHealthCheckService()->SetServingStatus(kRigService, serving);
+  void set(const char* service, bool serving) const {
+    server->GetHealthCheckService()->SetServingStatus(service, serving);
   }
+  void set_rig_serving(bool serving) const { set(kRigService, serving); }
   void set_serving(bool serving) const {
-    for (const char* service : kServices) {
-      server->GetHealthCheckService()->SetServingStatus(service, serving);
+    set("", serving);
+    for (const Made& service : kServices) {
+      if (std::string_view(service.name) != kRigService) set(service.name, serving);
     }
     if (!serving) set_rig_serving(false);
   }
@@ -53,19 +62,18 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   if (reflection) grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   std::unique_ptr<Server> made(new Server);
   Impl& impl = *made->impl_;
-  impl.services.push_back(make_job_service(backend));
-  impl.services.push_back(make_queue_service(backend));
-  impl.services.push_back(make_asset_service(backend));
-  impl.services.push_back(make_artifact_service(backend));
-  impl.services.push_back(make_calibration_service(backend));
-  impl.services.push_back(make_preview_service(backend));
-  impl.services.push_back(make_rig_service(backend));
-  impl.services.push_back(make_lease_service(backend));
-  impl.services.push_back(make_event_service(backend));
+  for (const Made& service : kServices) {
+    HP_ASSIGN_OR_RETURN(
+        auto gate, guarded(service.name, service.make(backend), backend.access, {"StopMotion"}));
+    impl.services.push_back(std::move(gate));
+  }
 
   grpc::ServerBuilder builder;
   // Without this a second daemon would silently share the port.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> taps;
+  taps.push_back(make_audit_tap(backend.access, backend.audit));
+  builder.experimental().SetInterceptorCreators(std::move(taps));
   builder.SetResourceQuota(grpc::ResourceQuota("hydroprintd").SetMaxThreads(kMostThreads));
   for (const auto& service : impl.services) builder.RegisterService(service.get());
   int port = 0;

@@ -19,5 +19,6 @@ namespace hydroprint::daemon {
 [[nodiscard]] std::unique_ptr<grpc::Service> make_rig_service(const Backend& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_lease_service(const Backend& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_event_service(const Backend& backend);
+[[nodiscard]] std::unique_ptr<grpc::Service> make_people_service(const Backend& backend);
 
 }  // namespace hydroprint::daemon

@@ -34,6 +34,12 @@ void add_preview(CLI::App& app, Program& program);
 void add_print(CLI::App& app, Program& program);
 void add_dip(CLI::App& app, Program& program);
 void add_confirm(CLI::App& app, Program& program);
+void add_login(CLI::App& app, Program& program);  // logout and whoami, too
+void add_users(CLI::App& app, Program& program);
+void add_keys(CLI::App& app, Program& program);
+void add_sessions(CLI::App& app, Program& program);
+void add_audit(CLI::App& app, Program& program);
+void add_share(CLI::App& app, Program& program);
 void add_completion(CLI::App& app, Program& program);
 
 /// Adds `rig lease` to `rig`.

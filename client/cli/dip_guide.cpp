@@ -32,7 +32,7 @@ constexpr char kConfirmKey[] = "  Enter when that is done; Ctrl-C aborts the dip
 class WatchedJob {
  public:
   WatchedJob(const Program& program, client::Job job)
-      : daemon_({program.server(), program.owner(), stop_.get_token()}),
+      : daemon_(program.options(stop_.get_token())),
         job_(std::move(job)),
         watcher_([this] { watch(); }) {}
   ~WatchedJob() {

@@ -53,7 +53,7 @@ Error none_is_kept(Program& program) {
 
 HeldLease::HeldLease(const Program& program, std::string id, bool is_given_back)
     : server_(program.server()),
-      daemon_({program.server(), program.owner(), {}}),
+      daemon_(program.options({})),
       id_(std::move(id)),
       is_given_back_(is_given_back),
       renewer_([this](const std::stop_token& stop) { renew_until(stop); }) {}

@@ -28,7 +28,9 @@ Jogger::Jogger(client::Connection& daemon, std::string lease_id, double speed_mm
 Jogger::~Jogger() {
   if (!moved_) return;
   // Ctrl-C ends the calls of the other one.
-  client::Connection daemon({daemon_.options().server, daemon_.options().owner, {}});
+  client::ConnectionOptions options = daemon_.options();
+  options.stop = {};
+  client::Connection daemon(std::move(options));
   static_cast<void>(client::stop_rig(daemon));  // else the daemon stops it by itself
 }
 

@@ -188,6 +188,7 @@ Json to_json(const client::Job& job) {
   put(json, "retry_of", job.retry_of);
   put(json, "input_digest", job.input_digest);
   json["cache_hit"] = job.cache_hit;
+  json["shared"] = job.shared;
   if (job.spec) json[kind_of(job.spec->verb)] = spec_json(*job.spec);
   if (job.print_image_job) json["print"] = {{"print_image_job", *job.print_image_job}};
   if (job.capture_s) json["capture"] = {{"seconds", *job.capture_s}};

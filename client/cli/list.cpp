@@ -47,7 +47,9 @@ void print_table(const std::vector<client::Job>& jobs) {
 
 Status list(Program& program, const ListOptions& options) {
   client::JobFilter filter = options.filter;
-  if (options.mine) filter.owner = program.owner();
+  if (options.mine) {
+    HP_ASSIGN_OR_RETURN(filter.owner, program.own_name());
+  }
   for (const std::string& state : options.states)
     filter.states.push_back(states_by_name().at(state));
   HP_ASSIGN_OR_RETURN(const auto jobs, client::list_jobs(program.daemon(), filter));
@@ -68,7 +70,8 @@ void add_list(CLI::App& app, Program& program) {
   command->add_option("--state", options->states, "Only jobs in this state; may be repeated")
       ->type_name("STATE")
       ->transform(CLI::IsMember(names, CLI::ignore_case));
-  command->add_flag("--mine", options->mine, "Only jobs of the owner that --owner names");
+  command->add_flag("--mine", options->mine,
+                    "Only your jobs: your user's, or those of --owner where there are no users");
   command->add_option("--limit", options->filter.limit, "At most so many")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000))

@@ -4,7 +4,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
+
+#include "client/cli/credentials.h"
+#include "client/people.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -38,7 +42,7 @@ Program::Program(CLI::App& app) : owner_(login_name()) {
       ->envname("HYDROPRINT_SERVER")
       ->check(check_server)
       ->capture_default_str();
-  app.add_option("--owner", owner_, "In whose name; owners take turns")
+  app.add_option("--owner", owner_, "In whose name, where there are no users; owners take turns")
       ->type_name("NAME")
       ->envname("HYDROPRINT_OWNER")
       ->check(check_owner)
@@ -51,20 +55,35 @@ void Program::on(CLI::App& command, std::function<Status()> action) {
   command.callback([this, action = std::move(action)] { action_ = action; });
 }
 
-Status Program::run() { return action_(); }
+Status Program::run() {
+  const char* const key = std::getenv("HYDROPRINT_API_KEY");
+  if (key != nullptr && *key != '\0') {
+    key_ = key;
+  } else {
+    HP_ASSIGN_OR_RETURN(key_, kept_key(server_));
+  }
+  return action_();
+}
+
+Result<std::string> Program::own_name() {
+  if (key_.empty()) return owner_;
+  HP_ASSIGN_OR_RETURN(client::Identity me, client::who_am_i(daemon()));
+  return std::move(me).user;
+}
+
+client::ConnectionOptions Program::options(std::stop_token stop) const {
+  return {server_, owner_, key_, "", std::move(stop)};
+}
 
 client::Connection& Program::daemon() {
   if (!daemon_) {
     interrupt_ = std::make_unique<Interrupt>();
-    daemon_ = std::make_unique<client::Connection>(
-        client::ConnectionOptions{server_, owner_, interrupt_->token()});
+    daemon_ = std::make_unique<client::Connection>(options(interrupt_->token()));
   }
   return *daemon_;
 }
 
-client::Connection Program::uninterrupted() const {
-  return client::Connection({server_, owner_, {}});
-}
+client::Connection Program::uninterrupted() const { return client::Connection(options({})); }
 
 std::string job_name(const std::string& text) {
   const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;

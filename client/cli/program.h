@@ -19,12 +19,15 @@ class Program {
 
   /// Makes `action` what happens once the command line is read, if `command` stands on it.
   void on(CLI::App& command, std::function<Status()> action);
-  /// Runs the action chosen.
+  /// Runs the action chosen, with the API key that is there.
   [[nodiscard]] Status run();
 
   [[nodiscard]] bool json() const { return json_; }
   [[nodiscard]] const std::string& server() const { return server_; }
-  [[nodiscard]] const std::string& owner() const { return owner_; }
+  /// Whose name jobs are created in: the user's, or --owner where there are none.
+  [[nodiscard]] Result<std::string> own_name();
+  /// Where the daemon is and who asks it, for a connection of one's own.
+  [[nodiscard]] client::ConnectionOptions options(std::stop_token stop) const;
   /// The daemon; from the first call on, Ctrl-C ends its calls with kCancelled.
   [[nodiscard]] client::Connection& daemon();
   /// Whether Ctrl-C came since then.
@@ -37,6 +40,7 @@ class Program {
  private:
   std::string server_ = client::ConnectionOptions().server;
   std::string owner_;
+  std::string key_;  ///< HYDROPRINT_API_KEY, or what login kept for the server; empty: none
   bool json_ = false;
   std::function<Status()> action_;
   std::unique_ptr<Interrupt> interrupt_;

@@ -4,6 +4,8 @@
 The stubs are made by the build (target hydroprint_python):
 
     PYTHONPATH=build/release/python client/python/rig.py --stop
+
+HYDROPRINT_SERVER says where the daemon is, HYDROPRINT_API_KEY (hydroprint keys add) who asks.
 """
 
 import argparse
@@ -11,6 +13,8 @@ import os
 import sys
 
 import grpc
+
+from channel import open_channel
 
 try:
     from hydroprint.v1 import rig_pb2, rig_service_pb2, rig_service_pb2_grpc
@@ -35,7 +39,7 @@ def main():
     parser.add_argument("--stop", action="store_true", help="stop any motion first")
     arguments = parser.parse_args()
 
-    with grpc.insecure_channel(arguments.server, [("grpc.enable_http_proxy", 0)]) as channel:
+    with open_channel(arguments.server) as channel:
         service = rig_service_pb2_grpc.RigServiceStub(channel)
         if arguments.stop:
             service.StopMotion(rig_service_pb2.StopMotionRequest())

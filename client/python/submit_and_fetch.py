@@ -5,6 +5,8 @@ The stubs are made by the build (target hydroprint_python):
 
     PYTHONPATH=build/release/python client/python/submit_and_fetch.py \
         --mesh globe.obj --texture globe.png --out result
+
+HYDROPRINT_SERVER says where the daemon is, HYDROPRINT_API_KEY (hydroprint keys add) who asks.
 """
 
 import argparse
@@ -14,6 +16,8 @@ import sys
 import uuid
 
 import grpc
+
+from channel import open_channel
 
 try:
     from hydroprint.v1 import artifact_service_pb2, artifact_service_pb2_grpc
@@ -95,7 +99,7 @@ def main():
     parser.add_argument("--out", default=".", help="folder for film.png")
     arguments = parser.parse_args()
 
-    with grpc.insecure_channel(arguments.server, [("grpc.enable_http_proxy", 0)]) as channel:
+    with open_channel(arguments.server) as channel:
         spec = spec_pb2.SimulateSpec(mesh=upload(channel, arguments.mesh), dpi=arguments.dpi)
         if arguments.texture:
             spec.texture.CopyFrom(upload(channel, arguments.texture))

@@ -62,6 +62,7 @@ std::optional<Response> refused(const Site& site, const Head& head) {
                     "ORIGIN_FORBIDDEN",
                     {}});
   }
+  if (const Status good = check_csrf(head); !good) return refusal(good.error());
   return {};
 }
 

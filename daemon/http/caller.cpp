@@ -6,12 +6,12 @@
 namespace hydroprint::http {
 namespace {
 
-constexpr std::string_view kSessionCookie = "hydroprint_session";
-
 // gRPC ends the program at other bytes.
 bool is_printable(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= ' ' && c < 0x7f; });
 }
+
+}  // namespace
 
 std::optional<std::string_view> cookie(const Fields& fields, std::string_view name) {
   for (const Field& field : fields.all()) {
@@ -25,8 +25,6 @@ std::optional<std::string_view> cookie(const Fields& fields, std::string_view na
   }
   return {};
 }
-
-}  // namespace
 
 Result<Rpc::Metadata> metadata_of(const Head& head, const std::string& peer) {
   Rpc::Metadata metadata{{"hydroprint-peer", peer}};

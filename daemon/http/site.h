@@ -56,6 +56,20 @@ Detached turn_away(Site& site, std::shared_ptr<Socket> socket);
 /// hydroprint-peer. Refuses (SPEC_INVALID) what is not printable ASCII.
 [[nodiscard]] Result<Rpc::Metadata> metadata_of(const Head& head, const std::string& peer);
 
+/// The cookie that a session is kept in.
+inline constexpr std::string_view kSessionCookie = "hydroprint_session";
+/// The value of a cookie.
+[[nodiscard]] std::optional<std::string_view> cookie(const Fields& fields, std::string_view name);
+
+/// Refuses (kPermissionDenied, CSRF_TOKEN_MISSING) what would change something for a browser that
+/// is signed in, unless it comes from a page that knows the session's token (WhoAmI tells it).
+[[nodiscard]] Status check_csrf(const Head& head);
+
+/// What Set-Cookie has to say after a call: of SignIn the session, which is taken out of the
+/// answer, as scripts have no business with it; of SignOut its end; of others none.
+[[nodiscard]] std::optional<std::string> take_session(const std::string& method,
+                                                      std::string& response);
+
 /// Calls and waits for the answer; who goes away meanwhile cancels the call.
 [[nodiscard]] Task<Reply> call(Site& site, Exchange& exchange, rest::Call call,
                                Rpc::Metadata metadata);

@@ -59,17 +59,20 @@ Task<void> answer_unary(Site& site, Exchange& exchange, rest::Call request) {
     co_return;
   }
   const std::string method = request.method;
-  const Reply reply = co_await call(site, exchange, std::move(request), std::move(*metadata));
+  Reply reply = co_await call(site, exchange, std::move(request), std::move(*metadata));
   if (!reply.ok()) {
     co_await exchange.send(refusal(reply));
     co_return;
   }
+  const auto set_cookie = take_session(method, reply.response);
   Result<std::string> json = site.transcoder.write(method, reply.response);
   if (!json) {
     co_await refuse(exchange, json.error());
     co_return;
   }
-  co_await exchange.send(json_response(200, std::move(*json)));
+  Response response = json_response(200, std::move(*json));
+  if (set_cookie) response.fields.set("Set-Cookie", *set_cookie);
+  co_await exchange.send(std::move(response));
 }
 
 // Answers what the transcoder refuses.

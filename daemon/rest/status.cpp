@@ -1,5 +1,7 @@
 #include "daemon/rest/status.h"
 
+#include <cstdlib>
+
 #include "google/rpc/code.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -23,8 +25,13 @@ const char* default_reason(Code code) {
   }
 }
 
-bool helps_to_wait(const std::string& reason) {
-  return reason == "QUEUE_FULL" || reason == "UPLOADS_FULL" || reason == "PREVIEWS_FULL";
+// Seconds after which trying again may help; 0: it does not.
+int retry_after_s(const Error& error) {
+  for (const char* const full : {"QUEUE_FULL", "UPLOADS_FULL", "PREVIEWS_FULL"}) {
+    if (error.reason == full) return 10;
+  }
+  const auto told = error.metadata.find("retry_s");
+  return told == error.metadata.end() ? 0 : std::atoi(told->second.c_str());
 }
 
 }  // namespace
@@ -57,6 +64,8 @@ int number_of(Code code) {
       return google::rpc::UNAVAILABLE;
     case Code::kDataLoss:
       return google::rpc::DATA_LOSS;
+    case Code::kUnauthenticated:
+      return google::rpc::UNAUTHENTICATED;
   }
   return google::rpc::INTERNAL;
 }
@@ -70,9 +79,9 @@ std::string status_details(const Error& error) {
   info.set_reason(error.reason.empty() ? default_reason(error.code) : error.reason);
   info.mutable_metadata()->insert(error.metadata.begin(), error.metadata.end());
   details.add_details()->PackFrom(info);
-  if (helps_to_wait(error.reason)) {
+  if (const int seconds = retry_after_s(error); seconds > 0) {
     google::rpc::RetryInfo retry;
-    retry.mutable_retry_delay()->set_seconds(10);
+    retry.mutable_retry_delay()->set_seconds(seconds);
     details.add_details()->PackFrom(retry);
   }
   return details.SerializeAsString();

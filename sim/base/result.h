@@ -24,6 +24,7 @@ enum class Code {
   kInternal,
   kUnavailable,
   kDataLoss,
+  kUnauthenticated,  // stores know codes by their numbers: new ones come last
 };
 
 /// gRPC's name of a code: "INVALID_ARGUMENT".

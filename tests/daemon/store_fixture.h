@@ -24,7 +24,7 @@ class StoreTest : public ::testing::Test {
     assets.reset();
     jobs.reset();
     database.reset();
-    database = Database::open(layout.database(), kSchema).value();
+    database = open_store(layout.database()).value();
     const auto clock = [this] { return now_ms; };
     jobs = std::make_unique<JobStore>(*database, layout, job_options, clock);
     assets = std::make_unique<AssetStore>(*database, layout, asset_options, clock);

@@ -121,9 +121,10 @@ DaemonProcess::~DaemonProcess() {
 void DaemonProcess::start() {
   const auto out = folder_ / "out";
   std::filesystem::remove(out);
-  pid_ = spawn_daemon({"--config", config().string(), "--state-dir", state().string(), "--grpc",
-                       "127.0.0.1:0", "--http", "127.0.0.1:0"},
-                      out, folder_ / "err");
+  std::vector<std::string> arguments = options_.arguments;
+  arguments.insert(arguments.end(), {"--config", config().string(), "--state-dir", state().string(),
+                                     "--grpc", "127.0.0.1:0", "--http", "127.0.0.1:0"});
+  pid_ = spawn_daemon(arguments, out, folder_ / "err");
   const auto deadline = SteadyClock::now() + kPatience;
   const auto named = [](const std::string& words, const std::string& name) {
     const std::size_t from = words.find(" " + name + "=") + name.size() + 2;
@@ -131,7 +132,7 @@ void DaemonProcess::start() {
   };
   while (SteadyClock::now() < deadline) {
     const std::string words = content(out);
-    if (words.ends_with('\n')) {
+    if (words.find(" ready ") != std::string::npos && words.ends_with('\n')) {
       address_ = named(words, "grpc");
       http_ = named(words, "http");
       return;
@@ -174,6 +175,7 @@ Client::Client(const std::string& address, const std::string& owner) : owner_(ow
   queues = v1::QueueService::NewStub(channel);
   assets = v1::AssetService::NewStub(channel);
   artifacts = v1::ArtifactService::NewStub(channel);
+  people = v1::PeopleService::NewStub(channel);
 }
 
 std::unique_ptr<grpc::ClientContext> Client::context() const {
@@ -181,6 +183,8 @@ std::unique_ptr<grpc::ClientContext> Client::context() const {
   context->set_deadline(std::chrono::system_clock::now() + 2 * kPatience);
   context->set_wait_for_ready(patient);
   if (!owner_.empty()) context->AddMetadata("hydroprint-owner", owner_);
+  if (!key.empty()) context->AddMetadata("authorization", "Bearer " + key);
+  if (!session.empty()) context->AddMetadata("hydroprint-session", session);
   return context;
 }
 

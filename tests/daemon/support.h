@@ -14,6 +14,7 @@
 #include "hydroprint/v1/artifact_service.grpc.pb.h"
 #include "hydroprint/v1/asset_service.grpc.pb.h"
 #include "hydroprint/v1/job_service.grpc.pb.h"
+#include "hydroprint/v1/people_service.grpc.pb.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
 #include "tests/support/temporary_folder.h"
 
@@ -59,7 +60,8 @@ class DaemonProcess {
     int time_limit_s = 600;
     int file_mib = 1024;
     int max_jobs = 1000;
-    std::string extra;  ///< more lines for the configuration file
+    std::string extra;                   ///< more lines for the configuration file
+    std::vector<std::string> arguments;  ///< more of the command line
   };
   /// With the fake worker.
   static Options fake();
@@ -117,12 +119,15 @@ class Client {
   /// Metadata and deadline of one call.
   [[nodiscard]] std::unique_ptr<grpc::ClientContext> context() const;
 
+  std::string key;      ///< API key that calls carry; empty: none
+  std::string session;  ///< session's token that calls carry; empty: none
   bool patient = true;  ///< whether calls wait for a daemon that is not there
   std::shared_ptr<grpc::Channel> channel;
   std::unique_ptr<v1::JobService::Stub> jobs;
   std::unique_ptr<v1::QueueService::Stub> queues;
   std::unique_ptr<v1::AssetService::Stub> assets;
   std::unique_ptr<v1::ArtifactService::Stub> artifacts;
+  std::unique_ptr<v1::PeopleService::Stub> people;
 
  private:
   std::string owner_;

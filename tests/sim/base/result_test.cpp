@@ -17,9 +17,9 @@ TEST(ExitStatus, WhatIsNotBuiltYetIsBadUsage) {
 }
 
 TEST(ExitStatus, WhatTheUserCanMendInTheInputIsBadInput) {
-  for (const Code code :
-       {Code::kInvalidArgument, Code::kNotFound, Code::kAlreadyExists, Code::kPermissionDenied,
-        Code::kFailedPrecondition, Code::kOutOfRange, Code::kResourceExhausted, Code::kDataLoss}) {
+  for (const Code code : {Code::kInvalidArgument, Code::kNotFound, Code::kAlreadyExists,
+                          Code::kPermissionDenied, Code::kFailedPrecondition, Code::kOutOfRange,
+                          Code::kResourceExhausted, Code::kDataLoss, Code::kUnauthenticated}) {
     EXPECT_EQ(static_cast<int>(status_of(code)), 3) << static_cast<int>(code);
   }
 }

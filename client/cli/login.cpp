@@ -1,0 +1,118 @@
+#include <unistd.h>
+
+#include <array>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "client/cli/commands.h"
+#include "client/cli/console.h"
+#include "client/cli/credentials.h"
+#include "client/cli/json.h"
+#include "client/cli/people_json.h"
+#include "client/cli/program.h"
+#include "client/cli/secret.h"
+#include "client/people.h"
+
+namespace hydroprint::cli {
+namespace {
+
+constexpr std::chrono::hours kKeyHolds{24 * 90};
+
+struct LoginOptions {
+  std::string user;
+  bool key_from_stdin = false;
+};
+
+std::string host_name() {
+  std::array<char, 65> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "a machine";
+}
+
+// "hp_0a1b_SECRET" to "apiKeys/0a1b".
+std::string name_of_key(const std::string& key) {
+  return "apiKeys/" + key.substr(3, key.find('_', 3) - 3);
+}
+
+Status show_identity(const Program& program, const client::Identity& me) {
+  if (program.json()) {
+    print(to_json(me));
+    return {};
+  }
+  std::cout << printable(me.user) << " is " << me.role << " at " << program.server() << " (by "
+            << printable(me.via) << ")" << std::endl;
+  if (!me.accounts) {
+    std::cout
+        << "There are no users yet: whoever is on that machine is admin. 'hydroprint users add "
+           "NAME --role ADMIN' makes the first."
+        << std::endl;
+  }
+  return {};
+}
+
+// A key made with a session that lasts no longer than that.
+Result<std::string> key_by_password(Program& program, const std::string& name) {
+  HP_ASSIGN_OR_RETURN(const std::string user, name.empty() ? ask("Name: ") : name);
+  HP_ASSIGN_OR_RETURN(const std::string password, ask_secret("Password: "));
+  client::Connection nobody({program.server(), "", "", "", {}});
+  HP_ASSIGN_OR_RETURN(const std::string session, client::sign_in(nobody, user, password));
+  client::Connection somebody({program.server(), "", "", session, {}});
+  auto key = client::create_api_key(somebody, "hydroprint login on " + host_name(), "", kKeyHolds);
+  HP_RETURN_IF_ERROR(client::sign_out(somebody));
+  HP_RETURN_IF_ERROR(key);
+  return key->text;
+}
+
+Status log_in(Program& program, const LoginOptions& options) {
+  HP_ASSIGN_OR_RETURN(const std::string key, options.key_from_stdin
+                                                 ? ask_secret("API key: ")
+                                                 : key_by_password(program, options.user));
+  client::Connection connection({program.server(), "", key, "", {}});
+  HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(connection));
+  if (!me.accounts) {
+    return fail(Code::kFailedPrecondition,
+                "there are no users at " + program.server() + " yet, and nobody needs to log in");
+  }
+  HP_RETURN_IF_ERROR(keep_key(program.server(), key));
+  return show_identity(program, me);
+}
+
+// Forgets the key here first: that holds even if the daemon does not answer.
+Status log_out(const Program& program) {
+  HP_ASSIGN_OR_RETURN(const std::string key, kept_key(program.server()));
+  if (key.empty()) {
+    return fail(Code::kFailedPrecondition, "nobody is logged in at " + program.server() + " here");
+  }
+  HP_RETURN_IF_ERROR(keep_key(program.server(), ""));
+  client::Connection connection({program.server(), "", key, "", {}});
+  const Status ended = client::delete_api_key(connection, name_of_key(key));
+  if (!ended && ended.error().code != Code::kUnauthenticated) {
+    return fail(ended.error().code, "forgotten here, but the key still holds: " +
+                                        ended.error().message + "; delete it: hydroprint keys");
+  }
+  if (program.json()) print({{"logged_out", program.server()}});
+  if (!program.json()) std::cout << "logged out of " << program.server() << std::endl;
+  return {};
+}
+
+}  // namespace
+
+void add_login(CLI::App& app, Program& program) {
+  auto options = std::make_shared<LoginOptions>();
+  CLI::App* login = app.add_subcommand(
+      "login", "Keep an API key for a daemon, made with name and password, or one you have");
+  login->add_option("--user", options->user, "Your name; else it is asked for")->type_name("NAME");
+  login->add_flag("--api-key-stdin", options->key_from_stdin,
+                  "Read an API key from standard input");
+  login->footer("Example:\n  hydroprint login --api-key-stdin < key");
+  program.on(*login, [&program, options] { return log_in(program, *options); });
+  program.on(*app.add_subcommand("logout", "Forget the key and end it"),
+             [&program] { return log_out(program); });
+  program.on(*app.add_subcommand("whoami", "Show who you are to the daemon, and what you may do"),
+             [&program]() -> Status {
+               HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(program.daemon()));
+               return show_identity(program, me);
+             });
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <grpcpp/support/server_interceptor.h>
+
+#include <memory>
+
+#include "daemon/access.h"
+#include "daemon/people/audit.h"
+
+namespace hydroprint::daemon {
+
+/// Sees the calls that change something (by their google.api.http: all but those that get) and
+/// notes who made them, on what, and how they ended. Left out: calls of nobody known, SignIn, which
+/// notes itself, uploaded chunks, previews, and of what is said again and again (Jog, RenewLease)
+/// all but once a minute.
+[[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_audit_tap(
+    const Access& access, people::AuditLog& audit);
+
+}  // namespace hydroprint::daemon

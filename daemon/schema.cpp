@@ -1,0 +1,80 @@
+#include "daemon/schema.h"
+
+#include <string>
+#include <vector>
+
+namespace hydroprint::daemon {
+namespace {
+
+/// Statements that bring the store from the version before to this one.
+struct Migration {
+  std::int64_t to;
+  std::vector<const char*> statements;
+};
+
+const std::vector<Migration>& migrations() {
+  static const std::vector<Migration> all{
+      // People. `role` is a number of hydroprint.v1.Role.
+      {2,
+       {"CREATE TABLE users(name TEXT PRIMARY KEY, role INTEGER NOT NULL, disabled INTEGER NOT "
+        "NULL, "
+        "password TEXT NOT NULL, create_ms INTEGER NOT NULL) WITHOUT ROWID",
+        "CREATE TABLE api_keys(id TEXT PRIMARY KEY, "
+        "user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE, display_name TEXT NOT NULL, "
+        "secret_hash TEXT NOT NULL, role INTEGER NOT NULL, create_ms INTEGER NOT NULL, "
+        "expire_ms INTEGER NOT NULL, use_ms INTEGER NOT NULL) WITHOUT ROWID",
+        "CREATE TABLE sessions(id TEXT PRIMARY KEY, "
+        "user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE, "
+        "token_hash TEXT NOT NULL UNIQUE, peer TEXT NOT NULL, create_ms INTEGER NOT NULL, "
+        "use_ms INTEGER NOT NULL) WITHOUT ROWID",
+        "CREATE TABLE sign_in_links(token_hash TEXT PRIMARY KEY, "
+        "user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE, expire_ms INTEGER NOT NULL) "
+        "WITHOUT ROWID",
+        "CREATE TABLE audit(seq INTEGER PRIMARY KEY AUTOINCREMENT, time_ms INTEGER NOT NULL, "
+        "who TEXT NOT NULL, via TEXT NOT NULL, peer TEXT NOT NULL, what TEXT NOT NULL, "
+        "object TEXT NOT NULL, outcome TEXT NOT NULL, detail TEXT NOT NULL)",
+        "CREATE INDEX audit_by_time ON audit(time_ms)",
+        "ALTER TABLE jobs ADD COLUMN shared INTEGER NOT NULL DEFAULT 0"}},
+  };
+  return all;
+}
+
+Result<std::int64_t> version_of(Database& database) {
+  std::int64_t version = 0;
+  HP_RETURN_IF_ERROR(
+      database.each("SELECT CAST(value AS INTEGER) FROM settings WHERE name='schema'", {},
+                    [&](const DbRow& row) { version = row.integer(0); }));
+  return version;
+}
+
+Status migrate(Database& database) {
+  HP_ASSIGN_OR_RETURN(const std::int64_t version, version_of(database));
+  if (version > migrations().back().to) {
+    return fail(Code::kFailedPrecondition,
+                "was made by a later version of hydroprintd; use that one, or another state folder",
+                "STORE_TOO_NEW");
+  }
+  for (const Migration& migration : migrations()) {
+    if (migration.to <= version) continue;
+    for (const char* statement : migration.statements) {
+      HP_RETURN_IF_ERROR(database.run(statement));
+    }
+    HP_RETURN_IF_ERROR(database.run("UPDATE settings SET value=? WHERE name='schema'",
+                                    {std::to_string(migration.to)}));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path) {
+  HP_ASSIGN_OR_RETURN(auto database, Database::open(path, kSchema));
+  if (const Status done = database->transaction([&] { return migrate(*database); }); !done) {
+    Error error = done.error();
+    error.message = path.string() + ": " + error.message;
+    return tl::unexpected(std::move(error));
+  }
+  return database;
+}
+
+}  // namespace hydroprint::daemon

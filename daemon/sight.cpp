@@ -1,0 +1,128 @@
+#include "daemon/sight.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
+#include <functional>
+#include <vector>
+
+#include "daemon/access.h"
+#include "daemon/convert.h"
+#include "daemon/names.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+using google::protobuf::Message;
+using people::Caller;
+using people::Role;
+using Field = google::protobuf::FieldDescriptor;
+
+bool is_theirs(const Caller& caller, const std::string& owner) {
+  return caller.role >= Role::kOperator || caller.name == owner;
+}
+
+tl::unexpected<Error> not_yours(const Caller& caller, const Job& job, const char* what) {
+  auto refused =
+      fail(Code::kPermissionDenied,
+           job_name(job.id) + ": is " + job.made.owner + "'s, not " + caller.name + "'s; " + what,
+           "NOT_YOURS");
+  refused.value().metadata = {{"job", job_name(job.id)}, {"owner", job.made.owner}};
+  return refused;
+}
+
+// Takes all files out of a message and those within.
+void clear_files(Message& message) {
+  const auto& reflection = *message.GetReflection();
+  std::vector<const Field*> fields;
+  reflection.ListFields(message, &fields);
+  for (const Field* const field : fields) {
+    if (field->cpp_type() != Field::CPPTYPE_MESSAGE || field->is_map()) continue;
+    if (field->message_type() == v1::InputFile::descriptor()) {
+      reflection.ClearField(&message, field);
+    } else if (field->is_repeated()) {
+      for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
+        clear_files(*reflection.MutableRepeatedMessage(&message, field, i));
+      }
+    } else {
+      clear_files(*reflection.MutableMessage(&message, field));
+    }
+  }
+}
+
+// The names of jobs ("jobs/7", and below) in a message and those within.
+void find_jobs(const Message& message, std::vector<std::string>& found) {
+  const auto& reflection = *message.GetReflection();
+  const auto keep = [&](const std::string& text) {
+    if (text.starts_with("jobs/")) found.push_back(text.substr(0, text.find('/', 5)));
+  };
+  std::vector<const Field*> fields;
+  reflection.ListFields(message, &fields);
+  for (const Field* const field : fields) {
+    const int count = field->is_repeated() ? reflection.FieldSize(message, field) : 1;
+    for (int i = 0; i < count && !field->is_map(); ++i) {
+      if (field->cpp_type() == Field::CPPTYPE_STRING) {
+        keep(field->is_repeated() ? reflection.GetRepeatedString(message, field, i)
+                                  : reflection.GetString(message, field));
+      } else if (field->cpp_type() == Field::CPPTYPE_MESSAGE) {
+        find_jobs(field->is_repeated() ? reflection.GetRepeatedMessage(message, field, i)
+                                       : reflection.GetMessage(message, field),
+                  found);
+      }
+    }
+  }
+}
+
+// What was asked for, alone: the name and the like of a job are not read.
+const Message* spec_of(const v1::Job& job) {
+  const Field* const set = job.GetReflection()->GetOneofFieldDescriptor(
+      job, v1::Job::descriptor()->FindOneofByName("spec"));
+  return set == nullptr ? nullptr : &job.GetReflection()->GetMessage(job, set);
+}
+
+bool is_of_the_rig(const v1::Job& job) {
+  return job.has_dip() || job.has_capture() || job.has_calibrate() || job.has_calibrate_camera();
+}
+
+}  // namespace
+
+bool may_see(const Caller& caller, const Job& job) {
+  return job.shared || is_theirs(caller, job.made.owner);
+}
+
+Status check_may_see(const Caller& caller, const Job& job) {
+  if (may_see(caller, job)) return {};
+  return not_yours(caller, job, "ask them to share it");
+}
+
+Status check_may_change(const Caller& caller, const Job& job) {
+  if (is_theirs(caller, job.made.owner)) return {};
+  return not_yours(caller, job, "ask them, or an operator");
+}
+
+v1::Job shown_to(const Caller& caller, const Job& job) {
+  v1::Job out = to_message(job);
+  if (!may_see(caller, job)) clear_files(out);
+  return out;
+}
+
+void hide_files(const Caller& caller, v1::Calibration& calibration) {
+  if (!is_theirs(caller, calibration.owner())) clear_files(calibration);
+}
+
+Status check_may_create(const Caller& caller, const v1::Job& job, JobStore& jobs) {
+  if (is_of_the_rig(job)) HP_RETURN_IF_ERROR(check_role(caller, Role::kOperator));
+  const Message* const spec = spec_of(job);
+  if (spec == nullptr || caller.role >= Role::kOperator) return {};
+  std::vector<std::string> names;
+  find_jobs(*spec, names);
+  for (const std::string& name : names) {
+    const auto id = parse_job_name(name);
+    if (!id) continue;  // no job: what is wrong is said where the field is read
+    HP_ASSIGN_OR_RETURN(const Job other, jobs.get(*id));
+    HP_RETURN_IF_ERROR(check_may_see(caller, other));
+  }
+  return {};
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,208 @@
+// `hydroprint` as people use it who have accounts, against the real daemon.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/daemon/support.h"
+#include "tests/support/process.h"
+#include "tests/support/terminal.h"
+
+namespace hydroprint::tests {
+namespace {
+
+using Arguments = std::vector<std::string>;
+using Outcome = hydroprint::testing::Ended;
+using hydroprint::testing::Terminal;
+using nlohmann::json;
+
+constexpr char kClient[] = HYDROPRINT_BIN_DIR "/hydroprint";
+constexpr char kPassword[] = "correct horse";
+
+class PeopleCli : public ::testing::Test {
+ protected:
+  static DaemonProcess::Options options() {
+    DaemonProcess::Options options = DaemonProcess::fake();
+    options.extra = "[people]\npassword_memory_mib = 1\npassword_passes = 1\n";
+    return options;
+  }
+
+  /// In a home of the test's, with HYDROPRINT_SERVER and these variables ("NAME=VALUE").
+  Arguments command(const Arguments& arguments, const Arguments& variables = {}) const {
+    Arguments all{"/usr/bin/env", "-u", "HYDROPRINT_API_KEY",
+                  "XDG_CONFIG_HOME=" + (folder_.path() / "config").string(),
+                  "HYDROPRINT_SERVER=" + daemon_.address()};
+    all.insert(all.end(), variables.begin(), variables.end());
+    all.emplace_back(kClient);
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return all;
+  }
+  Outcome client(const Arguments& arguments, const Arguments& variables = {}) const {
+    return hydroprint::testing::run(command(arguments, variables));
+  }
+  /// With these lines on standard input.
+  Outcome told(const std::string& lines, const Arguments& arguments) const {
+    Arguments all{"/bin/sh", "-c", "printf '%s' '" + lines + "' | \"$0\" \"$@\""};
+    const Arguments rest = command(arguments);
+    all.insert(all.end(), rest.begin(), rest.end());
+    return hydroprint::testing::run(all);
+  }
+  json client_json(Arguments arguments, const Arguments& variables = {}) const {
+    arguments.emplace_back("--json");
+    const Outcome ended = client(arguments, variables);
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return json::parse(ended.out, nullptr, false);
+  }
+  void add(const std::string& name, const std::string& role) const {
+    const Outcome ended =
+        told(std::string(kPassword) + "\n", {"users", "add", name, "--role", role, "--password"});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+  }
+  void log_in(const std::string& name) const {
+    const Outcome ended = told(std::string(kPassword) + "\n", {"login", "--user", name});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+  }
+  [[nodiscard]] std::filesystem::path credentials() const {
+    return folder_.path() / "config" / "hydroprint" / "credentials.toml";
+  }
+
+  TemporaryFolder folder_;
+  DaemonProcess daemon_{folder_.path(), options()};
+};
+
+TEST_F(PeopleCli, LoginKeepsAKeyThatEveryCommandGoesBy) {
+  add("ann", "ADMIN");
+  const Outcome refused = client({"list"});
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("hydroprint login"), std::string::npos) << refused.err;
+  log_in("ann");
+  struct stat info {};
+  ASSERT_EQ(::stat(credentials().c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0600U);
+  EXPECT_EQ(content(credentials()).find(kPassword), std::string::npos);
+  EXPECT_EQ(client_json({"whoami"}).at("role"), "ADMIN");
+  EXPECT_EQ(client({"list"}).status, 0);
+  EXPECT_TRUE(client_json({"sessions", "list"}).at("sessions").empty());  // login left none behind
+}
+
+TEST_F(PeopleCli, LogoutEndsTheKey) {
+  add("ann", "ADMIN");
+  log_in("ann");
+  const std::string kept = content(credentials());
+  ASSERT_EQ(client({"logout"}).status, 0);
+  EXPECT_EQ(content(credentials()).find("hp_"), std::string::npos);
+  EXPECT_EQ(client({"list"}).status, 3);
+  const std::size_t from = kept.find("hp_");
+  const std::string key = kept.substr(from, kept.find_first_of("'\"", from) - from);
+  EXPECT_EQ(client({"list"}, {"HYDROPRINT_API_KEY=" + key}).status, 3);
+  EXPECT_EQ(client({"logout"}).status, 3);
+}
+
+TEST_F(PeopleCli, AKeyFromTheEnvironmentGoesFirst) {
+  add("ann", "ADMIN");
+  log_in("ann");
+  const std::string key =
+      client_json({"keys", "add", "--name", "nightly", "--role", "viewer", "--days", "2"})
+          .at("key");
+  EXPECT_EQ(client_json({"whoami"}, {"HYDROPRINT_API_KEY=" + key}).at("role"), "VIEWER");
+  EXPECT_EQ(client({"queue", "pause"}, {"HYDROPRINT_API_KEY=" + key}).status, 3);
+  EXPECT_EQ(client_json({"whoami"}).at("role"), "ADMIN");
+  EXPECT_EQ(client({"whoami"}, {"HYDROPRINT_API_KEY=hp_no_key"}).status, 3);
+}
+
+TEST_F(PeopleCli, AWrongPasswordOrKeyIsNotKept) {
+  add("ann", "ADMIN");
+  const Outcome ended = told("wrong password\n", {"login", "--user", "ann"});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_NE(ended.err.find("wrong"), std::string::npos);
+  EXPECT_EQ(told("hp_no_key\n", {"login", "--api-key-stdin"}).status, 3);
+  EXPECT_FALSE(std::filesystem::exists(credentials()));
+}
+
+TEST_F(PeopleCli, KeysThatOthersMayReadAreRefused) {
+  add("ann", "ADMIN");
+  log_in("ann");
+  ::chmod(credentials().c_str(), 0644);
+  const Outcome ended = client({"list"});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_NE(ended.err.find("credentials.toml"), std::string::npos) << ended.err;
+}
+
+TEST_F(PeopleCli, APasswordIsNotShownAndTheTerminalIsAsBefore) {
+  add("ann", "ADMIN");
+  Terminal terminal(command({"login"}));
+  ASSERT_TRUE(terminal.shows("Name: "));
+  terminal.type("ann\n");
+  ASSERT_TRUE(terminal.shows("Password: "));
+  terminal.type(std::string(kPassword) + "\n");
+  EXPECT_TRUE(terminal.shows("ann is ADMIN"));
+  EXPECT_EQ(terminal.wait(), 0);
+  EXPECT_EQ(terminal.screen().find(kPassword), std::string::npos);
+  EXPECT_TRUE(terminal.is_cooked());
+}
+
+TEST_F(PeopleCli, CtrlCAtThePasswordLeavesTheTerminalAsBefore) {
+  add("ann", "ADMIN");
+  Terminal terminal(command({"login", "--user", "ann"}));
+  ASSERT_TRUE(terminal.shows("Password: "));
+  terminal.type("half of i\x03");
+  EXPECT_EQ(terminal.wait(), 130);
+  EXPECT_TRUE(terminal.is_cooked());
+  EXPECT_FALSE(std::filesystem::exists(credentials()));
+}
+
+TEST_F(PeopleCli, AnAdminAddsChangesAndDeletesUsers) {
+  add("ann", "ADMIN");
+  log_in("ann");
+  add("mae", "maker");
+  EXPECT_EQ(client({"users", "set", "mae", "--role", "operator", "--disable"}).status, 0);
+  const json users = client_json({"users", "list"}).at("users");
+  ASSERT_EQ(users.size(), 2U);
+  EXPECT_EQ(users[1].at("name"), "users/mae");
+  EXPECT_EQ(users[1].at("role"), "OPERATOR");
+  EXPECT_EQ(users[1].at("disabled"), true);
+  EXPECT_EQ(client_json({"users", "link", "mae"}).at("link_token").get<std::string>().size(), 64U);
+  EXPECT_EQ(client({"users", "delete", "mae"}).status, 0);
+  EXPECT_EQ(client({"users", "delete", "ann"}).status, 3);  // the last admin
+  const json entries = client_json({"audit", "--what", "PeopleService.DeleteUser"}).at("entries");
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[0].at("outcome"), "FAILED_PRECONDITION");
+  EXPECT_EQ(entries[1].at("who"), "ann");
+  EXPECT_EQ(entries[1].at("object"), "users/mae");
+}
+
+TEST_F(PeopleCli, JobsAreMineByMyUserAndSharedIfISaySo) {
+  add("ann", "ADMIN");
+  log_in("ann");
+  const std::string mesh = folder_.write("m.obj", "x").string();
+  const std::string name = client_json({"submit", "simulate", "--mesh", mesh}).at("name");
+  const json mine = client_json({"list", "--mine"}).at("jobs");
+  ASSERT_EQ(mine.size(), 1U);
+  EXPECT_EQ(mine[0].at("owner"), "ann");
+  EXPECT_EQ(mine[0].at("shared"), false);
+  EXPECT_EQ(client({"share", name}).status, 0);
+  EXPECT_EQ(client_json({"show", name}).at("shared"), true);
+  EXPECT_EQ(client({"share", name, "--off"}).status, 0);
+  EXPECT_EQ(client_json({"show", name}).at("shared"), false);
+}
+
+TEST_F(PeopleCli, ThePythonExampleTakesServerAndKeyFromTheEnvironment) {
+  add("ann", "ADMIN");
+  log_in("ann");
+  const std::string key = client_json({"keys", "add"}).at("key");
+  const auto run = [&](const std::string& with_key) {
+    return hydroprint::testing::run(
+        {"/usr/bin/env", "PYTHONPATH=" PYTHON_STUBS, "PYTHONDONTWRITEBYTECODE=1",
+         "HYDROPRINT_SERVER=" + daemon_.address(), "HYDROPRINT_API_KEY=" + with_key,
+         "/usr/bin/python3", PYTHON_EXAMPLE, "--mesh", folder_.write("m.obj", "x").string(),
+         "--out", (folder_.path() / "result").string()});
+  };
+  EXPECT_NE(run("").err.find("UNAUTHENTICATED"), std::string::npos);
+  const Outcome ended = run(key);
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "result" / "film.png"));
+}
+
+}  // namespace
+}  // namespace hydroprint::tests

@@ -1,0 +1,70 @@
+// What was done and by whom.
+#include "daemon/people/audit.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/daemon/people/people_fixture.h"
+
+namespace hydroprint::people {
+namespace {
+
+class Audit : public PeopleTest {
+ protected:
+  static AuditEntry entry(const std::string& who, const std::string& what) {
+    AuditEntry out;
+    out.who = who;
+    out.what = what;
+    out.outcome = "OK";
+    return out;
+  }
+  std::unique_ptr<AuditLog> make() {
+    return std::make_unique<AuditLog>(*database, [this] { return now_ms; });
+  }
+};
+
+TEST_F(Audit, WhatWasNotedIsListedNewestFirstByPages) {
+  const auto log = make();
+  for (int i = 0; i < 5; ++i) log->note(entry("ann", "RigService.Arm" + std::to_string(i)));
+  const auto page = log->list({"", "", 0, 3}).value();
+  ASSERT_EQ(page.size(), 3U);
+  EXPECT_EQ(page.front().what, "RigService.Arm4");
+  EXPECT_EQ(page.front().time_ms, now_ms);
+  const auto rest = log->list({"", "", page.back().seq, 3}).value();
+  ASSERT_EQ(rest.size(), 2U);
+  EXPECT_EQ(rest.back().what, "RigService.Arm0");
+}
+
+TEST_F(Audit, IsFoundByWhoAndByWhat) {
+  const auto log = make();
+  log->note(entry("ann", "RigService.Arm"));
+  log->note(entry("bob", "RigService.Home"));
+  log->note(entry("bob", "JobService.CancelJob"));
+  EXPECT_EQ(log->list({"bob", "", 0, 10})->size(), 2U);
+  EXPECT_EQ(log->list({"bob", "RigService.", 0, 10})->size(), 1U);
+  EXPECT_EQ(log->list({"", "RigService.", 0, 10})->size(), 2U);
+  EXPECT_EQ(log->list({"", "%", 0, 10})->size(), 0U);
+}
+
+TEST_F(Audit, IsWrittenWhenTheDaemonEnds) {
+  make()->note(entry("ann", "RigService.Arm"));
+  open();
+  EXPECT_EQ(make()->list({"", "", 0, 10})->size(), 1U);
+}
+
+TEST_F(Audit, IsKeptForAYear) {
+  const auto log = make();
+  log->note(entry("ann", "first"));
+  ASSERT_EQ(log->list({"", "", 0, 10})->size(), 1U);
+  now_ms += 364 * 24 * kHour_ms;
+  log->note(entry("ann", "second"));
+  ASSERT_EQ(log->list({"", "", 0, 10})->size(), 2U);
+  ASSERT_TRUE(log->clean_up());
+  EXPECT_EQ(log->list({"", "", 0, 10})->size(), 2U);
+  now_ms += 2 * 24 * kHour_ms;
+  ASSERT_TRUE(log->clean_up());
+  ASSERT_EQ(log->list({"", "", 0, 10})->size(), 1U);
+  EXPECT_EQ(log->list({"", "", 0, 10})->front().what, "second");
+}
+
+}  // namespace
+}  // namespace hydroprint::people
