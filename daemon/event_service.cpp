@@ -6,6 +6,7 @@
 #include "daemon/queue_convert.h"
 #include "daemon/rig_convert.h"
 #include "daemon/services.h"
+#include "daemon/sight.h"
 #include "daemon/status.h"
 #include "hydroprint/v1/event_service.grpc.pb.h"
 
@@ -51,9 +52,13 @@ struct Shared {
 /// One watch, in the thread of its call.
 class EventWatch {
  public:
-  EventWatch(const Backend& backend, Shared& shared, const Topics& topics,
+  EventWatch(const Backend& backend, Shared& shared, const Topics& topics, people::Caller caller,
              grpc::ServerWriter<v1::WatchEventsResponse>& writer)
-      : backend_(backend), shared_(shared), topics_(topics), writer_(writer) {}
+      : backend_(backend),
+        shared_(shared),
+        topics_(topics),
+        caller_(std::move(caller)),
+        writer_(writer) {}
 
   Status run(const grpc::ServerContext& context, std::optional<std::int64_t> after_seq) {
     HP_ASSIGN_OR_RETURN(seq_, backend_.jobs.last_seq());
@@ -93,7 +98,7 @@ class EventWatch {
       *message.mutable_job()->mutable_event() = to_message(event);
       if (event.kind == EventKind::kStateChanged) {
         const auto job = backend_.jobs.get(event.job);
-        if (job) *message.mutable_job()->mutable_job() = to_message(*job);
+        if (job) *message.mutable_job()->mutable_job() = shown_to(caller_, *job);
       }
       HP_RETURN_IF_ERROR(send(message));
       seq_ = event.seq;
@@ -141,6 +146,7 @@ class EventWatch {
   const Backend& backend_;
   Shared& shared_;
   Topics topics_;
+  people::Caller caller_;
   grpc::ServerWriter<v1::WatchEventsResponse>& writer_;
   std::int64_t seq_ = 0;
   v1::Rig rig_;
@@ -168,8 +174,9 @@ class EventService final : public v1::EventService::Service {
   Status watch(const grpc::ServerContext& context, const v1::WatchEventsRequest& request,
                grpc::ServerWriter<v1::WatchEventsResponse>& writer) {
     HP_ASSIGN_OR_RETURN(const Topics topics, topics_of(request));
+    HP_ASSIGN_OR_RETURN(people::Caller caller, backend_.access.caller(context));
     const auto after = request.has_after_seq() ? std::optional(request.after_seq()) : std::nullopt;
-    return EventWatch(backend_, shared_, topics, writer).run(context, after);
+    return EventWatch(backend_, shared_, topics, std::move(caller), writer).run(context, after);
   }
 
   Backend backend_;

@@ -120,7 +120,8 @@ std::string metrics_text(const Backend& backend, const JobMeter& meter) {
                "Since the camera's latest frames that were kept.",
                static_cast<double>(system_clock_ms() - taken_ms) / 1000);
   }
-  out.single("hydroprint_rejected_logins_total", "counter", "Logins that were refused.", 0);
+  out.single("hydroprint_rejected_logins_total", "counter", "Logins that were refused.",
+             static_cast<double>(backend.accounts.failed_attempts()));
   describe_process(out);
   return out.text();
 }

@@ -47,7 +47,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
     socket_.set_option(tcp::no_delay(true), ignored);
     socket_.set_option(asio::socket_base::send_buffer_size(kSendBuffer_bytes), ignored);
     socket_.non_blocking(true, ignored);
-    peer_ = text_of(socket_.remote_endpoint(ignored));
+    peer_ = socket_.remote_endpoint(ignored).address().to_string();
   }
 
   void when_readable(milliseconds timeout, std::function<void(bool)> done) override {
