@@ -86,7 +86,7 @@ OtherRoute download(const std::string& http_method) {
 }
 
 // What needs no parameter and answers in one way.
-OtherRoute plain_get(std::string path, std::string operation, std::string summary,
+OtherRoute plain_get(std::string path, std::string operation, const std::string& summary,
                      std::string description, std::string content_type) {
   return {.http_method = "GET",
           .path = std::move(path),

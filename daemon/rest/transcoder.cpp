@@ -111,6 +111,7 @@ std::string_view query_of(std::string_view target) {
 
 std::vector<std::string> methods_of(const std::vector<Match>& matches) {
   std::vector<std::string> names;
+  names.reserve(matches.size());
   for (const Match& match : matches) names.push_back(match.route->http_method);
   std::sort(names.begin(), names.end());
   return names;
