@@ -74,6 +74,18 @@ Task<void> serve_all(Site& site, std::shared_ptr<Socket> socket) {
   if (!socket->is_closed()) co_await say_goodbye(*socket);
 }
 
+Task<void> say_full(Socket& socket) {
+  Response response = refusal({Code::kUnavailable,
+                               "too many connections are open; try again in a while",
+                               "CONNECTIONS_FULL",
+                               {}});
+  response.fields.set("Retry-After", "5");
+  const std::string text =
+      head_text(response, Head{}, {response.body.size(), false}) + response.body;
+  const bool sent = co_await socket.written(text, kLinger);
+  if (sent) co_await say_goodbye(socket);
+}
+
 }  // namespace
 
 Detached serve(Site& site, std::shared_ptr<Socket> socket) {
@@ -87,15 +99,10 @@ Detached serve(Site& site, std::shared_ptr<Socket> socket) {
 
 Detached turn_away(Site& site, std::shared_ptr<Socket> socket) {
   site.counters.count_refused_connection();
-  Response response = refusal({Code::kUnavailable,
-                               "too many connections are open; try again in a while",
-                               "CONNECTIONS_FULL",
-                               {}});
-  response.fields.set("Retry-After", "5");
-  const std::string text =
-      head_text(response, Head{}, {response.body.size(), false}) + response.body;
-  const bool sent = co_await socket->written(text, kLinger);
-  if (sent) co_await say_goodbye(*socket);
+  try {
+    co_await say_full(*socket);
+  } catch (const std::exception&) {  // no memory
+  }
   socket->close();
   site.connections.remove(socket);
 }
