@@ -52,7 +52,7 @@ test('a model is dropped, turned, submitted, watched; its film image is the work
   await page.locator('.stage canvas').waitFor();
 
   await page.getByLabel('Longest side').fill('30');
-  await page.getByRole('button', { name: '+90° about x' }).click();
+  await page.getByRole('button', { name: '+90° x' }).click();
   await page.getByLabel('Turn about z').fill('30');
   await page.getByLabel('To the right').fill('12,5');
   await page.getByLabel('Resolution').selectOption('150 dpi');

@@ -17,6 +17,10 @@ export interface Report {
     dpi?: number;
     film_image_px?: number[];
     model?: string;
+    /** Of a dip: how deep, as it was planned. A simulation may say "full". */
+    depth_mm?: number | string;
+    /** Of a dip. */
+    speed_mm_per_s?: number;
   };
   depth_mm?: number;
   coverage?: number;

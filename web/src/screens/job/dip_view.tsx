@@ -28,6 +28,7 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
     ]),
   ];
   const last = samples.at(-1);
+  const planned = results.report.value?.parameters;
   return (
     <>
       {!isFinished(job) && (
@@ -53,8 +54,8 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
               '–'
             ),
           ],
-          ['Depth', `${job.dip?.depthMm ?? '–'} mm`],
-          ['Speed', `${job.dip?.speedMmPerS ?? '–'} mm/s`],
+          ['Depth', `${planned?.depth_mm ?? job.dip?.depthMm ?? '–'} mm`],
+          ['Speed', `${planned?.speed_mm_per_s ?? job.dip?.speedMmPerS ?? '–'} mm/s`],
           status?.contactMm !== undefined && [
             'First contact at',
             `${status.contactMm.toFixed(2)} mm`,

@@ -122,7 +122,14 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
         <Switch<Mode>
           label="What is shown"
           value={mode}
-          onValue={setMode}
+          onValue={(next) => {
+            setMode(next);
+            // The waterline is seen from the side, and no mark hides it.
+            if (next === 'contact') {
+              view?.point([]);
+              view?.look('corner');
+            }
+          }}
           choices={[
             { value: 'predicted', label: 'As predicted' },
             { value: 'stretch', label: 'Stretch' },

@@ -87,7 +87,6 @@ function ByHand() {
           <button
             type="button"
             key={axis}
-            aria-label={`+90° about ${axis}`}
             onClick={() =>
               change({ pose: { ...pose, rotation: product(turn(axis, 90), pose.rotation) } })
             }
