@@ -55,7 +55,7 @@ std::string beside(const char* argv0, const char* program) {
 // Where the web client's files are: as installed, or else in a build tree.
 std::string web_dir(const char* argv0) {
   const std::filesystem::path bin = beside(argv0, "");
-  const auto installed = (bin / "../share/hydroprint/web").lexically_normal();
+  const auto installed = (bin / "../../share/hydroprint/web").lexically_normal();
   std::error_code ignored;
   if (std::filesystem::is_directory(installed, ignored)) return installed;
   return (bin / "../../web").lexically_normal();
