@@ -7,6 +7,7 @@
 
 #include "hydroprint/v1/access.pb.h"
 #include "hydroprint/v1/calibration_service.pb.h"
+#include "hydroprint/v1/event_service.pb.h"
 #include "hydroprint/v1/lease_service.pb.h"
 #include "hydroprint/v1/preview_service.pb.h"
 #include "hydroprint/v1/rig_service.pb.h"
@@ -24,7 +25,7 @@ std::vector<const google::protobuf::ServiceDescriptor*> all_services() {
         v1::GetCalibrationRequest::descriptor(), v1::GetJobRequest::descriptor(),
         v1::GetLeaseRequest::descriptor(), v1::ComputePreviewRequest::descriptor(),
         v1::GetQueueRequest::descriptor(), v1::GetRigRequest::descriptor(),
-        v1::WhoAmIRequest::descriptor()}) {
+        v1::WatchEventsRequest::descriptor(), v1::WhoAmIRequest::descriptor()}) {
     for (int i = 0; i < message->file()->service_count(); ++i) {
       services.push_back(message->file()->service(i));
     }
