@@ -70,7 +70,7 @@ test('a model is dropped, turned, submitted, watched; its film image is the work
   await page.getByRole('button', { name: 'Compute the film image' }).click();
   await page.waitForURL(/#\/jobs\/\d+$/);
   const name = page.url().split('#/')[1]!;
-  await page.locator('.film-viewer canvas').waitFor({ timeout: 80_000 });
+  await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
   await page.waitForTimeout(500);
   await picture(person, 'job-film');
   await isAccessible(person, 'job, film image');
@@ -136,7 +136,7 @@ test('run again with changes begins with what the job was made of', async () => 
   await page.getByLabel('Resolution').selectOption('300 dpi');
   await page.getByRole('button', { name: 'Compute the film image' }).click();
   await page.waitForURL(/#\/jobs\/2$/);
-  await page.locator('.film-viewer canvas').waitFor({ timeout: 80_000 });
+  await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
   await page.getByRole('button', { name: 'Make the PDF to print' }).click();
   await page.waitForURL(/#\/jobs\/3$/);
   await page.getByRole('link', { name: 'print.pdf' }).waitFor({ timeout: 60_000 });
@@ -196,7 +196,7 @@ test('two people see each other’s jobs; a page heals when the daemon comes bac
   await ann.page
     .getByText('The connection to the daemon is lost')
     .waitFor({ state: 'hidden', timeout: 30_000 });
-  await ann.page.locator('.film-viewer canvas').waitFor({ timeout: 80_000 });
+  await ann.page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
   await picture(bob, 'jobs');
   await isAccessible(bob, 'jobs');
   await ann.context.close();

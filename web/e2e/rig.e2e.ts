@@ -92,7 +92,7 @@ test('a dip, one large button a step', async () => {
   await page.getByLabel('Computation').selectOption('MODEL_STOKES');
   await page.getByLabel('Resolution').selectOption('150 dpi');
   await press(page, 'Compute the film image');
-  await page.getByRole('link', { name: 'Dip it' }).click({ timeout: 80_000 });
+  await page.getByRole('link', { name: 'Dip it' }).click({ timeout: 240_000 });
 
   await press(page, 'Take the rig');
   // As whoever was there before left it.

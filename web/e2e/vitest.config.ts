@@ -5,7 +5,7 @@ export default defineConfig({
   test: {
     include: ['e2e/*.e2e.ts'],
     fileParallelism: false,
-    testTimeout: 180_000,
+    testTimeout: 360_000,
     hookTimeout: 60_000,
     bail: 0,
   },

@@ -9,9 +9,13 @@ export const queue = signal<Queue | undefined>(undefined);
 /** Counts events of jobs that the page had not seen: lists ask anew. */
 export const arrivals = signal(0);
 
+// An answer that was on its way while an event came must not undo it.
+const isOlder = (job: Job, than: Job | undefined): boolean =>
+  than !== undefined && Date.parse(job.updateTime ?? '') < Date.parse(than.updateTime ?? '');
+
 export function remember(...jobs: Job[]): void {
   const all = new Map(known.value);
-  for (const job of jobs) all.set(job.name, job);
+  for (const job of jobs) if (!isOlder(job, all.get(job.name))) all.set(job.name, job);
   known.value = all;
 }
 
