@@ -106,7 +106,7 @@ class Client {
   grpc::Status create(const v1::CreateJobRequest& request, v1::Job& job);
   v1::Job job(const std::string& name);
   v1::Job cancel(const std::string& name);
-  /// Waits until the predicate holds or half a minute is over.
+  /// Waits until the predicate holds or two minutes are over.
   v1::Job wait(const std::string& name, const std::function<bool(const v1::Job&)>& until);
   v1::Job wait_for(const std::string& name, v1::Job::State state);
   v1::Job wait_for_end(const std::string& name);
