@@ -391,7 +391,7 @@ TEST_F(RigApi, NeitherWatchesNorUploadsKeepAStopFromGettingThrough) {
   RigClient crowd(daemon.address(), "crowd");
   std::vector<std::unique_ptr<v1::UploadChunkResponse>> replies;
   std::vector<std::unique_ptr<grpc::ClientWriter<v1::UploadChunkRequest>>> uploads;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 600; ++i) {
     contexts.push_back(crowd.context());
     replies.push_back(std::make_unique<v1::UploadChunkResponse>());
     uploads.push_back(crowd.assets->UploadChunk(contexts.back().get(), replies.back().get()));
