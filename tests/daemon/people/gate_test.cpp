@@ -5,6 +5,8 @@
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "hydroprint/v1/access.pb.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
 #include "tests/daemon/people/people_fixture.h"
@@ -85,7 +87,7 @@ class Inner final : public v1::QueueService::Service {
     return grpc::Status::OK;
   }
 
-  static inline int calls = 0;
+  static inline std::atomic<int> calls = 0;
 
  private:
   const Access& access_;
@@ -146,7 +148,7 @@ TEST_F(Gate, WithoutUsersThisMachineIsAdminUnderTheNameItGives) {
 TEST_F(Gate, WithoutUsersOtherMachinesAreNobody) {
   const auto status = get(*within, {{"hydroprint-peer", "192.0.2.7"}});
   EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
-  EXPECT_EQ(Inner::calls, 0);
+  EXPECT_EQ(Inner::calls.load(), 0);
 }
 
 TEST_F(Gate, APeerIsBelievedWithinTheProcessAlone) {
@@ -164,7 +166,7 @@ TEST_F(Gate, WithAUserCredentialsAreNeededEverywhere) {
       EXPECT_EQ(get(*stub, metadata).error_code(), grpc::StatusCode::UNAUTHENTICATED);
     }
   }
-  EXPECT_EQ(Inner::calls, 0);
+  EXPECT_EQ(Inner::calls.load(), 0);
 }
 
 TEST_F(Gate, KeysAndSessionsTellWhoCalls) {
@@ -198,9 +200,9 @@ TEST_F(Gate, WhoeverMayNotIsTurnedAwayBeforeTheServiceSeesIt) {
                 grpc::StatusCode::PERMISSION_DENIED);
     }
   }
-  EXPECT_EQ(Inner::calls, 0);
+  EXPECT_EQ(Inner::calls.load(), 0);
   EXPECT_TRUE(pause(*within, {{"authorization", "Bearer " + admin}}).ok());
-  EXPECT_EQ(Inner::calls, 1);
+  EXPECT_EQ(Inner::calls.load(), 1);
 }
 
 }  // namespace
