@@ -1,5 +1,7 @@
 #include "daemon/spec.h"
 
+#include <algorithm>
+
 #include "daemon/dip_spec.h"
 #include "daemon/names.h"
 #include "daemon/spec_works.h"
@@ -51,12 +53,18 @@ Status check_labels(const v1::Job& job) {
   return {};
 }
 
-// The verb, and what it goes on from: an earlier job, or its first file.
+// The verb, and what it goes on from: an earlier job, views, or its first file.
 std::string default_name(const v1::Job& job, const Work& work) {
   for (const std::string& earlier :
        {job.dip().simulate_job(), job.print_image().simulate_job(), job.template_().simulate_job(),
         job.print().print_image_job(), job.calibrate().capture_job()}) {
     if (!earlier.empty()) return work.verb + " " + earlier;
+  }
+  if (job.has_calibrate_camera()) {
+    const auto views = std::count_if(work.flags.begin(), work.flags.end(), [](const auto& flag) {
+      return flag.starts_with("--frames=");
+    });
+    return work.verb + " of " + std::to_string(views) + (views == 1 ? " view" : " views");
   }
   return work.inputs.empty() ? work.verb : work.verb + " " + work.inputs.front().name;
 }
