@@ -81,6 +81,47 @@ test('the rig is taken, armed, homed, moved, jogged, and stopped from every scre
   await operator.context.close();
 });
 
+test('the depth camera is shown live, to everybody, and says when it is not', async () => {
+  const person = await visit(browser, `${daemon.address}/#/rig`);
+  const { page } = person;
+  let asked = 0;
+  page.on('request', (request) => (asked += request.url().includes('depthPicture') ? 1 : 0));
+  const shown = page.getByRole('img', { name: /^Depth over the vat at .* mm from the camera/ });
+  await shown.waitFor({ timeout: 60_000 });
+  // Viridis from end to end: something violet, something yellow.
+  const colours = await shown.evaluate((canvas: HTMLCanvasElement) => {
+    const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+    const found = { violet: 0, yellow: 0 };
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b] = [data[i]!, data[i + 1]!, data[i + 2]!];
+      if (b > 2 * g) found.violet += 1;
+      if (g > 2 * b && r > 2 * b) found.yellow += 1;
+    }
+    return found;
+  });
+  expect(colours.violet).toBeGreaterThan(100);
+  expect(colours.yellow).toBeGreaterThan(100);
+  const first = await shown.getAttribute('aria-label');
+  await expect.poll(() => shown.getAttribute('aria-label'), { timeout: 20_000 }).not.toBe(first);
+  await picture(person, 'rig-depth');
+  await isAccessible(person, 'rig, depth camera');
+
+  await daemon.act('camera gone');
+  await page.getByText(/No picture since .*plug/).waitFor({ timeout: 30_000 });
+  await picture(person, 'rig-depth-gone');
+  await isAccessible(person, 'rig, depth camera gone');
+  await daemon.act('clear');
+  await page.getByText('No picture since').waitFor({ state: 'hidden', timeout: 30_000 });
+
+  await open(person, '/jobs');
+  await page.getByRole('heading', { name: 'Jobs' }).waitFor();
+  const before = asked;
+  await page.waitForTimeout(2500);
+  expect(asked, 'nobody looks any more').toBe(before);
+  expect(person.complaints).toEqual([]);
+  await person.context.close();
+});
+
 test('a dip, one large button a step', async () => {
   const person = await visit(browser, daemon.address);
   const { page } = person;
