@@ -35,6 +35,8 @@ struct Layout {
   [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {
     return runs() / ("preview-" + std::to_string(number));
   }
+  /// The process that shows what the camera sees.
+  [[nodiscard]] std::filesystem::path live_camera() const { return runs() / "live-camera"; }
   /// Records of dips that are not finished.
   [[nodiscard]] std::filesystem::path dips() const { return root / "dips"; }
   [[nodiscard]] std::filesystem::path dip(std::int64_t job) const {
