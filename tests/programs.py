@@ -24,16 +24,22 @@ def start(command, ready):
 
 @contextlib.contextmanager
 def daemon_with_rig(programs, profile, *arguments):
-    """A daemon with a virtual rig and a state folder of its own; yields the daemon and its address of HTTP."""
+    """A daemon with a virtual rig, its camera, and a state folder of its own; yields the daemon and its address of
+    HTTP."""
     programs, children = pathlib.Path(programs), []
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        (folder / "hydroprintd.toml").write_text(f'[camera]\ndevice = "hydroprint:{folder}/control"\n')
+        (folder / "scene.toml").write_text("[water]\nat_mm = 240\n[camera]\nseed = 4\n")
         try:
-            rig, rig_address = start([programs / "hydroprint-virtual-rig", "--profile", profile, "--tcp", "0"],
+            rig, rig_address = start([programs / "hydroprint-virtual-rig", "--profile", profile, "--tcp", "0",
+                                      "--control", folder / "control", "--scene", folder / "scene.toml"],
                                      r"(127\.0\.0\.1:\d+)")
             children.append(rig)
             daemon, address = start([programs / "hydroprintd", "--grpc", "127.0.0.1:0", "--http", "127.0.0.1:0",
-                                     "--state-dir", pathlib.Path(folder) / "state", "--rig", f"tcp:{rig_address}",
-                                     "--rig-profile", profile, *arguments], r"\bhttp=(\S+:\d+)")
+                                     "--config", folder / "hydroprintd.toml", "--state-dir", folder / "state",
+                                     "--rig", f"tcp:{rig_address}", "--rig-profile", profile, *arguments],
+                                    r"\bhttp=(\S+:\d+)")
             children.append(daemon)
             yield daemon, address
         finally:

@@ -1,6 +1,7 @@
 """Calls every route of the OpenAPI document that a daemon serves, in the course of a day at a rig, and holds each answer
 against the document; then each of them as a stranger, and for things that do not exist.
 Usage: call_every_route.py FOLDER_OF_PROGRAMS RIG_PROFILE"""
+import base64
 import hashlib
 import http.client
 import json
@@ -252,6 +253,13 @@ def people(api):
     api.call("DeleteUser", user="bob")
 
 
+def camera(api):
+    picture = lambda: api.ask("GetDepthPicture")  # noqa: E731
+    wait_for("a picture", lambda: picture().status == 200)
+    png = base64.b64decode(api.call("GetDepthPicture").json["png"])
+    require(png.startswith(b"\x89PNG"), png[:20])
+
+
 def the_rest(api):
     for name in ("GetHealth", "GetMetrics", "GetOpenApi"):
         api.call(name)
@@ -284,6 +292,7 @@ def main():
         asset = files(api)
         calibrations(api, asset)
         rig(api, jobs(api, asset))
+        camera(api)
         people(api)
         the_rest(api)
         wrong_calls(api)
