@@ -54,9 +54,9 @@ Status show_identity(const Program& program, const client::Identity& me) {
 Result<std::string> key_by_password(Program& program, const std::string& name) {
   HP_ASSIGN_OR_RETURN(const std::string user, name.empty() ? ask("Name: ") : name);
   HP_ASSIGN_OR_RETURN(const std::string password, ask_secret("Password: "));
-  client::Connection nobody({program.server(), "", "", "", {}});
+  client::Connection nobody(program.options_as("", ""));
   HP_ASSIGN_OR_RETURN(const std::string session, client::sign_in(nobody, user, password));
-  client::Connection somebody({program.server(), "", "", session, {}});
+  client::Connection somebody(program.options_as("", session));
   auto key = client::create_api_key(somebody, "hydroprint login on " + host_name(), "", kKeyHolds);
   HP_RETURN_IF_ERROR(client::sign_out(somebody));
   HP_RETURN_IF_ERROR(key);
@@ -64,10 +64,11 @@ Result<std::string> key_by_password(Program& program, const std::string& name) {
 }
 
 Status log_in(Program& program, const LoginOptions& options) {
+  HP_RETURN_IF_ERROR(client::check_secrets_may_go(program.options({})));
   HP_ASSIGN_OR_RETURN(const std::string key, options.key_from_stdin
                                                  ? ask_secret("API key: ")
                                                  : key_by_password(program, options.user));
-  client::Connection connection({program.server(), "", key, "", {}});
+  client::Connection connection(program.options_as(key, ""));
   HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(connection));
   if (!me.accounts) {
     return fail(Code::kFailedPrecondition,
@@ -84,7 +85,7 @@ Status log_out(const Program& program) {
     return fail(Code::kFailedPrecondition, "nobody is logged in at " + program.server() + " here");
   }
   HP_RETURN_IF_ERROR(keep_key(program.server(), ""));
-  client::Connection connection({program.server(), "", key, "", {}});
+  client::Connection connection(program.options_as(key, ""));
   const Status ended = client::delete_api_key(connection, name_of_key(key));
   if (!ended && ended.error().code != Code::kUnauthenticated) {
     return fail(ended.error().code, "forgotten here, but the key still holds: " +

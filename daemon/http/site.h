@@ -67,8 +67,9 @@ inline constexpr std::string_view kSessionCookie = "hydroprint_session";
 
 /// What Set-Cookie has to say after a call: of SignIn the session, which is taken out of the
 /// answer, as scripts have no business with it; of SignOut its end; of others none.
+/// @param is_secure  the browser is to send it by TLS alone
 [[nodiscard]] std::optional<std::string> take_session(const std::string& method,
-                                                      std::string& response);
+                                                      std::string& response, bool is_secure);
 
 /// Calls and waits for the answer; who goes away meanwhile cancels the call.
 [[nodiscard]] Task<Reply> call(Site& site, Exchange& exchange, rest::Call call,
