@@ -115,6 +115,12 @@ Status Daemon::open_certificate(const Config& config) {
   HP_ASSIGN_OR_RETURN(certificate_,
                       CertificateKeeper::open(config.server_tls_certificate, config.server_tls_key,
                                               system_clock_ms));
+  if (is_within_fence(config.server_tls_key, config.workers_program)) {
+    log(LogLevel::kWarning, "key_within_fence",
+        {{"message", config.server_tls_key +
+                         ": workers, who open files of strangers, can read the TLS key there; put "
+                         "it below /var/lib/hydroprint, or wherever they see nothing"}});
+  }
   return {};
 }
 

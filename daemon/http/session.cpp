@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kSignIn = "/hydroprint.v1.PeopleService/SignIn";
 constexpr std::string_view kSignOut = "/hydroprint.v1.PeopleService/SignOut";
-constexpr std::string_view kCsrfHeader = "X-Hydroprint-Csrf";
+using rest::kCsrfHeader;
 
 std::string cookie_text(std::string_view token, bool is_secure, std::string_view more) {
   return std::string(kSessionCookie) + "=" + std::string(token) +

@@ -22,11 +22,11 @@ constexpr char kSecret[] = "correct horse";
 
 class TlsCli : public ::testing::Test {
  protected:
-  void start(const Wanted& wanted = {}) {
+  void start(const Wanted& wanted = {}, const Words& pair = {}) {
     files.write(authority.issue(wanted));
     DaemonProcess::Options options = DaemonProcess::fake();
-    options.arguments = {"--tls-certificate", files.certificate.string(), "--tls-key",
-                         files.key.string()};
+    options.arguments = {"--tls-certificate", pair.empty() ? files.certificate.string() : pair[0],
+                         "--tls-key", pair.empty() ? files.key.string() : pair[1]};
     options.extra = "[people]\npassword_memory_mib = 1\npassword_passes = 1\n";
     daemon = std::make_unique<DaemonProcess>(folder.path(), options);
   }
@@ -76,6 +76,19 @@ TEST_F(TlsCli, AnAuthorityThatIsNamedIsTrusted) {
       client({"list"}, {"HYDROPRINT_SERVER=https://" + at("127.0.0.1"), "HYDROPRINT_CA=" + ca})
           .status,
       0);
+}
+
+TEST_F(TlsCli, WhatMakeCertificateMakesIsTrustedByItsAuthority) {
+  const std::string out = (folder.path() / "tls").string();
+  const auto make = [&] { return run({}, {MAKE_CERTIFICATE, "--out", out, "rig.local"}); };
+  ASSERT_EQ(make().status, 0);
+  const std::string made = content(out + "/ca.pem");
+  const Outcome again = make();
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(content(out + "/ca.pem"), made) << "it signs with the authority that is there";
+  start({{"DNS:localhost"}}, {out + "/certificate.pem", out + "/key.pem"});
+  EXPECT_EQ(client({"--server", at("localhost"), "--ca", out + "/ca.pem", "list"}).status, 0);
+  EXPECT_EQ(run({}, {MAKE_CERTIFICATE, "--out", out, "rig local"}).status, 1);
 }
 
 TEST_F(TlsCli, ACertificateThatIsNotTrustedIsSaidToBe) {
