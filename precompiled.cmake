@@ -31,7 +31,7 @@ function(hydroprint_use_precompiled folder name)
   get_directory_property(flags DIRECTORY ${folder} DEFINITION CMAKE_CXX_FLAGS_RELEASE)
   if(CMAKE_BUILD_TYPE STREQUAL "Release" AND flags MATCHES "-O3")
     set(name optimised)
-  elseif(place MATCHES "^sim|(daemon/dip|daemon/rest|client/loop)$|^daemon/people$")
+  elseif(place MATCHES "^sim|(daemon/dip|daemon/rest|client/loop)$|^daemon/(people|tls)$")
     set(name sim)  # the last ones: parts of daemon and client that know no network
   elseif(place MATCHES "client/cli$")
     set(name cli)

@@ -3,13 +3,14 @@
 #include <utility>
 
 #include "client/rpc.h"
+#include "client/server_address.h"
 
 namespace hydroprint::client {
 namespace {
 
 grpc::ChannelArguments channel_arguments() {
   grpc::ChannelArguments arguments;
-  // The daemon listens on loopback, where a proxy from the environment is never right.
+  // The daemon is near, where a proxy from the environment is never right.
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);  // also the limit for connecting
@@ -18,12 +19,31 @@ grpc::ChannelArguments channel_arguments() {
   return arguments;
 }
 
+std::shared_ptr<grpc::ChannelCredentials> credentials(const ConnectionOptions& options) {
+  if (!options.is_tls) return grpc::InsecureChannelCredentials();
+  grpc::SslCredentialsOptions ssl;
+  ssl.pem_root_certs = options.ca_pem;
+  return grpc::SslCredentials(ssl);
+}
+
 }  // namespace
+
+Status check_secrets_may_go(const ConnectionOptions& options) {
+  if (options.is_tls) return {};
+  HP_ASSIGN_OR_RETURN(const ServerAddress address, parse_server(options.server));
+  if (address.is_loopback()) return {};
+  return fail(
+      Code::kFailedPrecondition,
+      options.server +
+          " is another machine, and without TLS anybody in between could read a password or "
+          "key; write --server https://" +
+          options.server + ", or forward a port of this machine with ssh -L");
+}
 
 Connection::Impl::Impl(ConnectionOptions connection_options)
     : options(std::move(connection_options)),
-      channel(grpc::CreateCustomChannel(options.server, grpc::InsecureChannelCredentials(),
-                                        channel_arguments())),
+      channel(grpc::CreateCustomChannel(options.server, credentials(options), channel_arguments())),
+      keeps_secrets(check_secrets_may_go(options).has_value()),
       artifacts(v1::ArtifactService::NewStub(channel)),
       assets(v1::AssetService::NewStub(channel)),
       calibrations(v1::CalibrationService::NewStub(channel)),

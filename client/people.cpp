@@ -103,6 +103,7 @@ Result<std::string> begin_session(Connection& connection, const v1::SignInReques
 
 Result<std::string> sign_in(Connection& connection, const std::string& user,
                             const std::string& password) {
+  HP_RETURN_IF_ERROR(check_secrets_may_go(connection.options()));
   v1::SignInRequest request;
   request.set_user(user);
   request.set_password(password);
@@ -140,6 +141,7 @@ Result<std::vector<User>> list_users(Connection& connection) {
 
 Result<User> create_user(Connection& connection, const std::string& name, const std::string& role,
                          const std::string& password) {
+  HP_RETURN_IF_ERROR(check_secrets_may_go(connection.options()));
   v1::CreateUserRequest request;
   request.mutable_user()->set_name(name);
   HP_ASSIGN_OR_RETURN(const v1::Role wanted, role_of(role));
@@ -166,6 +168,7 @@ Result<User> update_user(Connection& connection, const std::string& name,
 
 Result<User> set_password(Connection& connection, const std::string& name,
                           const std::string& old_password, const std::string& new_password) {
+  HP_RETURN_IF_ERROR(check_secrets_may_go(connection.options()));
   v1::SetPasswordRequest request;
   request.set_name(name);
   request.set_old_password(old_password);

@@ -6,6 +6,7 @@
 #include <condition_variable>
 #include <mutex>
 
+#include "client/tls_probe.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
 #include "sim/base/one_line.h"
@@ -68,6 +69,7 @@ Call::Call(Connection& connection)
     : on_stop_(connection.options().stop, [this] { context_.TryCancel(); }) {
   const ConnectionOptions& options = connection.options();
   if (!options.owner.empty()) context_.AddMetadata("hydroprint-owner", options.owner);
+  if (!connection.impl().keeps_secrets) return;
   if (!options.api_key.empty()) context_.AddMetadata("authorization", "Bearer " + options.api_key);
   if (!options.session.empty()) context_.AddMetadata("hydroprint-session", options.session);
 }
@@ -83,6 +85,9 @@ Error to_error(const Connection& connection, const grpc::Status& status) {
   Error error{to_code(status.error_code()), one_line(status.error_message()), {}};
   take_error_info(status, error);
   if (error.code == Code::kUnavailable && error.reason.empty()) {
+    if (const std::string trouble = tls_trouble(options); !trouble.empty()) {
+      return {Code::kFailedPrecondition, options.server + ": " + trouble, {}};
+    }
     // The usual case, nobody listens, needs no more words; gRPC has many, of varying sense.
     const bool usual = error.message.find("failed to connect") != std::string::npos;
     error.message = options.server + ": no hydroprintd answers there" +

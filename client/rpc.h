@@ -31,6 +31,7 @@ struct Connection::Impl {
 
   ConnectionOptions options;
   std::shared_ptr<grpc::Channel> channel;
+  bool keeps_secrets;  ///< check_secrets_may_go()
   std::unique_ptr<v1::ArtifactService::Stub> artifacts;
   std::unique_ptr<v1::AssetService::Stub> assets;
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;

@@ -53,6 +53,8 @@ std::vector<Key> make_keys() {
       {"server", "reflection", Flag{&Config::server_reflection}},
       {"server", "http", Text{&Config::server_http}},
       {"server", "host_names", Text{&Config::server_host_names}},
+      {"server", "tls_certificate", Text{&Config::server_tls_certificate}},
+      {"server", "tls_key", Text{&Config::server_tls_key}},
       {"server", "web_dir", Text{&Config::server_web_dir}},
       {"store", "state_dir", Text{&Config::store_state_dir}},
       {"store", "keep_finished_days", Number{&Config::store_keep_finished_days, 1, 36500, "days"}},
@@ -212,9 +214,12 @@ Status read_section(const std::string& name, std::string_view section, const tom
 }
 
 Status check_values(const Config& config, const std::string& name, const toml::table& root) {
-  if (const auto endpoint = parse_endpoint(config.server_grpc); !endpoint) {
-    return refuse(name, root["server"]["grpc"].node()->source(),
-                  "server.grpc: " + endpoint.error().message);
+  for (const auto& [key, address] :
+       {std::pair("grpc", config.server_grpc), std::pair("http", config.server_http)}) {
+    if (const auto endpoint = parse_endpoint(address); !endpoint) {
+      return refuse(name, root["server"][key].node()->source(),
+                    "server." + std::string(key) + ": " + endpoint.error().message);
+    }
   }
   if (const auto printer = read_printer_setup(config); !printer) {
     return refuse(name, root["printer"]["address"].node()->source(), printer.error().message);
@@ -280,6 +285,12 @@ std::string Endpoint::text() const {
   return (v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
 }
 
+bool Endpoint::is_loopback() const {
+  in_addr v4{};
+  const bool is_v4 = inet_pton(AF_INET, host.c_str(), &v4) == 1;
+  return is_v4 ? (ntohl(v4.s_addr) >> 24) == 127 : host == "::1";
+}
+
 Result<Endpoint> parse_endpoint(std::string_view text) {
   const auto refused = [&](const std::string& why) {
     return fail(Code::kInvalidArgument, "\"" + std::string(text) + "\" " + why, "CONFIG_INVALID");
@@ -301,12 +312,11 @@ Result<Endpoint> parse_endpoint(std::string_view text) {
   }
   if (host == "localhost") host = "127.0.0.1";
   in_addr v4{};
-  const bool loopback_v4 =
-      inet_pton(AF_INET, host.c_str(), &v4) == 1 && (ntohl(v4.s_addr) >> 24) == 127;
-  if (!loopback_v4 && host != "::1") {
+  in6_addr v6{};
+  if (inet_pton(AF_INET, host.c_str(), &v4) != 1 && inet_pton(AF_INET6, host.c_str(), &v6) != 1) {
     return refused(
-        "is not a loopback address; this version serves this machine only, write "
-        "127.0.0.1 or [::1]");
+        "is no address; write 127.0.0.1 or [::1] for loopback, 0.0.0.0 or [::] for all addresses "
+        "of this machine, or one of them");
   }
   endpoint.host = host;
   return endpoint;

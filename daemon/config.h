@@ -14,10 +14,12 @@ namespace hydroprint::daemon {
 /// Everything that can be set, with its default: one member per key of the TOML file (section and
 /// key in the comment; deploy/hydroprintd.toml.example explains each).
 struct Config {
-  std::string server_grpc = "127.0.0.1:50051";  ///< server.grpc: loopback address and port, 0: any
+  std::string server_grpc = "127.0.0.1:50051";  ///< server.grpc: address and port, 0: any
   bool server_reflection = true;                ///< server.reflection
   std::string server_http = "127.0.0.1:8080";   ///< server.http: the same for HTTP
   std::string server_host_names;                ///< server.host_names, with blanks between
+  std::string server_tls_certificate;           ///< server.tls_certificate: file; empty: no TLS
+  std::string server_tls_key;                   ///< server.tls_key: file; empty: no TLS
   std::string server_web_dir;                   ///< server.web_dir; empty: where it was installed
   std::string store_state_dir;                  ///< store.state_dir; empty: the user's own
   std::int64_t store_keep_finished_days = 30;   ///< store.keep_finished_days
@@ -68,15 +70,18 @@ struct Config {
 
 /// An address to listen at.
 struct Endpoint {
-  std::string host;  ///< "127.0.0.1" or "::1", never anything that leaves the machine
+  std::string host;  ///< an address, never a name: "127.0.0.1", "::1", "0.0.0.0"
   int port = 0;      ///< 0: any free one
 
   /// "127.0.0.1:50051" or "[::1]:50051".
   [[nodiscard]] std::string text() const;
+  /// Whether only this machine reaches it.
+  [[nodiscard]] bool is_loopback() const;
 };
 
-/// Reads "127.0.0.1:50051", "[::1]:50051" or "localhost:50051".
-/// @return kInvalidArgument for anything else, above all for an address beyond loopback
+/// Reads "127.0.0.1:50051", "[::1]:50051", "localhost:50051", or an address beyond loopback, which
+/// is refused elsewhere where something else is missing (exposure.h).
+/// @return kInvalidArgument for anything else, above all for a name
 [[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
 
 /// Where the store is if the configuration does not say: $XDG_STATE_HOME/hydroprint or

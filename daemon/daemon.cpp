@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "daemon/exposure.h"
 #include "daemon/file_fence.h"
 #include "daemon/log.h"
 #include "daemon/observed.h"
@@ -54,12 +55,16 @@ void log_failure(const char* event, const Status& status) {
 
 }  // namespace
 
-Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config) {
+Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config,
+                                              const std::string& first_admin) {
   std::unique_ptr<Daemon> daemon(new Daemon);
   HP_ASSIGN_OR_RETURN(daemon->layout_.root, state_dir(config));
   HP_ASSIGN_OR_RETURN(daemon->lock_, lock_state(daemon->layout_));
   HP_RETURN_IF_ERROR(daemon->open_store(config));
+  HP_RETURN_IF_ERROR(daemon->open_certificate(config));
   HP_RETURN_IF_ERROR(daemon->open_people(config));
+  if (!first_admin.empty()) HP_RETURN_IF_ERROR(daemon->make_first_admin(first_admin));
+  HP_RETURN_IF_ERROR(check_admin(config, *daemon->accounts_));
   HP_RETURN_IF_ERROR(daemon->open_rig(config));
   HP_RETURN_IF_ERROR(daemon->open_printer(config));
   HP_RETURN_IF_ERROR(daemon->open_camera(config));
@@ -94,7 +99,8 @@ Status Daemon::open_people(const Config& config) {
   options.session_most_ms = config.people_session_days * 24 * kHourMs;
   HP_ASSIGN_OR_RETURN(accounts_, people::Accounts::open(*database_, options, system_clock_ms));
   audit_ = std::make_unique<people::AuditLog>(*database_, system_clock_ms);
-  const bool is_open = config.people_accounts == "loopback-open";
+  // Whoever is let in without a user must not be let in from elsewhere by a mistake.
+  const bool is_open = config.people_accounts == "loopback-open" && !is_exposed(config);
   access_ = std::make_unique<Access>(*accounts_, is_open);
   if (!is_open && !accounts_->any()) {
     log(LogLevel::kWarning, "no_users",
@@ -103,7 +109,41 @@ Status Daemon::open_people(const Config& config) {
   return {};
 }
 
-Result<std::string> Daemon::first_admin(const std::string& name) {
+Status Daemon::open_certificate(const Config& config) {
+  HP_RETURN_IF_ERROR(check_exposure(config));
+  if (config.server_tls_certificate.empty()) return {};
+  HP_ASSIGN_OR_RETURN(certificate_,
+                      CertificateKeeper::open(config.server_tls_certificate, config.server_tls_key,
+                                              system_clock_ms));
+  if (is_within_fence(config.server_tls_key, config.workers_program)) {
+    log(LogLevel::kWarning, "key_within_fence",
+        {{"message", config.server_tls_key +
+                         ": workers, who open files of strangers, can read the TLS key there; put "
+                         "it below /var/lib/hydroprint, or wherever they see nothing"}});
+  }
+  return {};
+}
+
+tls::CurrentIdentity Daemon::identity() const {
+  if (!certificate_) return {};
+  return [keeper = certificate_.get()] { return keeper->current(); };
+}
+
+std::string Daemon::page_address() const {
+  if (!certificate_) return "http://" + http_endpoint_.text() + "/";
+  for (const std::string& name : certificate_->current()->names()) {
+    const bool is_for_all = name != "localhost" || http_endpoint_.is_loopback();
+    if (name.starts_with('*') || !is_for_all) continue;
+    return "https://" + name + ":" + std::to_string(http_endpoint_.port) + "/";
+  }
+  return "https://" + http_endpoint_.text() + "/";
+}
+
+std::string Daemon::sign_in_link() const {
+  return link_token_.empty() ? "" : page_address() + "sign-in#" + link_token_;
+}
+
+Status Daemon::make_first_admin(const std::string& name) {
   HP_RETURN_IF_ERROR(people::check_user_name("name", name));
   const auto found = accounts_->user(name);
   if (!found) {
@@ -120,7 +160,8 @@ Result<std::string> Daemon::first_admin(const std::string& name) {
   entry.object = "users/" + name;
   entry.outcome = "OK";
   audit_->note(std::move(entry));
-  return link.first;
+  link_token_ = link.first;
+  return {};
 }
 
 // The drive need not be there: it is looked for from here on.
@@ -166,7 +207,8 @@ Status Daemon::start_serving(const Config& config) {
       *previews_, *live_,     *places_, camera_,  layout_,    config.store_min_free_mib * kMiB,
       stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
-  HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
+  HP_ASSIGN_OR_RETURN(server_,
+                      Server::start(endpoint, config.server_reflection, backend, identity()));
   HP_RETURN_IF_ERROR(start_http(config, backend));
   if (!fences_work()) {
     log(LogLevel::kWarning, "files_not_fenced",
@@ -181,8 +223,8 @@ Status Daemon::start_serving(const Config& config) {
 Status Daemon::start_http(const Config& config, const Backend& backend) {
   HP_ASSIGN_OR_RETURN(http_endpoint_, parse_endpoint(config.server_http));
   meter_ = std::make_unique<JobMeter>(*jobs_);
-  http::Options options{
-      http_endpoint_.host, http_endpoint_.port, {}, config.server_web_dir, http::Limits{}};
+  http::Options options{http_endpoint_.host,   http_endpoint_.port, {},
+                        config.server_web_dir, http::Limits{},      identity()};
   std::istringstream names(config.server_host_names);
   for (std::string name; names >> name;) options.host_names.push_back(name);
   http::Sources sources;
@@ -190,7 +232,7 @@ Status Daemon::start_http(const Config& config, const Backend& backend) {
     HealthReport report = health_report(backend);
     return http::Health{report.is_good, std::move(report.json)};
   };
-  sources.metrics = [backend, this] { return metrics_text(backend, *meter_); };
+  sources.metrics = [backend, this] { return metrics_text(backend, *meter_, certificate_.get()); };
   HP_ASSIGN_OR_RETURN(http_,
                       http::Server::start(options, server_->in_process(), std::move(sources)));
   http_endpoint_.port = http_->port();

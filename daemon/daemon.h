@@ -9,6 +9,7 @@
 #include "daemon/asset_store.h"
 #include "daemon/calibration_store.h"
 #include "daemon/capture_runner.h"
+#include "daemon/certificate_keeper.h"
 #include "daemon/config.h"
 #include "daemon/database.h"
 #include "daemon/dip_runner.h"
@@ -34,7 +35,12 @@ class Daemon {
  public:
   /// Takes the state folder, brings the store back into order after a crash, listens and starts
   /// workers: jobs that were running are queued again.
-  [[nodiscard]] static Result<std::unique_ptr<Daemon>> start(const Config& config);
+  /// @param first_admin  a user who gets a link to sign in once as admin, within 15 minutes, and is
+  ///   made if there is none of that name; empty: none
+  /// @return of `first_admin`: ID_INVALID; kFailedPrecondition, STATE_FORBIDS for one who is there
+  ///   and no admin
+  [[nodiscard]] static Result<std::unique_ptr<Daemon>> start(const Config& config,
+                                                             const std::string& first_admin);
   /// Stops if stop() was not called.
   ~Daemon();
   Daemon(const Daemon&) = delete;
@@ -44,10 +50,10 @@ class Daemon {
   [[nodiscard]] const Endpoint& http_endpoint() const { return http_endpoint_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
 
-  /// A link's token by which this user signs in once, within 15 minutes. A user who is not there is
-  /// made, as an admin.
-  /// @return ID_INVALID; kFailedPrecondition, STATE_FORBIDS for one who is there and no admin
-  [[nodiscard]] Result<std::string> first_admin(const std::string& name);
+  /// Address of the link for the first admin; empty: none was asked for.
+  [[nodiscard]] std::string sign_in_link() const;
+  /// Address of its pages, by a name that its certificate has: "https://rig.example.org:8443/".
+  [[nodiscard]] std::string page_address() const;
   /// How often the loop that looks at the drive has gone round; none: no drive is configured.
   [[nodiscard]] std::optional<std::uint64_t> control_rounds() const;
 
@@ -61,6 +67,9 @@ class Daemon {
   Daemon() = default;
   [[nodiscard]] Status open_store(const Config& config);
   [[nodiscard]] Status open_people(const Config& config);
+  [[nodiscard]] Status open_certificate(const Config& config);
+  [[nodiscard]] Status make_first_admin(const std::string& name);
+  [[nodiscard]] tls::CurrentIdentity identity() const;
   [[nodiscard]] Status open_rig(const Config& config);
   [[nodiscard]] Status open_printer(const Config& config);
   [[nodiscard]] Status open_camera(const Config& config);
@@ -87,6 +96,8 @@ class Daemon {
   std::unique_ptr<CaptureRunner> captures_;
   std::unique_ptr<WorkerPool> pool_;
   std::unique_ptr<PreviewDesk> previews_;
+  std::unique_ptr<CertificateKeeper> certificate_;  // null: TLS is not spoken
+  std::string link_token_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<JobMeter> meter_;
   std::unique_ptr<http::Server> http_;

@@ -5,6 +5,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+
 namespace hydroprint::daemon {
 namespace {
 
@@ -14,6 +17,8 @@ constexpr std::uint64_t kWrite = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS
                                  LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG |
                                  LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO |
                                  LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
+constexpr std::array kSystem{"/usr", "/lib",  "/lib64", "/lib32", "/bin",
+                             "/etc", "/proc", "/sys",   "/dev",   "/opt"};
 constexpr std::uint64_t kOnFiles = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE;
 
 // The version of Landlock; 0 if there is none.
@@ -39,6 +44,17 @@ bool allow(const UniqueFd& rules, const std::filesystem::path& path, std::uint64
 
 bool fences_work() { return version() > 0; }
 
+bool is_within_fence(const std::filesystem::path& file, const std::filesystem::path& program) {
+  std::error_code ignored;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(file, ignored);
+  const auto is_below = [&](const std::filesystem::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first ==
+           folder.end();
+  };
+  return std::any_of(kSystem.begin(), kSystem.end(), is_below) ||
+         is_below(std::filesystem::weakly_canonical(program, ignored).parent_path());
+}
+
 Result<UniqueFd> make_fence(const std::filesystem::path& program,
                             const std::filesystem::path& inputs,
                             const std::filesystem::path& work) {
@@ -49,10 +65,7 @@ Result<UniqueFd> make_fence(const std::filesystem::path& program,
   // Above the descriptors that a worker's are put at.
   UniqueFd rules(::fcntl(low.get(), F_DUPFD_CLOEXEC, 10));
   bool good = rules.valid();
-  for (const char* path :
-       {"/usr", "/lib", "/lib64", "/lib32", "/bin", "/etc", "/proc", "/sys", "/dev", "/opt"}) {
-    good = good && allow(rules, path, kRead);
-  }
+  for (const char* path : kSystem) good = good && allow(rules, path, kRead);
   good = good && allow(rules, "/dev/null", kOnFiles) &&
          allow(rules, program.parent_path(), kRead) && allow(rules, inputs, kRead) &&
          allow(rules, work, kRead | kWrite | move_right());

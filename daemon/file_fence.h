@@ -18,6 +18,11 @@ namespace hydroprint::daemon {
 /// Whether the kernel has Landlock.
 [[nodiscard]] bool fences_work();
 
+/// Whether the workers of `program` may read this file although the daemon gave them no such input:
+/// what is among the system's files or beside the program.
+[[nodiscard]] bool is_within_fence(const std::filesystem::path& file,
+                                   const std::filesystem::path& program);
+
 /// Confines the calling thread, which must have given up new privileges, for good. Takes no locks.
 [[nodiscard]] bool enter_fence(int fence);
 

@@ -11,6 +11,7 @@
 #include <iostream>
 
 #include "daemon/daemon.h"
+#include "daemon/exposure.h"
 #include "daemon/log.h"
 #include "daemon/own_program.h"
 #include "daemon/rig_setup.h"
@@ -31,6 +32,8 @@ struct Options {
   std::string grpc;
   std::string http;
   std::string first_admin;
+  std::string tls_certificate;
+  std::string tls_key;
   std::string rig;
   std::string rig_profile;
 };
@@ -69,6 +72,8 @@ Result<Config> configure(const Options& options, const char* argv0) {
   if (!options.state_dir.empty()) config.store_state_dir = options.state_dir;
   if (!options.grpc.empty()) config.server_grpc = options.grpc;
   if (!options.http.empty()) config.server_http = options.http;
+  if (!options.tls_certificate.empty()) config.server_tls_certificate = options.tls_certificate;
+  if (!options.tls_key.empty()) config.server_tls_key = options.tls_key;
   if (!options.rig.empty()) config.rig_drive = options.rig;
   if (!options.rig_profile.empty()) config.rig_profile = options.rig_profile;
   if (config.workers_program.empty()) config.workers_program = beside(argv0, "hydroprint-worker");
@@ -79,6 +84,10 @@ Result<Config> configure(const Options& options, const char* argv0) {
   }
   if (const auto endpoint = parse_endpoint(config.server_http); !endpoint) {
     return fail(Code::kInvalidArgument, "--http: " + endpoint.error().message);
+  }
+  HP_RETURN_IF_ERROR(check_exposure(config));
+  if (!config.server_tls_certificate.empty()) {
+    HP_RETURN_IF_ERROR(tls::Identity::read(config.server_tls_certificate, config.server_tls_key));
   }
   HP_RETURN_IF_ERROR(read_rig_setup(config));
   return config;
@@ -122,20 +131,20 @@ int run(const Config& config, const std::string& first_admin) {
       !started) {
     return refuse(started.error().message, ExitStatus::kBadInput);
   }
-  const auto daemon = Daemon::start(config);
+  const auto daemon = Daemon::start(config, first_admin);
   if (!daemon) return refuse(daemon.error().message, ExitStatus::kFailed);
   const std::string grpc = (*daemon)->endpoint().text(), http = (*daemon)->http_endpoint().text();
-  if (!first_admin.empty()) {
-    const auto token = (*daemon)->first_admin(first_admin);
-    if (!token) return refuse(token.error().message, ExitStatus::kBadInput);
-    std::cout << "hydroprintd sign-in link, once within 15 minutes: http://" << http << "/sign-in#"
-              << *token << std::endl;
+  if (const std::string link = (*daemon)->sign_in_link(); !link.empty()) {
+    std::cout << "hydroprintd sign-in link, once within 15 minutes: " << link << std::endl;
   }
   log(LogLevel::kInfo, "ready",
-      {{"grpc", grpc}, {"http", http}, {"state_dir", (*daemon)->layout().root.string()}});
+      {{"grpc", grpc},
+       {"http", http},
+       {"page", (*daemon)->page_address()},
+       {"state_dir", (*daemon)->layout().root.string()}});
   std::cout << "hydroprintd ready grpc=" << grpc << " http=" << http
             << " state_dir=" << (*daemon)->layout().root.string() << std::endl;
-  notify_ready("serving gRPC at " + grpc + ", http://" + http + "/");
+  notify_ready("serving gRPC at " + grpc + ", " + (*daemon)->page_address());
   {
     const WatchdogFeeder feeder([&daemon] { return (*daemon)->control_rounds(); });
     serve_until_signal(**daemon, signals);
@@ -149,7 +158,9 @@ int run(const Config& config, const std::string& first_admin) {
 int obey(int argc, char** argv) {
   Options options;
   CLI::App app(
-      "Keeps the job queue of Hydroprint and runs its workers; serves gRPC and HTTP on loopback.");
+      "Keeps the job queue of Hydroprint and runs its workers; serves gRPC and HTTP, on loopback "
+      "or, with TLS and "
+      "accounts, beyond.");
   app.name("hydroprintd");
   app.set_version_flag("--version", "hydroprintd " HYDROPRINT_VERSION);
   app.add_option("--config", options.config_file, "TOML file; without it, defaults")
@@ -160,10 +171,16 @@ int obey(int argc, char** argv) {
                  "~/.local/state/hydroprint")
       ->type_name("DIR");
   app.add_option("--grpc", options.grpc,
-                 "Loopback address and port to listen at; default 127.0.0.1:50051; port 0: any")
+                 "Address and port to listen at; default 127.0.0.1:50051; port 0: any; beyond "
+                 "loopback only with TLS and an admin who can sign in")
       ->type_name("HOST:PORT");
   app.add_option("--http", options.http, "The same for HTTP; default 127.0.0.1:8080")
       ->type_name("HOST:PORT");
+  app.add_option("--tls-certificate", options.tls_certificate,
+                 "PEM file of the certificate for gRPC and HTTP, its chain behind it; taken anew "
+                 "when it changes; default: TLS is not spoken")
+      ->type_name("FILE");
+  app.add_option("--tls-key", options.tls_key, "PEM file of its key")->type_name("FILE");
   app.add_option("--first-admin", options.first_admin,
                  "Print a link by which this user signs in as admin, once and within 15 minutes; "
                  "makes the user if there is none of that name")

@@ -111,7 +111,8 @@ HealthReport health_report(const Backend& backend) {
   return report;
 }
 
-std::string metrics_text(const Backend& backend, const JobMeter& meter) {
+std::string metrics_text(const Backend& backend, const JobMeter& meter,
+                         const CertificateKeeper* certificate) {
   Exposition out;
   describe_queue(backend, out);
   meter.describe(out);
@@ -124,6 +125,7 @@ std::string metrics_text(const Backend& backend, const JobMeter& meter) {
   }
   out.single("hydroprint_rejected_logins_total", "counter", "Logins that were refused.",
              static_cast<double>(backend.accounts.failed_attempts()));
+  if (certificate != nullptr) certificate->describe(out);
   describe_process(out);
   return out.text();
 }

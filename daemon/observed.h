@@ -3,6 +3,7 @@
 #include <string>
 
 #include "daemon/call.h"
+#include "daemon/certificate_keeper.h"
 #include "daemon/job_meter.h"
 
 namespace hydroprint::daemon {
@@ -18,6 +19,8 @@ struct HealthReport {
 [[nodiscard]] HealthReport health_report(const Backend& backend);
 
 /// All figures but the HTTP server's, as Prometheus reads them. Asks the store.
-[[nodiscard]] std::string metrics_text(const Backend& backend, const JobMeter& meter);
+/// @param certificate  null: there is none
+[[nodiscard]] std::string metrics_text(const Backend& backend, const JobMeter& meter,
+                                       const CertificateKeeper* certificate);
 
 }  // namespace hydroprint::daemon

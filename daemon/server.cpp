@@ -1,5 +1,6 @@
 #include "daemon/server.h"
 
+#include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
@@ -7,6 +8,8 @@
 
 #include "daemon/audit_tap.h"
 #include "daemon/gate.h"
+#include "daemon/grpc_tls.h"
+#include "daemon/log.h"
 #include "daemon/services.h"
 
 namespace hydroprint::daemon {
@@ -16,6 +19,9 @@ namespace {
 constexpr int kMostThreads = 512;
 // Of an answer, which has no limit but that of what it lists.
 constexpr int kMostAnswer_bytes = 64 << 20;
+
+constexpr int kHandshake_ms = 10'000;
+constexpr int kIdle_ms = 600'000;  // without a call; clients come back by themselves
 
 constexpr const char* kRigService = "hydroprint.v1.RigService";  // serves while the rig works
 struct Made {
@@ -34,11 +40,20 @@ constexpr Made kServices[] = {{"hydroprint.v1.JobService", make_job_service},
                               {"hydroprint.v1.EventService", make_event_service},
                               {kRigService, make_rig_service}};
 
+// gRPC's own words go where ours go. Whoever does not get through the handshake is no trouble of
+// the daemon's, and could fill the log.
+void log_of_grpc(gpr_log_func_args* said) {
+  const bool is_ours = said->severity == GPR_LOG_SEVERITY_ERROR &&
+                       std::string_view(said->file).find("ssl_") == std::string_view::npos;
+  log(is_ours ? LogLevel::kWarning : LogLevel::kDebug, "grpc", {{"message", said->message}});
+}
+
 }  // namespace
 
 struct Server::Impl {
   Endpoint endpoint;
   std::vector<std::unique_ptr<grpc::Service>> services;
+  std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
   std::unique_ptr<grpc::Server> server;
 
   void set(const char* service, bool serving) const {
@@ -58,7 +73,9 @@ Server::Server() : impl_(std::make_unique<Impl>()) {}
 Server::~Server() = default;
 
 Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool reflection,
-                                              const Backend& backend) {
+                                              const Backend& backend,
+                                              tls::CurrentIdentity identity) {
+  gpr_set_log_function(log_of_grpc);
   grpc::EnableDefaultHealthCheckService(true);
   if (reflection) grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   std::unique_ptr<Server> made(new Server);
@@ -77,8 +94,12 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   builder.experimental().SetInterceptorCreators(std::move(taps));
   builder.SetResourceQuota(grpc::ResourceQuota("hydroprintd").SetMaxThreads(kMostThreads));
   for (const auto& service : impl.services) builder.RegisterService(service.get());
+  // Strangers that say nothing are let go.
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshake_ms);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdle_ms);
+  if (identity) impl.credentials = tls_credentials(std::move(identity));
   int port = 0;
-  builder.AddListeningPort(endpoint.text(), grpc::InsecureServerCredentials(), &port);
+  builder.AddListeningPort(endpoint.text(), impl.credentials, &port);
   impl.server = builder.BuildAndStart();
   if (!impl.server || port == 0) {
     return fail(Code::kUnavailable,

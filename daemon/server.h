@@ -6,6 +6,7 @@
 
 #include "daemon/call.h"
 #include "daemon/config.h"
+#include "daemon/tls/identity.h"
 
 namespace grpc {
 class Channel;
@@ -17,10 +18,12 @@ namespace hydroprint::daemon {
 class Server {
  public:
   /// Listens; calls are answered from here on.
+  /// @param identity  what clients are shown; none: TLS is not spoken
   /// @return kUnavailable if the address cannot be had, above all because something else has it
   [[nodiscard]] static Result<std::unique_ptr<Server>> start(const Endpoint& endpoint,
                                                              bool reflection,
-                                                             const Backend& backend);
+                                                             const Backend& backend,
+                                                             tls::CurrentIdentity identity);
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;

@@ -64,9 +64,9 @@ Result<std::string> begin_session(client::Connection& nobody, const LoginOptions
 
 // A key made with a session that lasts no longer than that.
 Result<std::string> make_key(const Program& program, const LoginOptions& options) {
-  client::Connection nobody({program.server(), "", "", "", {}});
+  client::Connection nobody(program.options_as("", ""));
   HP_ASSIGN_OR_RETURN(const std::string session, begin_session(nobody, options));
-  client::Connection somebody({program.server(), "", "", session, {}});
+  client::Connection somebody(program.options_as("", session));
   auto key = client::create_api_key(somebody, "hydroprint login on " + host_name(), "", kKeyHolds);
   HP_RETURN_IF_ERROR(client::sign_out(somebody));
   HP_RETURN_IF_ERROR(key);
@@ -74,9 +74,10 @@ Result<std::string> make_key(const Program& program, const LoginOptions& options
 }
 
 Status log_in(Program& program, const LoginOptions& options) {
+  HP_RETURN_IF_ERROR(client::check_secrets_may_go(program.options({})));
   HP_ASSIGN_OR_RETURN(const std::string key, options.key_from_stdin ? ask_secret("API key: ")
                                                                     : make_key(program, options));
-  client::Connection connection({program.server(), "", key, "", {}});
+  client::Connection connection(program.options_as(key, ""));
   HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(connection));
   if (!me.accounts) {
     return fail(Code::kFailedPrecondition,
@@ -93,7 +94,7 @@ Status log_out(const Program& program) {
     return fail(Code::kFailedPrecondition, "nobody is logged in at " + program.server() + " here");
   }
   HP_RETURN_IF_ERROR(keep_key(program.server(), ""));
-  client::Connection connection({program.server(), "", key, "", {}});
+  client::Connection connection(program.options_as(key, ""));
   const Status ended = client::delete_api_key(connection, name_of_key(key));
   if (!ended && ended.error().code != Code::kUnauthenticated) {
     return fail(ended.error().code, "forgotten here, but the key still holds: " +

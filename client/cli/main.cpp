@@ -1,3 +1,5 @@
+#include <stdlib.h>
+
 #include <CLI/CLI.hpp>
 #include <exception>
 #include <iostream>
@@ -111,6 +113,7 @@ int run(int argc, char** argv) {
 }  // namespace hydroprint::cli
 
 int main(int argc, char** argv) {
+  ::setenv("GRPC_VERBOSITY", "NONE", 0);  // what goes wrong is said once, in our words
   try {
     return hydroprint::cli::run(argc, argv);
   } catch (const std::exception& error) {

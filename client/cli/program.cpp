@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <utility>
 
 #include "client/cli/credentials.h"
 #include "client/people.h"
+#include "client/server_address.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -22,9 +25,18 @@ std::string login_name() {
 }
 
 std::string check_server(const std::string& text) {
-  const auto colon = text.rfind(':');
-  const bool good = colon != std::string::npos && colon > 0 && colon + 1 < text.size();
-  return good ? "" : "'" + text + "' is not host:port, as in 127.0.0.1:50051";
+  const auto address = client::parse_server(text);
+  return address ? "" : address.error().message;
+}
+
+Result<std::string> read_authorities(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string pem{std::istreambuf_iterator<char>(in), {}};
+  if (in && pem.find("-----BEGIN CERTIFICATE-----") != std::string::npos) return pem;
+  return fail(Code::kInvalidArgument,
+              "--ca (HYDROPRINT_CA) " + file +
+                  ": has no certificate that can be read; name a PEM file of the authority that "
+                  "signed the daemon's");
 }
 
 std::string check_owner(const std::string& text) {
@@ -37,11 +49,16 @@ std::string check_owner(const std::string& text) {
 }  // namespace
 
 Program::Program(CLI::App& app) : owner_(login_name()) {
-  app.add_option("--server", server_, "Where hydroprintd listens")
+  app.add_option("--server", server_,
+                 "Where hydroprintd listens; over TLS: https://HOST:PORT, which --ca implies")
       ->type_name("HOST:PORT")
       ->envname("HYDROPRINT_SERVER")
       ->check(check_server)
       ->capture_default_str();
+  app.add_option("--ca", ca_file_,
+                 "PEM file of the authorities to trust, in place of the system's; speaks TLS")
+      ->type_name("FILE")
+      ->envname("HYDROPRINT_CA");
   app.add_option("--owner", owner_, "In whose name, where there are no users; owners take turns")
       ->type_name("NAME")
       ->envname("HYDROPRINT_OWNER")
@@ -55,13 +72,24 @@ void Program::on(CLI::App& command, std::function<Status()> action) {
   command.callback([this, action = std::move(action)] { action_ = action; });
 }
 
+Status Program::find_server() {
+  HP_ASSIGN_OR_RETURN(const client::ServerAddress address, client::parse_server(server_));
+  server_ = address.text();
+  is_tls_ = address.is_tls || !ca_file_.empty();
+  if (ca_file_.empty()) return {};
+  HP_ASSIGN_OR_RETURN(ca_pem_, read_authorities(ca_file_));
+  return {};
+}
+
 Status Program::run() {
+  HP_RETURN_IF_ERROR(find_server());
   const char* const key = std::getenv("HYDROPRINT_API_KEY");
   if (key != nullptr && *key != '\0') {
     key_ = key;
   } else {
     HP_ASSIGN_OR_RETURN(key_, kept_key(server_));
   }
+  if (!key_.empty()) HP_RETURN_IF_ERROR(client::check_secrets_may_go(options({})));
   return action_();
 }
 
@@ -72,7 +100,12 @@ Result<std::string> Program::own_name() {
 }
 
 client::ConnectionOptions Program::options(std::stop_token stop) const {
-  return {server_, owner_, key_, "", std::move(stop)};
+  return {server_, owner_, key_, "", std::move(stop), is_tls_, ca_pem_};
+}
+
+client::ConnectionOptions Program::options_as(const std::string& key,
+                                              const std::string& session) const {
+  return {server_, "", key, session, {}, is_tls_, ca_pem_};
 }
 
 client::Connection& Program::daemon() {

@@ -14,7 +14,7 @@ namespace hydroprint::cli {
 /// What every command shares: the flags that all of them take, and the way to the daemon.
 class Program {
  public:
-  /// Adds --server, --owner, --json and --version.
+  /// Adds --server, --ca, --owner, --json and --version.
   explicit Program(CLI::App& app);
 
   /// Makes `action` what happens once the command line is read, if `command` stands on it.
@@ -23,11 +23,15 @@ class Program {
   [[nodiscard]] Status run();
 
   [[nodiscard]] bool json() const { return json_; }
+  /// "host:port".
   [[nodiscard]] const std::string& server() const { return server_; }
   /// Whose name jobs are created in: the user's, or --owner where there are none.
   [[nodiscard]] Result<std::string> own_name();
   /// Where the daemon is and who asks it, for a connection of one's own.
   [[nodiscard]] client::ConnectionOptions options(std::stop_token stop) const;
+  /// Where the daemon is, for somebody else: nobody with these empty.
+  [[nodiscard]] client::ConnectionOptions options_as(const std::string& key,
+                                                     const std::string& session) const;
   /// The daemon; from the first call on, Ctrl-C ends its calls with kCancelled.
   [[nodiscard]] client::Connection& daemon();
   /// Whether Ctrl-C came since then.
@@ -38,7 +42,11 @@ class Program {
   [[nodiscard]] client::Connection uninterrupted() const;
 
  private:
+  [[nodiscard]] Status find_server();
+
   std::string server_ = client::ConnectionOptions().server;
+  std::string ca_file_, ca_pem_;
+  bool is_tls_ = false;
   std::string owner_;
   std::string key_;  ///< HYDROPRINT_API_KEY, or what login kept for the server; empty: none
   bool json_ = false;

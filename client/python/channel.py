@@ -1,8 +1,14 @@
 """The way to hydroprintd that the examples share."""
 
 import os
+import stat
+import sys
+import tomllib
 
 import grpc
+
+_TLS = "https://"
+_PORT = ":50051"
 
 
 class _Bearer(
@@ -24,8 +30,54 @@ class _Bearer(
     intercept_stream_unary = _intercept
 
 
+def _kept_key(address):
+    """The key that `hydroprint login` keeps for host:port; None if there is none."""
+    folder = os.environ.get("XDG_CONFIG_HOME") or os.path.join(os.path.expanduser("~"), ".config")
+    path = os.path.join(folder, "hydroprint", "credentials.toml")
+    try:
+        with open(path, "rb") as file:
+            if stat.S_IMODE(os.fstat(file.fileno()).st_mode) & 0o077:
+                sys.exit(f"{path}: others may read the keys in it; chmod 600 it, and make new keys")
+            return tomllib.load(file).get(address, {}).get("api_key")
+    except FileNotFoundError:
+        return None
+    except tomllib.TOMLDecodeError as error:
+        sys.exit(f"{path}: is not valid TOML ({error}); mend or delete it")
+
+
+def _is_loopback(address):
+    host = address.rpartition(":")[0].strip("[]")
+    return host in ("localhost", "::1") or (host.startswith("127.") and host.replace(".", "").isdigit())
+
+
 def open_channel(server):
-    """A channel to host:port, with the API key that HYDROPRINT_API_KEY has, if it has one."""
-    channel = grpc.insecure_channel(server, [("grpc.enable_http_proxy", 0)])
-    key = os.environ.get("HYDROPRINT_API_KEY")
+    """A channel to "host:port", or "https://host:port" for TLS, which HYDROPRINT_CA (a PEM file of the authorities to
+    trust) implies; with the API key that HYDROPRINT_API_KEY has or `hydroprint login` kept, if there is one."""
+    ca_file = os.environ.get("HYDROPRINT_CA")
+    is_tls = server.startswith(_TLS) or bool(ca_file)
+    address = server.removeprefix(_TLS).rstrip("/")
+    if server.startswith(_TLS) and not address.rpartition("]")[2].count(":"):
+        address += _PORT
+    key = os.environ.get("HYDROPRINT_API_KEY") or _kept_key(address)
+    if key and not is_tls and not _is_loopback(address):
+        sys.exit(f"{address} is another machine, and without TLS anybody in between could read the key; "
+                 f"say {_TLS}{address}")
+    options = [("grpc.enable_http_proxy", 0)]
+    if is_tls:
+        authorities = None
+        if ca_file:
+            with open(ca_file, "rb") as file:
+                authorities = file.read()
+        channel = grpc.secure_channel(address, grpc.ssl_channel_credentials(authorities), options)
+    else:
+        channel = grpc.insecure_channel(address, options)
     return grpc.intercept_channel(channel, _Bearer(key)) if key else channel
+
+
+def explain(error):
+    """What went wrong with a call, in one line."""
+    text = f"{error.code().name}: {error.details()}"
+    if error.code() == grpc.StatusCode.UNAVAILABLE:
+        text += ("; is it there, does it speak TLS (https://host:port), and is its certificate for this name and by "
+                 "an authority that HYDROPRINT_CA has? `hydroprint status` tells")
+    return text

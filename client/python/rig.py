@@ -5,7 +5,9 @@ The stubs are made by the build (target hydroprint_python):
 
     PYTHONPATH=build/release/python client/python/rig.py --stop
 
-HYDROPRINT_SERVER says where the daemon is, HYDROPRINT_API_KEY (hydroprint keys add) who asks.
+HYDROPRINT_SERVER says where the daemon is ("https://host:port": over TLS), HYDROPRINT_CA which authority signed its
+certificate if that is one of your own, and HYDROPRINT_API_KEY (hydroprint keys add) who asks, in place of the key that
+`hydroprint login` keeps.
 """
 
 import argparse
@@ -14,7 +16,7 @@ import sys
 
 import grpc
 
-from channel import open_channel
+from channel import explain, open_channel
 
 try:
     from hydroprint.v1 import rig_pb2, rig_service_pb2, rig_service_pb2_grpc
@@ -49,5 +51,7 @@ def main():
 if __name__ == "__main__":
     try:
         main()
+    except OSError as error:
+        sys.exit(str(error))
     except grpc.RpcError as error:
-        sys.exit(f"{error.code().name}: {error.details()}")
+        sys.exit(explain(error))

@@ -6,7 +6,9 @@ The stubs are made by the build (target hydroprint_python):
     PYTHONPATH=build/release/python client/python/submit_and_fetch.py \
         --mesh globe.obj --texture globe.png --out result
 
-HYDROPRINT_SERVER says where the daemon is, HYDROPRINT_API_KEY (hydroprint keys add) who asks.
+HYDROPRINT_SERVER says where the daemon is ("https://host:port": over TLS), HYDROPRINT_CA which authority signed its
+certificate if that is one of your own, and HYDROPRINT_API_KEY (hydroprint keys add) who asks, in place of the key that
+`hydroprint login` keeps.
 """
 
 import argparse
@@ -17,7 +19,7 @@ import uuid
 
 import grpc
 
-from channel import open_channel
+from channel import explain, open_channel
 
 try:
     from hydroprint.v1 import artifact_service_pb2, artifact_service_pb2_grpc
@@ -115,4 +117,4 @@ if __name__ == "__main__":
     except OSError as error:
         sys.exit(str(error))
     except grpc.RpcError as error:
-        sys.exit(f"{error.code().name}: {error.details()}")
+        sys.exit(explain(error))

@@ -30,33 +30,39 @@ bool is_ours(const Options& options, std::string_view host) {
   const std::string_view name = without_port(host);
   const auto is = [&](std::string_view ours) { return same_name(name, ours); };
   return is("localhost") || is("127.0.0.1") || is("[::1]") || is(options.host) ||
-         std::any_of(options.host_names.begin(), options.host_names.end(), is);
+         is("[" + options.host + "]") ||
+         std::any_of(options.host_names.begin(), options.host_names.end(), is) ||
+         (options.identity && tls::stands_for(*options.identity(), name));
 }
 
-// And one that just sends a form here says where it comes from.
-bool comes_from_elsewhere(const Head& head) {
+// And one that just sends a form here says where it comes from. What was not sent by TLS may be
+// anybody's who sits in between.
+bool comes_from_elsewhere(const Head& head, bool is_secure) {
   const auto origin = head.fields.find("Origin");
   if (!origin) return same_name(head.fields.find("Sec-Fetch-Site").value_or(""), "cross-site");
   const std::size_t scheme = origin->find("://");
   return scheme == std::string_view::npos ||
+         (is_secure && !same_name(origin->substr(0, scheme), "https")) ||
          !same_name(origin->substr(scheme + 3), head.fields.find("Host").value_or(""));
 }
 
-std::optional<Response> refused(const Site& site, const Head& head) {
+std::optional<Response> refused(const Site& site, const Head& head, bool is_secure) {
   const std::size_t hosts = head.fields.count("Host");
   if (hosts > 1 || (hosts == 0 && head.version >= 11)) {
     return refusal(
         {Code::kInvalidArgument, "the header Host must be there once", "REQUEST_MALFORMED", {}});
   }
   if (hosts == 1 && !is_ours(site.options, *head.fields.find("Host"))) {
-    return refusal({Code::kPermissionDenied,
-                    "this server is not called \"" + rest::plain(*head.fields.find("Host")) +
-                        "\"; call it 127.0.0.1, or name it in server.host_names",
-                    "HOST_UNKNOWN",
-                    {}},
-                   421);
+    return refusal(
+        {Code::kPermissionDenied,
+         "this server is not called \"" + rest::plain(*head.fields.find("Host")) +
+             "\"; call it by a name that its certificate has, or 127.0.0.1 on its own machine, or "
+             "name it in server.host_names",
+         "HOST_UNKNOWN",
+         {}},
+        421);
   }
-  if (!is_safe(head.method) && comes_from_elsewhere(head)) {
+  if (!is_safe(head.method) && comes_from_elsewhere(head, is_secure)) {
     return refusal({Code::kPermissionDenied,
                     "a page of another site sent this; only this server's own pages may",
                     "ORIGIN_FORBIDDEN",
@@ -97,7 +103,7 @@ bool is_upload(std::string_view path) {
 
 Task<std::string> answer(Site& site, Exchange& exchange) {
   const Head& head = exchange.head();
-  if (auto response = refused(site, head)) {
+  if (auto response = refused(site, head, exchange.socket().is_secure())) {
     co_await exchange.send(std::move(*response));
     co_return "refused";
   }

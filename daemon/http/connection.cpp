@@ -40,12 +40,12 @@ Response refused_head(Exchange::Begun begun) {
   }
 }
 
-// A request that cannot be read ends the connection: nobody knows where the next one begins.
-Task<void> refuse_head(Socket& socket, const Limits& limits, Exchange::Begun begun) {
-  const Response response = refused_head(begun);
+// Says it as the last thing on its connection.
+Task<bool> say_last(Socket& socket, Response response, milliseconds timeout) {
   const std::string text =
-      head_text(response, Head{}, {response.body.size(), false}) + response.body;
-  co_await socket.written(text, limits.write_time);
+      head_text(response, Head{}, {response.body.size(), false, socket.is_secure()}) +
+      response.body;
+  co_return co_await socket.written(text, timeout);
 }
 
 // True if another request may follow.
@@ -55,9 +55,10 @@ Task<bool> serve_one(Site& site, const std::shared_ptr<Socket>& socket, std::str
   const Exchange::Begun begun = co_await exchange.begin_request(is_first);
   if (begun == Exchange::Begun::kGone) co_return false;
   if (begun != Exchange::Begun::kYes) {
-    const int status = refused_head(begun).status;
-    site.counters.count_request("unreadable", "", status);
-    co_await refuse_head(*socket, site.options.limits, begun);
+    // Nobody knows where the next one begins.
+    Response response = refused_head(begun);
+    site.counters.count_request("unreadable", "", response.status);
+    co_await say_last(*socket, std::move(response), site.options.limits.write_time);
     co_return false;
   }
   const std::string route = co_await answer(site, exchange);
@@ -65,7 +66,24 @@ Task<bool> serve_one(Site& site, const std::shared_ptr<Socket>& socket, std::str
   co_return co_await exchange.end_request();
 }
 
+// Over TLS, before anything is read; who speaks none is told so.
+Task<bool> open_connection(Socket& socket, milliseconds timeout) {
+  const Socket::Opened opened = co_await socket.opened(timeout);
+  if (opened == Socket::Opened::kPlainHttp) {
+    Response response = refusal({Code::kInvalidArgument,
+                                 "this port speaks TLS; write https:// in place of http://",
+                                 "REQUEST_MALFORMED",
+                                 {}});
+    const bool is_said = co_await say_last(socket, std::move(response), kLinger);
+    if (is_said) co_await say_goodbye(socket);
+  }
+  if (opened != Socket::Opened::kYes) socket.close();
+  co_return opened == Socket::Opened::kYes;
+}
+
 Task<void> serve_all(Site& site, std::shared_ptr<Socket> socket) {
+  const bool is_open = co_await open_connection(*socket, site.options.limits.header_time);
+  if (!is_open) co_return;
   std::string buffered;
   for (bool is_first = true;; is_first = false) {
     const bool goes_on = co_await serve_one(site, socket, buffered, is_first);
@@ -75,15 +93,15 @@ Task<void> serve_all(Site& site, std::shared_ptr<Socket> socket) {
 }
 
 Task<void> say_full(Socket& socket) {
+  const bool is_open = co_await open_connection(socket, kLinger);
+  if (!is_open) co_return;
   Response response = refusal({Code::kUnavailable,
                                "too many connections are open; try again in a while",
                                "CONNECTIONS_FULL",
                                {}});
   response.fields.set("Retry-After", "5");
-  const std::string text =
-      head_text(response, Head{}, {response.body.size(), false}) + response.body;
-  const bool sent = co_await socket.written(text, kLinger);
-  if (sent) co_await say_goodbye(socket);
+  const bool is_said = co_await say_last(socket, std::move(response), kLinger);
+  if (is_said) co_await say_goodbye(socket);
 }
 
 }  // namespace

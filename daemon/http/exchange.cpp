@@ -150,7 +150,8 @@ Task<bool> Exchange::send(Response response) {
   status_ = response.status;
   if (!may_drop_rest()) break_off();
   const std::string& content = response.content();
-  std::string text = head_text(response, head(), {content.size(), keeps_alive_});
+  std::string text =
+      head_text(response, head(), {content.size(), keeps_alive_, socket_->is_secure()});
   const bool has_body = head().method != "HEAD";
   if (!has_body || content.size() > kPiece_bytes) {
     const bool sent = co_await send_pieces(text);
@@ -165,7 +166,8 @@ Task<bool> Exchange::begin_answer(Response response, std::optional<std::uint64_t
   status_ = response.status;
   is_chunking_ = !length && head().version >= 11;
   if (!length && !is_chunking_) break_off();
-  const std::string text = head_text(response, head(), {length, keeps_alive_});
+  const std::string text =
+      head_text(response, head(), {length, keeps_alive_, socket_->is_secure()});
   co_return co_await send_pieces(text);
 }
 

@@ -6,11 +6,13 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
-#include <boost/asio/write.hpp>
+#include <new>
 #include <optional>
 #include <thread>
 #include <utility>  // Asio 1.74 does not include what it needs
 #include <vector>
+
+#include "daemon/http/wire.h"
 
 namespace hydroprint::http {
 namespace {
@@ -19,6 +21,7 @@ namespace asio = boost::asio;
 using tcp = asio::ip::tcp;
 using asio::error::operation_aborted;
 using boost::system::error_code;
+using Came = Step::Came;
 
 constexpr int kThreads = 2;
 constexpr milliseconds kNapWithoutDescriptors{100};
@@ -37,9 +40,10 @@ std::string text_of(const tcp::endpoint& endpoint) {
          std::to_string(endpoint.port());
 }
 
+// Nothing is done at a wire once the socket is closed: its number may be another connection's then.
 class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSocket> {
  public:
-  explicit TcpSocket(StrandSocket socket)
+  TcpSocket(StrandSocket socket, const std::shared_ptr<const tls::Identity>& identity)
       : socket_(std::move(socket)),
         deadline_(socket_.get_executor()),
         bell_(socket_.get_executor()) {
@@ -48,34 +52,53 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
     socket_.set_option(asio::socket_base::send_buffer_size(kSendBuffer_bytes), ignored);
     socket_.non_blocking(true, ignored);
     peer_ = socket_.remote_endpoint(ignored).address().to_string();
+    const int descriptor = socket_.native_handle();
+    wire_ = identity ? tls_wire(descriptor, identity) : plain_wire(descriptor);
+    if (!wire_) throw std::bad_alloc();
+  }
+
+  void open(milliseconds timeout, std::function<void(Opened)> done) override {
+    begin(
+        timeout, [this] { return wire_->open(); },
+        [this, done = std::move(done)](Step step, bool) {
+          const bool is_plain = step.came == Came::kPlainHttp;
+          if (is_plain) wire_ = plain_wire(socket_.native_handle());
+          const bool is_open = step.came == Came::kDone;
+          done(is_open ? Opened::kYes : is_plain ? Opened::kPlainHttp : Opened::kNo);
+        });
   }
 
   void when_readable(milliseconds timeout, std::function<void(bool)> done) override {
-    begin(timeout);
-    socket_.async_wait(StrandSocket::wait_read, [self = shared_from_this(), done = std::move(done)](
-                                                    error_code) { done(!self->ended_late()); });
+    begin(
+        timeout,
+        [this, waits = !wire_->has_some()]() mutable {
+          return Step{std::exchange(waits, false) ? Came::kNeedsInput : Came::kDone};
+        },
+        [done = std::move(done)](Step, bool late) { done(!late); });
   }
 
   void read_some(char* into, std::size_t size, milliseconds timeout,
                  std::function<void(Got)> done) override {
-    begin(timeout);
-    socket_.async_read_some(
-        asio::buffer(into, size),
-        [self = shared_from_this(), done = std::move(done)](error_code error, std::size_t bytes) {
-          const bool late = self->ended_late();
-          done({error ? 0 : bytes, late});
+    begin(
+        timeout, [this, into, size] { return wire_->read(into, size); },
+        [done = std::move(done)](Step step, bool late) {
+          done({step.came == Came::kDone ? step.bytes : 0, late});
         });
   }
 
   void write(std::string_view bytes, milliseconds timeout,
              std::function<void(bool)> done) override {
-    begin(timeout);
-    asio::async_write(
-        socket_, asio::buffer(bytes.data(), bytes.size()),
-        [self = shared_from_this(), done = std::move(done)](error_code error, std::size_t) {
-          self->ended_late();
-          done(!error);
-        });
+    begin(
+        timeout,
+        [this, left = bytes]() mutable {
+          Step step{Came::kDone};
+          while (!left.empty() && step.came == Came::kDone) {
+            step = wire_->write(left);
+            left.remove_prefix(step.bytes);
+          }
+          return step;
+        },
+        [done = std::move(done)](Step step, bool) { done(step.came == Came::kDone); });
   }
 
   void wait(milliseconds timeout, std::function<void(bool)> done) override {
@@ -96,11 +119,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
       post([self = shared_from_this()] { self->tell_gone(); });
       return;
     }
-    socket_.async_wait(StrandSocket::wait_read,
-                       [self = shared_from_this(), mine = ++watch_](error_code error) {
-                         if (error != operation_aborted && mine == self->watch_)
-                           self->look_for_end();
-                       });
+    watch_for(StrandSocket::wait_read, ++watch_);
   }
 
   void unwatch() override {
@@ -111,8 +130,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
   }
 
   void end_writing() override {
-    error_code ignored;
-    socket_.shutdown(StrandSocket::shutdown_send, ignored);
+    if (!closed_) wire_->end();
   }
 
   void close() override {
@@ -132,9 +150,17 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
   }
 
   [[nodiscard]] const std::string& peer() const override { return peer_; }
+  [[nodiscard]] bool is_secure() const override { return wire_->is_secure(); }
 
  private:
-  void begin(milliseconds timeout) {
+  // What is tried again whenever the socket is ready for it, and what is then to be told of it.
+  struct Operation {
+    std::function<Step()> attempt;
+    std::function<void(Step, bool)> done;  // whether the time was up
+  };
+
+  void begin(milliseconds timeout, std::function<Step()> attempt,
+             std::function<void(Step, bool)> done) {
     late_ = false;
     deadline_.expires_after(timeout);
     deadline_.async_wait([self = shared_from_this(), mine = ++operation_](error_code error) {
@@ -143,21 +169,40 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
       error_code ignored;
       self->socket_.cancel(ignored);
     });
+    proceed(std::make_shared<Operation>(Operation{std::move(attempt), std::move(done)}), true);
   }
 
-  bool ended_late() {
+  void proceed(const std::shared_ptr<Operation>& operation, bool is_first) {
+    const Step step = closed_ ? Step{} : operation->attempt();
+    if (step.came == Came::kNeedsInput || step.came == Came::kNeedsOutput) {
+      socket_.async_wait(what_to_wait_for(step),
+                         [self = shared_from_this(), operation](error_code error) {
+                           error ? self->end(*operation, {}) : self->proceed(operation, false);
+                         });
+    } else if (is_first) {  // nobody is called back before the call returned
+      post([self = shared_from_this(), operation, step] { self->end(*operation, step); });
+    } else {
+      end(*operation, step);
+    }
+  }
+
+  void end(const Operation& operation, Step step) {
     ++operation_;
     deadline_.cancel();
-    return late_;
+    operation.done(step, late_);
   }
 
-  void look_for_end() {
-    char byte = 0;
-    error_code error;
-    const std::size_t got =
-        socket_.receive(asio::buffer(&byte, 1), StrandSocket::message_peek, error);
-    const bool there_is_more = !error && got > 0;
-    if (!there_is_more && error != asio::error::would_block) tell_gone();
+  static StrandSocket::wait_type what_to_wait_for(Step step) {
+    return step.came == Came::kNeedsOutput ? StrandSocket::wait_write : StrandSocket::wait_read;
+  }
+
+  void watch_for(StrandSocket::wait_type what, unsigned mine) {
+    socket_.async_wait(what, [self = shared_from_this(), mine](error_code error) {
+      if (error == operation_aborted || mine != self->watch_) return;
+      const Step step = self->closed_ ? Step{} : self->wire_->look();
+      if (step.came == Came::kOver) return self->tell_gone();
+      if (step.came != Came::kDone) self->watch_for(what_to_wait_for(step), mine);
+    });
   }
 
   void tell_gone() {
@@ -165,6 +210,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
   }
 
   StrandSocket socket_;
+  std::unique_ptr<Wire> wire_;
   StrandTimer deadline_;  // of what is read or written
   StrandTimer bell_;
   std::string peer_;
@@ -185,6 +231,7 @@ struct Io::Impl {
   asio::basic_socket_acceptor<tcp, Strand> acceptor{strand};
   StrandTimer nap{strand};
   Accepted accepted;
+  tls::CurrentIdentity identity;
   std::vector<std::thread> threads;
 
   [[nodiscard]] Status open(const std::string& host, int port) {
@@ -205,13 +252,20 @@ struct Io::Impl {
                 "cannot listen at " + text_of({endpoint.address(), endpoint.port()}) + ": " + why);
   }
 
+  void take(StrandSocket socket) {
+    try {
+      auto taken = std::make_shared<TcpSocket>(std::move(socket), identity ? identity() : nullptr);
+      taken->post([this, taken] { accepted(taken); });
+    } catch (const std::bad_alloc&) {  // this one has to try again
+    }
+  }
+
   void accept() {
     acceptor.async_accept(asio::make_strand(context),
                           [this](error_code error, StrandSocket socket) {
                             if (error == operation_aborted || !acceptor.is_open()) return;
                             if (!error) {
-                              auto taken = std::make_shared<TcpSocket>(std::move(socket));
-                              taken->post([this, taken] { accepted(taken); });
+                              take(std::move(socket));
                               return accept();
                             }
                             // No descriptor is free: some connection has to end first.
@@ -227,8 +281,10 @@ Io::Io() : impl_(std::make_unique<Impl>()) {}
 
 Io::~Io() { stop(); }
 
-Result<std::unique_ptr<Io>> Io::listen(const std::string& host, int port) {
+Result<std::unique_ptr<Io>> Io::listen(const std::string& host, int port,
+                                       tls::CurrentIdentity identity) {
   std::unique_ptr<Io> made(new Io);
+  made->impl_->identity = std::move(identity);
   HP_RETURN_IF_ERROR(made->impl_->open(host, port));
   return made;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "daemon/http/socket.h"
+#include "daemon/tls/identity.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::http {
@@ -18,8 +19,10 @@ class Io {
 
   /// Listens; connections are taken once start() was called.
   /// @param port  0: any
+  /// @param identity  what clients are shown; none: TLS is not spoken
   /// @return kUnavailable if the address cannot be had, above all because something else has it
-  [[nodiscard]] static Result<std::unique_ptr<Io>> listen(const std::string& host, int port);
+  [[nodiscard]] static Result<std::unique_ptr<Io>> listen(const std::string& host, int port,
+                                                          tls::CurrentIdentity identity);
   /// Stops if stop() was not called. No socket may be used any more.
   ~Io();
   Io(const Io&) = delete;

@@ -59,6 +59,13 @@ void line(std::string& text, std::string_view name, std::string_view value) {
 // 204 and 304 have no body, and so no length of one.
 bool may_have_body(int status) { return status != 204 && status != 304; }
 
+// Browsers then come by TLS alone, to every port of that name: on this machine other things may
+// listen, and addresses they do not heed.
+bool may_be_remembered(const Head& request) {
+  const std::string_view host = request.fields.find("Host").value_or("localhost");
+  return !same_name(host.substr(0, 9), "localhost");
+}
+
 }  // namespace
 
 std::string head_text(const Response& response, const Head& request, const Framing& framing) {
@@ -69,6 +76,9 @@ std::string head_text(const Response& response, const Head& request, const Frami
   line(text, "X-Content-Type-Options", "nosniff");
   line(text, "Referrer-Policy", "no-referrer");
   line(text, "Content-Security-Policy", "default-src 'self'; frame-ancestors 'none'");
+  if (framing.is_secure && may_be_remembered(request)) {
+    line(text, "Strict-Transport-Security", "max-age=31536000");
+  }
   if (!response.fields.find("Cache-Control")) line(text, "Cache-Control", "no-store");
   if (may_have_body(response.status)) {
     if (framing.length) {

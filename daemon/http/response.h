@@ -25,6 +25,7 @@ struct Response {
 struct Framing {
   std::optional<std::uint64_t> length;  ///< else chunked, or for HTTP/1.0 with the connection
   bool keeps_alive = true;
+  bool is_secure = false;  ///< over TLS: browsers are told to come back by it alone
 };
 
 /// Status line and fields, with those that every answer has: nothing is sniffed, framed or told to

@@ -33,7 +33,7 @@ Result<std::unique_ptr<Server>> Server::start(const Options& options,
                                               Sources sources) {
   std::unique_ptr<Server> made(new Server);
   Impl& impl = *made->impl_;
-  HP_ASSIGN_OR_RETURN(impl.io, Io::listen(options.host, options.port));
+  HP_ASSIGN_OR_RETURN(impl.io, Io::listen(options.host, options.port, options.identity));
   HP_ASSIGN_OR_RETURN(rest::Transcoder transcoder, rest::Transcoder::make());
   HP_ASSIGN_OR_RETURN(std::string openapi, rest::openapi());
   HP_ASSIGN_OR_RETURN(StaticFiles files, StaticFiles::load(options.web_dir));

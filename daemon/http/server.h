@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "daemon/http/limits.h"
+#include "daemon/tls/identity.h"
 #include "sim/base/result.h"
 
 namespace grpc {
@@ -18,11 +19,13 @@ namespace hydroprint::http {
 
 /// Where and how to serve.
 struct Options {
-  std::string host;                     ///< "127.0.0.1"
-  int port = 0;                         ///< 0: any
-  std::vector<std::string> host_names;  ///< by which browsers may call it, besides loopback's
-  std::filesystem::path web_dir;        ///< the web client's files; need not be there
+  std::string host;  ///< "127.0.0.1"
+  int port = 0;      ///< 0: any
+  /// By which browsers may call it, besides loopback's and those of its certificate.
+  std::vector<std::string> host_names;
+  std::filesystem::path web_dir;  ///< the web client's files; need not be there
   Limits limits;
+  tls::CurrentIdentity identity;  ///< what clients are shown; none: TLS is not spoken
 };
 
 /// How the daemon is, as /healthz says it.

@@ -9,11 +9,11 @@ namespace {
 
 constexpr std::string_view kSignIn = "/hydroprint.v1.PeopleService/SignIn";
 constexpr std::string_view kSignOut = "/hydroprint.v1.PeopleService/SignOut";
-constexpr std::string_view kCsrfHeader = "X-Hydroprint-Csrf";
+using rest::kCsrfHeader;
 
-std::string cookie_text(std::string_view token, std::string_view more) {
+std::string cookie_text(std::string_view token, bool is_secure, std::string_view more) {
   return std::string(kSessionCookie) + "=" + std::string(token) +
-         "; Path=/; HttpOnly; SameSite=Strict" + std::string(more);
+         "; Path=/; HttpOnly; SameSite=Strict" + (is_secure ? "; Secure" : "") + std::string(more);
 }
 
 }  // namespace
@@ -31,11 +31,12 @@ Status check_csrf(const Head& head) {
               "CSRF_TOKEN_MISSING");
 }
 
-std::optional<std::string> take_session(const std::string& method, std::string& response) {
-  if (method == kSignOut) return cookie_text("", "; Max-Age=0");
+std::optional<std::string> take_session(const std::string& method, std::string& response,
+                                        bool is_secure) {
+  if (method == kSignOut) return cookie_text("", is_secure, "; Max-Age=0");
   v1::SignInResponse signed_in;
   if (method != kSignIn || !signed_in.ParseFromString(response)) return {};
-  const std::string set = cookie_text(signed_in.session_token(), "");
+  const std::string set = cookie_text(signed_in.session_token(), is_secure, "");
   signed_in.clear_session_token();
   response = signed_in.SerializeAsString();
   return set;

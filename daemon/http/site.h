@@ -13,6 +13,7 @@
 #include "daemon/http/rpc.h"
 #include "daemon/http/server.h"
 #include "daemon/http/static_files.h"
+#include "daemon/rest/security.h"
 #include "daemon/rest/transcoder.h"
 
 namespace hydroprint::http {
@@ -56,8 +57,7 @@ Detached turn_away(Site& site, std::shared_ptr<Socket> socket);
 /// hydroprint-peer. Refuses (SPEC_INVALID) what is not printable ASCII.
 [[nodiscard]] Result<Rpc::Metadata> metadata_of(const Head& head, const std::string& peer);
 
-/// The cookie that a session is kept in.
-inline constexpr std::string_view kSessionCookie = "hydroprint_session";
+using rest::kSessionCookie;
 /// The value of a cookie.
 [[nodiscard]] std::optional<std::string_view> cookie(const Fields& fields, std::string_view name);
 
@@ -67,8 +67,9 @@ inline constexpr std::string_view kSessionCookie = "hydroprint_session";
 
 /// What Set-Cookie has to say after a call: of SignIn the session, which is taken out of the
 /// answer, as scripts have no business with it; of SignOut its end; of others none.
+/// @param is_secure  the browser is to send it by TLS alone
 [[nodiscard]] std::optional<std::string> take_session(const std::string& method,
-                                                      std::string& response);
+                                                      std::string& response, bool is_secure);
 
 /// Calls and waits for the answer; who goes away meanwhile cancels the call.
 [[nodiscard]] Task<Reply> call(Site& site, Exchange& exchange, rest::Call call,

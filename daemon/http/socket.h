@@ -24,8 +24,17 @@ class Socket {
     bool timed_out = false;
   };
 
+  /// How a connection began.
+  enum class Opened {
+    kYes,
+    kNo,         ///< not in time, or not understood
+    kPlainHttp,  ///< the client does not speak TLS; it can be told so
+  };
+
   virtual ~Socket() = default;
 
+  /// Agrees with the client on TLS, where that is spoken; before anything else.
+  virtual void open(milliseconds timeout, std::function<void(Opened)> done) = 0;
   /// Waits until there is something to read, or the end; true unless it timed out.
   virtual void when_readable(milliseconds timeout, std::function<void(bool)> done) = 0;
   virtual void read_some(char* into, std::size_t size, milliseconds timeout,
@@ -55,8 +64,13 @@ class Socket {
   virtual void post(std::function<void()> work) = 0;
   /// "127.0.0.1:40312".
   [[nodiscard]] virtual const std::string& peer() const = 0;
+  /// Whether nobody in between can read or change what is said.
+  [[nodiscard]] virtual bool is_secure() const = 0;
 
   // The same to be awaited.
+  Awaiting<Opened> opened(milliseconds timeout) {
+    return Awaiting<Opened>([this, timeout](auto done) { open(timeout, std::move(done)); });
+  }
   Awaiting<bool> readable(milliseconds timeout) {
     return Awaiting<bool>([this, timeout](auto done) { when_readable(timeout, std::move(done)); });
   }

@@ -64,7 +64,7 @@ Task<void> answer_unary(Site& site, Exchange& exchange, rest::Call request) {
     co_await exchange.send(refusal(reply));
     co_return;
   }
-  const auto set_cookie = take_session(method, reply.response);
+  const auto set_cookie = take_session(method, reply.response, exchange.socket().is_secure());
   Result<std::string> json = site.transcoder.write(method, reply.response);
   if (!json) {
     co_await refuse(exchange, json.error());

@@ -1,6 +1,7 @@
 #include "daemon/people/accounts.h"
 
 #include <algorithm>
+#include <set>
 
 #include "daemon/people/secret.h"
 
@@ -109,6 +110,33 @@ Status Accounts::load() {
 bool Accounts::any() const {
   const std::lock_guard lock(now_);
   return !users_.empty();
+}
+
+Result<bool> Accounts::has_admin_who_can_sign_in() const {
+  std::set<std::string> linked;
+  HP_RETURN_IF_ERROR(database_.each("SELECT user FROM sign_in_links WHERE expire_ms>?", {clock_()},
+                                    [&](const daemon::DbRow& row) { linked.insert(row.text(0)); }));
+  const std::lock_guard lock(now_);
+  const auto is_admin = [&](const std::string& name) {
+    const User* const user = admitted(name);
+    return user != nullptr && user->role == Role::kAdmin;
+  };
+  const std::int64_t now_ms = clock_();
+  return std::any_of(users_.begin(), users_.end(),
+                     [&](const auto& entry) {
+                       const bool is_let_in =
+                           !entry.second.password.empty() || linked.contains(entry.first);
+                       return is_let_in && is_admin(entry.first);
+                     }) ||
+         std::any_of(keys_.begin(), keys_.end(),
+                     [&](const auto& entry) {
+                       const ApiKey& key = entry.second;
+                       const bool holds_still = key.expire_ms == 0 || key.expire_ms > now_ms;
+                       return holds_still && key.role == Role::kAdmin && is_admin(key.user);
+                     }) ||
+         std::any_of(sessions_.begin(), sessions_.end(), [&](const auto& entry) {
+           return holds(entry.second) && is_admin(entry.second.user);
+         });
 }
 
 const User* Accounts::admitted(const std::string& name) const {

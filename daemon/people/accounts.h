@@ -71,6 +71,9 @@ class Accounts {
 
   /// Whether there is any user.
   [[nodiscard]] bool any() const;
+  /// Whether there is an admin, not barred, who has a password, an admin's API key or a link that
+  /// was not used yet, or is signed in. Asks the store.
+  [[nodiscard]] Result<bool> has_admin_who_can_sign_in() const;
   /// The caller with this key ("hp_ID_SECRET"), if it holds.
   /// @param is_use  whether it counts as used now
   [[nodiscard]] std::optional<Caller> by_key(std::string_view key, bool is_use = true);

@@ -13,7 +13,9 @@
 #include "daemon/rest/other_routes.h"
 #include "daemon/rest/routes.h"
 #include "daemon/rest/schemas.h"
+#include "daemon/rest/security.h"
 #include "daemon/rest/sequence.h"
+#include "hydroprint/v1/access.pb.h"
 
 namespace hydroprint::rest {
 namespace {
@@ -98,6 +100,8 @@ class Document {
     if (!path.parameters.empty()) operation["parameters"] = std::move(path.parameters);
     if (route.body != Body::kNone) operation["requestBody"] = body_of(route);
     operation["responses"] = {{"200", answer_of(method)}, {"default", error_answer()}};
+    const bool is_open = method.options().GetExtension(v1::without_sign_in);
+    operation["security"] = security_of(is_open, route.http_method);
     add_tag(method.service()->name(), comment_on(method.service()->full_name()));
     return place(path.text, route.http_method, method.name(), std::move(operation));
   }
@@ -121,13 +125,15 @@ class Document {
       operation["responses"][std::to_string(answer.status)] = answer_of(answer);
     }
     operation["responses"]["default"] = error_answer();
+    operation["security"] = security_of(route.is_open, route.http_method);
     add_tag(route.tag, route.tag == "Daemon" ? "The daemon itself." : "");
     return place(route.path, route.http_method, route.operation, std::move(operation));
   }
 
   std::string text() {
     document_["components"] = {{"schemas", schemas_.all()},
-                               {"responses", {{"Error", error_response()}}}};
+                               {"responses", {{"Error", error_response()}}},
+                               {"securitySchemes", security_schemes()}};
     return document_.dump(1) + "\n";
   }
 

@@ -96,7 +96,8 @@ OtherRoute plain_get(std::string path, std::string operation, const std::string&
           .description = std::move(description),
           .parameters = {},
           .content_type = {},
-          .answers = {{200, summary + ".", std::move(content_type), "", {}}}};
+          .answers = {{200, summary + ".", std::move(content_type), "", {}}},
+          .is_open = true};
 }
 
 }  // namespace

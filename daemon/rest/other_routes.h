@@ -35,6 +35,7 @@ struct OtherRoute {
   std::vector<OtherParameter> parameters;
   std::string content_type;  ///< of the request's body; empty: it has none
   std::vector<OtherAnswer> answers;
+  bool is_open = false;  ///< whoever reaches the daemon may ask
 };
 
 /// All of them, by path.

@@ -428,11 +428,12 @@ TEST_F(Api, SecondDaemonIsKeptOffThePortAndOffTheState) {
   EXPECT_EQ(client.wait_for_end(client.simulate("").name()).state(), v1::Job::SUCCEEDED);
 }
 
-TEST(Program, AddressesBeyondLoopbackAreRefused) {
+TEST(Program, AddressesBeyondLoopbackAreRefusedWithoutTls) {
   for (const char* address : {"0.0.0.0:0", "[::]:0", "10.0.0.1:0"}) {
     const Ended ended = run_daemon({"--grpc", address});
     EXPECT_EQ(ended.status, 3);
     EXPECT_NE(ended.words.find("loopback"), std::string::npos) << ended.words;
+    EXPECT_NE(ended.words.find("--tls-certificate FILE"), std::string::npos) << ended.words;
     const Ended http = run_daemon({"--http", address});
     EXPECT_EQ(http.status, 3);
     EXPECT_NE(http.words.find("loopback"), std::string::npos) << http.words;

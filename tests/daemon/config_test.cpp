@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "daemon/exposure.h"
 #include "daemon/rig_setup.h"
 
 namespace hydroprint::daemon {
@@ -79,17 +80,40 @@ TEST(Config, AbsentFileIsNamed) {
   EXPECT_TRUE(says(config.error().message, "/nonexistent/x.toml"));
 }
 
-TEST(Config, OnlyLoopbackAddressesAreAccepted) {
+TEST(Config, AddressesAreNoNamesAndKnowWhetherTheyAreLoopback) {
   EXPECT_EQ(parse_endpoint("127.0.0.1:50051")->text(), "127.0.0.1:50051");
   EXPECT_EQ(parse_endpoint("127.1.2.3:0")->port, 0);
   EXPECT_EQ(parse_endpoint("[::1]:80")->text(), "[::1]:80");
   EXPECT_EQ(parse_endpoint("localhost:7")->host, "127.0.0.1");
-  for (const char* bad : {"0.0.0.0:1", "[::]:1", "192.168.0.2:1", "example.org:1", ":1",
-                          "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1",
-                          "127.0.0.1:1x", "127.0.0.1.evil.org:1", "unix:/tmp/x", ""}) {
+  for (const char* here : {"127.0.0.1:1", "127.1.2.3:1", "[::1]:1", "localhost:1"}) {
+    EXPECT_TRUE(parse_endpoint(here)->is_loopback()) << here;
+  }
+  for (const char* beyond : {"0.0.0.0:1", "[::]:1", "192.168.0.2:1", "128.0.0.1:1"}) {
+    EXPECT_FALSE(parse_endpoint(beyond)->is_loopback()) << beyond;
+  }
+  for (const char* bad :
+       {"example.org:1", ":1", "0.0.0:1", "127.0.0.1", "127.0.0.1:", "127.0.0.1:65536",
+        "127.0.0.1:-1", "127.0.0.1:1x", "127.0.0.1.evil.org:1", "unix:/tmp/x", ""}) {
     EXPECT_FALSE(parse_endpoint(bad)) << bad;
   }
-  EXPECT_TRUE(says(problem("[server]\ngrpc = \"0.0.0.0:1\"\n"), "d.toml:2:"));
+  EXPECT_TRUE(says(problem("[server]\ngrpc = \"example.org:1\"\n"), "d.toml:2: server.grpc"));
+  EXPECT_TRUE(says(problem("[server]\nhttp = \"example.org:1\"\n"), "d.toml:2: server.http"));
+}
+
+TEST(Config, NothingIsServedBeyondLoopbackWithoutTls) {
+  Config config;
+  EXPECT_TRUE(check_exposure(config));
+  EXPECT_FALSE(is_exposed(config));
+  config.server_http = "0.0.0.0:8443";
+  EXPECT_TRUE(is_exposed(config));
+  EXPECT_TRUE(says(check_exposure(config).error().message, "server.http"));
+  config.server_http = Config{}.server_http;
+  config.server_grpc = "[::]:50051";
+  EXPECT_TRUE(says(check_exposure(config).error().message, "server.grpc"));
+  config.server_tls_certificate = "c.pem";
+  EXPECT_TRUE(says(check_exposure(config).error().message, "--tls-key"));
+  config.server_tls_key = "k.pem";
+  EXPECT_TRUE(check_exposure(config));
 }
 
 TEST(Config, KeysOfTheRigAreThoseOfRigConfigWithTheirRanges) {

@@ -122,8 +122,9 @@ void DaemonProcess::start() {
   const auto out = folder_ / "out";
   std::filesystem::remove(out);
   std::vector<std::string> arguments = options_.arguments;
-  arguments.insert(arguments.end(), {"--config", config().string(), "--state-dir", state().string(),
-                                     "--grpc", "127.0.0.1:0", "--http", "127.0.0.1:0"});
+  arguments.insert(arguments.end(),
+                   {"--config", config().string(), "--state-dir", state().string(), "--grpc",
+                    options_.host + ":0", "--http", options_.host + ":0"});
   pid_ = spawn_daemon(arguments, out, folder_ / "err");
   const auto deadline = SteadyClock::now() + kPatience;
   const auto named = [](const std::string& words, const std::string& name) {
@@ -167,10 +168,13 @@ std::vector<pid_t> DaemonProcess::workers() const {
   return out;
 }
 
-Client::Client(const std::string& address, const std::string& owner) : owner_(owner) {
+Client::Client(const std::string& address, const std::string& owner, const std::string& ca_pem)
+    : owner_(owner) {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  channel = grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+  const auto credentials =
+      ca_pem.empty() ? grpc::InsecureChannelCredentials() : grpc::SslCredentials({ca_pem, "", ""});
+  channel = grpc::CreateCustomChannel(address, credentials, arguments);
   jobs = v1::JobService::NewStub(channel);
   queues = v1::QueueService::NewStub(channel);
   assets = v1::AssetService::NewStub(channel);

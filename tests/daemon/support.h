@@ -60,6 +60,7 @@ class DaemonProcess {
     int time_limit_s = 600;
     int file_mib = 1024;
     int max_jobs = 1000;
+    std::string host = "127.0.0.1";      ///< where both doors are
     std::string extra;                   ///< more lines for the configuration file
     std::vector<std::string> arguments;  ///< more of the command line
   };
@@ -97,7 +98,9 @@ class DaemonProcess {
 /// Calls to a daemon. What is not expected to fail throws if it does.
 class Client {
  public:
-  explicit Client(const std::string& address, const std::string& owner = "");
+  /// @param ca_pem  the authority to trust; empty: TLS is not spoken
+  explicit Client(const std::string& address, const std::string& owner = "",
+                  const std::string& ca_pem = "");
 
   /// Uploads unless it is there; "assets/{sha256}".
   std::string upload(const std::string& bytes);

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
+
+using SSL = struct ssl_st;
 
 namespace hydroprint::tests {
 
@@ -32,7 +35,9 @@ class HttpConnection {
  public:
   /// @param address  "127.0.0.1:40123"
   /// @param receive_buffer_bytes  small: the kernel takes little that nobody reads; 0: its default
-  explicit HttpConnection(const std::string& address, int receive_buffer_bytes = 0);
+  /// @param ca_pem  the authority whose certificate for "localhost" is taken; empty: no TLS
+  explicit HttpConnection(const std::string& address, int receive_buffer_bytes = 0,
+                          const std::string& ca_pem = "");
   ~HttpConnection();
   HttpConnection(HttpConnection&& other) noexcept;
   HttpConnection& operator=(HttpConnection&& other) noexcept;
@@ -56,6 +61,7 @@ class HttpConnection {
   std::string read_some();
   /// True once the server ended the connection, and nothing more came; waits for it.
   bool is_ended();
+  /// As a browser does: over TLS it says so first.
   void close();
   /// Sends no more.
   void end_sending();
@@ -67,6 +73,7 @@ class HttpConnection {
   std::string chunk();
 
   int socket_ = -1;
+  std::shared_ptr<SSL> tls_;
   std::string received_;
   std::string stream_;  // of the body of an event stream
 };

@@ -27,6 +27,13 @@ void HttpLimits::serve(const http::Limits& limits) {
   http::Options options;
   options.host = "127.0.0.1";
   options.limits = limits;
+  if (GetParam()) {
+    const hydroprint::testing::KeyPairFiles files(folder.path());
+    files.write(authority.issue());
+    const auto identity = tls::Identity::read(files.certificate, files.key);
+    if (!identity) throw std::runtime_error(identity.error().message);
+    options.identity = [shown = *identity] { return shown; };
+  }
   http::Sources sources{[] { return http::Health{true, "{}"}; }, [] { return std::string(); }};
   auto started = http::Server::start(options, client.channel, sources);
   if (!started) throw std::runtime_error(started.error().message);

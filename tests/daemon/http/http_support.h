@@ -8,6 +8,7 @@
 #include "daemon/http/server.h"
 #include "tests/daemon/http/http_client.h"
 #include "tests/daemon/support.h"
+#include "tests/support/certificates.h"
 
 namespace hydroprint::tests {
 
@@ -31,16 +32,17 @@ class HttpTest : public ::testing::Test {
 };
 
 /// The HTTP server alone, in this process, before a daemon that runs beside it: for what its limits
-/// do, which the daemon leaves as they are.
-class HttpLimits : public HttpTest {
+/// do, which the daemon leaves as they are. The parameter: over TLS.
+class HttpLimits : public HttpTest, public ::testing::WithParamInterface<bool> {
  protected:
-  /// Starts it anew.
+  /// Starts it anew; over TLS if that is the parameter.
   void serve(const http::Limits& limits);
   [[nodiscard]] const std::string& address() const { return address_; }
   [[nodiscard]] HttpConnection connect(int receive_buffer_bytes = 0) const {
-    return HttpConnection(address_, receive_buffer_bytes);
+    return HttpConnection(address_, receive_buffer_bytes, GetParam() ? authority.pem() : "");
   }
 
+  hydroprint::testing::Authority authority;
   std::unique_ptr<http::Server> server;
 
  private:

@@ -13,7 +13,10 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kShort{200};
 
-TEST_F(HttpLimits, WhoSaysNothingIsLetGo) {
+INSTANTIATE_TEST_SUITE_P(Over, HttpLimits, ::testing::Bool(),
+                         [](const auto& test) { return test.param ? "Tls" : "Tcp"; });
+
+TEST_P(HttpLimits, WhoSaysNothingIsLetGo) {
   Limits limits;
   limits.header_time = kShort;
   limits.idle_time = kShort;
@@ -24,7 +27,7 @@ TEST_F(HttpLimits, WhoSaysNothingIsLetGo) {
   EXPECT_TRUE(idle.is_ended());
 }
 
-TEST_F(HttpLimits, AHeaderThatDoesNotComeToItsEndIsTimedOut) {
+TEST_P(HttpLimits, AHeaderThatDoesNotComeToItsEndIsTimedOut) {
   Limits limits;
   limits.header_time = kShort;
   serve(limits);
@@ -36,7 +39,7 @@ TEST_F(HttpLimits, AHeaderThatDoesNotComeToItsEndIsTimedOut) {
   EXPECT_TRUE(slow.is_ended());
 }
 
-TEST_F(HttpLimits, ABodyThatDoesNotComeIsTimedOut) {
+TEST_P(HttpLimits, ABodyThatDoesNotComeIsTimedOut) {
   Limits limits;
   limits.body_time = kShort;
   serve(limits);
@@ -46,7 +49,7 @@ TEST_F(HttpLimits, ABodyThatDoesNotComeIsTimedOut) {
   EXPECT_TRUE(slow.is_ended());
 }
 
-TEST_F(HttpLimits, ThereAreOnlySoManyConnections) {
+TEST_P(HttpLimits, ThereAreOnlySoManyConnections) {
   Limits limits;
   limits.connections = 3;
   serve(limits);
@@ -73,7 +76,7 @@ TEST_F(HttpLimits, ThereAreOnlySoManyConnections) {
   EXPECT_EQ(status, 200);
 }
 
-TEST_F(HttpLimits, AStreamThatIsQuietShowsThatItLives) {
+TEST_P(HttpLimits, AStreamThatIsQuietShowsThatItLives) {
   Limits limits;
   limits.ping_time = milliseconds(50);
   serve(limits);
@@ -84,7 +87,7 @@ TEST_F(HttpLimits, AStreamThatIsQuietShowsThatItLives) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(stream.read_event().kind, "");
 }
 
-TEST_F(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
+TEST_P(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
   Limits limits;
   limits.write_time = milliseconds(500);
   serve(limits);
@@ -111,7 +114,7 @@ TEST_F(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
   EXPECT_EQ(back.read_event().kind, "job");
 }
 
-TEST_F(HttpLimits, WhoLeavesCancelsItsCall) {
+TEST_P(HttpLimits, WhoLeavesCancelsItsCall) {
   serve({});
   const std::string name = simulate("sleep 30");
   {
@@ -128,7 +131,7 @@ TEST_F(HttpLimits, WhoLeavesCancelsItsCall) {
   EXPECT_NE(metrics.find("http_connections 1\n"), std::string::npos) << metrics;
 }
 
-TEST_F(HttpLimits, TheServerEndsWithStreamsUploadsAndIdleOnesOpen) {
+TEST_P(HttpLimits, TheServerEndsWithStreamsUploadsAndIdleOnesOpen) {
   serve({});
   std::vector<HttpConnection> open;
   for (int i = 0; i < 30; ++i) open.push_back(connect());
@@ -142,7 +145,7 @@ TEST_F(HttpLimits, TheServerEndsWithStreamsUploadsAndIdleOnesOpen) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
-TEST_F(HttpLimits, AServerWithoutAServiceSaysSo) {
+TEST_P(HttpLimits, AServerWithoutAServiceSaysSo) {
   serve({});
   HttpConnection connection = connect();
   EXPECT_EQ(connection.ask("GET", "/v1/queue").status, 200);

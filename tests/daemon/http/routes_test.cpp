@@ -140,8 +140,10 @@ TEST_F(HttpTest, MetricsTellOfJobsRigAndTheServerItself) {
   const auto has = [&](const std::string& line) {
     return text.find("\n" + line) != std::string::npos;
   };
-  for (int i = 0; i < 100 && !has("hydroprint_jobs_finished_total{"); ++i)
-    text = get("/metrics").body;
+  const auto has_come = [&] {  // and the connections before have gone
+    return has("hydroprint_jobs_finished_total{") && has("hydroprint_http_connections 1\n");
+  };
+  for (int i = 0; i < 1000 && !has_come(); ++i) text = get("/metrics").body;
   EXPECT_TRUE(has("hydroprint_jobs_finished_total{kind=\"simulate\",outcome=\"SUCCEEDED\"} 1\n"));
   EXPECT_TRUE(has("hydroprint_job_stage_seconds_count{kind=\"simulate\",stage=\"velocity\"} 1\n"));
   EXPECT_TRUE(has("hydroprint_queue_depth 0\n"));

@@ -11,6 +11,7 @@ import jsonschema
 
 SCHEMA = "/usr/share/openapi-specification/schemas/v3.0/schema.json"
 METHODS = {"get", "put", "post", "delete", "patch", "head"}
+OPEN = {"GetHealth", "GetMetrics", "GetOpenApi", "SignIn"}  # which needs no sign-in
 BY_HAND = {"GetHealth", "GetMetrics", "GetOpenApi", "DownloadArtifact", "HeadArtifact", "HeadUpload", "PatchUpload"}
 
 
@@ -48,6 +49,8 @@ def wrong_references(document):
     components = document["components"]
     known = {f"#/components/{kind}/{name}" for kind, named in components.items() for name in named}
     used = {"#/components/responses/Error"}
+    used |= {f"#/components/securitySchemes/{name}" for _, _, operation in operations_of(document)
+             for needed in operation["security"] for name in needed}
     for place, node in everything_in(document):
         if not isinstance(node, dict):
             continue
@@ -80,6 +83,21 @@ def wrong_operations(document):
     shapes = [re.sub(r"{[^}]*}", "{}", path) for path in document["paths"]]
     if len(shapes) != len(set(shapes)):
         yield "two paths differ in the names of their parameters only"
+
+
+def wrong_security(document):
+    schemes = document["components"]["securitySchemes"]
+    for path, method, operation in operations_of(document):
+        name, needed = operation["operationId"], operation["security"]
+        if (needed == []) != (name in OPEN):
+            yield f"{name}: needs {needed}"
+        for one in needed:
+            by_cookie = any(schemes[scheme].get("in") == "cookie" for scheme in one)
+            by_header = any(schemes[scheme].get("in") == "header" for scheme in one)
+            if by_header != (by_cookie and method not in {"get", "head"}):
+                yield f"{name}: a cookie alone changes nothing, and needs nothing else to look: {one}"
+        if needed and not any(schemes[scheme].get("scheme") == "bearer" for one in needed for scheme in one):
+            yield f"{name}: no script can call it"
 
 
 def undescribed(document):
@@ -146,7 +164,7 @@ def wrong_samples(document, samples):
 def main():
     document = json.loads(output_of(sys.argv[1]), object_pairs_hook=without_repeats)
     samples = [json.loads(line) for line in output_of(sys.argv[2]).splitlines()]
-    troubles = [trouble for look in (wrong_form, wrong_references, wrong_operations, undescribed)
+    troubles = [trouble for look in (wrong_form, wrong_references, wrong_operations, wrong_security, undescribed)
                 for trouble in look(document)]
     troubles += wrong_samples(document, samples)
     print("\n".join(troubles) or f"{len(document['paths'])} paths, {len(samples)} samples, nothing is wrong")

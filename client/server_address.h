@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "sim/base/result.h"
+
+namespace hydroprint::client {
+
+/// Where a daemon is, and whether TLS is spoken there.
+struct ServerAddress {
+  std::string host;  ///< "rig.example.org", "127.0.0.1", "::1"
+  int port = 50051;
+  bool is_tls = false;
+
+  /// "rig.example.org:50051", "[::1]:50051".
+  [[nodiscard]] std::string text() const;
+  /// Whether that is this machine, by a name that nobody else gives out.
+  [[nodiscard]] bool is_loopback() const;
+};
+
+/// Reads "127.0.0.1:50051", "rig.example.org:50051", or "https://rig.example.org:50051" (TLS; the
+/// port may be left out).
+/// @return kInvalidArgument for anything else
+[[nodiscard]] Result<ServerAddress> parse_server(std::string_view text);
+
+}  // namespace hydroprint::client
