@@ -35,6 +35,9 @@ struct Layout {
   [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {
     return runs() / ("preview-" + std::to_string(number));
   }
+  /// What a restore unpacks, and what says that it has not finished putting it in place.
+  [[nodiscard]] std::filesystem::path restoring() const { return root / "restoring"; }
+  [[nodiscard]] std::filesystem::path unrestored() const { return root / "unrestored"; }
   /// Records of dips that are not finished.
   [[nodiscard]] std::filesystem::path dips() const { return root / "dips"; }
   [[nodiscard]] std::filesystem::path dip(std::int64_t job) const {

@@ -10,6 +10,7 @@
 #include <exception>
 #include <iostream>
 
+#include "daemon/admin/admin.h"
 #include "daemon/daemon.h"
 #include "daemon/log.h"
 #include "daemon/own_program.h"
@@ -147,6 +148,7 @@ int run(const Config& config, const std::string& first_admin) {
 }
 
 int obey(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "admin") return admin::obey(argc - 1, argv + 1);
   Options options;
   CLI::App app(
       "Keeps the job queue of Hydroprint and runs its workers; serves gRPC and HTTP on loopback.");
