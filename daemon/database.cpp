@@ -40,6 +40,16 @@ void empty_log(sqlite3* db) {
   sqlite3_wal_checkpoint_v2(db, nullptr, SQLITE_CHECKPOINT_RESTART, nullptr, nullptr);
 }
 
+// Empty pages in the file, and room in its log, from which the end of a job can still be written
+// when the disk is full. No harm where there is no room for them now.
+void keep_room(sqlite3* db) {
+  sqlite3_exec(db,
+               "BEGIN IMMEDIATE; CREATE TABLE kept_room(bytes BLOB); "
+               "INSERT INTO kept_room VALUES (zeroblob(65536)); DROP TABLE kept_room; COMMIT;",
+               nullptr, nullptr, nullptr);
+  if (sqlite3_get_autocommit(db) == 0) sqlite3_exec(db, "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
 int bind(sqlite3_stmt* statement, int index, const DbValue& value) {
   struct Binder {
     sqlite3_stmt* statement;
@@ -100,6 +110,7 @@ Result<std::unique_ptr<Database>> Database::open(const std::filesystem::path& pa
     failure.value().message = path.string() + ": " + failure.value().message;
     return failure;
   }
+  keep_room(db);
   empty_log(db);
   return database;
 }

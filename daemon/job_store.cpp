@@ -248,7 +248,7 @@ Status JobStore::remove(std::int64_t id) {
 }
 
 Result<Job> JobStore::cancel(std::int64_t id) {
-  return changed(id, [&](const Job& job) -> Status {
+  const auto mark = [&](const Job& job) -> Status {
     switch (job.state) {
       case JobState::kQueued:
         return finish(id, JobState::kCancelled, "");
@@ -261,7 +261,11 @@ Result<Job> JobStore::cancel(std::int64_t id) {
       default:
         return state_forbids(job, "there is nothing to cancel");
     }
-  });
+  };
+  auto marked = changed(id, mark);
+  // It may be this job that has filled the disk, and the database's log has been emptied since.
+  if (!marked && marked.error().reason == "DISK_FULL") marked = changed(id, mark);
+  return marked;
 }
 
 Result<Job> JobStore::start(std::int64_t id) {

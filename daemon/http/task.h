@@ -27,6 +27,19 @@ class TaskPromiseBase {
   void unhandled_exception() noexcept { thrown = std::current_exception(); }
 };
 
+/// What a task ends with.
+template <class T>
+struct TaskResult {
+  std::optional<T> value;
+  void return_value(T result) { value.emplace(std::move(result)); }
+  T take() { return std::move(*value); }
+};
+template <>
+struct TaskResult<void> {
+  void return_void() const noexcept {}
+  void take() const noexcept {}
+};
+
 /// GCC 12 destroys twice what `?:` makes within a co_await: name it before.
 ///
 /// A coroutine that begins when it is awaited and is awaited once. It always goes on where what it
@@ -34,12 +47,10 @@ class TaskPromiseBase {
 template <class T = void>
 class [[nodiscard]] Task {
  public:
-  struct promise_type : TaskPromiseBase {
-    std::optional<T> value;
+  struct promise_type : TaskPromiseBase, TaskResult<T> {
     Task get_return_object() {
       return Task(std::coroutine_handle<promise_type>::from_promise(*this));
     }
-    void return_value(T result) { value.emplace(std::move(result)); }
   };
 
   Task(Task&& other) noexcept : handle_(std::exchange(other.handle_, {})) {}
@@ -56,39 +67,7 @@ class [[nodiscard]] Task {
   }
   T await_resume() {
     if (handle_.promise().thrown) std::rethrow_exception(handle_.promise().thrown);
-    return std::move(*handle_.promise().value);
-  }
-
- private:
-  explicit Task(std::coroutine_handle<promise_type> handle) : handle_(handle) {}
-  std::coroutine_handle<promise_type> handle_;
-};
-
-/// The same without a value.
-template <>
-class [[nodiscard]] Task<void> {
- public:
-  struct promise_type : TaskPromiseBase {
-    Task get_return_object() {
-      return Task(std::coroutine_handle<promise_type>::from_promise(*this));
-    }
-    void return_void() noexcept {}
-  };
-
-  Task(Task&& other) noexcept : handle_(std::exchange(other.handle_, {})) {}
-  Task(const Task&) = delete;
-  Task& operator=(const Task&) = delete;
-  ~Task() {
-    if (handle_) handle_.destroy();
-  }
-
-  bool await_ready() const noexcept { return false; }
-  std::coroutine_handle<> await_suspend(std::coroutine_handle<> waiting) noexcept {
-    handle_.promise().waiting = waiting;
-    return handle_;
-  }
-  void await_resume() {
-    if (handle_.promise().thrown) std::rethrow_exception(handle_.promise().thrown);
+    return handle_.promise().take();
   }
 
  private:

@@ -1,9 +1,7 @@
 // Bytes of an upload, on their way from the connection to the store.
-#include <charconv>
-
 #include "daemon/http/site.h"
+#include "daemon/http/upload_head.h"
 #include "daemon/http/waiting.h"
-#include "daemon/rest/percent.h"
 #include "hydroprint/v1/asset_service.pb.h"
 
 namespace hydroprint::http {
@@ -11,25 +9,6 @@ namespace {
 
 constexpr milliseconds kStorePatience{60'000};  // with a disk that is slow
 constexpr const char* kChunks = "/hydroprint.v1.AssetService/UploadChunk";
-
-Result<std::string> upload_name(std::string_view path) {
-  HP_ASSIGN_OR_RETURN(std::string name, rest::decode(path.substr(std::string_view("/v1/").size())));
-  return name;
-}
-
-Result<std::int64_t> upload_offset(const Head& head) {
-  const std::string_view text = head.fields.find("Upload-Offset").value_or("");
-  std::int64_t offset = -1;
-  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), offset);
-  if (parsed.ec == std::errc() && parsed.ptr == text.data() + text.size() && offset >= 0) {
-    return offset;
-  }
-  auto error =
-      fail(Code::kInvalidArgument,
-           "the header Upload-Offset must say where these bytes go; HEAD tells", "SPEC_INVALID");
-  error.value().metadata["field"] = "Upload-Offset";
-  return error;
-}
 
 Response state_of(const v1::Upload& upload) {
   Response response;
@@ -97,7 +76,7 @@ class Passing {
 };
 
 Task<void> answer_bytes(Site& site, Exchange& exchange, std::string name, Rpc::Metadata metadata) {
-  const Result<std::int64_t> offset = upload_offset(exchange.head());
+  const Result<std::int64_t> offset = upload_offset(exchange.head().fields);
   if (!offset) {
     co_await refuse(exchange, offset.error());
     co_return;

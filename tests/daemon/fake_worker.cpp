@@ -2,7 +2,8 @@
 //   sleep SECONDS     with progress, ends on SIGTERM          stubborn  like sleep 60, ignores
 //   SIGTERM exit N WORDS      says WORDS and ends with status N       crash     aborts eat uses
 //   memory until it has no more        huge      writes a file of 64 MiB fill              writes a
-//   file until the disk is full        socket    says whether it could open a socket
+//   file until the disk is full        many      leaves 900 empty files with long names
+//   socket    says whether it could open a socket
 //   nothing           leaves no artifacts          link      leaves a symbolic link as artifact
 //   babble    writes nonsense as progress orphan            leaves a child behind kill-parent tries
 //   to kill the daemon read FILE         says whether it could                   write FILE   says
@@ -94,6 +95,10 @@ void obey(const std::string& line) {
   } else if (command == "fill") {
     std::ofstream file(flags["--out"] + "/fill");
     while (file << std::string(4096, 'x') << std::flush) {
+    }
+  } else if (command == "many") {
+    for (int i = 0; i < 900; ++i) {
+      std::ofstream(flags["--out"] + "/" + std::string(200, 'n') + std::to_string(i));
     }
   } else if (command == "socket") {
     facts += socket(AF_INET, SOCK_STREAM, 0) < 0 ? " no-inet" : " INET";

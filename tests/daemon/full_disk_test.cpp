@@ -132,12 +132,21 @@ TEST_F(FullDisk, RealJobWhoseArtifactsDoNotFitFailsAndLeavesNothing) {
   EXPECT_EQ(client->wait_for_end(job.name()).state(), v1::Job::SUCCEEDED);
 }
 
-// The artifacts fit, the rows that name them do not.
+// The artifacts fit, the rows that name them do not: they are more than the room that is kept.
 TEST_F(FullDisk, ArtifactsThatLeaveNoRoomForTheirRowsAreGivenUp) {
   start();
-  const std::string name = client->simulate("fill").name();
+  const std::string name = client->simulate("many\nfill").name();
   expect_no_room_for(client->wait_for_end(name));
   EXPECT_EQ(client->wait_for_end(client->simulate("").name()).state(), v1::Job::SUCCEEDED);
+}
+
+TEST_F(FullDisk, JobThatFilledItCanBeCancelled) {
+  start();
+  const std::string name = client->simulate("fill\nsleep 60").name();
+  client->wait(name, [&](const v1::Job&) { return free_bytes() == 0; });
+  EXPECT_EQ(client->cancel(name).name(), name);
+  EXPECT_EQ(client->wait_for_end(name).state(), v1::Job::CANCELLED);
+  EXPECT_EQ(files_in("runs"), 0);
 }
 
 TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonLivesOn) {

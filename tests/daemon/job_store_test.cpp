@@ -111,7 +111,7 @@ TEST_F(JobStoreTest, FullDatabaseRefusesWithoutAnyTraceAndWorksOnAfterwards) {
   made.owner = "ann";
   made.work.verb = "simulate";
   made.digest = "same";
-  made.body = std::string(100000, 'x');
+  made.body = std::string(1000000, 'x');  // more than the room that is kept
   const auto refused = jobs->create(made, {"CreateJob", "id", "x"});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::kResourceExhausted);

@@ -350,6 +350,7 @@ TEST(Spec, EachViewOfTheBoardIsAFolder) {
     set_file(*job.mutable_calibrate_camera()->add_frames(), name);
   EXPECT_EQ(check_job(job)->work.flags, (std::vector<std::string>{"--frames=a", "--frames=b/c"}));
   EXPECT_EQ(check_job(job)->work.verb, "calibrate-camera");
+  EXPECT_EQ(check_job(job)->display_name, "calibrate-camera of 2 views");
   set_file(*job.mutable_calibrate_camera()->add_frames(), "a/1.png");
   EXPECT_EQ(refused_field(job), "NAME_INVALID");
 }
