@@ -1,20 +1,24 @@
 #include "daemon/asset_store.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 
+#include "daemon/asset_bytes.h"
 #include "daemon/job_rows.h"
-#include "daemon/log.h"
 #include "daemon/names.h"
 #include "daemon/requests.h"
 
 namespace hydroprint::daemon {
 namespace {
 
-tl::unexpected<Error> too_large(Code code, std::int64_t max_bytes) {
+tl::unexpected<Error> asset_not_found(const std::string& sha256) {
+  return fail(Code::kNotFound, "assets/" + sha256 + " is not here; upload it", "ASSET_NOT_FOUND");
+}
+
+}  // namespace
+
+tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes) {
   auto error = fail(code,
                     "more than " + std::to_string(max_bytes) +
                         " bytes; send what was announced, within assets.max_mib",
@@ -23,17 +27,11 @@ tl::unexpected<Error> too_large(Code code, std::int64_t max_bytes) {
   return error;
 }
 
-tl::unexpected<Error> asset_not_found(const std::string& sha256) {
-  return fail(Code::kNotFound, "assets/" + sha256 + " is not here; upload it", "ASSET_NOT_FOUND");
-}
-
 std::int64_t size_on_disk(const std::filesystem::path& path) {
   std::error_code error;
   const auto size = std::filesystem::file_size(path, error);
   return error ? 0 : static_cast<std::int64_t>(size);
 }
-
-}  // namespace
 
 AssetStore::AssetStore(Database& database, const Layout& layout, const AssetStoreOptions& options,
                        Clock clock)
@@ -44,7 +42,7 @@ AssetStore::AssetStore(Database& database, const Layout& layout, const AssetStor
 Result<AssetOrUpload> AssetStore::start(const Upload& wanted, const AssetUser& user,
                                         const RequestKey& request) {
   if (wanted.size_bytes > options_.max_bytes) {
-    return too_large(Code::kResourceExhausted, options_.max_bytes);
+    return asset_too_large(Code::kResourceExhausted, options_.max_bytes);
   }
   std::string id;
   const Status done = database_.transaction([&]() -> Status {
@@ -239,176 +237,6 @@ Result<Asset> AssetStore::adopt(const std::filesystem::path& file, const Asset& 
   if (!done) discard_unowned(as.sha256);
   HP_RETURN_IF_ERROR(done);
   return asset(as.sha256);
-}
-
-Status AssetStore::purge() {
-  const Status done = database_.transaction([&]() -> Status {
-    HP_RETURN_IF_ERROR(database_.run("DELETE FROM uploads WHERE expire_ms<=?", {clock_()}));
-    std::set<std::string> open;
-    HP_RETURN_IF_ERROR(database_.each("SELECT id FROM uploads", {},
-                                      [&](const DbRow& row) { open.insert(row.text(0)); }));
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(layout_.uploads(), ignored)) {
-      if (!open.contains(entry.path().filename().string())) discard(entry.path());
-    }
-    return {};
-  });
-  HP_RETURN_IF_ERROR(done);
-  return options_.keep_unused_ms > 0 ? purge_unused() : Status();
-}
-
-Status AssetStore::purge_unused() {
-  const std::int64_t before_ms = clock_() - options_.keep_unused_ms;
-  std::vector<std::string> old;
-  HP_RETURN_IF_ERROR(database_.each(
-      "SELECT sha256 FROM assets WHERE use_ms<=? AND NOT EXISTS (SELECT 1 FROM job_inputs WHERE "
-      "job_inputs.sha256=assets.sha256) ORDER BY use_ms",
-      {before_ms}, [&](const DbRow& row) { old.push_back(row.text(0)); }));
-  for (const std::string& sha256 : old) {
-    bool is_gone = false;
-    const Status done = database_.transaction([&]() -> Status {
-      HP_RETURN_IF_ERROR(database_.run(
-          "DELETE FROM asset_owners WHERE sha256=?1 AND EXISTS (SELECT 1 FROM assets WHERE "
-          "sha256=?1 AND use_ms<=?2) AND NOT EXISTS (SELECT 1 FROM job_inputs WHERE sha256=?1)",
-          {sha256, before_ms}));
-      HP_RETURN_IF_ERROR(delete_unused(sha256));
-      is_gone = database_.changes() > 0;
-      return {};
-    });
-    HP_RETURN_IF_ERROR(done);
-    if (!is_gone) continue;
-    discard_unowned(sha256);
-    log(LogLevel::kInfo, "asset_deleted", {{"asset", sha256}, {"why", "unused for too long"}});
-  }
-  return {};
-}
-
-// After a crash in the middle of complete(): a verified file under its final name whose row is
-// missing. If several were sending the same, nobody can say whose it was: they send it again.
-Status AssetStore::adopt_completed_uploads() {
-  std::vector<Upload> open;
-  HP_RETURN_IF_ERROR(database_.each(
-      "SELECT id, sha256, size, media_type, owner FROM uploads", {}, [&](const DbRow& row) {
-        open.push_back({row.text(0), row.text(1), row.integer(2), 0, row.text(3), 0, row.text(4)});
-      }));
-  for (const Upload& upload : open) {
-    const auto path = layout_.asset(upload.sha256);
-    const auto senders = std::count_if(open.begin(), open.end(), [&](const Upload& other) {
-      return other.sha256 == upload.sha256;
-    });
-    if (senders != 1 || asset(upload.sha256) ||
-        std::filesystem::exists(layout_.upload(upload.id)) || !std::filesystem::exists(path)) {
-      continue;
-    }
-    const auto hash = sha256_of_file(path);
-    if (!hash || *hash != upload.sha256) continue;
-    HP_RETURN_IF_ERROR(insert({upload.sha256, upload.size_bytes, upload.media_type, 0}));
-    HP_RETURN_IF_ERROR(add_owner(database_, upload.sha256, upload.owner, clock_()));
-    HP_RETURN_IF_ERROR(database_.run("DELETE FROM uploads WHERE id=?", {upload.id}));
-  }
-  return {};
-}
-
-Status AssetStore::drop_rows_without_file() {
-  std::vector<Asset> assets;
-  HP_RETURN_IF_ERROR(database_.each("SELECT sha256, size FROM assets", {}, [&](const DbRow& row) {
-    assets.push_back({row.text(0), row.integer(1), "", 0});
-  }));
-  for (const Asset& asset : assets) {
-    const auto path = layout_.asset(asset.sha256);
-    if (std::filesystem::exists(path) && size_on_disk(path) == asset.size_bytes) continue;
-    HP_RETURN_IF_ERROR(database_.run("DELETE FROM assets WHERE sha256=?", {asset.sha256}));
-  }
-  return {};
-}
-
-Status AssetStore::sweep() {
-  HP_RETURN_IF_ERROR(make_folder(layout_.uploads()));
-  HP_RETURN_IF_ERROR(make_folder(layout_.assets()));
-  return database_.transaction([&]() -> Status {
-    HP_RETURN_IF_ERROR(adopt_completed_uploads());
-    HP_RETURN_IF_ERROR(drop_rows_without_file());
-    std::error_code ignored;
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(layout_.assets(), ignored)) {
-      if (entry.is_directory()) continue;
-      const auto& path = entry.path();
-      if (!asset(path.parent_path().filename().string() + path.filename().string())) discard(path);
-    }
-    return {};
-  });
-}
-
-Result<std::unique_ptr<UploadWriter>> UploadWriter::open(AssetStore& store, const std::string& id,
-                                                         const std::string& owner) {
-  {
-    const std::lock_guard lock(store.busy_mutex_);
-    if (!store.busy_.insert(id).second) {
-      return fail(Code::kAborted,
-                  "uploads/" + id + ": another call is sending to it; wait for its end",
-                  "UPLOAD_BUSY");
-    }
-  }
-  // From here on, its end frees the upload.
-  std::unique_ptr<UploadWriter> writer(new UploadWriter(store, Upload{id, "", 0, 0, "", 0}));
-  HP_ASSIGN_OR_RETURN(writer->upload_, store.upload(id, owner));
-  HP_ASSIGN_OR_RETURN(writer->file_, open_file(store.layout_.upload(id), O_WRONLY | O_CREAT));
-  return writer;
-}
-
-UploadWriter::~UploadWriter() {
-  const std::lock_guard lock(store_.busy_mutex_);
-  store_.busy_.erase(upload_.id);
-}
-
-Status UploadWriter::append(std::int64_t offset, std::string_view bytes) {
-  if (offset != upload_.received_bytes) {
-    const std::string expected = std::to_string(upload_.received_bytes);
-    auto error = fail(
-        Code::kOutOfRange,
-        "offset: " + std::to_string(offset) + " is not where the upload is; go on at " + expected,
-        "OFFSET_MISMATCH");
-    error.value().metadata["expected_offset"] = expected;
-    return error;
-  }
-  const auto size = static_cast<std::int64_t>(bytes.size());
-  if (size > upload_.size_bytes - offset) return too_large(Code::kOutOfRange, upload_.size_bytes);
-  const auto path = store_.layout_.upload(upload_.id);
-  const Status written = write_at(file_, path, bytes, offset);
-  if (!written) return tl::unexpected(give_up_if_full(written.error()));
-  upload_.received_bytes += size;
-  return {};
-}
-
-Error UploadWriter::give_up_if_full(Error error) {
-  if (error.reason == "DISK_FULL" || error.reason == "QUOTA_EXCEEDED") {
-    file_.reset();  // an open file keeps its room
-    store_.give_up(upload_);
-  }
-  return error;
-}
-
-Result<AssetOrUpload> UploadWriter::finish() {
-  return verify().map_error([&](Error error) { return give_up_if_full(std::move(error)); });
-}
-
-Result<AssetOrUpload> UploadWriter::verify() {
-  const auto path = store_.layout_.upload(upload_.id);
-  if (::fsync(file_.get()) != 0) return system_failure(path, "cannot be made safe on disk");
-  if (upload_.received_bytes < upload_.size_bytes) return AssetOrUpload(upload_);
-  HP_ASSIGN_OR_RETURN(const std::string hash, sha256_of_file(path));
-  if (hash == upload_.sha256) {
-    HP_ASSIGN_OR_RETURN(Asset asset, store_.complete(upload_));
-    return AssetOrUpload(std::move(asset));
-  }
-  HP_RETURN_IF_ERROR(store_.database_.run("DELETE FROM uploads WHERE id=?", {upload_.id}));
-  discard(path);
-  auto error = fail(Code::kInvalidArgument,
-                    "the bytes have the hash " + hash + ", not the announced " + upload_.sha256 +
-                        "; start the upload again",
-                    "ASSET_HASH_MISMATCH");
-  error.value().metadata["sha256"] = hash;
-  return error;
 }
 
 }  // namespace hydroprint::daemon

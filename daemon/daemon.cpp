@@ -127,7 +127,7 @@ Result<std::string> Daemon::first_admin(const std::string& name) {
   entry.what = "hydroprintd --first-admin";
   entry.object = "users/" + name;
   entry.outcome = "OK";
-  audit_->note(std::move(entry));
+  audit_->wait_written(audit_->note(std::move(entry)), kPatience);
   return link.first;
 }
 

@@ -27,6 +27,7 @@ void tell(const Contents& contents) {
 
 Status run_backup(const Options& options) {
   HP_ASSIGN_OR_RETURN(State state, open_state(options.state_dir));
+  state.lock.reset();  // a daemon may begin meanwhile
   HP_ASSIGN_OR_RETURN(const Contents contents, backup(state, options.file));
   for (const std::string& warning : contents.warnings) {
     std::cerr << "warning: " << one_line(warning) << std::endl;

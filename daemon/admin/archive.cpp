@@ -80,7 +80,9 @@ Result<std::unique_ptr<ArchiveWriter>> ArchiveWriter::create(const std::filesyst
   HP_ASSIGN_OR_RETURN(impl->file, daemon::open_file(impl->part, O_WRONLY | O_CREAT | O_TRUNC));
   impl->out = archive_write_new();
   if (impl->out == nullptr) return fail(Code::kResourceExhausted, "there is no memory left");
+  // Names are bytes, whatever this process takes for letters.
   if (archive_write_set_format_pax_restricted(impl->out) != ARCHIVE_OK ||
+      archive_write_set_format_option(impl->out, "pax", "hdrcharset", "BINARY") != ARCHIVE_OK ||
       archive_write_add_filter_none(impl->out) != ARCHIVE_OK ||
       archive_write_open_fd(impl->out, impl->file.get()) != ARCHIVE_OK) {
     return writing_failed(impl->part, impl->out);

@@ -64,8 +64,8 @@ class AdminCli : public PeopleCli {
 TEST_F(AdminCli, ABackupOfARunningDaemonIsAllThereIsAndBringsItBack) {
   const std::string name = simulate("mesh");
   ASSERT_EQ(client({"pin", name}).status, 0);
-  const auto film = folder_.path() / "film.png";
-  ASSERT_EQ(client({"download", name, "film.png", "--out", film.string()}).status, 0);
+  const auto out = folder_.path() / "out", film = out / "film.png";
+  ASSERT_EQ(client({"download", name, "film.png", "--out", out.string()}).status, 0);
   const auto file = backup();
   struct stat info {};
   ASSERT_EQ(::stat(file.c_str(), &info), 0);
@@ -116,7 +116,7 @@ TEST_F(AdminCli, BackupsMadeWhileJobsComeAndGoAreEachWhole) {
 }
 
 TEST_F(AdminCli, ARunningJobIsBackedUpAndBegunAnewWhereItIsRestored) {
-  const std::string mesh = folder_.write("m.obj", "hang").string();
+  const std::string mesh = folder_.write("m.obj", "sleep 1000").string();
   const std::string name = client_json({"submit", "simulate", "--mesh", mesh}).at("name");
   Client watcher(daemon_.address());
   watcher.key = client_json({"keys", "add"}).at("key");
@@ -172,6 +172,7 @@ TEST_F(AdminCli, ARestoreTakesNoFolderThatIsInUseOrNotEmptyUnlessTold) {
   daemon_.kill();
   ASSERT_EQ(admin({"restore", file, "--replace"}).status, 0);
   daemon_.start();
+  log_in("ann");
   EXPECT_EQ(client({"show", name}).status, 0);
 }
 
@@ -235,6 +236,36 @@ TEST_F(AdminCli, AnArchiveThatLeadsElsewhereIsRefused) {
   EXPECT_EQ(admin({"restore", file}, elsewhere()).status, 3);
 }
 
+TEST(Archive, NamesAndContentsComeBackAsTheyWere) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.tar";
+  const std::map<std::string, std::string> entries{
+      {"artifacts/1/film.png", ""},
+      {"artifacts/1/M\xc3\xbcnze \xe2\x82\xac.png", "utf-8"},
+      {"artifacts/1/\xff\xfe.png", "no utf-8"},
+      {"artifacts/1/" + std::string(255, 'x'), std::string(3 << 20, 'y')}};
+  {
+    const auto out = admin::ArchiveWriter::create(file).value();
+    for (const auto& [name, bytes] : entries) {
+      const auto done = out->add(name, bytes);
+      ASSERT_TRUE(done) << done.error().message;
+    }
+    EXPECT_FALSE(std::filesystem::exists(file));  // before it is whole
+    ASSERT_TRUE(out->finish());
+  }
+  std::map<std::string, std::string> read;
+  const auto in = admin::ArchiveReader::open(file).value();
+  for (auto entry = in->next(); entry && *entry; entry = in->next()) {
+    EXPECT_TRUE((*entry)->is_file);
+    std::string& bytes = read[(*entry)->name];
+    ASSERT_TRUE(in->read([&](std::string_view piece) -> Status {
+      bytes += piece;
+      return {};
+    }));
+  }
+  EXPECT_EQ(read, entries);
+}
+
 TEST_F(AdminCli, NoDaemonStartsWhereARestoreWasBrokenOffUntilItWasDoneAgain) {
   simulate("mesh");
   const auto file = backup();
@@ -247,6 +278,7 @@ TEST_F(AdminCli, NoDaemonStartsWhereARestoreWasBrokenOffUntilItWasDoneAgain) {
   EXPECT_FALSE(std::filesystem::exists(daemon_.state() / "hydroprint.db"));
   ASSERT_EQ(admin({"restore", file}).status, 0);  // it may replace what a restore left
   daemon_.start();
+  log_in("ann");
   EXPECT_EQ(client({"show", "1"}).status, 0);
 }
 
