@@ -174,6 +174,7 @@ int obey(int argc, char** argv) {
                  "Where the motor's drive is, like tcp:127.0.0.1:1502; default: there is no rig")
       ->type_name("ENDPOINT");
   app.add_option("--rig-profile", options.rig_profile, "Profile of that drive")->type_name("FILE");
+  app.footer("hydroprintd admin --help: backup, restore and the like, on its state folder.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

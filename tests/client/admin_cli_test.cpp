@@ -1,4 +1,5 @@
 // `hydroprint admin` on the daemon's machine, against the real daemon and without one.
+#include <sys/mount.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -64,7 +65,7 @@ class AdminCli : public PeopleCli {
 TEST_F(AdminCli, ABackupOfARunningDaemonIsAllThereIsAndBringsItBack) {
   const std::string name = simulate("mesh");
   ASSERT_EQ(client({"pin", name}).status, 0);
-  const auto out = folder_.path() / "out", film = out / "film.png";
+  const auto out = folder_.path() / "got", film = out / "film.png";
   ASSERT_EQ(client({"download", name, "film.png", "--out", out.string()}).status, 0);
   const auto file = backup();
   struct stat info {};
@@ -152,6 +153,52 @@ TEST_F(AdminCli, ABackupNeverReplacesAFileAndLeavesNothingWhenItFails) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.tar"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.tar.part"));
   EXPECT_TRUE(std::filesystem::is_empty(other_.path()));
+}
+
+/// A disk of so many KiB, for as long as this lives.
+class SmallDisk {
+ public:
+  SmallDisk(std::filesystem::path path, int kib) : path_(std::move(path)) {
+    std::filesystem::create_directories(path_);
+    const std::string size = "size=" + std::to_string(kib) + "k";
+    is_there = ::mount("none", path_.c_str(), "tmpfs", 0, size.c_str()) == 0;
+  }
+  ~SmallDisk() {
+    if (is_there) ::umount2(path_.c_str(), MNT_DETACH);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+  bool is_there = false;
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Whatever the moment at which there is no more room.
+TEST_F(AdminCli, OnADiskThatIsTooSmallBackupAndRestoreAreWholeOrNotThere) {
+  const auto small = other_.path() / "small";
+  if (!SmallDisk(small, 100).is_there) GTEST_SKIP() << "needs root, to mount a small disk";
+  simulate(std::string(1 << 20, '#'));
+  const auto good = backup();
+  int backups = 0, restores = 0, refused = 0;
+  for (int kib = 512; kib <= 4096; kib += 128) {
+    {
+      const SmallDisk disk(small, kib);
+      const bool is_done = admin({"backup", small / "b.tar"}).status == 0;
+      EXPECT_EQ(tree_of(small).size(), is_done ? 1U : 0U) << kib;
+      ++(is_done ? backups : refused);
+    }
+    const SmallDisk disk(small, kib);
+    const Outcome ended = admin({"restore", good}, small / "state");
+    const Tree left = tree_of(small / "state");
+    EXPECT_EQ(left.contains("hydroprint.db"), ended.status == 0) << ended.err;
+    EXPECT_EQ(left.size() > 1, ended.status == 0) << ended.err;  // else the lock alone
+    ++(ended.status == 0 ? restores : refused);
+  }
+  EXPECT_GT(backups, 0);
+  EXPECT_GT(restores, 0);
+  EXPECT_GT(refused, 4);
 }
 
 TEST_F(AdminCli, ARestoreTakesNoFolderThatIsInUseOrNotEmptyUnlessTold) {
