@@ -16,6 +16,22 @@ tl::unexpected<Error> asset_not_found(const std::string& sha256) {
   return fail(Code::kNotFound, "assets/" + sha256 + " is not here; upload it", "ASSET_NOT_FOUND");
 }
 
+// What a job keeps is not given up: it would be there and count for nobody.
+Status check_is_not_used_by(Database& database, const std::string& sha256,
+                            const std::string& owner) {
+  HP_ASSIGN_OR_RETURN(
+      const auto jobs,
+      select_numbers(database,
+                     "SELECT jobs.id FROM job_inputs JOIN jobs ON jobs.id=job_inputs.job WHERE "
+                     "job_inputs.sha256=? AND jobs.owner=? LIMIT 1",
+                     {sha256, owner}));
+  if (jobs.empty()) return {};
+  return fail(Code::kFailedPrecondition,
+              "assets/" + sha256 + ": " + job_name(jobs.front()) +
+                  " was made of it, and keeps it; delete that before it",
+              "STATE_FORBIDS");
+}
+
 }  // namespace
 
 tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes) {
@@ -159,6 +175,7 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
     HP_ASSIGN_OR_RETURN(const Asset asset, asset_for(sha256, user));
     if (!user.is_operator) {
       if (asset.owners.empty()) return asset_not_found(sha256);  // a job's that they may see
+      HP_RETURN_IF_ERROR(check_is_not_used_by(database_, sha256, user.name));
       HP_RETURN_IF_ERROR(database_.run("DELETE FROM asset_owners WHERE owner=? AND sha256=?",
                                        {user.name, sha256}));
       return delete_unused(sha256);

@@ -81,10 +81,10 @@ class AssetStore {
   /// that is empty.
   [[nodiscard]] Result<std::vector<Asset>> list(const std::string& after, int limit,
                                                 const std::string& owner);
-  /// As an operator deletes it; as somebody else gives it up, and deletes it if it is nobody's then
-  /// and no job was made of it.
-  /// @return kFailedPrecondition, STATE_FORBIDS while an unfinished job needs it, and
-  /// ASSET_NOT_FOUND
+  /// As an operator deletes it; as somebody else gives it up, if none of their own jobs was made of
+  /// it, and deletes it if it is nobody's then and no job was made of it.
+  /// @return kFailedPrecondition, STATE_FORBIDS: else, or while an unfinished job needs it;
+  ///   ASSET_NOT_FOUND
   [[nodiscard]] Status remove(const std::string& sha256, const AssetUser& user);
   /// How much an owner has, and how much they may.
   [[nodiscard]] Result<Usage> usage(const std::string& owner) { return usage_of(database_, owner); }

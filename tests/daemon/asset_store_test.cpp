@@ -97,10 +97,14 @@ TEST_F(AssetStoreTest, ItGoesWithItsLastOwnerUnlessAJobWasMadeOfIt) {
   EXPECT_EQ(stored("bob"), 0);
   EXPECT_FALSE(may("bob", asset));
   EXPECT_TRUE(may("ann", asset));
-  const Job job = made_of(asset, "ann");
+  const Job job = made_of(asset, "ann"), others = made_of(asset, "bob");
+  EXPECT_EQ(assets->remove(asset.sha256, ann).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(stored("ann"), 4);  // nothing that is kept counts for nobody
+  ASSERT_TRUE(jobs->cancel(job.id));
+  ASSERT_TRUE(jobs->remove(job.id));
   ASSERT_TRUE(assets->remove(asset.sha256, ann));
-  EXPECT_EQ(stored("ann"), 0);
-  EXPECT_TRUE(may("ann", asset));  // by the job
+  EXPECT_FALSE(may("ann", asset));
+  EXPECT_TRUE(may("bob", asset));  // by the job
   EXPECT_TRUE(std::filesystem::exists(layout.asset(asset.sha256)));
   const Asset other = put("other");
   ASSERT_TRUE(assets->remove(other.sha256, ann));
