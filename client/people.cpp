@@ -90,15 +90,29 @@ Status by_name(Connection& connection, const std::string& name,
 
 std::vector<std::string> role_names() { return {"VIEWER", "MAKER", "OPERATOR", "ADMIN"}; }
 
+namespace {
+
+Result<std::string> begin_session(Connection& connection, const v1::SignInRequest& request) {
+  HP_ASSIGN_OR_RETURN(
+      const v1::SignInResponse reply,
+      client::call_once(connection, stub(connection), &PeopleStub::SignIn, request));
+  return reply.session_token();
+}
+
+}  // namespace
+
 Result<std::string> sign_in(Connection& connection, const std::string& user,
                             const std::string& password) {
   v1::SignInRequest request;
   request.set_user(user);
   request.set_password(password);
-  HP_ASSIGN_OR_RETURN(
-      const v1::SignInResponse reply,
-      client::call_once(connection, stub(connection), &PeopleStub::SignIn, request));
-  return reply.session_token();
+  return begin_session(connection, request);
+}
+
+Result<std::string> sign_in_by_link(Connection& connection, const std::string& token) {
+  v1::SignInRequest request;
+  request.set_link_token(token);
+  return begin_session(connection, request);
 }
 
 Status sign_out(Connection& connection) {

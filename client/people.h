@@ -75,6 +75,8 @@ struct AuditEntry {
 /// TOO_MANY_ATTEMPTS.
 [[nodiscard]] Result<std::string> sign_in(Connection& connection, const std::string& user,
                                           const std::string& password);
+/// The same by a one-time link's token.
+[[nodiscard]] Result<std::string> sign_in_by_link(Connection& connection, const std::string& token);
 [[nodiscard]] Status sign_out(Connection& connection);
 [[nodiscard]] Result<Identity> who_am_i(Connection& connection);
 /// How much the caller has at the daemon.

@@ -13,6 +13,7 @@
 #include "daemon/capture_runner.h"
 #include "daemon/dip_runner.h"
 #include "daemon/job_store.h"
+#include "daemon/live_camera.h"
 #include "daemon/people/audit.h"
 #include "daemon/pool.h"
 #include "daemon/preview_desk.h"
@@ -36,6 +37,7 @@ struct Backend {
   CaptureRunner& captures;
   CalibrationStore& calibrations;
   PreviewDesk& previews;
+  LiveCamera& live;
   PlaceKeeper& places;
   CameraSetup camera;
   Layout layout;

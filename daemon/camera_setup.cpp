@@ -9,6 +9,14 @@ constexpr std::size_t kLargestLayout = 1 << 20;
 
 }  // namespace
 
+Status check_camera(const CameraSetup& setup) {
+  if (!setup.device.empty()) return {};
+  return fail(Code::kFailedPrecondition,
+              "no camera is configured; set camera.device in the daemon's configuration, or enter "
+              "a calibration by hand",
+              "CAMERA_MISSING");
+}
+
 Result<std::string> read_layout_text(const CameraSetup& setup) {
   auto text = read_text_file(setup.layout, kLargestLayout);
   if (text) return text;

@@ -22,6 +22,9 @@ struct CameraSetup {
 /// @return kInvalidArgument, CONFIG_INVALID, one line that names the key
 [[nodiscard]] Result<CameraSetup> read_camera_setup(const Config& config);
 
+/// kFailedPrecondition, CAMERA_MISSING if none is configured.
+[[nodiscard]] Status check_camera(const CameraSetup& setup);
+
 /// The layout's text. CONFIG_INVALID if the file cannot be read.
 [[nodiscard]] Result<std::string> read_layout_text(const CameraSetup& setup);
 

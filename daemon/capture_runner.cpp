@@ -57,13 +57,7 @@ Result<std::unique_ptr<CaptureRunner>> CaptureRunner::make(CaptureSurroundings s
 CaptureRunner::~CaptureRunner() { stop(); }
 
 Status CaptureRunner::check() const {
-  if (around_.camera.device.empty()) {
-    return fail(
-        Code::kFailedPrecondition,
-        "no camera is configured; set camera.device in the daemon's configuration, or enter "
-        "a calibration by hand",
-        "CAMERA_MISSING");
-  }
+  HP_RETURN_IF_ERROR(check_camera(around_.camera));
   const rig::Controller* rig = around_.desk.controller();
   if (rig != nullptr && rig::in_motion(rig->snapshot().condition.state)) {
     return fail(Code::kAborted, "the axis moves; wait until it is at rest, or stop it",
@@ -106,6 +100,7 @@ void CaptureRunner::go(const Job& job, double seconds) {
 }
 
 Status CaptureRunner::run(const Job& job, double seconds) {
+  const LiveCamera::Loan camera = around_.live.lend(job.id);
   HP_RETURN_IF_ERROR(make_folder(around_.layout.run_work(job.id)));
   const Launch launch = plan(around_.camera, around_.layout, job.id, seconds);
   const std::chrono::seconds limit(static_cast<int>(std::ceil(seconds)) + kMargin_s +

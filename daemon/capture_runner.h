@@ -10,6 +10,7 @@
 #include "daemon/clock.h"
 #include "daemon/job_store.h"
 #include "daemon/layout.h"
+#include "daemon/live_camera.h"
 #include "daemon/rig_desk.h"
 #include "daemon/rig_place.h"
 #include "daemon/sandbox.h"
@@ -19,6 +20,7 @@ namespace hydroprint::daemon {
 /// What captures work on.
 struct CaptureSurroundings {
   CameraSetup camera;
+  LiveCamera& live;
   JobStore& jobs;
   CalibrationStore& calibrations;
   RigDesk& desk;

@@ -158,8 +158,9 @@ Status Daemon::open_printer(const Config& config) {
 // Nor the camera.
 Status Daemon::open_camera(const Config& config) {
   HP_ASSIGN_OR_RETURN(camera_, read_camera_setup(config));
-  HP_ASSIGN_OR_RETURN(captures_, CaptureRunner::make({camera_, *jobs_, *calibrations_, *desk_,
-                                                      *places_, layout_, system_clock_ms}));
+  HP_ASSIGN_OR_RETURN(live_, LiveCamera::make(camera_, layout_, system_clock_ms));
+  HP_ASSIGN_OR_RETURN(captures_, CaptureRunner::make({camera_, *live_, *jobs_, *calibrations_,
+                                                      *desk_, *places_, layout_, system_clock_ms}));
   return {};
 }
 
@@ -167,25 +168,13 @@ Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(pool_,
                       WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
   HP_ASSIGN_OR_RETURN(previews_, PreviewDesk::make(preview_options(pool_options(config)), layout_));
-  const Backend backend{*database_,
-                        *accounts_,
-                        *audit_,
-                        *access_,
-                        *jobs_,
-                        *assets_,
-                        *pool_,
-                        *desk_,
-                        *dips_,
-                        *prints_,
-                        *captures_,
-                        *calibrations_,
-                        *previews_,
-                        *places_,
-                        camera_,
-                        layout_,
-                        config.store_min_free_mib * kMiB,
-                        quota_of(config),
-                        stopping_};
+  const Backend backend{*database_,       *accounts_, *audit_,
+                        *access_,         *jobs_,     *assets_,
+                        *pool_,           *desk_,     *dips_,
+                        *prints_,         *captures_, *calibrations_,
+                        *previews_,       *live_,     *places_,
+                        camera_,          layout_,    config.store_min_free_mib * kMiB,
+                        quota_of(config), stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_, Server::start(endpoint, config.server_reflection, backend));
   HP_RETURN_IF_ERROR(start_http(config, backend));
@@ -240,6 +229,7 @@ void Daemon::stop() {
   dips_->stop();
   prints_->stop();
   captures_->stop();
+  live_->stop();
   previews_->stop();
   if (rig_) rig_->stop();
   pool_->stop();

@@ -16,6 +16,7 @@
 #include "daemon/job_meter.h"
 #include "daemon/job_store.h"
 #include "daemon/lease.h"
+#include "daemon/live_camera.h"
 #include "daemon/people/audit.h"
 #include "daemon/people/outside.h"
 #include "daemon/pool.h"
@@ -84,6 +85,7 @@ class Daemon {
   std::unique_ptr<DipRunner> dips_;
   std::unique_ptr<PrintRunner> prints_;
   CameraSetup camera_;
+  std::unique_ptr<LiveCamera> live_;
   std::unique_ptr<CaptureRunner> captures_;
   std::unique_ptr<WorkerPool> pool_;
   std::unique_ptr<PreviewDesk> previews_;

@@ -38,6 +38,8 @@ struct Layout {
   /// What a restore unpacks, and what says that it has not finished putting it in place.
   [[nodiscard]] std::filesystem::path restoring() const { return root / "restoring"; }
   [[nodiscard]] std::filesystem::path unrestored() const { return root / "unrestored"; }
+  /// The process that shows what the camera sees.
+  [[nodiscard]] std::filesystem::path live_camera() const { return runs() / "live-camera"; }
   /// Records of dips that are not finished.
   [[nodiscard]] std::filesystem::path dips() const { return root / "dips"; }
   [[nodiscard]] std::filesystem::path dip(std::int64_t job) const {

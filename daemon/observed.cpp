@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -115,9 +116,10 @@ std::string metrics_text(const Backend& backend, const JobMeter& meter) {
   describe_queue(backend, out);
   meter.describe(out);
   describe_rig(rig_message(backend.desk), out);
-  if (const std::int64_t taken_ms = meter.camera_ms(); taken_ms != 0) {
+  if (const std::int64_t taken_ms = std::max(meter.camera_ms(), backend.live.latest_ms());
+      taken_ms != 0) {
     out.single("hydroprint_camera_frame_age_seconds", "gauge",
-               "Since the camera's latest frames that were kept.",
+               "Since the camera's latest frame that was kept or shown.",
                static_cast<double>(system_clock_ms() - taken_ms) / 1000);
   }
   out.single("hydroprint_rejected_logins_total", "counter", "Logins that were refused.",

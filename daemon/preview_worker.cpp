@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "daemon/artifact_files.h"
@@ -15,28 +14,10 @@
 namespace hydroprint::daemon {
 namespace {
 
-constexpr std::size_t kLongestHead = 256 << 10;
 constexpr std::size_t kMostBytes = 256 << 20;
 constexpr std::size_t kAtOnce = 4 << 20;
 constexpr std::size_t kWordsKept = 16 << 10;
 constexpr int kToEnd_ms = 500;
-
-/// How many bytes follow a head; none for what is no head. (Its reader may be a stranger's, and
-/// deeply nested text would exhaust the parser's stack.)
-std::optional<std::size_t> bytes_after(const std::string& head) {
-  int depth = 0;
-  for (const char c : head) {
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
-    if (depth > 16) return {};
-  }
-  const auto json = nlohmann::json::parse(head, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) return {};
-  const auto bytes = json.find("bytes");
-  if (bytes == json.end() || !bytes->is_number_unsigned()) return {};
-  const auto count = bytes->get<std::size_t>();
-  return count <= kMostBytes ? std::optional(count) : std::nullopt;
-}
 
 Error unusable() {
   return {Code::kInternal,
@@ -87,27 +68,14 @@ std::vector<PreviewFrame> PreviewWorker::read() {
   std::vector<PreviewFrame> frames;
   if (failure_) return frames;
   const bool goes_on = drain(worker_.answer, bytes_, kAtOnce);
-  while (cut(frames)) {
+  for (;;) {
+    auto frame = cut_framed(bytes_, kMostBytes);
+    if (!frame) failure_ = unusable();
+    if (!frame || !*frame) break;
+    frames.push_back(std::move(**frame));
   }
   if (!goes_on && !failure_) judge_end();
   return frames;
-}
-
-/// Takes one whole frame from what was read.
-bool PreviewWorker::cut(std::vector<PreviewFrame>& frames) {
-  const std::size_t end = bytes_.find('\n');
-  if (end == std::string::npos || failure_) {
-    if (bytes_.size() > kLongestHead && end == std::string::npos) failure_ = unusable();
-    return false;
-  }
-  PreviewFrame frame{bytes_.substr(0, end), {}};
-  const auto count = bytes_after(frame.head);
-  if (!count) failure_ = unusable();
-  if (!count || bytes_.size() - end - 1 < *count) return false;
-  frame.bytes = bytes_.substr(end + 1, *count);
-  bytes_.erase(0, end + 1 + *count);
-  frames.push_back(std::move(frame));
-  return true;
 }
 
 void PreviewWorker::judge_end() {

@@ -7,17 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "daemon/framed.h"
 #include "daemon/layout.h"
 #include "daemon/preview_ask.h"
 #include "daemon/worker_process.h"
 
 namespace hydroprint::daemon {
 
-/// One answer of `hydroprint-worker preview`: a line of JSON, and the bytes that it announces.
-struct PreviewFrame {
-  std::string head;
-  std::string bytes;
-};
+/// One answer of `hydroprint-worker preview`.
+using PreviewFrame = Framed;
 
 /// A confined worker that has a mesh in memory and answers requests, the first of all with the mesh
 /// itself. Belongs to the thread that started it.
@@ -45,7 +43,6 @@ class PreviewWorker {
 
  private:
   PreviewWorker(std::string key, std::filesystem::path folder);
-  [[nodiscard]] bool cut(std::vector<PreviewFrame>& frames);
   void judge_end();
 
   std::string key_;

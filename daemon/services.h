@@ -16,6 +16,7 @@ namespace hydroprint::daemon {
 [[nodiscard]] std::unique_ptr<grpc::Service> make_artifact_service(const Backend& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_calibration_service(const Backend& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_preview_service(const Backend& backend);
+[[nodiscard]] std::unique_ptr<grpc::Service> make_camera_service(const Backend& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_rig_service(const Backend& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_lease_service(const Backend& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_event_service(const Backend& backend);

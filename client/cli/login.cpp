@@ -22,6 +22,7 @@ constexpr std::chrono::hours kKeyHolds{24 * 90};
 struct LoginOptions {
   std::string user;
   bool key_from_stdin = false;
+  bool link_from_stdin = false;
 };
 
 std::string host_name() {
@@ -77,12 +78,21 @@ Status show_all(Program& program) {
   return {};
 }
 
-// A key made with a session that lasts no longer than that.
-Result<std::string> key_by_password(Program& program, const std::string& name) {
-  HP_ASSIGN_OR_RETURN(const std::string user, name.empty() ? ask("Name: ") : name);
+Result<std::string> begin_session(client::Connection& nobody, const LoginOptions& options) {
+  if (options.link_from_stdin) {
+    HP_ASSIGN_OR_RETURN(const std::string link, ask_secret("Sign-in link: "));
+    // The whole address, or what stands behind its "#".
+    return client::sign_in_by_link(nobody, link.substr(link.rfind('#') + 1));
+  }
+  HP_ASSIGN_OR_RETURN(const std::string user, options.user.empty() ? ask("Name: ") : options.user);
   HP_ASSIGN_OR_RETURN(const std::string password, ask_secret("Password: "));
+  return client::sign_in(nobody, user, password);
+}
+
+// A key made with a session that lasts no longer than that.
+Result<std::string> make_key(const Program& program, const LoginOptions& options) {
   client::Connection nobody({program.server(), "", "", "", {}});
-  HP_ASSIGN_OR_RETURN(const std::string session, client::sign_in(nobody, user, password));
+  HP_ASSIGN_OR_RETURN(const std::string session, begin_session(nobody, options));
   client::Connection somebody({program.server(), "", "", session, {}});
   auto key = client::create_api_key(somebody, "hydroprint login on " + host_name(), "", kKeyHolds);
   HP_RETURN_IF_ERROR(client::sign_out(somebody));
@@ -91,9 +101,8 @@ Result<std::string> key_by_password(Program& program, const std::string& name) {
 }
 
 Status log_in(Program& program, const LoginOptions& options) {
-  HP_ASSIGN_OR_RETURN(const std::string key, options.key_from_stdin
-                                                 ? ask_secret("API key: ")
-                                                 : key_by_password(program, options.user));
+  HP_ASSIGN_OR_RETURN(const std::string key, options.key_from_stdin ? ask_secret("API key: ")
+                                                                    : make_key(program, options));
   client::Connection connection({program.server(), "", key, "", {}});
   HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(connection));
   if (!me.accounts) {
@@ -127,10 +136,15 @@ Status log_out(const Program& program) {
 void add_login(CLI::App& app, Program& program) {
   auto options = std::make_shared<LoginOptions>();
   CLI::App* login = app.add_subcommand(
-      "login", "Keep an API key for a daemon, made with name and password, or one you have");
+      "login",
+      "Keep an API key for a daemon, made with name and password or a link, or one you have");
   login->add_option("--user", options->user, "Your name; else it is asked for")->type_name("NAME");
-  login->add_flag("--api-key-stdin", options->key_from_stdin,
-                  "Read an API key from standard input");
+  auto* key = login->add_flag("--api-key-stdin", options->key_from_stdin,
+                              "Read an API key from standard input");
+  login
+      ->add_flag("--link-stdin", options->link_from_stdin,
+                 "Read a one-time sign-in link from standard input")
+      ->excludes(key);
   login->footer("Example:\n  hydroprint login --api-key-stdin < key");
   program.on(*login, [&program, options] { return log_in(program, *options); });
   program.on(*app.add_subcommand("logout", "Forget the key and end it"),

@@ -226,9 +226,9 @@ class Document {
               {"content", {{"application/json", {{"schema", std::move(schema)}}}}}};
     }
     std::string description =
-        "Server-sent events; the `data` of each is one such message. An event `error` with an "
-        "Error\n"
-        "ends the stream if something goes wrong after it began.";
+        "Server-sent events; the `data` of each is one such message. An event `end` says that no\n"
+        "more will come; an event `error` with an Error ends the stream if something goes wrong\n"
+        "after it began.";
     if (is_resumable(method)) description += " The `id` of each is its `seq`.";
     return {{"description", std::move(description)},
             {"content", {{"text/event-stream", {{"schema", std::move(schema)}}}}}};

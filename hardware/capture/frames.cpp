@@ -14,10 +14,11 @@ constexpr double kUsualSeconds = 2;
 constexpr milliseconds kSlice{200};  ///< of a wait, between looks at whether to go on
 constexpr std::string_view kStage = "capture";
 
-/// The next frame, within the patience of the options.
-Result<std::optional<camera::DepthFrame>> next(camera::DepthCamera& camera, const Options& options,
-                                               const Context& context,
-                                               const std::function<void()>& alive) {
+}  // namespace
+
+Result<std::optional<camera::DepthFrame>> next_frame(camera::DepthCamera& camera,
+                                                     const Options& options, const Context& context,
+                                                     const std::function<void()>& alive) {
   for (double waited_s = 0;;) {
     HP_RETURN_IF_ERROR(check_cancelled(context));
     alive();
@@ -28,8 +29,6 @@ Result<std::optional<camera::DepthFrame>> next(camera::DepthCamera& camera, cons
   }
 }
 
-}  // namespace
-
 Result<Taken> take_frames(camera::DepthCamera& camera, const Options& options,
                           const Context& context, const std::function<void()>& alive) {
   const auto all = camera.info().frames;
@@ -39,7 +38,7 @@ Result<Taken> take_frames(camera::DepthCamera& camera, const Options& options,
   std::optional<double> start_s;
   int index = 0;
   for (int count = 1;; ++count) {
-    HP_ASSIGN_OR_RETURN(auto frame, next(camera, options, context, alive));
+    HP_ASSIGN_OR_RETURN(auto frame, next_frame(camera, options, context, alive));
     if (!frame) break;
     HP_RETURN_IF_ERROR(watch.look(*frame));
     if (index > 0) out.lost += std::max(0, frame->index - index - 1);

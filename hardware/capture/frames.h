@@ -17,8 +17,14 @@ struct Taken {
   int left_out = 0;  ///< black ones, and ones that repeat the one before
 };
 
-/// Takes frames for as long as the options say, or until the recording ends; `alive` is called
-/// again and again meanwhile. Refuses what DepthCamera::next and FrameWatch refuse, and kCancelled.
+/// The next frame, within the patience of the options; `alive` is called again and again meanwhile.
+/// None: the recording has ended. Refuses what DepthCamera::next refuses, and kCancelled.
+[[nodiscard]] Result<std::optional<camera::DepthFrame>> next_frame(
+    camera::DepthCamera& camera, const Options& options, const Context& context,
+    const std::function<void()>& alive);
+
+/// Takes frames for as long as the options say, or until the recording ends. Refuses what
+/// next_frame() and FrameWatch refuse.
 [[nodiscard]] Result<Taken> take_frames(camera::DepthCamera& camera, const Options& options,
                                         const Context& context, const std::function<void()>& alive);
 

@@ -7,10 +7,13 @@
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "hardware/camera/depth_camera.h"
 #include "hardware/capture/frames.h"
+#include "hardware/capture/live.h"
 #include "hardware/capture/options.h"
 #include "hardware/capture/watchdog.h"
 #include "hardware/capture/write_frames.h"
@@ -25,6 +28,7 @@ namespace hydroprint::capture {
 namespace {
 
 constexpr const char* kProgram = "hydroprint-capture";
+constexpr int kGivesWay = 10;
 
 double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -79,12 +83,11 @@ struct Summary {
   int lost = 0;
 };
 
-/// Ends the process when the driver has it hang.
-std::function<void()> bite(const Options& options, const worker::OutFolder& folder,
-                           const Recording& recording, const worker::QuietStderr& quiet) {
-  return [&] {
-    folder.abandon();
-    recording.abandon();
+/// Ends the process when the driver has it hang, once it is cleaned up.
+std::function<void()> bite(const Options& options, const worker::QuietStderr& quiet,
+                           std::function<void()> clean_up) {
+  return [&options, &quiet, clean_up = std::move(clean_up)] {
+    clean_up();
     quiet.restore();
     const std::string name = !options.recording.empty() ? options.recording.string()
                              : options.device.empty()   ? "the camera"
@@ -102,10 +105,11 @@ Result<Summary> run(const Options& options, worker::Ending& ending,
                     const worker::QuietStderr& quiet) {
   HP_ASSIGN_OR_RETURN(worker::OutFolder folder, worker::OutFolder::plan(options.out));
   Recording recording(options.record);
-  const worker::CleanupAtEnding cleanup(ending, [&] {
+  const auto clean_up = [&] {
     folder.abandon();
     recording.abandon();
-  });
+  };
+  const worker::CleanupAtEnding cleanup(ending, clean_up);
   worker::ProgressPipe pipe(options.progress_fd);
   const worker::ProgressLine line(quiet.own());
   worker::Progress progress({{"capture", 0.7}, {"writing", 0.3}}, seconds_now,
@@ -118,8 +122,7 @@ Result<Summary> run(const Options& options, worker::Ending& ending,
       [&ending] { return ending.requested(); }};
   // More than the camera itself has, which says it better.
   const double patience_s = std::max(options.patience_s, options.recording.empty() ? 0 : 30.0);
-  Watchdog watchdog(std::chrono::duration<double>(patience_s + 1),
-                    bite(options, folder, recording, quiet));
+  Watchdog watchdog(std::chrono::duration<double>(patience_s + 1), bite(options, quiet, clean_up));
   context.progress("capture", 0);
   HP_ASSIGN_OR_RETURN(auto camera, open(options));
   watchdog.feed();
@@ -142,6 +145,19 @@ Result<Summary> run(const Options& options, worker::Ending& ending,
   return Summary{folder.dir(), taken.frames.size(), taken.lost};
 }
 
+/// Until a signal ends it, or a failure.
+Status live(const Options& options, worker::Ending& ending, const worker::QuietStderr& quiet) {
+  (void)::nice(kGivesWay);  // to the rig, and to whoever computes in earnest
+  Context context;
+  context.cancelled = [&ending] { return ending.requested(); };
+  // More than the camera itself has, which says it better.
+  Watchdog watchdog(std::chrono::duration<double>(options.patience_s + 1),
+                    bite(options, quiet, [] {}));
+  HP_ASSIGN_OR_RETURN(auto camera, open(options));
+  return show_live(
+      *camera, options, context, [&] { watchdog.feed(); }, STDOUT_FILENO);
+}
+
 void sum_up(const Summary& summary, bool json) {
   const nlohmann::ordered_json object = {
       {"out", summary.dir.string()}, {"frames", summary.frames}, {"lost_frames", summary.lost}};
@@ -152,10 +168,13 @@ void sum_up(const Summary& summary, bool json) {
   std::puts(text.c_str());
 }
 
-Result<Summary> run_guarded(const Options& options, worker::Ending& ending,
-                            const worker::QuietStderr& quiet) {
+/// None: there is nothing to sum up.
+Result<std::optional<Summary>> run_guarded(const Options& options, worker::Ending& ending,
+                                           const worker::QuietStderr& quiet) {
   try {
-    return run(options, ending, quiet);
+    if (!options.live) return run(options, ending, quiet);
+    HP_RETURN_IF_ERROR(live(options, ending, quiet));
+    return std::nullopt;
   } catch (const std::exception& error) {
     return fail(Code::kInternal, std::string(error.what()) + ". Please report this");
   }
@@ -173,11 +192,11 @@ int main_of(int argc, char** argv) {
     quiet.restore();
     tell({Code::kCancelled, "cancelled", {}, {}}, json);
   });
-  const Result<Summary> summary = run_guarded(command.options, ending, quiet);
+  const Result<std::optional<Summary>> summary = run_guarded(command.options, ending, quiet);
   ending.decide();
   quiet.restore();
   if (summary) {
-    sum_up(*summary, json);
+    if (*summary) sum_up(**summary, json);
     return 0;
   }
   tell(summary.error(), json);

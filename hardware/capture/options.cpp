@@ -10,6 +10,7 @@ constexpr const char* kFooter = R"(Examples:
   hydroprint-capture --seconds 2 --out frames                                  # the camera that is plugged in
   hydroprint-capture --device hydroprint:/tmp/rig --seconds 10 --record sweep.oni --out frames
   hydroprint-capture --recording sweep.oni --out frames
+  hydroprint-capture --live                    # a line of JSON and the PNG that it tells of, again and again
 
 Exit status: 0 done, 2 bad usage, 3 bad input (no such camera among it), 4 the camera failed, 130 cancelled.)";
 
@@ -32,11 +33,20 @@ void declare(CLI::App& app, Options& o) {
                              "Take its frames in place of a camera's", "FILE.oni");
   auto* record = add_path(app, "--record", o.record, "Record the stream, too", "FILE.oni");
   recording->excludes(device)->excludes(record);
-  add_path(app, "--out", o.out,
-           "Folder to make, of frames and frames.json; one of an earlier run is replaced", "DIR")
-      ->required();
-  app.add_option("--seconds", o.seconds, "How long; default: 2 of a camera, all of a recording")
-      ->check(CLI::Range(0.01, kMostSeconds));
+  auto* out = add_path(
+      app, "--out", o.out,
+      "Folder to make, of frames and frames.json; one of an earlier run is replaced", "DIR");
+  auto* seconds =
+      app.add_option("--seconds", o.seconds, "How long; default: 2 of a camera, all of a recording")
+          ->check(CLI::Range(0.01, kMostSeconds));
+  auto* live = app.add_flag("--live", o.live,
+                            "In place of frames in a folder: what the camera sees, as pictures on "
+                            "stdout, until a signal ends it");
+  live->excludes(recording)->excludes(record)->excludes(out)->excludes(seconds);
+  app.add_option("--every-s", o.every_s, "From one picture to the next")
+      ->check(CLI::Range(0.05, 60.0))
+      ->capture_default_str()
+      ->needs(live);
   app.add_option("--patience-s", o.patience_s, "How long to wait for a camera that does not answer")
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();
@@ -57,6 +67,7 @@ CommandLine parse_command_line(int argc, char** argv) {
   declare(app, out.options);
   try {
     app.parse(argc, argv);
+    if (!out.options.live && out.options.out.empty()) throw CLI::RequiredError("--out or --live");
     out.runs = true;
   } catch (const CLI::ParseError& error) {
     std::ostringstream said, complaint;

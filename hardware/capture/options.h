@@ -16,6 +16,9 @@ struct Options {
   std::filesystem::path out;
   std::optional<double> seconds;  ///< default: 2 of a camera, all of a recording
   double patience_s = 5;          ///< for a frame, and for a driver to do anything
+  /// Pictures on stdout in place of frames in `out`, for as long as somebody wants them.
+  bool live = false;
+  double every_s = 1;  ///< from one of those to the next
   int progress_fd = -1;
   bool json = false;
 };

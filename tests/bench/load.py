@@ -9,10 +9,11 @@ import os
 import pathlib
 import random
 import re
-import subprocess
 import sys
-import tempfile
 import time
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+import programs
 
 WATCHERS, UPLOADS = 100, 20
 LEAST_NEWS = 50
@@ -191,35 +192,11 @@ async def measure(address, pid, size_bytes):
         task.cancel()
 
 
-def start(command, ready):
-    """Starts a program and waits for the line that says where it listens."""
-    child = subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                             text=True)
-    for line in child.stdout:
-        found = re.search(ready, line)
-        if found:
-            return child, found[1]
-    raise RuntimeError(f"{command[0]} did not start")
-
-
 def main():
-    programs, profile = pathlib.Path(sys.argv[1]), sys.argv[2]
     size_bytes = UPLOAD_BYTES // 8 if "--quick" in sys.argv else UPLOAD_BYTES
-    with tempfile.TemporaryDirectory() as folder:
-        rig, rig_address = start([programs / "hydroprint-virtual-rig", "--profile", profile, "--tcp", "0"],
-                                 r"(127\.0\.0\.1:\d+)")
-        daemon, address = start([programs / "hydroprintd", "--grpc", "127.0.0.1:0", "--http", "127.0.0.1:0",
-                                 "--state-dir", pathlib.Path(folder) / "state",
-                                 "--rig", f"tcp:{rig_address}", "--rig-profile", profile], r"\bhttp=(\S+:\d+)")
-        # Nobody reads what it says from here on but this, which must not fill the pipe.
-        drain = subprocess.Popen(["cat"], stdin=daemon.stdout, stdout=subprocess.DEVNULL)
-        try:
-            time.sleep(2)
-            asyncio.run(measure(address, daemon.pid, size_bytes))
-        finally:
-            for child in (daemon, rig, drain):
-                child.terminate()
-                child.wait()
+    with programs.daemon_with_rig(sys.argv[1], sys.argv[2]) as (daemon, address):
+        time.sleep(2)  # what it does at first is not measured
+        asyncio.run(measure(address, daemon.pid, size_bytes))
 
 
 if __name__ == "__main__":

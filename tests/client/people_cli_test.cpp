@@ -48,6 +48,18 @@ TEST_F(PeopleCli, AKeyFromTheEnvironmentGoesFirst) {
   EXPECT_EQ(client({"whoami"}, {"HYDROPRINT_API_KEY=hp_no_key"}).status, 3);
 }
 
+TEST_F(PeopleCli, ALinkLogsInOnce) {
+  add("ann", "ADMIN");
+  log_in("ann");
+  const std::string token = client_json({"users", "link", "ann"}).at("link_token");
+  EXPECT_EQ(client({"logout"}).status, 0);
+  const std::string link = "http://127.0.0.1:8080/sign-in#" + token + "\n";
+  EXPECT_EQ(told(link, {"login", "--link-stdin"}).status, 0);
+  EXPECT_EQ(client_json({"whoami"}).at("user"), "ann");
+  EXPECT_EQ(client({"logout"}).status, 0);
+  EXPECT_EQ(told(link, {"login", "--link-stdin"}).status, 3) << "a second time";
+}
+
 TEST_F(PeopleCli, AWrongPasswordOrKeyIsNotKept) {
   add("ann", "ADMIN");
   const Outcome ended = told("wrong password\n", {"login", "--user", "ann"});

@@ -1,14 +1,5 @@
-/** Debian's Chromium, and what every page is held against. */
-import { mkdirSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { join } from 'node:path';
+/** Debian's Chromium, and people at it. */
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
-import { expect } from 'vitest';
-import { root } from './daemon';
-
-const kScreens = join(root, 'build/tests/screens');
-const kWidths = [390, 1280];
-const axe = createRequire(import.meta.url).resolve('axe-core/axe.min.js');
 
 export const launch = (): Promise<Browser> =>
   chromium.launch({
@@ -54,45 +45,4 @@ export async function visit(browser: Browser, address: string, width = 1280): Pr
 /** Opens a screen by its address behind the "#". */
 export async function open({ page }: Person, path: string): Promise<void> {
   await page.evaluate((to) => (location.hash = to), path);
-}
-
-/** Keeps a picture of the screen at both widths. */
-export async function picture({ page }: Person, name: string): Promise<void> {
-  mkdirSync(kScreens, { recursive: true });
-  const before = page.viewportSize()!;
-  for (const width of kWidths) {
-    await page.setViewportSize({ width, height: width < 600 ? 844 : 860 });
-    await page.waitForTimeout(300); // for what follows the window's size
-    await page.screenshot({ path: join(kScreens, `${name}-${width}.png`) });
-    const wide = await page.evaluate(() => {
-      const { scrollWidth, clientWidth } = document.documentElement;
-      if (scrollWidth <= clientWidth) return [];
-      return [...document.querySelectorAll('main *')]
-        .filter((element) => element.getBoundingClientRect().right > clientWidth)
-        .map((element) => element.outerHTML.slice(0, 120));
-    });
-    expect(wide, `${name} at ${width} px is wider than its window`).toEqual([]);
-  }
-  await page.setViewportSize(before);
-}
-
-/** Nothing that axe calls serious or critical. */
-export async function isAccessible({ page }: Person, name: string): Promise<void> {
-  // By the debugger: the page's own policy lets no script in.
-  await page.evaluate(await import('node:fs').then((fs) => fs.readFileSync(axe, 'utf8')));
-  const found = await page.evaluate(async () => {
-    const { violations } = await (
-      window as unknown as { axe: { run(): Promise<{ violations: Violation[] }> } }
-    ).axe.run();
-    return violations
-      .filter(({ impact }) => impact === 'serious' || impact === 'critical')
-      .map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' | ')}`);
-  });
-  expect(found, `${name}: what axe finds serious`).toEqual([]);
-}
-
-interface Violation {
-  id: string;
-  impact: string;
-  nodes: { html: string }[];
 }

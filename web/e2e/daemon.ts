@@ -1,6 +1,7 @@
 /** The real programs, as a user starts them: hydroprintd with a virtual rig, a store of its own, any free ports. */
 import { spawn, type ChildProcess } from 'node:child_process';
 import { mkdtempSync, openSync, rmSync, writeFileSync } from 'node:fs';
+import { connect } from 'node:net';
 import { tmpdir } from 'node:os';
 import { join, resolve } from 'node:path';
 import { createInterface } from 'node:readline';
@@ -82,15 +83,26 @@ export class Daemon {
     rmSync(this.folder, { recursive: true, force: true });
   }
 
+  /** Does to the virtual rig what a line to its control socket says: "camera gone", "clear". */
+  async act(line: string): Promise<void> {
+    const socket = connect(this.control);
+    socket.end(`${line}\n`);
+    const said = (await socket.toArray()).join('');
+    if (!said.startsWith('ok')) throw new Error(`the rig was told "${line}" and said "${said}"`);
+  }
+
+  private get control(): string {
+    return join(this.folder, 'control');
+  }
+
   private async startRig(): Promise<void> {
     const scene = join(this.folder, 'scene.toml');
-    const control = join(this.folder, 'control');
     writeFileSync(scene, `[water]\nat_mm = ${kWater_mm}\n[camera]\nseed = 1\n`);
     const { process, ready } = await start(
       'hydroprint-virtual-rig',
       [
         ...['--profile', join(root, 'hardware/profiles/virtual.toml')],
-        ...['--scene', scene, '--control', control, '--tcp', '0'],
+        ...['--scene', scene, '--control', this.control, '--tcp', '0'],
       ],
       join(this.folder, 'rig.log'),
     );
@@ -99,7 +111,7 @@ export class Daemon {
     writeFileSync(
       join(this.folder, 'hydroprintd.toml'),
       `[server]\nweb_dir = "${join(root, 'build/web')}"\n` +
-        `[camera]\ndevice = "hydroprint:${control}"\npatience_s = 60\n` +
+        `[camera]\ndevice = "hydroprint:${this.control}"\npatience_s = 60\n` +
         `layout = "${join(root, 'deploy/rig_layout.toml.example')}"\ngripper_water_mm = ${kWater_mm}.0\n`,
     );
   }

@@ -4,14 +4,19 @@ import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
-import { isAccessible, launch, open, picture, visit } from './browser';
+import { launch } from './browser';
+import { addPeople, come, type Place } from './accounts';
+import { look } from './checks';
 import { bin, Daemon } from './daemon';
 import { makeBall } from './models';
 
 let daemon: Daemon;
 let browser: Browser;
+let there: Place;
 beforeAll(async () => {
   [daemon, browser] = await Promise.all([Daemon.start(), launch()]);
+  await addPeople(daemon.address);
+  there = { browser, address: daemon.address };
 });
 afterAll(async () => {
   await browser?.close();
@@ -20,34 +25,11 @@ afterAll(async () => {
 
 const files = () => makeBall(mkdtempSync(join(daemon.folder, 'model-')));
 
-test('the first screen is small, there within a second, and says what to do', async () => {
-  const person = await visit(browser, 'about:blank');
-  const sizes: number[] = [];
-  person.page.on('requestfinished', (request) => {
-    request.sizes().then(
-      ({ responseBodySize }) => sizes.push(responseBodySize),
-      () => {}, // of the stream, which ends with the page
-    );
-  });
-  const begun = Date.now();
-  await person.page.goto(daemon.address);
-  await person.page.getByRole('button', { name: 'Choose files' }).waitFor();
-  const took_ms = Date.now() - begun;
-  await person.page.waitForLoadState('load');
-  const total = sizes.reduce((sum, size) => sum + size, 0);
-  expect(total).toBeLessThan(300_000);
-  expect(total).toBeGreaterThan(1000);
-  console.log(`first screen: ${Math.round(total / 1000)} kB, ${took_ms} ms`);
-  await picture(person, 'new-print-empty');
-  await isAccessible(person, 'new print, empty');
-  expect(person.complaints).toEqual([]);
-  await person.context.close();
-});
-
-test('a model is dropped, turned, submitted, watched; its film image is the worker’s own', async () => {
-  const person = await visit(browser, daemon.address);
+test('a maker signs in, drops a model, turns it, submits, watches; the film image is the worker’s own', async () => {
+  const person = await come(there, 'mia');
   const { page } = person;
   const { obj, mtl, png } = files();
+  await look(person, 'new-print-empty');
   await page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
   await page.locator('.stage canvas').waitFor();
 
@@ -56,9 +38,7 @@ test('a model is dropped, turned, submitted, watched; its film image is the work
   await page.getByLabel('Turn about z').fill('30');
   await page.getByLabel('To the right').fill('12,5');
   await page.getByLabel('Resolution').selectOption('150 dpi');
-  await page.waitForTimeout(600);
-  await picture(person, 'new-print');
-  await isAccessible(person, 'new print');
+  await look(person, 'new-print');
 
   // A reload loses nothing.
   await page.reload();
@@ -71,31 +51,26 @@ test('a model is dropped, turned, submitted, watched; its film image is the work
   await page.waitForURL(/#\/jobs\/\d+$/);
   const name = page.url().split('#/')[1]!;
   await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
-  await page.waitForTimeout(500);
-  await picture(person, 'job-film');
-  await isAccessible(person, 'job, film image');
+  await look(person, 'job-film');
 
   await page.getByRole('button', { name: /Compare with/ }).click();
   await page.getByLabel(/Where the film image ends/).waitFor();
-  await picture(person, 'job-compare');
+  await look(person, 'job-compare');
   await page.getByRole('radio', { name: 'Object' }).check();
   await page.locator('.stage canvas').waitFor();
   await page.getByRole('radio', { name: 'Stretch' }).check();
   await page.locator('.warnings button').first().click();
-  await page.waitForTimeout(800);
-  await picture(person, 'job-stretch');
-  await isAccessible(person, 'job, stretch');
+  await look(person, 'job-stretch');
   await page.getByRole('radio', { name: 'Contact time' }).check();
   await page.getByLabel('Time of the dip').fill('3');
-  await page.waitForTimeout(500);
-  await picture(person, 'job-contact');
+  await look(person, 'job-contact');
 
   await page.getByRole('radio', { name: 'Files' }).check();
   const download = page.waitForEvent('download');
   await page.getByRole('link', { name: 'film.png' }).click();
   const got = join(daemon.folder, 'got.png');
   await (await download).saveAs(got);
-  await picture(person, 'job-files');
+  await look(person, 'job-files');
 
   const spec = (await page.evaluate(
     async (address) => (await fetch(address)).json(),
@@ -126,8 +101,48 @@ function runWorker(
   return join(result, 'film.png');
 }
 
+test('while it is turned, a preview shows reach, stretch and what to heed', async () => {
+  const person = await come(there, 'mia');
+  const { page } = person;
+  await page
+    .getByRole('button', { name: 'Start over' })
+    .or(page.locator('.intake'))
+    .first()
+    .waitFor();
+  const { obj, mtl, png } = files();
+  await page.locator('input[type=file]').first().setInputFiles([obj, mtl, png]);
+  await page.getByLabel('Longest side').fill('40');
+  const panel = page.getByRole('region', { name: 'As it hangs now' });
+  const reached = async (): Promise<number> =>
+    Number(/reached\s*([\d.]+) %/.exec(await panel.innerText())?.[1]);
+  await panel.waitFor({ timeout: 60_000 });
+  // A ball that dips as deep as it can: all but what hangs in its own shadow.
+  expect(await reached()).toBeGreaterThan(60);
+  await expect.poll(() => panel.locator('.problems li').count()).toBeGreaterThan(0);
+  await page.getByRole('radio', { name: 'Stretch' }).check();
+  await page.getByText('Stretch of the film, estimated [times]').waitFor();
+  await look(person, 'new-print-preview');
+
+  const before = await panel.innerText();
+  const asked = page.waitForResponse(/previews:compute/);
+  await page.getByText('More settings').click();
+  await page.getByLabel('Depth').fill('8');
+  await asked;
+  await expect.poll(() => panel.innerText()).not.toBe(before);
+  expect(await reached()).toBeLessThan(60);
+  // Beside the film nothing is reached, and the page says so.
+  await page.getByLabel('To the right').fill('400');
+  await panel.waitFor({ state: 'hidden' });
+  await page
+    .getByText(/beside the film|misses the film|does not meet/)
+    .first()
+    .waitFor();
+  expect(person.complaints).toEqual([]);
+  await person.context.close();
+});
+
 test('run again with changes begins with what the job was made of', async () => {
-  const person = await visit(browser, `${daemon.address}/#/jobs/1`);
+  const person = await come(there, 'mia', 'jobs/1');
   const { page } = person;
   await page.getByRole('link', { name: 'Run again with changes' }).click();
   await page.locator('.stage canvas').waitFor();
@@ -140,18 +155,26 @@ test('run again with changes begins with what the job was made of', async () => 
   await page.getByRole('button', { name: 'Make the PDF to print' }).click();
   await page.waitForURL(/#\/jobs\/3$/);
   await page.getByRole('link', { name: 'print.pdf' }).waitFor({ timeout: 60_000 });
-  await picture(person, 'job-pages');
+  await look(person, 'job-pages');
   await page.context().close();
 });
 
 test('wrong files are refused, each with its reason and what to do', async () => {
-  const person = await visit(browser, daemon.address);
+  const person = await come(there, 'mia');
   const { page } = person;
   const made = (name: string, text: string) => ({
     name,
     mimeType: 'application/octet-stream',
     buffer: Buffer.from(text),
   });
+  const problems = page.locator('.problems');
+  await page.evaluate(() => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File(['PK'], 'all of it.zip'));
+    window.dispatchEvent(new DragEvent('drop', { dataTransfer, cancelable: true }));
+  });
+  await problems.getByText('all of it.zip').waitFor();
+  await problems.getByText('Unpack it').waitFor();
   await page
     .locator('input[type=file]')
     .setInputFiles([
@@ -159,46 +182,39 @@ test('wrong files are refused, each with its reason and what to do', async () =>
       made('picture.png', '<svg onload=alert(1)>'),
       made('<img src=x onerror=alert(1)>.obj', 'v 0 0 0\nf 1 2 3\n'),
     ]);
-  const problems = page.locator('.problems');
   await problems.getByText('part.step').waitFor();
   await problems.getByText('Export it as STL, PLY or OBJ').waitFor();
   expect(await page.locator('.problems img').count()).toBe(0);
   await page.locator('input[type=file]').setInputFiles([made('short.obj', 'v 0 0 0\nf 1 2 3\n')]);
   await problems.getByText(/line 2/).waitFor();
-  await picture(person, 'new-print-refused');
-  await isAccessible(person, 'new print, refused');
+  await look(person, 'new-print-refused');
   expect(await page.getByRole('button', { name: 'Compute the film image' }).count()).toBe(0);
   expect(person.complaints).toEqual([]);
   await page.context().close();
 });
 
 test('two people see each other’s jobs; a page heals when the daemon comes back', async () => {
-  const [ann, bob] = [
-    await visit(browser, daemon.address),
-    await visit(browser, daemon.address, 390),
-  ];
-  await open(bob, '/jobs');
-  await bob.page.getByRole('link', { name: 'ball' }).first().waitFor();
-  const before = await bob.page.locator('.jobs tbody tr').count();
+  const [mia, max] = [await come(there, 'mia'), await come(there, 'max', 'jobs', 390)];
+  await max.page.getByRole('link', { name: 'ball' }).first().waitFor();
+  const before = await max.page.locator('.jobs tbody tr').count();
   const { obj, mtl, png } = files();
-  await ann.page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
-  await ann.page.getByLabel('Longest side').fill('25');
-  await ann.page.getByRole('button', { name: 'Compute the film image' }).click();
-  await ann.page.waitForURL(/#\/jobs\/\d+$/);
+  await mia.page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
+  await mia.page.getByLabel('Longest side').fill('25');
+  await mia.page.getByRole('button', { name: 'Compute the film image' }).click();
+  await mia.page.waitForURL(/#\/jobs\/\d+$/);
   await expect
-    .poll(() => bob.page.locator('.jobs tbody tr').count(), { timeout: 15_000 })
+    .poll(() => max.page.locator('.jobs tbody tr').count(), { timeout: 15_000 })
     .toBe(before + 1);
 
   await daemon.stopDaemon('kill');
-  await ann.page.getByText('The connection to the daemon is lost').waitFor({ timeout: 30_000 });
-  await picture(ann, 'connection-lost');
+  await mia.page.getByText('The connection to the daemon is lost').waitFor({ timeout: 30_000 });
+  await look(mia, 'connection-lost');
   await daemon.startDaemon();
-  await ann.page
+  await mia.page
     .getByText('The connection to the daemon is lost')
     .waitFor({ state: 'hidden', timeout: 30_000 });
-  await ann.page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
-  await picture(bob, 'jobs');
-  await isAccessible(bob, 'jobs');
-  await ann.context.close();
-  await bob.context.close();
+  await mia.page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
+  await look(max, 'jobs');
+  await mia.context.close();
+  await max.context.close();
 });

@@ -3,14 +3,19 @@ import { mkdtempSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
-import { isAccessible, launch, open, picture, visit } from './browser';
+import { launch, open } from './browser';
+import { addPeople, come, type Place } from './accounts';
+import { look, picture } from './checks';
 import { Daemon } from './daemon';
 import { makeBall } from './models';
 
 let daemon: Daemon;
 let browser: Browser;
+let there: Place;
 beforeAll(async () => {
   [daemon, browser] = await Promise.all([Daemon.start(), launch()]);
+  await addPeople(daemon.address);
+  there = { browser, address: daemon.address };
 });
 afterAll(async () => {
   await browser?.close();
@@ -27,13 +32,12 @@ async function becomesReady(page: Page): Promise<void> {
 }
 
 test('the rig is taken, armed, homed, moved, jogged, and stopped from every screen', async () => {
-  const operator = await visit(browser, `${daemon.address}/#/rig`);
+  const operator = await come(there, 'otto', 'rig');
   const { page } = operator;
   await page.getByText('Disarmed').waitFor();
-  await picture(operator, 'rig-free');
-  await isAccessible(operator, 'rig, free');
+  await look(operator, 'rig-free');
 
-  const other = await visit(browser, `${daemon.address}/#/rig`, 390);
+  const other = await come(there, 'mia', 'rig', 390);
   await page.getByLabel('What for').fill('<b>the mug</b>');
   await press(page, 'Take the rig');
   await press(page, 'Arm');
@@ -42,7 +46,7 @@ test('the rig is taken, armed, homed, moved, jogged, and stopped from every scre
   // Names from strangers are text.
   await other.page.getByText('<b>the mug</b>').waitFor();
   expect(await other.page.getByRole('button', { name: 'Move', exact: true }).count()).toBe(0);
-  await picture(other, 'rig-taken');
+  await look(other, 'rig-taken');
 
   await page.getByLabel('Move to').fill('120');
   await press(page, 'Move');
@@ -63,8 +67,7 @@ test('the rig is taken, armed, homed, moved, jogged, and stopped from every scre
   const rest = await position_mm(page);
   await page.waitForTimeout(700);
   expect(await position_mm(page)).toBeCloseTo(rest, 1);
-  await picture(operator, 'rig-commands');
-  await isAccessible(operator, 'rig, commands');
+  await look(operator, 'rig-commands');
 
   // A reload loses nothing: the rig is still theirs.
   await page.reload();
@@ -81,8 +84,47 @@ test('the rig is taken, armed, homed, moved, jogged, and stopped from every scre
   await operator.context.close();
 });
 
+test('the depth camera is shown live, to everybody, and says when it is not', async () => {
+  const person = await come(there, 'vera', 'rig');
+  const { page } = person;
+  let asked = 0;
+  page.on('request', (request) => (asked += request.url().includes('depthPicture') ? 1 : 0));
+  const shown = page.getByRole('img', { name: /^Depth over the vat at .* mm from the camera/ });
+  await shown.waitFor({ timeout: 60_000 });
+  // Viridis from end to end: something violet, something yellow.
+  const colours = await shown.evaluate((canvas: HTMLCanvasElement) => {
+    const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
+    const found = { violet: 0, yellow: 0 };
+    for (let i = 0; i < data.length; i += 4) {
+      const [r, g, b] = [data[i]!, data[i + 1]!, data[i + 2]!];
+      if (b > 2 * g) found.violet += 1;
+      if (g > 2 * b && r > 2 * b) found.yellow += 1;
+    }
+    return found;
+  });
+  expect(colours.violet).toBeGreaterThan(100);
+  expect(colours.yellow).toBeGreaterThan(100);
+  const first = await shown.getAttribute('aria-label');
+  await expect.poll(() => shown.getAttribute('aria-label'), { timeout: 20_000 }).not.toBe(first);
+  await look(person, 'rig-depth');
+
+  await daemon.act('camera gone');
+  await page.getByText(/No picture since .*plug/).waitFor({ timeout: 30_000 });
+  await look(person, 'rig-depth-gone');
+  await daemon.act('clear');
+  await page.getByText('No picture since').waitFor({ state: 'hidden', timeout: 30_000 });
+
+  await open(person, '/jobs');
+  await page.getByRole('heading', { name: 'Jobs' }).waitFor();
+  const before = asked;
+  await page.waitForTimeout(2500);
+  expect(asked, 'nobody looks any more').toBe(before);
+  expect(person.complaints).toEqual([]);
+  await person.context.close();
+});
+
 test('a dip, one large button a step', async () => {
-  const person = await visit(browser, daemon.address);
+  const person = await come(there, 'otto');
   const { page } = person;
   const { obj, mtl, png } = makeBall(mkdtempSync(join(daemon.folder, 'model-')));
   await page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
@@ -106,7 +148,7 @@ test('a dip, one large button a step', async () => {
   await page.getByLabel('Film soaks').fill('3');
   await page.getByLabel('Activator works').fill('2');
   await page.getByLabel('Hold at the depth').fill('1');
-  await picture(person, 'rig-dip-begin');
+  await look(person, 'rig-dip-begin');
   await press(page, 'Begin the dip');
   await press(page, 'The film is printed');
   await press(page, 'The object hangs');
@@ -118,8 +160,7 @@ test('a dip, one large button a step', async () => {
   await expect.poll(() => position_mm(page), { timeout: 30_000 }).toBeGreaterThan(45);
   await page.keyboard.up('Space');
   await becomesReady(page);
-  await picture(person, 'rig-dip-contact');
-  await isAccessible(person, 'rig, dip');
+  await look(person, 'rig-dip-contact');
   await press(page, 'It all but touches the water');
   await press(page, 'The film floats between the bars');
   await page.getByRole('timer').first().waitFor();
@@ -130,11 +171,11 @@ test('a dip, one large button a step', async () => {
   await page.locator('.big', { hasText: 'Dipping' }).waitFor();
   await picture(person, 'rig-dipping');
   await page.getByText('The dip has ended').waitFor({ timeout: 60_000 });
-  await picture(person, 'rig-dip-end');
+  await look(person, 'rig-dip-end');
   await page.getByRole('link', { name: 'Record of this dip' }).click();
   await page.locator('h1', { hasText: 'done' }).waitFor();
   await page.getByRole('link', { name: 'positions.csv' }).waitFor();
-  await picture(person, 'job-dip');
+  await look(person, 'job-dip');
   expect(person.complaints).toEqual([]);
   await person.context.close();
 });

@@ -10,8 +10,13 @@ const read = (): Theme => {
 
 export const theme = signal<Theme>(read());
 
+const dark = window.matchMedia('(prefers-color-scheme: dark)');
+const isSystemDark = signal(dark.matches);
+dark.addEventListener('change', () => (isSystemDark.value = dark.matches));
+
 effect(() => {
-  document.documentElement.dataset['theme'] = theme.value;
+  const system = isSystemDark.value ? 'dark' : 'light';
+  document.documentElement.dataset['theme'] = theme.value === 'system' ? system : theme.value;
   localStorage.setItem(kKey, theme.value);
 });
 

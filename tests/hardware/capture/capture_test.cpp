@@ -16,6 +16,7 @@
 #include "hardware/depth_camera/renderer.h"
 #include "hardware/virtual/scene.h"
 #include "sim/image/grey16.h"
+#include "sim/image/image_file.h"
 #include "tests/support/control_line.h"
 #include "tests/support/process.h"
 
@@ -258,9 +259,76 @@ TEST_F(Capture, RecordingsThatAreNoneOrCutShortAreRefused) {
       3, "");
 }
 
+/// What --live said: heads with their pictures, and what followed the last.
+struct Told {
+  std::vector<std::pair<nlohmann::json, std::string>> pictures;
+  std::string rest;
+};
+Told told_by(const std::string& bytes) {
+  Told out;
+  for (std::size_t at = 0;;) {
+    const std::size_t end = bytes.find('\n', at);
+    const auto head = nlohmann::json::parse(bytes.substr(at, end - at), nullptr, false);
+    if (end == std::string::npos || !head.contains("bytes") ||
+        bytes.size() - end - 1 < head["bytes"].get<std::size_t>()) {
+      out.rest = bytes.substr(at);
+      return out;
+    }
+    out.pictures.emplace_back(head, bytes.substr(end + 1, head["bytes"].get<std::size_t>()));
+    at = end + 1 + head["bytes"].get<std::size_t>();
+  }
+}
+
+TEST_F(Capture, LivePicturesComeUntilASignalAndShowWhatIsNearAndFar) {
+  testing::ProcessOptions options;
+  options.files = {{1, path("live")}};
+  std::vector<std::string> all = kCapture;
+  for (const std::string& word : {"--live"s, "--device"s, uri(), "--every-s"s, "0.2"s,
+                                  "--patience-s"s, std::string(kLong), "--json"s}) {
+    all.push_back(word);
+  }
+  testing::Process live(all, options);
+  while (live.running() && told_by(bytes_of(path("live"))).pictures.size() < 2) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  live.signal(SIGTERM);
+  const auto ended = live.wait();
+  EXPECT_EQ(ended.status, 130) << ended.err;
+  const Told told = told_by(bytes_of(path("live")));
+  EXPECT_TRUE(nlohmann::json::parse(told.rest).contains("error")) << told.rest;
+  ASSERT_GE(told.pictures.size(), 2U);
+  const auto& [head, png] = told.pictures.back();
+  EXPECT_GT(head["farthest_mm"], head["nearest_mm"]);
+  EXPECT_NE(png, told.pictures.front().second) << "another frame";
+  const auto read = image::read_image({png.begin(), png.end()}, "live", {});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->image.width, head["width"]);
+  EXPECT_EQ(read->image.height, head["height"]);
+  // Viridis ends in yellow and in violet; grey is what was not measured.
+  std::size_t near = 0, far = 0, grey = 0;
+  for (const image::Texel& texel : read->image.texels) {
+    if (texel.r == texel.g && texel.g == texel.b) ++grey;
+    if (texel.g > 3 * texel.b && texel.r > 3 * texel.b) ++near;
+    if (texel.b > 5 * texel.g) ++far;
+  }
+  EXPECT_GT(near, 0U);
+  EXPECT_GT(far, 0U);
+  const auto pixels = static_cast<double>(read->image.texels.size());
+  EXPECT_NEAR(static_cast<double>(grey) / pixels, 1 - head["measured_share"].get<double>(), 0.1);
+}
+
+TEST_F(Capture, LiveCameraThatGoesIsTold) {
+  testing::talk(control(), "camera black\n");
+  const auto ended = capture({"--live", "--device", uri(), "--patience-s", kLong, "--json"});
+  EXPECT_EQ(ended.status, 4) << ended.err;
+  EXPECT_EQ(nlohmann::json::parse(told_by(ended.out).rest)["error"]["reason"], "CAMERA_BLACK");
+}
+
 TEST_F(Capture, WrongUsageIsRefused) {
   EXPECT_EQ(capture({}).status, 2);
   EXPECT_EQ(capture({"--out", "x", "--seconds", "0"}).status, 2);
+  EXPECT_EQ(capture({"--out", "x", "--live"}).status, 2);
+  EXPECT_EQ(capture({"--out", "x", "--every-s", "1"}).status, 2);
   EXPECT_EQ(capture({"--out", "x", "--device", "a", "--recording", "b"}).status, 2);
   EXPECT_EQ(capture({"--help"}).status, 0);
 }

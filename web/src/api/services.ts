@@ -6,6 +6,7 @@ import type {
   Artifact,
   AuditEntry,
   Calibration,
+  DepthPicture,
   Job,
   JobInput,
   JobState,
@@ -78,6 +79,10 @@ export const rig = {
     }),
   jog: (leaseId: string, speedMmPerS: number) =>
     call<Rig>('POST', 'rig:jog', { json: { leaseId, speedMmPerS } }),
+};
+
+export const camera = {
+  picture: (signal: AbortSignal) => call<DepthPicture>('GET', 'camera/depthPicture', { signal }),
 };
 
 export const lease = {

@@ -5,10 +5,8 @@
 import type { components } from './schema';
 
 type Schemas = components['schemas'];
-/** A message that not every daemon knows: there are some without people. */
-type Perhaps<K extends string> = K extends keyof Schemas ? Schemas[K] : any;
 
-export type Job = Schemas['Job'] & { shared?: boolean };
+export type Job = Schemas['Job'];
 export type JobInput = Schemas['JobInput'];
 export type JobState = Job['state'];
 export type JobEvent = Schemas['JobEvent'];
@@ -22,13 +20,14 @@ export type Lease = Schemas['Lease'];
 export type Queue = Schemas['Queue'];
 export type Artifact = Schemas['Artifact'];
 export type Calibration = Schemas['Calibration'];
+export type DepthPicture = Schemas['DepthPicture'];
 export type Asset = Schemas['Asset'];
 export type Upload = Schemas['Upload'];
 export type Preview = Schemas['Preview'];
-export type User = Perhaps<'User'>;
+export type User = Schemas['User'];
 export type Role = 'ROLE_UNSPECIFIED' | 'VIEWER' | 'MAKER' | 'OPERATOR' | 'ADMIN';
-export type ApiKey = Perhaps<'ApiKey'>;
-export type Session = Perhaps<'Session'>;
-export type AuditEntry = Perhaps<'AuditEntry'>;
-export type WhoAmI = Perhaps<'WhoAmIResponse'>;
-export type SignedIn = Perhaps<'SignInResponse'>;
+export type ApiKey = Schemas['ApiKey'];
+export type Session = Schemas['Session'];
+export type AuditEntry = Schemas['AuditEntry'];
+export type WhoAmI = Schemas['WhoAmIResponse'];
+export type SignedIn = Schemas['SignInResponse'];

@@ -37,13 +37,25 @@ export interface Scale {
   max: number;
   /** By ratios instead of differences. */
   log?: boolean;
+  /** The largest value stands where the map begins: the less, the brighter. */
+  falls?: boolean;
 }
 
+/** Depths as all pictures of the camera have them, the daemon's too: the nearer the brighter. */
+export const depthScale = (nearest_mm: number, farthest_mm: number): Scale => ({
+  map: 'viridis',
+  min: nearest_mm,
+  max: Math.max(farthest_mm, nearest_mm + 1),
+  falls: true,
+});
+
 /** Where on the map a value is; below 0 and above 1 beyond the scale. */
-export const place = (scale: Scale, value: number): number =>
-  scale.log
+export function place(scale: Scale, value: number): number {
+  const share = scale.log
     ? Math.log(value / scale.min) / Math.log(scale.max / scale.min)
     : (value - scale.min) / (scale.max - scale.min);
+  return scale.falls ? 1 - share : share;
+}
 
 /** Round values to write beside the scale, at most about `wanted` of them. */
 export function ticks(scale: Scale, wanted = 6): number[] {

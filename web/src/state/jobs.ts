@@ -88,3 +88,7 @@ export const kOpen: readonly Job['state'][] = [
 ];
 /** INTERRUPTED is the end of what is of its moment alone; the daemon queues a computation again. */
 export const isFinished = (job: Job): boolean => kFinished.includes(job.state);
+
+/** Whether it can be done again as it was: what is of its moment cannot. */
+export const canRetry = (job: Job): boolean =>
+  isFinished(job) && job.state !== 'SUCCEEDED' && !job.dip && !job.print && !job.capture;

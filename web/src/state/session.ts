@@ -5,7 +5,7 @@ import { session as api } from '../api/services';
 import type { Role, SignedIn, WhoAmI } from '../api/types';
 import { connect, disconnect } from '../events';
 import { complain } from './notices';
-import { done, type Result } from '../model/result';
+import type { Result } from '../model/result';
 
 /** Undefined until the daemon told. */
 export const who = signal<WhoAmI | undefined>(undefined);
@@ -25,20 +25,9 @@ export const me = computed(() => who.value?.user ?? '');
 export const mayChange = (owner: string): boolean =>
   may('OPERATOR') || (may('MAKER') && owner === me.value);
 
-const kAnybody: WhoAmI = {
-  user: 'anonymous',
-  role: 'ADMIN',
-  via: 'loopback',
-  csrfToken: '',
-  accounts: false,
-  hasPassword: false,
-};
-
 /** Asks who we are; with that, events begin. */
 export async function begin(): Promise<void> {
-  const asked = await api.who();
-  // A daemon that knows no people: everybody on its machine may do everything.
-  const answer = !asked.ok && asked.failure.reason === 'ROUTE_NOT_FOUND' ? done(kAnybody) : asked;
+  const answer = await api.who();
   if (answer.ok) {
     csrf.value = answer.value.csrfToken;
     who.value = answer.value;

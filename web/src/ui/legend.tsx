@@ -8,6 +8,8 @@ export function Legend(props: {
   scale: Scale;
   values?: number[];
   beyond?: string;
+  /** What has no colour. */
+  grey?: string;
 }) {
   const { scale } = props;
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -19,6 +21,7 @@ export function Legend(props: {
     }
   }, [scale.map]);
   const marks = props.values ?? ticks(scale, 5);
+  if (scale.falls) marks.reverse();
   return (
     <figure class="legend">
       <figcaption>
@@ -34,8 +37,14 @@ export function Legend(props: {
         ))}
       </div>
       <p class="quiet">
-        Grey: no film arrives.{props.beyond && ` ≥ ${marks.at(-1)}: ${props.beyond}.`}
+        Grey: {props.grey ?? 'no film arrives'}.
+        {props.beyond && ` ≥ ${marks.at(-1)}: ${props.beyond}.`}
       </p>
     </figure>
   );
 }
+
+/** The same of a depth picture. */
+export const DepthLegend = ({ scale }: { scale: Scale }) => (
+  <Legend title="Distance from the camera" unit="mm" scale={scale} grey="not measured" />
+);

@@ -1,9 +1,9 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { fetchBytes } from '../../api/call';
 import { artifactPath } from '../../api/services';
-import { colourOf, place, type Scale } from '../../model/colour_map';
+import { colourOf, depthScale, place, type Scale } from '../../model/colour_map';
 import { readGrey16, type Grey16 } from '../../model/grey16';
-import { Legend } from '../../ui/legend';
+import { DepthLegend } from '../../ui/legend';
 import { Files } from './files';
 import { fileOf, type Results } from './results';
 
@@ -45,7 +45,7 @@ export function CaptureView({ results }: { results: Results }) {
               onInput={(event) => setAt(Number(event.currentTarget.value))}
             />
           </label>
-          {scale && <Legend title="Distance from the camera" unit="mm" scale={scale} />}
+          {scale && <DepthLegend scale={scale} />}
         </figure>
       )}
       <details>
@@ -61,7 +61,7 @@ function rangeOf({ values }: Grey16): Scale {
   const seen = values.filter((value) => value > 0).sort();
   const min = seen[Math.floor(0.01 * seen.length)] ?? 0;
   const max = seen[Math.floor(0.99 * seen.length)] ?? 1;
-  return { map: 'viridis', min, max: Math.max(max, min + 1) };
+  return depthScale(min, max);
 }
 
 function draw(canvas: HTMLCanvasElement, { width, height, values }: Grey16, scale: Scale): void {

@@ -4,7 +4,7 @@ import type { Job, JobInput, PrintImageSpecInput } from '../../api/types';
 import { beginnings } from '../../events';
 import { formatSeconds } from '../../model/units';
 import { go } from '../../route';
-import { forget, isFinished, known, refresh, remember } from '../../state/jobs';
+import { canRetry, forget, isFinished, known, refresh, remember } from '../../state/jobs';
 import { orComplain, say } from '../../state/notices';
 import { may, mayChange } from '../../state/session';
 import { secondsUntil } from '../../ui/clock';
@@ -112,23 +112,18 @@ function Actions({ job }: { job: Job }) {
           Cancel
         </Careful>
       )}
-      {mine &&
-        isFinished(job) &&
-        !isDone &&
-        kind !== 'dip' &&
-        kind !== 'print' &&
-        kind !== 'capture' && (
-          <Button
-            onPress={async () => {
-              const again = orComplain(await api.retry(job.name, newRequestId()));
-              if (!again) return;
-              remember(again);
-              go(`/${again.name}`);
-            }}
-          >
-            Try again
-          </Button>
-        )}
+      {mine && canRetry(job) && (
+        <Button
+          onPress={async () => {
+            const again = orComplain(await api.retry(job.name, newRequestId()));
+            if (!again) return;
+            remember(again);
+            go(`/${again.name}`);
+          }}
+        >
+          Try again
+        </Button>
+      )}
       {mine && isFinished(job) && <Keeping job={job} />}
     </div>
   );
@@ -138,18 +133,16 @@ function Actions({ job }: { job: Job }) {
 function Keeping({ job }: { job: Job }) {
   return (
     <>
-      {job.shared !== undefined && (
-        <Check
-          label="Shared with everyone"
-          value={job.shared}
-          onValue={(shared) =>
-            void api.share(job.name, shared).then((answer) => {
-              const changed = orComplain(answer);
-              if (changed) remember(changed);
-            })
-          }
-        />
-      )}
+      <Check
+        label="Shared with everyone"
+        value={job.shared}
+        onValue={(shared) =>
+          void api.share(job.name, shared).then((answer) => {
+            const changed = orComplain(answer);
+            if (changed) remember(changed);
+          })
+        }
+      />
       <Careful
         kind="plain"
         sure="Delete it with its files"

@@ -6,6 +6,7 @@
 import { computed, effect, signal } from '@preact/signals';
 import { call } from '../../api/call';
 import type { Preview, SimulateSpecInput } from '../../api/types';
+import { bytesOf } from '../../model/base64';
 import { upload } from '../../api/uploads';
 import type { Warning } from '../../model/report';
 import type { Result } from '../../model/result';
@@ -176,11 +177,4 @@ function partOf(simulate: SimulateSpecInput, inputs: Inputs): SimulateSpecInput 
     ...(simulate.depthMm ? { depthMm: simulate.depthMm } : {}),
     ...(simulate.dipSpeedMmPerS ? { dipSpeedMmPerS: simulate.dipSpeedMmPerS } : {}),
   };
-}
-
-function bytesOf(base64: string): ArrayBuffer {
-  const text = atob(base64);
-  const out = new Uint8Array(text.length);
-  for (let i = 0; i < text.length; i += 1) out[i] = text.charCodeAt(i);
-  return out.buffer;
 }

@@ -54,7 +54,8 @@ export function List(props: {
 export function Once({ title, secret }: { title: string; secret: string }) {
   const [isCopied, setCopied] = useState(false);
   const copy = async () => {
-    await navigator.clipboard.writeText(secret).then(
+    // Only where the page came over TLS or from this machine.
+    await navigator.clipboard?.writeText(secret).then(
       () => setCopied(true),
       () => setCopied(false),
     );

@@ -3,7 +3,16 @@ import { jobs as api, newRequestId, queue as queueApi } from '../../api/services
 import type { Job } from '../../api/types';
 import { beginnings } from '../../events';
 import { go, jobPath } from '../../route';
-import { arrivals, isFinished, kFinished, kOpen, known, queue, remember } from '../../state/jobs';
+import {
+  arrivals,
+  canRetry,
+  isFinished,
+  kFinished,
+  kOpen,
+  known,
+  queue,
+  remember,
+} from '../../state/jobs';
 import { orComplain, say } from '../../state/notices';
 import { may, mayChange, me } from '../../state/session';
 import { Button, Switch, TextField } from '../../ui/controls';
@@ -206,7 +215,7 @@ function Actions({ job, place }: { job: Job; place: number }) {
           Cancel
         </Button>
       )}
-      {isFinished(job) && job.state !== 'SUCCEEDED' && !job.dip && (
+      {canRetry(job) && (
         <Button
           kind="plain"
           label={`Try ${id} again`}

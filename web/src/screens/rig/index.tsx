@@ -42,7 +42,7 @@ export function RigScreen() {
   return (
     <div class="rig">
       <h1>Rig</h1>
-      <div class="columns">
+      <div class="columns with-sight">
         <div>
           <Standing now={now} />
           <Dipping dip={now.dip} />
@@ -50,8 +50,8 @@ export function RigScreen() {
         <div>
           <LeasePanel now={now} />
           {isOurs.value && now.axis && <Commands now={now} />}
-          <DepthPicture />
         </div>
+        <DepthPicture />
       </div>
     </div>
   );

@@ -1,0 +1,66 @@
+/** What every screen is held against. */
+import { mkdirSync, readFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { expect } from 'vitest';
+import type { Person } from './browser';
+import { root } from './daemon';
+
+const kScreens = join(root, 'build/tests/screens');
+const kWidths = [390, 1280];
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+
+/** Keeps a picture of the screen at both widths; by itself of what passes too soon for `look`. */
+export async function picture({ page }: Person, name: string): Promise<void> {
+  mkdirSync(kScreens, { recursive: true });
+  const before = page.viewportSize()!;
+  for (const width of kWidths) {
+    await page.setViewportSize({ width, height: width < 600 ? 844 : 860 });
+    // For what follows the window's size.
+    await page.evaluate(
+      () => new Promise((done) => setTimeout(() => requestAnimationFrame(done), 80)),
+    );
+    await page.screenshot({ path: join(kScreens, `${name}-${width}.png`) });
+    const wide = await page.evaluate(() => {
+      const { scrollWidth, clientWidth } = document.documentElement;
+      if (scrollWidth <= clientWidth) return [];
+      return [...document.querySelectorAll('main *')]
+        .filter((element) => element.getBoundingClientRect().right > clientWidth)
+        .map((element) => element.outerHTML.slice(0, 120));
+    });
+    expect(wide, `${name} at ${width} px is wider than its window`).toEqual([]);
+  }
+  await page.setViewportSize(before);
+}
+
+/** Nothing that axe calls serious or critical, in light and in dark. */
+async function isAccessible({ page }: Person, name: string): Promise<void> {
+  // By the debugger: the page's own policy lets no script in.
+  await page.evaluate(axe);
+  for (const colorScheme of ['light', 'dark'] as const) {
+    await page.emulateMedia({ colorScheme });
+    const found = await page.evaluate(async () => {
+      const { violations } = await (
+        window as unknown as { axe: { run(): Promise<{ violations: Violation[] }> } }
+      ).axe.run();
+      return violations
+        .filter(({ impact }) => impact === 'serious' || impact === 'critical')
+        .map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' | ')}`);
+    });
+    expect(found, `${name}, ${colorScheme}: what axe finds serious`).toEqual([]);
+  }
+}
+
+/** Both, of a screen: pictures at both widths, and nothing serious in light and dark. */
+export async function look(person: Person, name: string): Promise<void> {
+  await picture(person, name);
+  await isAccessible(person, name);
+  await person.page.screenshot({ path: join(kScreens, `${name}-dark.png`) });
+  await person.page.emulateMedia({ colorScheme: 'light' });
+}
+
+interface Violation {
+  id: string;
+  impact: string;
+  nodes: { html: string }[];
+}
