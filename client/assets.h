@@ -19,6 +19,7 @@ struct Asset {
   std::int64_t size_bytes = 0;
   std::string media_type;
   std::optional<Time> create_time;
+  std::vector<std::string> owners;  ///< to operators; to others at most themselves
 };
 
 /// What an upload came to.
@@ -34,10 +35,10 @@ struct Uploaded {
                                            const std::filesystem::path& path,
                                            const ByteProgress& progress = {});
 
-/// Every asset, in the order of the hashes.
+/// The caller's assets, in the order of the hashes; as an operator everybody's.
 [[nodiscard]] Result<std::vector<Asset>> list_assets(Connection& connection);
 
-/// Deletes an asset that no unfinished job needs.
+/// Gives up an asset of the caller's; as an operator deletes it, if no unfinished job needs it.
 [[nodiscard]] Status delete_asset(Connection& connection, const std::string& name);
 
 }  // namespace hydroprint::client

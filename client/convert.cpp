@@ -355,6 +355,8 @@ Job from_proto(const v1::Job& message) {
   job.input_digest = message.input_digest();
   job.cache_hit = message.cache_hit();
   job.shared = message.shared();
+  job.pinned = message.pinned();
+  job.purge_time = from_proto(message.has_purge_time(), message.purge_time());
   job.spec = spec_from_proto(message);
   if (message.has_dip()) job.dip = from_proto(message.dip());
   if (message.has_print()) job.print_image_job = message.print().print_image_job();
@@ -391,8 +393,12 @@ Queue from_proto(const v1::Queue& message) {
 }
 
 Asset from_proto(const v1::Asset& message) {
-  return {message.name(), message.sha256(), message.size_bytes(), message.media_type(),
-          from_proto(message.has_create_time(), message.create_time())};
+  return {message.name(),
+          message.sha256(),
+          message.size_bytes(),
+          message.media_type(),
+          from_proto(message.has_create_time(), message.create_time()),
+          {message.owners().begin(), message.owners().end()}};
 }
 
 Artifact from_proto(const v1::Artifact& message) {

@@ -145,7 +145,9 @@ struct Job {
   std::string retry_of;
   std::string input_digest;
   bool cache_hit = false;
-  bool shared = false;       ///< whether all who may look see its artifacts and files
+  bool shared = false;             ///< whether all who may look see its artifacts and files
+  bool pinned = false;             ///< whether it is kept beyond its time
+  std::optional<Time> purge_time;  ///< when it will be deleted, if it is finished and not kept
   std::optional<Spec> spec;  ///< of a computation; none if of a kind that this client does not know
   std::optional<DipSpec> dip;                  ///< of a dip
   std::optional<DipStatus> dip_status;         ///< of an open dip

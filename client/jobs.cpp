@@ -164,6 +164,12 @@ Result<Job> retry_job(Connection& connection, const std::string& name) {
   return to_job(call(connection, *connection.impl().jobs, &JobStub::RetryJob, request));
 }
 
+Result<Job> pin_job(Connection& connection, const std::string& name, bool pinned) {
+  auto request = named<v1::PinJobRequest>(name);
+  request.set_pinned(pinned);
+  return to_job(call(connection, *connection.impl().jobs, &JobStub::PinJob, request));
+}
+
 Status delete_job(Connection& connection, const std::string& name) {
   HP_RETURN_IF_ERROR(call(connection, *connection.impl().jobs, &JobStub::DeleteJob,
                           named<v1::DeleteJobRequest>(name)));

@@ -61,6 +61,9 @@ struct JobFilter {
 /// Queues a new job with the spec of a finished one, computed afresh.
 [[nodiscard]] Result<Job> retry_job(Connection& connection, const std::string& name);
 
+/// Keeps a job beyond its time, or no longer.
+[[nodiscard]] Result<Job> pin_job(Connection& connection, const std::string& name, bool pinned);
+
 /// Deletes a finished job with its events and artifacts.
 [[nodiscard]] Status delete_job(Connection& connection, const std::string& name);
 

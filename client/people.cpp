@@ -128,6 +128,13 @@ Result<Identity> who_am_i(Connection& connection) {
   return Identity{reply.user(), role_text(reply.role()), reply.via(), reply.accounts()};
 }
 
+Result<Usage> get_usage(Connection& connection) {
+  HP_ASSIGN_OR_RETURN(const v1::Usage usage, call(connection, stub(connection),
+                                                  &PeopleStub::GetUsage, v1::GetUsageRequest()));
+  return Usage{usage.owner(),        usage.queued_jobs(),      usage.max_queued_jobs(),
+               usage.stored_bytes(), usage.max_stored_bytes(), usage.pinned_bytes()};
+}
+
 Result<std::vector<User>> list_users(Connection& connection) {
   std::vector<User> users;
   HP_RETURN_IF_ERROR(all_pages(connection, &PeopleStub::ListUsers, v1::ListUsersRequest(),
@@ -140,9 +147,10 @@ Result<std::vector<User>> list_users(Connection& connection) {
 }
 
 Result<User> create_user(Connection& connection, const std::string& name, const std::string& role,
-                         const std::string& password) {
+                         const std::string& password, bool returns) {
   HP_RETURN_IF_ERROR(check_secrets_may_go(connection.options()));
   v1::CreateUserRequest request;
+  request.set_returns(returns);
   request.mutable_user()->set_name(name);
   HP_ASSIGN_OR_RETURN(const v1::Role wanted, role_of(role));
   request.mutable_user()->set_role(wanted);

@@ -24,6 +24,14 @@ struct Identity {
       false;  ///< false: there are no users, and whoever is on the daemon's machine is admin
 };
 
+/// How much an owner has, and may have; 0: any number.
+struct Usage {
+  std::string owner;
+  std::int64_t queued_jobs = 0, max_queued_jobs = 0;
+  std::int64_t stored_bytes = 0, max_stored_bytes = 0;
+  std::int64_t pinned_bytes = 0;  ///< of those, in pinned jobs
+};
+
 /// Somebody who may use the daemon.
 struct User {
   std::string name;  ///< "users/ann"
@@ -71,11 +79,15 @@ struct AuditEntry {
 [[nodiscard]] Result<std::string> sign_in_by_link(Connection& connection, const std::string& token);
 [[nodiscard]] Status sign_out(Connection& connection);
 [[nodiscard]] Result<Identity> who_am_i(Connection& connection);
+/// How much the caller has at the daemon.
+[[nodiscard]] Result<Usage> get_usage(Connection& connection);
 
 [[nodiscard]] Result<std::vector<User>> list_users(Connection& connection);
 /// @param password  empty: none yet
+/// @param returns   whether it is the one who had the name before, and gets what bears it
 [[nodiscard]] Result<User> create_user(Connection& connection, const std::string& name,
-                                       const std::string& role, const std::string& password);
+                                       const std::string& role, const std::string& password,
+                                       bool returns = false);
 [[nodiscard]] Result<User> update_user(Connection& connection, const std::string& name,
                                        const std::optional<std::string>& role,
                                        std::optional<bool> disabled);

@@ -2,6 +2,7 @@
 #include "daemon/log.h"
 #include "daemon/names.h"
 #include "daemon/services.h"
+#include "daemon/sight.h"
 #include "daemon/status.h"
 #include "hydroprint/v1/asset_service.grpc.pb.h"
 
@@ -31,43 +32,39 @@ class AssetService final : public v1::AssetService::Service {
     return grpc::Status::OK;
   }
 
-  grpc::Status GetUpload(grpc::ServerContext*, const v1::GetUploadRequest* request,
+  grpc::Status GetUpload(grpc::ServerContext* context, const v1::GetUploadRequest* request,
                          v1::Upload* reply) override {
-    const auto id = parse_upload_name(request->name());
-    if (!id) return to_grpc(id.error());
-    const auto upload = backend_.assets.upload(*id);
+    const auto upload = find_upload(*context, *request);
     if (!upload) return to_grpc(upload.error());
     *reply = to_message(*upload);
     return grpc::Status::OK;
   }
 
-  grpc::Status UploadChunk(grpc::ServerContext*, grpc::ServerReader<v1::UploadChunkRequest>* reader,
+  grpc::Status UploadChunk(grpc::ServerContext* context,
+                           grpc::ServerReader<v1::UploadChunkRequest>* reader,
                            v1::UploadChunkResponse* reply) override {
-    const auto result = receive(*reader);
+    const auto result = receive(*context, *reader);
     if (!result) return to_grpc(result.error());
     set_result(*result, *reply);
     return grpc::Status::OK;
   }
 
-  grpc::Status GetAsset(grpc::ServerContext*, const v1::GetAssetRequest* request,
+  grpc::Status GetAsset(grpc::ServerContext* context, const v1::GetAssetRequest* request,
                         v1::Asset* reply) override {
-    const auto hash = parse_asset_name(request->name());
-    if (!hash) return to_grpc(hash.error());
-    const auto asset = backend_.assets.asset(*hash);
+    const auto asset = get(*context, *request);
     if (!asset) return to_grpc(asset.error());
     *reply = to_message(*asset);
     return grpc::Status::OK;
   }
 
-  grpc::Status ListAssets(grpc::ServerContext*, const v1::ListAssetsRequest* request,
+  grpc::Status ListAssets(grpc::ServerContext* context, const v1::ListAssetsRequest* request,
                           v1::ListAssetsResponse* reply) override {
-    return to_grpc(list(*request, *reply));
+    return to_grpc(list(*context, *request, *reply));
   }
 
-  grpc::Status DeleteAsset(grpc::ServerContext*, const v1::DeleteAssetRequest* request,
+  grpc::Status DeleteAsset(grpc::ServerContext* context, const v1::DeleteAssetRequest* request,
                            google::protobuf::Empty*) override {
-    const auto hash = parse_asset_name(request->name());
-    return hash ? to_grpc(backend_.assets.remove(*hash)) : to_grpc(hash.error());
+    return to_grpc(remove(*context, *request));
   }
 
  private:
@@ -78,16 +75,42 @@ class AssetService final : public v1::AssetService::Service {
     HP_RETURN_IF_ERROR(check_text("media_type", request.media_type(), 100));
     if (request.size_bytes() < 0) return invalid_field("size_bytes", "must not be negative");
     HP_ASSIGN_OR_RETURN(const std::string hash, parse_asset_name("assets/" + request.sha256()));
-    HP_ASSIGN_OR_RETURN(const std::string owner, owner_of(backend_, context));
+    HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
     const Upload wanted{"", hash, request.size_bytes(), 0, request.media_type(), 0};
-    return backend_.assets.start(wanted, owner, request_key("StartUpload", request));
+    return backend_.assets.start(wanted, user, request_key("StartUpload", request));
   }
 
-  Result<AssetOrUpload> receive(grpc::ServerReader<v1::UploadChunkRequest>& reader) {
+  Result<AssetUser> user_of(const grpc::ServerContext& context) const {
+    HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
+    return asset_user(caller);
+  }
+
+  Result<Upload> find_upload(const grpc::ServerContext& context,
+                             const v1::GetUploadRequest& request) {
+    HP_ASSIGN_OR_RETURN(const std::string id, parse_upload_name(request.name()));
+    HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
+    return backend_.assets.upload(id, user.name);
+  }
+
+  Result<Asset> get(const grpc::ServerContext& context, const v1::GetAssetRequest& request) {
+    HP_ASSIGN_OR_RETURN(const std::string hash, parse_asset_name(request.name()));
+    HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
+    return backend_.assets.asset_for(hash, user);
+  }
+
+  Status remove(const grpc::ServerContext& context, const v1::DeleteAssetRequest& request) {
+    HP_ASSIGN_OR_RETURN(const std::string hash, parse_asset_name(request.name()));
+    HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
+    return backend_.assets.remove(hash, user);
+  }
+
+  Result<AssetOrUpload> receive(const grpc::ServerContext& context,
+                                grpc::ServerReader<v1::UploadChunkRequest>& reader) {
+    HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
     v1::UploadChunkRequest chunk;
     if (!reader.Read(&chunk)) return invalid_field("upload", "is missing: no message came");
     HP_ASSIGN_OR_RETURN(const std::string id, parse_upload_name(chunk.upload()));
-    HP_ASSIGN_OR_RETURN(const auto writer, UploadWriter::open(backend_.assets, id));
+    HP_ASSIGN_OR_RETURN(const auto writer, UploadWriter::open(backend_.assets, id, user.name));
     do {
       if (chunk.data().size() > kLargestChunk) {
         return invalid_field("data", "is longer than 1 MiB; send smaller chunks");
@@ -100,17 +123,23 @@ class AssetService final : public v1::AssetService::Service {
     HP_ASSIGN_OR_RETURN(AssetOrUpload result, writer->finish());
     if (const Asset* asset = std::get_if<Asset>(&result)) {
       log(LogLevel::kInfo, "asset_stored",
-          {{"asset", asset->sha256}, {"bytes", asset->size_bytes}});
+          {{"asset", asset->sha256}, {"bytes", asset->size_bytes}, {"owner", user.name}});
     }
     return result;
   }
 
-  Status list(const v1::ListAssetsRequest& request, v1::ListAssetsResponse& reply) {
+  Status list(const grpc::ServerContext& context, const v1::ListAssetsRequest& request,
+              v1::ListAssetsResponse& reply) {
+    HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     if (!request.page_token().empty() && !is_sha256(request.page_token())) return bad_page_token();
-    HP_ASSIGN_OR_RETURN(auto assets, backend_.assets.list(request.page_token(), size + 1));
+    const std::string& owner = user.is_operator ? request.owner() : user.name;
+    HP_ASSIGN_OR_RETURN(auto assets, backend_.assets.list(request.page_token(), size + 1, owner));
     if (cut_page(assets, size)) reply.set_next_page_token(assets.back().sha256);
-    for (const Asset& asset : assets) *reply.add_assets() = to_message(asset);
+    for (Asset& asset : assets) {
+      if (!user.is_operator) asset.owners = {user.name};
+      *reply.add_assets() = to_message(asset);
+    }
     return {};
   }
 

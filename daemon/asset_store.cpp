@@ -1,11 +1,10 @@
 #include "daemon/asset_store.h"
 
-#include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 
+#include "daemon/asset_bytes.h"
 #include "daemon/job_rows.h"
 #include "daemon/names.h"
 #include "daemon/requests.h"
@@ -13,7 +12,29 @@
 namespace hydroprint::daemon {
 namespace {
 
-tl::unexpected<Error> too_large(Code code, std::int64_t max_bytes) {
+tl::unexpected<Error> asset_not_found(const std::string& sha256) {
+  return fail(Code::kNotFound, "assets/" + sha256 + " is not here; upload it", "ASSET_NOT_FOUND");
+}
+
+// What a job keeps is not given up: it would be there and count for nobody.
+Status check_is_not_used_by(Database& database, const std::string& sha256,
+                            const std::string& owner) {
+  HP_ASSIGN_OR_RETURN(
+      const auto jobs,
+      select_numbers(database,
+                     "SELECT jobs.id FROM job_inputs JOIN jobs ON jobs.id=job_inputs.job WHERE "
+                     "job_inputs.sha256=? AND jobs.owner=? LIMIT 1",
+                     {sha256, owner}));
+  if (jobs.empty()) return {};
+  return fail(Code::kFailedPrecondition,
+              "assets/" + sha256 + ": " + job_name(jobs.front()) +
+                  " was made of it, and keeps it; delete that before it",
+              "STATE_FORBIDS");
+}
+
+}  // namespace
+
+tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes) {
   auto error = fail(code,
                     "more than " + std::to_string(max_bytes) +
                         " bytes; send what was announced, within assets.max_mib",
@@ -28,26 +49,27 @@ std::int64_t size_on_disk(const std::filesystem::path& path) {
   return error ? 0 : static_cast<std::int64_t>(size);
 }
 
-}  // namespace
-
 AssetStore::AssetStore(Database& database, const Layout& layout, const AssetStoreOptions& options,
                        Clock clock)
     : database_(database), layout_(layout), options_(options), clock_(std::move(clock)) {}
 
-Result<AssetOrUpload> AssetStore::start(const Upload& wanted, const std::string& owner,
+// Whose bytes are here, and whose are on their way, is seen by whoever may use them alone: others
+// send them, and thereby show that they have them.
+Result<AssetOrUpload> AssetStore::start(const Upload& wanted, const AssetUser& user,
                                         const RequestKey& request) {
   if (wanted.size_bytes > options_.max_bytes) {
-    return too_large(Code::kResourceExhausted, options_.max_bytes);
+    return asset_too_large(Code::kResourceExhausted, options_.max_bytes);
   }
   std::string id;
   const Status done = database_.transaction([&]() -> Status {
     const std::int64_t now = clock_();
-    HP_ASSIGN_OR_RETURN(const auto earlier, earlier_result(database_, owner, request, now));
-    if (asset(wanted.sha256)) return {};
-    if (earlier && upload(*earlier)) {
+    HP_ASSIGN_OR_RETURN(const auto earlier, earlier_result(database_, user.name, request, now));
+    if (const auto known = asset_for(wanted.sha256, user)) return take(*known, user.name);
+    if (earlier && upload(*earlier, user.name)) {
       id = *earlier;
       return {};
     }
+    HP_RETURN_IF_ERROR(check_byte_quota(database_, user.name, options_.quota, wanted.size_bytes));
     HP_RETURN_IF_ERROR(check_free_space(layout_.root, wanted.size_bytes + options_.min_free_bytes));
     HP_ASSIGN_OR_RETURN(const auto open,
                         select_numbers(database_, "SELECT count(*) FROM uploads", {}));
@@ -56,26 +78,38 @@ Result<AssetOrUpload> AssetStore::start(const Upload& wanted, const std::string&
                   "too many uploads are open; finish some, or try again later", "UPLOADS_FULL");
     }
     id = make_token();
-    HP_RETURN_IF_ERROR(database_.run("INSERT INTO uploads VALUES (?,?,?,?,?)",
+    HP_RETURN_IF_ERROR(database_.run("INSERT INTO uploads VALUES (?,?,?,?,?,?)",
                                      {id, wanted.sha256, wanted.size_bytes, wanted.media_type,
-                                      now + options_.upload_expires_ms}));
-    return remember_result(database_, owner, request, id, now);
+                                      now + options_.upload_expires_ms, user.name}));
+    return remember_result(database_, user.name, request, id, now);
   });
   HP_RETURN_IF_ERROR(done);
   if (!id.empty()) {
-    HP_ASSIGN_OR_RETURN(Upload made, upload(id));
+    HP_ASSIGN_OR_RETURN(Upload made, upload(id, user.name));
     return AssetOrUpload(std::move(made));
   }
-  HP_ASSIGN_OR_RETURN(Asset known, asset(wanted.sha256));
+  HP_ASSIGN_OR_RETURN(Asset known, asset_for(wanted.sha256, user));
   return AssetOrUpload(std::move(known));
 }
 
-Result<Upload> AssetStore::upload(const std::string& id) {
+// Makes an asset theirs, too.
+Status AssetStore::take(const Asset& asset, const std::string& owner) {
+  const auto& owners = asset.owners;
+  if (std::find(owners.begin(), owners.end(), owner) == owners.end()) {
+    HP_RETURN_IF_ERROR(check_byte_quota(database_, owner, options_.quota, asset.size_bytes));
+    HP_RETURN_IF_ERROR(add_owner(database_, asset.sha256, owner, clock_()));
+  }
+  return database_.run("UPDATE assets SET use_ms=? WHERE sha256=?", {clock_(), asset.sha256});
+}
+
+Result<Upload> AssetStore::upload(const std::string& id, const std::string& owner) {
   Upload upload;
   HP_RETURN_IF_ERROR(database_.each(
-      "SELECT id, sha256, size, media_type, expire_ms FROM uploads WHERE id=? AND expire_ms>?",
-      {id, clock_()}, [&](const DbRow& row) {
-        upload = {row.text(0), row.text(1), row.integer(2), 0, row.text(3), row.integer(4)};
+      "SELECT id, sha256, size, media_type, expire_ms, owner FROM uploads WHERE id=? AND "
+      "expire_ms>? AND owner=?",
+      {id, clock_(), owner}, [&](const DbRow& row) {
+        upload = {row.text(0), row.text(1),    row.integer(2), 0,
+                  row.text(3), row.integer(4), row.text(5)};
       }));
   if (upload.id.empty()) {
     return fail(Code::kNotFound,
@@ -93,26 +127,59 @@ Result<Asset> AssetStore::asset(const std::string& sha256) {
                      {sha256}, [&](const DbRow& row) {
                        asset = {row.text(0), row.integer(1), row.text(2), row.integer(3)};
                      }));
-  if (asset.sha256.empty()) {
-    return fail(Code::kNotFound, "assets/" + sha256 + " is not here; upload it", "ASSET_NOT_FOUND");
+  if (asset.sha256.empty()) return asset_not_found(sha256);
+  return asset;
+}
+
+Result<Asset> AssetStore::asset_for(const std::string& sha256, const AssetUser& user) {
+  HP_ASSIGN_OR_RETURN(const bool may, may_use(database_, sha256, user));
+  if (!may) return asset_not_found(sha256);
+  HP_ASSIGN_OR_RETURN(Asset asset, this->asset(sha256));
+  HP_ASSIGN_OR_RETURN(asset.owners, owners_of(database_, sha256));
+  if (!user.is_operator) {
+    std::erase_if(asset.owners, [&](const std::string& owner) { return owner != user.name; });
   }
   return asset;
 }
 
-Result<std::vector<Asset>> AssetStore::list(const std::string& after, int limit) {
+Status AssetStore::check_use(const std::vector<InputFile>& inputs, const AssetUser& user) {
+  return check_may_use(database_, inputs, user);
+}
+
+Result<std::vector<Asset>> AssetStore::list(const std::string& after, int limit,
+                                            const std::string& owner) {
   std::vector<Asset> assets;
   HP_RETURN_IF_ERROR(database_.each(
-      "SELECT sha256, size, media_type, create_ms FROM assets WHERE sha256>? ORDER BY sha256 "
-      "LIMIT ?",
-      {after, std::int64_t{limit}}, [&](const DbRow& row) {
+      "SELECT sha256, size, media_type, create_ms FROM assets WHERE sha256>?1 AND (?2='' OR EXISTS "
+      "(SELECT 1 FROM asset_owners WHERE owner=?2 AND sha256=assets.sha256)) ORDER BY sha256 "
+      "LIMIT ?3",
+      {after, owner, std::int64_t{limit}}, [&](const DbRow& row) {
         assets.push_back({row.text(0), row.integer(1), row.text(2), row.integer(3)});
       }));
+  for (Asset& asset : assets) {
+    HP_ASSIGN_OR_RETURN(asset.owners, owners_of(database_, asset.sha256));
+  }
   return assets;
 }
 
-Status AssetStore::remove(const std::string& sha256) {
+// Deletes the row of an asset that is nobody's and that no job was made of.
+Status AssetStore::delete_unused(const std::string& sha256) {
+  return database_.run(
+      "DELETE FROM assets WHERE sha256=?1 AND NOT EXISTS (SELECT 1 FROM asset_owners WHERE "
+      "sha256=?1) AND NOT EXISTS (SELECT 1 FROM job_inputs WHERE sha256=?1)",
+      {sha256});
+}
+
+Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
   const Status done = database_.transaction([&]() -> Status {
-    HP_RETURN_IF_ERROR(asset(sha256));
+    HP_ASSIGN_OR_RETURN(const Asset asset, asset_for(sha256, user));
+    if (!user.is_operator) {
+      if (asset.owners.empty()) return asset_not_found(sha256);  // a job's that they may see
+      HP_RETURN_IF_ERROR(check_is_not_used_by(database_, sha256, user.name));
+      HP_RETURN_IF_ERROR(database_.run("DELETE FROM asset_owners WHERE owner=? AND sha256=?",
+                                       {user.name, sha256}));
+      return delete_unused(sha256);
+    }
     HP_ASSIGN_OR_RETURN(
         const auto jobs,
         select_numbers(database_,
@@ -142,19 +209,27 @@ void AssetStore::discard_unowned(const std::string& sha256) {
   });
 }
 
+Status AssetStore::insert(const Asset& asset) {
+  return database_.run(
+      "INSERT INTO assets(sha256, size, media_type, create_ms, use_ms) VALUES (?1,?2,?3,?4,?4) ON "
+      "CONFLICT(sha256) DO UPDATE SET use_ms=excluded.use_ms",
+      {asset.sha256, asset.size_bytes, asset.media_type, clock_()});
+}
+
 Result<Asset> AssetStore::complete(const Upload& upload) {
   const auto part = layout_.upload(upload.id), final_path = layout_.asset(upload.sha256);
   HP_RETURN_IF_ERROR(make_folder(final_path.parent_path()));
   const Status done = database_.transaction([&]() -> Status {
+    HP_RETURN_IF_ERROR(database_.run("DELETE FROM uploads WHERE id=?", {upload.id}));
+    HP_RETURN_IF_ERROR(
+        check_byte_quota(database_, upload.owner, options_.quota, upload.size_bytes));
     ::chmod(part.c_str(), 0400);
     HP_RETURN_IF_ERROR(publish(part, final_path));
-    HP_RETURN_IF_ERROR(
-        database_.run("INSERT OR IGNORE INTO assets VALUES (?,?,?,?)",
-                      {upload.sha256, upload.size_bytes, upload.media_type, clock_()}));
-    return database_.run("DELETE FROM uploads WHERE id=?", {upload.id});
+    HP_RETURN_IF_ERROR(insert({upload.sha256, upload.size_bytes, upload.media_type, 0}));
+    return add_owner(database_, upload.sha256, upload.owner, clock_());
   });
   HP_RETURN_IF_ERROR(done);
-  return asset(upload.sha256);
+  return asset_for(upload.sha256, {upload.owner, false});
 }
 
 // The files first: they may be what the row's deletion needs room for.
@@ -168,153 +243,17 @@ Result<Asset> AssetStore::adopt(const std::filesystem::path& file, const Asset& 
   const auto final_path = layout_.asset(as.sha256);
   HP_RETURN_IF_ERROR(make_folder(final_path.parent_path()));
   const Status done = database_.transaction([&]() -> Status {
-    if (asset(as.sha256)) return {};
+    if (asset(as.sha256)) return insert(as);
     discard(final_path);  // of a crash, which may have left part of it
     HP_RETURN_IF_ERROR(link_or_copy(file, final_path));
     ::chmod(final_path.c_str(), 0400);
     HP_RETURN_IF_ERROR(sync_path(final_path));
     HP_RETURN_IF_ERROR(sync_path(final_path.parent_path()));
-    return database_.run("INSERT INTO assets VALUES (?,?,?,?)",
-                         {as.sha256, as.size_bytes, as.media_type, clock_()});
+    return insert(as);
   });
   if (!done) discard_unowned(as.sha256);
   HP_RETURN_IF_ERROR(done);
   return asset(as.sha256);
-}
-
-Status AssetStore::purge() {
-  return database_.transaction([&]() -> Status {
-    HP_RETURN_IF_ERROR(database_.run("DELETE FROM uploads WHERE expire_ms<=?", {clock_()}));
-    std::error_code ignored;
-    for (const auto& entry : std::filesystem::directory_iterator(layout_.uploads(), ignored)) {
-      if (!upload(entry.path().filename().string())) discard(entry.path());
-    }
-    return {};
-  });
-}
-
-// After a crash in the middle of complete(): a verified file under its final name whose row is
-// missing.
-Status AssetStore::adopt_completed_uploads() {
-  std::vector<Upload> open;
-  HP_RETURN_IF_ERROR(
-      database_.each("SELECT id, sha256, size, media_type FROM uploads", {}, [&](const DbRow& row) {
-        open.push_back({row.text(0), row.text(1), row.integer(2), 0, row.text(3), 0});
-      }));
-  for (const Upload& upload : open) {
-    const auto path = layout_.asset(upload.sha256);
-    if (std::filesystem::exists(layout_.upload(upload.id)) || !std::filesystem::exists(path)) {
-      continue;
-    }
-    const auto hash = sha256_of_file(path);
-    if (!hash || *hash != upload.sha256) continue;
-    HP_RETURN_IF_ERROR(
-        database_.run("INSERT OR IGNORE INTO assets VALUES (?,?,?,?)",
-                      {upload.sha256, upload.size_bytes, upload.media_type, clock_()}));
-    HP_RETURN_IF_ERROR(database_.run("DELETE FROM uploads WHERE id=?", {upload.id}));
-  }
-  return {};
-}
-
-Status AssetStore::drop_rows_without_file() {
-  std::vector<Asset> assets;
-  HP_RETURN_IF_ERROR(database_.each("SELECT sha256, size FROM assets", {}, [&](const DbRow& row) {
-    assets.push_back({row.text(0), row.integer(1), "", 0});
-  }));
-  for (const Asset& asset : assets) {
-    const auto path = layout_.asset(asset.sha256);
-    if (std::filesystem::exists(path) && size_on_disk(path) == asset.size_bytes) continue;
-    HP_RETURN_IF_ERROR(database_.run("DELETE FROM assets WHERE sha256=?", {asset.sha256}));
-  }
-  return {};
-}
-
-Status AssetStore::sweep() {
-  HP_RETURN_IF_ERROR(make_folder(layout_.uploads()));
-  HP_RETURN_IF_ERROR(make_folder(layout_.assets()));
-  return database_.transaction([&]() -> Status {
-    HP_RETURN_IF_ERROR(adopt_completed_uploads());
-    HP_RETURN_IF_ERROR(drop_rows_without_file());
-    std::error_code ignored;
-    for (const auto& entry :
-         std::filesystem::recursive_directory_iterator(layout_.assets(), ignored)) {
-      if (entry.is_directory()) continue;
-      const auto& path = entry.path();
-      if (!asset(path.parent_path().filename().string() + path.filename().string())) discard(path);
-    }
-    return {};
-  });
-}
-
-Result<std::unique_ptr<UploadWriter>> UploadWriter::open(AssetStore& store, const std::string& id) {
-  {
-    const std::lock_guard lock(store.busy_mutex_);
-    if (!store.busy_.insert(id).second) {
-      return fail(Code::kAborted,
-                  "uploads/" + id + ": another call is sending to it; wait for its end",
-                  "UPLOAD_BUSY");
-    }
-  }
-  // From here on, its end frees the upload.
-  std::unique_ptr<UploadWriter> writer(new UploadWriter(store, Upload{id, "", 0, 0, "", 0}));
-  HP_ASSIGN_OR_RETURN(writer->upload_, store.upload(id));
-  HP_ASSIGN_OR_RETURN(writer->file_, open_file(store.layout_.upload(id), O_WRONLY | O_CREAT));
-  return writer;
-}
-
-UploadWriter::~UploadWriter() {
-  const std::lock_guard lock(store_.busy_mutex_);
-  store_.busy_.erase(upload_.id);
-}
-
-Status UploadWriter::append(std::int64_t offset, std::string_view bytes) {
-  if (offset != upload_.received_bytes) {
-    const std::string expected = std::to_string(upload_.received_bytes);
-    auto error = fail(
-        Code::kOutOfRange,
-        "offset: " + std::to_string(offset) + " is not where the upload is; go on at " + expected,
-        "OFFSET_MISMATCH");
-    error.value().metadata["expected_offset"] = expected;
-    return error;
-  }
-  const auto size = static_cast<std::int64_t>(bytes.size());
-  if (size > upload_.size_bytes - offset) return too_large(Code::kOutOfRange, upload_.size_bytes);
-  const auto path = store_.layout_.upload(upload_.id);
-  const Status written = write_at(file_, path, bytes, offset);
-  if (!written) return tl::unexpected(give_up_if_full(written.error()));
-  upload_.received_bytes += size;
-  return {};
-}
-
-Error UploadWriter::give_up_if_full(Error error) {
-  if (error.reason == "DISK_FULL") {
-    file_.reset();  // an open file keeps its room
-    store_.give_up(upload_);
-  }
-  return error;
-}
-
-Result<AssetOrUpload> UploadWriter::finish() {
-  return verify().map_error([&](Error error) { return give_up_if_full(std::move(error)); });
-}
-
-Result<AssetOrUpload> UploadWriter::verify() {
-  const auto path = store_.layout_.upload(upload_.id);
-  if (::fsync(file_.get()) != 0) return system_failure(path, "cannot be made safe on disk");
-  if (upload_.received_bytes < upload_.size_bytes) return AssetOrUpload(upload_);
-  HP_ASSIGN_OR_RETURN(const std::string hash, sha256_of_file(path));
-  if (hash == upload_.sha256) {
-    HP_ASSIGN_OR_RETURN(Asset asset, store_.complete(upload_));
-    return AssetOrUpload(std::move(asset));
-  }
-  HP_RETURN_IF_ERROR(store_.database_.run("DELETE FROM uploads WHERE id=?", {upload_.id}));
-  discard(path);
-  auto error = fail(Code::kInvalidArgument,
-                    "the bytes have the hash " + hash + ", not the announced " + upload_.sha256 +
-                        "; start the upload again",
-                    "ASSET_HASH_MISMATCH");
-  error.value().metadata["sha256"] = hash;
-  return error;
 }
 
 }  // namespace hydroprint::daemon

@@ -24,6 +24,7 @@ using grpc::experimental::InterceptorBatchMethods;
 using grpc::experimental::ServerRpcInfo;
 
 constexpr std::int64_t kQuietAbout_ms = 60'000;
+constexpr std::chrono::milliseconds kWritten_ms{2000};
 constexpr std::size_t kLongestDetail = 300;
 constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // only computes
 
@@ -169,7 +170,9 @@ class Tap final : public grpc::experimental::Interceptor {
         entry_.what == "RigService.Jog" || entry_.what == "LeaseService.RenewLease";
     if (is_repeated && !around_.quiet.is_new(entry_.who + " " + entry_.what + entry_.outcome))
       return;
-    around_.audit.note(entry_);
+    const std::uint64_t noted = around_.audit.note(entry_);
+    if (is_repeated || entry_.what == "RigService.StopMotion") return;
+    around_.audit.wait_written(noted, kWritten_ms);
   }
 
   ServerRpcInfo& call_;

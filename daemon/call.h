@@ -42,6 +42,7 @@ struct Backend {
   CameraSetup camera;
   Layout layout;
   std::int64_t min_free_bytes = 0;
+  Quota quota;
   /// True from the moment the daemon goes down: streams end, nothing new begins.
   const std::atomic<bool>& stopping;
 };

@@ -14,20 +14,24 @@ namespace hydroprint::daemon {
 /// Everything that can be set, with its default: one member per key of the TOML file (section and
 /// key in the comment; deploy/hydroprintd.toml.example explains each).
 struct Config {
-  std::string server_grpc = "127.0.0.1:50051";  ///< server.grpc: address and port, 0: any
-  bool server_reflection = true;                ///< server.reflection
-  std::string server_http = "127.0.0.1:8080";   ///< server.http: the same for HTTP
-  std::string server_host_names;                ///< server.host_names, with blanks between
-  std::string server_tls_certificate;           ///< server.tls_certificate: file; empty: no TLS
-  std::string server_tls_key;                   ///< server.tls_key: file; empty: no TLS
-  std::string server_web_dir;                   ///< server.web_dir; empty: where it was installed
-  std::string store_state_dir;                  ///< store.state_dir; empty: the user's own
-  std::int64_t store_keep_finished_days = 30;   ///< store.keep_finished_days
-  std::int64_t store_min_free_mib = 512;        ///< store.min_free_mib
-  std::int64_t assets_max_mib = 1024;           ///< assets.max_mib, of one file
-  std::int64_t assets_max_open_uploads = 64;    ///< assets.max_open_uploads
-  std::int64_t assets_upload_expires_h = 24;    ///< assets.upload_expires_h
-  std::int64_t queue_max_jobs = 1000;           ///< queue.max_jobs
+  std::string server_grpc = "127.0.0.1:50051";   ///< server.grpc: address and port, 0: any
+  bool server_reflection = true;                 ///< server.reflection
+  std::string server_http = "127.0.0.1:8080";    ///< server.http: the same for HTTP
+  std::string server_host_names;                 ///< server.host_names, with blanks between
+  std::string server_tls_certificate;            ///< server.tls_certificate: file; empty: no TLS
+  std::string server_tls_key;                    ///< server.tls_key: file; empty: no TLS
+  std::string server_web_dir;                    ///< server.web_dir; empty: where it was installed
+  std::string store_state_dir;                   ///< store.state_dir; empty: the user's own
+  std::int64_t store_keep_finished_days = 30;    ///< store.keep_finished_days; 0: for ever
+  std::int64_t store_keep_dips_days = 365;       ///< store.keep_dips_days; 0: for ever
+  std::int64_t store_max_mib_per_owner = 20480;  ///< store.max_mib_per_owner; 0: any number
+  std::int64_t store_min_free_mib = 512;         ///< store.min_free_mib
+  std::int64_t assets_max_mib = 1024;            ///< assets.max_mib, of one file
+  std::int64_t assets_max_open_uploads = 64;     ///< assets.max_open_uploads
+  std::int64_t assets_upload_expires_h = 24;     ///< assets.upload_expires_h
+  std::int64_t assets_keep_unused_days = 30;     ///< assets.keep_unused_days; 0: for ever
+  std::int64_t queue_max_jobs = 1000;            ///< queue.max_jobs
+  std::int64_t queue_max_jobs_per_owner = 200;   ///< queue.max_jobs_per_owner; 0: any number
   std::string workers_program;     ///< workers.program; empty: hydroprint-worker beside hydroprintd
   std::int64_t workers_count = 0;  ///< workers.count; 0: as many as cores
   std::int64_t workers_threads = 0;        ///< workers.threads per worker; 0: the cores, shared out

@@ -58,6 +58,7 @@ v1::Job to_message(const Job& job) {
   out.set_input_digest(job.made.digest);
   out.set_cache_hit(job.cache_hit);
   out.set_shared(job.shared);
+  out.set_pinned(job.pinned);
   if (!job.dip_status.empty()) out.mutable_dip_status()->ParseFromString(job.dip_status);
   return out;
 }
@@ -93,6 +94,7 @@ v1::Asset to_message(const Asset& asset) {
   out.set_size_bytes(asset.size_bytes);
   out.set_media_type(asset.media_type);
   *out.mutable_create_time() = time_of(asset.create_ms);
+  for (const std::string& owner : asset.owners) out.add_owners(owner);
   return out;
 }
 

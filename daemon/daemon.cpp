@@ -44,6 +44,10 @@ PreviewOptions preview_options(const PoolOptions& pool) {
           {pool.memory_bytes, a_day_s, pool.file_bytes}};
 }
 
+Quota quota_of(const Config& config) {
+  return {config.queue_max_jobs_per_owner, config.store_max_mib_per_owner * kMiB};
+}
+
 Result<std::filesystem::path> state_dir(const Config& config) {
   if (config.store_state_dir.empty()) return default_state_dir();
   return std::filesystem::absolute(config.store_state_dir).lexically_normal();
@@ -60,6 +64,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config,
   std::unique_ptr<Daemon> daemon(new Daemon);
   HP_ASSIGN_OR_RETURN(daemon->layout_.root, state_dir(config));
   HP_ASSIGN_OR_RETURN(daemon->lock_, lock_state(daemon->layout_));
+  HP_RETURN_IF_ERROR(check_restored(daemon->layout_));
   HP_RETURN_IF_ERROR(daemon->open_store(config));
   HP_RETURN_IF_ERROR(daemon->open_certificate(config));
   HP_RETURN_IF_ERROR(daemon->open_people(config));
@@ -76,12 +81,14 @@ Status Daemon::open_store(const Config& config) {
   HP_ASSIGN_OR_RETURN(database_, daemon::open_store(layout_.database()));
   jobs_ = std::make_unique<JobStore>(
       *database_, layout_,
-      JobStoreOptions{config.queue_max_jobs, config.store_keep_finished_days * 24 * kHourMs},
+      JobStoreOptions{config.queue_max_jobs, config.store_keep_finished_days * 24 * kHourMs,
+                      config.store_keep_dips_days * 24 * kHourMs, quota_of(config)},
       system_clock_ms);
   assets_ = std::make_unique<AssetStore>(
       *database_, layout_,
       AssetStoreOptions{config.assets_max_mib * kMiB, config.assets_max_open_uploads,
-                        config.assets_upload_expires_h * kHourMs, config.store_min_free_mib * kMiB},
+                        config.assets_upload_expires_h * kHourMs, config.store_min_free_mib * kMiB,
+                        config.assets_keep_unused_days * 24 * kHourMs, quota_of(config)},
       system_clock_ms);
   calibrations_ = std::make_unique<CalibrationStore>(*database_, system_clock_ms);
   HP_RETURN_IF_ERROR(jobs_->sweep());  // first: it may make the room that the next one needs
@@ -102,6 +109,7 @@ Status Daemon::open_people(const Config& config) {
   // Whoever is let in without a user must not be let in from elsewhere by a mistake.
   const bool is_open = config.people_accounts == "loopback-open" && !is_exposed(config);
   access_ = std::make_unique<Access>(*accounts_, is_open);
+  outside_ = std::make_unique<people::OutsideChanges>(*database_, *accounts_);
   if (!is_open && !accounts_->any()) {
     log(LogLevel::kWarning, "no_users",
         {{"message", "accounts are required and there is no user; start with --first-admin NAME"}});
@@ -159,7 +167,7 @@ Status Daemon::make_first_admin(const std::string& name) {
   entry.what = "hydroprintd --first-admin";
   entry.object = "users/" + name;
   entry.outcome = "OK";
-  audit_->note(std::move(entry));
+  audit_->wait_written(audit_->note(std::move(entry)), kPatience);
   link_token_ = link.first;
   return {};
 }
@@ -201,11 +209,13 @@ Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(pool_,
                       WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
   HP_ASSIGN_OR_RETURN(previews_, PreviewDesk::make(preview_options(pool_options(config)), layout_));
-  const Backend backend{
-      *database_, *accounts_, *audit_,  *access_, *jobs_,     *assets_,
-      *pool_,     *desk_,     *dips_,   *prints_, *captures_, *calibrations_,
-      *previews_, *live_,     *places_, camera_,  layout_,    config.store_min_free_mib * kMiB,
-      stopping_};
+  const Backend backend{*database_,       *accounts_, *audit_,
+                        *access_,         *jobs_,     *assets_,
+                        *pool_,           *desk_,     *dips_,
+                        *prints_,         *captures_, *calibrations_,
+                        *previews_,       *live_,     *places_,
+                        camera_,          layout_,    config.store_min_free_mib * kMiB,
+                        quota_of(config), stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_,
                       Server::start(endpoint, config.server_reflection, backend, identity()));

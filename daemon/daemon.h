@@ -19,6 +19,7 @@
 #include "daemon/lease.h"
 #include "daemon/live_camera.h"
 #include "daemon/people/audit.h"
+#include "daemon/people/outside.h"
 #include "daemon/pool.h"
 #include "daemon/preview_desk.h"
 #include "daemon/print_runner.h"
@@ -82,6 +83,7 @@ class Daemon {
   std::unique_ptr<people::Accounts> accounts_;
   std::unique_ptr<people::AuditLog> audit_;
   std::unique_ptr<Access> access_;
+  std::unique_ptr<people::OutsideChanges> outside_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<AssetStore> assets_;
   std::unique_ptr<CalibrationStore> calibrations_;

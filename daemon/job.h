@@ -121,6 +121,7 @@ struct Job {
   std::int64_t version = 0;  ///< increases with every change
   bool cache_hit = false;
   bool shared = false;  ///< see hydroprint.v1.Job.shared
+  bool pinned = false;  ///< see hydroprint.v1.Job.pinned; then, as in other cases, purge_ms is 0
   std::optional<JobFailure> failure;
   std::string dip_status;  ///< of a dip: where it stands, as NewJob::dip_status
 };

@@ -10,8 +10,10 @@ namespace {
 constexpr const char* kJobColumns =
     "SELECT id, uid, display_name, owner, priority, body, verb, flags, threads, digest, retry_of, "
     "use_cache, cache_hit, state, fraction, phase, phase_fraction, eta_ms, create_ms, start_ms, "
-    "end_ms, update_ms, purge_ms, version, error_code, error_reason, error_message, exit_status, "
-    "signal, pose, (SELECT status FROM dips WHERE job=jobs.id), shared FROM jobs ";
+    "end_ms, update_ms, CASE WHEN pinned=1 OR EXISTS(SELECT 1 FROM calibrations WHERE "
+    "calibrations.job=jobs.id) THEN 0 ELSE purge_ms END, version, error_code, error_reason, "
+    "error_message, exit_status, "
+    "signal, pose, (SELECT status FROM dips WHERE job=jobs.id), shared, pinned FROM jobs ";
 
 std::vector<std::string> split_lines(const std::string& text) {
   std::vector<std::string> lines;
@@ -58,6 +60,7 @@ Job read_job(const DbRow& row) {
   job.failure = read_failure(row);
   job.dip_status = row.text(30);
   job.shared = row.integer(31) != 0;
+  job.pinned = row.integer(32) != 0;
   return job;
 }
 

@@ -62,6 +62,11 @@ class JobService final : public v1::JobService::Service {
     return answer(*context, share(*context, *request), reply);
   }
 
+  grpc::Status PinJob(grpc::ServerContext* context, const v1::PinJobRequest* request,
+                      v1::Job* reply) override {
+    return answer(*context, pin(*context, *request), reply);
+  }
+
   grpc::Status RetryJob(grpc::ServerContext* context, const v1::RetryJobRequest* request,
                         v1::Job* reply) override {
     return answer(*context, retry(*context, *request), reply);
@@ -120,10 +125,15 @@ class JobService final : public v1::JobService::Service {
     return backend_.jobs.share(job.id, request.shared());
   }
 
+  Result<Job> pin(const grpc::ServerContext& context, const v1::PinJobRequest& request) {
+    HP_ASSIGN_OR_RETURN(const Job job, own(context, request.name()));
+    return backend_.jobs.pin(job.id, request.pinned());
+  }
+
   Result<Job> create(const grpc::ServerContext& context, const v1::CreateJobRequest& request) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
     HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
-    HP_RETURN_IF_ERROR(check_may_create(caller, request.job(), backend_.jobs));
+    HP_RETURN_IF_ERROR(check_may_create(caller, request.job(), backend_.jobs, backend_.assets));
     HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
     HP_ASSIGN_OR_RETURN(const v1::Job named, with_named_calibration(request.job(), backend_.jobs,
                                                                     backend_.calibrations));
@@ -285,7 +295,7 @@ class JobService final : public v1::JobService::Service {
     }
     NewJob made = old.made;
     HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
-    HP_RETURN_IF_ERROR(check_may_create(caller, to_message(old), backend_.jobs));
+    HP_RETURN_IF_ERROR(check_may_create(caller, to_message(old), backend_.jobs, backend_.assets));
     made.owner = caller.name;
     made.retry_of = id;
     made.use_cache = false;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <set>
 
+#include "daemon/asset_owners.h"
 #include "daemon/calibration_store.h"
 #include "daemon/files.h"
 #include "daemon/job_rows.h"
@@ -45,12 +46,7 @@ Status JobStore::check_inputs(const std::vector<InputFile>& inputs) {
     HP_ASSIGN_OR_RETURN(
         const auto found,
         select_numbers(database_, "SELECT 1 FROM assets WHERE sha256=?", {input.sha256}));
-    if (!found.empty()) continue;
-    auto error = fail(Code::kFailedPrecondition,
-                      input.name + ": assets/" + input.sha256 + " is not here; upload it first",
-                      "ASSET_MISSING");
-    error.value().metadata["asset"] = "assets/" + input.sha256;
-    return error;
+    if (found.empty()) return asset_missing(input);
   }
   return {};
 }
@@ -74,6 +70,7 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
                          : is_computed(verb) ? JobState::kQueued
                                              : JobState::kRunning;
   HP_RETURN_IF_ERROR(is_computed(verb) ? check_queue() : check_none_open(verb));
+  HP_RETURN_IF_ERROR(check_job_quota(database_, made.owner, options_.quota, is_computed(verb)));
   HP_RETURN_IF_ERROR(check_inputs(made.work.inputs));
   const std::int64_t now = clock_();
   HP_RETURN_IF_ERROR(database_.run(
@@ -90,6 +87,8 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
   for (const InputFile& input : made.work.inputs) {
     HP_RETURN_IF_ERROR(
         database_.run("INSERT INTO job_inputs VALUES (?,?,?)", {id, input.name, input.sha256}));
+    HP_RETURN_IF_ERROR(
+        database_.run("UPDATE assets SET use_ms=? WHERE sha256=?", {now, input.sha256}));
   }
   if (moves_the_rig(verb)) HP_RETURN_IF_ERROR(store_dip_status(id, made.dip_status));
   if (captures(verb)) {
@@ -185,9 +184,11 @@ Status JobStore::change(std::int64_t id, JobState state, const std::string& mess
 
 Status JobStore::finish(std::int64_t id, JobState state, const std::string& message) {
   const std::int64_t now = clock_();
-  HP_RETURN_IF_ERROR(database_.run(
-      "UPDATE jobs SET end_ms=?, purge_ms=?, phase='', phase_fraction=0, eta_ms=0 WHERE id=?",
-      {now, now + options_.keep_finished_ms, id}));
+  HP_RETURN_IF_ERROR(
+      database_.run("UPDATE jobs SET end_ms=?1, keep_from_ms=?1, phase='', phase_fraction=0, "
+                    "eta_ms=0 WHERE id=?2",
+                    {now, id}));
+  HP_RETURN_IF_ERROR(set_purge_time("id=?", id));
   HP_RETURN_IF_ERROR(database_.run("DELETE FROM events WHERE job=? AND kind=?",
                                    {id, number(EventKind::kProgress)}));
   return change(id, state, message);
@@ -433,21 +434,11 @@ Result<std::vector<std::int64_t>> JobStore::ids_in_state(JobState state) {
                         {number(state)});
 }
 
-Status JobStore::purge() {
-  HP_ASSIGN_OR_RETURN(
-      const auto old,
-      select_numbers(database_,
-                     "SELECT id FROM jobs WHERE purge_ms>0 AND purge_ms<=? AND id NOT IN "
-                     "(SELECT job FROM calibrations)",
-                     {clock_()}));
-  for (const std::int64_t id : old) HP_RETURN_IF_ERROR(remove(id));
-  return forget_old_requests(database_, clock_());
-}
-
 Status JobStore::sweep() {
   discard(layout_.runs());
   HP_RETURN_IF_ERROR(make_folder(layout_.runs()));
   HP_RETURN_IF_ERROR(make_folder(layout_.artifacts()));
+  HP_RETURN_IF_ERROR(set_purge_time("end_ms>?", 0));
   HP_ASSIGN_OR_RETURN(const auto done,
                       select_numbers(database_, "SELECT DISTINCT job FROM artifacts", {}));
   const std::set<std::int64_t> owned(done.begin(), done.end());

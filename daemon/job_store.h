@@ -12,6 +12,7 @@
 #include "daemon/database.h"
 #include "daemon/job.h"
 #include "daemon/layout.h"
+#include "daemon/usage.h"
 
 namespace hydroprint::daemon {
 
@@ -40,7 +41,9 @@ struct QueuePause {
 /// Limits the store keeps.
 struct JobStoreOptions {
   std::int64_t max_queued = 1000;
-  std::int64_t keep_finished_ms = 30LL * 24 * 3600 * 1000;
+  std::int64_t keep_finished_ms = 30LL * 24 * 3600 * 1000;  ///< 0: for ever
+  std::int64_t keep_dips_ms = 365LL * 24 * 3600 * 1000;     ///< of those at least; 0: for ever
+  Quota quota = {};                                         ///< of each owner
 };
 
 /// Why running jobs are interrupted: the daemon is going down in order, or it was lost (killed, or
@@ -68,9 +71,9 @@ class JobStore {
   /// Stores a job, or returns the one that the same request made before. A job with the inputs of
   /// one that succeeded gets that one's artifacts and is finished at once.
   /// A dip is WAITING_FOR_OPERATOR.
-  /// @return kResourceExhausted, QUEUE_FULL; kFailedPrecondition, ASSET_MISSING, or STATE_FORBIDS
-  /// for
-  ///   a dip while another one is not finished; kInvalidArgument, REQUEST_ID_REUSED
+  /// @return kResourceExhausted: QUEUE_FULL, QUOTA_EXCEEDED; kFailedPrecondition: ASSET_MISSING, or
+  ///   STATE_FORBIDS for a dip while another one is not finished; kInvalidArgument,
+  ///   REQUEST_ID_REUSED
   [[nodiscard]] Result<Job> create(const NewJob& made, const RequestKey& request);
   /// The job that the same request made before, if one did. REQUEST_ID_REUSED; JOB_NOT_FOUND if it
   /// was deleted.
@@ -87,6 +90,8 @@ class JobStore {
   [[nodiscard]] Status remove(std::int64_t id);
   /// Lets all who may look see its artifacts, or no longer.
   [[nodiscard]] Result<Job> share(std::int64_t id, bool shared);
+  /// Keeps it beyond its time, or lets its time begin anew.
+  [[nodiscard]] Result<Job> pin(std::int64_t id, bool pinned);
   /// QUEUED -> CANCELLED, RUNNING or WAITING_FOR_OPERATOR -> CANCELLING; CANCELLING and CANCELLED
   /// stay.
   [[nodiscard]] Result<Job> cancel(std::int64_t id);
@@ -140,9 +145,12 @@ class JobStore {
   [[nodiscard]] Result<QueuePause> pause();
   [[nodiscard]] Status set_pause(const QueuePause& pause);
 
-  /// Deletes finished jobs whose time is up.
+  /// Deletes finished jobs whose time is up, oldest first, and logs each; not those that are
+  /// pinned, or made a calibration that is there, nor any while something is being printed, which
+  /// may be another job's file.
   [[nodiscard]] Status purge();
-  /// Deletes folders that no job owns (left by a crash); only before the pool starts.
+  /// Deletes folders that no job owns (left by a crash), and counts times anew as the options have
+  /// it; only before the pool starts.
   [[nodiscard]] Status sweep();
 
   [[nodiscard]] Bell& bell() { return bell_; }
@@ -154,6 +162,8 @@ class JobStore {
   [[nodiscard]] Status check_none_open(const std::string& verb);
   [[nodiscard]] Status store_dip_status(std::int64_t id, const std::string& dip_status);
   [[nodiscard]] Result<bool> adopt_cached(const Job& job);
+  [[nodiscard]] Status set_purge_time(const std::string& where, std::int64_t value);
+  [[nodiscard]] Status purge_one(std::int64_t id);
   void discard_unowned(std::int64_t id);
   [[nodiscard]] Status store_artifacts(std::int64_t id, const std::vector<Artifact>& artifacts);
   [[nodiscard]] Status change(std::int64_t id, JobState state, const std::string& message);

@@ -35,6 +35,9 @@ struct Layout {
   [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {
     return runs() / ("preview-" + std::to_string(number));
   }
+  /// What a restore unpacks, and what says that it has not finished putting it in place.
+  [[nodiscard]] std::filesystem::path restoring() const { return root / "restoring"; }
+  [[nodiscard]] std::filesystem::path unrestored() const { return root / "unrestored"; }
   /// The process that shows what the camera sees.
   [[nodiscard]] std::filesystem::path live_camera() const { return runs() / "live-camera"; }
   /// Records of dips that are not finished.

@@ -10,6 +10,7 @@
 #include <exception>
 #include <iostream>
 
+#include "daemon/admin/admin.h"
 #include "daemon/daemon.h"
 #include "daemon/exposure.h"
 #include "daemon/log.h"
@@ -156,6 +157,7 @@ int run(const Config& config, const std::string& first_admin) {
 }
 
 int obey(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "admin") return admin::obey(argc - 1, argv + 1);
   Options options;
   CLI::App app(
       "Keeps the job queue of Hydroprint and runs its workers; serves gRPC and HTTP, on loopback "
@@ -189,6 +191,7 @@ int obey(int argc, char** argv) {
                  "Where the motor's drive is, like tcp:127.0.0.1:1502; default: there is no rig")
       ->type_name("ENDPOINT");
   app.add_option("--rig-profile", options.rig_profile, "Profile of that drive")->type_name("FILE");
+  app.footer("hydroprintd admin --help: backup, restore and the like, on its state folder.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

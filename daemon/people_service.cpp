@@ -14,6 +14,7 @@ using people::Caller;
 using people::Role;
 
 constexpr std::int64_t kShortestKey_ms = 60'000;
+constexpr std::chrono::milliseconds kSignInWritten{2000};  // to the audit log
 constexpr std::int64_t kLongestKey_ms = 10LL * 366 * 24 * 3600 * 1000;
 
 // What stands behind the collection's name: "users/ann" to "ann".
@@ -87,6 +88,10 @@ class PeopleService final : public v1::PeopleService::Service {
   grpc::Status WhoAmI(grpc::ServerContext* context, const v1::WhoAmIRequest*,
                       v1::WhoAmIResponse* reply) override {
     return to_grpc(who(*context, *reply));
+  }
+  grpc::Status GetUsage(grpc::ServerContext* context, const v1::GetUsageRequest* request,
+                        v1::Usage* reply) override {
+    return to_grpc(usage(*context, *request, *reply));
   }
   grpc::Status ListUsers(grpc::ServerContext*, const v1::ListUsersRequest* request,
                          v1::ListUsersResponse* reply) override {
@@ -162,7 +167,8 @@ class PeopleService final : public v1::PeopleService::Service {
       entry.detail = outcome.error().reason;
       log(LogLevel::kWarning, "sign_in_failed", {{"peer", entry.peer}, {"object", entry.object}});
     }
-    backend_.audit.note(std::move(entry));
+    const std::uint64_t noted = backend_.audit.note(std::move(entry));
+    backend_.audit.wait_written(noted, kSignInWritten);
   }
 
   Status sign_in(const grpc::ServerContext& context, const v1::SignInRequest& request,
@@ -203,6 +209,21 @@ class PeopleService final : public v1::PeopleService::Service {
     return {};
   }
 
+  Status usage(const grpc::ServerContext& context, const v1::GetUsageRequest& request,
+               v1::Usage& reply) {
+    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    const std::string& owner = request.owner().empty() ? caller.name : request.owner();
+    if (owner != caller.name) HP_RETURN_IF_ERROR(check_role(caller, Role::kAdmin));
+    HP_ASSIGN_OR_RETURN(const Usage usage, backend_.assets.usage(owner));
+    reply.set_owner(owner);
+    reply.set_queued_jobs(usage.queued_jobs);
+    reply.set_max_queued_jobs(backend_.quota.max_queued_jobs);
+    reply.set_stored_bytes(usage.stored_bytes);
+    reply.set_max_stored_bytes(backend_.quota.max_stored_bytes);
+    reply.set_pinned_bytes(usage.pinned_bytes);
+    return {};
+  }
+
   Status list_users(const v1::ListUsersRequest& request, v1::ListUsersResponse& reply) {
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     auto users = backend_.accounts.users(request.page_token(), static_cast<std::size_t>(size) + 1);
@@ -215,7 +236,7 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const std::string name, name_in("users", request.user().name()));
     HP_ASSIGN_OR_RETURN(const Role role, role_in("user.role", request.user().role()));
     return backend_.accounts.create({name, role, request.user().disabled(), "", 0},
-                                    request.password());
+                                    request.password(), request.returns());
   }
 
   Result<people::User> update(const v1::UpdateUserRequest& request) {

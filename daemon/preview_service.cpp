@@ -3,6 +3,7 @@
 
 #include "daemon/convert.h"
 #include "daemon/services.h"
+#include "daemon/sight.h"
 #include "daemon/status.h"
 #include "hydroprint/v1/preview_service.grpc.pb.h"
 
@@ -66,7 +67,9 @@ class PreviewService final : public v1::PreviewService::Service {
   Status compute(const grpc::ServerContext& context, const v1::ComputePreviewRequest& request,
                  v1::Preview& reply) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
-    HP_ASSIGN_OR_RETURN(const std::string owner, owner_of(backend_, context));
+    HP_ASSIGN_OR_RETURN(const people::Caller caller, backend_.access.caller(context));
+    const std::string& owner = caller.name;
+    HP_RETURN_IF_ERROR(check_may_use_files(caller, request, backend_.assets));
     HP_ASSIGN_OR_RETURN(const PreviewAsk ask, check_preview(request));
     HP_ASSIGN_OR_RETURN(Previewed shown, backend_.previews.compute(owner, ask, [&context] {
       return context.IsCancelled();

@@ -35,6 +35,24 @@ const std::vector<Migration>& migrations() {
         "object TEXT NOT NULL, outcome TEXT NOT NULL, detail TEXT NOT NULL)",
         "CREATE INDEX audit_by_time ON audit(time_ms)",
         "ALTER TABLE jobs ADD COLUMN shared INTEGER NOT NULL DEFAULT 0"}},
+      // Quotas and retention. What was used by somebody's job is taken for theirs; nothing counts
+      // as
+      // unused before now. A finished job's time is counted from `keep_from_ms` on.
+      {3,
+       {"CREATE TABLE asset_owners(owner TEXT NOT NULL, "
+        "sha256 TEXT NOT NULL REFERENCES assets(sha256) ON DELETE CASCADE, "
+        "create_ms INTEGER NOT NULL, PRIMARY KEY(owner, sha256)) WITHOUT ROWID",
+        "CREATE INDEX owners_by_asset ON asset_owners(sha256)",
+        "INSERT OR IGNORE INTO asset_owners SELECT jobs.owner, assets.sha256, assets.create_ms "
+        "FROM job_inputs JOIN jobs ON jobs.id=job_inputs.job JOIN assets USING(sha256)",
+        "ALTER TABLE assets ADD COLUMN use_ms INTEGER NOT NULL DEFAULT 0",
+        "UPDATE assets SET use_ms=1000*CAST(strftime('%s','now') AS INTEGER)",
+        "ALTER TABLE uploads ADD COLUMN owner TEXT NOT NULL DEFAULT ''",
+        "ALTER TABLE jobs ADD COLUMN pinned INTEGER NOT NULL DEFAULT 0",
+        "ALTER TABLE jobs ADD COLUMN keep_from_ms INTEGER NOT NULL DEFAULT 0",
+        "UPDATE jobs SET keep_from_ms=end_ms", "CREATE INDEX jobs_by_owner ON jobs(owner)",
+        "CREATE TABLE former_users(name TEXT PRIMARY KEY, delete_ms INTEGER NOT NULL) "
+        "WITHOUT ROWID"}},
   };
   return all;
 }
@@ -47,13 +65,30 @@ Result<std::int64_t> version_of(Database& database) {
   return version;
 }
 
+tl::unexpected<Error> too_new() {
+  return fail(Code::kFailedPrecondition,
+              "was made by a later version of hydroprintd; use that one, or another state folder",
+              "STORE_TOO_NEW");
+}
+
+tl::unexpected<Error> naming(const std::filesystem::path& path, Error error) {
+  error.message = path.string() + ": " + error.message;
+  return tl::unexpected(std::move(error));
+}
+
+Status check_version(Database& database) {
+  HP_ASSIGN_OR_RETURN(const std::int64_t version, version_of(database));
+  if (version > migrations().back().to) return too_new();
+  if (version == migrations().back().to) return {};
+  return fail(
+      Code::kFailedPrecondition,
+      "was made by an earlier version of hydroprintd; start this one on it once, which brings "
+      "it to this version");
+}
+
 Status migrate(Database& database) {
   HP_ASSIGN_OR_RETURN(const std::int64_t version, version_of(database));
-  if (version > migrations().back().to) {
-    return fail(Code::kFailedPrecondition,
-                "was made by a later version of hydroprintd; use that one, or another state folder",
-                "STORE_TOO_NEW");
-  }
+  if (version > migrations().back().to) return too_new();
   for (const Migration& migration : migrations()) {
     if (migration.to <= version) continue;
     for (const char* statement : migration.statements) {
@@ -70,10 +105,14 @@ Status migrate(Database& database) {
 Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(auto database, Database::open(path, kSchema));
   if (const Status done = database->transaction([&] { return migrate(*database); }); !done) {
-    Error error = done.error();
-    error.message = path.string() + ": " + error.message;
-    return tl::unexpected(std::move(error));
+    return naming(path, done.error());
   }
+  return database;
+}
+
+Result<std::unique_ptr<Database>> open_store_as_it_is(const std::filesystem::path& path) {
+  HP_ASSIGN_OR_RETURN(auto database, Database::open(path, ""));
+  if (const Status good = check_version(*database); !good) return naming(path, good.error());
   return database;
 }
 

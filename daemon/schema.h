@@ -13,6 +13,11 @@ namespace hydroprint::daemon {
 /// made
 [[nodiscard]] Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path);
 
+/// Opens a store that this version made, and changes nothing: for a program beside the daemon.
+/// @return kFailedPrecondition: STORE_TOO_NEW, or without a reason one that an earlier version made
+[[nodiscard]] Result<std::unique_ptr<Database>> open_store_as_it_is(
+    const std::filesystem::path& path);
+
 /// Tables of the store as version 1 made them; what came later is in schema.cpp. `jobs.flags` holds
 /// one flag a line; `jobs.body` is a serialised message; `losses.count` says how often the daemon
 /// was lost while the job ran; `dips.status` is a serialised message; `lease` has one row or none;

@@ -31,6 +31,29 @@ tl::unexpected<Error> not_yours(const Caller& caller, const Job& job, const char
   return refused;
 }
 
+// The input files in a message and those within that name an asset at all.
+void find_files(const Message& message, std::vector<InputFile>& found) {
+  if (message.GetDescriptor() == v1::InputFile::descriptor()) {
+    v1::InputFile file;
+    file.CopyFrom(message);
+    const auto hash = parse_asset_name(file.asset());
+    if (hash) found.push_back({file.name(), *hash});
+    return;
+  }
+  const auto& reflection = *message.GetReflection();
+  std::vector<const Field*> fields;
+  reflection.ListFields(message, &fields);
+  for (const Field* const field : fields) {
+    if (field->cpp_type() != Field::CPPTYPE_MESSAGE || field->is_map()) continue;
+    const int count = field->is_repeated() ? reflection.FieldSize(message, field) : 1;
+    for (int i = 0; i < count; ++i) {
+      find_files(field->is_repeated() ? reflection.GetRepeatedMessage(message, field, i)
+                                      : reflection.GetMessage(message, field),
+                 found);
+    }
+  }
+}
+
 // Takes all files out of a message and those within.
 void clear_files(Message& message) {
   const auto& reflection = *message.GetReflection();
@@ -110,7 +133,16 @@ void hide_files(const Caller& caller, v1::Calibration& calibration) {
   if (!is_theirs(caller, calibration.owner())) clear_files(calibration);
 }
 
-Status check_may_create(const Caller& caller, const v1::Job& job, JobStore& jobs) {
+AssetUser asset_user(const Caller& caller) { return {caller.name, caller.role >= Role::kOperator}; }
+
+Status check_may_use_files(const Caller& caller, const Message& request, AssetStore& assets) {
+  std::vector<InputFile> files;
+  find_files(request, files);
+  return assets.check_use(files, asset_user(caller));
+}
+
+Status check_may_create(const Caller& caller, const v1::Job& job, JobStore& jobs,
+                        AssetStore& assets) {
   if (is_of_the_rig(job)) HP_RETURN_IF_ERROR(check_role(caller, Role::kOperator));
   const Message* const spec = spec_of(job);
   if (spec == nullptr || caller.role >= Role::kOperator) return {};
@@ -122,7 +154,7 @@ Status check_may_create(const Caller& caller, const v1::Job& job, JobStore& jobs
     HP_ASSIGN_OR_RETURN(const Job other, jobs.get(*id));
     HP_RETURN_IF_ERROR(check_may_see(caller, other));
   }
-  return {};
+  return check_may_use_files(caller, *spec, assets);
 }
 
 }  // namespace hydroprint::daemon

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "daemon/asset_owners.h"
+#include "daemon/asset_store.h"
 #include "daemon/job.h"
 #include "daemon/job_store.h"
 #include "daemon/people/account.h"
@@ -27,9 +29,18 @@ namespace hydroprint::daemon {
 /// The calibration as this caller may see it: as a job, whose owner is the calibration's.
 void hide_files(const people::Caller& caller, v1::Calibration& calibration);
 
-/// Refuses (NOT_YOURS; JOB_NOT_FOUND) a job that refers to one that the caller may not see; and
-/// (ROLE_TOO_LOW) one that is operators' to create.
+/// Refuses (NOT_YOURS; JOB_NOT_FOUND) a job that refers to one that the caller may not see, or
+/// (ASSET_MISSING) is to be made of files that they may not use; and (ROLE_TOO_LOW) one that is
+/// operators' to create.
 [[nodiscard]] Status check_may_create(const people::Caller& caller, const v1::Job& job,
-                                      JobStore& jobs);
+                                      JobStore& jobs, AssetStore& assets);
+
+/// The caller as a user of assets.
+[[nodiscard]] AssetUser asset_user(const people::Caller& caller);
+
+/// Refuses (ASSET_MISSING) what a request names as input files and the caller may not use.
+[[nodiscard]] Status check_may_use_files(const people::Caller& caller,
+                                         const google::protobuf::Message& request,
+                                         AssetStore& assets);
 
 }  // namespace hydroprint::daemon

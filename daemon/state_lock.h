@@ -10,4 +10,7 @@ namespace hydroprint::daemon {
 /// @return kFailedPrecondition if another daemon has it
 [[nodiscard]] Result<UniqueFd> lock_state(const Layout& layout);
 
+/// Refuses (kFailedPrecondition, RESTORE_UNFINISHED) a folder to which a backup was being restored.
+[[nodiscard]] Status check_restored(const Layout& layout);
+
 }  // namespace hydroprint::daemon

@@ -39,6 +39,8 @@ void add_users(CLI::App& app, Program& program);
 void add_keys(CLI::App& app, Program& program);
 void add_sessions(CLI::App& app, Program& program);
 void add_audit(CLI::App& app, Program& program);
+void add_pin(CLI::App& app, Program& program);  // unpin, too
+void add_admin(CLI::App& app, Program& program);
 void add_share(CLI::App& app, Program& program);
 void add_completion(CLI::App& app, Program& program);
 

@@ -189,6 +189,8 @@ Json to_json(const client::Job& job) {
   put(json, "input_digest", job.input_digest);
   json["cache_hit"] = job.cache_hit;
   json["shared"] = job.shared;
+  json["pinned"] = job.pinned;
+  put(json, "purge_time", job.purge_time);
   if (job.spec) json[kind_of(job.spec->verb)] = spec_json(*job.spec);
   if (job.print_image_job) json["print"] = {{"print_image_job", *job.print_image_job}};
   if (job.capture_s) json["capture"] = {{"seconds", *job.capture_s}};
@@ -283,6 +285,7 @@ Json to_json(const client::Asset& asset) {
   Json json{{"name", asset.name}, {"sha256", asset.sha256}, {"size_bytes", asset.size_bytes}};
   put(json, "media_type", asset.media_type);
   put(json, "create_time", asset.create_time);
+  json["owners"] = asset.owners;
   return json;
 }
 

@@ -51,6 +51,33 @@ Status show_identity(const Program& program, const client::Identity& me) {
   return {};
 }
 
+// "1.2 GB of 20 GB"
+std::string of_allowed(const std::string& used, const std::string& allowed, bool is_limited) {
+  return is_limited ? used + " of " + allowed : used;
+}
+
+// What one has there, after who one is.
+Status show_all(Program& program) {
+  HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const client::Usage usage, client::get_usage(program.daemon()));
+  if (program.json()) {
+    Json json = to_json(me);
+    json["usage"] = to_json(usage);
+    print(json);
+    return {};
+  }
+  HP_RETURN_IF_ERROR(show_identity(program, me));
+  std::cout << "queued: "
+            << of_allowed(std::to_string(usage.queued_jobs), std::to_string(usage.max_queued_jobs),
+                          usage.max_queued_jobs > 0)
+            << " jobs\nstored: "
+            << of_allowed(format_bytes(usage.stored_bytes), format_bytes(usage.max_stored_bytes),
+                          usage.max_stored_bytes > 0);
+  if (usage.pinned_bytes > 0) std::cout << ", " << format_bytes(usage.pinned_bytes) << " pinned";
+  std::cout << std::endl;
+  return {};
+}
+
 Result<std::string> begin_session(client::Connection& nobody, const LoginOptions& options) {
   if (options.link_from_stdin) {
     HP_ASSIGN_OR_RETURN(const std::string link, ask_secret("Sign-in link: "));
@@ -123,11 +150,9 @@ void add_login(CLI::App& app, Program& program) {
   program.on(*login, [&program, options] { return log_in(program, *options); });
   program.on(*app.add_subcommand("logout", "Forget the key and end it"),
              [&program] { return log_out(program); });
-  program.on(*app.add_subcommand("whoami", "Show who you are to the daemon, and what you may do"),
-             [&program]() -> Status {
-               HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(program.daemon()));
-               return show_identity(program, me);
-             });
+  program.on(*app.add_subcommand(
+                 "whoami", "Show who you are to the daemon, what you may do, and what you have"),
+             [&program] { return show_all(program); });
 }
 
 }  // namespace hydroprint::cli

@@ -71,12 +71,14 @@ void add_commands(CLI::App& app, Program& program) {
   add_dip(app, program);
   add_confirm(app, program);
   add_share(app, program);
+  add_pin(app, program);
   add_login(app, program);
   add_users(app, program);
   add_keys(app, program);
   add_sessions(app, program);
   add_audit(app, program);
   add_status(app, program);
+  add_admin(app, program);
   add_completion(app, program);
 }
 

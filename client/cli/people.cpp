@@ -19,6 +19,7 @@ struct UserOptions {
   std::string name;
   std::string role;
   bool with_password = false;
+  bool returns = false;
   bool disable = false, enable = false;
 };
 
@@ -76,7 +77,8 @@ Status add_user(Program& program, const UserOptions& options) {
   if (options.with_password) {
     HP_ASSIGN_OR_RETURN(password, ask_new_password());
   }
-  return show_user(program, client::create_user(program.daemon(), name, options.role, password));
+  return show_user(program, client::create_user(program.daemon(), name, options.role, password,
+                                                options.returns));
 }
 
 Status set_user(Program& program, const UserOptions& options) {
@@ -210,6 +212,8 @@ void add_users(CLI::App& app, Program& program) {
   add->get_option("--role")->required();
   add->add_flag("--password", options->with_password,
                 "Ask for a password; else see users link, or users password");
+  add->add_flag("--returns", options->returns,
+                "They had this name before, and get back what bears it");
   add->footer("Example:\n  hydroprint users add ann --role ADMIN --password");
   program.on(*add, [&program, options] { return add_user(program, *options); });
 

@@ -15,6 +15,14 @@ Json to_json(const client::Identity& me) {
   return {{"user", me.user}, {"role", me.role}, {"via", me.via}, {"accounts", me.accounts}};
 }
 
+Json to_json(const client::Usage& usage) {
+  return {{"queued_jobs", usage.queued_jobs},
+          {"max_queued_jobs", usage.max_queued_jobs},
+          {"stored_bytes", usage.stored_bytes},
+          {"max_stored_bytes", usage.max_stored_bytes},
+          {"pinned_bytes", usage.pinned_bytes}};
+}
+
 Json to_json(const client::User& user) {
   Json json{{"name", user.name},
             {"role", user.role},

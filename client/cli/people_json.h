@@ -6,6 +6,7 @@
 namespace hydroprint::cli {
 
 [[nodiscard]] Json to_json(const client::Identity& me);
+[[nodiscard]] Json to_json(const client::Usage& usage);
 [[nodiscard]] Json to_json(const client::User& user);
 [[nodiscard]] Json to_json(const client::ApiKey& key);
 [[nodiscard]] Json to_json(const client::Session& session);

@@ -82,29 +82,52 @@ Result<std::unique_ptr<Accounts>> Accounts::open(daemon::Database& database,
                                                  daemon::Clock clock) {
   HP_RETURN_IF_ERROR(start_cryptography());
   std::unique_ptr<Accounts> accounts(new Accounts(database, options, std::move(clock)));
-  HP_RETURN_IF_ERROR(accounts->load());
+  HP_RETURN_IF_ERROR(accounts->reload());
   return accounts;
 }
 
-Status Accounts::load() {
+// Telling who calls does not wait for this. When keys and sessions were used last, this process
+// knows better than the rows.
+Status Accounts::reload() {
+  const std::lock_guard writing(writing_);
+  std::map<std::string, User> users;
+  std::map<std::string, ApiKey> keys;
+  std::unordered_map<std::string, Session> sessions;
+  const Status read = database_.transaction([&]() -> Status {
+    HP_RETURN_IF_ERROR(database_.each("SELECT name, role, disabled, password, create_ms FROM users",
+                                      {}, [&](const daemon::DbRow& row) {
+                                        User user = read_user(row);
+                                        users[user.name] = std::move(user);
+                                      }));
+    HP_RETURN_IF_ERROR(database_.each(
+        "SELECT id, user, display_name, secret_hash, role, create_ms, expire_ms, use_ms FROM "
+        "api_keys",
+        {}, [&](const daemon::DbRow& row) {
+          ApiKey key = read_key(row);
+          keys[key.id] = std::move(key);
+        }));
+    return database_.each("SELECT id, user, token_hash, peer, create_ms, use_ms FROM sessions", {},
+                          [&](const daemon::DbRow& row) {
+                            Session session = read_session(row);
+                            sessions[session.token_hash] = std::move(session);
+                          });
+  });
+  HP_RETURN_IF_ERROR(read);
   const std::lock_guard lock(now_);
-  HP_RETURN_IF_ERROR(database_.each("SELECT name, role, disabled, password, create_ms FROM users",
-                                    {}, [&](const daemon::DbRow& row) {
-                                      User user = read_user(row);
-                                      users_[user.name] = std::move(user);
-                                    }));
-  HP_RETURN_IF_ERROR(database_.each(
-      "SELECT id, user, display_name, secret_hash, role, create_ms, expire_ms, use_ms FROM "
-      "api_keys",
-      {}, [&](const daemon::DbRow& row) {
-        ApiKey key = read_key(row);
-        keys_[key.id] = std::move(key);
-      }));
-  return database_.each("SELECT id, user, token_hash, peer, create_ms, use_ms FROM sessions", {},
-                        [&](const daemon::DbRow& row) {
-                          Session session = read_session(row);
-                          sessions_[session.token_hash] = std::move(session);
-                        });
+  for (auto& [id, key] : keys) {
+    if (const auto known = keys_.find(id); known != keys_.end()) {
+      key.use_ms = std::max(key.use_ms, known->second.use_ms);
+    }
+  }
+  for (auto& [hash, session] : sessions) {
+    if (const auto known = sessions_.find(hash); known != sessions_.end()) {
+      session.use_ms = std::max(session.use_ms, known->second.use_ms);
+    }
+  }
+  users_ = std::move(users);
+  keys_ = std::move(keys);
+  sessions_ = std::move(sessions);
+  return {};
 }
 
 bool Accounts::any() const {
@@ -184,7 +207,25 @@ Status Accounts::write(const User& user) {
   return {};
 }
 
-Result<User> Accounts::create(const User& user, const std::string& password) {
+// Whoever is given a name gets what bears it. Before there were users, names were claimed freely;
+// only those of users who were deleted may belong to somebody else.
+Status Accounts::check_name_is_free(const std::string& name) {
+  bool is_borne = false;
+  HP_RETURN_IF_ERROR(database_.each(
+      "SELECT 1 FROM former_users WHERE name=?1 AND (EXISTS (SELECT 1 FROM jobs WHERE owner=?1) OR "
+      "EXISTS (SELECT 1 FROM asset_owners WHERE owner=?1) OR EXISTS (SELECT 1 FROM calibrations "
+      "WHERE owner=?1) OR EXISTS (SELECT 1 FROM audit WHERE who=?1))",
+      {name}, [&](const daemon::DbRow&) { is_borne = true; }));
+  if (!is_borne) return {};
+  return fail(Code::kFailedPrecondition,
+              "users/" + name +
+                  ": a deleted user had this name, and jobs, files or the audit log still bear it; "
+                  "take another name, or say that it is the same one (hydroprint users add "
+                  "--returns)",
+              "USER_NAME_USED");
+}
+
+Result<User> Accounts::create(const User& user, const std::string& password, bool returns) {
   HP_RETURN_IF_ERROR(check_user_name("user.name", user.name));
   User made = user;
   made.password.clear();
@@ -199,6 +240,7 @@ Result<User> Accounts::create(const User& user, const std::string& password) {
                 "USER_EXISTS");
   }
   HP_RETURN_IF_ERROR(check_admin_without(made.name, &made));
+  if (!returns) HP_RETURN_IF_ERROR(check_name_is_free(made.name));
   if (users("", kMostUsers).size() >= kMostUsers) {
     return fail(Code::kResourceExhausted, "there are too many users; delete some", "KEYS_FULL");
   }
@@ -242,8 +284,12 @@ Status Accounts::remove(const std::string& name) {
   const std::lock_guard writing(writing_);
   HP_RETURN_IF_ERROR(user(name));
   HP_RETURN_IF_ERROR(check_admin_without(name, nullptr));
-  HP_RETURN_IF_ERROR(
-      database_.run("DELETE FROM users WHERE name=?", {name}));  // and what is theirs
+  const Status done = database_.transaction([&]() -> Status {
+    HP_RETURN_IF_ERROR(
+        database_.run("INSERT OR REPLACE INTO former_users VALUES (?,?)", {name, clock_()}));
+    return database_.run("DELETE FROM users WHERE name=?", {name});  // and what is theirs
+  });
+  HP_RETURN_IF_ERROR(done);
   const std::lock_guard lock(now_);
   users_.erase(name);
   std::erase_if(keys_, [&](const auto& entry) { return entry.second.user == name; });

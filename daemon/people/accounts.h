@@ -88,8 +88,13 @@ class Accounts {
   /// By name; those after `after`.
   [[nodiscard]] std::vector<User> users(const std::string& after, std::size_t limit) const;
   /// @param password  empty: none
-  /// @return USER_EXISTS; SPEC_INVALID; LAST_ADMIN if there is no admin and this one is none either
-  [[nodiscard]] Result<User> create(const User& user, const std::string& password);
+  /// @param returns   whether it is the one who had the name before, and gets what bears it
+  /// @return USER_EXISTS; SPEC_INVALID; LAST_ADMIN if there is no admin and this one is none
+  /// either;
+  ///   kFailedPrecondition, USER_NAME_USED if a deleted user had the name, and jobs, assets,
+  ///   calibrations or the audit log bear it
+  [[nodiscard]] Result<User> create(const User& user, const std::string& password,
+                                    bool returns = false);
   /// LAST_ADMIN
   [[nodiscard]] Result<User> update(const std::string& name, const UserChange& change);
   /// Ends all sessions of the user but `spared` (its id).
@@ -138,13 +143,15 @@ class Accounts {
   /// No error if it is gone already.
   [[nodiscard]] Status remove_key(const std::string& id);
 
+  /// Reads anew what another program changed (outside.h).
+  [[nodiscard]] Status reload();
   /// Forgets what has expired, and writes down when keys and sessions were used last.
   [[nodiscard]] Status clean_up();
 
  private:
   Accounts(daemon::Database& database, const AccountsOptions& options, daemon::Clock clock);
-  [[nodiscard]] Status load();
   [[nodiscard]] Status check_admin_without(const std::string& name, const User* instead) const;
+  [[nodiscard]] Status check_name_is_free(const std::string& name);
   [[nodiscard]] Status write(const User& user);
   [[nodiscard]] Result<User> changed(const std::string& name,
                                      const std::function<void(User&)>& change);

@@ -45,17 +45,26 @@ AuditLog::~AuditLog() {
   thread_.join();
 }
 
-void AuditLog::note(AuditEntry entry) {
+std::uint64_t AuditLog::note(AuditEntry entry) {
   entry.time_ms = clock_();
+  std::uint64_t number = 0;
   {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() >= kMostWaiting) {
       ++lost_;
-      return;
+      return 0;
     }
     waiting_.push_back(std::move(entry));
+    number = ++noted_;
   }
   some_.notify_one();
+  return number;
+}
+
+bool AuditLog::wait_written(std::uint64_t noted, std::chrono::milliseconds limit) {
+  std::unique_lock lock(mutex_);
+  settled_.wait_for(lock, limit, [&] { return written_ >= noted || failed_ >= noted; });
+  return noted != 0 && written_ >= noted && failed_ < noted;
 }
 
 void AuditLog::work() {
@@ -74,8 +83,10 @@ Status AuditLog::write_waiting() {
   const std::lock_guard writing(writing_);
   std::vector<AuditEntry> entries;
   std::int64_t lost = 0;
+  std::uint64_t last = 0;
   {
     const std::lock_guard lock(mutex_);
+    last = noted_;
     entries = std::exchange(waiting_, {});
     lost = std::exchange(lost_, 0);
   }
@@ -85,10 +96,12 @@ Status AuditLog::write_waiting() {
     for (const AuditEntry& entry : entries) HP_RETURN_IF_ERROR(insert_entry(database_, entry));
     return {};
   });
-  if (!written) {
+  {
     const std::lock_guard lock(mutex_);
-    lost_ += lost + static_cast<std::int64_t>(entries.size());
+    (written ? written_ : failed_) = last;
+    if (!written) lost_ += lost + static_cast<std::int64_t>(entries.size());
   }
+  settled_.notify_all();
   return written;
 }
 

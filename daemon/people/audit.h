@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
@@ -34,9 +35,10 @@ struct AuditFilter {
   std::int64_t limit = 50;
 };
 
-/// Who did what, for a year. Whoever notes something never waits: a thread writes it to the store,
-/// usually within milliseconds. If the store hangs, the latest 10000 wait in memory, and what does
-/// not fit is counted and told of in an entry of its own. Any thread may call.
+/// Who did what, for a year. A thread writes what is noted to the store, usually within
+/// milliseconds; whoever notes it waits for that, or does not. If the store hangs, the first 10000
+/// wait in memory, and what does not fit is counted and told of in an entry of its own. Any thread
+/// may call.
 class AuditLog {
  public:
   AuditLog(daemon::Database& database, daemon::Clock clock);
@@ -45,7 +47,12 @@ class AuditLog {
   AuditLog(const AuditLog&) = delete;
   AuditLog& operator=(const AuditLog&) = delete;
 
-  void note(AuditEntry entry);
+  /// Never waits.
+  /// @return its number, for wait_written(); 0 if it did not fit
+  std::uint64_t note(AuditEntry entry);
+  /// Waits, so long at most, until what was noted is on disk.
+  /// @return whether it is; else it may be written later, or be lost, which is counted
+  bool wait_written(std::uint64_t noted, std::chrono::milliseconds limit);
   /// Newest first, with all that was noted before the call.
   [[nodiscard]] Result<std::vector<AuditEntry>> list(const AuditFilter& filter);
   /// Deletes what is older than a year, and the oldest of more than a million.
@@ -60,7 +67,11 @@ class AuditLog {
   std::mutex writing_;  // one writes at a time, in order
   std::mutex mutex_;    // of what follows; held for moments only
   std::condition_variable some_;
+  std::condition_variable settled_;
   std::vector<AuditEntry> waiting_;
+  std::uint64_t noted_ = 0;    // so many came
+  std::uint64_t written_ = 0;  // up to this one, all that was not lost
+  std::uint64_t failed_ = 0;   // up to this one, it is known what became of them
   std::int64_t lost_ = 0;
   bool ending_ = false;
   std::thread thread_;

@@ -1,75 +1,12 @@
 // `hydroprint` as people use it who have accounts, against the real daemon.
-#include <gtest/gtest.h>
+#include "tests/client/people_cli.h"
+
 #include <sys/stat.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "tests/daemon/support.h"
-#include "tests/support/process.h"
-#include "tests/support/terminal.h"
 
 namespace hydroprint::tests {
 namespace {
-
-using Arguments = std::vector<std::string>;
-using Outcome = hydroprint::testing::Ended;
-using hydroprint::testing::Terminal;
-using nlohmann::json;
-
-constexpr char kClient[] = HYDROPRINT_BIN_DIR "/hydroprint";
-constexpr char kPassword[] = "correct horse";
-
-class PeopleCli : public ::testing::Test {
- protected:
-  static DaemonProcess::Options options() {
-    DaemonProcess::Options options = DaemonProcess::fake();
-    options.extra = "[people]\npassword_memory_mib = 1\npassword_passes = 1\n";
-    return options;
-  }
-
-  /// In a home of the test's, with HYDROPRINT_SERVER and these variables ("NAME=VALUE").
-  Arguments command(const Arguments& arguments, const Arguments& variables = {}) const {
-    Arguments all{"/usr/bin/env", "-u", "HYDROPRINT_API_KEY",
-                  "XDG_CONFIG_HOME=" + (folder_.path() / "config").string(),
-                  "HYDROPRINT_SERVER=" + daemon_.address()};
-    all.insert(all.end(), variables.begin(), variables.end());
-    all.emplace_back(kClient);
-    all.insert(all.end(), arguments.begin(), arguments.end());
-    return all;
-  }
-  Outcome client(const Arguments& arguments, const Arguments& variables = {}) const {
-    return hydroprint::testing::run(command(arguments, variables));
-  }
-  /// With these lines on standard input.
-  Outcome told(const std::string& lines, const Arguments& arguments) const {
-    Arguments all{"/bin/sh", "-c", "printf '%s' '" + lines + "' | \"$0\" \"$@\""};
-    const Arguments rest = command(arguments);
-    all.insert(all.end(), rest.begin(), rest.end());
-    return hydroprint::testing::run(all);
-  }
-  json client_json(Arguments arguments, const Arguments& variables = {}) const {
-    arguments.emplace_back("--json");
-    const Outcome ended = client(arguments, variables);
-    EXPECT_EQ(ended.status, 0) << ended.err;
-    return json::parse(ended.out, nullptr, false);
-  }
-  void add(const std::string& name, const std::string& role) const {
-    const Outcome ended =
-        told(std::string(kPassword) + "\n", {"users", "add", name, "--role", role, "--password"});
-    EXPECT_EQ(ended.status, 0) << ended.err;
-  }
-  void log_in(const std::string& name) const {
-    const Outcome ended = told(std::string(kPassword) + "\n", {"login", "--user", name});
-    EXPECT_EQ(ended.status, 0) << ended.err;
-  }
-  [[nodiscard]] std::filesystem::path credentials() const {
-    return folder_.path() / "config" / "hydroprint" / "credentials.toml";
-  }
-
-  TemporaryFolder folder_;
-  DaemonProcess daemon_{folder_.path(), options()};
-};
 
 TEST_F(PeopleCli, LoginKeepsAKeyThatEveryCommandGoesBy) {
   add("ann", "ADMIN");
@@ -197,6 +134,43 @@ TEST_F(PeopleCli, JobsAreMineByMyUserAndSharedIfISaySo) {
   EXPECT_EQ(client_json({"show", name}).at("shared"), true);
   EXPECT_EQ(client({"share", name, "--off"}).status, 0);
   EXPECT_EQ(client_json({"show", name}).at("shared"), false);
+}
+
+TEST_F(PeopleCli, WhoamiSaysWhatOneHasAndWhatIsPinnedIsKept) {
+  add("ann", "ADMIN");
+  log_in("ann");
+  const std::string mesh = folder_.write("m.obj", "mesh").string();
+  const std::string name = client_json({"submit", "simulate", "--mesh", mesh, "--wait"}).at("name");
+  EXPECT_TRUE(client_json({"show", name}).contains("purge_time"));
+  EXPECT_EQ(client_json({"assets", "list"}).at("assets")[0].at("owners"), json::array({"ann"}));
+  const json usage = client_json({"whoami"}).at("usage");
+  EXPECT_GT(usage.at("stored_bytes"), 4);
+  EXPECT_EQ(usage.at("max_stored_bytes"), 20480LL << 20);
+  EXPECT_EQ(usage.at("max_queued_jobs"), 200);
+  EXPECT_EQ(usage.at("pinned_bytes"), 0);
+  const Outcome words = client({"whoami"});
+  EXPECT_NE(words.out.find("queued: 0 of 200 jobs"), std::string::npos) << words.out;
+  EXPECT_EQ(client({"pin", name}).out, name + " is pinned, and kept\n");
+  EXPECT_EQ(client_json({"show", name}).at("pinned"), true);
+  EXPECT_FALSE(client_json({"show", name}).contains("purge_time"));
+  EXPECT_GT(client_json({"whoami"}).at("usage").at("pinned_bytes"), 0);
+  EXPECT_NE(client({"unpin", name}).out.find("will be deleted on "), std::string::npos);
+}
+
+TEST_F(PeopleCli, WhoComesBackGetsWhatBearsTheirName) {
+  add("ann", "ADMIN");
+  log_in("ann");
+  add("mae", "MAKER");
+  const std::string key = client_json({"keys", "add"}).at("key");  // ann's
+  log_in("mae");
+  const std::string mesh = folder_.write("m.obj", "mesh").string();
+  ASSERT_EQ(client({"submit", "simulate", "--mesh", mesh}).status, 0);
+  const Arguments as_ann{"HYDROPRINT_API_KEY=" + key};
+  ASSERT_EQ(client({"users", "delete", "mae"}, as_ann).status, 0);
+  const Outcome refused = client({"users", "add", "mae", "--role", "maker"}, as_ann);
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_NE(refused.err.find("--returns"), std::string::npos) << refused.err;
+  EXPECT_EQ(client({"users", "add", "mae", "--role", "maker", "--returns"}, as_ann).status, 0);
 }
 
 TEST_F(PeopleCli, ThePythonExampleTakesServerAndKeyFromTheEnvironment) {

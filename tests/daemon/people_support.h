@@ -18,7 +18,9 @@ class PeopleApi : public ::testing::Test {
 
   static DaemonProcess::Options options() {
     DaemonProcess::Options options = DaemonProcess::fake();
-    options.extra = "[people]\npassword_memory_mib = 1\npassword_passes = 1\n";
+    options.max_jobs_per_owner = 4;
+    options.extra =
+        "max_mib_per_owner = 4\n[people]\npassword_memory_mib = 1\npassword_passes = 1\n";
     return options;
   }
 

@@ -60,6 +60,7 @@ class DaemonProcess {
     int time_limit_s = 600;
     int file_mib = 1024;
     int max_jobs = 1000;
+    int max_jobs_per_owner = 200;
     std::string host = "127.0.0.1";      ///< where both doors are
     std::string extra;                   ///< more lines for the configuration file
     std::vector<std::string> arguments;  ///< more of the command line

@@ -150,6 +150,8 @@ def jobs(api, asset):
     require(len(api.call("ListJobs").json["jobs"]) == 2, "two jobs were made")
     api.call("ListJobEvents", job=first)
     api.call("ShareJob", {"shared": True}, job=first)
+    require("purgeTime" not in api.call("PinJob", {"pinned": True}, job=first).json, "a pinned job is not kept")
+    require(int(api.call("GetUsage").json["pinnedBytes"]) > 0, "what is pinned does not count")
     api.call("WatchEvents", query={"afterSeq": 0, "topics": "job"}, until=3)
     artifacts(api, first)
     again = last(api.call("RetryJob", job=second).json["name"])

@@ -51,6 +51,40 @@ TEST_F(Audit, IsWrittenWhenTheDaemonEnds) {
   EXPECT_EQ(make()->list({"", "", 0, 10})->size(), 1U);
 }
 
+TEST_F(Audit, IsOnDiskWhenWhoeverNotedItHasWaited) {
+  const auto log = make();
+  const auto reader = daemon::Database::open(folder.path() / "hydroprint.db", "").value();
+  for (int i = 1; i <= 20; ++i) {
+    EXPECT_TRUE(
+        log->wait_written(log->note(entry("ann", "RigService.Arm")), std::chrono::hours(1)));
+    std::int64_t count = 0;
+    ASSERT_TRUE(reader->each("SELECT count(*) FROM audit", {},
+                             [&](const daemon::DbRow& row) { count = row.integer(0); }));
+    EXPECT_EQ(count, i);
+  }
+}
+
+TEST_F(Audit, AStoreThatHangsIsNotWaitedForLonger) {
+  const auto log = make();
+  const auto other = daemon::Database::open(folder.path() / "hydroprint.db", "").value();
+  ASSERT_TRUE(other->run("BEGIN IMMEDIATE"));
+  EXPECT_FALSE(
+      log->wait_written(log->note(entry("ann", "RigService.Arm")), std::chrono::milliseconds(50)));
+  ASSERT_TRUE(other->run("COMMIT"));
+  EXPECT_EQ(log->list({"", "", 0, 10})->size(), 1U);  // it came later
+}
+
+TEST_F(Audit, AStoreThatFailsIsNotWaitedForAtAll) {
+  const auto log = make();
+  ASSERT_TRUE(database->run("ALTER TABLE audit RENAME TO away"));
+  EXPECT_FALSE(log->wait_written(log->note(entry("ann", "RigService.Arm")), std::chrono::hours(1)));
+  ASSERT_TRUE(database->run("ALTER TABLE away RENAME TO audit"));
+  log->note(entry("ann", "RigService.Home"));
+  const auto entries = log->list({"", "", 0, 10}).value();
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[1].outcome, "DATA_LOSS");  // and is told of
+}
+
 TEST_F(Audit, IsKeptForAYear) {
   const auto log = make();
   log->note(entry("ann", "first"));

@@ -1,8 +1,12 @@
 // Stores that earlier versions made.
 #include <gtest/gtest.h>
 
+#include <array>
+
+#include "daemon/asset_store.h"
 #include "daemon/job_store.h"
 #include "daemon/people/accounts.h"
+#include "daemon/people/audit.h"
 #include "daemon/schema.h"
 #include "tests/support/temporary_folder.h"
 
@@ -65,6 +69,49 @@ CREATE TABLE IF NOT EXISTS requests(
   result TEXT NOT NULL, time_ms INTEGER NOT NULL, PRIMARY KEY(owner, method, id)) WITHOUT ROWID;
 )sql";
 
+// What version 2 added; never to be changed either.
+constexpr std::array kVersion2{
+    "CREATE TABLE users(name TEXT PRIMARY KEY, role INTEGER NOT NULL, disabled INTEGER NOT NULL, "
+    "password TEXT NOT NULL, create_ms INTEGER NOT NULL) WITHOUT ROWID",
+    "CREATE TABLE api_keys(id TEXT PRIMARY KEY, "
+    "user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE, display_name TEXT NOT NULL, "
+    "secret_hash TEXT NOT NULL, role INTEGER NOT NULL, create_ms INTEGER NOT NULL, "
+    "expire_ms INTEGER NOT NULL, use_ms INTEGER NOT NULL) WITHOUT ROWID",
+    "CREATE TABLE sessions(id TEXT PRIMARY KEY, "
+    "user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE, "
+    "token_hash TEXT NOT NULL UNIQUE, peer TEXT NOT NULL, create_ms INTEGER NOT NULL, "
+    "use_ms INTEGER NOT NULL) WITHOUT ROWID",
+    "CREATE TABLE sign_in_links(token_hash TEXT PRIMARY KEY, "
+    "user TEXT NOT NULL REFERENCES users(name) ON DELETE CASCADE, expire_ms INTEGER NOT NULL) "
+    "WITHOUT ROWID",
+    "CREATE TABLE audit(seq INTEGER PRIMARY KEY AUTOINCREMENT, time_ms INTEGER NOT NULL, "
+    "who TEXT NOT NULL, via TEXT NOT NULL, peer TEXT NOT NULL, what TEXT NOT NULL, "
+    "object TEXT NOT NULL, outcome TEXT NOT NULL, detail TEXT NOT NULL)",
+    "CREATE INDEX audit_by_time ON audit(time_ms)",
+    "ALTER TABLE jobs ADD COLUMN shared INTEGER NOT NULL DEFAULT 0",
+    "UPDATE settings SET value='2' WHERE name='schema'"};
+constexpr const char* kLatest = "3";
+
+// A row in each table of version 2 that has one in a store that was used: ann's finished job 1,
+// made of an asset, bea's queued job 2 of the same, and an asset that nobody used.
+constexpr std::array kUsed{
+    "INSERT INTO assets VALUES ('aa', 4, 'model/obj', 5), ('bb', 6, 'image/png', 5)",
+    "INSERT INTO uploads VALUES ('u1', 'cc', 9, '', 99999999999999)",
+    "INSERT INTO jobs(uid, display_name, owner, priority, rank, body, verb, flags, pose, threads, "
+    "digest, retry_of, use_cache, state, create_ms, end_ms, update_ms, purge_ms, shared) VALUES "
+    "('u', 'old', 'ann', 0, 1, 'b', 'simulate', '--dpi=300', '', 0, 'd', 0, 1, 5, 7, 8, 8, 9, 1), "
+    "('v', 'new', 'bea', 0, 2, 'b', 'simulate', '', '', 0, 'e', 0, 1, 1, 7, 0, 7, 0, 0)",
+    "INSERT INTO job_inputs VALUES (1, 'm.obj', 'aa'), (2, 'm.obj', 'aa')",
+    "INSERT INTO artifacts VALUES (1, 'film.png', 4, 'ff', 'image/png')",
+    "INSERT INTO events(job, time_ms, kind, state, fraction, phase, phase_fraction, eta_ms, "
+    "message) VALUES (1, 8, 1, 5, 1, '', 0, 0, '')",
+    "INSERT INTO lease VALUES (1, 'l', 'ann', 'p', 1, 2)",
+    "INSERT INTO users VALUES ('ann', 4, 0, 'hash', 1), ('bea', 2, 1, '', 2)",
+    "INSERT INTO api_keys VALUES ('k', 'ann', 'nightly', 'h', 2, 1, 0, 0)",
+    "INSERT INTO sessions VALUES ('s', 'ann', 't', '127.0.0.1', 1, 2)",
+    "INSERT INTO audit(time_ms, who, via, peer, what, object, outcome, detail) VALUES "
+    "(1, 'ann', 'session', '', 'RigService.MoveTo', '', 'OK', 'position_mm 5')"};
+
 class Migration : public ::testing::Test {
  protected:
   // A store of version 1 with one job and the lease.
@@ -76,6 +123,15 @@ class Migration : public ::testing::Test {
                       "digest, retry_of, use_cache, state, create_ms, update_ms) VALUES "
                       "('u', 'old', 'ann', 0, 1, '', 'simulate', '', '', 0, 'd', 0, 1, 5, 7, 7)"));
     ASSERT_TRUE(database->run("INSERT INTO lease VALUES (1, 'l', 'ann', 'p', 1, 2)"));
+  }
+  // A store of version 2 that was used.
+  void make_version_2() {
+    const auto database = Database::open(layout.database(), kVersion1).value();
+    for (const char* const statement : kVersion2) ASSERT_TRUE(database->run(statement));
+    for (const char* const statement : kUsed) {
+      const Status done = database->run(statement);
+      ASSERT_TRUE(done) << statement << ": " << done.error().message;
+    }
   }
   static std::string version_of(Database& database) {
     std::string version;
@@ -93,7 +149,7 @@ TEST_F(Migration, AStoreOfVersion1KeepsWhatItHasAndTakesPeople) {
   for (int i = 0; i < 2; ++i) {  // once migrated it is opened as it is
     const auto database = open_store(layout.database());
     ASSERT_TRUE(database) << database.error().message;
-    EXPECT_EQ(version_of(**database), "2");
+    EXPECT_EQ(version_of(**database), kLatest);
     JobStore jobs(**database, layout, {}, system_clock_ms);
     const Job job = jobs.get(1).value();
     EXPECT_EQ(job.made.display_name, "old");
@@ -110,20 +166,58 @@ TEST_F(Migration, AStoreOfVersion1KeepsWhatItHasAndTakesPeople) {
   }
 }
 
+TEST_F(Migration, AStoreOfVersion2KeepsAllItHasAndItsAssetsGetTheOwnersOfTheirJobs) {
+  make_version_2();
+  for (int i = 0; i < 2; ++i) {
+    const auto database = open_store(layout.database()).value();
+    EXPECT_EQ(version_of(*database), kLatest);
+    JobStore jobs(*database, layout, {}, system_clock_ms);
+    AssetStore assets(*database, layout, {}, system_clock_ms);
+    const Job job = jobs.get(1).value();
+    EXPECT_EQ(job.made.display_name, "old");
+    EXPECT_EQ(job.made.work.flags, std::vector<std::string>{"--dpi=300"});
+    EXPECT_EQ(job.state, JobState::kSucceeded);
+    EXPECT_TRUE(job.shared);
+    EXPECT_FALSE(job.pinned);
+    EXPECT_EQ(job.purge_ms, 9);
+    EXPECT_EQ(jobs.artifacts(1, "", 10)->size(), 1U);
+    EXPECT_EQ(jobs.events(1, 0, 10)->size(), 1U);
+    EXPECT_EQ(jobs.waiting()->size(), 1U);
+    EXPECT_EQ(assets.asset_for("aa", {"", true})->owners, (std::vector<std::string>{"ann", "bea"}));
+    EXPECT_EQ(assets.asset_for("aa", {"bea"})->media_type, "model/obj");
+    EXPECT_TRUE(assets.asset_for("bb", {"", true})->owners.empty());
+    EXPECT_FALSE(assets.asset_for("bb", {"ann"}));
+    EXPECT_EQ(assets.usage("ann")->stored_bytes, 4 + 4);
+    EXPECT_TRUE(assets.purge());  // nothing counts as unused before the migration
+    EXPECT_TRUE(assets.asset("bb"));
+    const auto accounts = people::Accounts::open(*database, {}, system_clock_ms).value();
+    EXPECT_EQ(accounts->users("", 10).size(), 2U);
+    EXPECT_EQ(accounts->user("ann")->password, "hash");
+    EXPECT_TRUE(accounts->user("bea")->disabled);
+    EXPECT_EQ(accounts->key("k")->display_name, "nightly");
+    people::AuditLog audit(*database, system_clock_ms);
+    EXPECT_EQ(audit.list({})->size(), 1U);
+    // What is new is there.
+    EXPECT_TRUE(jobs.pin(1, true)->pinned);
+    EXPECT_TRUE(jobs.pin(1, false));
+    EXPECT_TRUE(database->run("UPDATE jobs SET purge_ms=9 WHERE id=1"));
+  }
+}
+
 TEST_F(Migration, ANewStoreIsOfTheLatestVersion) {
-  EXPECT_EQ(version_of(**open_store(layout.database())), "2");
+  EXPECT_EQ(version_of(**open_store(layout.database())), kLatest);
 }
 
 TEST_F(Migration, AStoreOfALaterVersionIsRefusedAndLeftAsItIs) {
   {
     const auto database = open_store(layout.database()).value();
-    ASSERT_TRUE(database->run("UPDATE settings SET value='3' WHERE name='schema'"));
+    ASSERT_TRUE(database->run("UPDATE settings SET value='4' WHERE name='schema'"));
   }
   const auto refused = open_store(layout.database());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, "STORE_TOO_NEW");
   EXPECT_NE(refused.error().message.find("hydroprint.db"), std::string::npos);
-  EXPECT_EQ(version_of(*Database::open(layout.database(), "").value()), "3");
+  EXPECT_EQ(version_of(*Database::open(layout.database(), "").value()), "4");
 }
 
 TEST_F(Migration, OneThatFailsLeavesTheStoreAsItWas) {
@@ -136,7 +230,7 @@ TEST_F(Migration, OneThatFailsLeavesTheStoreAsItWas) {
   const auto database = Database::open(layout.database(), "").value();
   EXPECT_EQ(version_of(*database), "1");
   EXPECT_TRUE(database->run("DROP TABLE audit"));
-  EXPECT_EQ(version_of(**open_store(layout.database())), "2");
+  EXPECT_EQ(version_of(**open_store(layout.database())), kLatest);
 }
 
 }  // namespace

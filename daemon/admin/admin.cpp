@@ -1,0 +1,111 @@
+#include "daemon/admin/admin.h"
+
+#include <sys/stat.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <iostream>
+
+#include "daemon/admin/backup.h"
+#include "daemon/admin/meter.h"
+#include "daemon/admin/people.h"
+#include "daemon/admin/restore.h"
+#include "sim/base/one_line.h"
+
+namespace hydroprint::admin {
+namespace {
+
+struct Options {
+  std::string state_dir, file, user;
+  bool replaces = false, from_stdin = false;
+};
+
+void tell(const Contents& contents) {
+  std::cout << contents.jobs << " jobs and " << contents.files << " files, "
+            << bytes_text(contents.bytes) << std::endl;
+}
+
+Status run_backup(const Options& options) {
+  HP_ASSIGN_OR_RETURN(State state, open_state(options.state_dir));
+  state.lock.reset();  // a daemon may begin meanwhile
+  HP_ASSIGN_OR_RETURN(const Contents contents, backup(state, options.file));
+  for (const std::string& warning : contents.warnings) {
+    std::cerr << "warning: " << one_line(warning) << std::endl;
+  }
+  std::cout << one_line(options.file) << ": ";
+  tell(contents);
+  return {};
+}
+
+Status run_restore(const Options& options) {
+  HP_ASSIGN_OR_RETURN(const Contents contents,
+                      restore(options.state_dir, options.file, options.replaces));
+  std::cout << "restored ";
+  tell(contents);
+  return {};
+}
+
+Status run_reset(const Options& options) {
+  if (!options.from_stdin) {
+    return fail(Code::kInvalidArgument,
+                "the password is read from standard input: say --stdin, or run hydroprint admin, "
+                "which asks for it");
+  }
+  std::string password;
+  std::getline(std::cin, password);
+  HP_ASSIGN_OR_RETURN(State state, open_state(options.state_dir));
+  HP_RETURN_IF_ERROR(reset_password(state, options.user, password));
+  std::cout << one_line(options.user) << " has a new password, and is signed in nowhere"
+            << std::endl;
+  return {};
+}
+
+Status run_link(const Options& options) {
+  HP_ASSIGN_OR_RETURN(State state, open_state(options.state_dir));
+  HP_ASSIGN_OR_RETURN(const std::string token, sign_in_link(state, options.user));
+  std::cout << one_line(options.user)
+            << " signs in once, within 15 minutes, at the page's address followed by /sign-in#"
+            << token << std::endl;
+  return {};
+}
+
+CLI::App* add(CLI::App& app, const char* name, const char* help, Options& options) {
+  CLI::App* const verb = app.add_subcommand(name, help);
+  verb->add_option("--state-dir", options.state_dir, "The daemon's state folder")->type_name("DIR");
+  return verb;
+}
+
+}  // namespace
+
+int obey(int argc, char** argv) {
+  ::umask(077);
+  std::signal(SIGPIPE, SIG_IGN);
+  Options options;
+  CLI::App app("What is done on the daemon's machine; hydroprint admin runs this");
+  app.name("hydroprintd admin");
+  app.require_subcommand(1);
+  CLI::App* const to_backup = add(app, "backup", "Write all there is to one file", options);
+  to_backup->add_option("file", options.file)->required();
+  CLI::App* const to_restore = add(app, "restore", "Bring back what backup wrote", options);
+  to_restore->add_option("file", options.file)->required();
+  to_restore->add_flag("--replace", options.replaces, "Delete what is in the folder");
+  CLI::App* const to_reset = add(app, "reset-password", "Set a user's password", options);
+  to_reset->add_option("user", options.user)->required();
+  to_reset->add_flag("--stdin", options.from_stdin, "Read it from standard input");
+  CLI::App* const to_link = add(app, "sign-in-link", "Make a link to sign in with, once", options);
+  to_link->add_option("user", options.user)->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitStatus::kUsage);
+  }
+  const Status done = to_backup->parsed()    ? run_backup(options)
+                      : to_restore->parsed() ? run_restore(options)
+                      : to_reset->parsed()   ? run_reset(options)
+                                             : run_link(options);
+  if (done) return 0;
+  std::cerr << "hydroprint: " << one_line(done.error().message) << std::endl;
+  return static_cast<int>(exit_status(done.error()));
+}
+
+}  // namespace hydroprint::admin

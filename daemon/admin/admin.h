@@ -1,0 +1,10 @@
+#pragma once
+
+namespace hydroprint::admin {
+
+/// `hydroprintd admin ...`: what `hydroprint admin` runs on the daemon's machine.
+/// @param argv  from "admin" on
+/// @return the exit status
+[[nodiscard]] int obey(int argc, char** argv);
+
+}  // namespace hydroprint::admin

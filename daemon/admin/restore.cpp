@@ -1,0 +1,209 @@
+#include "daemon/admin/restore.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "daemon/admin/archive.h"
+#include "daemon/admin/meter.h"
+#include "daemon/names.h"
+#include "daemon/schema.h"
+#include "daemon/state_lock.h"
+#include "sim/base/one_line.h"
+#include "sim/base/sha256.h"
+
+namespace hydroprint::admin {
+namespace {
+
+constexpr std::int64_t kLargestManifest = 1 << 16;
+
+// All that a daemon keeps in its folder but for the lock.
+const std::vector<std::string>& kept_names() {
+  static const std::vector<std::string> all{
+      "assets", "artifacts",     "uploads",           "runs",
+      "dips",   "hydroprint.db", "hydroprint.db-wal", "hydroprint.db-shm"};
+  return all;
+}
+
+// Names are what named_files() makes of a database, and nothing else: no way out of the folder.
+bool is_name_of_ours(const std::string& name) {
+  if (name == kDatabaseName || name == kManifestName) return true;
+  if (name.starts_with("assets/")) {
+    return name.size() == 7 + 2 + 1 + 62 && name[9] == '/' &&
+           daemon::is_sha256(name.substr(7, 2) + name.substr(10));
+  }
+  if (!name.starts_with("artifacts/")) return false;
+  const auto slash = name.find('/', 10);
+  return slash != std::string::npos && daemon::parse_number(name.substr(10, slash - 10)) > 0 &&
+         daemon::check_file_name("name", name.substr(slash + 1)).has_value();
+}
+
+/// An archive that is unpacked to a folder, which goes with this unless it was taken.
+class Unpacked {
+ public:
+  Unpacked(std::filesystem::path file, std::filesystem::path folder)
+      : file_(std::move(file)), folder_(std::move(folder)) {}
+  ~Unpacked() { daemon::discard(folder_); }
+  Unpacked(const Unpacked&) = delete;
+  Unpacked& operator=(const Unpacked&) = delete;
+
+  Result<Contents> run() {
+    daemon::discard(folder_);  // of one that was broken off
+    HP_RETURN_IF_ERROR(daemon::make_folder(folder_));
+    HP_RETURN_IF_ERROR(unpack());
+    HP_RETURN_IF_ERROR(check_manifest());
+    return check_database();
+  }
+
+ private:
+  tl::unexpected<Error> refused(const std::string& what) const {
+    return fail(Code::kInvalidArgument, file_.string() + ": " + what + "; nothing was restored");
+  }
+
+  Status unpack() {
+    std::error_code error;
+    const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file_, error));
+    HP_ASSIGN_OR_RETURN(const auto in, ArchiveReader::open(file_));
+    HP_RETURN_IF_ERROR(daemon::check_free_space(folder_, error ? 0 : size));
+    Meter meter("restore", error ? 0 : size);
+    for (;;) {
+      HP_ASSIGN_OR_RETURN(const auto entry, in->next());
+      if (!entry) return {};
+      if (!entry->is_file || !is_name_of_ours(entry->name) || hashes_.contains(entry->name)) {
+        return refused("holds \"" + one_line(entry->name).substr(0, 100) +
+                       "\", which no backup of ours does");
+      }
+      HP_RETURN_IF_ERROR(unpack_one(*in, *entry, meter));
+    }
+  }
+
+  Status unpack_one(ArchiveReader& in, const ArchiveEntry& entry, Meter& meter) {
+    const auto path = folder_ / entry.name;
+    HP_RETURN_IF_ERROR(daemon::make_folder(path.parent_path()));
+    const bool is_database = entry.name == kDatabaseName;
+    HP_ASSIGN_OR_RETURN(const auto out, daemon::open_file(path, O_WRONLY | O_CREAT | O_EXCL,
+                                                          is_database ? 0600 : 0400));
+    Sha256 hash;
+    std::int64_t offset = 0;
+    const Status read = in.read([&](std::string_view bytes) -> Status {
+      HP_RETURN_IF_ERROR(daemon::write_at(out, path, bytes, offset));
+      hash.add(bytes);
+      offset += static_cast<std::int64_t>(bytes.size());
+      meter.add(static_cast<std::int64_t>(bytes.size()));
+      return {};
+    });
+    HP_RETURN_IF_ERROR(read);
+    if (::fsync(out.get()) != 0) return daemon::system_failure(path, "cannot be made safe on disk");
+    hashes_[entry.name] = hash.finish();
+    return {};
+  }
+
+  // It comes last, so that one that is there says that the archive is whole.
+  Status check_manifest() {
+    const auto path = folder_ / kManifestName;
+    if (!hashes_.contains(kManifestName) || !hashes_.contains(kDatabaseName)) {
+      return refused("is no backup, or not a whole one");
+    }
+    std::string text(static_cast<std::size_t>(kLargestManifest), '\0');
+    HP_ASSIGN_OR_RETURN(const auto in, daemon::open_file(path, O_RDONLY));
+    const ssize_t count = ::read(in.get(), text.data(), text.size());
+    text.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
+    const auto manifest = nlohmann::json::parse(text, nullptr, false);
+    if (!manifest.is_object() || manifest.value("format", nlohmann::json()) != kBackupFormat) {
+      return refused("is a backup that another version made; use that version's hydroprintd");
+    }
+    if (manifest.value("database_sha256", nlohmann::json()) != hashes_[kDatabaseName]) {
+      return refused("is damaged: its database is not what was backed up");
+    }
+    daemon::discard(path);
+    hashes_.erase(kManifestName);
+    return {};
+  }
+
+  Result<Contents> check_database() {
+    const auto path = folder_ / kDatabaseName;
+    HP_ASSIGN_OR_RETURN(const auto database, daemon::open_store(path));
+    std::string verdict;
+    HP_RETURN_IF_ERROR(database->each("PRAGMA quick_check(1)", {},
+                                      [&](const daemon::DbRow& row) { verdict = row.text(0); }));
+    if (verdict != "ok") return refused("is damaged: " + one_line(verdict));
+    Contents contents;
+    HP_ASSIGN_OR_RETURN(const auto files, named_files(*database));
+    std::set<std::string> named{kDatabaseName};
+    for (const NamedFile& file : files) {
+      const auto found = hashes_.find(file.name);
+      if (found == hashes_.end() || found->second != file.sha256) {
+        return refused("is damaged: " + one_line(file.name) + " is not what was backed up");
+      }
+      named.insert(file.name);
+      ++contents.files;
+      contents.bytes += file.size;
+    }
+    HP_ASSIGN_OR_RETURN(contents.jobs, count_jobs(*database));
+    HP_RETURN_IF_ERROR(note(*database, "restore", ""));
+    for (const auto& [name, hash] : hashes_) {
+      if (!named.contains(name)) daemon::discard(folder_ / name);  // deleted during the backup
+    }
+    return contents;
+  }
+
+  std::filesystem::path file_, folder_;
+  std::map<std::string, std::string> hashes_;  // by name
+};
+
+// What is in the folder, but for the lock and what a restore that was broken off left.
+bool is_empty(const daemon::Layout& layout) {
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(layout.root, error)) {
+    if (entry.path() != layout.lock() && entry.path() != layout.restoring()) return false;
+  }
+  return !error;
+}
+
+// The one step that is not undone. While the mark is there no daemon starts.
+Status replace(const daemon::Layout& layout) {
+  const auto mark = layout.unrestored();
+  {
+    HP_ASSIGN_OR_RETURN(const auto file, daemon::open_file(mark, O_WRONLY | O_CREAT));
+    HP_RETURN_IF_ERROR(daemon::sync_path(layout.root));
+  }
+  for (const std::string& name : kept_names()) daemon::discard(layout.root / name);
+  for (const std::string& name : kept_names()) {
+    const auto from = layout.restoring() / name;
+    std::error_code ignored;
+    if (std::filesystem::exists(from, ignored)) {
+      HP_RETURN_IF_ERROR(daemon::publish(from, layout.root / name));
+    }
+  }
+  if (::unlink(mark.c_str()) != 0) return daemon::system_failure(mark, "cannot be deleted");
+  return daemon::sync_path(layout.root);
+}
+
+}  // namespace
+
+Result<Contents> restore(const std::filesystem::path& root, const std::filesystem::path& file,
+                         bool replaces) {
+  daemon::Layout layout;
+  HP_ASSIGN_OR_RETURN(layout.root, state_root(root));
+  std::error_code ignored;
+  if (std::filesystem::exists(layout.root, ignored)) {
+    HP_RETURN_IF_ERROR(check_is_mine(layout.root));
+  }
+  HP_ASSIGN_OR_RETURN(const auto lock, daemon::lock_state(layout));
+  const bool was_begun = std::filesystem::exists(layout.unrestored(), ignored);
+  if (!replaces && !was_begun && !is_empty(layout)) {
+    return fail(Code::kFailedPrecondition,
+                layout.root.string() +
+                    ": is not empty; name another folder, or say --replace if all in it may go");
+  }
+  Unpacked unpacked(std::filesystem::absolute(file), layout.restoring());
+  HP_ASSIGN_OR_RETURN(Contents contents, unpacked.run());
+  HP_RETURN_IF_ERROR(replace(layout));
+  return contents;
+}
+
+}  // namespace hydroprint::admin

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+#include "sim/base/result.h"
+
+namespace hydroprint::daemon {
+
+/// ASSET_TOO_LARGE, with metadata `max_bytes`.
+[[nodiscard]] tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes);
+
+/// 0 for a file that is not there.
+[[nodiscard]] std::int64_t size_on_disk(const std::filesystem::path& path);
+
+}  // namespace hydroprint::daemon

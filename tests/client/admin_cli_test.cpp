@@ -1,0 +1,423 @@
+// `hydroprint admin` on the daemon's machine, against the real daemon and without one.
+#include <sys/mount.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+#include <set>
+#include <thread>
+
+#include "daemon/admin/archive.h"
+#include "daemon/database.h"
+#include "tests/client/people_cli.h"
+
+namespace hydroprint::tests {
+namespace {
+
+constexpr char kNewPassword[] = "battery staple";
+
+using Tree = std::map<std::string, std::string>;
+
+// What is in a folder: file by file, its content.
+Tree tree_of(const std::filesystem::path& folder) {
+  Tree tree;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_directory()) continue;
+    tree[std::filesystem::relative(entry.path(), folder)] = content(entry.path());
+  }
+  return tree;
+}
+
+class AdminCli : public PeopleCli {
+ protected:
+  AdminCli() {
+    add("ann", "ADMIN");
+    log_in("ann");
+  }
+  Outcome admin(Arguments arguments, const std::filesystem::path& state) const {
+    arguments.insert(arguments.begin(), "admin");
+    arguments.insert(arguments.begin() + 2, {"--state-dir", state.string()});
+    return client(arguments);
+  }
+  Outcome admin(const Arguments& arguments) const { return admin(arguments, daemon_.state()); }
+  std::filesystem::path backup(const std::string& name = "backup.tar") const {
+    const auto file = folder_.path() / name;
+    const Outcome ended = admin({"backup", file});
+    EXPECT_EQ(ended.status, 0) << ended.err;
+    return file;
+  }
+  std::string simulate(const std::string& mesh) const {
+    const std::string file = folder_.write("m.obj", mesh).string();
+    return client_json({"submit", "simulate", "--mesh", file, "--wait"}).at("name");
+  }
+  // In the place of the daemon's state folder.
+  [[nodiscard]] std::filesystem::path elsewhere() const { return other_.path() / "state"; }
+  Outcome reset(const std::string& lines, const Arguments& more = {}) const {
+    Arguments arguments{"admin", "reset-password", "--state-dir", daemon_.state().string(), "ann"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return told(lines, arguments);
+  }
+
+  TemporaryFolder other_;
+};
+
+TEST_F(AdminCli, ABackupOfARunningDaemonIsAllThereIsAndBringsItBack) {
+  const std::string name = simulate("mesh");
+  ASSERT_EQ(client({"pin", name}).status, 0);
+  const auto out = folder_.path() / "got", film = out / "film.png";
+  ASSERT_EQ(client({"download", name, "film.png", "--out", out.string()}).status, 0);
+  const auto file = backup();
+  struct stat info {};
+  ASSERT_EQ(::stat(file.c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 0777, 0600U);  // it holds what everybody printed
+  simulate("later");                      // the daemon went on
+  const Outcome restored = admin({"restore", file}, elsewhere());
+  ASSERT_EQ(restored.status, 0) << restored.err;
+  EXPECT_NE(restored.out.find("restored 1 jobs and "), std::string::npos) << restored.out;
+
+  DaemonProcess second(other_.path(), options());
+  Client reader(second.address());
+  v1::SignInRequest request;
+  request.set_user("ann");
+  request.set_password(kPassword);
+  v1::SignInResponse session;
+  ASSERT_TRUE(reader.people->SignIn(reader.context().get(), request, &session).ok());
+  reader.session = session.session_token();
+  const v1::Job job = reader.job(name);
+  EXPECT_EQ(job.state(), v1::Job::SUCCEEDED);
+  EXPECT_TRUE(job.pinned());
+  EXPECT_EQ(reader.download(name + "/artifacts/film.png"), content(film));
+  v1::GetJobRequest later;
+  later.set_name("jobs/2");
+  v1::Job none;
+  EXPECT_FALSE(reader.jobs->GetJob(reader.context().get(), later, &none).ok());
+  v1::ListSessionsResponse sessions;
+  ASSERT_TRUE(reader.people->ListSessions(reader.context().get(), {}, &sessions).ok());
+  EXPECT_EQ(sessions.sessions_size(), 1);  // those of the backup do not come back
+  EXPECT_EQ(reader.upload("mesh"), job.simulate().mesh().asset());
+}
+
+TEST_F(AdminCli, BackupsMadeWhileJobsComeAndGoAreEachWhole) {
+  std::atomic<bool> is_over{false};
+  std::thread busy([&] {
+    for (int i = 0; !is_over; ++i) {
+      const std::string name = simulate("mesh " + std::to_string(i));
+      if (i % 2 == 0) (void)client({"delete", name});
+    }
+  });
+  for (int i = 0; i < 6; ++i) {
+    const std::string number = std::to_string(i);
+    const auto file = backup("backup-" + number + ".tar");
+    const Outcome restored = admin({"restore", file}, other_.path() / number);
+    EXPECT_EQ(restored.status, 0) << restored.err;
+  }
+  is_over = true;
+  busy.join();
+}
+
+TEST_F(AdminCli, ARunningJobIsBackedUpAndBegunAnewWhereItIsRestored) {
+  const std::string mesh = folder_.write("m.obj", "sleep 1000").string();
+  const std::string name = client_json({"submit", "simulate", "--mesh", mesh}).at("name");
+  Client watcher(daemon_.address());
+  watcher.key = client_json({"keys", "add"}).at("key");
+  watcher.wait_for(name, v1::Job::RUNNING);
+  const auto file = backup();
+  ASSERT_EQ(admin({"restore", file}, elsewhere()).status, 0);
+  DaemonProcess second(other_.path(), options());
+  Client reader(second.address());
+  reader.key = watcher.key;
+  reader.wait_for(name, v1::Job::RUNNING);
+}
+
+TEST_F(AdminCli, WhatIsMissingIsToldOfAndLeftOut) {
+  const std::string name = simulate("mesh"), other = simulate("other");
+  std::filesystem::remove(daemon_.state() / "artifacts" / "1" / "film.png");
+  const auto file = folder_.path() / "backup.tar";
+  const Outcome ended = admin({"backup", file});
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  EXPECT_NE(ended.err.find("warning: artifacts/1/film.png is missing or damaged"),
+            std::string::npos)
+      << ended.err;
+  EXPECT_EQ(admin({"restore", file}, elsewhere()).status, 0);
+  EXPECT_TRUE(std::filesystem::exists(elsewhere() / "artifacts" / "2" / "film.png"));
+}
+
+TEST_F(AdminCli, ABackupNeverReplacesAFileAndLeavesNothingWhenItFails) {
+  const auto file = folder_.write("precious.tar", "precious");
+  const Outcome refused = admin({"backup", file});
+  EXPECT_EQ(refused.status, 3) << refused.err;
+  EXPECT_EQ(content(file), "precious");
+  EXPECT_NE(admin({"backup", "/nowhere/backup.tar"}).status, 0);
+  EXPECT_EQ(admin({"backup", folder_.path() / "x.tar"}, other_.path()).status, 3);  // no store
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.tar"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "x.tar.part"));
+  EXPECT_TRUE(std::filesystem::is_empty(other_.path()));
+}
+
+/// A disk of so many KiB, for as long as this lives.
+class SmallDisk {
+ public:
+  SmallDisk(std::filesystem::path path, int kib) : path_(std::move(path)) {
+    std::filesystem::create_directories(path_);
+    const std::string size = "size=" + std::to_string(kib) + "k";
+    is_there = ::mount("none", path_.c_str(), "tmpfs", 0, size.c_str()) == 0;
+  }
+  ~SmallDisk() {
+    if (is_there) ::umount2(path_.c_str(), MNT_DETACH);
+  }
+  SmallDisk(const SmallDisk&) = delete;
+  SmallDisk& operator=(const SmallDisk&) = delete;
+
+  bool is_there = false;
+
+ private:
+  std::filesystem::path path_;
+};
+
+// Whatever the moment at which there is no more room.
+TEST_F(AdminCli, OnADiskThatIsTooSmallBackupAndRestoreAreWholeOrNotThere) {
+  const auto small = other_.path() / "small";
+  if (!SmallDisk(small, 100).is_there) GTEST_SKIP() << "needs root, to mount a small disk";
+  simulate(std::string(1 << 20, '#'));
+  const auto good = backup();
+  int backups = 0, restores = 0, refused = 0;
+  for (int kib = 512; kib <= 4096; kib += 128) {
+    {
+      const SmallDisk disk(small, kib);
+      const bool is_done = admin({"backup", small / "b.tar"}).status == 0;
+      EXPECT_EQ(tree_of(small).size(), is_done ? 1U : 0U) << kib;
+      ++(is_done ? backups : refused);
+    }
+    const SmallDisk disk(small, kib);
+    const Outcome ended = admin({"restore", good}, small / "state");
+    const Tree left = tree_of(small / "state");
+    EXPECT_EQ(left.contains("hydroprint.db"), ended.status == 0) << ended.err;
+    EXPECT_EQ(left.size() > 1, ended.status == 0) << ended.err;  // else the lock alone
+    ++(ended.status == 0 ? restores : refused);
+  }
+  EXPECT_GT(backups, 0);
+  EXPECT_GT(restores, 0);
+  EXPECT_GT(refused, 4);
+}
+
+TEST_F(AdminCli, ARestoreTakesNoFolderThatIsInUseOrNotEmptyUnlessTold) {
+  const std::string name = simulate("mesh");
+  const auto file = backup();
+  const Outcome in_use = admin({"restore", file, "--replace"});
+  EXPECT_EQ(in_use.status, 3);
+  EXPECT_NE(in_use.err.find("uses this state folder"), std::string::npos) << in_use.err;
+  EXPECT_EQ(client({"show", name}).status, 0);  // the daemon never noticed
+
+  std::filesystem::create_directories(elsewhere());
+  std::ofstream(elsewhere() / "thesis.txt") << "mine";
+  const Outcome full = admin({"restore", file}, elsewhere());
+  EXPECT_EQ(full.status, 3);
+  EXPECT_NE(full.err.find("--replace"), std::string::npos) << full.err;
+  EXPECT_EQ(content(elsewhere() / "thesis.txt"), "mine");
+
+  daemon_.kill();
+  ASSERT_EQ(admin({"restore", file, "--replace"}).status, 0);
+  daemon_.start();
+  log_in("ann");
+  EXPECT_EQ(client({"show", name}).status, 0);
+}
+
+TEST_F(AdminCli, ADamagedBackupIsRefusedAndNothingIsTouched) {
+  simulate("mesh");
+  const std::string good = content(backup());
+  daemon_.terminate();
+  const Tree before = tree_of(daemon_.state());
+  const auto bad = folder_.path() / "bad.tar";
+  const auto expect_refused = [&](const std::string& bytes, const std::string& what) {
+    std::ofstream(bad, std::ios::binary) << bytes;
+    const Outcome refused = admin({"restore", bad, "--replace"});
+    EXPECT_EQ(refused.status, 3) << what << ": " << refused.err;
+    Tree after = tree_of(daemon_.state());
+    after["lock"] = before.at("lock");
+    EXPECT_EQ(after, before) << what;
+  };
+  for (const std::size_t tenth : {0, 1, 3, 5, 7, 9}) {
+    expect_refused(good.substr(0, good.size() * tenth / 10), "cut off");
+  }
+  expect_refused("no archive", "no archive");
+  std::string flipped = good;
+  const std::size_t film = good.find("artifacts/1/film.png");
+  ASSERT_NE(film, std::string::npos);
+  flipped[film + 512] = static_cast<char>(flipped[film + 512] ^ 1);
+  expect_refused(flipped, "a byte of a file");
+  std::string in_database = good;
+  const std::size_t schema = good.find("CREATE TABLE jobs");
+  ASSERT_NE(schema, std::string::npos);
+  in_database[schema] = 'X';
+  expect_refused(in_database, "a byte of the database");
+}
+
+TEST_F(AdminCli, AnArchiveThatLeadsElsewhereIsRefused) {
+  const std::vector<std::string> names{"../evil",          "/tmp/hydroprint-evil",
+                                       "assets/../evil",   "artifacts/1/../x",
+                                       "artifacts/0/x",    "artifacts/1/",
+                                       "assets/aa/bb",     "lock",
+                                       "unrestored",       "dips/1/x",
+                                       "hydroprint.db-wal"};
+  int number = 0;
+  for (const std::string& name : names) {
+    const auto file = folder_.path() / ("evil" + std::to_string(number++) + ".tar");
+    {
+      const auto out = admin::ArchiveWriter::create(file).value();
+      ASSERT_TRUE(out->add(name, "evil"));
+      ASSERT_TRUE(out->finish());
+    }
+    const Outcome refused = admin({"restore", file}, elsewhere());
+    EXPECT_EQ(refused.status, 3) << name;
+    EXPECT_NE(refused.err.find("which no backup of ours does"), std::string::npos) << refused.err;
+    EXPECT_EQ(tree_of(other_.path()).size(), 1U) << name;  // the lock
+  }
+  EXPECT_FALSE(std::filesystem::exists("/tmp/hydroprint-evil"));
+  const auto folder = folder_.path() / "links";
+  std::filesystem::create_directories(folder);
+  std::filesystem::create_symlink("/etc/passwd", folder / "hydroprint.db");
+  const auto file = (folder_.path() / "link.tar").string();
+  ASSERT_EQ(
+      hydroprint::testing::run({"/bin/tar", "-C", folder, "-cf", file, "hydroprint.db"}).status, 0);
+  EXPECT_EQ(admin({"restore", file}, elsewhere()).status, 3);
+}
+
+TEST(Archive, NamesAndContentsComeBackAsTheyWere) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.tar";
+  const std::map<std::string, std::string> entries{
+      {"artifacts/1/film.png", ""},
+      {"artifacts/1/M\xc3\xbcnze \xe2\x82\xac.png", "utf-8"},
+      {"artifacts/1/\xff\xfe.png", "no utf-8"},
+      {"artifacts/1/" + std::string(255, 'x'), std::string(3 << 20, 'y')}};
+  {
+    const auto out = admin::ArchiveWriter::create(file).value();
+    for (const auto& [name, bytes] : entries) {
+      const auto done = out->add(name, bytes);
+      ASSERT_TRUE(done) << done.error().message;
+    }
+    EXPECT_FALSE(std::filesystem::exists(file));  // before it is whole
+    ASSERT_TRUE(out->finish());
+  }
+  std::map<std::string, std::string> read;
+  const auto in = admin::ArchiveReader::open(file).value();
+  for (auto entry = in->next(); entry && *entry; entry = in->next()) {
+    EXPECT_TRUE((*entry)->is_file);
+    std::string& bytes = read[(*entry)->name];
+    ASSERT_TRUE(in->read([&](std::string_view piece) -> Status {
+      bytes += piece;
+      return {};
+    }));
+  }
+  EXPECT_EQ(read, entries);
+}
+
+TEST_F(AdminCli, NoDaemonStartsWhereARestoreWasBrokenOffUntilItWasDoneAgain) {
+  simulate("mesh");
+  const auto file = backup();
+  daemon_.terminate();
+  std::ofstream(daemon_.state() / "unrestored") << "";  // as after a power cut at the last step
+  std::filesystem::remove(daemon_.state() / "hydroprint.db");
+  const Ended refused = run_daemon({"--state-dir", daemon_.state(), "--grpc", "127.0.0.1:0"});
+  EXPECT_EQ(refused.status, 4) << refused.words;
+  EXPECT_NE(refused.words.find("do it again"), std::string::npos) << refused.words;
+  EXPECT_FALSE(std::filesystem::exists(daemon_.state() / "hydroprint.db"));
+  ASSERT_EQ(admin({"restore", file}).status, 0);  // it may replace what a restore left
+  daemon_.start();
+  log_in("ann");
+  EXPECT_EQ(client({"show", "1"}).status, 0);
+}
+
+TEST_F(AdminCli, ANewPasswordHoldsAtOnceAndEndsTheSessionsAlsoWhileTheDaemonRuns) {
+  Client reader(daemon_.address());
+  v1::SignInRequest request;
+  request.set_user("ann");
+  request.set_password(kPassword);
+  v1::SignInResponse session;
+  ASSERT_TRUE(reader.people->SignIn(reader.context().get(), request, &session).ok());
+  reader.session = session.session_token();
+  v1::WhoAmIResponse me;
+  ASSERT_TRUE(reader.people->WhoAmI(reader.context().get(), {}, &me).ok());
+  const Outcome done = reset(std::string(kNewPassword) + "\n", {"--stdin"});
+  ASSERT_EQ(done.status, 0) << done.err;
+  EXPECT_FALSE(reader.people->WhoAmI(reader.context().get(), {}, &me).ok());
+  reader.session.clear();
+  EXPECT_FALSE(reader.people->SignIn(reader.context().get(), request, &session).ok());
+  request.set_password(kNewPassword);
+  EXPECT_TRUE(reader.people->SignIn(reader.context().get(), request, &session).ok());
+  const json entries = client_json({"audit", "--what", "hydroprint admin"}).at("entries");
+  ASSERT_EQ(entries.size(), 1U);
+  EXPECT_EQ(entries[0].at("object"), "users/ann");
+  EXPECT_EQ(entries[0].at("via"), "command line");
+  daemon_.kill();
+  EXPECT_EQ(reset(std::string(kPassword) + "\n").status, 0);  // nor need it run
+  daemon_.start();
+  log_in("ann");
+}
+
+TEST_F(AdminCli, APasswordIsAskedForTwiceOnATerminalAndNotShown) {
+  Terminal terminal(
+      command({"admin", "reset-password", "--state-dir", daemon_.state().string(), "ann"}));
+  ASSERT_TRUE(terminal.shows("New password: "));
+  terminal.type(std::string(kNewPassword) + "\n");
+  ASSERT_TRUE(terminal.shows("The same again: "));
+  terminal.type(std::string(kNewPassword) + "\n");
+  EXPECT_TRUE(terminal.shows("ann has a new password"));
+  EXPECT_EQ(terminal.wait(), 0);
+  EXPECT_EQ(terminal.screen().find(kNewPassword), std::string::npos);
+  EXPECT_TRUE(terminal.is_cooked());
+}
+
+TEST_F(AdminCli, WrongPasswordsAndUsersAreRefused) {
+  EXPECT_EQ(reset("short\n").status, 3);
+  EXPECT_EQ(reset("\n").status, 3);
+  EXPECT_EQ(reset(std::string(1001, 'x') + "\n").status, 3);
+  EXPECT_EQ(admin({"sign-in-link", "nobody"}).status, 3);
+  EXPECT_EQ(client({"admin", "sign-in-link", "ann", "--state-dir", "/nowhere"}).status, 3);
+  log_in("ann");  // all is as it was
+}
+
+TEST_F(AdminCli, ALinkSignsInOnce) {
+  const Outcome made = admin({"sign-in-link", "ann"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::size_t at = made.out.find("/sign-in#");
+  ASSERT_NE(at, std::string::npos) << made.out;
+  Client reader(daemon_.address());
+  v1::SignInRequest request;
+  request.set_link_token(made.out.substr(at + 9, 64));
+  v1::SignInResponse session;
+  EXPECT_TRUE(reader.people->SignIn(reader.context().get(), request, &session).ok());
+  EXPECT_FALSE(reader.people->SignIn(reader.context().get(), request, &session).ok());
+}
+
+TEST_F(AdminCli, AnotherUsersFolderIsLeftAlone) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root, who can give a folder to another user";
+  daemon_.terminate();
+  ASSERT_EQ(::chown(daemon_.state().c_str(), 65534, 65534), 0);
+  for (const Arguments& arguments :
+       {Arguments{"backup", folder_.path() / "x.tar"}, Arguments{"sign-in-link", "ann"},
+        Arguments{"restore", folder_.path() / "x.tar", "--replace"}}) {
+    const Outcome refused = admin(arguments);
+    EXPECT_EQ(refused.status, 3) << arguments.front();
+    EXPECT_NE(refused.err.find("sudo -u nobody"), std::string::npos) << refused.err;
+  }
+}
+
+TEST_F(AdminCli, AStoreOfAnotherVersionIsLeftAsItIs) {
+  daemon_.terminate();
+  for (const char* const version : {"4000", "2"}) {
+    {
+      const auto database =
+          hydroprint::daemon::Database::open(daemon_.state() / "hydroprint.db", "").value();
+      ASSERT_TRUE(database->run(std::string("UPDATE settings SET value='") + version +
+                                "' WHERE name='schema'"));
+    }
+    const Outcome refused = admin({"sign-in-link", "ann"});
+    EXPECT_EQ(refused.status, 3);
+    EXPECT_NE(refused.err.find("version of hydroprintd"), std::string::npos) << refused.err;
+  }
+}
+
+}  // namespace
+}  // namespace hydroprint::tests
