@@ -14,7 +14,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr int kTick_ms = 50;
-constexpr std::chrono::milliseconds kStoreAgainAfter{500};
+constexpr std::chrono::milliseconds kCaptureStoreAgainAfter{500};
 // To start, to open the camera, and to write what was taken.
 constexpr int kMargin_s = 60;
 constexpr std::int64_t kLargestFile = 64 << 20;
@@ -125,7 +125,7 @@ void CaptureRunner::give_up(const Job& job, const Error& error) {
         ended.error().code == Code::kNotFound) {
       return;
     }
-    std::this_thread::sleep_for(kStoreAgainAfter);
+    std::this_thread::sleep_for(kCaptureStoreAgainAfter);
   }
 }
 

@@ -25,7 +25,7 @@ using std::chrono::milliseconds;
 // Each report is a transaction on disk.
 constexpr milliseconds kProgressInterval{250};
 constexpr milliseconds kFlushInterval{250};
-constexpr std::chrono::seconds kStoreAgainAfter{1};
+constexpr std::chrono::seconds kDipStoreAgainAfter{1};
 // After the computed time, an axis that nobody sees at rest is not waited for any longer.
 constexpr double kRestMargin_s = 1;
 constexpr std::size_t kMostSamples = 500'000;  // of the descent, for its speed
@@ -408,7 +408,7 @@ bool DipRun::finish() {
   }
   const auto ended = around_.jobs.end(job_, state, failure, status(), *record_, end_words());
   if (!ended) {
-    next_end_ = SteadyClock::now() + kStoreAgainAfter;
+    next_end_ = SteadyClock::now() + kDipStoreAgainAfter;
     log(LogLevel::kError, "job_end_lost", {{"job", job_}, {"message", ended.error().message}});
     return false;
   }
