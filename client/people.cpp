@@ -93,6 +93,7 @@ std::vector<std::string> role_names() { return {"VIEWER", "MAKER", "OPERATOR", "
 namespace {
 
 Result<std::string> begin_session(Connection& connection, const v1::SignInRequest& request) {
+  HP_RETURN_IF_ERROR(check_secrets_may_go(connection.options()));
   HP_ASSIGN_OR_RETURN(
       const v1::SignInResponse reply,
       client::call_once(connection, stub(connection), &PeopleStub::SignIn, request));
@@ -103,7 +104,6 @@ Result<std::string> begin_session(Connection& connection, const v1::SignInReques
 
 Result<std::string> sign_in(Connection& connection, const std::string& user,
                             const std::string& password) {
-  HP_RETURN_IF_ERROR(check_secrets_may_go(connection.options()));
   v1::SignInRequest request;
   request.set_user(user);
   request.set_password(password);

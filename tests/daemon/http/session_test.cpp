@@ -2,8 +2,6 @@
 // scripts bring instead.
 #include <gtest/gtest.h>
 
-#include <regex>
-
 #include "tests/daemon/http/http_client.h"
 #include "tests/daemon/people_support.h"
 
@@ -88,27 +86,6 @@ TEST_F(HttpSession, AScriptBringsAKeyAndNothingElse) {
       post("/v1/queue:resume", nlohmann::json::object(), "Authorization: Bearer hp_nothing\r\n")
           .status,
       401);
-}
-
-TEST_F(HttpSession, IsNeededWhereTheDocumentSaysSo) {
-  const auto document = get("/openapi.json").json();
-  int needed = 0, open = 0;
-  for (const auto& [path, item] : document.at("paths").items()) {
-    const std::string target = std::regex_replace(path, std::regex("\\{[^}]*\\}"), "1");
-    for (const auto& [method, operation] : item.items()) {
-      if (method == "head") continue;  // which tells no reason
-      std::string verb = method;
-      for (char& c : verb) c = static_cast<char>(std::toupper(c));
-      const HttpAnswer answer = HttpConnection(daemon.http())
-                                    .ask(verb, target, verb == "GET" ? "" : "{}",
-                                         "Upload-Offset: 0\r\nContent-Type: application/json\r\n");
-      const bool is_needed = !operation.at("security").empty();
-      EXPECT_EQ(answer.reason() == "SIGN_IN_NEEDED", is_needed) << verb << path << answer.body;
-      ++(is_needed ? needed : open);
-    }
-  }
-  EXPECT_GT(needed, 50);
-  EXPECT_EQ(open, 4);
 }
 
 TEST_F(HttpSession, WrongPasswordsAreCountedAndSlowedDown) {

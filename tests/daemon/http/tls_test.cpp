@@ -17,6 +17,7 @@ using hydroprint::testing::KeyPairFiles;
 using std::chrono::milliseconds;
 
 constexpr const char* kPassword = "correct horse";
+constexpr std::string_view kBeginOfHandshake("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
 constexpr int kMostLooks = 400;  // 20 s; the daemon looks every two
 
 // A daemon with a certificate, and an admin who signs in by the first link.
@@ -147,6 +148,16 @@ TEST_F(Tls, WhatIsNoTlsEndsItsOwnConnectionAlone) {
   EXPECT_EQ(good.ask("GET", "/healthz").status, 200);
 }
 
+TEST_F(Tls, WhoHangsBeforeTheirHandshakeIsLetGoAtBothDoors) {
+  std::vector<HttpConnection> silent;
+  for (int i = 0; i < 40; ++i) {
+    silent.emplace_back(i % 2 == 0 ? daemon.http() : daemon.address());
+    if (i % 4 >= 2) silent.back().send(kBeginOfHandshake);
+  }
+  for (HttpConnection& one : silent) EXPECT_TRUE(one.is_ended());
+  EXPECT_TRUE(shows(authority));
+}
+
 TEST_F(Tls, LargeBodiesArriveWholeBothWays) {
   const std::string document = connect().ask("GET", "/openapi.json").body;
   EXPECT_GT(document.size(), 100'000U);
@@ -249,7 +260,7 @@ TEST_P(TlsLimits, AHandshakeThatDoesNotComeToItsEndIsGivenUp) {
   HttpConnection silent(address());
   EXPECT_TRUE(silent.is_ended());
   HttpConnection half(address());
-  half.send("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03");
+  half.send(kBeginOfHandshake);
   EXPECT_TRUE(half.is_ended());
   EXPECT_EQ(connect().ask("GET", "/v1/queue").status, 200);
 }
