@@ -124,6 +124,7 @@ Status complete(Report& report, const mesh::Model& model, const pipeline::Dip& d
   report.warnings = warnings;
   if (!own_textures) return {};
   for (const mesh::Material& material : model.materials) {
+    if (!material.texture_bytes.empty()) continue;  // a part of the model's own file
     HP_ASSIGN_OR_RETURN(auto inputs, fingerprint({{"material_texture", material.texture}}));
     report.inputs.insert(report.inputs.end(), inputs.begin(), inputs.end());
   }

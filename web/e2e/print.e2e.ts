@@ -4,11 +4,11 @@ import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
-import { launch } from './browser';
+import { launch, open } from './browser';
 import { addPeople, come, type Place } from './accounts';
 import { look } from './checks';
 import { bin, Daemon } from './daemon';
-import { makeBall } from './models';
+import { ballGlb, makeBall } from './models';
 
 let daemon: Daemon;
 let browser: Browser;
@@ -141,6 +141,27 @@ test('while it is turned, a preview shows reach, stretch and what to heed', asyn
   await person.context.close();
 });
 
+test('a GLB is shown in metres with the picture in it, and the worker takes it as it is shown', async () => {
+  const person = await come(there, 'mia');
+  const { page } = person;
+  await page
+    .locator('input[type=file]')
+    .setInputFiles([{ name: 'ball.glb', mimeType: 'model/gltf-binary', buffer: ballGlb() }]);
+  await page.locator('.stage canvas').waitFor();
+  expect(await page.getByLabel('Longest side').inputValue()).toBe('60');
+  expect(await page.getByLabel('One unit is').inputValue()).toBe('1000');
+  await page.getByRole('region', { name: 'As it hangs now' }).waitFor({ timeout: 60_000 });
+  await look(person, 'new-print-glb');
+  await page.getByLabel('Resolution').selectOption('150 dpi');
+  await page.getByText('More settings').click();
+  await page.getByLabel('Depth').fill('6');
+  await page.getByLabel('Computation').selectOption('MODEL_STOKES');
+  await page.getByRole('button', { name: 'Compute the film image' }).click();
+  await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
+  expect(person.complaints).toEqual([]);
+  await person.context.close();
+});
+
 test('run again with changes begins with what the job was made of', async () => {
   const person = await come(there, 'mia', 'jobs/1');
   const { page } = person;
@@ -150,13 +171,39 @@ test('run again with changes begins with what the job was made of', async () => 
   expect(await page.getByLabel('Turn about z').inputValue()).toBe('30');
   await page.getByLabel('Resolution').selectOption('300 dpi');
   await page.getByRole('button', { name: 'Compute the film image' }).click();
-  await page.waitForURL(/#\/jobs\/2$/);
+  await page.waitForURL(/#\/jobs\/\d+$/);
   await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
   await page.getByRole('button', { name: 'Make the PDF to print' }).click();
-  await page.waitForURL(/#\/jobs\/3$/);
+  await page.waitForURL(/#\/jobs\/\d+$/);
   await page.getByRole('link', { name: 'print.pdf' }).waitFor({ timeout: 60_000 });
   await look(person, 'job-pages');
   await page.context().close();
+});
+
+test('a job says how far it is; what is cancelled says so, and is tried again', async () => {
+  const person = await come(there, 'mia', 'jobs');
+  const { page } = person;
+  // The last one once more, finer: that takes its time.
+  await page.locator('.jobs').getByRole('link', { name: 'ball' }).first().waitFor();
+  await open(person, '/?from=jobs/1');
+  await page.locator('.stage canvas').waitFor();
+  await page.getByLabel('Resolution').selectOption('600 dpi');
+  await page.getByRole('button', { name: 'Compute the film image' }).click();
+  await page.getByRole('progressbar').waitFor({ timeout: 60_000 });
+  await look(person, 'job-underway');
+  await page.getByRole('button', { name: 'Cancel' }).click();
+  await page.getByRole('button', { name: 'Cancel it' }).click();
+  await page.locator('h1', { hasText: 'cancelled' }).waitFor({ timeout: 30_000 });
+  await look(person, 'job-cancelled');
+  const cancelled = page.url();
+  await page.getByRole('button', { name: 'Try again' }).click();
+  await expect.poll(() => page.url()).not.toBe(cancelled);
+  await page.getByText(/another try of/).waitFor();
+  await page.getByRole('button', { name: 'Cancel' }).click();
+  await page.getByRole('button', { name: 'Cancel it' }).click();
+  await page.locator('h1', { hasText: 'cancelled' }).waitFor({ timeout: 30_000 });
+  expect(person.complaints).toEqual([]);
+  await person.context.close();
 });
 
 test('wrong files are refused, each with its reason and what to do', async () => {

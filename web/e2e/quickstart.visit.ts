@@ -51,7 +51,7 @@ test('what the camera saw is shown frame by frame, with a scale', async () => {
 test('a calibration says where the object hangs and how well that is known', async () => {
   const { page } = admin;
   await openJob('calibrate');
-  await page.getByRole('heading', { name: /^calibrations\/\d+/ }).waitFor();
+  await page.getByRole('heading', { name: /^Calibration \d+/ }).waitFor();
   await page.getByText(/Error, 95 % below/).waitFor();
   await page.getByRole('img', { name: 'The scan over the object' }).waitFor();
   await look(admin, 'job-calibrate');
@@ -83,6 +83,7 @@ test('a new print takes its pose from the calibration', async () => {
   expect(await page.getByRole('button', { name: 'Compute the film image' }).isDisabled()).toBe(
     true,
   );
+  await page.getByRole('heading', { name: 'As it hangs now' }).waitFor();
   await look(admin, 'new-print-measured');
   await page.getByLabel('Pose').selectOption('');
   await page.getByLabel('Turn about z').waitFor();

@@ -11,7 +11,7 @@ describe('files', () => {
     expect(roleOf('film.toml')).toBe('profile');
   });
 
-  test.each(['part.step', 'scene.glb', 'all.zip', 'x.webp', 'noending', 'evil.html'])(
+  test.each(['part.step', 'scene.bin', 'all.zip', 'x.webp', 'noending', 'evil.html'])(
     '%s is refused with what to do',
     (name) => {
       const role = roleOf(name);

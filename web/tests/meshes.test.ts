@@ -1,4 +1,6 @@
 import { describe, expect, test } from 'vitest';
+import { readGltf } from '../src/model/gltf';
+import type { GltfJson } from '../src/model/gltf_file';
 import { boxOf } from '../src/model/mesh';
 import { readMtl, readObj } from '../src/model/obj';
 import { readPlyMesh } from '../src/model/ply';
@@ -153,5 +155,96 @@ describe('PLY', () => {
   test('a map that is cut off or another PLY is refused', () => {
     expect(() => readSurfaceMap(surfaceMap([1, 1, 1]).slice(0, -1))).toThrow(Refusal);
     expect(() => readSurfaceMap(bytesOf(text))).toThrow(Refusal);
+  });
+});
+
+describe('glTF', () => {
+  const kCorners = [0, 0, 0, 1, 0, 0, 0, 1, 0];
+  const json = (more: Partial<GltfJson> = {}): GltfJson => ({
+    scenes: [{ nodes: [0] }],
+    nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, material: 0 }] }],
+    materials: [{ name: 'skin', pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
+    textures: [{ source: 0 }],
+    images: [{ bufferView: 1, mimeType: 'image/jpeg' }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 3, type: 'VEC3' }],
+    bufferViews: [
+      { buffer: 0, byteLength: 36 },
+      { buffer: 0, byteOffset: 36, byteLength: 2 },
+    ],
+    buffers: [{ byteLength: 38 }],
+    ...more,
+  });
+  const kNumbers = new Uint8Array([...new Uint8Array(Float32Array.from(kCorners).buffer), 7, 8]);
+  const glb = (content: unknown, chunk = kNumbers): Promise<ArrayBuffer> => {
+    const text = new TextEncoder().encode(JSON.stringify(content));
+    const head = Uint32Array.from([0x46546c67, 2, 28 + text.length + chunk.length]);
+    return new Blob([
+      head,
+      Uint32Array.from([text.length, 0x4e4f534a]),
+      text,
+      Uint32Array.from([chunk.length, 0x004e4942]),
+      chunk,
+    ]).arrayBuffer();
+  };
+
+  test('a GLB gives its shape, where it stands, and the picture that lies in it', async () => {
+    const mesh = readGltf(await glb(json({ nodes: [{ mesh: 0, translation: [5, 0, 0] }] })));
+    expect(boxOf(mesh)).toEqual({ min: [5, 0, 0], max: [6, 1, 0] });
+    expect([...mesh.indices]).toEqual([0, 1, 2]);
+    expect(mesh.unit_mm).toBe(1000);
+    const [part] = mesh.parts;
+    expect(mesh.materials!.get(part!.material)!.picture).toEqual({
+      bytes: new Uint8Array([7, 8]),
+      type: 'image/jpeg',
+    });
+  });
+
+  test('children stand where their parents put them; a mirrored one keeps its outside', async () => {
+    const half = Math.SQRT1_2;
+    const nodes = [
+      { children: [1], rotation: [0, 0, half, half], scale: [2, 2, 2] },
+      { mesh: 0, scale: [-1, 1, 1], translation: [1, 0, 0] },
+    ];
+    const mesh = readGltf(await glb(json({ nodes })));
+    const box = boxOf(mesh);
+    [-2, 0, 0].forEach((value, i) => expect(box.min[i]).toBeCloseTo(value));
+    [0, 2, 0].forEach((value, i) => expect(box.max[i]).toBeCloseTo(value));
+    expect([...mesh.indices]).toEqual([0, 2, 1]);
+  });
+
+  test('strips and fans are triangles; points are none', async () => {
+    const four = Uint8Array.from([...kNumbers.slice(0, 36), ...kNumbers.slice(0, 12)]);
+    const of = async (mode: number) => {
+      const content = json({
+        meshes: [{ primitives: [{ attributes: { POSITION: 0 }, mode }] }],
+        accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: 'VEC3' }],
+        bufferViews: [{ buffer: 0, byteLength: 48 }],
+      });
+      return [...readGltf(await glb(content, four)).indices];
+    };
+    expect(await of(5)).toEqual([0, 1, 2, 2, 1, 3]);
+    expect(await of(6)).toEqual([0, 1, 2, 0, 2, 3]);
+    expect(await of(0)).toEqual([]);
+  });
+
+  test.each([
+    ['numbers elsewhere', json({ buffers: [{ uri: 'far.bin', byteLength: 38 }] }), 'another file'],
+    ['too many', json({ accessors: [{ ...json().accessors![0]!, count: 4 }] }), 'outside the file'],
+    ['compressed', json({ extensionsRequired: ['KHR_draco_mesh_compression'] }), 'draco'],
+    ['turning in circles', json({ nodes: [{ children: [0] }] }), 'contains itself'],
+    ['of no shape', { meshes: 3, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }] }, 'mesh 0'],
+    ['of no sense', { scenes: [{ nodes: 7 }] }, 'no valid glTF'],
+  ])('%s is refused', async (_, content, why) => {
+    const whole = await glb(content);
+    const result = attempt(() => readGltf(whole));
+    expect(result.ok).toBe(false);
+    if (!result.ok) expect(result.failure.what).toContain(why);
+  });
+
+  test('cut short is refused', async () => {
+    const whole = await glb(json());
+    for (let length = 0; length < whole.byteLength; length += 7)
+      expect(attempt(() => readGltf(whole.slice(0, length))).ok, String(length)).toBe(false);
   });
 });

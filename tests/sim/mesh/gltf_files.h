@@ -64,7 +64,7 @@ inline std::string tetrahedron_gltf(const std::map<std::string, std::string>& pa
          std::to_string(buffer.size()) + uri + "}]" + views + extra + "}";
 }
 
-inline std::string textured_gltf() {
+inline std::string textured_gltf(const std::string& picture = "picture") {
   return tetrahedron_gltf(
       {{"attributes", ",\"TEXCOORD_0\":2"},
        {"material", ",\"material\":0"},
@@ -72,7 +72,7 @@ inline std::string textured_gltf() {
          "baseColorTexture":{"index":0}}}],"textures":[{"source":0,"sampler":0}],
          "samplers":[{"wrapS":33071,"wrapT":33648}],
          "images":[{"uri":"data:image/png;base64,)" +
-                     base64("picture") + "\"}]"}});
+                     base64(picture) + "\"}]"}});
 }
 
 inline std::string tetrahedron_glb() {

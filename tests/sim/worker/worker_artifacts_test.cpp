@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "sim/image/image_file.h"
+#include "tests/sim/mesh/gltf_files.h"
 #include "tests/sim/worker/artifact_files.h"
 #include "tests/sim/worker/bodies.h"
 #include "tests/sim/worker/worker_fixture.h"
@@ -45,6 +46,22 @@ TEST_F(Worker, FilmImageHasTheFilmsSizeAndIsNotJustWhite) {
   // The lower half of the sphere alone takes a disc of film of at least its own size.
   EXPECT_GT(static_cast<double>(coloured), 3.1 * 120 * 120);
   EXPECT_EQ(texels.front().r, 65535);
+}
+
+TEST_F(Worker, APictureThatLiesInTheModelIsPrintedAndIsNoInputOfItsOwn) {
+  folder.write("body.gltf", mesh::textured_gltf(content(path("texture.png"))));
+  const Ended ended = testing::run(
+      simulate({"--mesh", path("body.gltf"), "--scale", "20", "--model", "stokes"}, false));
+  ASSERT_EQ(ended.status, 0) << ended.err;
+  const auto report = nlohmann::json::parse(content(out() + "/report.json"));
+  ASSERT_EQ(report["inputs"].size(), 1u);
+  EXPECT_EQ(report["inputs"][0]["role"], "mesh");
+  const auto film = image::read_image(out() + "/film.png", {});
+  ASSERT_TRUE(film) << film.error().message;
+  const auto& texels = film->image.texels;
+  EXPECT_TRUE(std::any_of(texels.begin(), texels.end(), [](const image::Texel& t) {
+    return t.r != t.g || t.g != t.b;
+  })) << "the picture's colours";
 }
 
 TEST_F(Worker, MapOnlyMakesTheMapAndTheReport) {

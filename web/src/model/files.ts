@@ -2,7 +2,8 @@
  * Which of the dropped files is what. Files that are no use are refused, each with the reason and what to do;
  * nothing is left out silently.
  */
-import { readMtl, type Material } from './obj';
+import type { Worn } from './mesh';
+import { readMtl } from './obj';
 
 export interface Named {
   name: string;
@@ -20,10 +21,10 @@ export function roleOf(name: string): Role | { why: string } {
 }
 
 const kWanted =
-  'Drop a model (OBJ, PLY or STL), its MTL and its pictures (PNG, JPEG or TIFF), or a film profile (TOML)';
+  'Drop a model (OBJ, PLY, STL or glTF), its MTL and its pictures (PNG, JPEG or TIFF), or a film profile (TOML)';
 
 const kRoles: Record<string, Role> = {
-  obj: 'mesh', ply: 'mesh', stl: 'mesh',
+  obj: 'mesh', ply: 'mesh', stl: 'mesh', glb: 'mesh', gltf: 'mesh',
   mtl: 'material',
   png: 'image', jpg: 'image', jpeg: 'image', tif: 'image', tiff: 'image',
   toml: 'profile',
@@ -31,8 +32,7 @@ const kRoles: Record<string, Role> = {
 
 const kCad = 'this is a CAD file without a surface. Export it as STL, PLY or OBJ';
 const kRefusals: Record<string, string> = {
-  gltf: 'glTF cannot be shown here. Export the model as OBJ, or use "hydroprint submit simulate"',
-  glb: 'glTF cannot be shown here. Export the model as OBJ, or use "hydroprint submit simulate"',
+  bin: 'this is a part of a glTF model. Export that as GLB, which has all in one',
   zip: 'this is an archive. Unpack it and drop the files in it',
   rar: 'this is an archive. Unpack it and drop the files in it',
   step: kCad,
@@ -64,6 +64,10 @@ export function contradiction(role: Role, name: string, head: Uint8Array): strin
   const text = new TextDecoder('latin1').decode(head);
   if (/\.ply$/i.test(name) && !text.startsWith('ply'))
     return 'it does not begin like a PLY file. Export it again as PLY';
+  if (/\.glb$/i.test(name) && !text.startsWith('glTF'))
+    return 'it does not begin like a GLB file. Export it again as GLB';
+  if (/\.gltf$/i.test(name) && !/^\s*\{/.test(text) && !text.startsWith('glTF'))
+    return 'it does not begin like a glTF file. Export it again as GLB';
   if (
     /\.obj$/i.test(name) &&
     (head.includes(0) || !/^\s*(#|v|o|g|f|mtllib|usemtl|s)\b/m.test(text))
@@ -102,35 +106,40 @@ export interface Arrangement<F extends Named> {
   /** Files that were named and are not there, in words. */
   missing: string[];
   /** What each material looks like, with the picture of it that is there. */
-  materials: Map<string, Material & { file?: F }>;
+  materials: Map<string, Worn & { file?: F }>;
 }
 
-/** `libraries` are those that the mesh names; `mtl` is the text of each material file. */
+/**
+ * `libraries` are those that the mesh names; `mtl` is the text of each material file; `own` the materials that the mesh
+ * brings itself.
+ */
 export function arrange<F extends Named>(
   libraries: readonly string[],
   mtl: readonly { file: F; text: string }[],
   images: readonly F[],
+  own: ReadonlyMap<string, Worn> = new Map(),
 ): Arrangement<F> {
-  const materials = new Map<string, Material & { file?: F }>();
+  const materials = new Map<string, Worn & { file?: F }>();
   const missing: string[] = [];
   const extra: Arrangement<F>['extra'] = [];
   const named = new Set<F>();
+  const add = (name: string, material: Worn) => {
+    const image = images.find((i) => material.map && baseOf(i.name) === baseOf(material.map));
+    if (material.map && !image) missing.push(`the picture "${material.map}" of material "${name}"`);
+    if (material.map && image && !named.has(image)) {
+      named.add(image);
+      extra.push({ name: nameFor(image, [material.map]), file: image });
+    }
+    materials.set(name, { ...material, ...(image ? { file: image } : {}) });
+  };
   for (const library of libraries)
     if (!mtl.some(({ file }) => baseOf(file.name) === baseOf(library)))
       missing.push(`the material file "${library}"`);
   for (const { file, text } of mtl) {
     extra.push({ name: nameFor(file, libraries), file });
-    for (const [name, material] of readMtl(text)) {
-      const image = images.find((i) => material.map && baseOf(i.name) === baseOf(material.map));
-      if (material.map && !image)
-        missing.push(`the picture "${material.map}" of material "${name}"`);
-      if (material.map && image && !named.has(image)) {
-        named.add(image);
-        extra.push({ name: nameFor(image, [material.map]), file: image });
-      }
-      materials.set(name, { ...material, ...(image ? { file: image } : {}) });
-    }
+    for (const [name, material] of readMtl(text)) add(name, material);
   }
+  for (const [name, material] of own) add(name, material);
   const texture = images.find((image) => !named.has(image));
   return { extra, missing, materials, ...(texture ? { texture } : {}) };
 }

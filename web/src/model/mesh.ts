@@ -1,6 +1,13 @@
 import { Refusal } from './result';
 import type { Vec3 } from './pose';
 
+/** What of a material is shown: its colour, and its picture, by name or as it lies in the model's own file. */
+export interface Worn {
+  colour: [number, number, number];
+  map?: string;
+  picture?: { bytes: Uint8Array; type: string };
+}
+
 /** A model as it stands in its file: triangles, in the file's own units and axes. */
 export interface Mesh {
   /** x, y, z of each vertex. */
@@ -15,6 +22,10 @@ export interface Mesh {
   parts: { material: string; first: number; count: number }[];
   /** The material libraries that an OBJ names. */
   libraries: string[];
+  /** Materials that the model's own file describes. */
+  materials?: Map<string, Worn>;
+  /** What one of its units is, where its format says so. */
+  unit_mm?: number;
 }
 
 export interface Box {

@@ -1,5 +1,5 @@
 import { Refusal } from './result';
-import type { Mesh } from './mesh';
+import type { Mesh, Worn } from './mesh';
 
 /** Reads a Wavefront OBJ: corners, texture coordinates, faces of any number of corners, materials' names. */
 export function readObj(text: string): Mesh {
@@ -103,16 +103,10 @@ class ObjReader {
   }
 }
 
-/** What of a material is shown: its colour, and the file of its colour map by the name it is given there. */
-export interface Material {
-  colour: [number, number, number];
-  map?: string;
-}
-
 /** Reads an MTL: material name to what is shown of it. */
-export function readMtl(text: string): Map<string, Material> {
-  const materials = new Map<string, Material>();
-  let current: Material | undefined;
+export function readMtl(text: string): Map<string, Worn> {
+  const materials = new Map<string, Worn>();
+  let current: Worn | undefined;
   for (const raw of text.split('\n')) {
     const line = raw.trim();
     const [keyword, ...words] = line.split(/\s+/);

@@ -1,5 +1,6 @@
 /** Reads models and maps off the page's thread, so that the page goes on answering. */
-import { boxOf } from '../model/mesh';
+import { readGltf } from '../model/gltf';
+import { boxOf, type Mesh } from '../model/mesh';
 import { readObj } from '../model/obj';
 import { readPlyMesh } from '../model/ply';
 import { attempt } from '../model/result';
@@ -7,18 +8,21 @@ import { readStl } from '../model/stl';
 import { readSurfaceMap } from '../model/surface_map';
 import type { Answer, Question } from './reader';
 
+const readObjBytes = (bytes: ArrayBuffer): Mesh => readObj(new TextDecoder().decode(bytes));
+const kReaders: Record<string, (bytes: ArrayBuffer) => Mesh> = {
+  stl: readStl,
+  ply: readPlyMesh,
+  glb: readGltf,
+  gltf: readGltf,
+};
+
 function read(question: Question): Answer {
   const { bytes } = question;
   if (question.what === 'surface_map')
     return { what: 'surface_map', result: attempt(() => readSurfaceMap(bytes)) };
   const result = attempt(() => {
     const ending = question.name.toLowerCase().split('.').at(-1);
-    const mesh =
-      ending === 'stl'
-        ? readStl(bytes)
-        : ending === 'ply'
-          ? readPlyMesh(bytes)
-          : readObj(new TextDecoder().decode(bytes));
+    const mesh = (kReaders[ending ?? ''] ?? readObjBytes)(bytes);
     return { mesh, box: boxOf(mesh) };
   });
   return { what: 'mesh', result };

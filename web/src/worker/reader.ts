@@ -45,7 +45,7 @@ const kTooMuch = refused(
   'It may be too large for it: try a desktop computer, or a model with fewer faces',
 );
 
-/** Reads an OBJ, PLY or STL, told apart by the name's ending. */
+/** Reads an OBJ, PLY, STL or glTF, told apart by the name's ending. */
 export async function readMesh(file: File): Promise<Result<{ mesh: Mesh; box: Box }>> {
   const answer = await ask({ what: 'mesh', name: file.name, bytes: await file.arrayBuffer() });
   return answer?.what === 'mesh' ? answer.result : kTooMuch;

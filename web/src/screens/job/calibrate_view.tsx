@@ -5,6 +5,7 @@ import { warningsOf } from '../../model/report';
 import { formatMm } from '../../model/units';
 import { Figures } from '../../ui/controls';
 import { staleness } from '../new_print/calibration';
+import { numberOf } from '../../ui/job_text';
 import { Files, Pictures } from './files';
 import type { Results } from './results';
 
@@ -41,7 +42,7 @@ function Found({ calibration }: { calibration: Calibration }) {
   return (
     <section>
       <h2>
-        {calibration.name} {calibration.active ? '(active)' : ''}
+        Calibration {numberOf(calibration.name)} {calibration.active ? '(active)' : ''}
       </h2>
       {why && <p class="warning">It does not hold any more: {why}. Measure again.</p>}
       {calibration.kind === 'CAMERA' ? (
@@ -58,7 +59,7 @@ function Found({ calibration }: { calibration: Calibration }) {
             ['Error, 95 % below', orDash(calibration.errorP95Mm)],
             ['Error, largest', orDash(calibration.errorMaxMm)],
             ['Height over the water', orDash(calibration.heightMm)],
-            ['First contact at', orDash(calibration.contactMm)],
+            ['First contact, axis at', orDash(calibration.contactMm)],
             ['Water level', orDash(calibration.waterZMm)],
           ]}
         />

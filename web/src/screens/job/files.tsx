@@ -21,6 +21,7 @@ const kWhat: Record<string, string> = {
   'calibration.json': 'The calibration, with its covariance',
   'camera.json': "The camera's lens and depth scale",
   'alignment.png': 'The scan over the object',
+  'error.png': 'How far off the surface may be',
   'film_profile.toml': 'The film profile that was found',
 };
 

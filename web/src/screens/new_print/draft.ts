@@ -87,11 +87,13 @@ export async function restore(): Promise<void> {
   });
 }
 
-/** A first size for a model whose unit is not known: as it is if that can be dipped, else 100 mm. */
-export const firstScale = (box: Box): number => {
-  const longest = longestOf(box);
-  return longest >= 15 && longest <= 400 ? 1 : Number((100 / longest).toPrecision(4));
-};
+/** A first size: as its format or the file has it, if that can be dipped, else 100 mm. */
+export function firstScale({ mesh, box }: Shape): number {
+  const unit_mm = mesh.unit_mm ?? 1;
+  const longest = longestOf(box) * unit_mm;
+  const fits = longest >= 15 && longest <= 400;
+  return fits ? unit_mm : Number((100 / longestOf(box)).toPrecision(4));
+}
 
 export function clear(): void {
   batch(() => {

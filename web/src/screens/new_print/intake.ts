@@ -86,7 +86,8 @@ async function readAll(
   const { from } = draft.value;
   batch(() => {
     const libraries = read?.ok ? read.value.mesh.libraries : [];
-    arrangement.value = arrange(libraries, mtl, withRole(files, 'image'));
+    const own = read?.ok ? read.value.mesh.materials : undefined;
+    arrangement.value = withPictures(arrange(libraries, mtl, withRole(files, 'image'), own));
     problems.value = [
       ...bad,
       ...(read ? arrangement.value.missing : []).map((name) => ({
@@ -98,11 +99,23 @@ async function readAll(
     if (isNew && mesh && read?.ok) {
       const { from: _, ...rest } = draft.value;
       draft.value = { ...rest, files };
-      change({ name: mesh.name.replace(/\.\w+$/, ''), scale: firstScale(read.value.box) });
+      change({ name: mesh.name.replace(/\.\w+$/, ''), scale: firstScale(read.value) });
     } else {
       change({ files, ...(from ? { from } : {}) });
     }
   });
+}
+
+/** The pictures that lie in the model's own file, as files to show; they are not sent again. */
+function withPictures(found: Arrangement<File>): Arrangement<File> {
+  const materials = new Map(found.materials);
+  for (const [name, { picture, ...material }] of found.materials) {
+    if (!picture || material.file) continue;
+    // A copy: the bytes are a part of the whole model's.
+    const file = new File([picture.bytes.slice()], name, { type: picture.type });
+    materials.set(name, { ...material, file });
+  }
+  return { ...found, materials };
 }
 
 interface Sample {

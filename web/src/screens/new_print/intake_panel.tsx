@@ -3,10 +3,11 @@ import { formatBytes, formatMm } from '../../model/units';
 import { Button, NumberField } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
 import { orComplain } from '../../state/notices';
+import { calibrated } from './calibration';
 import { change, draft, longest_mm, shape } from './draft';
 import { isReading, problems, samples, take, takeSample } from './intake';
 
-const kEndings = '.obj,.mtl,.ply,.stl,.png,.jpg,.jpeg,.tif,.tiff,.toml';
+const kEndings = '.obj,.mtl,.ply,.stl,.glb,.gltf,.png,.jpg,.jpeg,.tif,.tiff,.toml';
 
 function Browse({ label }: { label: string }) {
   const input = useRef<HTMLInputElement>(null);
@@ -69,8 +70,8 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
     <div class="intake">
       <h2>{isBusy ? 'Reading…' : 'Drop a model here'}</h2>
       <p>
-        The object to print on, as OBJ, PLY or STL, with its picture (PNG or JPEG; for an OBJ its
-        MTL, too).
+        The object to print on, as OBJ, PLY, STL or glTF, with its picture (PNG or JPEG; for an OBJ
+        its MTL, too; a GLB has all in one).
       </p>
       <Browse label="Choose files" />
       {ready.length > 0 && (
@@ -91,6 +92,7 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
 export function Taken() {
   const { files, from, scale } = draft.value;
   const hasAny = files.length > 0 || from;
+  const unit_mm = shape.value?.mesh.unit_mm ?? 1;
   return (
     <section aria-labelledby="object-title">
       <h2 id="object-title">1 Object</h2>
@@ -118,7 +120,7 @@ export function Taken() {
         </div>
       )}
       {hasAny && <Browse label="Add or replace files" />}
-      {shape.value && (
+      {shape.value && !calibrated.value && (
         <div class="row">
           <NumberField
             label="Longest side"
@@ -139,10 +141,10 @@ export function Taken() {
           />
         </div>
       )}
-      {shape.value && scale !== 1 && files.length > 0 && (
+      {shape.value && scale !== unit_mm && files.length > 0 && !calibrated.value && (
         <p class="quiet">
-          In its own units the model would be {formatMm(longest_mm.value / scale)} long. Check its
-          size.
+          In its own units the model would be {formatMm((longest_mm.value / scale) * unit_mm)} long.
+          Check its size.
         </p>
       )}
     </section>
