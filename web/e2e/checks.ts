@@ -29,8 +29,23 @@ export async function picture({ page }: Person, name: string): Promise<void> {
         .map((element) => element.outerHTML.slice(0, 120));
     });
     expect(wide, `${name} at ${width} px is wider than its window`).toEqual([]);
+    expect(await page.evaluate(covered), `${name} at ${width} px: below the bar`).toBe('');
   }
   await page.setViewportSize(before);
+}
+
+/** The last control of the screen, if the bar covers it even when all is scrolled up; runs in the page. */
+function covered(): string {
+  const before = window.scrollY;
+  window.scrollTo(0, document.body.scrollHeight);
+  const last = [...document.querySelectorAll('main :is(a, button, input, select, summary)')]
+    .filter((element) => element.checkVisibility())
+    .at(-1);
+  const bar = document.querySelector('nav')?.getBoundingClientRect();
+  const isBelow = bar !== undefined && bar.top > window.innerHeight / 2;
+  const isCovered = isBelow && last !== undefined && last.getBoundingClientRect().bottom > bar.top;
+  window.scrollTo(0, before);
+  return isCovered ? last.outerHTML.slice(0, 120) : '';
 }
 
 /** Nothing that axe calls serious or critical, in light and in dark. */

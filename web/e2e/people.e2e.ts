@@ -93,6 +93,82 @@ test('the first screen is small, there within a second, and says what to do', as
   await person.context.close();
 });
 
+test('all of it goes by keyboard, and one sees where one is', async () => {
+  const person = await visit(browser, daemon.address);
+  const { page } = person;
+  await page.getByRole('button', { name: 'Mug' }).waitFor();
+  // What has the focus, and whether that is to be seen.
+  const focused = () =>
+    page.evaluate(() => {
+      const element = document.activeElement as HTMLElement;
+      const seen = element.matches('.switch input') ? element.nextElementSibling! : element;
+      const { outlineStyle, outlineWidth } = getComputedStyle(seen);
+      const name = element.getAttribute('aria-label') ?? element.innerText ?? '';
+      const label = (element as HTMLInputElement).labels?.[0]?.innerText;
+      return {
+        name: (label ?? name).trim().split('\n')[0],
+        // Behind the last comes the browser itself.
+        isSeen:
+          element === document.body || (outlineStyle !== 'none' && parseFloat(outlineWidth) >= 2),
+      };
+    });
+  const tabTo = async (name: string) => {
+    for (let i = 0; i < 40; i += 1) {
+      await page.keyboard.press('Tab');
+      const at = await focused();
+      expect(at.isSeen, `the focus on "${at.name}"`).toBe(true);
+      if (at.name === name) return;
+    }
+    throw new Error(`Tab never comes to "${name}"`);
+  };
+
+  await page.keyboard.press('Tab');
+  expect((await focused()).name).toBe('Skip to the content');
+  await page.keyboard.press('Enter');
+  expect(await page.evaluate(() => document.activeElement?.id)).toBe('main');
+  await tabTo('Choose files');
+  await tabTo('Mug');
+  await page.keyboard.press('Enter');
+  await page.locator('.stage canvas').waitFor();
+  await page.locator('#main').focus();
+  await tabTo('Longest side');
+  await page.keyboard.press('ControlOrMeta+a');
+  await page.keyboard.type('80');
+  await tabTo('Turn about x');
+  await page.keyboard.press('ArrowUp');
+  expect(await page.getByLabel('Turn about x').inputValue()).toBe('1');
+  await tabTo('More settings');
+  await page.keyboard.press('Enter');
+  await page.getByLabel('Dip speed').waitFor();
+  await tabTo('Compute the film image');
+  await tabTo('Start over');
+  await page.keyboard.press('Enter');
+  await page.getByRole('button', { name: 'Choose files' }).waitFor();
+
+  // What asks once more keeps the focus, and Escape takes it back.
+  await open(person, '/rig');
+  await page.getByLabel('What for').focus();
+  await tabTo('Take the rig');
+  await page.keyboard.press('Enter');
+  await page.getByRole('button', { name: 'Arm' }).waitFor();
+  await tabTo('Arm');
+  await page.keyboard.press('Enter');
+  const disarm = page.getByRole('button', { name: 'Disarm' });
+  await disarm.waitFor({ timeout: 30_000 });
+  await page.locator('#main').focus();
+  await tabTo('Disarm');
+  await page.keyboard.press('Enter');
+  expect((await focused()).name).toBe('Disarm: the axis may sink');
+  await page.keyboard.press('Escape');
+  expect((await focused()).name).toBe('Disarm');
+  await page.keyboard.press('Enter');
+  await page.keyboard.press('Enter');
+  await page.locator('.big', { hasText: 'Disarmed' }).waitFor({ timeout: 30_000 });
+  await page.getByRole('button', { name: 'Give it back' }).click();
+  expect(person.complaints).toEqual([]);
+  await person.context.close();
+});
+
 test('people from the first admin to a viewer, who may stop and nothing else', async () => {
   const admin = await visit(browser, `${daemon.address}/#/people`);
   const { page } = admin;

@@ -7,22 +7,25 @@ import { parseNumber } from '../model/units';
 export function Button(props: {
   children: ComponentChildren;
   onPress: () => unknown;
-  kind?: 'primary' | 'danger' | 'plain';
+  kind?: 'primary' | 'danger' | 'plain' | undefined;
   disabled?: boolean;
   label?: string;
   title?: string;
 }) {
   const [isBusy, setBusy] = useState(false);
   const press = async () => {
+    if (isBusy) return;
     setBusy(true);
     await props.onPress();
     setBusy(false);
   };
+  // Not `disabled` while it is at work: the keyboard would lose its place.
   return (
     <button
       type="button"
       class={props.kind ?? ''}
-      disabled={props.disabled || isBusy}
+      disabled={props.disabled}
+      aria-disabled={isBusy || undefined}
       aria-label={props.label}
       title={props.title}
       onClick={() => void press()}
@@ -32,7 +35,7 @@ export function Button(props: {
   );
 }
 
-/** A button that asks once more before it does what cannot be undone. */
+/** A button that asks once more before it does what cannot be undone; Escape, or a while, and it does not. */
 export function Careful(props: {
   children: ComponentChildren;
   sure: string;
@@ -45,22 +48,22 @@ export function Careful(props: {
     const timer = window.setTimeout(() => setAsking(false), 6000);
     return () => window.clearTimeout(timer);
   }, [isAsking]);
-  if (!isAsking)
-    return (
-      <button type="button" class={props.kind ?? ''} onClick={() => setAsking(true)}>
-        {props.children}
-      </button>
-    );
+  const press = async () => {
+    if (!isAsking) return setAsking(true);
+    await props.onPress();
+    setAsking(false);
+  };
   return (
-    <Button
-      kind="danger"
-      onPress={async () => {
-        await props.onPress();
-        setAsking(false);
+    <span
+      class="careful"
+      onKeyDown={(event) => {
+        if (event.key === 'Escape') setAsking(false);
       }}
     >
-      {props.sure}
-    </Button>
+      <Button kind={isAsking ? 'danger' : props.kind} onPress={press}>
+        {isAsking ? props.sure : props.children}
+      </Button>
+    </span>
   );
 }
 

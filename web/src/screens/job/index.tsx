@@ -202,6 +202,12 @@ function Left({ job }: { job: Job }) {
           <span class="quiet"> {job.error.reason}</span>
         </p>
       )}
+      {job.state === 'CANCELLED' && !job.dip && (
+        <p class="quiet">
+          It was cancelled, and left nothing.{' '}
+          {mayChange(job.owner) && canRetry(job) && 'It can be tried again as it was.'}
+        </p>
+      )}
       {job.state === 'INTERRUPTED' && (
         <p class="warning">
           The daemon or the power was lost while this ran, and it is not begun again by itself.

@@ -159,6 +159,9 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
           <Legend title="When the water gets there" unit="s" scale={contact} />
         </>
       )}
+      {pointed && mode !== 'contact' && (
+        <p class="quiet">Pink: what the chosen warning is about.</p>
+      )}
     </div>
   );
 }

@@ -16,7 +16,7 @@ const kWhat = [
 
 /** What was done and by whom, newest first. */
 export function Audit() {
-  const [entries, setEntries] = useState<AuditEntry[]>([]);
+  const [entries, setEntries] = useState<AuditEntry[]>();
   const [next, setNext] = useState('');
   const [failure, setFailure] = useState<Failure>();
   const [name, setName] = useState('');
@@ -42,10 +42,10 @@ export function Audit() {
       <List
         heads={['When', 'Who', 'What', 'Outcome']}
         failure={failure}
-        isEmpty={entries.length === 0}
+        count={entries?.length}
         empty="Nothing of that kind."
       >
-        {entries.map((entry) => (
+        {(entries ?? []).map((entry) => (
           <tr key={entry.seq}>
             <td>
               <When time={entry.time} />
@@ -65,7 +65,7 @@ export function Audit() {
           </tr>
         ))}
       </List>
-      {next && <Button onPress={() => ask(next, entries)}>Older</Button>}
+      {next && <Button onPress={() => ask(next, entries ?? [])}>Older</Button>}
     </section>
   );
 }

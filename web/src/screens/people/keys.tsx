@@ -29,7 +29,7 @@ export function Keys() {
       <List
         heads={['Key', 'User', 'Role', 'Last used', 'Ends', '']}
         failure={failure}
-        isEmpty={keys.length === 0}
+        count={value?.apiKeys.length}
         empty="No keys yet. With one, scripts and the program hydroprint may do what you may."
       >
         {keys.map((key) => (

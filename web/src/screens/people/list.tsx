@@ -23,7 +23,8 @@ export function useAsked<T>(ask: () => Asked<T>): {
 export function List(props: {
   heads: readonly string[];
   failure: Failure | undefined;
-  isEmpty: boolean;
+  /** Undefined until the daemon told. */
+  count: number | undefined;
   empty: string;
   children: ComponentChildren;
 }) {
@@ -33,7 +34,8 @@ export function List(props: {
         {props.failure.what}
       </p>
     );
-  if (props.isEmpty) return <p class="quiet">{props.empty}</p>;
+  if (props.count === undefined) return <p class="quiet">Asking…</p>;
+  if (props.count === 0) return <p class="quiet">{props.empty}</p>;
   return (
     <table>
       <thead>

@@ -14,7 +14,7 @@ export function Sessions() {
       <List
         heads={['User', 'From', 'Begun', 'Last used', 'Ends', '']}
         failure={failure}
-        isEmpty={sessions.length === 0}
+        count={value?.sessions.length}
         empty="Nobody is signed in."
       >
         {sessions.map((session) => (

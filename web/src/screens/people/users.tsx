@@ -32,14 +32,14 @@ export function Users() {
       <List
         heads={['Name', 'Role', 'Since', '']}
         failure={failure}
-        isEmpty={users.length === 0}
+        count={value?.users.length}
         empty="No users yet."
       >
         {users.map((user) => (
           <Row key={user.name} user={user} again={again} makeLink={() => makeLink(user)} />
         ))}
       </List>
-      {!failure && <NewUser isFirst={users.length === 0} again={again} />}
+      {value && !failure && <NewUser isFirst={users.length === 0} again={again} />}
     </section>
   );
 }
