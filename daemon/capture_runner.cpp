@@ -83,7 +83,9 @@ Result<Job> CaptureRunner::create(const NewJob& made, const RequestKey& request,
   }
   cancelled_ = false;
   job_ = job.id;
-  thread_ = std::thread([this, job, seconds] { go(job, seconds); });
+  // Before this is answered: who looks from then on is told of the job.
+  thread_ =
+      std::thread([this, job, seconds, camera = around_.live.lend(job.id)] { go(job, seconds); });
   return job;
 }
 
@@ -100,7 +102,7 @@ void CaptureRunner::go(const Job& job, double seconds) {
 }
 
 Status CaptureRunner::run(const Job& job, double seconds) {
-  const LiveCamera::Loan camera = around_.live.lend(job.id);
+  around_.live.wait_until_free();
   HP_RETURN_IF_ERROR(make_folder(around_.layout.run_work(job.id)));
   const Launch launch = plan(around_.camera, around_.layout, job.id, seconds);
   const std::chrono::seconds limit(static_cast<int>(std::ceil(seconds)) + kMargin_s +

@@ -138,11 +138,17 @@ std::int64_t LiveCamera::latest_ms() const {
 }
 
 LiveCamera::Loan LiveCamera::lend(std::int64_t job) {
-  std::unique_lock lock(mutex_);
-  lent_to_ = job;
+  {
+    const std::lock_guard lock(mutex_);
+    lent_to_ = job;
+  }
   wake();
+  return Loan(this);
+}
+
+void LiveCamera::wait_until_free() {
+  std::unique_lock lock(mutex_);
   news_.wait_for(lock, kLongestLend, [this] { return !process_ || stopping_; });
-  return Loan(*this);
 }
 
 void LiveCamera::take_back() {

@@ -45,20 +45,16 @@ class LiveCamera {
   /// When the latest picture came, Unix time in ms; 0: none did.
   [[nodiscard]] std::int64_t latest_ms() const;
 
-  /// While it lives, the camera is another's.
-  class Loan {
-   public:
-    explicit Loan(LiveCamera& camera) : camera_(&camera) {}
-    ~Loan() { camera_->take_back(); }
-    Loan(const Loan&) = delete;
-    Loan& operator=(const Loan&) = delete;
-
-   private:
-    LiveCamera* camera_;
+  struct GiveBack {
+    void operator()(LiveCamera* camera) const { camera->take_back(); }
   };
-  /// Gives the camera to a job, one at a time. Waits until it is free, but no longer than 5 s: who
-  /// finds it hanging then says so.
+  /// While it lives, the camera is another's.
+  using Loan = std::unique_ptr<LiveCamera, GiveBack>;
+  /// Gives the camera to a job, one at a time: from now on, nobody is shown anything.
   [[nodiscard]] Loan lend(std::int64_t job);
+  /// Waits until a camera that was lent is free, but no longer than 5 s: who finds it hanging then
+  /// says so.
+  void wait_until_free();
 
   /// Ends the process; whoever waits is told.
   void stop();
