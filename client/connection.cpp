@@ -47,6 +47,7 @@ Connection::Impl::Impl(ConnectionOptions connection_options)
       artifacts(v1::ArtifactService::NewStub(channel)),
       assets(v1::AssetService::NewStub(channel)),
       calibrations(v1::CalibrationService::NewStub(channel)),
+      cameras(v1::CameraService::NewStub(channel)),
       jobs(v1::JobService::NewStub(channel)),
       leases(v1::LeaseService::NewStub(channel)),
       people(v1::PeopleService::NewStub(channel)),

@@ -14,6 +14,7 @@
 #include "hydroprint/v1/artifact_service.grpc.pb.h"
 #include "hydroprint/v1/asset_service.grpc.pb.h"
 #include "hydroprint/v1/calibration_service.grpc.pb.h"
+#include "hydroprint/v1/camera_service.grpc.pb.h"
 #include "hydroprint/v1/job_service.grpc.pb.h"
 #include "hydroprint/v1/lease_service.grpc.pb.h"
 #include "hydroprint/v1/people_service.grpc.pb.h"
@@ -35,6 +36,7 @@ struct Connection::Impl {
   std::unique_ptr<v1::ArtifactService::Stub> artifacts;
   std::unique_ptr<v1::AssetService::Stub> assets;
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;
+  std::unique_ptr<v1::CameraService::Stub> cameras;
   std::unique_ptr<v1::JobService::Stub> jobs;
   std::unique_ptr<v1::LeaseService::Stub> leases;
   std::unique_ptr<v1::PeopleService::Stub> people;

@@ -25,6 +25,7 @@ void add_assets(CLI::App& app, Program& program);
 void add_queue(CLI::App& app, Program& program);
 void add_status(CLI::App& app, Program& program);
 void add_rig(CLI::App& app, Program& program);
+void add_camera(CLI::App& app, Program& program);
 void add_capture(CLI::App& app, Program& program);
 void add_calibrate(CLI::App& app, Program& program);
 void add_calibrate_camera(CLI::App& app, Program& program);

@@ -62,6 +62,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_assets(app, program);
   add_queue(app, program);
   add_rig(app, program);
+  add_camera(app, program);
   add_capture(app, program);
   add_calibrate(app, program);
   add_calibrate_camera(app, program);

@@ -79,6 +79,30 @@ TEST_F(LoopCli, OnePoseFromHungCrookedlyToWhereItsFilmLands) {
   EXPECT_TRUE(std::filesystem::exists(out() / "report.html"));
 }
 
+TEST_F(LoopCli, TheCameraShowsWhatItSees) {
+  const auto ask = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all{HYDROPRINT_BIN_DIR "/hydroprint", "--server", daemon->address(),
+                                 "camera"};
+    all.insert(all.end(), more.begin(), more.end());
+    return hydroprint::testing::run(all);
+  };
+  const auto picture = folder.path() / "depth.png";
+  hydroprint::testing::Ended looked;
+  ASSERT_TRUE(wait_until(  // it is starting
+      [&] {
+        return (looked = ask({"--out", picture.string(), "--json"})).status == 0;
+      }))
+      << looked.err;
+  const json told = json::parse(looked.out);
+  EXPECT_EQ(told.at("camera"), "Hydroprint virtual rig");
+  EXPECT_LT(told.at("nearest_mm").get<double>(), told.at("farthest_mm").get<double>());
+  std::ifstream file(picture, std::ios::binary);
+  const std::string bytes(std::istreambuf_iterator<char>(file), {});
+  EXPECT_EQ(bytes.substr(1, 3), "PNG");
+  EXPECT_NE(ask({}).out.find("mm, "), std::string::npos);
+  EXPECT_EQ(ask({"--out", (folder.path() / "no folder/x.png").string()}).status, 3);
+}
+
 TEST_F(LoopCli, SaysWhatItNeeds) {
   const auto ended = loop({"--control", (folder.path() / "nothing").string()});
   EXPECT_EQ(ended.status, 5);
