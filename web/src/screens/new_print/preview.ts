@@ -131,7 +131,9 @@ class Asker {
     if (answer.ok) return this.show(answer.value, key);
     if (answer.failure.status === 404 || answer.failure.status === 501) this.isOff = true;
     shown.value = undefined;
-    refusal.value = answer.failure.reason === 'PREVIEW_REFUSED' ? answer.failure.what : '';
+    const isOfTheInput =
+      answer.failure.status === 400 || answer.failure.reason === 'PREVIEW_REFUSED';
+    refusal.value = isOfTheInput ? answer.failure.what : '';
   }
 
   private show(preview: Preview, key: string): void {
@@ -167,11 +169,15 @@ const compute = (
 function partOf(simulate: SimulateSpecInput, inputs: Inputs): SimulateSpecInput {
   const calibration = calibrated.value?.calibration;
   const measured = calibration
-    ? { pose: calibration.pose, scale: calibration.scale, film: calibration.film }
+    ? { pose: calibration.pose, scale: calibration.scale, film: calibration.film || undefined }
     : { pose: simulate.pose, scale: simulate.scale, film: simulate.film };
+  const outline = calibration?.filmFile ? [calibration.filmFile] : [];
   return {
     mesh: inputs.mesh,
-    extraFiles: inputs.extraFiles.filter((file) => /\.(mtl|json)$/i.test(file.name)),
+    extraFiles: [
+      ...inputs.extraFiles.filter((file) => /\.(mtl|json)$/i.test(file.name)),
+      ...outline,
+    ],
     ...(inputs.profile ? { profile: inputs.profile } : {}),
     ...(measured as Pick<SimulateSpecInput, 'pose' | 'scale' | 'film'>),
     ...(simulate.depthMm ? { depthMm: simulate.depthMm } : {}),
