@@ -57,8 +57,10 @@ class Passing {
     const Reply late{4, "the store did not answer in time", "", ""};
     Coming<std::optional<std::string>> response(exchange_.shared_socket());
     Coming<Reply> coming(exchange_.shared_socket());
-    stream_->end_writing();
+    // In this order: within a process, gRPC drops a response that nobody waits for when the status
+    // follows it, and the call never ends for the store.
     stream_->read(response.receiver());
+    stream_->end_writing();
     const bool answered = co_await response.wait(kStorePatience);
     if (!answered) co_return late;
     stream_->finish(coming.receiver());

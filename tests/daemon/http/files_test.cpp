@@ -65,6 +65,21 @@ TEST_F(HttpFiles, AnUploadGoesOnWhereItBrokeOff) {
   EXPECT_EQ(get("/v1/assets/" + hash_of(bytes)).json().at("sizeBytes"), "300000");
 }
 
+TEST_F(HttpFiles, EachOfManyUploadsIsAnsweredAndNoneOutlivesTheDaemon) {
+#ifdef __SANITIZE_ADDRESS__
+  constexpr std::size_t kUploads = 100;
+#else
+  constexpr std::size_t kUploads = 600;
+#endif
+  for (std::size_t i = 0; i < kUploads; ++i) {
+    const std::string bytes = "file " + std::to_string(i);
+    const HttpAnswer done = patch(begin_upload(bytes), 0, bytes);
+    ASSERT_EQ(done.status, 200) << done.body;
+    ASSERT_EQ(done.json().value("sha256", ""), hash_of(bytes)) << i;
+  }
+  EXPECT_EQ(daemon.terminate(), 0);
+}
+
 TEST_F(HttpFiles, OtherBytesThanAnnouncedAreNoAsset) {
   const std::string bytes = noise(1000);
   const std::string path = begin_upload(bytes);
