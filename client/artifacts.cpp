@@ -7,9 +7,9 @@
 #include <cstring>
 #include <utility>
 
+#include "client/connection/rpc.h"
 #include "client/convert.h"
-#include "client/files.h"
-#include "client/rpc.h"
+#include "client/files/files.h"
 
 namespace hydroprint::client {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "client/connection.h"
-#include "client/files.h"
+#include "client/connection/connection.h"
+#include "client/files/files.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::client {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "client/connection.h"
-#include "client/files.h"
+#include "client/connection/connection.h"
+#include "client/files/files.h"
 #include "client/job.h"
 #include "sim/base/result.h"
 

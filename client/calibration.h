@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "client/connection.h"
+#include "client/connection/connection.h"
 #include "client/job.h"
 #include "client/time.h"
 #include "sim/base/result.h"

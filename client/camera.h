@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "client/connection.h"
+#include "client/connection/connection.h"
 #include "client/time.h"
 #include "sim/base/result.h"
 

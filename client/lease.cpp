@@ -2,8 +2,8 @@
 
 #include <utility>
 
+#include "client/connection/rpc.h"
 #include "client/convert.h"
-#include "client/rpc.h"
 #include "client/uuid.h"
 
 namespace hydroprint::client {

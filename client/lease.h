@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "client/connection.h"
+#include "client/connection/connection.h"
 #include "client/time.h"
 #include "sim/base/result.h"
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "client/connection/rpc.h"
 #include "client/convert.h"
-#include "client/rpc.h"
 
 namespace hydroprint::client {
 namespace {

@@ -1,7 +1,7 @@
 #include "client/preview.h"
 
+#include "client/connection/rpc.h"
 #include "client/convert.h"
-#include "client/rpc.h"
 
 namespace hydroprint::client {
 

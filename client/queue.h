@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "client/connection.h"
+#include "client/connection/connection.h"
 #include "client/job.h"
 #include "sim/base/result.h"
 

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "client/connection/rpc.h"
 #include "client/convert.h"
-#include "client/rpc.h"
 #include "client/uuid.h"
 
 namespace hydroprint::client {

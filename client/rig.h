@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "client/connection.h"
+#include "client/connection/connection.h"
 #include "client/lease.h"
 #include "client/time.h"
 #include "sim/base/result.h"

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <sstream>
 
-#include "daemon/exposure.h"
-#include "daemon/file_fence.h"
-#include "daemon/log.h"
-#include "daemon/observed.h"
-#include "daemon/rig_setup.h"
-#include "daemon/schema.h"
+#include "daemon/config/bind_policy.h"
+#include "daemon/config/rig_config_check.h"
+#include "daemon/metrics/health.h"
+#include "daemon/platform/log.h"
+#include "daemon/store/database/schema.h"
+#include "daemon/workers/landlock.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -100,16 +100,16 @@ Status Daemon::open_store(const Config& config) {
 }
 
 Status Daemon::open_people(const Config& config) {
-  people::AccountsOptions options;
+  auth::AccountsOptions options;
   options.password_cost = {config.people_password_memory_mib << 10, config.people_password_passes};
   options.session_idle_ms = config.people_session_idle_h * kHourMs;
   options.session_most_ms = config.people_session_days * 24 * kHourMs;
-  HP_ASSIGN_OR_RETURN(accounts_, people::Accounts::open(*database_, options, system_clock_ms));
-  audit_ = std::make_unique<people::AuditLog>(*database_, system_clock_ms);
+  HP_ASSIGN_OR_RETURN(accounts_, auth::Accounts::open(*database_, options, system_clock_ms));
+  audit_ = std::make_unique<auth::AuditLog>(*database_, system_clock_ms);
   // Whoever is let in without a user must not be let in from elsewhere by a mistake.
   const bool is_open = config.people_accounts == "loopback-open" && !is_exposed(config);
-  access_ = std::make_unique<Access>(*accounts_, is_open);
-  outside_ = std::make_unique<people::OutsideChanges>(*database_, *accounts_);
+  access_ = std::make_unique<Authenticator>(*accounts_, is_open);
+  outside_ = std::make_unique<auth::ExternalChanges>(*database_, *accounts_);
   if (!is_open && !accounts_->any()) {
     log(LogLevel::kWarning, "no_users",
         {{"message", "accounts are required and there is no user; start with --first-admin NAME"}});
@@ -120,8 +120,8 @@ Status Daemon::open_people(const Config& config) {
 Status Daemon::open_certificate(const Config& config) {
   HP_RETURN_IF_ERROR(check_exposure(config));
   if (config.server_tls_certificate.empty()) return {};
-  HP_ASSIGN_OR_RETURN(certificate_,
-                      CertificateKeeper::open(config.server_tls_certificate, config.server_tls_key,
+  HP_ASSIGN_OR_RETURN(
+      certificate_, CertificateReloader::open(config.server_tls_certificate, config.server_tls_key,
                                               system_clock_ms));
   if (is_within_fence(config.server_tls_key, config.workers_program)) {
     log(LogLevel::kWarning, "key_within_fence",
@@ -152,17 +152,17 @@ std::string Daemon::sign_in_link() const {
 }
 
 Status Daemon::make_first_admin(const std::string& name) {
-  HP_RETURN_IF_ERROR(people::check_user_name("name", name));
+  HP_RETURN_IF_ERROR(auth::check_user_name("name", name));
   const auto found = accounts_->user(name);
   if (!found) {
-    HP_RETURN_IF_ERROR(accounts_->create({name, people::Role::kAdmin, false, "", 0}, ""));
-  } else if (found->role != people::Role::kAdmin || found->disabled) {
+    HP_RETURN_IF_ERROR(accounts_->create({name, auth::Role::kAdmin, false, "", 0}, ""));
+  } else if (found->role != auth::Role::kAdmin || found->disabled) {
     return fail(Code::kFailedPrecondition,
                 "--first-admin: " + name + " is there and is no admin; name another user",
                 "STATE_FORBIDS");
   }
   HP_ASSIGN_OR_RETURN(const auto link, accounts_->make_link(name));
-  people::AuditEntry entry;
+  auth::AuditEntry entry;
   entry.via = "command line";
   entry.what = "hydroprintd --first-admin";
   entry.object = "users/" + name;
@@ -174,25 +174,25 @@ Status Daemon::make_first_admin(const std::string& name) {
 
 // The drive need not be there: it is looked for from here on.
 Status Daemon::open_rig(const Config& config) {
-  HP_ASSIGN_OR_RETURN(auto setup, read_rig_setup(config));
+  HP_ASSIGN_OR_RETURN(auto setup, read_controller_config(config));
   if (setup) {
     HP_ASSIGN_OR_RETURN(rig_, rig::Controller::make(setup->config, std::move(setup->profile),
                                                     std::move(setup->endpoint)));
   }
-  leases_ = std::make_unique<LeaseKeeper>(*database_, system_clock_ms);
+  leases_ = std::make_unique<LeaseManager>(*database_, system_clock_ms);
   HP_RETURN_IF_ERROR(leases_->load());
-  desk_ = std::make_unique<RigDesk>(rig_.get(), *leases_);
-  places_ = std::make_unique<PlaceKeeper>(*database_, rig_.get());
+  gateway_ = std::make_unique<RigGateway>(rig_.get(), *leases_);
+  places_ = std::make_unique<RigReference>(*database_, rig_.get());
   HP_RETURN_IF_ERROR(places_->load());
-  dips_ = std::make_unique<DipRunner>(
-      DipSurroundings{*desk_, *places_, *jobs_, layout_, system_clock_ms});
+  dips_ = std::make_unique<DipExecutor>(
+      DipSurroundings{*gateway_, *places_, *jobs_, *calibrations_, layout_, system_clock_ms});
   return {};
 }
 
 // Nor need the printer.
 Status Daemon::open_printer(const Config& config) {
   HP_ASSIGN_OR_RETURN(auto setup, read_printer_setup(config));
-  prints_ = std::make_unique<PrintRunner>(std::move(setup), *jobs_, layout_);
+  prints_ = std::make_unique<PrintExecutor>(std::move(setup), *jobs_, layout_);
   return {};
 }
 
@@ -200,22 +200,23 @@ Status Daemon::open_printer(const Config& config) {
 Status Daemon::open_camera(const Config& config) {
   HP_ASSIGN_OR_RETURN(camera_, read_camera_setup(config));
   HP_ASSIGN_OR_RETURN(live_, LiveCamera::make(camera_, layout_, system_clock_ms));
-  HP_ASSIGN_OR_RETURN(captures_, CaptureRunner::make({camera_, *live_, *jobs_, *calibrations_,
-                                                      *desk_, *places_, layout_, system_clock_ms}));
+  HP_ASSIGN_OR_RETURN(captures_,
+                      CaptureExecutor::make({camera_, *live_, *jobs_, *calibrations_, *gateway_,
+                                             *places_, layout_, system_clock_ms}));
   return {};
 }
 
 Status Daemon::start_serving(const Config& config) {
   HP_ASSIGN_OR_RETURN(pool_,
                       WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
-  HP_ASSIGN_OR_RETURN(previews_, PreviewDesk::make(preview_options(pool_options(config)), layout_));
-  const Backend backend{*database_,       *accounts_, *audit_,
-                        *access_,         *jobs_,     *assets_,
-                        *pool_,           *desk_,     *dips_,
-                        *prints_,         *captures_, *calibrations_,
-                        *previews_,       *live_,     *places_,
-                        camera_,          layout_,    config.store_min_free_mib * kMiB,
-                        quota_of(config), stopping_};
+  HP_ASSIGN_OR_RETURN(previews_, PreviewPool::make(preview_options(pool_options(config)), layout_));
+  const ServiceContext backend{*database_,       *accounts_,  *audit_,
+                               *access_,         *jobs_,      *assets_,
+                               *pool_,           *gateway_,   *dips_,
+                               *captures_,       executors(), *calibrations_,
+                               *previews_,       *live_,      *places_,
+                               camera_,          layout_,     config.store_min_free_mib * kMiB,
+                               quota_of(config), stopping_};
   HP_ASSIGN_OR_RETURN(const Endpoint endpoint, parse_endpoint(config.server_grpc));
   HP_ASSIGN_OR_RETURN(server_,
                       Server::start(endpoint, config.server_reflection, backend, identity()));
@@ -225,14 +226,14 @@ Status Daemon::start_serving(const Config& config) {
         {{"message", "this kernel has no Landlock: workers see all files of this user"}});
   }
   pool_->start();
-  guard_ = std::make_unique<RigGuard>(*desk_, *places_,
-                                      [this](bool works) { server_->set_rig_serving(works); });
+  monitor_ = std::make_unique<RigMonitor>(*gateway_, *places_,
+                                          [this](bool works) { server_->set_rig_serving(works); });
   return {};
 }
 
-Status Daemon::start_http(const Config& config, const Backend& backend) {
+Status Daemon::start_http(const Config& config, const ServiceContext& backend) {
   HP_ASSIGN_OR_RETURN(http_endpoint_, parse_endpoint(config.server_http));
-  meter_ = std::make_unique<JobMeter>(*jobs_);
+  meter_ = std::make_unique<JobMetrics>(*jobs_);
   http::Options options{http_endpoint_.host,   http_endpoint_.port, {},
                         config.server_web_dir, http::Limits{},      identity()};
   std::istringstream names(config.server_host_names);
@@ -251,6 +252,8 @@ Status Daemon::start_http(const Config& config, const Backend& backend) {
 
 Daemon::~Daemon() { stop(); }
 
+Executors Daemon::executors() const { return {*dips_, *prints_, *captures_, *pool_}; }
+
 std::optional<std::uint64_t> Daemon::control_rounds() const {
   if (!rig_) return {};
   return rig_->snapshot().jitter.ticks;
@@ -267,15 +270,11 @@ void Daemon::clean_up() {
 void Daemon::stop() {
   if (stopping_.exchange(true) || !server_) return;
   if (http_) http_->stop_accepting();
-  jobs_->bell().ring();
-  dips_->stop();
-  prints_->stop();
-  captures_->stop();
+  jobs_->notifier().ring();
+  for (JobExecutor* const executor : executors()) executor->stop();
   live_->stop();
   previews_->stop();
-  if (rig_) rig_->stop();
-  pool_->stop();
-  guard_.reset();
+  monitor_.reset();
   server_->stop(kPatience);
   if (http_) http_->stop();
   meter_.reset();

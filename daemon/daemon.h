@@ -5,29 +5,29 @@
 #include <memory>
 #include <optional>
 
-#include "daemon/access.h"
-#include "daemon/asset_store.h"
-#include "daemon/calibration_store.h"
-#include "daemon/capture_runner.h"
-#include "daemon/certificate_keeper.h"
-#include "daemon/config.h"
-#include "daemon/database.h"
-#include "daemon/dip_runner.h"
+#include "daemon/api/grpc_server.h"
+#include "daemon/auth/audit_log.h"
+#include "daemon/auth/authenticator.h"
+#include "daemon/auth/external_changes.h"
+#include "daemon/camera/capture_executor.h"
+#include "daemon/camera/live_camera.h"
+#include "daemon/config/config.h"
+#include "daemon/dip/executor.h"
 #include "daemon/http/server.h"
-#include "daemon/job_meter.h"
-#include "daemon/job_store.h"
-#include "daemon/lease.h"
-#include "daemon/live_camera.h"
-#include "daemon/people/audit.h"
-#include "daemon/people/outside.h"
-#include "daemon/pool.h"
-#include "daemon/preview_desk.h"
-#include "daemon/print_runner.h"
-#include "daemon/rig_desk.h"
-#include "daemon/rig_guard.h"
-#include "daemon/rig_place.h"
-#include "daemon/server.h"
-#include "daemon/state_lock.h"
+#include "daemon/metrics/job_metrics.h"
+#include "daemon/printing/executor.h"
+#include "daemon/rig/lease_manager.h"
+#include "daemon/rig/rig_gateway.h"
+#include "daemon/rig/rig_monitor.h"
+#include "daemon/rig/rig_reference.h"
+#include "daemon/store/asset_store.h"
+#include "daemon/store/calibration_store.h"
+#include "daemon/store/database/database.h"
+#include "daemon/store/job_store.h"
+#include "daemon/store/state_lock.h"
+#include "daemon/tls/certificate_reloader.h"
+#include "daemon/workers/preview_pool.h"
+#include "daemon/workers/worker_pool.h"
 
 namespace hydroprint::daemon {
 
@@ -75,36 +75,37 @@ class Daemon {
   [[nodiscard]] Status open_printer(const Config& config);
   [[nodiscard]] Status open_camera(const Config& config);
   [[nodiscard]] Status start_serving(const Config& config);
-  [[nodiscard]] Status start_http(const Config& config, const Backend& backend);
+  [[nodiscard]] Status start_http(const Config& config, const ServiceContext& backend);
+  [[nodiscard]] Executors executors() const;
 
   Layout layout_;
   UniqueFd lock_;
   std::unique_ptr<Database> database_;
-  std::unique_ptr<people::Accounts> accounts_;
-  std::unique_ptr<people::AuditLog> audit_;
-  std::unique_ptr<Access> access_;
-  std::unique_ptr<people::OutsideChanges> outside_;
+  std::unique_ptr<auth::Accounts> accounts_;
+  std::unique_ptr<auth::AuditLog> audit_;
+  std::unique_ptr<Authenticator> access_;
+  std::unique_ptr<auth::ExternalChanges> outside_;
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<AssetStore> assets_;
   std::unique_ptr<CalibrationStore> calibrations_;
   std::unique_ptr<rig::Controller> rig_;  // null: none is configured
-  std::unique_ptr<LeaseKeeper> leases_;
-  std::unique_ptr<RigDesk> desk_;
-  std::unique_ptr<PlaceKeeper> places_;
-  std::unique_ptr<DipRunner> dips_;
-  std::unique_ptr<PrintRunner> prints_;
-  CameraSetup camera_;
+  std::unique_ptr<LeaseManager> leases_;
+  std::unique_ptr<RigGateway> gateway_;
+  std::unique_ptr<RigReference> places_;
+  std::unique_ptr<DipExecutor> dips_;
+  std::unique_ptr<PrintExecutor> prints_;
+  CameraConfig camera_;
   std::unique_ptr<LiveCamera> live_;
-  std::unique_ptr<CaptureRunner> captures_;
+  std::unique_ptr<CaptureExecutor> captures_;
   std::unique_ptr<WorkerPool> pool_;
-  std::unique_ptr<PreviewDesk> previews_;
-  std::unique_ptr<CertificateKeeper> certificate_;  // null: TLS is not spoken
+  std::unique_ptr<PreviewPool> previews_;
+  std::unique_ptr<CertificateReloader> certificate_;  // null: TLS is not spoken
   std::string link_token_;
   std::unique_ptr<Server> server_;
-  std::unique_ptr<JobMeter> meter_;
+  std::unique_ptr<JobMetrics> meter_;
   std::unique_ptr<http::Server> http_;
   Endpoint http_endpoint_;
-  std::unique_ptr<RigGuard> guard_;
+  std::unique_ptr<RigMonitor> monitor_;
   std::atomic<bool> stopping_{false};
 };
 

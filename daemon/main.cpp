@@ -11,12 +11,12 @@
 #include <iostream>
 
 #include "daemon/admin/admin.h"
+#include "daemon/config/bind_policy.h"
+#include "daemon/config/executable_path.h"
+#include "daemon/config/rig_config_check.h"
 #include "daemon/daemon.h"
-#include "daemon/exposure.h"
-#include "daemon/log.h"
-#include "daemon/own_program.h"
-#include "daemon/rig_setup.h"
-#include "daemon/service_manager.h"
+#include "daemon/platform/log.h"
+#include "daemon/platform/systemd_notify.h"
 #include "sim/base/one_line.h"
 
 namespace {
@@ -90,7 +90,7 @@ Result<Config> configure(const Options& options, const char* argv0) {
   if (!config.server_tls_certificate.empty()) {
     HP_RETURN_IF_ERROR(tls::Identity::read(config.server_tls_certificate, config.server_tls_key));
   }
-  HP_RETURN_IF_ERROR(read_rig_setup(config));
+  HP_RETURN_IF_ERROR(read_controller_config(config));
   return config;
 }
 

@@ -4,13 +4,15 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <sstream>
 #include <string>
 
-#include "client/cli/commands.h"
-#include "client/cli/console.h"
-#include "client/cli/held_lease.h"
-#include "client/cli/json.h"
-#include "client/cli/program.h"
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/program/program.h"
+#include "client/cli/rig_session/held_lease.h"
+#include "client/cli/terminal/console.h"
+#include "client/connection/connection.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -85,7 +87,16 @@ void add_commands(CLI::App& app, Program& program) {
 
 void report(const Program& program, const Error& error) {
   if (program.json()) print({{"error", to_json(error)}});
-  std::cerr << "hydroprint: " << printable(error.message) << std::endl;
+  const auto wrong_fields = error.metadata.find(client::kWrongFields);
+  if (wrong_fields == error.metadata.end()) {
+    std::cerr << "hydroprint: " << printable(error.message) << std::endl;
+    return;
+  }
+  std::cerr << "hydroprint: the request has several wrong fields:" << std::endl;
+  std::istringstream lines(wrong_fields->second);
+  for (std::string line; std::getline(lines, line);) {
+    std::cerr << "  " << printable(line) << std::endl;
+  }
 }
 
 int run(int argc, char** argv) {

@@ -9,7 +9,7 @@
 #include <random>
 #include <sstream>
 
-#include "sim/registration/calibration_board.h"
+#include "sim/registration/camera/calibration_board.h"
 #include "sim/sample/sample.h"
 
 namespace hydroprint::loop {

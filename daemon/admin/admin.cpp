@@ -7,8 +7,8 @@
 #include <iostream>
 
 #include "daemon/admin/backup.h"
-#include "daemon/admin/meter.h"
-#include "daemon/admin/people.h"
+#include "daemon/admin/offline_accounts.h"
+#include "daemon/admin/progress_meter.h"
 #include "daemon/admin/restore.h"
 #include "sim/base/one_line.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/files.h"
+#include "daemon/platform/durable_file.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::admin {

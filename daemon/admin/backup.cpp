@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "daemon/admin/archive.h"
-#include "daemon/admin/meter.h"
-#include "daemon/clock.h"
+#include "daemon/admin/progress_meter.h"
+#include "daemon/platform/clock.h"
 
 namespace hydroprint::admin {
 namespace {
@@ -61,7 +61,7 @@ class Backup {
     std::int64_t total = 0;
     for (const NamedFile& file : files) total += file.size;
     HP_RETURN_IF_ERROR(daemon::check_free_space(snapshot_.path.parent_path(), total));
-    Meter meter("backup", total);
+    ProgressMeter meter("backup", total);
     for (const NamedFile& file : files) {
       HP_ASSIGN_OR_RETURN(const bool is_in, take(file, meter));
       if (!is_in) {
@@ -77,7 +77,7 @@ class Backup {
 
  private:
   // Whether it could be read, and holds what it should.
-  Result<bool> take(const NamedFile& file, Meter& meter) {
+  Result<bool> take(const NamedFile& file, ProgressMeter& meter) {
     const auto in = daemon::open_file(state_.layout.root / file.name, O_RDONLY);
     if (!in) return false;
     const auto hash =

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/admin/state.h"
+#include "daemon/admin/offline_state.h"
 
 namespace hydroprint::admin {
 

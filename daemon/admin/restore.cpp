@@ -5,14 +5,14 @@
 #include <unistd.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "daemon/admin/archive.h"
-#include "daemon/admin/meter.h"
-#include "daemon/names.h"
-#include "daemon/schema.h"
-#include "daemon/state_lock.h"
+#include "daemon/admin/progress_meter.h"
+#include "daemon/platform/resource_names.h"
+#include "daemon/store/database/schema.h"
+#include "daemon/store/state_lock.h"
+#include "sim/base/checked_json.h"
 #include "sim/base/one_line.h"
 #include "sim/base/sha256.h"
 
@@ -69,7 +69,7 @@ class Unpacked {
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(file_, error));
     HP_ASSIGN_OR_RETURN(const auto in, ArchiveReader::open(file_));
     HP_RETURN_IF_ERROR(daemon::check_free_space(folder_, error ? 0 : size));
-    Meter meter("restore", error ? 0 : size);
+    ProgressMeter meter("restore", error ? 0 : size);
     for (;;) {
       HP_ASSIGN_OR_RETURN(const auto entry, in->next());
       if (!entry) return {};
@@ -81,7 +81,7 @@ class Unpacked {
     }
   }
 
-  Status unpack_one(ArchiveReader& in, const ArchiveEntry& entry, Meter& meter) {
+  Status unpack_one(ArchiveReader& in, const ArchiveEntry& entry, ProgressMeter& meter) {
     const auto path = folder_ / entry.name;
     HP_RETURN_IF_ERROR(daemon::make_folder(path.parent_path()));
     const bool is_database = entry.name == kDatabaseName;
@@ -112,7 +112,7 @@ class Unpacked {
     HP_ASSIGN_OR_RETURN(const auto in, daemon::open_file(path, O_RDONLY));
     const ssize_t count = ::read(in.get(), text.data(), text.size());
     text.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
-    const auto manifest = nlohmann::json::parse(text, nullptr, false);
+    const auto manifest = parse_json(text).value_or(nlohmann::json());
     if (!manifest.is_object() || manifest.value("format", nlohmann::json()) != kBackupFormat) {
       return refused("is a backup that another version made; use that version's hydroprintd");
     }

@@ -5,7 +5,7 @@
 
 #include "daemon/dip/text.h"
 #include "hardware/rig/limits.h"
-#include "hardware/rig/travel.h"
+#include "hardware/rig/motion_profile.h"
 
 namespace hydroprint::dip {
 namespace {

@@ -4,10 +4,10 @@
 #include <optional>
 #include <string>
 
-#include "daemon/dip/procedure.h"
+#include "daemon/dip/state_machine.h"
 #include "hardware/drive/profile.h"
 #include "hardware/rig/config.h"
-#include "hardware/rig/course.h"
+#include "hardware/rig/motion_supervisor.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::dip {

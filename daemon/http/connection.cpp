@@ -1,5 +1,8 @@
 // One connection, from its first request to its end.
-#include "daemon/http/site.h"
+#include "daemon/http/connection.h"
+
+#include "daemon/http/error_response.h"
+#include "daemon/http/router.h"
 
 namespace hydroprint::http {
 namespace {
@@ -49,20 +52,20 @@ Task<bool> say_last(Socket& socket, Response response, milliseconds timeout) {
 }
 
 // True if another request may follow.
-Task<bool> serve_one(Site& site, const std::shared_ptr<Socket>& socket, std::string& buffered,
-                     bool is_first) {
-  Exchange exchange(socket, site.options.limits, buffered);
+Task<bool> serve_one(ServerContext& server, const std::shared_ptr<Socket>& socket,
+                     std::string& buffered, bool is_first) {
+  Exchange exchange(socket, server.options.limits, buffered);
   const Exchange::Begun begun = co_await exchange.begin_request(is_first);
   if (begun == Exchange::Begun::kGone) co_return false;
   if (begun != Exchange::Begun::kYes) {
     // Nobody knows where the next one begins.
     Response response = refused_head(begun);
-    site.counters.count_request("unreadable", "", response.status);
-    co_await say_last(*socket, std::move(response), site.options.limits.write_time);
+    server.metrics.count_request("unreadable", "", response.status);
+    co_await say_last(*socket, std::move(response), server.options.limits.write_time);
     co_return false;
   }
-  const std::string route = co_await answer(site, exchange);
-  site.counters.count_request(route, exchange.head().method, exchange.status());
+  const std::string route = co_await answer(server, exchange);
+  server.metrics.count_request(route, exchange.head().method, exchange.status());
   co_return co_await exchange.end_request();
 }
 
@@ -81,12 +84,12 @@ Task<bool> open_connection(Socket& socket, milliseconds timeout) {
   co_return opened == Socket::Opened::kYes;
 }
 
-Task<void> serve_all(Site& site, std::shared_ptr<Socket> socket) {
-  const bool is_open = co_await open_connection(*socket, site.options.limits.header_time);
+Task<void> serve_all(ServerContext& server, std::shared_ptr<Socket> socket) {
+  const bool is_open = co_await open_connection(*socket, server.options.limits.header_time);
   if (!is_open) co_return;
   std::string buffered;
   for (bool is_first = true;; is_first = false) {
-    const bool goes_on = co_await serve_one(site, socket, buffered, is_first);
+    const bool goes_on = co_await serve_one(server, socket, buffered, is_first);
     if (!goes_on) break;
   }
   if (!socket->is_closed()) co_await say_goodbye(*socket);
@@ -106,23 +109,23 @@ Task<void> say_full(Socket& socket) {
 
 }  // namespace
 
-Detached serve(Site& site, std::shared_ptr<Socket> socket) {
+Detached serve(ServerContext& server, std::shared_ptr<Socket> socket) {
   try {
-    co_await serve_all(site, socket);
+    co_await serve_all(server, socket);
   } catch (const std::exception&) {  // no memory
     socket->close();
   }
-  site.connections.remove(socket);
+  server.connections.remove(socket);
 }
 
-Detached turn_away(Site& site, std::shared_ptr<Socket> socket) {
-  site.counters.count_refused_connection();
+Detached turn_away(ServerContext& server, std::shared_ptr<Socket> socket) {
+  server.metrics.count_refused_connection();
   try {
     co_await say_full(*socket);
   } catch (const std::exception&) {  // no memory
   }
   socket->close();
-  site.connections.remove(socket);
+  server.connections.remove(socket);
 }
 
 }  // namespace hydroprint::http

@@ -1,7 +1,11 @@
 // The bytes of an artifact, as fast as they are read.
-#include "daemon/http/byte_range.h"
-#include "daemon/http/site.h"
-#include "daemon/http/waiting.h"
+#include "daemon/http/download.h"
+
+#include "daemon/http/caller_metadata.h"
+#include "daemon/http/error_response.h"
+#include "daemon/http/protocol/async_value.h"
+#include "daemon/http/protocol/byte_range.h"
+#include "daemon/http/rpc_call.h"
 #include "hydroprint/v1/artifact_service.pb.h"
 
 namespace hydroprint::http {
@@ -27,7 +31,7 @@ Wanted wanted(const Head& head, const v1::Artifact& artifact, bool is_inline) {
   const std::string tag = '"' + artifact.sha256() + '"';
   const std::string file = artifact.name().substr(artifact.name().rfind('/') + 1);
   const bool is_shown = is_inline && may_be_shown(artifact.media_type());
-  Fields& fields = out.response.fields;
+  HeaderFields& fields = out.response.fields;
   fields.set("ETag", tag);
   fields.set("Cache-Control", "private, no-cache");
   fields.set("Accept-Ranges", "bytes");
@@ -61,14 +65,14 @@ Wanted wanted(const Head& head, const v1::Artifact& artifact, bool is_inline) {
 /// One download. The next piece is asked for when the one before has got away.
 class Download {
  public:
-  Download(Site& site, Exchange& exchange, const Rpc::Metadata& metadata)
-      : exchange_(exchange), stream_(site.rpc.stream(kService + "DownloadArtifact", metadata)) {}
+  Download(ServerContext& server, Exchange& exchange, const InProcessChannel::Metadata& metadata)
+      : exchange_(exchange), stream_(server.rpc.stream(kService + "DownloadArtifact", metadata)) {}
 
   Task<void> run(const std::string& name, Wanted wanted) {
     v1::DownloadArtifactRequest request;
     request.set_name(name);
     request.set_offset(wanted.range.begin);
-    Coming<bool> written(exchange_.shared_socket());
+    AsyncValue<bool> written(exchange_.shared_socket());
     stream_->write(request.SerializeAsString(), true, written.receiver());
     co_await written.wait(kDiskPatience);
 
@@ -93,7 +97,7 @@ class Download {
  private:
   // Nothing if the call ended.
   Task<std::optional<std::string>> next() {
-    Coming<std::optional<std::string>> coming(exchange_.shared_socket());
+    AsyncValue<std::optional<std::string>> coming(exchange_.shared_socket());
     stream_->read(coming.receiver());
     const bool came = co_await coming.wait(kDiskPatience);
     v1::DownloadArtifactResponse message;
@@ -104,7 +108,7 @@ class Download {
   }
 
   Task<void> refuse_all() {
-    Coming<Reply> coming(exchange_.shared_socket());
+    AsyncValue<Reply> coming(exchange_.shared_socket());
     stream_->cancel();
     stream_->finish(coming.receiver());
     const bool came = co_await coming.wait(kDiskPatience);
@@ -126,7 +130,7 @@ Response only_get() {
 
 }  // namespace
 
-Task<std::string> answer_download(Site& site, Exchange& exchange, ArtifactTarget target) {
+Task<std::string> answer_download(ServerContext& server, Exchange& exchange, ArtifactPath target) {
   const std::string route = "download";
   const Head& head = exchange.head();
   if (head.method != "GET" && head.method != "HEAD") {
@@ -146,7 +150,7 @@ Task<std::string> answer_download(Site& site, Exchange& exchange, ArtifactTarget
   v1::GetArtifactRequest request;
   request.set_name(target.name);
   rest::Call get{kService + "GetArtifact", false, request.SerializeAsString()};
-  const Reply reply = co_await call(site, exchange, std::move(get), *metadata);
+  const Reply reply = co_await call(server, exchange, std::move(get), *metadata);
   const Result<v1::Artifact> artifact = artifact_of(reply);
   if (!reply.ok() || !artifact) {
     Response refused = refusal(reply);
@@ -162,7 +166,7 @@ Task<std::string> answer_download(Site& site, Exchange& exchange, ArtifactTarget
   } else if (!has_bytes) {
     co_await exchange.send(std::move(asked.response));
   } else {
-    Download download(site, exchange, *metadata);
+    Download download(server, exchange, *metadata);
     co_await download.run(target.name, std::move(asked));
   }
   co_return route;

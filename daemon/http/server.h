@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/http/limits.h"
+#include "daemon/http/protocol/limits.h"
 #include "daemon/tls/identity.h"
 #include "sim/base/result.h"
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "daemon/http/byte_range.h"
+#include "daemon/http/protocol/byte_range.h"
 #include "sim/base/sha256.h"
 
 namespace hydroprint::http {

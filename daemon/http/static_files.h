@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/http/request_parser.h"
-#include "daemon/http/response.h"
+#include "daemon/http/protocol/request_parser.h"
+#include "daemon/http/protocol/response.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::http {

@@ -1,7 +1,11 @@
 // Bytes of an upload, on their way from the connection to the store.
-#include "daemon/http/site.h"
-#include "daemon/http/upload_head.h"
-#include "daemon/http/waiting.h"
+#include "daemon/http/upload.h"
+
+#include "daemon/http/caller_metadata.h"
+#include "daemon/http/error_response.h"
+#include "daemon/http/protocol/async_value.h"
+#include "daemon/http/protocol/upload_head.h"
+#include "daemon/http/rpc_call.h"
 #include "hydroprint/v1/asset_service.pb.h"
 
 namespace hydroprint::http {
@@ -21,10 +25,10 @@ Response state_of(const v1::Upload& upload) {
 /// Passes a body on. The next piece is read when the store has taken the one before.
 class Passing {
  public:
-  Passing(Site& site, Exchange& exchange, std::string name, std::int64_t offset,
-          const Rpc::Metadata& metadata)
+  Passing(ServerContext& server, Exchange& exchange, std::string name, std::int64_t offset,
+          const InProcessChannel::Metadata& metadata)
       : exchange_(exchange),
-        stream_(site.rpc.stream(kChunks, metadata)),
+        stream_(server.rpc.stream(kChunks, metadata)),
         name_(std::move(name)),
         offset_(offset) {}
 
@@ -47,7 +51,7 @@ class Passing {
     chunk.set_offset(offset_);
     offset_ += static_cast<std::int64_t>(bytes.size());
     chunk.set_data(std::move(bytes));
-    Coming<bool> written(exchange_.shared_socket());
+    AsyncValue<bool> written(exchange_.shared_socket());
     stream_->write(chunk.SerializeAsString(), false, written.receiver());
     const bool came = co_await written.wait(kStorePatience);
     co_return came&& written.take();
@@ -55,8 +59,8 @@ class Passing {
 
   Task<Reply> finish() {
     const Reply late{4, "the store did not answer in time", "", ""};
-    Coming<std::optional<std::string>> response(exchange_.shared_socket());
-    Coming<Reply> coming(exchange_.shared_socket());
+    AsyncValue<std::optional<std::string>> response(exchange_.shared_socket());
+    AsyncValue<Reply> coming(exchange_.shared_socket());
     // In this order: within a process, gRPC drops a response that nobody waits for when the status
     // follows it, and the call never ends for the store.
     stream_->read(response.receiver());
@@ -77,13 +81,14 @@ class Passing {
   std::int64_t offset_;
 };
 
-Task<void> answer_bytes(Site& site, Exchange& exchange, std::string name, Rpc::Metadata metadata) {
+Task<void> answer_bytes(ServerContext& server, Exchange& exchange, std::string name,
+                        InProcessChannel::Metadata metadata) {
   const Result<std::int64_t> offset = upload_offset(exchange.head().fields);
   if (!offset) {
     co_await refuse(exchange, offset.error());
     co_return;
   }
-  Passing passing(site, exchange, std::move(name), *offset, metadata);
+  Passing passing(server, exchange, std::move(name), *offset, metadata);
   const Result<Reply> reply = co_await passing.run();
   if (!reply) {
     const bool is_late = reply.error().reason == "REQUEST_TIMED_OUT";
@@ -98,19 +103,20 @@ Task<void> answer_bytes(Site& site, Exchange& exchange, std::string name, Rpc::M
   } else if (result.has_upload()) {
     co_await exchange.send(state_of(result.upload()));
   } else {
-    Result<std::string> json = site.transcoder.write("/hydroprint.v1.AssetService/GetAsset",
-                                                     result.asset().SerializeAsString());
+    Result<std::string> json = server.transcoder.write("/hydroprint.v1.AssetService/GetAsset",
+                                                       result.asset().SerializeAsString());
     Response response = json ? json_response(200, std::move(*json)) : refusal(json.error());
     response.fields.set("Upload-Offset", std::to_string(result.asset().size_bytes()));
     co_await exchange.send(std::move(response));
   }
 }
 
-Task<void> answer_state(Site& site, Exchange& exchange, std::string name, Rpc::Metadata metadata) {
+Task<void> answer_state(ServerContext& server, Exchange& exchange, std::string name,
+                        InProcessChannel::Metadata metadata) {
   v1::GetUploadRequest request;
   request.set_name(name);
   rest::Call get{"/hydroprint.v1.AssetService/GetUpload", false, request.SerializeAsString()};
-  const Reply reply = co_await call(site, exchange, std::move(get), std::move(metadata));
+  const Reply reply = co_await call(server, exchange, std::move(get), std::move(metadata));
   v1::Upload upload;
   if (!reply.ok() || !upload.ParseFromString(reply.response)) {
     co_await exchange.send(refusal(reply));
@@ -121,20 +127,20 @@ Task<void> answer_state(Site& site, Exchange& exchange, std::string name, Rpc::M
 
 }  // namespace
 
-Task<std::string> answer_upload(Site& site, Exchange& exchange) {
+Task<std::string> answer_upload(ServerContext& server, Exchange& exchange) {
   const Head& head = exchange.head();
   Result<std::string> name = upload_name(head.path());
-  Result<Rpc::Metadata> metadata = metadata_of(head, exchange.socket().peer());
+  Result<InProcessChannel::Metadata> metadata = metadata_of(head, exchange.socket().peer());
   if (!name || !metadata) {
     const Error& error = name ? metadata.error() : name.error();
     co_await refuse(exchange, error);
     co_return "refused";
   }
   if (head.method == "HEAD") {
-    co_await answer_state(site, exchange, std::move(*name), std::move(*metadata));
+    co_await answer_state(server, exchange, std::move(*name), std::move(*metadata));
     co_return "upload state";
   }
-  co_await answer_bytes(site, exchange, std::move(*name), std::move(*metadata));
+  co_await answer_bytes(server, exchange, std::move(*name), std::move(*metadata));
   co_return "upload";
 }
 

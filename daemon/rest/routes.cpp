@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "google/api/annotations.pb.h"
+#include "hydroprint/v1/access.pb.h"
 #include "proto/described.h"
 
 namespace hydroprint::rest {
@@ -96,6 +97,19 @@ Status read_body(const pb::MethodDescriptor& method, const std::string& body, Ro
   return {};
 }
 
+// A stop that took a field from its body or its query could be refused because of it.
+Status read_stop(const pb::MethodDescriptor& method, Route& route) {
+  route.stops_motion = method.options().GetExtension(v1::stops_motion);
+  if (!route.stops_motion) return {};
+  for (int i = 0; i < method.input_type()->field_count(); ++i) {
+    const pb::FieldDescriptor* field = method.input_type()->field(i);
+    const auto& bound = route.path_fields;
+    if (std::find(bound.begin(), bound.end(), FieldPath{field}) != bound.end()) continue;
+    return refuse(method, "stops motion, so its path must hold the field " + field->name());
+  }
+  return {};
+}
+
 Result<Route> read_rule(const pb::MethodDescriptor& method, const HttpRule& rule) {
   Route route;
   route.method = &method;
@@ -108,6 +122,7 @@ Result<Route> read_rule(const pb::MethodDescriptor& method, const HttpRule& rule
   route.path = *std::move(parsed);
   HP_RETURN_IF_ERROR(read_path_fields(method, route));
   HP_RETURN_IF_ERROR(read_body(method, rule.body(), route));
+  HP_RETURN_IF_ERROR(read_stop(method, route));
   return route;
 }
 

@@ -36,6 +36,7 @@ struct Route {
   std::vector<FieldPath> path_fields;  ///< of path.variables
   Body body = Body::kNone;
   const google::protobuf::FieldDescriptor* body_field = nullptr;  ///< of Body::kField
+  bool stops_motion = false;  ///< access.proto; body and query are ignored
 };
 
 /// Full names of the services of package hydroprint.v1 ("hydroprint.v1.JobService").

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "daemon/rest/bad_request.h"
 #include "google/rpc/code.pb.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
@@ -77,8 +78,18 @@ std::string status_details(const Error& error) {
   google::rpc::ErrorInfo info;
   info.set_domain("hydroprint");
   info.set_reason(error.reason.empty() ? default_reason(error.code) : error.reason);
-  info.mutable_metadata()->insert(error.metadata.begin(), error.metadata.end());
+  const auto metadata = shown_metadata(error);
+  info.mutable_metadata()->insert(metadata.begin(), metadata.end());
   details.add_details()->PackFrom(info);
+  if (const auto violations = violations_of(error); !violations.empty()) {
+    google::rpc::BadRequest request;
+    for (const rules::Violation& violation : violations) {
+      auto& shown = *request.add_field_violations();
+      shown.set_field(violation.field);
+      shown.set_description(violation.problem);
+    }
+    details.add_details()->PackFrom(request);
+  }
   if (const int seconds = retry_after_s(error); seconds > 0) {
     google::rpc::RetryInfo retry;
     retry.mutable_retry_delay()->set_seconds(seconds);

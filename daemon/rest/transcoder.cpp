@@ -76,39 +76,6 @@ Status read_body(std::string_view body, const Route& route, pb::Message& request
   return {};
 }
 
-}  // namespace
-
-struct Transcoder::Impl {
-  std::vector<Route> routes;
-  std::map<std::string, const pb::MethodDescriptor*, std::less<>> methods;
-
-  // All routes that have the path; none is no error.
-  [[nodiscard]] Result<std::vector<Match>> matches(std::string_view path) const {
-    HP_ASSIGN_OR_RETURN(const std::optional<Path> parts, split_path(path));
-    std::vector<Match> found;
-    if (!parts) return found;
-    for (const Route& route : routes) {
-      auto values = match(route.path, *parts);
-      if (values) found.push_back({&route, *std::move(values)});
-    }
-    return found;
-  }
-
-  [[nodiscard]] const pb::MethodDescriptor* method(std::string_view name) const {
-    const auto found = methods.find(name);
-    return found == methods.end() ? nullptr : found->second;
-  }
-};
-
-namespace {
-
-std::string_view path_of(std::string_view target) { return target.substr(0, target.find('?')); }
-
-std::string_view query_of(std::string_view target) {
-  const std::size_t mark = target.find('?');
-  return mark == std::string_view::npos ? std::string_view{} : target.substr(mark + 1);
-}
-
 std::vector<std::string> methods_of(const std::vector<Match>& matches) {
   std::vector<std::string> names;
   names.reserve(matches.size());
@@ -137,6 +104,48 @@ tl::unexpected<Error> no_route(std::string_view http_method, std::string_view pa
 
 }  // namespace
 
+struct Transcoder::Impl {
+  std::vector<Route> routes;
+  std::map<std::string, const pb::MethodDescriptor*, std::less<>> methods;
+
+  // All routes that have the path; none is no error.
+  [[nodiscard]] Result<std::vector<Match>> matches(std::string_view path) const {
+    HP_ASSIGN_OR_RETURN(const std::optional<Path> parts, split_path(path));
+    std::vector<Match> found;
+    if (!parts) return found;
+    for (const Route& route : routes) {
+      auto values = match(route.path, *parts);
+      if (values) found.push_back({&route, *std::move(values)});
+    }
+    return found;
+  }
+
+  // The route that a request asks for.
+  [[nodiscard]] Result<Match> match_of(std::string_view http_method, std::string_view path) const {
+    HP_ASSIGN_OR_RETURN(std::vector<Match> found, matches(path));
+    for (Match& match : found) {
+      if (match.route->http_method == http_method) return std::move(match);
+    }
+    return no_route(http_method, path, found);
+  }
+
+  [[nodiscard]] const pb::MethodDescriptor* method(std::string_view name) const {
+    const auto found = methods.find(name);
+    return found == methods.end() ? nullptr : found->second;
+  }
+};
+
+namespace {
+
+std::string_view path_of(std::string_view target) { return target.substr(0, target.find('?')); }
+
+std::string_view query_of(std::string_view target) {
+  const std::size_t mark = target.find('?');
+  return mark == std::string_view::npos ? std::string_view{} : target.substr(mark + 1);
+}
+
+}  // namespace
+
 Result<Transcoder> Transcoder::make() { return make(api_services()); }
 
 Result<Transcoder> Transcoder::make(const std::vector<std::string>& services) {
@@ -153,20 +162,21 @@ Result<Transcoder> Transcoder::make(const std::vector<std::string>& services) {
 
 Result<Call> Transcoder::read(std::string_view http_method, std::string_view target,
                               std::string_view body) const {
-  HP_ASSIGN_OR_RETURN(const std::vector<Match> matches, impl_->matches(path_of(target)));
-  const auto found = std::find_if(matches.begin(), matches.end(), [&](const Match& match) {
-    return match.route->http_method == http_method;
-  });
-  if (found == matches.end()) return no_route(http_method, path_of(target), matches);
-  const Route& route = *found->route;
+  HP_ASSIGN_OR_RETURN(const Match found, impl_->match_of(http_method, path_of(target)));
+  const Route& route = *found.route;
   const MessagePtr request = new_message(*route.method->input_type());
-  HP_RETURN_IF_ERROR(read_body(body, route, *request));
+  if (!route.stops_motion) HP_RETURN_IF_ERROR(read_body(body, route, *request));
   for (std::size_t i = 0; i < route.path_fields.size(); ++i) {
-    HP_RETURN_IF_ERROR(set_from_text(*request, route.path_fields[i], found->values[i]));
+    HP_RETURN_IF_ERROR(set_from_text(*request, route.path_fields[i], found.values[i]));
   }
-  HP_RETURN_IF_ERROR(read_query(query_of(target), route, *request));
+  if (!route.stops_motion) HP_RETURN_IF_ERROR(read_query(query_of(target), route, *request));
   return Call{rpc_name(*route.method), route.method->server_streaming(),
-              request->SerializeAsString()};
+              request->SerializeAsString(), route.stops_motion};
+}
+
+bool Transcoder::stops_motion(std::string_view http_method, std::string_view target) const {
+  const auto found = impl_->match_of(http_method, path_of(target));
+  return found && found->route->stops_motion;
 }
 
 std::vector<std::string> Transcoder::methods_at(std::string_view target) const {

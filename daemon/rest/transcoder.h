@@ -11,9 +11,10 @@ namespace hydroprint::rest {
 
 /// An RPC to be made for a request.
 struct Call {
-  std::string method;    ///< "/hydroprint.v1.JobService/CreateJob"
-  bool streams = false;  ///< its answer is a stream of messages
-  std::string request;   ///< the request message, serialised
+  std::string method;         ///< "/hydroprint.v1.JobService/CreateJob"
+  bool streams = false;       ///< its answer is a stream of messages
+  std::string request;        ///< the request message, serialised
+  bool stops_motion = false;  ///< it is carried out even if the client leaves
 };
 
 /// HTTP requests as calls of the gRPC API, and its answers as JSON: by the google.api.http rules of
@@ -37,9 +38,12 @@ class Transcoder {
   /// Refused: kNotFound, ROUTE_NOT_FOUND; kUnimplemented, METHOD_NOT_ALLOWED (methods_at() are
   /// allowed; HEAD is none unless a route says so); kInvalidArgument, with the field and the place,
   /// for all that is wrong in path or query (URL_INVALID, PARAMETER_INVALID) or body
-  /// (JSON_INVALID).
+  /// (JSON_INVALID). Of a call that stops motion, body and query are ignored.
   [[nodiscard]] Result<Call> read(std::string_view http_method, std::string_view target,
                                   std::string_view body) const;
+
+  /// Whether the request stops motion (access.proto). read() then ignores its body and its query.
+  [[nodiscard]] bool stops_motion(std::string_view http_method, std::string_view target) const;
 
   /// HTTP methods that some route has at that path ("GET", "POST"), for Allow; empty: none.
   [[nodiscard]] std::vector<std::string> methods_at(std::string_view target) const;

@@ -38,7 +38,7 @@ image::Rgb8 colour_of(double t) {
 
 /// The nearest of the four pixels that become one, so that thin things are not lost; 0: none was
 /// measured.
-std::uint16_t nearest_of(const camera::DepthFrame& frame, int x, int y) {
+std::uint16_t nearest_of(const depth_camera::DepthFrame& frame, int x, int y) {
   std::uint16_t out = 0;
   for (int v = 2 * y; v < 2 * y + 2; ++v) {
     for (int u = 2 * x; u < 2 * x + 2; ++u) {
@@ -51,7 +51,7 @@ std::uint16_t nearest_of(const camera::DepthFrame& frame, int x, int y) {
 
 }  // namespace
 
-DepthPicture depth_picture(const camera::DepthFrame& frame) {
+DepthPicture depth_picture(const depth_camera::DepthFrame& frame) {
   std::vector<std::uint16_t> seen;
   seen.reserve(frame.depth_mm.size());
   std::copy_if(frame.depth_mm.begin(), frame.depth_mm.end(), std::back_inserter(seen),

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hardware/camera/depth_frame.h"
-#include "sim/image/picture.h"
+#include "hardware/depth_camera/depth_frame.h"
+#include "sim/image/io/rgb_image.h"
 
 namespace hydroprint::capture {
 
@@ -15,6 +15,6 @@ struct DepthPicture {
   double measured_share = 0;  ///< of the frame's pixels
 };
 
-[[nodiscard]] DepthPicture depth_picture(const camera::DepthFrame& frame);
+[[nodiscard]] DepthPicture depth_picture(const depth_camera::DepthFrame& frame);
 
 }  // namespace hydroprint::capture

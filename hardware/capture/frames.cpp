@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hardware/camera/frame_watch.h"
+#include "hardware/depth_camera/frame_watch.h"
 
 namespace hydroprint::capture {
 namespace {
@@ -16,9 +16,10 @@ constexpr std::string_view kStage = "capture";
 
 }  // namespace
 
-Result<std::optional<camera::DepthFrame>> next_frame(camera::DepthCamera& camera,
-                                                     const Options& options, const Context& context,
-                                                     const std::function<void()>& alive) {
+Result<std::optional<depth_camera::DepthFrame>> next_frame(depth_camera::DepthCamera& camera,
+                                                           const Options& options,
+                                                           const Context& context,
+                                                           const std::function<void()>& alive) {
   for (double waited_s = 0;;) {
     HP_RETURN_IF_ERROR(check_cancelled(context));
     alive();
@@ -29,11 +30,11 @@ Result<std::optional<camera::DepthFrame>> next_frame(camera::DepthCamera& camera
   }
 }
 
-Result<Taken> take_frames(camera::DepthCamera& camera, const Options& options,
+Result<Taken> take_frames(depth_camera::DepthCamera& camera, const Options& options,
                           const Context& context, const std::function<void()>& alive) {
   const auto all = camera.info().frames;
   const double seconds = options.seconds.value_or(all ? kMostSeconds : kUsualSeconds);
-  camera::FrameWatch watch(camera.info().uri);
+  depth_camera::FrameWatch watch(camera.info().uri);
   Taken out;
   std::optional<double> start_s;
   int index = 0;

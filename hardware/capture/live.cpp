@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "hardware/camera/frame_watch.h"
 #include "hardware/capture/depth_picture.h"
 #include "hardware/capture/frames.h"
-#include "sim/image/image_file.h"
-#include "sim/image/png.h"
+#include "hardware/depth_camera/frame_watch.h"
+#include "sim/image/io/image_file.h"
+#include "sim/image/io/png.h"
 
 namespace hydroprint::capture {
 namespace {
@@ -25,8 +25,8 @@ Status write_all(int to, const std::string& bytes) {
   return {};
 }
 
-Result<std::string> message_of(const camera::DepthFrame& frame, const camera::SourceInfo& source,
-                               const Context& context) {
+Result<std::string> message_of(const depth_camera::DepthFrame& frame,
+                               const depth_camera::SourceInfo& source, const Context& context) {
   const DepthPicture shown = depth_picture(frame);
   HP_ASSIGN_OR_RETURN(const auto png, image::encode_png(shown.picture, image::kScreenDpi, context));
   const nlohmann::ordered_json head = {{"bytes", png.size()},
@@ -42,9 +42,9 @@ Result<std::string> message_of(const camera::DepthFrame& frame, const camera::So
 
 }  // namespace
 
-Status show_live(camera::DepthCamera& camera, const Options& options, const Context& context,
+Status show_live(depth_camera::DepthCamera& camera, const Options& options, const Context& context,
                  const std::function<void()>& alive, int to) {
-  camera::FrameWatch watch(camera.info().uri);
+  depth_camera::FrameWatch watch(camera.info().uri);
   for (double due_s = 0;;) {
     HP_ASSIGN_OR_RETURN(const auto frame, next_frame(camera, options, context, alive));
     if (!frame) return fail(Code::kUnavailable, camera.info().uri + ": no more frames");

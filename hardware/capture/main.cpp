@@ -11,18 +11,18 @@
 #include <string>
 #include <utility>
 
-#include "hardware/camera/depth_camera.h"
 #include "hardware/capture/frames.h"
 #include "hardware/capture/live.h"
 #include "hardware/capture/options.h"
 #include "hardware/capture/watchdog.h"
 #include "hardware/capture/write_frames.h"
-#include "sim/worker/ending.h"
-#include "sim/worker/errors.h"
-#include "sim/worker/out_folder.h"
-#include "sim/worker/progress.h"
-#include "sim/worker/progress_sinks.h"
-#include "sim/worker/quiet_stderr.h"
+#include "hardware/depth_camera/depth_camera.h"
+#include "sim/base/process/error_output.h"
+#include "sim/base/process/out_folder.h"
+#include "sim/base/process/progress.h"
+#include "sim/base/process/progress_sinks.h"
+#include "sim/base/process/quiet_stderr.h"
+#include "sim/base/process/termination.h"
 
 namespace hydroprint::capture {
 namespace {
@@ -51,10 +51,10 @@ class Recording {
   Recording(const Recording&) = delete;
   Recording& operator=(const Recording&) = delete;
 
-  [[nodiscard]] Status start(camera::DepthCamera& camera) const {
+  [[nodiscard]] Status start(depth_camera::DepthCamera& camera) const {
     return partial_.empty() ? Status{} : camera.record(partial_);
   }
-  [[nodiscard]] Status finish(camera::DepthCamera& camera) {
+  [[nodiscard]] Status finish(depth_camera::DepthCamera& camera) {
     camera.finish_recording();
     if (partial_.empty()) return {};
     std::error_code error;
@@ -72,9 +72,10 @@ class Recording {
   std::filesystem::path path_, partial_;
 };
 
-Result<std::unique_ptr<camera::DepthCamera>> open(const Options& options) {
-  if (!options.recording.empty()) return camera::DepthCamera::open_recording(options.recording);
-  return camera::DepthCamera::open_device(options.device);
+Result<std::unique_ptr<depth_camera::DepthCamera>> open(const Options& options) {
+  if (!options.recording.empty())
+    return depth_camera::DepthCamera::open_recording(options.recording);
+  return depth_camera::DepthCamera::open_device(options.device);
 }
 
 struct Summary {
@@ -101,7 +102,7 @@ std::function<void()> bite(const Options& options, const worker::QuietStderr& qu
   };
 }
 
-Result<Summary> run(const Options& options, worker::Ending& ending,
+Result<Summary> run(const Options& options, worker::Termination& termination,
                     const worker::QuietStderr& quiet) {
   HP_ASSIGN_OR_RETURN(worker::OutFolder folder, worker::OutFolder::plan(options.out));
   Recording recording(options.record);
@@ -109,7 +110,7 @@ Result<Summary> run(const Options& options, worker::Ending& ending,
     folder.abandon();
     recording.abandon();
   };
-  const worker::CleanupAtEnding cleanup(ending, clean_up);
+  const worker::CleanupAtTermination cleanup(termination, clean_up);
   worker::ProgressPipe pipe(options.progress_fd);
   const worker::ProgressLine line(quiet.own());
   worker::Progress progress({{"capture", 0.7}, {"writing", 0.3}}, seconds_now,
@@ -119,7 +120,7 @@ Result<Summary> run(const Options& options, worker::Ending& ending,
                             });
   const Context context{
       1, [&](std::string_view stage, double fraction) { progress.update(stage, fraction); },
-      [&ending] { return ending.requested(); }};
+      [&termination] { return termination.requested(); }};
   // More than the camera itself has, which says it better.
   const double patience_s = std::max(options.patience_s, options.recording.empty() ? 0 : 30.0);
   Watchdog watchdog(std::chrono::duration<double>(patience_s + 1), bite(options, quiet, clean_up));
@@ -130,26 +131,27 @@ Result<Summary> run(const Options& options, worker::Ending& ending,
   HP_ASSIGN_OR_RETURN(const Taken taken,
                       take_frames(*camera, options, context, [&] { watchdog.feed(); }));
   HP_RETURN_IF_ERROR(recording.finish(*camera));
-  const camera::SourceInfo source = camera->info();
+  const depth_camera::SourceInfo source = camera->info();
   watchdog.feed();
   camera.reset();
   HP_RETURN_IF_ERROR(folder.create());
   Context writing = context;
   writing.cancelled = [&] {
     watchdog.feed();
-    return ending.requested();
+    return termination.requested();
   };
   HP_RETURN_IF_ERROR(write_frames(folder.partial(), source, taken, writing));
-  ending.decide();
+  termination.decide();
   HP_RETURN_IF_ERROR(folder.commit());
   return Summary{folder.dir(), taken.frames.size(), taken.lost};
 }
 
 /// Until a signal ends it, or a failure.
-Status live(const Options& options, worker::Ending& ending, const worker::QuietStderr& quiet) {
+Status live(const Options& options, worker::Termination& termination,
+            const worker::QuietStderr& quiet) {
   (void)::nice(kGivesWay);  // to the rig, and to whoever computes in earnest
   Context context;
-  context.cancelled = [&ending] { return ending.requested(); };
+  context.cancelled = [&termination] { return termination.requested(); };
   // More than the camera itself has, which says it better.
   Watchdog watchdog(std::chrono::duration<double>(options.patience_s + 1),
                     bite(options, quiet, [] {}));
@@ -169,11 +171,11 @@ void sum_up(const Summary& summary, bool json) {
 }
 
 /// None: there is nothing to sum up.
-Result<std::optional<Summary>> run_guarded(const Options& options, worker::Ending& ending,
+Result<std::optional<Summary>> run_guarded(const Options& options, worker::Termination& termination,
                                            const worker::QuietStderr& quiet) {
   try {
-    if (!options.live) return run(options, ending, quiet);
-    HP_RETURN_IF_ERROR(live(options, ending, quiet));
+    if (!options.live) return run(options, termination, quiet);
+    HP_RETURN_IF_ERROR(live(options, termination, quiet));
     return std::nullopt;
   } catch (const std::exception& error) {
     return fail(Code::kInternal, std::string(error.what()) + ". Please report this");
@@ -188,12 +190,12 @@ int main_of(int argc, char** argv) {
   }
   const bool json = command.options.json;
   const worker::QuietStderr quiet;
-  worker::Ending ending([&quiet, json] {
+  worker::Termination termination([&quiet, json] {
     quiet.restore();
     tell({Code::kCancelled, "cancelled", {}, {}}, json);
   });
-  const Result<std::optional<Summary>> summary = run_guarded(command.options, ending, quiet);
-  ending.decide();
+  const Result<std::optional<Summary>> summary = run_guarded(command.options, termination, quiet);
+  termination.decide();
   quiet.restore();
   if (summary) {
     if (*summary) sum_up(**summary, json);

@@ -4,8 +4,8 @@
 #include <span>
 #include <string>
 
-#include "sim/image/artifact_file.h"
-#include "sim/image/grey16.h"
+#include "sim/base/artifact_file.h"
+#include "sim/image/io/grey16.h"
 
 namespace hydroprint::capture {
 namespace {
@@ -18,12 +18,12 @@ std::string file_name(std::size_t number) {
 
 }  // namespace
 
-Status write_frames(const std::filesystem::path& folder, const camera::SourceInfo& source,
+Status write_frames(const std::filesystem::path& folder, const depth_camera::SourceInfo& source,
                     const Taken& taken, const Context& context) {
   auto frames = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < taken.frames.size(); ++i) {
     HP_RETURN_IF_ERROR(check_cancelled(context));
-    const camera::DepthFrame& frame = taken.frames[i];
+    const depth_camera::DepthFrame& frame = taken.frames[i];
     const std::string file = file_name(i + 1);
     HP_RETURN_IF_ERROR(
         image::write_png(folder / file, {frame.width, frame.height, frame.depth_mm}));
@@ -31,7 +31,7 @@ Status write_frames(const std::filesystem::path& folder, const camera::SourceInf
     context.progress("writing",
                      static_cast<double>(i + 1) / static_cast<double>(taken.frames.size()));
   }
-  const camera::DepthFrame& first = taken.frames.front();
+  const depth_camera::DepthFrame& first = taken.frames.front();
   const nlohmann::ordered_json out = {
       {"source", {{"uri", source.uri}, {"name", source.name}, {"serial", source.serial}}},
       {"width", first.width},

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "hardware/camera/depth_camera.h"
 #include "hardware/capture/frames.h"
+#include "hardware/depth_camera/depth_camera.h"
 #include "sim/base/context.h"
 
 namespace hydroprint::capture {
@@ -11,7 +11,7 @@ namespace hydroprint::capture {
 /// Writes frame-0001.png ... (16-bit grey, mm, 0: not measured) and, last, frames.json: the source,
 /// size and fields of view, and of every frame its file, time and index.
 [[nodiscard]] Status write_frames(const std::filesystem::path& folder,
-                                  const camera::SourceInfo& source, const Taken& taken,
+                                  const depth_camera::SourceInfo& source, const Taken& taken,
                                   const Context& context);
 
 }  // namespace hydroprint::capture

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "hardware/drive/link.h"
+#include "hardware/drive/transaction.h"
 
 struct _modbus;
 

@@ -6,9 +6,9 @@
 #include <sstream>
 #include <utility>
 
-#include "hardware/drive/codec.h"
-#include "hardware/drive/polled.h"
-#include "hardware/drive/write.h"
+#include "hardware/drive/command_encoder.h"
+#include "hardware/drive/state_decoder.h"
+#include "hardware/drive/word_codec.h"
 
 namespace hydroprint::drive {
 namespace {

@@ -1,10 +1,10 @@
+#include "hardware/drive/endpoint.h"
+
 #include <arpa/inet.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-
-#include "hardware/drive/link.h"
 
 namespace hydroprint::drive {
 namespace {

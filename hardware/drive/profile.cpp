@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hardware/drive/codec.h"
-#include "hardware/drive/frame.h"
+#include "hardware/drive/pdu.h"
+#include "hardware/drive/word_codec.h"
 #include "sim/base/toml_reader.h"
 
 namespace hydroprint::drive {

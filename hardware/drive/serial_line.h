@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cstddef>
 
-#include "hardware/drive/link.h"
+#include "hardware/drive/transaction.h"
 
 namespace hydroprint::drive {
 

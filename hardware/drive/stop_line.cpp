@@ -1,7 +1,8 @@
+#include "hardware/drive/stop_line.h"
+
 #include <thread>
 
-#include "hardware/drive/drive.h"
-#include "hardware/drive/write.h"
+#include "hardware/drive/command_encoder.h"
 
 namespace hydroprint::drive {
 namespace {

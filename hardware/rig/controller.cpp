@@ -3,7 +3,7 @@
 #include <thread>
 #include <utility>
 
-#include "hardware/rig/owner.h"
+#include "hardware/rig/control_loop.h"
 
 namespace hydroprint::rig {
 namespace {
@@ -18,15 +18,15 @@ struct Controller::Impl {
   Impl(const RigConfig& c, drive::DriveProfile profile, std::shared_ptr<drive::Link> link)
       : config(c),
         drive(std::move(profile), std::move(link)),
-        stopper(drive),
-        owner(config, drive, stopper, desk),
+        stop_channel(drive),
+        owner(config, drive, stop_channel, shared),
         thread([this] { owner.run(); }) {}
 
   RigConfig config;
-  Desk desk;
+  SharedState shared;
   drive::Drive drive;
-  Stopper stopper;
-  Owner owner;
+  StopChannel stop_channel;
+  ControlLoop owner;
   std::thread thread;
 };
 
@@ -34,7 +34,7 @@ Controller::Controller() = default;
 
 Controller::~Controller() {
   if (!impl_) return;
-  impl_->desk.end = true;
+  impl_->shared.end = true;
   impl_->thread.join();
 }
 
@@ -50,9 +50,9 @@ Result<std::unique_ptr<Controller>> Controller::make(const RigConfig& config,
 }
 
 std::future<Answer> Controller::order(Event::Kind kind, Plan plan) {
-  Order order{kind, std::move(plan), std::chrono::steady_clock::now(), impl_->desk.stops, {}};
+  Order order{kind, std::move(plan), std::chrono::steady_clock::now(), impl_->shared.stops, {}};
   std::future<Answer> answer = order.answer.get_future();
-  if (!impl_->desk.orders.put(order)) {
+  if (!impl_->shared.orders.put(order)) {
     order.answer.set_value(fail(Code::kResourceExhausted,
                                 "too many orders wait for the rig; order it again in a moment",
                                 "QUEUE_FULL"));
@@ -78,19 +78,19 @@ std::future<Answer> Controller::dip(std::vector<Leg> legs) {
 }
 
 void Controller::stop() noexcept {
-  ++impl_->desk.stops;
-  impl_->stopper.stop();
+  ++impl_->shared.stops;
+  impl_->stop_channel.stop();
 }
 
-Snapshot Controller::snapshot() const { return impl_->desk.board.snapshot.load(); }
-std::optional<Error> Controller::trouble() const { return impl_->desk.board.trouble(); }
+Snapshot Controller::snapshot() const { return impl_->shared.status.snapshot.load(); }
+std::optional<Error> Controller::trouble() const { return impl_->shared.status.trouble(); }
 
 std::optional<MotionReport> Controller::motion(std::uint64_t number) const {
-  return impl_->desk.board.motion(number);
+  return impl_->shared.status.motion(number);
 }
 
 std::vector<Sample> Controller::samples(std::uint64_t first, std::uint64_t last) const {
-  return impl_->desk.board.samples.copy(first, last);
+  return impl_->shared.status.samples.copy(first, last);
 }
 
 const RigConfig& Controller::config() const { return impl_->config; }

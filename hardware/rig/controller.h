@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "hardware/drive/drive.h"
+#include "hardware/rig/command_queue.h"
 #include "hardware/rig/config.h"
-#include "hardware/rig/course.h"
-#include "hardware/rig/queue.h"
-#include "hardware/rig/report.h"
+#include "hardware/rig/motion_supervisor.h"
+#include "hardware/rig/rig_status.h"
 
 namespace hydroprint::rig {
 

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "hardware/rig/state_names.h"
+
 namespace hydroprint::rig {
 namespace {
 

@@ -8,11 +8,11 @@ std::uint64_t MotionLog::begin(Motion motion, TimePoint now, double position_mm)
   next.motion = motion;
   next.begun = next.ended = next.rested = now;
   next.begin_mm = next.end_mm = position_mm;
-  next.first_sample = board_.samples.newest() + 1;
-  next.last_sample = board_.samples.newest();
+  next.first_sample = status_.samples.newest() + 1;
+  next.last_sample = status_.samples.newest();
   report_ = next;
   open_ = true;
-  board_.put(report_);
+  status_.put(report_);
   return report_.number;
 }
 
@@ -21,7 +21,7 @@ void MotionLog::end(MotionReport::Outcome outcome, Cause cause, int alarm_code) 
   report_.cause = cause;
   report_.alarm_code = alarm_code;
   report_.ended = std::chrono::steady_clock::now();
-  board_.put(report_);
+  status_.put(report_);
 }
 
 void MotionLog::see(const Sample& sample, bool at_rest) {
@@ -33,7 +33,7 @@ void MotionLog::see(const Sample& sample, bool at_rest) {
     report_.rested = sample.time;
     open_ = false;
   }
-  board_.put(report_);
+  status_.put(report_);
 }
 
 }  // namespace hydroprint::rig

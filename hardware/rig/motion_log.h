@@ -1,14 +1,14 @@
 #pragma once
 
-#include "hardware/rig/report.h"
+#include "hardware/rig/rig_status.h"
 
 namespace hydroprint::rig {
 
-/// Writes on the board what becomes of each motion.
+/// Writes on the status what becomes of each motion.
 class MotionLog {
  public:
-  /// @param board  outlives it
-  explicit MotionLog(Board& board) : board_(board) {}
+  /// @param status  outlives it
+  explicit MotionLog(RigStatus& status) : status_(status) {}
 
   /// A motion starts; @return its number.
   std::uint64_t begin(Motion motion, TimePoint now, double position_mm);
@@ -23,7 +23,7 @@ class MotionLog {
   [[nodiscard]] std::uint64_t current() const { return open_ ? report_.number : 0; }
 
  private:
-  Board& board_;
+  RigStatus& status_;
   MotionReport report_;
   bool open_ = false;
 };

@@ -131,12 +131,6 @@ struct Step {
 ///   have stopped it (then OFFLINE); or as ESTOPPED, which cannot be left while the axis moves.
 [[nodiscard]] Step step(const Condition& condition, const Event& event);
 
-/// Stable names: "OFFLINE", "RIG_NOT_HOMED", "LINK_LOST", "HOME".
-[[nodiscard]] std::string_view name(State state);
-[[nodiscard]] std::string_view name(Motion motion);
-[[nodiscard]] std::string_view name(Cause cause);
-[[nodiscard]] std::string_view reason(Refusal refusal);
-
 /// Torque is or may be on.
 [[nodiscard]] bool is_armed(State state);
 /// A motion that was commanded is under way.

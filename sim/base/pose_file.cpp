@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "sim/base/json_file.h"
+#include "sim/base/checked_json.h"
 
 namespace hydroprint {
 namespace {

@@ -6,9 +6,9 @@
 
 #include "sim/calibrate/layout_file.h"
 #include "sim/mesh/surface.h"
-#include "sim/registration/calibrate_camera.h"
-#include "sim/registration/object.h"
-#include "sim/registration/water_level.h"
+#include "sim/registration/camera/calibrate_camera.h"
+#include "sim/registration/film_frame/water_level.h"
+#include "sim/registration/object/object.h"
 #include "sim/scan/frame.h"
 
 namespace hydroprint::calibrate {

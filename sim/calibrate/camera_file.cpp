@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "sim/base/json_file.h"
+#include "sim/base/checked_json.h"
 #include "sim/calibrate/pattern_json.h"
 
 namespace hydroprint::calibrate {

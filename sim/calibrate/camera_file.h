@@ -4,7 +4,7 @@
 #include <string>
 
 #include "sim/base/result.h"
-#include "sim/registration/calibrate_camera.h"
+#include "sim/registration/camera/calibrate_camera.h"
 
 namespace hydroprint::calibrate {
 

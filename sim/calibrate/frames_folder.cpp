@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "sim/base/json_file.h"
-#include "sim/image/grey16.h"
+#include "sim/base/checked_json.h"
+#include "sim/image/io/grey16.h"
 
 namespace hydroprint::calibrate {
 namespace {

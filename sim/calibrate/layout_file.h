@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "sim/base/result.h"
-#include "sim/registration/object_points.h"
+#include "sim/registration/object/object_points.h"
 
 namespace hydroprint::calibrate {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "sim/calibrate/layout_file.h"
-#include "sim/registration/calibrate_camera.h"
+#include "sim/registration/camera/calibrate_camera.h"
 #include "sim/scan/sweep.h"
 
 namespace hydroprint::calibrate {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-#include "sim/base/json_file.h"
+#include "sim/base/checked_json.h"
 
 namespace hydroprint::film {
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "sim/base/check.h"
 #include "sim/fit/predictor.h"
 #include "sim/fit/selection.h"
 
@@ -48,6 +49,7 @@ VectorXd scaled_values(const std::vector<Parameter>& free, const film::Profile& 
 
 film::Profile profile_of(const std::vector<Parameter>& free, const VectorXd& u,
                          film::Profile profile) {
+  HP_CHECK(u.size() == static_cast<Index>(free.size()));
   for (Index j = 0; j < u.size(); ++j) set_scaled(free[j], u[j], profile);
   return profile;
 }
@@ -95,7 +97,7 @@ class Fitting {
  private:
   /// Finds the points on the surface and decides which count.
   Status select(const std::vector<Point>& points) {
-    HP_ASSIGN_OR_RETURN(const pipeline::Start* begun,
+    HP_ASSIGN_OR_RETURN(const pipeline::StokesPass* begun,
                         predictor_.start(dip_.profile.swelling, quiet_));
     out_.X_FO = begun->X_FO;
     out_.warnings = model_.warnings;

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::fit {
 namespace {
 
@@ -38,6 +40,8 @@ std::pair<double, double> mean_squares(const VectorXd& a, const VectorXd& b) {
 /// Minimises |r + J d|^2 + damping over the parameters that are free, the others moving by `d`.
 void solve_free(const Linearised& known, double damping, const std::vector<Index>& free,
                 VectorXd& d) {
+  HP_CHECK(damping >= 0);
+  HP_CHECK(d.size() == known.jacobian.cols());
   const auto count = static_cast<Index>(free.size());
   MatrixXd jacobian(known.jacobian.rows(), count);
   for (Index k = 0; k < count; ++k) {

@@ -8,12 +8,12 @@
 
 namespace hydroprint::fit {
 
-Result<const pipeline::Start*> Predictor::start(const Eigen::Vector2d& swelling,
-                                                const Context& context) {
+Result<const pipeline::StokesPass*> Predictor::start(const Eigen::Vector2d& swelling,
+                                                     const Context& context) {
   if (!start_ || swelling != swelling_) {
     start_.reset();
     options_.profile.swelling = swelling;
-    HP_ASSIGN_OR_RETURN(start_, pipeline::start(model_, options_, context));
+    HP_ASSIGN_OR_RETURN(start_, pipeline::run_stokes_pass(model_, options_, context));
     swelling_ = swelling;
   }
   return &*start_;
@@ -22,7 +22,7 @@ Result<const pipeline::Start*> Predictor::start(const Eigen::Vector2d& swelling,
 Result<std::vector<Eigen::Vector2d>> Predictor::predict(const film::Profile& profile,
                                                         const std::vector<Spot>& spots,
                                                         const Context& context) {
-  HP_ASSIGN_OR_RETURN(const pipeline::Start* begun, start(profile.swelling, context));
+  HP_ASSIGN_OR_RETURN(const pipeline::StokesPass* begun, start(profile.swelling, context));
   options_.profile = profile;
   HP_ASSIGN_OR_RETURN(const sheet::SheetFlow moving,
                       pipeline::sheet_field(begun->stokes, options_.ink, options_, context));

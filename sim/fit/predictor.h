@@ -8,7 +8,7 @@
 #include "sim/base/result.h"
 #include "sim/fit/spots.h"
 #include "sim/mesh/model.h"
-#include "sim/pipeline/start.h"
+#include "sim/pipeline/stokes_pass.h"
 
 namespace hydroprint::fit {
 
@@ -22,8 +22,8 @@ class Predictor {
       : model_(model), options_(std::move(options)) {}
 
   /// What does not depend on ink and drag, kept for the swelling it was last made for.
-  [[nodiscard]] Result<const pipeline::Start*> start(const Eigen::Vector2d& swelling,
-                                                     const Context& context);
+  [[nodiscard]] Result<const pipeline::StokesPass*> start(const Eigen::Vector2d& swelling,
+                                                          const Context& context);
 
   /// Per spot the printed point, mm, in F; NaN where no film arrives.
   [[nodiscard]] Result<std::vector<Eigen::Vector2d>> predict(const film::Profile& profile,
@@ -36,7 +36,7 @@ class Predictor {
  private:
   const mesh::Model& model_;
   pipeline::DipOptions options_;
-  std::optional<pipeline::Start> start_;
+  std::optional<pipeline::StokesPass> start_;
   Warnings warnings_;
   Eigen::Vector2d swelling_ = Eigen::Vector2d::Zero();  ///< of start_
 };

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/image/lettering.h"
-#include "sim/image/strokes.h"
+#include "sim/image/figures/strokes.h"
+#include "sim/image/figures/text.h"
 
 namespace hydroprint::fit {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "sim/film/outline.h"
 #include "sim/fit/fit.h"
-#include "sim/image/picture.h"
+#include "sim/image/io/rgb_image.h"
 
 namespace hydroprint::fit {
 

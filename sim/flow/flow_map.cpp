@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/check.h"
 #include "sim/flow/jacobian.h"
 #include "sim/flow/tiles.h"
 
@@ -16,6 +17,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Per surface point the stretch of the film round it (section 6).
 void measure_stretch(const mesh::Surface& surface, const waterline::Body& body,
                      const std::vector<Vector2d>& film_mm, SurfaceMap& map) {
+  HP_CHECK(film_mm.size() == body.points_mm.size());
+  HP_CHECK(map.contact_time_s.size() == surface.points.size());
   const std::vector<Gradient> gradient = point_gradients(film_mm, body.points_mm, body.triangles);
   for (std::size_t v = 0; v < surface.points.size(); ++v) {
     const Stretch stretch = stretch_of(gradient[surface.weld[v]]);
@@ -37,6 +40,10 @@ MapOptions for_resolution(MapOptions options, double dpi) {
 Result<FlowMap> make_flow_map(const mesh::Surface& surface, const waterline::Body& body,
                               const DipField& dip, const waterline::Motion& motion,
                               const MapOptions& options, const Context& context) {
+  HP_CHECK(dip.immersion_mm.size() == dip.fields.size());
+  HP_CHECK(body.points_mm.size() == surface.points.size());
+  HP_CHECK(body.triangles.size() == surface.triangles.size());
+  HP_CHECK(options.dip_speed_mm_per_s > 0);
   const Landings landings(body, motion);
   HP_ASSIGN_OR_RETURN(const std::vector<Vector2d> film,
                       trace_back(dip, landings.of_points(), "flow map", context));

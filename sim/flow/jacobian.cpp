@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::flow {
 namespace {
 
@@ -41,6 +43,7 @@ Gradient gradient_of(const std::array<Eigen::Vector2d, 3>& film_mm,
 std::vector<Gradient> point_gradients(const std::vector<Eigen::Vector2d>& film_mm,
                                       const std::vector<Eigen::Vector3d>& surface_mm,
                                       const std::vector<Eigen::Vector3i>& triangles) {
+  HP_CHECK(film_mm.size() == surface_mm.size());
   std::vector<Gradient> sum(surface_mm.size(), Gradient::Zero());
   std::vector<double> weight(surface_mm.size(), 0);
   for (const Eigen::Vector3i& t : triangles) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/check.h"
 #include "sim/flow/edge_table.h"
 #include "sim/flow/jacobian.h"
 
@@ -299,6 +300,8 @@ Result<std::vector<MappedTriangle>> make_tiles(const waterline::Body& body, cons
                                                const Landings& landings,
                                                const std::vector<Vector2d>& film_mm,
                                                const MapOptions& options, const Context& context) {
+  HP_CHECK(film_mm.size() == body.points_mm.size());
+  HP_CHECK(dip.immersion_mm.size() == dip.fields.size());
   Tiler tiler(body, dip, landings, film_mm, options);
   HP_RETURN_IF_ERROR(tiler.run(context));
   return tiler.take();

@@ -6,7 +6,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "sim/velocity/quadratic.h"
+#include "sim/base/check.h"
+#include "sim/velocity/quadratic_elements.h"
 
 namespace hydroprint::flow {
 namespace {
@@ -189,6 +190,8 @@ std::vector<std::size_t> by_immersion(const std::vector<Landing>& landings) {
 
 Result<std::vector<Vector2d>> trace_back(const DipField& dip, const std::vector<Landing>& landings,
                                          std::string_view stage, const Context& context) {
+  HP_CHECK(dip.immersion_mm.size() == dip.fields.size());
+  HP_CHECK(std::is_sorted(dip.immersion_mm.begin(), dip.immersion_mm.end()));
   std::vector<Vector2d> film_mm(landings.size());
   const std::vector<std::size_t> order = by_immersion(landings);
   const std::size_t chunks = (order.size() + kChunk - 1) / kChunk;
@@ -215,6 +218,8 @@ std::optional<Vector2d> trace_back(const DipField& dip, const Landing& landing) 
 }
 
 std::vector<Vector2d> trace_back(const DipField& dip, std::size_t k, const RestMap* known) {
+  HP_CHECK(k < dip.fields.size());
+  HP_CHECK(known == nullptr || known->waterline <= k);
   const VelocityField& field = dip.fields[k];
   std::vector<BackPath> paths;
   paths.reserve(field.nodes().size());

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::ink {
 namespace {
 
@@ -53,6 +55,8 @@ tl::unexpected<Error> not_ink(const InkGrid& grid, std::size_t cell, double t) {
 }  // namespace
 
 InkGrid ink_grid(const film::Outline& outline, double cell_mm) {
+  HP_CHECK(cell_mm > 0);
+  HP_CHECK((outline.size_mm().array() > 0).all());
   const auto cells = [&](double size_mm) {
     return static_cast<int>(
         std::clamp(std::round(size_mm / cell_mm), 1.0, static_cast<double>(kMostCells)));

@@ -6,9 +6,10 @@
 #include <functional>
 #include <vector>
 
-#include "sim/image/film_texture.h"
-#include "sim/image/image_file.h"
-#include "sim/image/printer_image.h"
+#include "sim/base/check.h"
+#include "sim/image/film/film_texture.h"
+#include "sim/image/io/image_file.h"
+#include "sim/image/io/printer_image.h"
 #include "sim/ink/separation.h"
 
 namespace hydroprint::ink {
@@ -33,6 +34,9 @@ struct Span {
 
 /// @param first_px, cell_px  where cell 0 begins and the cells' size, in pixels
 std::vector<Span> spans(int cells, double first_px, double cell_px, int pixels) {
+  HP_CHECK(cells > 0);
+  HP_CHECK(cell_px > 0);
+  HP_CHECK(pixels > 0);
   const auto edge = [&](int cell) {
     return std::clamp(first_px + cell * cell_px, 0.0, static_cast<double>(pixels));
   };

@@ -5,7 +5,7 @@
 #include "sim/base/context.h"
 #include "sim/base/result.h"
 #include "sim/film/outline.h"
-#include "sim/image/picture.h"
+#include "sim/image/io/rgb_image.h"
 #include "sim/ink/ink_field.h"
 
 namespace hydroprint::ink {

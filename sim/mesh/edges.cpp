@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
+
+#include "sim/base/check.h"
 
 namespace hydroprint::mesh {
 namespace {
@@ -26,6 +29,7 @@ void sort_by(int Keyed::*end, std::size_t points, std::vector<Keyed>& items,
 }  // namespace
 
 Edges::Edges(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld) {
+  HP_CHECK(triangles.size() <= static_cast<std::size_t>(std::numeric_limits<int>::max() / 3));
   std::vector<Keyed> items(3 * triangles.size());
   for (std::size_t i = 0; i < items.size(); ++i) {
     const auto [from, to] = side_ends(static_cast<int>(i), triangles, weld);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/check.h"
 #include "sim/mesh/groups.h"
 
 namespace hydroprint::mesh {
@@ -54,6 +55,7 @@ Result<Faces> measure(const std::vector<Eigen::Vector3d>& points,
 /// Corners that share a normal. A corner has the number of the side that begins at it.
 Groups smooth_corners(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld,
                       const Edges& edges, const std::vector<Eigen::Vector3d>& normals) {
+  HP_CHECK(normals.size() == triangles.size());
   const auto next = [](int side) { return side % 3 == 2 ? side - 2 : side + 1; };
   Groups groups(3 * triangles.size());
   for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -77,6 +79,7 @@ Groups smooth_corners(const std::vector<Eigen::Vector3i>& triangles, const std::
 Result<std::vector<std::array<Eigen::Vector3d, 3>>> corner_normals(
     const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
     const std::vector<int>& weld, const Edges& edges, const Context& context) {
+  HP_CHECK(weld.size() == points.size());
   HP_ASSIGN_OR_RETURN(const Faces faces, measure(points, triangles, context));
   const auto& normals = faces.normals;
   auto groups = smooth_corners(triangles, weld, edges, normals);

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/base/check.h"
 #include "sim/mesh/groups.h"
 
 namespace hydroprint::mesh {
@@ -208,6 +209,7 @@ class Orienter {
 
 Orientation orient(const std::vector<Eigen::Vector3d>& points, const std::vector<int>& weld,
                    const std::vector<Eigen::Vector3i>& triangles, const Edges& edges) {
+  HP_CHECK(weld.size() == points.size());
   return Orienter(points, weld, triangles, edges).run();
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <unordered_map>
 
+#include "sim/base/check.h"
 #include "sim/mesh/edges.h"
 
 namespace hydroprint::mesh {
@@ -119,6 +120,10 @@ class Pass {
 
 Result<Patchwork> subdivide(Patchwork input, double max_edge_mm, std::size_t max_triangles,
                             const Context& context) {
+  HP_CHECK(max_edge_mm > 0);
+  HP_CHECK(input.weld.size() == input.points.size());
+  HP_CHECK(input.source_triangle.size() == input.triangles.size());
+  HP_CHECK(input.source_barycentric.size() == input.triangles.size());
   Patchwork work = std::move(input);
   while (true) {
     HP_RETURN_IF_ERROR(check_cancelled(context));

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::mesh {
 namespace {
 
@@ -93,6 +95,7 @@ double diagonal(const std::vector<Eigen::Vector3d>& points) {
 }
 
 std::vector<int> weld_points(const std::vector<Eigen::Vector3d>& points, double tolerance) {
+  HP_CHECK(tolerance >= 0);
   Grid grid(points, tolerance);
   std::vector<int> weld(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {

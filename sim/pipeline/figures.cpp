@@ -113,28 +113,28 @@ void warn_of_strain(const DipFigures& figures, const film::Profile& profile, War
 
 }  // namespace
 
-DipFigures figures_of(const Start& start, const flow::SurfaceMap& map,
+DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
                       const film::Profile& profile) {
   DipFigures figures;
-  figures.depth_mm = start.stokes.depth_mm;
-  figures.stopped_at_edge = start.stopped_at_edge;
-  figures.traps = start.traps;
-  figures.passed_over_mm = start.passed_over_mm;
-  figures.steps = static_cast<int>(start.stokes.fields.size());
-  for (const velocity::VelocityField& field : start.stokes.fields) {
+  figures.depth_mm = pass.stokes.depth_mm;
+  figures.stopped_at_edge = pass.stopped_at_edge;
+  figures.traps = pass.traps;
+  figures.passed_over_mm = pass.passed_over_mm;
+  figures.steps = static_cast<int>(pass.stokes.fields.size());
+  for (const velocity::VelocityField& field : pass.stokes.fields) {
     const auto vertices = static_cast<int>(field.mesh().vertices_mm.size());
     const auto triangles = static_cast<int>(field.mesh().triangles.size());
     figures.film_vertices_max = std::max(figures.film_vertices_max, vertices);
     figures.film_triangles_max = std::max(figures.film_triangles_max, triangles);
   }
   Shares shares;
-  std::vector<char> is_clamped(start.surface.points.size(), 0);
-  for (std::size_t t = 0; t < start.surface.triangles.size(); ++t) {
-    const Face face = face_of(start.body, t);
+  std::vector<char> is_clamped(pass.surface.points.size(), 0);
+  for (std::size_t t = 0; t < pass.surface.triangles.size(); ++t) {
+    const Face face = face_of(pass.body, t);
     const bool clamped = face.theta_rad > waterline::kThetaLimit_rad;
     shares.total += face.area_mm2;
     if (clamped) shares.clamped += face.area_mm2;
-    for (const int v : start.surface.triangles[t]) {
+    for (const int v : pass.surface.triangles[t]) {
       if (clamped) is_clamped[v] = 1;
       if (std::isnan(map.film_mm[v].x())) continue;
       shares.reached += face.area_mm2 / 3;

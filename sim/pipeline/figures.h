@@ -4,12 +4,12 @@
 
 #include "sim/flow/flow_map.h"
 #include "sim/pipeline/pipeline.h"
-#include "sim/pipeline/start.h"
+#include "sim/pipeline/stokes_pass.h"
 
 namespace hydroprint::pipeline {
 
 /// What there is to say of a dip in figures.
-[[nodiscard]] DipFigures figures_of(const Start& start, const flow::SurfaceMap& map,
+[[nodiscard]] DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
                                     const film::Profile& profile);
 
 /// What a user has to be told of a dip with these figures.

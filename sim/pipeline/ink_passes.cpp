@@ -4,8 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/image/film_image.h"
+#include "sim/base/check.h"
+#include "sim/image/film/film_image.h"
 #include "sim/ink/ink_of.h"
+#include "sim/pipeline/dip.h"
 
 namespace hydroprint::pipeline {
 namespace {
@@ -26,6 +28,7 @@ flow::MapOptions coarse(flow::MapOptions map) {
 }
 
 InkPass compare(const std::vector<Vector2d>& before, const std::vector<Vector2d>& after) {
+  HP_CHECK(after.size() == before.size());
   std::vector<double> moves;
   InkPass pass;
   for (std::size_t v = 0; v < before.size(); ++v) {
@@ -51,41 +54,42 @@ struct InkedFlow {
   std::vector<InkPass> passes;
 };
 
-Result<InkedFlow> ink_passes(const Start& start, const image::Paint& paint, int most_passes,
+Result<InkedFlow> ink_passes(const StokesPass& first, const image::Paint& paint, int most_passes,
                              double dpi, const DipOptions& options, const Context& context) {
   DipOptions rough = options;
   rough.map = coarse(options.map);
   rough.map.make_tiles = true;
-  InkedFlow out{{start.stokes}, {}, {}};
-  HP_ASSIGN_OR_RETURN(out.map, land(start, out.flow.field, rough, context));
+  InkedFlow out{{first.stokes}, {}, {}};
+  HP_ASSIGN_OR_RETURN(out.map, trace_flow_map(first, out.flow.field, rough, context));
   for (int pass = 1; pass <= most_passes; ++pass) {
     HP_ASSIGN_OR_RETURN(
         const image::RgbImage film,
-        image::film_image(start.surface, out.map.tiles, paint, options.outline, kInkDpi, context));
+        image::film_image(first.surface, out.map.tiles, paint, options.outline, kInkDpi, context));
     HP_ASSIGN_OR_RETURN(
         const ink::InkField ink,
         ink::ink_of(film, options.outline, {options.profile.ink_icc_profile}, context));
     HP_ASSIGN_OR_RETURN(out.flow, sheet_field(out.flow.field, ink, options, context));
     const bool is_last = pass == most_passes;
     HP_ASSIGN_OR_RETURN(flow::FlowMap map,
-                        land(start, out.flow.field, is_last ? options : rough, context));
+                        trace_flow_map(first, out.flow.field, is_last ? options : rough, context));
     out.passes.push_back(compare(out.map.surface.film_mm, map.surface.film_mm));
     out.map = std::move(map);
     if (is_last) return out;
     if (out.passes.back().moved_most_mm < 25.4 / dpi) break;
   }
-  HP_ASSIGN_OR_RETURN(out.map, land(start, out.flow.field, options, context));
+  HP_ASSIGN_OR_RETURN(out.map, trace_flow_map(first, out.flow.field, options, context));
   return out;
 }
 
 }  // namespace
 
-Result<Dip> dip_inked(const mesh::Model& model, Start begun, const image::Paint& paint,
+Result<Dip> dip_inked(const mesh::Model& model, StokesPass first, const image::Paint& paint,
                       int most_passes, double dpi, const DipOptions& options,
                       const Context& context) {
   HP_ASSIGN_OR_RETURN(InkedFlow inked,
-                      ink_passes(begun, paint, most_passes, dpi, options, context));
-  Dip dip = finish(model, std::move(begun), std::move(inked.map), inked.flow.unsettled_mm, options);
+                      ink_passes(first, paint, most_passes, dpi, options, context));
+  Dip dip =
+      assemble_dip(model, std::move(first), std::move(inked.map), inked.flow.unsettled_mm, options);
   dip.figures.ink_passes = std::move(inked.passes);
   return dip;
 }

@@ -86,9 +86,4 @@ struct Dip {
   Warnings warnings;
 };
 
-/// The method of section 4: mesh, pose, waterline, film mesh, velocity, flow map.
-/// Refuses a pose whose first contact misses the film (kFailedPrecondition).
-[[nodiscard]] Result<Dip> dip(const mesh::Model& model, const DipOptions& options,
-                              const Context& context);
-
 }  // namespace hydroprint::pipeline

@@ -1,9 +1,10 @@
 #include "sim/pipeline/predict.h"
 
-#include "sim/image/film_texture.h"
-#include "sim/image/pictures.h"
+#include "sim/image/figures/pictures.h"
+#include "sim/image/film/film_texture.h"
 #include "sim/ink/ink_of.h"
-#include "sim/mesh/read_model.h"
+#include "sim/mesh/read/read_model.h"
+#include "sim/pipeline/dip.h"
 
 namespace hydroprint::pipeline {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
-#include "sim/image/landed.h"
-#include "sim/image/picture.h"
+#include "sim/image/film/landed.h"
+#include "sim/image/io/rgb_image.h"
 #include "sim/mesh/model.h"
 #include "sim/pipeline/pipeline.h"
 

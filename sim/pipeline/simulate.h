@@ -5,8 +5,8 @@
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
-#include "sim/image/film_map.h"
-#include "sim/image/picture.h"
+#include "sim/image/film/film_map.h"
+#include "sim/image/io/rgb_image.h"
 #include "sim/mesh/model.h"
 #include "sim/pipeline/pipeline.h"
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/base/check.h"
 #include "sim/ink/ink_field.h"
 #include "sim/ink/printer_colours.h"
 
@@ -59,6 +60,7 @@ struct Limited {
 };
 
 Limited limit_ink(std::uint8_t* cmyk, std::size_t count, int most) {
+  HP_CHECK(most >= 0);
   Limited out;
   for (std::size_t i = 0; i < count; ++i, cmyk += 4) {
     if (total(cmyk) > most) {

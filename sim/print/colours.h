@@ -4,8 +4,8 @@
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
-#include "sim/image/picture.h"
-#include "sim/image/printer_image.h"
+#include "sim/image/io/printer_image.h"
+#include "sim/image/io/rgb_image.h"
 #include "sim/print/settings.h"
 
 namespace hydroprint::print {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::print {
 namespace {
 
@@ -54,6 +56,7 @@ void FreeSpace::take(const Cells& cells) {
 void FreeSpace::take(const Box& box) { take(cells_under(box)); }
 
 void FreeSpace::take(const std::vector<Vector2d>& polygon, double clearance_mm) {
+  HP_CHECK(polygon.size() >= 3);
   // Between the heights of cells lies nothing that its edge does not take.
   for (int y = 0; y < rows_; ++y) {
     const double at_mm = printable_.low_mm.y() + (y + 0.5) * kCell_mm;

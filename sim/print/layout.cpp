@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/check.h"
 #include "sim/print/marks.h"
 
 namespace hydroprint::print {
@@ -26,6 +27,8 @@ struct Cut {
 /// As few equal windows of at most `most_px` as cover `size_px` with at least that overlap; none if
 /// there would be too many.
 std::vector<Cut> cuts(int size_px, int most_px, int overlap_px) {
+  HP_CHECK(size_px > 0);
+  HP_CHECK(overlap_px >= 0);
   if (size_px <= most_px) return {{0, size_px}};
   if (most_px <= overlap_px) return {};
   const int count = 1 + (size_px - most_px + most_px - overlap_px - 1) / (most_px - overlap_px);
@@ -136,6 +139,7 @@ std::vector<Vector2d> film_on(const Sheet& sheet, const film::Outline& outline,
 
 /// Edges of other windows that fall inside of one.
 std::vector<double> joins(const std::vector<Cut>& cuts, std::size_t own) {
+  HP_CHECK(own < cuts.size());
   std::vector<double> out;
   const auto add = [&](int edge) {
     if (edge > cuts[own].first && edge < cuts[own].end) out.push_back(edge);

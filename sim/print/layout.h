@@ -6,7 +6,7 @@
 
 #include "sim/base/result.h"
 #include "sim/film/outline.h"
-#include "sim/image/film_image.h"
+#include "sim/image/film/film_image.h"
 #include "sim/print/free_space.h"
 #include "sim/print/page.h"
 #include "sim/print/settings.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/image/lettering.h"
+#include "sim/image/figures/text.h"
 
 namespace hydroprint::print {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/image/printer_image.h"
+#include "sim/image/io/printer_image.h"
 
 namespace hydroprint::print {
 

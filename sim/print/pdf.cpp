@@ -16,7 +16,7 @@
 #include <qpdf/QPDFWriter.hh>
 #include <string>
 
-#include "sim/image/png.h"
+#include "sim/image/io/png.h"
 
 namespace hydroprint::print {
 namespace {

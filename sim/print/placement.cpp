@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/image/pictures.h"
+#include "sim/image/figures/pictures.h"
 #include "sim/print/marks.h"
 #include "sim/waterline/body.h"
 #include "sim/waterline/cross_section.h"

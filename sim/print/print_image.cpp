@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/image/film_image.h"
-#include "sim/image/image_file.h"
-#include "sim/image/printer_image.h"
+#include "sim/image/film/film_image.h"
+#include "sim/image/io/image_file.h"
+#include "sim/image/io/printer_image.h"
 
 namespace hydroprint::print {
 namespace {

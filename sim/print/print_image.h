@@ -7,7 +7,7 @@
 #include "sim/base/context.h"
 #include "sim/base/result.h"
 #include "sim/film/outline.h"
-#include "sim/image/picture.h"
+#include "sim/image/io/rgb_image.h"
 #include "sim/print/colours.h"
 #include "sim/print/layout.h"
 #include "sim/print/page.h"

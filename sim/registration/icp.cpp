@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "sim/base/check.h"
 #include "sim/base/module.h"
 
 namespace hydroprint::registration {
 
 std::vector<SurfacePoint> thinned(std::span<const scan::ScanPoint> points, std::size_t most) {
+  HP_CHECK(most > 0);
   std::vector<SurfacePoint> out;
   const std::size_t step = std::max<std::size_t>(1, points.size() / most);
   for (std::size_t i = 0; i < points.size(); i += step)

@@ -5,6 +5,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "sim/base/check.h"
 #include "sim/scan/camera_errors.h"
 
 namespace hydroprint::registration {
@@ -81,6 +82,8 @@ Vector6 direction(const Pair& pair, const Eigen::Vector3d& centre, double length
 
 Normals normal_equations(std::span<const Pair> pairs, std::span<const double> weights,
                          const Eigen::Vector3d& centre, double length_mm) {
+  HP_CHECK(weights.size() == pairs.size());
+  HP_CHECK(length_mm > 0);
   Normals out;
   std::unordered_map<int, Vector6> patches;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -101,6 +104,7 @@ Normals normal_equations(std::span<const Pair> pairs, std::span<const double> we
 
 void add_camera(Normals& normals, std::span<const Pair> pairs, std::span<const double> weights,
                 const Eigen::Vector3d& centre, double length_mm, const scan::Camera& camera) {
+  HP_CHECK(weights.size() == pairs.size());
   const scan::CameraErrors errors(camera);
   normals.camera = CameraGain::Zero(6, errors.count());
   for (std::size_t i = 0; i < pairs.size(); ++i) {

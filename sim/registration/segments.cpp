@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::registration {
 namespace {
 
@@ -11,6 +13,7 @@ constexpr int kReach_px = 2;  ///< beyond the next pixel, which may lack a depth
 
 std::vector<std::vector<int>> segments(const scan::Cloud& cloud, const std::vector<bool>& chosen,
                                        double jump_mm) {
+  HP_CHECK(chosen.size() == cloud.points.size());
   std::vector<bool> taken(cloud.points.size());
   std::vector<std::vector<int>> out;
   const auto grow = [&](int seed) {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sim/base/check.h"
 #include "sim/registration/icp.h"
 
 namespace hydroprint::registration {
@@ -50,6 +51,7 @@ std::vector<Eigen::Matrix3d> turns(const Eigen::Matrix3d& nominal) {
 }
 
 Eigen::Vector3d middle(const std::vector<SurfacePoint>& points) {
+  HP_CHECK(!points.empty());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const auto& p : points) sum += p.point_mm;
   return sum / static_cast<double>(points.size());

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "sim/image/picture.h"
+#include "sim/image/io/rgb_image.h"
 
 namespace hydroprint::sample {
 

@@ -4,9 +4,9 @@
 #include <span>
 #include <system_error>
 
-#include "sim/image/artifact_file.h"
-#include "sim/image/image_file.h"
-#include "sim/image/png.h"
+#include "sim/base/artifact_file.h"
+#include "sim/image/io/image_file.h"
+#include "sim/image/io/png.h"
 #include "sim/sample/textured_mesh.h"
 
 namespace hydroprint::sample {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/image/picture.h"
+#include "sim/image/io/rgb_image.h"
 #include "sim/mesh/model.h"
 
 namespace hydroprint::sample {

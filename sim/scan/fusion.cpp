@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/base/check.h"
 #include "sim/scan/check_frames.h"
 
 namespace hydroprint::scan {
@@ -31,6 +32,7 @@ double deviation(const std::vector<double>& values, double from) {
 }
 
 double median(std::vector<double>& values) {
+  HP_CHECK(!values.empty());
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
@@ -38,6 +40,7 @@ double median(std::vector<double>& values) {
 
 /// @param values  depths of a pixel, all above 0; comes back in another order and without outliers
 Pixel mean_of(std::vector<double>& values, std::vector<double>& scratch, const DepthNoise& noise) {
+  HP_CHECK(!values.empty());
   Pixel out;
   const std::size_t all = values.size();
   const double middle = median(values);

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/base/check.h"
 #include "sim/scan/check_frames.h"
 #include "sim/scan/depth_steps.h"
 #include "sim/scan/smooth.h"
@@ -93,6 +94,8 @@ bool is_lost_for_good(const Path& path) {
 
 /// The pose at the next time, if the hand goes on as it did between the last two.
 Pose foreseen(const std::vector<Pose>& X_WC, std::span<const double> times_s) {
+  HP_CHECK(!X_WC.empty());
+  HP_CHECK(X_WC.size() < times_s.size());
   const std::size_t next = X_WC.size();
   const Pose& last = X_WC.back();
   if (next == 1) return last;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::sheet {
 
 using Eigen::Vector2d;
@@ -23,12 +25,14 @@ std::vector<Vector2d> prescribed(const VelocityField& field) {
 }
 
 double span_mm(const flow::DipField& dip, std::size_t k) {
+  HP_CHECK(k < dip.immersion_mm.size());
   const double before = k > 0 ? dip.immersion_mm[k - 1] : 0;
   const double after = k + 1 < dip.immersion_mm.size() ? dip.immersion_mm[k + 1] : dip.depth_mm;
   return 0.5 * (after - before);
 }
 
 double rms_change(const std::vector<Vector2d>& a, const std::vector<Vector2d>& b) {
+  HP_CHECK(a.size() == b.size());
   double sum = 0;
   for (std::size_t n = 0; n < a.size(); ++n) sum += (a[n] - b[n]).squaredNorm();
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(a.size(), 1)));

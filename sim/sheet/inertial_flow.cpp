@@ -4,9 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "sim/base/check.h"
 #include "sim/sheet/dip_parts.h"
-#include "sim/velocity/quadratic.h"
-#include "sim/velocity/sheet_step.h"
+#include "sim/sheet/sheet_step.h"
+#include "sim/velocity/quadratic_elements.h"
 
 namespace hydroprint::sheet {
 namespace {
@@ -26,6 +27,7 @@ Velocities scaled(Velocities velocities, double by) {
 /// The velocity, mm/s, that film which is now at the nodes of waterline `k` had at the one before;
 /// where no film was near, that it has now.
 Velocities velocity_before(const flow::DipField& dip, std::size_t k, double speed_mm_per_s) {
+  HP_CHECK(k < dip.fields.size());
   const VelocityField& now = dip.fields[k];
   Velocities before(now.nodes().size(), Vector2d::Zero());  // before first contact
   if (k == 0) return before;
@@ -66,6 +68,7 @@ Result<Velocities> last_step(const flow::DipField& dip, std::size_t k, double st
 /// shortened where film is drawn through gaps that the usual ones overshoot.
 Result<Velocities> step(const flow::DipField& dip, std::size_t k,
                         const std::vector<double>& thickness_mm, const InertialOptions& options) {
+  HP_CHECK(options.step_mm > 0);
   double steps = std::ceil(std::max(span_mm(dip, k), kLeastSpan_mm) / options.step_mm);
   for (int shortened = 0;; ++shortened) {
     auto out = last_step(dip, k, steps, thickness_mm, options);
@@ -78,6 +81,8 @@ Result<Velocities> step(const flow::DipField& dip, std::size_t k,
 
 Result<flow::DipField> inertial_flow(flow::DipField first, const RestThickness& rest_thickness,
                                      const InertialOptions& options, const Context& context) {
+  HP_CHECK(first.immersion_mm.size() == first.fields.size());
+  HP_CHECK(options.most_passes >= 1);
   flow::DipField dip = std::move(first);
   const std::size_t count = dip.fields.size();
   for (std::size_t k = 0; k < count; ++k) {

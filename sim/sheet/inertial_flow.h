@@ -3,8 +3,8 @@
 #include "sim/base/context.h"
 #include "sim/base/result.h"
 #include "sim/flow/trace.h"
+#include "sim/sheet/membrane.h"
 #include "sim/sheet/thickness.h"
-#include "sim/velocity/membrane.h"
 
 namespace hydroprint::sheet {
 

@@ -5,8 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "sim/base/check.h"
 #include "sim/sheet/dip_parts.h"
-#include "sim/velocity/sheet.h"
+#include "sim/sheet/sheet.h"
 
 namespace hydroprint::sheet {
 namespace {
@@ -72,6 +73,8 @@ class Progress {
 Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
                     const flow::RestMap* known, const RestThickness& rest_thickness,
                     const SheetOptions& options, const Context& context) {
+  HP_CHECK(first < last);
+  HP_CHECK(last <= flow.field.fields.size());
   const std::size_t count = last - first;
   std::vector<std::optional<velocity::Sheet>> sheets(count);
   Progress progress(count);
@@ -109,6 +112,7 @@ Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
 
 Result<SheetFlow> sheet_flow(flow::DipField first, const RestThickness& rest_thickness,
                              const SheetOptions& options, const Context& context) {
+  HP_CHECK(first.immersion_mm.size() == first.fields.size());
   SheetFlow flow{std::move(first), 0};
   const std::size_t count = flow.field.fields.size();
   // Long dips are not followed back to their beginning each time, but to the last window.

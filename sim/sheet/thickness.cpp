@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/velocity/quadratic.h"
+#include "sim/base/check.h"
+#include "sim/velocity/quadratic_elements.h"
 
 namespace hydroprint::sheet {
 namespace {
@@ -55,6 +56,7 @@ double mean_thickness_mm(const std::array<Vector2d, 6>& node, double twice_area_
 
 std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
                                  const RestThickness& rest_thickness, const flow::RestMap* known) {
+  HP_CHECK(k < dip.fields.size());
   const velocity::FilmMesh& mesh = dip.fields[k].mesh();
   const std::vector<Vector2d> rest = flow::trace_back(dip, k, known);
   std::vector<double> thickness(mesh.triangles.size(), 0);

@@ -5,7 +5,8 @@
 #include <vector>
 
 #include "sim/film/outline.h"
-#include "sim/image/pictures.h"
+#include "sim/image/figures/pictures.h"
+#include "sim/pipeline/dip.h"
 #include "sim/validate/experiments.h"
 #include "sim/validate/measure.h"
 #include "sim/validate/regions.h"
@@ -59,32 +60,34 @@ double worst(const mesh::Surface& surface, const std::vector<double>& errors,
 }
 
 /// @param body  its name, and the region that the scale of errors is to fit
-Status show(const Laboratory& lab, Experiment& out, const NamedRegion& body, const Plan& plan,
-            const pipeline::Dip& truth, const std::vector<double>& errors, const Context& context) {
+Status show(const ExperimentContext& setup, Experiment& out, const NamedRegion& body,
+            const Plan& plan, const pipeline::Dip& truth, const std::vector<double>& errors,
+            const Context& context) {
   const std::string& name = body.name;
-  HP_ASSIGN_OR_RETURN(const auto film, lab.texture(plan.film, context));
+  HP_ASSIGN_OR_RETURN(const auto film, setup.texture(plan.film, context));
   HP_RETURN_IF_ERROR(
-      lab.show(out, name + "-film", plan.film,
-               "The film image for the " + name + ", A4, as computed at the usual settings."));
+      setup.show(out, name + "-film", plan.film,
+                 "The film image for the " + name + ", A4, as computed at the usual settings."));
   HP_ASSIGN_OR_RETURN(const auto landed,
                       image::find_views(truth.surface, truth.X_FO, truth.map.tiles, context));
-  HP_RETURN_IF_ERROR(lab.show(out, name + "-landed",
-                              image::predicted_picture(landed, film, context),
-                              "Where the fine computation lands that film."));
+  HP_RETURN_IF_ERROR(setup.show(out, name + "-landed",
+                                image::predicted_picture(landed, film, context),
+                                "Where the fine computation lands that film."));
   const pipeline::Dip& dip = plan.dip;
   HP_ASSIGN_OR_RETURN(const auto planned,
                       image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
-  return lab.show(out, name + "-error",
-                  image::quantity_picture(
-                      planned, quantity_of("error mm", dip.surface, errors, body.region), context),
-                  "Distance on the object between where a colour should be and where it lands.");
+  return setup.show(
+      out, name + "-error",
+      image::quantity_picture(planned, quantity_of("error mm", dip.surface, errors, body.region),
+                              context),
+      "Distance on the object between where a colour should be and where it lands.");
 }
 
-Status board(Laboratory& lab, Experiment& out, Steps& steps) {
+Status board(ExperimentContext& setup, Experiment& out, Steps& steps) {
   const Context context = steps.next();
-  HP_ASSIGN_OR_RETURN(const Plan* plan, lab.plan("board", context));
+  HP_ASSIGN_OR_RETURN(const Plan* plan, setup.plan("board", context));
   const Context fine = steps.next();
-  HP_ASSIGN_OR_RETURN(const pipeline::Dip truth, lab.experiment("board", fine));
+  HP_ASSIGN_OR_RETURN(const pipeline::Dip truth, setup.experiment("board", fine));
   const mesh::Surface& surface = plan->dip.surface;
   HP_ASSIGN_OR_RETURN(const auto errors, landing_errors(plan->dip, truth, fine));
   const Region lower = [](const Vector3d& p) { return p.z() < 1e-6; };
@@ -100,14 +103,14 @@ Status board(Laboratory& lab, Experiment& out, Steps& steps) {
                          worst(surface, errors, is_board_cross, lower),
                          Limit{0, 1.5, "what the paper measured, all told"}});
   const Region scale = [](const Vector3d& p) { return p.z() < 10 - 1e-6; };
-  return show(lab, out, {"board", scale}, *plan, truth, errors, fine);
+  return show(setup, out, {"board", scale}, *plan, truth, errors, fine);
 }
 
-Status sphere(Laboratory& lab, Experiment& out, Steps& steps) {
+Status sphere(ExperimentContext& setup, Experiment& out, Steps& steps) {
   const Context context = steps.next();
-  HP_ASSIGN_OR_RETURN(const Plan* plan, lab.plan("sphere80", context));
+  HP_ASSIGN_OR_RETURN(const Plan* plan, setup.plan("sphere80", context));
   const Context fine = steps.next();
-  HP_ASSIGN_OR_RETURN(const pipeline::Dip truth, lab.experiment("sphere80", fine));
+  HP_ASSIGN_OR_RETURN(const pipeline::Dip truth, setup.experiment("sphere80", fine));
   const mesh::Surface& surface = plan->dip.surface;
   HP_ASSIGN_OR_RETURN(const auto errors, landing_errors(plan->dip, truth, fine));
   const NamedRegion half = band(0, 90, "to the equator");
@@ -129,7 +132,7 @@ Status sphere(Laboratory& lab, Experiment& out, Steps& steps) {
   out.figures.push_back(
       {"sphere_far_pole_max_mm", "sphere, 150 degrees and more: largest error at a cross-point",
        "mm", worst(surface, errors, is_sphere_cross, band(150, 180, "").region), std::nullopt});
-  return show(lab, out, {"sphere80", band(0, 120, "").region}, *plan, truth, errors, fine);
+  return show(setup, out, {"sphere80", band(0, 120, "").region}, *plan, truth, errors, fine);
 }
 
 /// Where film lands on a sphere of radius R dipped in the middle of a circular film of radius Rv:
@@ -143,10 +146,11 @@ Vector3d exact_landing(const Vector2d& film_mm, double R, double Rv) {
   return {R * sine * direction.x(), R * sine * direction.y(), -R * cosine};
 }
 
-Result<double> distance_from_exact(Laboratory& lab, Fineness fineness, const Context& context) {
+Result<double> distance_from_exact(ExperimentContext& setup, Fineness fineness,
+                                   const Context& context) {
   constexpr double kFilm_mm = 105;
-  HP_ASSIGN_OR_RETURN(const Body* body, lab.body("sphere80", context));
-  pipeline::DipOptions options = lab.options(*body, fineness);
+  HP_ASSIGN_OR_RETURN(const Body* body, setup.body("sphere80", context));
+  pipeline::DipOptions options = setup.options(*body, fineness);
   HP_ASSIGN_OR_RETURN(options.outline, film::parse_outline("circle:105"));
   options.map.make_tiles = false;
   options.film_model = pipeline::FilmModel::kStokes;
@@ -161,15 +165,15 @@ Result<double> distance_from_exact(Laboratory& lab, Fineness fineness, const Con
   return summarise(std::move(errors)).max;
 }
 
-Status exact(Laboratory& lab, Experiment& out, Steps& steps) {
+Status exact(ExperimentContext& setup, Experiment& out, Steps& steps) {
   const Context usual_context = steps.next();
   HP_ASSIGN_OR_RETURN(const double usual,
-                      distance_from_exact(lab, Fineness::kUsual, usual_context));
+                      distance_from_exact(setup, Fineness::kUsual, usual_context));
   const Context fine_context = steps.next();
-  HP_ASSIGN_OR_RETURN(const double fine, distance_from_exact(lab, Fineness::kFine, fine_context));
+  HP_ASSIGN_OR_RETURN(const double fine, distance_from_exact(setup, Fineness::kFine, fine_context));
   // Errors grow with the square of the lengths.
-  const double looser = lab.quick() ? kQuickFactor * kQuickFactor : 1;
-  const std::string quick = lab.quick() ? ", times 6.25 for the coarseness of a quick run" : "";
+  const double looser = setup.quick() ? kQuickFactor * kQuickFactor : 1;
+  const std::string quick = setup.quick() ? ", times 6.25 for the coarseness of a quick run" : "";
   out.figures.push_back({"exact_sphere_usual_max_mm",
                          "the same sphere in a circular film, to 120 degrees, usual settings: "
                          "largest distance from the exact solution",
@@ -182,7 +186,7 @@ Status exact(Laboratory& lab, Experiment& out, Steps& steps) {
 
 }  // namespace
 
-Status accuracy(Laboratory& lab, Experiment& out, const Context& context) {
+Status accuracy(ExperimentContext& setup, Experiment& out, const Context& context) {
   out.text = {
       "As in the paper, a film image is computed so that the cross-points of a grid come to lie on "
       "known places of the object (there: shallow dimples), and is then dipped. The film image "
@@ -200,9 +204,9 @@ Status accuracy(Laboratory& lab, Experiment& out, const Context& context) {
       "for "
       "the sphere."};
   Steps steps(context, out.name, 6);
-  HP_RETURN_IF_ERROR(board(lab, out, steps));
-  HP_RETURN_IF_ERROR(sphere(lab, out, steps));
-  return exact(lab, out, steps);
+  HP_RETURN_IF_ERROR(board(setup, out, steps));
+  HP_RETURN_IF_ERROR(sphere(setup, out, steps));
+  return exact(setup, out, steps);
 }
 
 }  // namespace hydroprint::validate

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/image/pictures.h"
+#include "sim/image/figures/pictures.h"
+#include "sim/pipeline/dip.h"
 #include "sim/validate/experiments.h"
 #include "sim/validate/measure.h"
 #include "sim/validate/printable.h"
@@ -53,7 +54,7 @@ bool warns(const pipeline::Dip& dip, const std::string& code) {
 
 }  // namespace
 
-Status bowl(Laboratory& lab, Experiment& out, const Context& context) {
+Status bowl(ExperimentContext& setup, Experiment& out, const Context& context) {
   out.text = {
       "The paper's failure: the inside of a deep bowl. Mouth down, the rim takes hold of a disc of "
       "film that must line the whole wall before it comes to the floor; what is left by then is "
@@ -72,7 +73,7 @@ Status bowl(Laboratory& lab, Experiment& out, const Context& context) {
   for (const Way& way : {Way{"bowl", "mouth down", "film_torn"},
                          Way{"bowl-upright", "upright", "parts_not_reached"}}) {
     const Context next = steps.next();
-    HP_ASSIGN_OR_RETURN(const Plan* plan, lab.plan(way.body, next));
+    HP_ASSIGN_OR_RETURN(const Plan* plan, setup.plan(way.body, next));
     const pipeline::Dip& dip = plan->dip;
     const Verdict inside = judge(dip, is_bowl_inside);
     const Verdict verdict = judge(dip, is_bowl_floor);
@@ -92,21 +93,22 @@ Status bowl(Laboratory& lab, Experiment& out, const Context& context) {
     HP_ASSIGN_OR_RETURN(const auto views,
                         image::find_views(dip.surface, dip.X_FO, dip.map.tiles, next));
     HP_RETURN_IF_ERROR(
-        lab.show(out, key + "-stretch", image::stretch_picture(views, dip.map.surface, next),
-                 "Stretch on the bowl, dipped " + way.people + "; hatched: no film."));
+        setup.show(out, key + "-stretch", image::stretch_picture(views, dip.map.surface, next),
+                   "Stretch on the bowl, dipped " + way.people + "; hatched: no film."));
     if (way.body != "bowl") continue;
     HP_RETURN_IF_ERROR(
-        lab.show(out, key + "-film", plan->film,
-                 "The film image it would take: the floor's part has shrunk to a dot."));
-    HP_ASSIGN_OR_RETURN(const auto film, lab.texture(plan->film, next));
-    HP_RETURN_IF_ERROR(lab.show(out, key + "-landed", image::predicted_picture(views, film, next),
-                                "The bowl if the film held: what a film image can give at best."));
+        setup.show(out, key + "-film", plan->film,
+                   "The film image it would take: the floor's part has shrunk to a dot."));
+    HP_ASSIGN_OR_RETURN(const auto film, setup.texture(plan->film, next));
+    HP_RETURN_IF_ERROR(
+        setup.show(out, key + "-landed", image::predicted_picture(views, film, next),
+                   "The bowl if the film held: what a film image can give at best."));
   }
   out.tables.push_back(std::move(table));
 
   const Context last = steps.next();
-  HP_ASSIGN_OR_RETURN(const Body* body, lab.body("bowl", last));
-  pipeline::DipOptions options = lab.options(*body, Fineness::kUsual);
+  HP_ASSIGN_OR_RETURN(const Body* body, setup.body("bowl", last));
+  pipeline::DipOptions options = setup.options(*body, Fineness::kUsual);
   options.map.make_tiles = false;
   HP_ASSIGN_OR_RETURN(const pipeline::Dip even, pipeline::dip(body->model, options, last));
   const double floor =

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numeric>
 
-#include "sim/image/raster.h"
-#include "sim/image/stretch.h"
+#include "sim/image/film/stretch.h"
+#include "sim/image/texture/raster.h"
 
 namespace hydroprint::validate {
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/check.h"
 #include "sim/validate/film_locator.h"
 
 namespace hydroprint::validate {
@@ -36,6 +37,7 @@ Summary summarise(std::vector<double> values) {
 Result<std::vector<double>> landing_errors(const pipeline::Dip& plan,
                                            const pipeline::Dip& experiment,
                                            const Context& context) {
+  HP_CHECK(plan.map.surface.film_mm.size() == plan.surface.points.size());
   const FilmLocator locator(experiment.surface, experiment.map.tiles);
   std::vector<double> errors(plan.surface.points.size(), kNan);
   HP_RETURN_IF_ERROR(parallel_for(context, {}, errors.size(), [&](std::size_t v) -> Status {
@@ -49,6 +51,7 @@ Result<std::vector<double>> landing_errors(const pipeline::Dip& plan,
 }
 
 std::vector<double> film_differences(const pipeline::Dip& a, const pipeline::Dip& b) {
+  HP_CHECK(a.map.surface.film_mm.size() == b.map.surface.film_mm.size());
   std::vector<double> out;
   for (std::size_t v = 0; v < a.map.surface.film_mm.size(); ++v) {
     out.push_back((a.map.surface.film_mm[v] - b.map.surface.film_mm[v]).norm());
@@ -58,6 +61,7 @@ std::vector<double> film_differences(const pipeline::Dip& a, const pipeline::Dip
 
 std::vector<double> values_where(const mesh::Surface& surface, const std::vector<double>& values,
                                  const Region& region) {
+  HP_CHECK(values.size() == surface.points.size());
   std::vector<double> out;
   for (std::size_t v = 0; v < values.size(); ++v) {
     if (surface.weld[v] == static_cast<int>(v) && region(surface.points[v]))

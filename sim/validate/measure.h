@@ -8,7 +8,7 @@
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
-#include "sim/image/pictures.h"
+#include "sim/image/figures/pictures.h"
 #include "sim/mesh/surface.h"
 #include "sim/pipeline/pipeline.h"
 

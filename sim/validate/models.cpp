@@ -1,7 +1,8 @@
 #include <string>
 #include <vector>
 
-#include "sim/image/pictures.h"
+#include "sim/image/figures/pictures.h"
+#include "sim/pipeline/dip.h"
 #include "sim/sample/painting.h"
 #include "sim/validate/experiments.h"
 #include "sim/validate/measure.h"
@@ -24,7 +25,7 @@ image::RgbImage chessboard() {
 
 }  // namespace
 
-Status models(Laboratory& lab, Experiment& out, const Context& context) {
+Status models(ExperimentContext& setup, Experiment& out, const Context& context) {
   out.text = {
       "A U-shaped tube goes in with its two feet first and its bend last. The film between the "
       "legs "
@@ -35,8 +36,8 @@ Status models(Laboratory& lab, Experiment& out, const Context& context) {
       "colour for the same place on the object. There is no photograph to say which is right; what "
       "can be judged is where they must differ most."};
   Steps steps(context, out.name, 2);
-  HP_ASSIGN_OR_RETURN(const Body* body, lab.body("ubend", context));
-  pipeline::DipOptions options = lab.options(*body, Fineness::kUsual);
+  HP_ASSIGN_OR_RETURN(const Body* body, setup.body("ubend", context));
+  pipeline::DipOptions options = setup.options(*body, Fineness::kUsual);
   const Context first = steps.next();
   HP_ASSIGN_OR_RETURN(const pipeline::Dip sheet, pipeline::dip(body->model, options, first));
   options.film_model = pipeline::FilmModel::kStokes;
@@ -70,16 +71,16 @@ Status models(Laboratory& lab, Experiment& out, const Context& context) {
              "as in Fig. 13, the bend is where the models part: the film's thickness has "
              "had the whole dip to become uneven"}});
 
-  HP_ASSIGN_OR_RETURN(const auto film, lab.texture(chessboard(), second));
+  HP_ASSIGN_OR_RETURN(const auto film, setup.texture(chessboard(), second));
   HP_ASSIGN_OR_RETURN(const auto before,
                       image::find_views(stokes.surface, stokes.X_FO, stokes.map.tiles, second));
   HP_ASSIGN_OR_RETURN(const auto after,
                       image::find_views(sheet.surface, sheet.X_FO, sheet.map.tiles, second));
-  HP_RETURN_IF_ERROR(lab.show(out, "stokes", image::predicted_picture(before, film, second),
-                              "The chessboard as Stokes flow lands it (Fig. 13 b)."));
-  HP_RETURN_IF_ERROR(lab.show(out, "sheet", image::predicted_picture(after, film, second),
-                              "The same as the viscous sheet lands it (Fig. 13 c)."));
-  return lab.show(
+  HP_RETURN_IF_ERROR(setup.show(out, "stokes", image::predicted_picture(before, film, second),
+                                "The chessboard as Stokes flow lands it (Fig. 13 b)."));
+  HP_RETURN_IF_ERROR(setup.show(out, "sheet", image::predicted_picture(after, film, second),
+                                "The same as the viscous sheet lands it (Fig. 13 c)."));
+  return setup.show(
       out, "difference",
       image::quantity_picture(after, quantity_of("on film mm", sheet.surface, differences), second),
       "How far apart on the film the two models put the colour for the same place.");

@@ -2,7 +2,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/image/pictures.h"
+#include "sim/image/figures/pictures.h"
 #include "sim/validate/experiments.h"
 #include "sim/validate/measure.h"
 #include "sim/validate/printable.h"
@@ -10,7 +10,7 @@
 
 namespace hydroprint::validate {
 
-Status objects(Laboratory& lab, Experiment& out, const Context& context) {
+Status objects(ExperimentContext& setup, Experiment& out, const Context& context) {
   struct Object {
     std::string name;
     NamedRegion face;
@@ -27,7 +27,7 @@ Status objects(Laboratory& lab, Experiment& out, const Context& context) {
               {}};
   for (const Object& object : all) {
     const Context next = steps.next();
-    HP_ASSIGN_OR_RETURN(const Plan* plan, lab.plan(object.name, next));
+    HP_ASSIGN_OR_RETURN(const Plan* plan, setup.plan(object.name, next));
     const pipeline::Dip& dip = plan->dip;
     const Verdict verdict = judge(dip, object.face.region);
     const Summary stretch =
@@ -38,14 +38,14 @@ Status objects(Laboratory& lab, Experiment& out, const Context& context) {
                            object.name + ", " + object.face.name + ": share that film reaches", "%",
                            100 * verdict.reached,
                            Limit{98, 100, "Figs. 14 and 15: it was printed whole"}});
-    HP_ASSIGN_OR_RETURN(const auto film, lab.texture(plan->film, next));
-    HP_RETURN_IF_ERROR(lab.show(out, object.name + "-film", plan->film,
-                                "The film image for the " + object.name + ", A4."));
+    HP_ASSIGN_OR_RETURN(const auto film, setup.texture(plan->film, next));
+    HP_RETURN_IF_ERROR(setup.show(out, object.name + "-film", plan->film,
+                                  "The film image for the " + object.name + ", A4."));
     HP_ASSIGN_OR_RETURN(const auto views,
                         image::find_views(dip.surface, dip.X_FO, dip.map.tiles, next));
     HP_RETURN_IF_ERROR(
-        lab.show(out, object.name + "-landed", image::predicted_picture(views, film, next),
-                 "The " + object.name + " as it comes out of the water; grey is bare."));
+        setup.show(out, object.name + "-landed", image::predicted_picture(views, film, next),
+                   "The " + object.name + " as it comes out of the water; grey is bare."));
   }
   out.tables.push_back(std::move(table));
   return {};

@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "sim/image/pictures.h"
+#include "sim/image/figures/pictures.h"
+#include "sim/pipeline/dip.h"
 #include "sim/sample/painting.h"
 #include "sim/validate/experiments.h"
 #include "sim/validate/film_locator.h"
@@ -96,8 +97,8 @@ image::RgbImage chessboard() {
 
 }  // namespace
 
-Status repeatability(Laboratory& lab, Experiment& out, const Context& context) {
-  const int draws = lab.quick() ? kQuickDraws : kDraws;
+Status repeatability(ExperimentContext& setup, Experiment& out, const Context& context) {
+  const int draws = setup.quick() ? kQuickDraws : kDraws;
   out.text = {
       "The paper prints the same chessboard on the same face several times over and finds it in "
       "the "
@@ -111,8 +112,8 @@ Status repeatability(Laboratory& lab, Experiment& out, const Context& context) {
           "0.5 mm along and across and 0.2 degrees in its plane. Each dip is computed as Stokes "
           "flow, which is fast and, for a difference of two dips so much alike, good enough."};
   Steps steps(context, out.name, draws + 1);
-  HP_ASSIGN_OR_RETURN(const Body* body, lab.body("globe", context));
-  pipeline::DipOptions options = lab.options(*body, Fineness::kUsual);
+  HP_ASSIGN_OR_RETURN(const Body* body, setup.body("globe", context));
+  pipeline::DipOptions options = setup.options(*body, Fineness::kUsual);
   options.film_model = pipeline::FilmModel::kStokes;
   options.map.tolerance_mm = 0.1;
   options.map.least_edge_mm = 0.2;
@@ -176,18 +177,18 @@ Status repeatability(Laboratory& lab, Experiment& out, const Context& context) {
        spread[middle] / scatter(contacts),
        Limit{0.97, 1.03, "nothing has moved the film yet: the one follows from the other"}});
 
-  HP_ASSIGN_OR_RETURN(const auto film, lab.texture(chessboard(), first));
+  HP_ASSIGN_OR_RETURN(const auto film, setup.texture(chessboard(), first));
   HP_ASSIGN_OR_RETURN(const auto views,
                       image::find_views(planned.surface, planned.X_FO, planned.map.tiles, first));
-  HP_RETURN_IF_ERROR(lab.show(out, "chessboard", image::predicted_picture(views, film, first),
-                              "The film's chessboard of 10 mm as it lands without errors."));
+  HP_RETURN_IF_ERROR(setup.show(out, "chessboard", image::predicted_picture(views, film, first),
+                                "The film's chessboard of 10 mm as it lands without errors."));
   image::Quantity quantity{"spread mm", spread, 0, 0.1, [&](const flow::MappedTriangle& tile) {
                              std::array<double, 3> values{};
                              for (int i = 0; i < 3; ++i)
                                values[i] = between(spread, tile.film_mm[i]);
                              return values;
                            }};
-  return lab.show(
+  return setup.show(
       out, "spread", image::quantity_picture(views, quantity, first),
       "Spread of the landing under the drawn errors; hatched where not every draw lands film.");
 }

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/image/pictures.h"
+#include "sim/image/figures/pictures.h"
 #include "sim/validate/experiments.h"
 #include "sim/validate/measure.h"
 #include "sim/validate/printable.h"
@@ -12,7 +12,7 @@ namespace hydroprint::validate {
 namespace {
 
 struct Shown {
-  std::string body;    ///< of Laboratory
+  std::string body;    ///< of ExperimentContext
   std::string people;  ///< what it is
   NamedRegion face;    ///< what is to be printed
 };
@@ -30,7 +30,7 @@ std::vector<Shown> bodies() {
 
 }  // namespace
 
-Status stretch(Laboratory& lab, Experiment& out, const Context& context) {
+Status stretch(ExperimentContext& setup, Experiment& out, const Context& context) {
   const auto shown = bodies();
   out.text = {
       "How much the film is stretched where it lands: the largest singular value of the map from "
@@ -48,7 +48,7 @@ Status stretch(Laboratory& lab, Experiment& out, const Context& context) {
       "What one dip can print", {"body", "face", "film reaches", "torn", "verdict"}, {}};
   for (const Shown& s : shown) {
     const Context next = steps.next();
-    HP_ASSIGN_OR_RETURN(const Plan* plan, lab.plan(s.body, next));
+    HP_ASSIGN_OR_RETURN(const Plan* plan, setup.plan(s.body, next));
     const pipeline::DipFigures& f = plan->dip.figures;
     std::string warnings;
     for (const Warning& w : plan->dip.warnings) warnings += (warnings.empty() ? "" : ", ") + w.code;
@@ -62,8 +62,8 @@ Status stretch(Laboratory& lab, Experiment& out, const Context& context) {
     const pipeline::Dip& dip = plan->dip;
     HP_ASSIGN_OR_RETURN(const auto views,
                         image::find_views(dip.surface, dip.X_FO, dip.map.tiles, next));
-    HP_RETURN_IF_ERROR(lab.show(out, s.body, image::stretch_picture(views, dip.map.surface, next),
-                                "Stretch on the " + s.people + "."));
+    HP_RETURN_IF_ERROR(setup.show(out, s.body, image::stretch_picture(views, dip.map.surface, next),
+                                  "Stretch on the " + s.people + "."));
     if (s.body == "sphere80") {
       const double at_contact =
           summarise(

@@ -2,9 +2,10 @@
 #include <utility>
 #include <vector>
 
-#include "sim/image/image_file.h"
-#include "sim/image/pictures.h"
-#include "sim/image/png.h"
+#include "sim/image/figures/pictures.h"
+#include "sim/image/io/image_file.h"
+#include "sim/image/io/png.h"
+#include "sim/pipeline/dip.h"
 #include "sim/sample/painting.h"
 #include "sim/validate/experiments.h"
 #include "sim/validate/measure.h"
@@ -38,7 +39,7 @@ Result<pipeline::Dip> dip_as_printed(const Body& body, const Plan& plan,
 
 }  // namespace
 
-Status thickness(Laboratory& lab, Experiment& out, const Context& context) {
+Status thickness(ExperimentContext& setup, Experiment& out, const Context& context) {
   out.text = {
       "Ink makes the film thicker (by 0.05 mm per unit of ink on 0.5 mm, section 4.3), and what is "
       "thicker gives way less. The film for a sphere of radius 80 mm with squares of 45 degrees in "
@@ -47,11 +48,11 @@ Status thickness(Laboratory& lab, Experiment& out, const Context& context) {
       "inked.",
       "All of this is at the usual settings, so that nothing but the ink makes the difference."};
   Steps steps(context, out.name, 4);
-  HP_ASSIGN_OR_RETURN(const Body* sphere, lab.body("sphere80", context));
+  HP_ASSIGN_OR_RETURN(const Body* sphere, setup.body("sphere80", context));
   Body body = *sphere;
   HP_ASSIGN_OR_RETURN(body.model.materials[0].texture_bytes, image::encode_png(squares(), 72));
   HP_ASSIGN_OR_RETURN(body.paint, image::load_paint(body.model, {}, context));
-  const pipeline::DipOptions options = lab.options(body, Fineness::kUsual);
+  const pipeline::DipOptions options = setup.options(body, Fineness::kUsual);
   struct Case {
     std::string name, people;
     int ink_passes;
@@ -64,7 +65,7 @@ Status thickness(Laboratory& lab, Experiment& out, const Context& context) {
   for (const Case& c : {Case{"on", "with the ink's thickness", 2},
                         Case{"off", "as if the film were as thick everywhere", 0}}) {
     const Context first = steps.next();
-    HP_ASSIGN_OR_RETURN(Plan plan, make_plan(body, options, c.ink_passes, lab.film_dpi(), first));
+    HP_ASSIGN_OR_RETURN(Plan plan, make_plan(body, options, c.ink_passes, setup.film_dpi(), first));
     const Context second = steps.next();
     HP_ASSIGN_OR_RETURN(const pipeline::Dip truth, dip_as_printed(body, plan, options, second));
     HP_ASSIGN_OR_RETURN(const auto errors, landing_errors(plan.dip, truth, second));
@@ -76,15 +77,15 @@ Status thickness(Laboratory& lab, Experiment& out, const Context& context) {
     out.figures.push_back({"thickness_" + c.name + "_mean_mm",
                            c.people + ": mean error to 120 degrees", "mm", most.mean,
                            std::nullopt});
-    HP_ASSIGN_OR_RETURN(const auto film, lab.texture(plan.film, second));
+    HP_ASSIGN_OR_RETURN(const auto film, setup.texture(plan.film, second));
     HP_ASSIGN_OR_RETURN(const auto landed,
                         image::find_views(truth.surface, truth.X_FO, truth.map.tiles, second));
     HP_RETURN_IF_ERROR(
-        lab.show(out, c.name + "-landed", image::predicted_picture(landed, film, second),
-                 "The inked film on the sphere; its image was computed " + c.people + "."));
+        setup.show(out, c.name + "-landed", image::predicted_picture(landed, film, second),
+                   "The inked film on the sphere; its image was computed " + c.people + "."));
     HP_ASSIGN_OR_RETURN(const auto planned,
                         image::find_views(surface, plan.dip.X_FO, plan.dip.map.tiles, second));
-    HP_RETURN_IF_ERROR(lab.show(
+    HP_RETURN_IF_ERROR(setup.show(
         out, c.name + "-error",
         image::quantity_picture(
             planned, quantity_of("error mm", surface, errors, band(0, 120, "").region), second),
@@ -92,8 +93,8 @@ Status thickness(Laboratory& lab, Experiment& out, const Context& context) {
     plans.push_back(std::move(plan));
   }
   out.tables.push_back(std::move(table));
-  HP_RETURN_IF_ERROR(lab.show(out, "film", plans[0].film,
-                              "The film image of the two-step scheme, with its heavy ink."));
+  HP_RETURN_IF_ERROR(setup.show(out, "film", plans[0].film,
+                                "The film image of the two-step scheme, with its heavy ink."));
   out.figures.push_back({"thickness_on_to_off",
                          "mean error with the ink's thickness over that without", "",
                          out.figures[0].value / out.figures[1].value,

@@ -4,8 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "sim/validate/experiment_context.h"
 #include "sim/validate/experiments.h"
-#include "sim/validate/laboratory.h"
 
 namespace hydroprint::validate {
 namespace {
@@ -15,7 +15,7 @@ struct Maker {
   const char* title;
   const char* paper;
   double weight;
-  Status (*run)(Laboratory&, Experiment&, const Context&);
+  Status (*run)(ExperimentContext&, Experiment&, const Context&);
 };
 
 constexpr std::array kMakers = {
@@ -58,7 +58,7 @@ Result<Report> validate(const Options& options, const PictureSink& pictures,
   HP_RETURN_IF_ERROR(check(options));
   Report report;
   report.options = options;
-  Laboratory lab(options.quick, pictures);
+  ExperimentContext setup(options.quick, pictures);
   for (const Maker& maker : kMakers) {
     if (!is_asked_for(options, maker.name)) continue;
     HP_RETURN_IF_ERROR(check_cancelled(context));
@@ -67,7 +67,7 @@ Result<Report> validate(const Options& options, const PictureSink& pictures,
     experiment.name = maker.name;
     experiment.title = maker.title;
     experiment.paper = maker.paper;
-    HP_RETURN_IF_ERROR(maker.run(lab, experiment, context));
+    HP_RETURN_IF_ERROR(maker.run(setup, experiment, context));
     context.progress(maker.name, 1);
     for (const Figure& figure : experiment.figures) {
       if (figure.limit) ++(figure.passes() ? report.passed : report.failed);

@@ -6,8 +6,8 @@
 
 #include "sim/base/context.h"
 #include "sim/base/result.h"
-#include "sim/image/picture.h"
-#include "sim/validate/findings.h"
+#include "sim/image/io/rgb_image.h"
+#include "sim/validate/experiment_result.h"
 
 namespace hydroprint::validate {
 

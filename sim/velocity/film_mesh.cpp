@@ -14,8 +14,9 @@
 #include <unordered_map>
 #include <utility>
 
-#include "sim/velocity/quadratic.h"
-#include "sim/velocity/sample_loop.h"
+#include "sim/base/check.h"
+#include "sim/velocity/curve_sampling.h"
+#include "sim/velocity/quadratic_elements.h"
 
 namespace hydroprint::velocity {
 namespace {
@@ -200,6 +201,8 @@ FilmMesh extract(const Triangulation& triangulation, const film::Outline& outlin
 
 Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterline& line,
                            const MeshOptions& options) {
+  HP_CHECK(line.bounds_film.size() == line.section.size());
+  HP_CHECK(outline.polygon.size() >= 3);
   std::vector<std::vector<Eigen::Vector2d>> waterlines;
   for (std::size_t l = 0; l < line.section.size(); ++l) {
     if (!line.bounds_film[l]) continue;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::velocity {
 namespace {
 
@@ -46,6 +48,7 @@ Eigen::Vector3d nearest_in(const Eigen::Vector2d& p, const Eigen::Vector2d& orig
 }  // namespace
 
 Locator::Locator(const FilmMesh& mesh) {
+  HP_CHECK(mesh.triangle_edges.size() == mesh.triangles.size());
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;
   for (const Eigen::Vector2d& p : mesh.vertices_mm) {

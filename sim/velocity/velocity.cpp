@@ -5,7 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/velocity/quadratic.h"
+#include "sim/base/check.h"
+#include "sim/velocity/quadratic_elements.h"
 
 namespace hydroprint::velocity {
 namespace {
@@ -50,6 +51,7 @@ std::shared_ptr<const VelocityField::Film> VelocityField::no_film() {
 }
 
 VelocityField VelocityField::with(std::vector<Eigen::Vector2d> nodes) const {
+  HP_CHECK(nodes.size() == nodes_.size());
   VelocityField other = *this;
   other.nodes_ = std::move(nodes);
   return other;
@@ -87,6 +89,7 @@ Eigen::Vector2d VelocityField::value(const Locator::Place& place) const {
 
 std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
                                                  const waterline::PullIndex& pulls) {
+  HP_CHECK(mesh.edge_kind.size() == mesh.edges.size());
   constexpr double kInwards = 0.02;  ///< of an edge: off its end, so that a corner has two sides
   const Eigen::Vector2d unknown =
       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
@@ -117,6 +120,8 @@ std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
 
 Result<std::vector<Eigen::Vector2d>> solve_stokes(const FilmMesh& mesh,
                                                   const std::vector<Eigen::Vector2d>& fixed) {
+  HP_CHECK(fixed.size() == mesh.node_count());
+  HP_CHECK(mesh.elimination_order.size() == mesh.node_count());
   const Unknowns unknowns(mesh, fixed);
   const auto& [unknown, count] = unknowns;
   std::vector<Eigen::Vector2d> velocity = fixed;

@@ -4,9 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::waterline {
 
 Body place(const mesh::Surface& surface, Pose& X_FO) {
+  HP_CHECK(!surface.triangles.empty());
+  HP_CHECK(surface.weld.size() == surface.points.size());
+  HP_CHECK(surface.corner_normals.size() == surface.triangles.size());
   Body body;
   body.points_mm.reserve(surface.points.size());
   double lowest = std::numeric_limits<double>::infinity();
@@ -38,6 +43,7 @@ Body place(const mesh::Surface& surface, Pose& X_FO) {
 }
 
 Pose centred_pose(const mesh::Surface& surface) {
+  HP_CHECK(!surface.triangles.empty());
   Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector3d high = -low;
   for (const Eigen::Vector3i& triangle : surface.triangles) {

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "sim/base/check.h"
+
 namespace hydroprint::waterline {
 namespace {
 
@@ -201,6 +203,8 @@ std::vector<double> rims(const Body& body) {
 }  // namespace
 
 std::vector<double> schedule(const Body& body, double depth_mm, const ScheduleOptions& options) {
+  HP_CHECK(depth_mm >= 0);
+  HP_CHECK(options.event_gap_mm > 0);
   const double bin_mm = body.height_mm / kBins;
   const double gap_mm = options.event_gap_mm;
   std::vector<double> depths = {gap_mm, depth_mm - gap_mm};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "sim/base/check.h"
 #include "sim/waterline/slicer.h"
 
 namespace hydroprint::waterline {
@@ -125,6 +126,7 @@ void carry_film(const film::Outline& outline, const Waterline& before, Waterline
 Result<std::vector<Waterline>> take_all(const Slicer& slicer, const Motion& motion,
                                         const std::vector<double>& depths, double event_gap_mm,
                                         const Context& context) {
+  HP_CHECK(std::is_sorted(depths.begin(), depths.end()));
   std::vector<Waterline> lines(depths.size());
   HP_RETURN_IF_ERROR(
       parallel_for(context, "waterline", depths.size(), [&](std::size_t i) -> Status {

@@ -1,4 +1,4 @@
-// hydroprint-worker: one computation, one process. See options.h for what it can be asked.
+// hydroprint-worker: one computation, one process. Its verbs: registry.h.
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -7,17 +7,14 @@
 #include <cstdio>
 #include <exception>
 #include <new>
-#include <optional>
 #include <string>
 
 #include "sim/base/one_line.h"
-#include "sim/worker/ending.h"
-#include "sim/worker/errors.h"
-#include "sim/worker/options.h"
-#include "sim/worker/preview.h"
-#include "sim/worker/quiet_stderr.h"
-#include "sim/worker/report.h"
-#include "sim/worker/run.h"
+#include "sim/base/process/error_output.h"
+#include "sim/base/process/quiet_stderr.h"
+#include "sim/base/process/termination.h"
+#include "sim/worker/command_line.h"
+#include "sim/worker/common/fields.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -41,41 +38,30 @@ void keep_freed_memory() {
   ::mallopt(M_TRIM_THRESHOLD, kMany);
 }
 
-/// Does `work`, and turns what libraries may throw into an error.
-template <class Work>
-auto guarded(const Options& options, const Work& work) -> decltype(work()) {
-  const bool is_print = options.verb == Verb::kPrintImage;
-  const std::string what = is_print                  ? options.film_image.string()
-                           : !options.frames.empty() ? options.frames.front().string()
-                           : options.mesh.empty()    ? "validate"
-                                                     : options.mesh.string();
+/// Runs the task, and turns exceptions of libraries into errors.
+Result<Finished> run(const CommandLine& command, Termination& termination, int stderr_fd) {
+  const std::string subject = command.task->subject();
   try {
-    return work();
+    return command.task->run(command.run, termination, stderr_fd);
   } catch (const std::bad_alloc&) {
     return fail(Code::kInternal,
-                what + ": out of memory. Use a smaller model, a lower --dpi or more memory",
+                subject + ": out of memory. Use a smaller model, a lower --dpi or more memory",
                 "OUT_OF_MEMORY");
   } catch (const std::exception& error) {
-    return fail(Code::kInternal, what + ": " + error.what() + ". Please report this");
+    return fail(Code::kInternal, subject + ": " + error.what() + ". Please report this");
   }
 }
 
-/// Does what is asked; only what leaves a folder has something to sum up.
-Result<std::optional<Finished>> obey(const Options& options, Ending& ending, int stderr_fd) {
-  if (options.verb == Verb::kPreview) {
-    HP_RETURN_IF_ERROR(run_preview(options, ending));
-    return std::nullopt;
-  }
-  return run(options, ending, stderr_fd);
+int refuse(const Error& error, ExitStatus status, bool json) {
+  tell(error, status, json);
+  return static_cast<int>(status);
 }
 
-void sum_up(const Finished& finished, bool json) {
-  const std::string text = json ? summary_json(finished.report, finished.dir)
-                                : summary_text(finished.report, finished.dir);
-  std::fputs(text.c_str(), stdout);
+void print_result(const Finished& finished, bool json) {
+  std::fputs(finished.summary.c_str(), stdout);
   std::fflush(stdout);
   if (json) return;
-  for (const Warning& warning : finished.report.warnings) {
+  for (const Warning& warning : finished.warnings) {
     const std::string line = one_line(warning.message + " (" + warning.where + ")");
     std::fprintf(stderr, "hydroprint-worker: warning: %s\n", line.c_str());
   }
@@ -85,31 +71,29 @@ int main_of(int argc, char** argv) {
   occupy_standard_streams();
   keep_freed_memory();
   const CommandLine command = parse_command_line(argc, argv);
+  const bool json = command.run.json;
   switch (command.action) {
     case CommandLine::Action::kPrint:
       std::fputs(command.text.c_str(), stdout);
       return 0;
     case CommandLine::Action::kRefuse:
-      tell(command.error, command.status, command.options.json);
-      return static_cast<int>(command.status);
+      return refuse(command.error, command.status, json);
     case CommandLine::Action::kRun:
       break;
   }
-  const bool json = command.options.json;
   const QuietStderr quiet;
-  Ending ending([&quiet, json] {
+  Termination termination([&quiet, json] {
     quiet.restore();
     tell({Code::kCancelled, "cancelled", {}, {}}, ExitStatus::kCancelled, json);
   });
-  const Result<std::optional<Finished>> finished =
-      guarded(command.options, [&] { return obey(command.options, ending, quiet.own()); });
-  ending.decide();
+  const Result<Finished> finished = run(command, termination, quiet.own());
+  termination.decide();
   quiet.restore();
   if (!finished) {
-    tell(finished.error(), exit_status(finished.error()), json);
-    return static_cast<int>(exit_status(finished.error()));
+    return refuse(name_field(finished.error(), command.uses_flags), exit_status(finished.error()),
+                  json);
   }
-  if (*finished) sum_up(**finished, json);
+  print_result(*finished, json);
   return 0;
 }
 

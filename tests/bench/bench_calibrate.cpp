@@ -14,10 +14,10 @@
 #include <random>
 #include <tuple>
 
-#include "sim/mesh/read_model.h"
-#include "sim/registration/calibrate_camera.h"
-#include "sim/registration/calibration_board.h"
-#include "sim/registration/object.h"
+#include "sim/mesh/read/read_model.h"
+#include "sim/registration/camera/calibrate_camera.h"
+#include "sim/registration/camera/calibration_board.h"
+#include "sim/registration/object/object.h"
 #include "sim/sample/sample.h"
 #include "tests/bench/figures.h"
 #include "tests/support/depth_scene.h"
@@ -42,7 +42,7 @@ struct Body {
 /// A camera of its own lens and noise, as it is and as it was calibrated.
 struct Camera {
   std::uint64_t seed;
-  depth_camera::Lens truth;
+  simulated_camera::Lens truth;
   registration::CameraCalibration calibration;
 };
 
@@ -83,7 +83,7 @@ Pose held(int i, std::mt19937& random) {
 /// As calibrate-camera does it.
 Camera draw_camera(std::mt19937& random) {
   Camera out{seed_from(random), {}, {}};
-  out.truth = depth_camera::drawn_lens(out.seed);
+  out.truth = simulated_camera::drawn_lens(out.seed);
   testing::Rig rig;
   rig.lens = out.truth;
   rig.furnished = false;

@@ -2,6 +2,7 @@
 // models: README.md.
 #include <string>
 
+#include "sim/pipeline/dip.h"
 #include "sim/sample/icosphere.h"
 #include "tests/bench/figures.h"
 #include "tests/support/exact_sphere.h"

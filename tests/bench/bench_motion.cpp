@@ -16,7 +16,7 @@
 #include <thread>
 
 #include "hardware/drive/profile.h"
-#include "tests/daemon/rig_support.h"
+#include "tests/daemon/api/rig_support.h"
 
 namespace hydroprint::tests {
 namespace {

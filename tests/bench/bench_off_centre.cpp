@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/pipeline/dip.h"
 #include "sim/sample/icosphere.h"
 #include "tests/bench/figures.h"
 

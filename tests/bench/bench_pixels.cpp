@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "sim/pipeline/start.h"
+#include "sim/pipeline/stokes_pass.h"
 #include "sim/sample/icosphere.h"
 #include "sim/sample/sample.h"
 #include "tests/bench/figures.h"
@@ -59,7 +59,7 @@ Body body_named(const std::string& name) {
   return body;
 }
 
-flow::DipField sheet_of(const pipeline::Start& start, const pipeline::DipOptions& options) {
+flow::DipField sheet_of(const pipeline::StokesPass& start, const pipeline::DipOptions& options) {
   return value_of(pipeline::sheet_field(start.stokes, {}, options, two_threads())).field;
 }
 
@@ -77,9 +77,9 @@ void for_each(std::size_t count, Work&& work) {
 class Trial {
  public:
   explicit Trial(const Body& body)
-      : start_(value_of(pipeline::start(body.model, body.options, two_threads()))),
+      : start_(value_of(pipeline::run_stokes_pass(body.model, body.options, two_threads()))),
         field_(sheet_of(start_, body.options)),
-        fast_(value_of(pipeline::land(start_, field_, body.options, two_threads()))),
+        fast_(value_of(pipeline::trace_flow_map(start_, field_, body.options, two_threads()))),
         map_(start_.body, fast_.tiles, image::film_grid(body.options.outline, 25.4 / kDpi)),
         reference_(reference_of(body)),
         particles_(start_.body, reference_, kStep_mm),
@@ -158,7 +158,8 @@ class Trial {
   static flow::DipField reference_of(const Body& body) {
     pipeline::DipOptions close = body.options;
     close.schedule.swept_mm /= 4;
-    const pipeline::Start start = value_of(pipeline::start(body.model, close, two_threads()));
+    const pipeline::StokesPass start =
+        value_of(pipeline::run_stokes_pass(body.model, close, two_threads()));
     return sheet_of(start, close);
   }
 
@@ -178,7 +179,7 @@ class Trial {
     }
   }
 
-  pipeline::Start start_;
+  pipeline::StokesPass start_;
   flow::DipField field_;
   flow::FlowMap fast_;
   PixelMap map_;

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <vector>
 
+#include "sim/pipeline/dip.h"
 #include "sim/pipeline/preview.h"
 #include "sim/sample/icosphere.h"
 #include "tests/bench/figures.h"

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "sim/ink/ink_field.h"
+#include "sim/pipeline/dip.h"
 #include "sim/sample/icosphere.h"
 #include "tests/bench/figures.h"
 #include "tests/support/axisymmetric_sheet.h"

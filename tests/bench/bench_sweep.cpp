@@ -9,8 +9,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "hardware/depth_camera/lens.h"
-#include "sim/mesh/read_model.h"
+#include "hardware/simulator/camera/lens.h"
+#include "sim/mesh/read/read_model.h"
 #include "sim/registration/shape.h"
 #include "sim/sample/sample.h"
 #include "sim/scan/sweep.h"
@@ -30,7 +30,7 @@ constexpr double kOnObject_mm = 6;  ///< the nearest other thing is farther from
 constexpr double kLeastFrames = 3;
 
 /// The mug, or where it is not there a ball, hung crookedly.
-depth_scene::Body hung() {
+simulated_scene::Body hung() {
   const std::filesystem::path mug = std::filesystem::path(HYDROPRINT_MODELS_DIR) / "mug/mug.obj";
   const mesh::Surface surface =
       testing::surface_of(value_of(std::filesystem::exists(mug) ? mesh::read_model(mug, 10, {})
@@ -69,7 +69,7 @@ struct Figures {
   }
 
   void add_surface(const scan::Sweep& sweep, const SweptCamera& camera,
-                   const depth_scene::Body& object) {
+                   const simulated_scene::Body& object) {
     mesh::Model model;
     model.path = "object";
     model.vertices = object.mesh.points;
@@ -104,14 +104,14 @@ struct Figures {
 };
 
 void run(int cameras, int count) {
-  const depth_scene::Body object = hung();
+  const simulated_scene::Body object = hung();
   Figures figures;
   for (int k = 0; k < cameras; ++k) {
     const SweptCamera camera({object}, static_cast<std::uint64_t>(4 + k));
     const std::vector<scan::DepthFrame> frames = camera.frames(count);
     std::vector<double> times_s;
     for (int i = 0; i < count; ++i)
-      times_s.push_back(static_cast<double>(i) / depth_camera::kRate_hz);
+      times_s.push_back(static_cast<double>(i) / simulated_camera::kRate_hz);
     const double begin_s = seconds_now();
     const auto sweep =
         scan::fuse_sweep({frames, times_s, {camera.lens()}, {}, {}}, testing::two_threads());

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "daemon/admin/archive.h"
-#include "daemon/database.h"
+#include "daemon/store/database/database.h"
 #include "tests/client/people_cli.h"
 
 namespace hydroprint::tests {

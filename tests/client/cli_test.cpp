@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "tests/daemon/support.h"
+#include "tests/daemon/api/support.h"
 #include "tests/hardware/printer/ipp_printer.h"
 #include "tests/support/process.h"
 
@@ -29,6 +29,14 @@ constexpr char kClient[] = HYDROPRINT_BIN_DIR "/hydroprint";
 std::string content_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A text whose lines are broken anywhere, as one line.
+std::string flowing(const std::string& text) {
+  std::istringstream words(text);
+  std::string out;
+  for (std::string word; words >> word;) out += (out.empty() ? "" : " ") + word;
+  return out;
 }
 
 class Cli : public ::testing::Test {
@@ -288,6 +296,45 @@ TEST_F(Cli, ExitStatusTellsWhoIsAtFault) {
   expect_error({"submit", "simulate", "--mesh", mesh(""), "--dpi", "many"}, 2, "--dpi");
   expect_error({"submit", "simulate"}, 2, "--mesh");
   expect_error({"frobnicate"}, 2, "subcommand");
+}
+
+TEST_F(Cli, ValidateOnlyRefusesWhatTheWorkerWouldRefuse) {
+  start();
+  const auto validate = [&](Arguments flags) {
+    flags.insert(flags.begin(),
+                 {"submit", "simulate", "--mesh", mesh(""), "--validate-only", "--film"});
+    return client(flags);
+  };
+  EXPECT_EQ(validate({"A3"}).status, 0);
+  const Outcome ended = validate({"A9"});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_NE(ended.err.find("simulate.film: film 'A9': not understood"), std::string::npos)
+      << ended.err;
+}
+
+TEST_F(Cli, EachWrongFieldHasALineOfItsOwn) {
+  start();
+  const Outcome ended = client({"submit", "print-image", "--film-image", mesh(""), "--paper", "A9",
+                                "--bar-mm", "-1", "--formats", "pdf,svg"});
+  EXPECT_EQ(ended.status, 3);
+  EXPECT_EQ(ended.err,
+            "hydroprint: the request has several wrong fields:\n"
+            "  print_image.paper: paper 'A9': not understood. Give A4, A3, letter or WIDTHxHEIGHT "
+            "(mm)\n"
+            "  print_image.bar_mm: must be from 0 to 2000 mm\n"
+            "  print_image.formats: must be pdf, png or tiff, not \"svg\"\n");
+}
+
+TEST_F(Cli, HelpTellsRangesAndDefaults) {
+  const auto help = [&](const Arguments& command) { return client(command).out; };
+  const std::string simulate = help({"submit", "simulate", "--help"});
+  for (const char* words : {"from 20 to 2400 dots per inch; default 300", "default A4",
+                            "sheet, stokes; default sheet", "from 1 to 256"}) {
+    EXPECT_NE(flowing(simulate).find(words), std::string::npos) << words << "\n" << simulate;
+  }
+  EXPECT_NE(flowing(help({"dip", "--help"})).find("from 0 to 600 s; default 2"), std::string::npos);
+  EXPECT_NE(flowing(help({"capture", "--help"})).find("from 0.1 to 20 s; default 2"),
+            std::string::npos);
 }
 
 TEST_F(Cli, SaysWhereNoDaemonAnswers) {

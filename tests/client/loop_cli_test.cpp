@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sim/calibrate/camera_file.h"
-#include "tests/daemon/rig_support.h"
+#include "tests/daemon/api/rig_support.h"
 #include "tests/support/depth_scene.h"
 
 namespace hydroprint::tests {
@@ -23,7 +23,7 @@ class LoopCli : public ::testing::Test {
                     "\"\npatience_s = 60\nlayout = \"" HYDROPRINT_LAYOUT "\"\n";
     daemon = std::make_unique<DaemonProcess>(folder.path(), options);
     registration::CameraCalibration camera;
-    camera.lens = testing::lens_of(depth_camera::drawn_lens(kCamera));
+    camera.lens = testing::lens_of(simulated_camera::drawn_lens(kCamera));
     camera.views = 1;
     lens = folder.write("lens.json", calibrate::camera_json(camera)).string();
   }

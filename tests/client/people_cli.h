@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/daemon/support.h"
+#include "tests/daemon/api/support.h"
 #include "tests/support/process.h"
 #include "tests/support/terminal.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/daemon/rig_support.h"
+#include "tests/daemon/api/rig_support.h"
 
 namespace hydroprint::tests {
 

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "tests/daemon/support.h"
+#include "tests/daemon/api/support.h"
 #include "tests/support/certificates.h"
 #include "tests/support/process.h"
 

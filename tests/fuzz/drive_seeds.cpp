@@ -4,8 +4,8 @@
 #include <fstream>
 #include <iostream>
 
-#include "hardware/drive/write.h"
-#include "hardware/virtual/virtual_rig.h"
+#include "hardware/drive/command_encoder.h"
+#include "hardware/simulator/drive/virtual_rig.h"
 #include "tests/fuzz/exchange.h"
 
 namespace hydroprint::fuzz {
@@ -37,12 +37,12 @@ class Seeds {
   std::string list_;
 };
 
-virtual_rig::Body body_of(const DriveProfile& profile) {
+simulated_drive::Body body_of(const DriveProfile& profile) {
   const auto& watchdog = profile.watchdog;
   const bool acts = watchdog && !watchdog->stopping.empty();
-  virtual_rig::Registers registers(profile, watchdog ? watchdog->largest_time_s : 0,
-                                   acts ? watchdog->stopping.front() : std::uint16_t{0});
-  return {virtual_rig::machine_of(profile, {}), std::move(registers), 50};
+  simulated_drive::Registers registers(profile, watchdog ? watchdog->largest_time_s : 0,
+                                       acts ? watchdog->stopping.front() : std::uint16_t{0});
+  return {simulated_drive::machine_of(profile, {}), std::move(registers), 50};
 }
 
 Request read(const DriveProfile& profile, const drive::Block& block) {
@@ -51,11 +51,11 @@ Request read(const DriveProfile& profile, const drive::Block& block) {
   return {profile.unit, function, block.address, block.count, {}};
 }
 
-Bytes ask(virtual_rig::Body& body, const Request& request) {
+Bytes ask(simulated_drive::Body& body, const Request& request) {
   return body.answer(encode_request(request)).reply;
 }
 
-void add_poll(Seeds& seeds, virtual_rig::Body& body, std::uint8_t number,
+void add_poll(Seeds& seeds, simulated_drive::Body& body, std::uint8_t number,
               const DriveProfile& profile) {
   std::vector<Bytes> replies;
   for (const drive::Block& block : profile.blocks) {
@@ -65,7 +65,7 @@ void add_poll(Seeds& seeds, virtual_rig::Body& body, std::uint8_t number,
 }
 
 void add_drive(Seeds& seeds, std::uint8_t number, const DriveProfile& profile) {
-  virtual_rig::Body body = body_of(profile);
+  simulated_drive::Body body = body_of(profile);
   add_poll(seeds, body, number, profile);
   for (std::size_t i = 0; i < drive::kCommands; ++i) {
     const auto requests = drive::requests_for(profile, static_cast<Command>(i), 12.5, 5);
@@ -75,7 +75,7 @@ void add_drive(Seeds& seeds, std::uint8_t number, const DriveProfile& profile) {
   add_poll(seeds, body, number, profile);
   const Request nowhere{profile.unit, Function::kReadHolding, 0xfff0, 4, {}};
   seeds.add(input_of({nowhere, ask(body, nowhere)}));
-  body.strike({virtual_rig::ReplyFault::kBusy});
+  body.strike({simulated_drive::ReplyFault::kBusy});
   const Request busy = read(profile, profile.blocks.front());
   seeds.add(input_of({busy, ask(body, busy)}));
 }

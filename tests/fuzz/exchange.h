@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "hardware/drive/frame.h"
+#include "hardware/drive/pdu.h"
 
 namespace hydroprint::fuzz {
 

@@ -5,8 +5,8 @@
 #include <cstring>
 #include <iostream>
 
-#include "hardware/drive/codec.h"
-#include "hardware/drive/polled.h"
+#include "hardware/drive/state_decoder.h"
+#include "hardware/drive/word_codec.h"
 #include "tests/fuzz/exchange.h"
 #include "tests/fuzz/expect.h"
 

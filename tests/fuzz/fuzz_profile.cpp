@@ -4,8 +4,8 @@
 #include <fstream>
 #include <span>
 
-#include "hardware/drive/polled.h"
-#include "hardware/drive/write.h"
+#include "hardware/drive/command_encoder.h"
+#include "hardware/drive/state_decoder.h"
 #include "tests/fuzz/expect.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "daemon/http/byte_range.h"
-#include "daemon/http/request_parser.h"
-#include "daemon/http/upload_head.h"
+#include "daemon/http/protocol/byte_range.h"
+#include "daemon/http/protocol/request_parser.h"
+#include "daemon/http/protocol/upload_head.h"
 #include "daemon/rest/percent.h"
 #include "tests/fuzz/expect.h"
 
@@ -81,7 +81,7 @@ void expect_fit_for_use(const http::Head& head) {
   HP_EXPECT(!http::lists_tag(head.fields.find("If-None-Match").value_or(""), "\"\"") ||
             head.fields.count("If-None-Match") > 0);
   // No field can begin another one where it is said again.
-  for (const http::Field& field : head.fields.all()) {
+  for (const http::HeaderField& field : head.fields.all()) {
     HP_EXPECT(field.name.find_first_of("\r\n:") == std::string::npos);
     HP_EXPECT(field.value.find('\n') == std::string::npos);
   }

@@ -8,11 +8,11 @@
 #include <random>
 #include <utility>
 
-#include "hardware/depth_camera/renderer.h"
-#include "hardware/depth_camera/sensor.h"
-#include "hardware/depth_scene/hand.h"
-#include "hardware/depth_scene/rig_layout.h"
-#include "hardware/depth_scene/shapes.h"
+#include "hardware/simulator/camera/renderer.h"
+#include "hardware/simulator/camera/sensor.h"
+#include "hardware/simulator/scene/hand.h"
+#include "hardware/simulator/scene/rig_layout.h"
+#include "hardware/simulator/scene/shapes.h"
 #include "sim/mesh/make_surface.h"
 
 namespace hydroprint::testing {
@@ -20,19 +20,19 @@ namespace {
 
 using std::numbers::pi;
 
-depth_camera::Depths look(const Rig& rig, bool lit) {
-  depth_scene::Scenery scenery;
+simulated_camera::Depths look(const Rig& rig, bool lit) {
+  simulated_scene::Scenery scenery;
   scenery.bodies = rig.more;
   if (rig.furnished) {
-    for (auto& body : depth_scene::standing_bodies(film_mm()))
+    for (auto& body : simulated_scene::standing_bodies(film_mm()))
       scenery.bodies.push_back(std::move(body));
-    scenery.bodies.push_back(depth_scene::gripper());
+    scenery.bodies.push_back(simulated_scene::gripper());
     scenery.markers = rig.markers;
   }
-  depth_scene::Sight sight;
+  simulated_scene::Sight sight;
   sight.gripper_height_mm = rig.gripper_mm;
   sight.markers = rig.states;
-  const auto renderer = depth_camera::Renderer::create(scenery, rig.lens);
+  const auto renderer = simulated_camera::Renderer::create(scenery, rig.lens);
   if (!renderer) {
     std::fprintf(stderr, "%s\n", renderer.error().message.c_str());
     std::abort();
@@ -40,7 +40,7 @@ depth_camera::Depths look(const Rig& rig, bool lit) {
   return (*renderer)->look(sight, rig.X_CF().inverse(), lit);
 }
 
-mesh::Model model_of(const depth_scene::Mesh& mesh) {
+mesh::Model model_of(const simulated_scene::Mesh& mesh) {
   mesh::Model model;
   model.path = "test";
   model.vertices = mesh.points;
@@ -56,7 +56,7 @@ Context two_threads() {
   return context;
 }
 
-scan::Lens lens_of(const depth_camera::Lens& lens) {
+scan::Lens lens_of(const simulated_camera::Lens& lens) {
   scan::Lens out;
   out.fx_px = out.fy_px = lens.focal_px;
   out.cx_px = lens.centre_px.x();
@@ -72,24 +72,25 @@ scan::Lens lens_of(const depth_camera::Lens& lens) {
 Eigen::Vector2d film_mm() { return {210, 297}; }
 
 Rig::Rig()
-    : markers(depth_scene::nominal_markers(film_mm())),
-      states(markers.size(), depth_scene::MarkerState::kWell) {}
+    : markers(simulated_scene::nominal_markers(film_mm())),
+      states(markers.size(), simulated_scene::MarkerState::kWell) {}
 
-Pose Rig::X_CF() const { return depth_scene::camera_pose(stand, 0, 0).inverse(); }
+Pose Rig::X_CF() const { return simulated_scene::camera_pose(stand, 0, 0).inverse(); }
 
 scan::DepthFrame Rig::exact() const {
-  scan::DepthFrame out{depth_camera::kWidth_px, depth_camera::kHeight_px, look(*this, false)};
+  scan::DepthFrame out{simulated_camera::kWidth_px, simulated_camera::kHeight_px,
+                       look(*this, false)};
   for (float& depth : out.depth_mm) depth *= static_cast<float>(lens.depth_scale);
   return out;
 }
 
 std::vector<scan::DepthFrame> Rig::frames(int count, std::uint64_t seed, int first) const {
-  const depth_camera::Depths depths = look(*this, true);
+  const simulated_camera::Depths depths = look(*this, true);
   std::vector<scan::DepthFrame> out;
   for (int i = 0; i < count; ++i) {
-    const double time_s = static_cast<double>(first + i) / depth_camera::kRate_hz;
-    const auto frame = depth_camera::sense(depths, lens.depth_scale, errors, seed, time_s);
-    out.push_back({depth_camera::kWidth_px, depth_camera::kHeight_px,
+    const double time_s = static_cast<double>(first + i) / simulated_camera::kRate_hz;
+    const auto frame = simulated_camera::sense(depths, lens.depth_scale, errors, seed, time_s);
+    out.push_back({simulated_camera::kWidth_px, simulated_camera::kHeight_px,
                    std::vector<float>(frame.begin(), frame.end())});
   }
   return out;
@@ -97,9 +98,9 @@ std::vector<scan::DepthFrame> Rig::frames(int count, std::uint64_t seed, int fir
 
 registration::MarkerLayout nominal_layout() {
   registration::MarkerLayout out;
-  out.width_mm = depth_scene::kMarkerWidth_mm;
-  out.height_mm = depth_scene::kMarkerHeight_mm;
-  for (const auto& marker : depth_scene::nominal_markers(film_mm())) {
+  out.width_mm = simulated_scene::kMarkerWidth_mm;
+  out.height_mm = simulated_scene::kMarkerHeight_mm;
+  for (const auto& marker : simulated_scene::nominal_markers(film_mm())) {
     Pose X_FM = Pose::Identity();
     X_FM.translate(marker.at_mm);
     X_FM.rotate(Eigen::AngleAxisd(marker.turn_rad, Eigen::Vector3d::UnitZ()));
@@ -108,8 +109,9 @@ registration::MarkerLayout nominal_layout() {
   return out;
 }
 
-depth_scene::CameraStand stand_at(double distance_mm, double elevation_rad, double azimuth_rad) {
-  depth_scene::CameraStand out;
+simulated_scene::CameraStand stand_at(double distance_mm, double elevation_rad,
+                                      double azimuth_rad) {
+  simulated_scene::CameraStand out;
   out.at_mm = distance_mm * Eigen::Vector3d(std::sin(azimuth_rad) * std::cos(elevation_rad),
                                             -std::cos(azimuth_rad) * std::cos(elevation_rad),
                                             std::sin(elevation_rad));
@@ -132,8 +134,8 @@ scan::Lens cropped(scan::Lens lens, const Window& window) {
   return lens;
 }
 
-depth_scene::Body body_of(const mesh::Surface& surface, const Pose& X_FB) {
-  return {"body", depth_scene::moved({surface.points, surface.triangles}, X_FB), false};
+simulated_scene::Body body_of(const mesh::Surface& surface, const Pose& X_FB) {
+  return {"body", simulated_scene::moved({surface.points, surface.triangles}, X_FB), false};
 }
 
 mesh::Surface surface_of(const mesh::Model& model) {
@@ -143,11 +145,11 @@ mesh::Surface surface_of(const mesh::Model& model) {
 }
 
 mesh::Surface box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-  return surface_of(model_of(depth_scene::box(low, high)));
+  return surface_of(model_of(simulated_scene::box(low, high)));
 }
 
 mesh::Surface cylinder(double radius_mm, double low_mm, double high_mm, int sides) {
-  depth_scene::Mesh mesh{{{0, 0, low_mm}, {0, 0, high_mm}}, {}};
+  simulated_scene::Mesh mesh{{{0, 0, low_mm}, {0, 0, high_mm}}, {}};
   for (int i = 0; i < sides; ++i) {
     const double angle = 2 * pi * i / sides;
     const double x = radius_mm * std::cos(angle), y = radius_mm * std::sin(angle);

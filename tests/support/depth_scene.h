@@ -4,14 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "hardware/depth_camera/lens.h"
-#include "hardware/depth_camera/sensor.h"
-#include "hardware/depth_scene/scenery.h"
+#include "hardware/simulator/camera/lens.h"
+#include "hardware/simulator/camera/sensor.h"
+#include "hardware/simulator/scene/scenery.h"
 #include "sim/base/context.h"
 #include "sim/base/pose.h"
 #include "sim/mesh/model.h"
 #include "sim/mesh/surface.h"
-#include "sim/registration/markers.h"
+#include "sim/registration/film_frame/markers.h"
 #include "sim/scan/frame.h"
 #include "sim/scan/lens.h"
 
@@ -23,18 +23,18 @@ namespace hydroprint::testing {
 [[nodiscard]] Context two_threads();
 
 /// The same lens, as scans have it.
-[[nodiscard]] scan::Lens lens_of(const depth_camera::Lens& lens);
+[[nodiscard]] scan::Lens lens_of(const simulated_camera::Lens& lens);
 
 /// A rig with something in it, and the camera that looks at it. Film frame, mm.
 struct Rig {
-  depth_camera::Lens lens;                       ///< the maker's
-  depth_scene::CameraStand stand;                ///< 0.8 m away
-  std::vector<depth_scene::Marker> markers;      ///< as they stand; where they should, at first
-  std::vector<depth_scene::MarkerState> states;  ///< of those
-  double gripper_mm = 150;                       ///< height of its lower end
-  std::vector<depth_scene::Body> more;           ///< what else there is
-  bool furnished = true;                         ///< false: only `more` is there
-  depth_camera::Errors errors;                   ///< that frames() have
+  simulated_camera::Lens lens;                       ///< the maker's
+  simulated_scene::CameraStand stand;                ///< 0.8 m away
+  std::vector<simulated_scene::Marker> markers;      ///< as they stand; where they should, at first
+  std::vector<simulated_scene::MarkerState> states;  ///< of those
+  double gripper_mm = 150;                           ///< height of its lower end
+  std::vector<simulated_scene::Body> more;           ///< what else there is
+  bool furnished = true;                             ///< false: only `more` is there
+  simulated_camera::Errors errors;                   ///< that frames() have
 
   Rig();
   [[nodiscard]] Pose X_CF() const;
@@ -52,8 +52,8 @@ struct Rig {
 [[nodiscard]] registration::MarkerLayout nominal_layout();
 
 /// A camera so far from the film's middle, so high over the water, turned about the vertical.
-[[nodiscard]] depth_scene::CameraStand stand_at(double distance_mm, double elevation_rad,
-                                                double azimuth_rad);
+[[nodiscard]] simulated_scene::CameraStand stand_at(double distance_mm, double elevation_rad,
+                                                    double azimuth_rad);
 
 /// Part of an image; the corner on multiples of the noise's patches.
 struct Window {
@@ -63,7 +63,7 @@ struct Window {
 [[nodiscard]] scan::Lens cropped(scan::Lens lens, const Window& window);
 
 /// A surface where a pose puts it.
-[[nodiscard]] depth_scene::Body body_of(const mesh::Surface& surface, const Pose& X_FB);
+[[nodiscard]] simulated_scene::Body body_of(const mesh::Surface& surface, const Pose& X_FB);
 
 /// A model's surface, not subdivided.
 [[nodiscard]] mesh::Surface surface_of(const mesh::Model& model);

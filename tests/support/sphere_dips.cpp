@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/pipeline/dip.h"
 #include "sim/validate/regions.h"
 
 namespace hydroprint::testing {

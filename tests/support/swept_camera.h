@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "hardware/depth_camera/renderer.h"
-#include "hardware/depth_scene/scenery.h"
+#include "hardware/simulator/camera/renderer.h"
+#include "hardware/simulator/scene/scenery.h"
 #include "sim/base/pose.h"
 #include "sim/mesh/surface.h"
 #include "sim/scan/frame.h"
@@ -17,7 +17,7 @@ class SweptCamera {
  public:
   /// @param more       what is there beside the rig's own bodies and markers
   /// @param furnished  false: only `more` is there
-  explicit SweptCamera(const std::vector<depth_scene::Body>& more, std::uint64_t seed = 4,
+  explicit SweptCamera(const std::vector<simulated_scene::Body>& more, std::uint64_t seed = 4,
                        bool has_errors = true, bool furnished = true);
 
   /// The camera's own.
@@ -31,14 +31,14 @@ class SweptCamera {
   [[nodiscard]] const mesh::Surface& scene() const { return scene_; }
 
   /// Over and over from 0.8 m before the film to the left, above and to the right, in 10 s.
-  depth_scene::CameraStand stand;
+  simulated_scene::CameraStand stand;
 
  private:
   std::uint64_t seed_;
   bool has_errors_;
-  depth_camera::Lens lens_;
+  simulated_camera::Lens lens_;
   mesh::Surface scene_;
-  std::unique_ptr<depth_camera::Renderer> renderer_;
+  std::unique_ptr<simulated_camera::Renderer> renderer_;
 };
 
 /// What a camera sees that looks straight at a wall.

@@ -23,9 +23,10 @@ export async function addPeople(address: string): Promise<void> {
   await add('root', 'ADMIN');
   const session = await send('session:signIn', { user: 'root', password: kPassword });
   const { csrfToken } = (await session.json()) as { csrfToken: string };
-  const Cookie = session.headers.getSetCookie().map((cookie) => cookie.split(';')[0]!);
+  // The daemon sets one cookie; getSetCookie(), for several, is missing from Debian 12's Node.
+  const Cookie = session.headers.get('Set-Cookie')!.split(';')[0]!;
   for (const [name, role] of Object.entries(kPeople))
-    await add(name as Name, role, { Cookie: Cookie.join('; '), 'X-Hydroprint-Csrf': csrfToken });
+    await add(name as Name, role, { Cookie, 'X-Hydroprint-Csrf': csrfToken });
 }
 
 /** Signs in on the page that is open. */

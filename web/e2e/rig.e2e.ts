@@ -31,6 +31,25 @@ async function becomesReady(page: Page): Promise<void> {
   await page.locator('.big', { hasText: 'Ready' }).waitFor({ timeout: 60_000 });
 }
 
+/** Takes the rig and gets it ready, however the person before left it. */
+async function takeReady(page: Page): Promise<void> {
+  await press(page, 'Take the rig');
+  await page.locator('.big', { hasText: /Ready|Disarmed/ }).waitFor();
+  if ((await page.locator('.big').innerText()) === 'Disarmed') {
+    await press(page, 'Arm');
+    await press(page, 'Home');
+  }
+  await becomesReady(page);
+}
+
+/** Types key by key into a field, and leaves it: "30" is in range on the way to "300". */
+async function type(page: Page, label: string, text: string): Promise<void> {
+  const field = page.getByLabel(label);
+  await field.fill('');
+  await field.pressSequentially(text);
+  await field.blur();
+}
+
 test('the rig is taken, armed, homed, moved, jogged, and stopped from every screen', async () => {
   const operator = await come(there, 'otto', 'rig');
   const { page } = operator;
@@ -84,6 +103,54 @@ test('the rig is taken, armed, homed, moved, jogged, and stopped from every scre
   await operator.context.close();
 });
 
+test('a number that the rig cannot take stays as it was typed, and nothing moves', async () => {
+  const person = await come(there, 'otto', 'rig');
+  const { page } = person;
+  const target = page.getByLabel('Move to');
+  const move = page.getByRole('button', { name: 'Move', exact: true });
+  const error = page.getByText('Enter 2 to 298 mm.');
+  await takeReady(page);
+  const rest = await position_mm(page);
+
+  await type(page, 'Move to', '300');
+  await page.getByText('Out of range. Enter 2 to 298 mm.').waitFor();
+  expect(await target.inputValue()).toBe('300');
+  expect(await target.getAttribute('aria-invalid')).toBe('true');
+  expect(await move.isDisabled()).toBe(true);
+  await look(person, 'rig-out-of-range');
+  for (const text of ['298.1', '1.9', '-5', '1,000', '3O']) {
+    await type(page, 'Move to', text);
+    await error.waitFor();
+    expect(await target.inputValue()).toBe(text);
+    expect(await move.isDisabled(), text).toBe(true);
+  }
+  expect(await position_mm(page)).toBeCloseTo(rest, 2);
+
+  // Nor does it become another value while something else goes on.
+  await type(page, 'Move to', '300');
+  const down = page.getByRole('button', { name: 'Down' });
+  await down.focus();
+  await page.keyboard.down('Space');
+  await expect.poll(() => position_mm(page), { timeout: 20_000 }).toBeGreaterThan(rest + 1);
+  await page.keyboard.up('Space');
+  await becomesReady(page);
+  await error.waitFor();
+  expect(await target.inputValue()).toBe('300');
+  expect(await move.isDisabled()).toBe(true);
+
+  await type(page, 'Move to', '');
+  await error.waitFor({ state: 'detached' });
+  expect(await move.isDisabled()).toBe(true);
+  await type(page, 'Move to', '30,25');
+  expect(await target.inputValue()).toBe('30,25');
+  await press(page, 'Move');
+  await expect.poll(() => position_mm(page), { timeout: 30_000 }).toBe(30.25);
+  await becomesReady(page);
+  await press(page, 'Give it back');
+  expect(person.complaints).toEqual([]);
+  await person.context.close();
+});
+
 test('the depth camera is shown live, to everybody, and says when it is not', async () => {
   const person = await come(there, 'vera', 'rig');
   const { page } = person;
@@ -130,21 +197,28 @@ test('a dip, one large button a step', async () => {
   await page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
   await page.getByLabel('Longest side').fill('30');
   await page.getByText('More settings').click();
+  await type(page, 'Depth', '4000');
+  await page.getByText('Out of range. Enter 0.1 to 2000 mm.').waitFor();
+  await page.getByText('Correct “Depth” first').waitFor();
+  const compute = page.getByRole('button', { name: 'Compute the film image' });
+  expect(await compute.isDisabled()).toBe(true);
+  expect(await page.getByLabel('Depth').inputValue()).toBe('4000');
+  await look(person, 'new-print-out-of-range');
   await page.getByLabel('Depth').fill('4');
   await page.getByLabel('Computation').selectOption('MODEL_STOKES');
   await page.getByLabel('Resolution').selectOption('150 dpi');
   await press(page, 'Compute the film image');
   await page.getByRole('link', { name: 'Dip it' }).click({ timeout: 240_000 });
 
-  await press(page, 'Take the rig');
-  // As whoever was there before left it.
-  await page.locator('.big', { hasText: /Ready|Disarmed/ }).waitFor();
-  if ((await page.locator('.big').innerText()) === 'Disarmed') {
-    await press(page, 'Arm');
-    await press(page, 'Home');
-  }
-  await becomesReady(page);
+  await takeReady(page);
   await page.getByText('Settings of the dip').click();
+  const begin = page.getByRole('button', { name: 'Begin the dip' });
+  await type(page, 'Film soaks', '36000');
+  await page.getByText('Out of range. Enter 0 to 3600 s.').waitFor();
+  await page.getByText('Correct “Film soaks” first.').waitFor();
+  expect(await begin.isDisabled()).toBe(true);
+  expect(await page.getByLabel('Film soaks').inputValue()).toBe('36000');
+  await look(person, 'rig-dip-out-of-range');
   await page.getByLabel('Film soaks').fill('3');
   await page.getByLabel('Activator works').fill('2');
   await page.getByLabel('Hold at the depth').fill('1');

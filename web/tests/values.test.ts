@@ -2,10 +2,18 @@ import { describe, expect, test } from 'vitest';
 import { colourOf, kNoValue, place, ticks } from '../src/model/colour_map';
 import { filmOf } from '../src/model/film';
 import { readGrey16 } from '../src/model/grey16';
+import { cutToBytes, limitsOf } from '../src/model/limits';
 import { fit, pan, pixelAt, zoomAt } from '../src/model/pan_zoom';
 import { readPositions } from '../src/model/positions';
 import { placeOf } from '../src/model/report';
-import { formatBytes, formatSeconds, formatTime, parseNumber, secondsOf } from '../src/model/units';
+import {
+  formatBytes,
+  formatSeconds,
+  formatTime,
+  parseNumber,
+  readNumber,
+  secondsOf,
+} from '../src/model/units';
 
 describe('figures', () => {
   test('have the unit that suits them', () => {
@@ -39,8 +47,48 @@ describe('figures', () => {
   test('are read with a comma, too, and nothing else is', () => {
     expect(parseNumber(' 1,5 ')).toBe(1.5);
     expect(parseNumber('-2e1')).toBe(-20);
-    for (const text of ['', 'x', '1.2.3', 'Infinity', '1 mm'])
+    for (const text of ['', '.', 'x', '1.2.3', 'Infinity', '1e999', '1 mm', '0x10', '1e', '--1'])
       expect(parseNumber(text)).toBeUndefined();
+  });
+
+  test('with a comma that may separate thousands are not guessed', () => {
+    expect(parseNumber('1,000')).toBeUndefined();
+    expect(parseNumber('-12,500')).toBeUndefined();
+    expect(['0,125', '1,25', '1,0000', '1000,5'].map(parseNumber)).toEqual([
+      0.125, 1.25, 1, 1000.5,
+    ]);
+  });
+
+  test('are taken only if they are in range, and the range is said', () => {
+    const range = { min: 2, max: 298, unit: 'mm' };
+    const read = (text: string) => {
+      const number = readNumber(text, range);
+      return number.ok ? number.value : `${number.failure.what}. ${number.failure.remedy}.`;
+    };
+    expect(['2', '298', ' 12,5 '].map(read)).toEqual([2, 298, 12.5]);
+    for (const text of ['300', '298.001', '1.999', '-5', '1e3'])
+      expect(read(text)).toBe('Out of range. Enter 2 to 298 mm.');
+    expect(read('3O')).toBe('Not a number. Enter 2 to 298 mm.');
+    expect(read(' ')).toBe('A number is missing. Enter 2 to 298 mm.');
+  });
+});
+
+describe('rules of the API', () => {
+  test('give a field its unit, range and default', () => {
+    expect(limitsOf({ min: 20, max: 2400, unit: 'dots per inch', usual: 300 })).toEqual({
+      unit: 'dpi',
+      min: 20,
+      max: 2400,
+      placeholder: '300',
+    });
+    expect(limitsOf({ unit: 'mm' })).toEqual({ unit: 'mm', min: -Infinity, max: Infinity });
+  });
+
+  test('limit texts by bytes and cut no character in two', () => {
+    expect(cutToBytes('mug', 3)).toBe('mug');
+    expect(cutToBytes('mugs', 3)).toBe('mug');
+    expect(cutToBytes('aää', 4)).toBe('aä');
+    expect(cutToBytes('😀', 3)).toBe('');
   });
 });
 

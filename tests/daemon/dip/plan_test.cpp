@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "daemon/dip/words.h"
+#include "daemon/dip/operator_messages.h"
 
 namespace hydroprint::dip {
 namespace {

@@ -1,9 +1,9 @@
-#include "daemon/http/byte_range.h"
+#include "daemon/http/protocol/byte_range.h"
 
 #include <gtest/gtest.h>
 
-#include "daemon/http/artifact_target.h"
-#include "daemon/http/event_text.h"
+#include "daemon/http/artifact_path.h"
+#include "daemon/http/sse_text.h"
 #include "hydroprint/v1/event_service.pb.h"
 #include "hydroprint/v1/job_service.pb.h"
 

@@ -11,7 +11,7 @@ using SSL = struct ssl_st;
 
 namespace hydroprint::tests {
 
-/// An answer as it came over the wire; names of fields in lower case.
+/// An answer as it came over the transport; names of fields in lower case.
 struct HttpAnswer {
   int status = 0;
   std::map<std::string, std::string> fields;

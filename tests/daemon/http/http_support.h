@@ -6,8 +6,8 @@
 #include <string>
 
 #include "daemon/http/server.h"
+#include "tests/daemon/api/support.h"
 #include "tests/daemon/http/http_client.h"
-#include "tests/daemon/support.h"
 #include "tests/support/certificates.h"
 
 namespace hydroprint::tests {

@@ -129,6 +129,35 @@ TEST_F(HttpProtocol, TwoRequestsInOneAreNotSmuggled) {
   EXPECT_EQ(text.find("HTTP/1.1 200"), std::string::npos) << text;
 }
 
+TEST_F(HttpProtocol, ATransferEncodingThatIsNotChunkedEndsTheConnection) {
+  const std::string smuggled = request_text("GET", "/v1/queue");
+  const auto answer_to = [&](const std::string& fields, const std::string& version = "1.1") {
+    return all_of("POST /v1/queue:pause HTTP/" + version + "\r\nHost: localhost\r\n" + fields +
+                  "\r\n" + smuggled);
+  };
+  const auto expect_refused = [&](const std::string& text, int status) {
+    EXPECT_TRUE(text.starts_with("HTTP/1.1 " + std::to_string(status) + " ")) << text;
+    EXPECT_NE(text.find("Connection: close\r\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("REQUEST_MALFORMED"), std::string::npos) << text;
+    EXPECT_EQ(text.find("\r\nDate: "), text.rfind("\r\nDate: ")) << "one answer alone: " << text;
+  };
+  for (const char* value : {"xchunked", "identity", "gzip", "", "chunked,", "chunked, chunked",
+                            "chunked, identity", "chunked\r\nTransfer-Encoding: chunked",
+                            "xchunked\r\nContent-Length: 0", "chunked\r\nContent-Length: 0"}) {
+    SCOPED_TRACE(value);
+    expect_refused(answer_to(std::string("Transfer-Encoding: ") + value + "\r\n"), 400);
+  }
+  expect_refused(answer_to("Content-Length: 0\r\nTransfer-Encoding: xchunked\r\n"), 400);
+  expect_refused(answer_to("Transfer-Encoding: chunked\r\n", "1.0"), 400);
+  expect_refused(answer_to("Transfer-Encoding: xchunked\r\nConnection: keep-alive\r\n", "1.0"),
+                 400);
+  for (const char* value : {"gzip, chunked", "xchunked\r\nTransfer-Encoding: chunked"}) {
+    SCOPED_TRACE(value);
+    expect_refused(answer_to(std::string("Transfer-Encoding: ") + value + "\r\n"), 501);
+  }
+  EXPECT_EQ(get("/v1/queue").json().at("paused"), false) << "nothing of it was carried out";
+}
+
 TEST_F(HttpProtocol, ABodyThatIsLeftUnreadIsNotTakenForTheNextRequest) {
   HttpConnection connection(daemon.http());
   const std::string evil = request_text("POST", "/v1/queue:pause", "{}");

@@ -1,4 +1,4 @@
-#include "daemon/http/request_parser.h"
+#include "daemon/http/protocol/request_parser.h"
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ TEST(HttpRequestParser, PiecesOfAnySizeMakeTheSameRequest) {
     EXPECT_EQ(body, "hello!") << piece;
     EXPECT_EQ(parser.head().method, "POST");
     EXPECT_EQ(parser.head().path(), "/v1/jobs");
-    EXPECT_TRUE(parser.head().is_chunked);
+    EXPECT_EQ(parser.head().framing, BodyFraming::kChunked);
     EXPECT_FALSE(parser.head().fields.find("Trailer"));
   }
 }
@@ -62,6 +62,37 @@ TEST(HttpRequestParser, WhatCouldBeReadInTwoWaysIsRefused) {
        }) {
     RequestParser parser(1 << 14);
     EXPECT_EQ(parse(parser, text, 1000).first, Outcome::kMalformed) << text;
+  }
+}
+
+TEST(HttpRequestParser, OnlyChunkedAloneIsATransferEncodingWithAKnownEnd) {
+  const auto framing_of = [](const std::string& fields, const std::string& version = "1.1") {
+    RequestParser parser(1 << 14);
+    const std::string text = "POST / HTTP/" + version + "\r\n" + fields + "\r\n";
+    EXPECT_NE(parse(parser, text, 1000).first, Outcome::kMalformed) << fields;
+    EXPECT_TRUE(parser.has_head()) << fields;
+    return parser.head().framing;
+  };
+  EXPECT_EQ(framing_of(""), BodyFraming::kLength);
+  EXPECT_EQ(framing_of("Content-Length: 3\r\n"), BodyFraming::kLength);
+  for (const char* value : {"chunked", "Chunked", "CHUNKED", "  chunked\t"}) {
+    const std::string field = std::string("Transfer-Encoding:") + value + "\r\n";
+    EXPECT_EQ(framing_of(field), BodyFraming::kChunked) << value;
+    EXPECT_EQ(framing_of(field, "1.0"), BodyFraming::kFaulty) << value;
+  }
+  for (const char* value : {"gzip, chunked", "gzip,deflate,chunked", "identity, chunked",
+                            "gzip\r\nTransfer-Encoding: chunked"}) {
+    EXPECT_EQ(framing_of(std::string("Transfer-Encoding: ") + value + "\r\n"),
+              BodyFraming::kUnknownCoding)
+        << value;
+  }
+  for (const char* value :
+       {"xchunked", "chunkedx", "identity", "gzip", "", ",", "chunked,", ",chunked",
+        "chunked, chunked", "chunked, gzip", "chunked, identity", "chunked;q=1", "\"chunked\"",
+        "chunked chunked", "gzip\r\nContent-Length: 3", "xchunked\r\nContent-Length: 0",
+        "identity\r\nTransfer-Encoding: identity"}) {
+    EXPECT_EQ(framing_of(std::string("Transfer-Encoding: ") + value + "\r\n"), BodyFraming::kFaulty)
+        << value;
   }
 }
 

@@ -1,8 +1,8 @@
-// The rig over HTTP, with the virtual rig at the other end of the wire.
+// The rig over HTTP, with the virtual rig at the other end of the transport.
 #include <chrono>
 
+#include "tests/daemon/api/rig_support.h"
 #include "tests/daemon/http/http_client.h"
-#include "tests/daemon/rig_support.h"
 
 namespace hydroprint::tests {
 namespace {
@@ -29,6 +29,101 @@ TEST_F(HttpRig, AStopNeedsNothingAndWaitsForNobody) {
   const HttpAnswer stopped = post("/v1/rig:stop");
   EXPECT_EQ(stopped.status, 200);
   EXPECT_TRUE(rig.gets_to(0, 1));
+}
+
+// What follows the request line and Host of a stop.
+struct OddStop {
+  const char* name;
+  std::string query, rest;
+  bool is_answered = true;  // false: the client leaves at once
+};
+
+std::string with_body(const std::string& body, const std::string& fields = "") {
+  return fields + "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
+}
+
+std::vector<OddStop> odd_stops() {
+  const std::string chunked = "Transfer-Encoding: chunked\r\n\r\n";
+  const std::string promise = "Content-Length: 9\r\n\r\n";
+  return {
+      {"a field that does not exist", "", with_body(R"({"leaseId":"x"})")},
+      {"a list", "", with_body("[]")},
+      {"JSON that ends early", "", with_body(R"({"leaseId":)")},
+      {"bytes", "", with_body(std::string("\0\xff\xfe\x01", 4))},
+      {"a form", "", with_body("a=b", "Content-Type: application/x-www-form-urlencoded\r\n")},
+      {"an unknown charset", "",
+       with_body("{}", "Content-Type: application/json; charset=klingon\r\n")},
+      {"an unknown content encoding", "", with_body("{}", "Content-Encoding: zstd\r\n")},
+      {"a query", "?leaseId=x&%zz=%00&&", with_body("{}")},
+      {"a name that is not ASCII", "", "Hydroprint-Owner: J\xc3\xbcrgen\r\n\r\n"},
+      {"a key that is not ASCII", "", "Authorization: Bearer \xff\r\n\r\n"},
+      {"a name that is too long", "", "Hydroprint-Owner: " + std::string(9000, 'x') + "\r\n\r\n"},
+      {"a request id", "", "Idempotency-Key: \xff\r\nLast-Event-ID: x\r\n\r\n"},
+      {"2 MiB", "", "Content-Length: 2097152\r\n\r\n" + std::string(4096, ' ')},
+      {"a body that waits to be invited", "", "Expect: 100-continue\r\n" + promise},
+      {"chunks", "", chunked + "2\r\n{}\r\n0\r\n\r\n"},
+      {"chunks that are not framed", "", chunked + "zz\r\n{}"},
+      {"an unknown transfer coding", "", "Transfer-Encoding: xchunked\r\n\r\n{}"},
+      {"half a body", "", promise + "{"},
+      {"half a body, and the client leaves", "", promise + "{", false},
+      {"no body, and the client leaves", "", "\r\n", false},
+  };
+}
+
+TEST_F(HttpRig, AStopIsCarriedOutWhateverItsBodyQueryAndHeaderSay) {
+  ann.make_ready();
+  for (const OddStop& odd : odd_stops()) {
+    SCOPED_TRACE(odd.name);
+    // So far away that the axis would not rest by itself.
+    ASSERT_TRUE(ann.move_to(290, 5).ok());
+    ASSERT_TRUE(rig.gets_to(5));
+    HttpConnection connection(daemon.http());
+    connection.send("POST /v1/rig:stop" + odd.query + " HTTP/1.1\r\nHost: localhost\r\n" +
+                    odd.rest);
+    if (odd.is_answered) {
+      EXPECT_EQ(connection.read_answer().status, 200);
+    } else {
+      connection.close();
+    }
+    ASSERT_TRUE(rig.gets_to(0));
+    ASSERT_TRUE(ann.becomes(v1::Rig::IDLE));
+    EXPECT_EQ(ann.rig().motion().outcome(), v1::Motion::STOPPED);
+  }
+}
+
+TEST_F(HttpRig, ABodyThatAStopIgnoresIsNotTakenForTheNextRequest) {
+  HttpConnection connection(daemon.http());
+  const std::string evil = request_text("POST", "/v1/queue:pause", "{}");
+  EXPECT_EQ(connection.ask("POST", "/v1/rig:stop", evil).status, 200);
+  EXPECT_EQ(connection.ask("GET", "/v1/queue").json().at("paused"), false);
+}
+
+TEST_F(HttpRig, APageOfAnotherSiteCannotStopTheRig) {
+  ann.make_ready();
+  ASSERT_TRUE(ann.move_to(290, 5).ok());
+  ASSERT_TRUE(rig.gets_to(5));
+  for (const char* field :
+       {"Origin: http://elsewhere.example\r\n", "Sec-Fetch-Site: cross-site\r\n"}) {
+    const HttpAnswer refused = ask(daemon.http(), "POST", "/v1/rig:stop", "{}", field);
+    EXPECT_EQ(refused.reason(), "ORIGIN_FORBIDDEN") << field;
+  }
+  EXPECT_EQ(ann.rig().state(), v1::Rig::MOVING);
+}
+
+TEST_F(HttpRig, ADipIsCancelledWhateverTheBodyAndQuerySay) {
+  ann.make_ready();
+  ann.go_to(8);
+  v1::DipSpec spec = short_dip();
+  spec.set_depth_mm(100);
+  const std::string name = ann.dip(spec).name();
+  ann.guide_to(name, v1::DipStatus::DESCEND);
+  ASSERT_TRUE(rig.gets_to(10));
+  HttpConnection connection(daemon.http());
+  connection.send("POST /v1/" + name +
+                  ":cancel?leaseId=x HTTP/1.1\r\nHost: localhost\r\nContent-Length: 99\r\n\r\n{");
+  EXPECT_EQ(connection.read_answer().status, 200);
+  ASSERT_TRUE(rig.gets_to(0));
+  EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::CANCELLED);
 }
 
 TEST_F(HttpRig, APageSeesTheRigMove) {

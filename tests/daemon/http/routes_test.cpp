@@ -56,6 +56,25 @@ TEST_F(HttpTest, RefusalsAreGoogleRpcStatus) {
   EXPECT_EQ(get("/v1/jobs?pagesize=1").status, 400);
 }
 
+TEST_F(HttpTest, ValidateOnlyRefusesAFilmThatTheWorkerWouldRefuse) {
+  nlohmann::json job = {{"simulate", {{"mesh", {{"name", "m.obj"}, {"asset", upload("")}}}}}};
+  const auto validate = [&] { return post("/v1/jobs?validateOnly=true", job.dump()); };
+  job["simulate"]["film"] = "A3";
+  EXPECT_EQ(validate().status, 200);
+  job["simulate"]["film"] = "A9";
+  job["simulate"]["dpi"] = 1;
+  const HttpAnswer refused = validate();
+  EXPECT_EQ(refused.status, 400);
+  EXPECT_EQ(refused.reason(), "SPEC_INVALID");
+  const auto details = refused.json().at("error").at("details");
+  EXPECT_EQ(details.at(0).at("metadata").at("field"), "simulate.film");
+  const auto wrong = details.at(1).at("fieldViolations");
+  ASSERT_EQ(wrong.size(), 2U);
+  EXPECT_EQ(wrong.at(0).at("field"), "simulate.film");
+  EXPECT_EQ(wrong.at(1).at("field"), "simulate.dpi");
+  EXPECT_EQ(wrong.at(1).at("description"), "must be from 20 to 2400 dots per inch");
+}
+
 TEST_F(HttpTest, AnotherMethodIsToldWhichThereAre) {
   const HttpAnswer wrong = ask(daemon.http(), "PUT", "/v1/jobs/1", "{}");
   EXPECT_EQ(wrong.status, 405);

@@ -12,6 +12,8 @@ import jsonschema
 SCHEMA = "/usr/share/openapi-specification/schemas/v3.0/schema.json"
 METHODS = {"get", "put", "post", "delete", "patch", "head"}
 OPEN = {"GetHealth", "GetMetrics", "GetOpenApi", "SignIn"}  # which needs no sign-in
+# What drawn requests do not keep to: the services check it.
+RULES = {"required", "minimum", "maximum", "maxLength", "minItems", "maxItems", "maxProperties"}
 BY_HAND = {"GetHealth", "GetMetrics", "GetOpenApi", "DownloadArtifact", "HeadArtifact", "HeadUpload", "PatchUpload"}
 
 
@@ -110,6 +112,50 @@ def undescribed(document):
                 yield f"{name}.{word}: nothing is said of it"
 
 
+def wrong_rules(document):
+    """Some rules of fields (proto/hydroprint/v1/field_rules.proto), in each of their forms."""
+    schemas = document["components"]["schemas"]
+    expected = {
+        ("SimulateSpecInput", "dpi"): {"minimum": 20, "maximum": 2400, "default": 300, "example": 600,
+                                       "x-unit": "dots per inch"},
+        ("PredictSpecInput", "dpi"): {"minimum": 20, "maximum": 2400},
+        ("SimulateSpecInput", "film"): {"maxLength": 300, "default": "A4", "format": "film"},
+        ("SimulateSpecInput", "model"): {"default": "MODEL_SHEET"},
+        ("SimulateSpecInput", "extraFiles"): {"maxItems": 256},
+        ("PoseInput", "rotationWxyz"): {"minItems": 4, "maxItems": 4, "example": [1, 0, 0, 0]},
+        ("PrintImageSpecInput", "inkLimit"): {"minimum": 0, "exclusiveMinimum": True, "maximum": 4},
+        ("PrintImageSpecInput", "formats"): {"items": {"type": "string", "enum": ["pdf", "png", "tiff"]}},
+        ("JobInput", "labels"): {"maxProperties": 32,
+                                 "additionalProperties": {"type": "string", "maxLength": 200}},
+        ("JobInput", "state"): {"readOnly": True},
+        ("Job", "state"): {"readOnly": True},
+        ("MoveToRequest", "positionMm"): {"x-unit": "mm"},
+        ("AcquireLeaseRequest", "ttl"): {"default": "600s"},
+    }
+    for (name, field), keywords in expected.items():
+        found = schemas[name]["properties"][field]
+        for keyword, value in keywords.items():
+            if found.get(keyword) != value:
+                yield f"{name}.{field}: {keyword} is {found.get(keyword)}, not {value}"
+    for name, field in [("SimulateSpecInput", "mesh"), ("MoveToRequest", "positionMm"), ("AcquireLeaseRequest", "purpose")]:
+        if field not in schemas[name].get("required", []):
+            yield f"{name} does not require {field}"
+    if "default" in schemas["SimulateSpecInput"]["properties"]["depthMm"]:
+        yield "SimulateSpecInput.depthMm: a word is no number"
+    if "minimum" in schemas["SimulateSpec"]["properties"]["dpi"]:
+        yield "SimulateSpec.dpi: an answer may be older than its rules"
+
+
+def wrong_values(document):
+    """Defaults and examples that their own schemas refuse."""
+    for name, schema in document["components"]["schemas"].items():
+        for field, value in schema.get("properties", {}).items():
+            for keyword in ("default", "example"):
+                if keyword in value:
+                    for trouble in check(value[keyword], value, document):
+                        yield f"{name}.{field}: its {keyword}: {trouble}"
+
+
 def closed(document):
     """The same, where a field that no schema has is wrong in answers, too."""
     document = copy.deepcopy(document)
@@ -153,7 +199,7 @@ def wrong_samples(document, samples):
                 yield f"{name}: has no parameter {key}"
         if "body" in sample:
             schema = content_of(operation["requestBody"], "application/json")
-            yield from (f"{name}: {trouble}" for trouble in check(sample["body"], schema, document, {"required"}))
+            yield from (f"{name}: {trouble}" for trouble in check(sample["body"], schema, document, RULES))
         kind = "text/event-stream" if sample["streams"] else "application/json"
         for trouble in check(sample["answer"], content_of(operation["responses"]["200"], kind), document):
             yield f"{name}: {trouble}"
@@ -164,7 +210,8 @@ def wrong_samples(document, samples):
 def main():
     document = json.loads(output_of(sys.argv[1]), object_pairs_hook=without_repeats)
     samples = [json.loads(line) for line in output_of(sys.argv[2]).splitlines()]
-    troubles = [trouble for look in (wrong_form, wrong_references, wrong_operations, wrong_security, undescribed)
+    troubles = [trouble for look in (wrong_form, wrong_references, wrong_operations, wrong_security, undescribed,
+                                                   wrong_rules, wrong_values)
                 for trouble in look(document)]
     troubles += wrong_samples(document, samples)
     print("\n".join(troubles) or f"{len(document['paths'])} paths, {len(samples)} samples, nothing is wrong")

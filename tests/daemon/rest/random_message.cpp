@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/rest/routes.h"
+#include "proto/rules/field_rules.h"
 
 namespace hydroprint::rest {
 namespace {
@@ -104,6 +105,10 @@ void draw_field(pb::Message& message, const pb::FieldDescriptor& field, Random& 
     }
     case Type::CPPTYPE_STRING: {
       std::string text = random_text(random);
+      // Other rules are the services' to check; these values are the schema's, too.
+      if (const auto values = rules::choices(field); !values.empty()) {
+        text = values[below(random, values.size())];
+      }
       if (field.type() == pb::FieldDescriptor::TYPE_BYTES) text += std::string("\0\xff\xc0", 3);
       return put(&Look::SetString, &Look::AddString, text);
     }

@@ -8,6 +8,7 @@
 #include "daemon/rest/json_text.h"
 #include "daemon/rest/transcoder.h"
 #include "tests/daemon/rest/requests.h"
+#include "tests/support/campaign.h"
 
 namespace hydroprint::rest {
 namespace {
@@ -25,9 +26,9 @@ TEST(RoundTrip, EveryRouteGetsWhatWasSent) {
   const auto routes = read_routes(all_services());
   const auto transcoder = Transcoder::make(all_services());
   ASSERT_TRUE(routes && transcoder);
-  std::mt19937 random(11);
+  std::mt19937 random(testing::campaign_seed(11));
   for (const Route& route : *routes) {
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < testing::campaign_rounds(60); ++i) {
       const auto message = random_message(*route.method->input_type(), random, i % 4);
       const Sent request = sent(route, *message, random);
       const auto call = transcoder->read(route.http_method, request.target, request.body);
@@ -48,9 +49,9 @@ TEST(RoundTrip, EveryAnswerCanBeReadBack) {
   const auto routes = read_routes(all_services());
   const auto transcoder = Transcoder::make(all_services());
   ASSERT_TRUE(routes && transcoder);
-  std::mt19937 random(12);
+  std::mt19937 random(testing::campaign_seed(12));
   for (const Route& route : *routes) {
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < testing::campaign_rounds(60); ++i) {
       const auto message = random_message(*route.method->output_type(), random, i % 4);
       const auto text = transcoder->write(rpc_name(*route.method), message->SerializeAsString());
       ASSERT_TRUE(text) << text.error().message;

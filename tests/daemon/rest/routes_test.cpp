@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
-#include "daemon/rest/other_routes.h"
+#include "daemon/rest/openapi/extra_routes.h"
 #include "daemon/rest/transcoder.h"
 #include "tests/daemon/rest/requests.h"
 
@@ -45,6 +46,7 @@ TEST(Routes, ARuleThatCannotBeMeantIsRefusedAtStart) {
       {"OwnVerb", "no GET, PUT"},
       {"NoPattern", "no GET, PUT"},
       {"PartOfAnswer", "response_body is not supported"},
+      {"StopWithField", "stops motion, so its path must hold the field seq"},
       {"StructRequest", "holds Any, Struct"},
       {"AnyRequest", "holds Any, Struct"},
       {"DeepRequest", "holds Any, Struct"},
@@ -110,6 +112,45 @@ TEST(Routes, OfTheApiOnlyWhatReadsIsGet) {
     const bool deletes = name.rfind("Delete", 0) == 0 || name == "RevokeSession";
     EXPECT_EQ(route.http_method == "DELETE", deletes) << name;
   }
+}
+
+TEST(Routes, TheCallsOfTheApiThatStopMotionAreKnown) {
+  const auto routes = read_routes(api_services());
+  ASSERT_TRUE(routes);
+  std::set<std::string> stops;
+  for (const Route& route : *routes) {
+    if (route.stops_motion) stops.insert(route.method->full_name());
+  }
+  EXPECT_EQ(stops, (std::set<std::string>{"hydroprint.v1.JobService.CancelJob",
+                                          "hydroprint.v1.RigService.StopMotion"}));
+}
+
+TEST(Routes, AStopIsTheSameCallWhateverItsBodyAndQuerySay) {
+  const auto transcoder = Transcoder::make();
+  ASSERT_TRUE(transcoder);
+  for (const std::string path : {"/v1/rig:stop", "/v1/jobs/7:cancel"}) {
+    EXPECT_TRUE(transcoder->stops_motion("POST", path));
+    EXPECT_FALSE(transcoder->stops_motion("GET", path));
+    const auto plain_stop = transcoder->read("POST", path, "");
+    ASSERT_TRUE(plain_stop);
+    EXPECT_TRUE(plain_stop->stops_motion);
+    for (const std::string& body :
+         {std::string(R"({"leaseId":"x"})"), std::string(R"({"name":"jobs/8"})"), std::string("[]"),
+          std::string("null"), std::string("{"), std::string("\xef\xbb\xbf{}"),
+          std::string("\0\xff", 2), std::string(1000, '[')}) {
+      const auto stop = transcoder->read("POST", path, body);
+      ASSERT_TRUE(stop) << body << ": " << stop.error().message;
+      EXPECT_EQ(stop->request, plain_stop->request) << body;
+    }
+    for (const char* query : {"?", "?leaseId=x", "?name=jobs/8", "?&=", "?%zz=%00", "?\xff"}) {
+      EXPECT_TRUE(transcoder->stops_motion("POST", path + query)) << query;
+      const auto stop = transcoder->read("POST", path + query, "");
+      ASSERT_TRUE(stop) << query << ": " << stop.error().message;
+      EXPECT_EQ(stop->request, plain_stop->request) << query;
+    }
+  }
+  EXPECT_FALSE(transcoder->stops_motion("POST", "/v1/rig:home"));
+  EXPECT_FALSE(transcoder->stops_motion("POST", "/v1/nothing:stop"));
 }
 
 TEST(Routes, WhatIsWrittenByHandIsNoRouteOfTheApi) {

@@ -13,10 +13,10 @@
 #include <sstream>
 #include <thread>
 
-#include "hardware/depth_camera/renderer.h"
-#include "hardware/virtual/scene.h"
-#include "sim/image/grey16.h"
-#include "sim/image/image_file.h"
+#include "hardware/simulator/camera/renderer.h"
+#include "hardware/simulator/drive/scene.h"
+#include "sim/image/io/grey16.h"
+#include "sim/image/io/image_file.h"
 #include "tests/support/control_line.h"
 #include "tests/support/process.h"
 
@@ -139,15 +139,16 @@ TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
   const auto recording = path("take.oni");
   const auto live = capture_live({"--seconds", "0.1", "--record", recording.string()});
   ASSERT_EQ(live.status, 0) << live.err;
-  const auto scene = virtual_rig::read_scene(scene_);
-  const auto scenery = virtual_rig::scenery_of(*scene);
+  const auto scene = simulated_drive::read_scene(scene_);
+  const auto scenery = simulated_drive::scenery_of(*scene);
   ASSERT_TRUE(scenery);
-  const auto renderer = depth_camera::Renderer::create(*scenery, depth_camera::lens_of(*scenery));
+  const auto renderer =
+      simulated_camera::Renderer::create(*scenery, simulated_camera::lens_of(*scenery));
   std::map<int, std::string> drawn;
   const auto expected = [&](int index) {
     std::string& out = drawn[index];
     if (!out.empty()) return out;
-    depth_scene::Sight sight;
+    simulated_scene::Sight sight;
     sight.time_s = (index - 1) / 30.0;
     sight.gripper_height_mm = scene->water_mm - scene->start_mm;
     const auto file = image::encode_png({640, 480, (*renderer)->photograph(sight)});
@@ -155,7 +156,8 @@ TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
   };
   const auto told = frames_of(path("out"));
   EXPECT_EQ(told["source"]["serial"], "virtual-3");
-  EXPECT_NEAR(told["horizontal_fov_rad"].get<double>(), depth_camera::horizontal_fov_rad(), 1e-6);
+  EXPECT_NEAR(told["horizontal_fov_rad"].get<double>(), simulated_camera::horizontal_fov_rad(),
+              1e-6);
   ASSERT_FALSE(told["frames"].empty());
   for (const auto& frame : told["frames"]) {
     const int index = frame["index"];

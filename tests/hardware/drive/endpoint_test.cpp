@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "hardware/drive/link.h"
 #include "hardware/drive/serial_line.h"
+#include "hardware/drive/transaction.h"
 
 namespace hydroprint::drive {
 namespace {

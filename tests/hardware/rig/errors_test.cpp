@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "hardware/rig/state_names.h"
+
 namespace hydroprint::rig {
 namespace {
 

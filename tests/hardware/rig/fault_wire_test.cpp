@@ -10,10 +10,10 @@
 namespace hydroprint::rig {
 namespace {
 
-using virtual_rig::Clock;
+using simulated_drive::Clock;
 using Outcome = MotionReport::Outcome;
 
-class Fault : public virtual_rig::OnBothWires {};
+class Fault : public simulated_drive::OnBothWires {};
 HP_ON_BOTH_WIRES(Fault);
 
 /// After a fault: nothing moves until reset, armed and homed, in this order.
@@ -218,7 +218,7 @@ TEST_P(Fault, AnotherDriveThanThePlannedOneIsNotArmedAndNotCommanded) {
 }
 
 TEST_P(Fault, AWatchdogThatIsOffTooSlowOrDoesNotStopPreventsArming) {
-  virtual_rig::BenchOptions off, slow, idle;
+  simulated_drive::BenchOptions off, slow, idle;
   off.watchdog_s = 0;
   slow.watchdog_s = 5;
   idle.watchdog_action = 0;

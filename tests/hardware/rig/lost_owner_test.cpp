@@ -6,19 +6,20 @@
 #include <thread>
 
 #include "hardware/rig/limits.h"
-#include "hardware/rig/stopper.h"
+#include "hardware/rig/stop_channel.h"
 #include "sim/base/input_file.h"
 #include "tests/hardware/rig/wired_rig.h"
+#include "tests/support/campaign.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::rig {
 namespace {
 
-using virtual_rig::Clock;
+using simulated_drive::Clock;
 
 constexpr double kSpeed_mm_per_s = 10;
 
-class LostOwner : public virtual_rig::OnBothWires {};
+class LostOwner : public simulated_drive::OnBothWires {};
 HP_ON_BOTH_WIRES(LostOwner);
 
 testing::Process own(WiredDrive& drive) {
@@ -61,9 +62,9 @@ void expect_a_cold_start(WiredDrive& drive) {
 }
 
 TEST_P(LostOwner, KilledAtAnyMomentTheDriveStopsByItself) {
-  std::mt19937 random(1);
+  std::mt19937 random(testing::campaign_seed(1));
   std::uniform_int_distribution<int> moment_ms(0, 400);
-  for (int i = 0; i < 4; ++i) {
+  for (int i = 0; i < testing::campaign_rounds(4); ++i) {
     WiredDrive drive(GetParam());
     testing::Process owner = own(drive);
     ASSERT_TRUE(wait_for([&] { return is_dipping(drive); }, 20));
@@ -92,10 +93,10 @@ TEST_P(LostOwner, HungTheDriveStopsByItselfAndNothingGoesOnWhenItWakes) {
   expect_a_cold_start(drive);
 }
 
-TEST(Stopper, StopsADriveWhoseOwnerDoesNotLookAnyMore) {
-  // The drive's own watchdog is slow here, so it is the stopper that is seen to act.
+TEST(StopChannel, StopsADriveWhoseOwnerDoesNotLookAnyMore) {
+  // The drive's own watchdog is slow here, so it is the stop_channel that is seen to act.
   const testing::TemporaryFolder folder;
-  virtual_rig::BenchOptions options;
+  simulated_drive::BenchOptions options;
   std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
   const std::string good = "largest_time_s = 0.25";
   ASSERT_NE(profile.find(good), std::string::npos);
@@ -108,17 +109,17 @@ TEST(Stopper, StopsADriveWhoseOwnerDoesNotLookAnyMore) {
   ASSERT_TRUE(owned.home());
   ASSERT_TRUE(wait_for([&] { return drive.mode() == "hold"; }));
   ASSERT_TRUE(owned.poll());
-  Stopper stopper(owned);
+  StopChannel stop_channel(owned);
   ASSERT_TRUE(owned.move_to(100, kSpeed_mm_per_s));
   const double clean_s = drive.now_s();
-  stopper.watch(true, Clock::now());
+  stop_channel.watch(true, Clock::now());
   ASSERT_TRUE(wait_for([&] { return drive.speed_mm_per_s() > 9.9; }));
   const double rested_s = drive.rested_s();
   EXPECT_GT(rested_s - clean_s, kStale_s);
   EXPECT_LT(rested_s - clean_s, kStale_s + 0.2);
   EXPECT_EQ(drive.mode(), "hold") << "stopped, not tripped";
-  EXPECT_TRUE(stopper.take_trip());
-  EXPECT_FALSE(stopper.take_trip());
+  EXPECT_TRUE(stop_channel.take_trip());
+  EXPECT_FALSE(stop_channel.take_trip());
 }
 
 }  // namespace

@@ -9,10 +9,10 @@
 namespace hydroprint::rig {
 namespace {
 
-using virtual_rig::Clock;
+using simulated_drive::Clock;
 using Outcome = MotionReport::Outcome;
 
-class Wired : public virtual_rig::OnBothWires {};
+class Wired : public simulated_drive::OnBothWires {};
 HP_ON_BOTH_WIRES(Wired);
 
 TEST_P(Wired, NothingMovesBeforeArmingAndOnlyHomingBeforeHoming) {

@@ -3,6 +3,7 @@
 #include <map>
 
 #include "hardware/rig/state.h"
+#include "hardware/rig/state_names.h"
 #include "tests/hardware/rig/state_walk.h"
 
 namespace hydroprint::rig {

@@ -6,6 +6,8 @@
 #include <ostream>
 #include <tuple>
 
+#include "hardware/rig/state_names.h"
+
 namespace hydroprint::rig {
 namespace {
 

@@ -7,10 +7,10 @@
 #include <thread>
 
 namespace hydroprint::rig {
-using virtual_rig::Clock;
+using simulated_drive::Clock;
 
-virtual_rig::BenchOptions starting_at(double start_mm) {
-  virtual_rig::BenchOptions options;
+simulated_drive::BenchOptions starting_at(double start_mm) {
+  simulated_drive::BenchOptions options;
   options.start_mm = start_mm;
   return options;
 }
@@ -35,7 +35,7 @@ bool wait_for(const std::function<bool()>& until, double seconds) {
   return true;
 }
 
-WiredRig::WiredRig(const std::string& wire, const virtual_rig::BenchOptions& options)
+WiredRig::WiredRig(const std::string& wire, const simulated_drive::BenchOptions& options)
     : drive_(wire, options) {
   auto controller = Controller::make({}, drive_.profile(), drive_.endpoint());
   if (!controller) throw std::runtime_error(controller.error().message);

@@ -5,19 +5,19 @@
 #include <string>
 
 #include "hardware/rig/controller.h"
-#include "tests/hardware/virtual/bench_rig.h"
+#include "tests/hardware/simulator/drive/bench_rig.h"
 
 namespace hydroprint::rig {
 
 /// Where the carriage stands at the start, otherwise as it should be.
-[[nodiscard]] virtual_rig::BenchOptions starting_at(double start_mm);
+[[nodiscard]] simulated_drive::BenchOptions starting_at(double start_mm);
 
 /// A virtual drive on a real wire, "tcp" or "rtu", with a short way home. Its own client is not
 /// used, and not connected.
-class WiredDrive : public virtual_rig::BenchRig {
+class WiredDrive : public simulated_drive::BenchRig {
  public:
   explicit WiredDrive(const std::string& wire,
-                      const virtual_rig::BenchOptions& options = starting_at(1))
+                      const simulated_drive::BenchOptions& options = starting_at(1))
       : BenchRig(wire, options) {}
 
   /// Where it really is, and how fast, whatever it tells.
@@ -33,13 +33,13 @@ class WiredDrive : public virtual_rig::BenchRig {
 [[nodiscard]] bool wait_for(const std::function<bool()>& until, double seconds = 5);
 
 /// Seconds since then.
-[[nodiscard]] double seconds_since(virtual_rig::Clock::time_point time);
+[[nodiscard]] double seconds_since(simulated_drive::Clock::time_point time);
 
 /// A controller and its drive.
 class WiredRig {
  public:
   explicit WiredRig(const std::string& wire,
-                    const virtual_rig::BenchOptions& options = starting_at(1));
+                    const simulated_drive::BenchOptions& options = starting_at(1));
 
   WiredDrive& drive() { return drive_; }
   Controller* operator->() { return controller_.get(); }

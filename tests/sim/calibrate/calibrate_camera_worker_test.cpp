@@ -1,7 +1,7 @@
 // calibrate through a camera that calibrate-camera calibrated.
 #include <cmath>
 
-#include "sim/registration/calibration_board.h"
+#include "sim/registration/camera/calibration_board.h"
 #include "tests/sim/calibrate/calibrate_fixture.h"
 
 namespace hydroprint::calibrate {

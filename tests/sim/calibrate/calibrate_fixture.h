@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/image/grey16.h"
+#include "sim/image/io/grey16.h"
 #include "tests/support/depth_scene.h"
 #include "tests/support/process.h"
 #include "tests/support/temporary_folder.h"
@@ -28,8 +28,8 @@ inline void write_frames(const std::filesystem::path& folder,
   std::filesystem::create_directories(folder);
   nlohmann::json listing = {{"width", 640},
                             {"height", 480},
-                            {"horizontal_fov_rad", depth_camera::horizontal_fov_rad()},
-                            {"vertical_fov_rad", depth_camera::vertical_fov_rad()},
+                            {"horizontal_fov_rad", simulated_camera::horizontal_fov_rad()},
+                            {"vertical_fov_rad", simulated_camera::vertical_fov_rad()},
                             {"frames", nlohmann::json::array()}};
   for (const scan::DepthFrame& frame : frames) {
     const std::size_t index = listing["frames"].size();
@@ -66,7 +66,7 @@ class Calibrate : public ::testing::Test {
   }
 
   void SetUp() override {
-    rig.lens = depth_camera::drawn_lens(kCamera);
+    rig.lens = simulated_camera::drawn_lens(kCamera);
     const auto surface = testing::box({-60, -60, 0}, {60, 60, 10});
     write_obj(path("board.obj"), surface);
     Eigen::AlignedBox3d box;

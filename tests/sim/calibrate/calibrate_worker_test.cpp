@@ -12,7 +12,7 @@ using nlohmann::json;
 using testing::Ended;
 
 TEST_F(Calibrate, NamesAMarkerThatIsHidden) {
-  rig.states[2] = depth_scene::MarkerState::kHidden;
+  rig.states[2] = simulated_scene::MarkerState::kHidden;
   take_frames(4);
   registration::CameraCalibration camera;
   camera.lens = testing::lens_of(rig.lens);

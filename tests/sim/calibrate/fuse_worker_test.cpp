@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hardware/depth_scene/shapes.h"
+#include "hardware/simulator/scene/shapes.h"
 #include "sim/calibrate/camera_file.h"
-#include "sim/mesh/read_model.h"
+#include "sim/mesh/read/read_model.h"
 #include "tests/sim/calibrate/calibrate_fixture.h"
 #include "tests/support/swept_camera.h"
 
@@ -30,7 +30,8 @@ class Fuse : public Calibrate {
     return run(all);
   }
 
-  testing::SweptCamera camera{{{"block", depth_scene::box({-40, -25, 30}, {35, 30, 90}), false}}};
+  testing::SweptCamera camera{
+      {{"block", simulated_scene::box({-40, -25, 30}, {35, 30, 90}), false}}};
 };
 
 TEST_F(Fuse, GivesTheRigsSurfaceInTheFilmFrameAndTheCamerasPath) {

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <thread>
 
-#include "sim/image/image_file.h"
+#include "sim/image/io/image_file.h"
 #include "sim/ink/ink_of.h"
 #include "tests/sim/fit/scene.h"
 #include "tests/support/process.h"

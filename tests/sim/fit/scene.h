@@ -9,6 +9,7 @@
 #include "sim/film/outline.h"
 #include "sim/fit/points.h"
 #include "sim/mesh/model.h"
+#include "sim/pipeline/dip.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/sample/icosphere.h"
 #include "sim/validate/film_locator.h"

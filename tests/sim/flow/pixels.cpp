@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "sim/image/raster.h"
+#include "sim/image/texture/raster.h"
 
 namespace hydroprint::flow::reference {
 namespace {

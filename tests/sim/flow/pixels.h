@@ -6,7 +6,7 @@
 
 #include "sim/flow/jacobian.h"
 #include "sim/flow/surface_map.h"
-#include "sim/image/film_image.h"
+#include "sim/image/film/film_image.h"
 #include "sim/waterline/body.h"
 #include "tests/sim/flow/particles.h"
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "sim/flow/surface_map.h"
-#include "sim/image/film_image.h"
-#include "sim/image/image_file.h"
+#include "sim/image/film/film_image.h"
+#include "sim/image/io/image_file.h"
 #include "sim/mesh/model.h"
 #include "sim/mesh/surface.h"
 

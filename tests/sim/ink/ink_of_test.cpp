@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-#include "sim/image/image_file.h"
+#include "sim/image/io/image_file.h"
 #include "sim/ink/separation.h"
 #include "tests/sim/ink/films.h"
 #include "tests/sim/ink/printers.h"

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "sim/image/colour.h"
+#include "sim/image/io/colour.h"
 #include "tests/sim/ink/printers.h"
 #include "tests/support/temporary_folder.h"
 

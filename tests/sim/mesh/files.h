@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim/mesh/read_model.h"
+#include "sim/mesh/read/read_model.h"
 
 namespace hydroprint::mesh {
 

@@ -2,6 +2,7 @@
 // the same figures against finer runs than there is time for here.
 #include <gtest/gtest.h>
 
+#include "sim/pipeline/dip.h"
 #include "sim/sample/icosphere.h"
 #include "tests/support/exact_sphere.h"
 #include "tests/support/sphere_dips.h"

@@ -1,3 +1,5 @@
+#include "sim/pipeline/dip.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/pipeline/dip.h"
 #include "sim/pipeline/pipeline.h"
 
 namespace hydroprint::pipeline::testing {

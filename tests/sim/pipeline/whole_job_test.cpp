@@ -7,10 +7,10 @@
 #include <numbers>
 #include <optional>
 
-#include "sim/image/film_texture.h"
-#include "sim/image/image_file.h"
-#include "sim/image/landed.h"
-#include "sim/mesh/read_model.h"
+#include "sim/image/film/film_texture.h"
+#include "sim/image/film/landed.h"
+#include "sim/image/io/image_file.h"
+#include "sim/mesh/read/read_model.h"
 #include "sim/pipeline/simulate.h"
 #include "sim/sample/sample.h"
 #include "tests/support/temporary_folder.h"

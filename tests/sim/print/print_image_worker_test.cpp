@@ -11,8 +11,8 @@
 #include <regex>
 #include <thread>
 
-#include "sim/image/image_file.h"
-#include "sim/image/printer_image.h"
+#include "sim/image/io/image_file.h"
+#include "sim/image/io/printer_image.h"
 #include "tests/sim/print/raster_files.h"
 #include "tests/support/process.h"
 

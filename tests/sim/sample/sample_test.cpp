@@ -11,7 +11,7 @@
 #include <tuple>
 
 #include "sim/mesh/make_surface.h"
-#include "sim/mesh/read_model.h"
+#include "sim/mesh/read/read_model.h"
 #include "sim/mesh/uv_warnings.h"
 #include "tests/support/temporary_folder.h"
 

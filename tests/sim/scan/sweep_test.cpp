@@ -7,8 +7,8 @@
 #include <cmath>
 #include <string>
 
-#include "hardware/depth_camera/sensor.h"
-#include "hardware/depth_scene/shapes.h"
+#include "hardware/simulator/camera/sensor.h"
+#include "hardware/simulator/scene/shapes.h"
 #include "sim/registration/shape.h"
 #include "tests/support/depth_scene.h"
 #include "tests/support/swept_camera.h"
@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 using testing::SweptCamera;
 using testing::two_threads;
 
-std::vector<depth_scene::Body> block() {
-  return {{"block", depth_scene::box({-40, -25, 30}, {35, 30, 90}), false}};
+std::vector<simulated_scene::Body> block() {
+  return {{"block", simulated_scene::box({-40, -25, 30}, {35, 30, 90}), false}};
 }
 
 std::vector<double> times_of(const std::vector<DepthFrame>& frames) {
@@ -42,7 +42,7 @@ Result<Sweep> fuse(const std::vector<DepthFrame>& frames, const Lens& lens,
 
 /// What calibrate-camera would tell of a camera's constant noise at best.
 FixedPattern pattern_of(std::uint64_t seed) {
-  FixedPattern out{640, 480, 4, depth_camera::constant_noise(seed)};
+  FixedPattern out{640, 480, 4, simulated_camera::constant_noise(seed)};
   out.sigma.assign(out.patches(), 0);
   return out;
 }

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "sim/flow/flow_map.h"
+#include "sim/pipeline/dip.h"
 #include "sim/pipeline/pipeline.h"
 #include "sim/sample/icosphere.h"
 #include "sim/sheet/dip_parts.h"

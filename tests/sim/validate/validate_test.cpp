@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "sim/image/image_file.h"
+#include "sim/image/io/image_file.h"
 #include "tests/support/process.h"
 
 namespace hydroprint::worker {
@@ -225,7 +225,7 @@ TEST_F(Validate, RefusesWhatItDoesNotKnow) {
   expect_refusal({"--out", out(), "--only", "acuracy"},
                  "--only: there is no experiment 'acuracy'. Choose from repeatability, accuracy");
   expect_refusal({"--out", out(), "--mesh", "ball.obj"}, "--mesh");
-  expect_refusal({"--out", out(), "--threads", "0"}, "--threads: out of range");
+  expect_refusal({"--out", out(), "--threads", "0"}, "--threads: 0 is out of range. Use 1 to 1024");
   expect_refusal({"--quick"}, "--out");
 }
 

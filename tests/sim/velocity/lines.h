@@ -10,7 +10,7 @@
 
 #include "sim/film/outline.h"
 #include "sim/velocity/film_mesh.h"
-#include "sim/velocity/quadratic.h"
+#include "sim/velocity/quadratic_elements.h"
 #include "sim/waterline/cross_section.h"
 #include "sim/waterline/waterlines.h"
 

@@ -12,7 +12,7 @@
 #include <sstream>
 #include <thread>
 
-#include "sim/image/image_file.h"
+#include "sim/image/io/image_file.h"
 #include "tests/sim/mesh/gltf_files.h"
 #include "tests/sim/worker/artifact_files.h"
 #include "tests/sim/worker/bodies.h"

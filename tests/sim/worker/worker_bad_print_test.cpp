@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/image/image_file.h"
+#include "sim/image/io/image_file.h"
 #include "tests/sim/worker/worker_fixture.h"
 
 namespace hydroprint::worker {

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "sim/image/image_file.h"
+#include "sim/image/io/image_file.h"
 #include "tests/sim/worker/bodies.h"
 
 namespace hydroprint::worker {

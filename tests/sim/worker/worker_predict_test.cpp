@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "sim/image/image_file.h"
+#include "sim/image/io/image_file.h"
 #include "tests/sim/worker/artifact_files.h"
 #include "tests/sim/worker/worker_fixture.h"
 

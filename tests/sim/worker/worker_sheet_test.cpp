@@ -109,8 +109,8 @@ TEST_F(Inertia, MakesTheQuasistaticMapWithVolumeKeptAndAnotherOneWithout) {
 }
 
 TEST_F(Inertia, IsRefusedWithStokes) {
-  expect_refusal(2, dip({"--inertia", "--model", "stokes"}), {"--inertia: ", "--model sheet"});
-  expect_refusal(2, predict({"--inertia", "--model", "stokes"}), {"--inertia: ", "--model sheet"});
+  expect_refusal(2, dip({"--inertia", "--model", "stokes"}), {"--inertia: ", "model sheet"});
+  expect_refusal(2, predict({"--inertia", "--model", "stokes"}), {"--inertia: ", "model sheet"});
 }
 
 }  // namespace

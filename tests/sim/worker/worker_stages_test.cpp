@@ -7,8 +7,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "sim/worker/options.h"
-#include "sim/worker/stages.h"
+#include "sim/worker/command_line.h"
+#include "sim/worker/common/artifact_task.h"
 #include "tests/sim/worker/worker_fixture.h"
 
 namespace hydroprint::worker {
@@ -46,8 +46,10 @@ Names listed(const Arguments& command) {
   for (const std::string& argument : command) argv.push_back(argument.c_str());
   const CommandLine parsed = parse_command_line(static_cast<int>(argv.size()), argv.data());
   EXPECT_EQ(parsed.action, CommandLine::Action::kRun) << parsed.error.message;
+  const auto* const task = dynamic_cast<const ArtifactTask*>(parsed.task.get());
+  if (task == nullptr) return {};
   Names names;
-  for (const Stage& stage : stages(parsed.options)) {
+  for (const Stage& stage : task->stages()) {
     EXPECT_GT(stage.weight, 0) << stage.name;
     names.push_back(stage.name);
   }

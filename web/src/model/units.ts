@@ -1,4 +1,5 @@
 /** Numbers with their units, as people read them; never a number without one. */
+import { done, refused, type Result } from './result';
 
 export const formatMm = (value: number, digits = 1): string => `${value.toFixed(digits)} mm`;
 
@@ -47,10 +48,30 @@ export function formatTime(time: Date, now: Date): string {
 export const secondsOf = (duration: string | undefined): number =>
   duration?.endsWith('s') ? Number(duration.slice(0, -1)) : NaN;
 
-/** What a person typed as a number, a comma for the point too; undefined if it is none. */
+/**
+ * A number as a person types it, with a point or a comma before the decimals; undefined if the text is not one.
+ * "1,000" is not: some read a thousand, others one.
+ */
 export function parseNumber(text: string): number | undefined {
-  const plain = text.trim().replace(',', '.');
-  if (plain === '') return undefined;
-  const value = Number(plain);
+  const plain = text.trim();
+  if (!/^[-+]?(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(plain)) return undefined;
+  if (/^[-+]?[1-9]\d{0,2},\d{3}$/.test(plain)) return undefined;
+  const value = Number(plain.replace(',', '.'));
   return Number.isFinite(value) ? value : undefined;
+}
+
+/** What a number field takes. */
+export interface NumberRange {
+  min: number;
+  max: number;
+  unit: string;
+}
+
+/** The number that was typed; refused unless it is one, and in range. */
+export function readNumber(text: string, { min, max, unit }: NumberRange): Result<number> {
+  const remedy = `Enter ${min} to ${max} ${unit}`;
+  if (text.trim() === '') return refused('A number is missing', remedy);
+  const value = parseNumber(text);
+  if (value === undefined) return refused('Not a number', remedy);
+  return value < min || value > max ? refused('Out of range', remedy) : done(value);
 }

@@ -1,7 +1,10 @@
 /** The few controls that all screens share. */
 import type { ComponentChildren, JSX } from 'preact';
 import { useEffect, useId, useRef, useState } from 'preact/hooks';
-import { parseNumber } from '../model/units';
+import { cutToBytes } from '../model/limits';
+import { done, type Result } from '../model/result';
+import { parseNumber, readNumber } from '../model/units';
+import { useReportError } from './field_errors';
 
 /** A button that shows that it is at work, and takes no second press meanwhile. */
 export function Button(props: {
@@ -67,7 +70,10 @@ export function Careful(props: {
   );
 }
 
-/** A number with its unit. Told once it is a number in range; what is not says so and changes nothing. */
+/**
+ * A number with its unit. What is typed stays as it was typed. A number in range becomes the value; any other text is
+ * marked, leaves the value as it was before it was edited, and holds up the action of the form (`field_errors`).
+ */
 export function NumberField(props: {
   label: string;
   unit: string;
@@ -75,41 +81,55 @@ export function NumberField(props: {
   onValue: (value: number) => void;
   /** Called when the field is emptied; without it that is an error. */
   onEmpty?: () => void;
-  min?: number;
-  max?: number;
+  min: number;
+  max: number;
   digits?: number;
   step?: number;
   placeholder?: string;
   disabled?: boolean;
 }) {
   const id = useId();
+  // Undefined: the field shows the value.
+  const [typed, setTyped] = useState<string>();
+  const told = useRef(props.value);
+  const valueBefore = useRef(props.value);
+  const isFocused = useRef(false);
   const shown =
     props.value === undefined ? '' : String(Number(props.value.toFixed(props.digits ?? 1)));
-  const [text, setText] = useState(shown);
-  const [error, setError] = useState('');
-  const isEdited = useRef(false);
-  useEffect(() => {
-    if (!isEdited.current) setText(shown);
-  }, [shown]);
-  const take = (typed: string) => {
-    setText(typed);
-    if (typed.trim() === '' && props.onEmpty) {
-      setError('');
-      return props.onEmpty();
-    }
-    const value = parseNumber(typed);
-    if (value === undefined) return setError('This is no number');
-    if (props.min !== undefined && value < props.min) return setError(`At least ${props.min}`);
-    if (props.max !== undefined && value > props.max) return setError(`At most ${props.max}`);
-    setError('');
-    return props.onValue(value);
+  const text = typed ?? shown;
+
+  const read = (content: string): Result<number | undefined> =>
+    props.onEmpty && content.trim() === '' ? done(undefined) : readNumber(content, props);
+  const refusal = typed === undefined ? undefined : failureOf(read(typed));
+  const error = refusal && `${refusal.what}. ${refusal.remedy}.`;
+  useReportError(props.label, error !== undefined);
+
+  const tell = (value: number | undefined) => {
+    if (value === told.current) return;
+    told.current = value;
+    if (value === undefined) props.onEmpty?.();
+    else props.onValue(value);
   };
+  const take = (content: string) => {
+    setTyped(content);
+    const number = read(content);
+    tell(number.ok ? number.value : valueBefore.current);
+  };
+  // A value that comes from elsewhere replaces what was typed, but not while somebody types.
+  const follow = () => {
+    if (isFocused.current && typed !== undefined) return;
+    if (isSame(props.value, told.current)) return;
+    told.current = props.value;
+    setTyped(undefined);
+  };
+  useEffect(follow, [props.value]);
   const nudge = (event: KeyboardEvent) => {
     const step = { ArrowUp: 1, ArrowDown: -1 }[event.key];
-    if (!step) return;
+    const from = text.trim() === '' ? 0 : parseNumber(text);
+    if (!step || from === undefined) return;
     event.preventDefault();
     const size = (props.step ?? 1) * (event.shiftKey ? 10 : 1);
-    take(String(Number(((parseNumber(text) ?? 0) + step * size).toFixed(6))));
+    take(String(Number((from + step * size).toFixed(6))));
   };
   return (
     <div class="field">
@@ -122,16 +142,16 @@ export function NumberField(props: {
           value={text}
           placeholder={props.placeholder}
           disabled={props.disabled}
-          aria-invalid={error !== ''}
+          aria-invalid={error !== undefined}
           aria-describedby={error ? `${id}-error` : undefined}
-          onInput={(event) => {
-            isEdited.current = true;
-            take(event.currentTarget.value);
+          onFocus={() => {
+            isFocused.current = true;
+            valueBefore.current = told.current;
           }}
+          onInput={(event) => take(event.currentTarget.value)}
           onBlur={() => {
-            isEdited.current = false;
-            if (error || text !== shown) setText(shown);
-            setError('');
+            isFocused.current = false;
+            follow();
           }}
           onKeyDown={nudge}
         />
@@ -146,6 +166,13 @@ export function NumberField(props: {
   );
 }
 
+const failureOf = (result: Result<unknown>) => (result.ok ? undefined : result.failure);
+
+/** Equal but for the rounding of what is computed from a value and back. */
+const isSame = (a: number | undefined, b: number | undefined): boolean =>
+  a === b ||
+  (a !== undefined && b !== undefined && Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(b)));
+
 export function TextField(props: {
   label: string;
   value: string;
@@ -153,9 +180,15 @@ export function TextField(props: {
   placeholder?: string;
   type?: string;
   autocomplete?: JSX.InputHTMLAttributes<HTMLInputElement>['autocomplete'];
-  maxLength?: number;
+  /** More than so many bytes of UTF-8 cannot be typed. */
+  maxBytes?: number;
 }) {
   const id = useId();
+  const take = (input: HTMLInputElement) => {
+    const text = cutToBytes(input.value, props.maxBytes ?? Infinity);
+    if (text !== input.value) input.value = text;
+    props.onValue(text);
+  };
   return (
     <div class="field">
       <label for={id}>{props.label}</label>
@@ -165,8 +198,7 @@ export function TextField(props: {
         value={props.value}
         placeholder={props.placeholder}
         autocomplete={props.autocomplete ?? 'off'}
-        maxLength={props.maxLength}
-        onInput={(event) => props.onValue(event.currentTarget.value)}
+        onInput={(event) => take(event.currentTarget)}
       />
     </div>
   );

@@ -1,5 +1,6 @@
 /** What somebody is about to print: kept with its files over a reload, until it is submitted. */
 import { batch, computed, effect, signal } from '@preact/signals';
+import * as rules from '../../api/rules';
 import { jobs as jobsApi } from '../../api/services';
 import type { InputFile, Job, JobInput, SimulateSpec, SimulateSpecInput } from '../../api/types';
 import { filmOf, type Film } from '../../model/film';
@@ -34,15 +35,15 @@ export interface Draft {
 export const kEmpty: Draft = {
   files: [],
   name: '',
-  scale: 1,
+  scale: rules.SimulateSpec.scale.usual,
   pose: kUpright,
   calibration: '',
-  film: 'A4',
-  dpi: 300,
-  paper: 'A4',
-  colours: 'COLOURS_RGB',
-  model: 'MODEL_SHEET',
-  speed_mm_per_s: 5,
+  film: rules.SimulateSpec.film.usual,
+  dpi: rules.SimulateSpec.dpi.usual,
+  paper: rules.PrintImageSpec.paper.usual,
+  colours: rules.PrintImageSpec.colours.usual,
+  model: rules.SimulateSpec.model.usual,
+  speed_mm_per_s: rules.SimulateSpec.dipSpeedMmPerS.usual,
   requestId: '',
 };
 

@@ -2,6 +2,7 @@ import { useEffect, useState } from 'preact/hooks';
 import { route } from '../../route';
 import { orComplain } from '../../state/notices';
 import { may } from '../../state/session';
+import { FieldErrorsOf, useFieldErrors } from '../../ui/field_errors';
 import { refreshCalibrations } from './calibration';
 import { clear, draft, restore, shape, startFrom } from './draft';
 import { shapeOfJob } from './from_job';
@@ -34,6 +35,7 @@ export function NewPrint() {
     void refreshCalibrations();
   }, [from]);
 
+  const errors = useFieldErrors();
   const isOver = useDrop();
   const hasObject = shape.value !== undefined;
   return (
@@ -48,12 +50,14 @@ export function NewPrint() {
             You may look, but not submit: ask whoever looks after this machine to make you a maker.
           </p>
         )}
-        {hasObject || problems.value.length > 0 ? <Taken /> : <HowItGoes />}
-        <PosePanel />
-        {hasObject && <PreviewPanel />}
-        <FilmPanel />
-        <MorePanel />
-        {hasObject && <Submit />}
+        <FieldErrorsOf value={errors}>
+          {hasObject || problems.value.length > 0 ? <Taken /> : <HowItGoes />}
+          <PosePanel />
+          {hasObject && <PreviewPanel />}
+          <FilmPanel />
+          <MorePanel />
+          {hasObject && <Submit />}
+        </FieldErrorsOf>
         {(hasObject || draft.value.files.length > 0 || draft.value.from) && (
           <button type="button" class="plain" onClick={clear}>
             Start over

@@ -1,4 +1,6 @@
 import { useEffect, useRef, useState } from 'preact/hooks';
+import * as rules from '../../api/rules';
+import { limitsOf } from '../../model/limits';
 import { formatBytes, formatMm } from '../../model/units';
 import { Button, NumberField } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
@@ -132,11 +134,9 @@ export function Taken() {
           />
           <NumberField
             label="One unit is"
-            unit="mm"
-            digits={4}
+            {...limitsOf(rules.SimulateSpec.scale)}
+            digits={6}
             value={scale}
-            min={0.000002}
-            max={100000}
             onValue={(value) => change({ scale: value })}
           />
         </div>

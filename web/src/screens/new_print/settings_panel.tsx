@@ -1,4 +1,6 @@
+import * as rules from '../../api/rules';
 import { filmOf, kFilmChoices } from '../../model/film';
+import { limitsOf } from '../../model/limits';
 import { Choice, NumberField, TextField } from '../../ui/controls';
 import { calibrated } from './calibration';
 import { change, draft, film, shape } from './draft';
@@ -48,7 +50,7 @@ function FilmChoice() {
   const isListed = kFilmChoices.some((one) => one.name === name);
   const { width_mm, height_mm } = film.value;
   const setSize = (width: number, height: number) => {
-    const made = `${Number(width.toFixed(1))}x${Number(height.toFixed(1))}`;
+    const made = `${width}x${height}`;
     if (filmOf(made)) change({ film: made });
   };
   return (
@@ -71,7 +73,7 @@ function FilmChoice() {
             unit="mm"
             value={width_mm}
             min={10}
-            max={3000}
+            max={2000}
             onValue={(mm) => setSize(mm, height_mm)}
           />
           <NumberField
@@ -79,7 +81,7 @@ function FilmChoice() {
             unit="mm"
             value={height_mm}
             min={10}
-            max={3000}
+            max={2000}
             onValue={(mm) => setSize(width_mm, mm)}
           />
         </div>
@@ -98,17 +100,16 @@ export function MorePanel() {
       <TextField
         label="Name of the job"
         value={name}
-        maxLength={100}
+        maxBytes={rules.Job.displayName.maxBytes}
         onValue={(value) => change({ name: value })}
       />
       <div class="row">
         <NumberField
           label="Depth"
-          unit="mm"
+          {...limitsOf(rules.SimulateSpec.depthMm)}
           placeholder="all of it"
           value={depth_mm}
-          min={0.1}
-          max={2000}
+          digits={3}
           onValue={(value) => change({ depth_mm: value })}
           onEmpty={() => {
             const { depth_mm: _, ...rest } = draft.value;
@@ -118,10 +119,9 @@ export function MorePanel() {
         />
         <NumberField
           label="Dip speed"
-          unit="mm/s"
+          {...limitsOf(rules.SimulateSpec.dipSpeedMmPerS)}
           value={speed_mm_per_s}
-          min={0.1}
-          max={1000}
+          digits={3}
           onValue={(value) => change({ speed_mm_per_s: value })}
         />
       </div>

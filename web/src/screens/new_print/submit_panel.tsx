@@ -7,6 +7,7 @@ import { remember } from '../../state/jobs';
 import { complain } from '../../state/notices';
 import { may } from '../../state/session';
 import { Progress } from '../../ui/controls';
+import { remedyOf, useFormErrors } from '../../ui/field_errors';
 import { calibrated, staleness } from './calibration';
 import { centre_mm, change, draft, film, jobOf, shape, type Inputs } from './draft';
 import { inputsOf } from './intake';
@@ -93,8 +94,9 @@ function obstacle(): string | undefined {
 }
 
 export function Submit() {
+  const errors = useFormErrors();
   if (sending.value) return <Underway {...sending.value} />;
-  const why = obstacle();
+  const why = obstacle() ?? remedyOf(errors);
   return (
     <div class="submit">
       {failure.value && (

@@ -1,4 +1,5 @@
 import { useState } from 'preact/hooks';
+import * as rules from '../../api/rules';
 import { people as api } from '../../api/services';
 import type { Role } from '../../api/types';
 import { orComplain } from '../../state/notices';
@@ -78,7 +79,12 @@ function NewKey({ made }: { made: (key: string) => Promise<void> }) {
     <div class="new">
       <h3>Make a key</h3>
       <div class="row">
-        <TextField label="What for" value={name} onValue={setName} maxLength={90} />
+        <TextField
+          label="What for"
+          value={name}
+          onValue={setName}
+          maxBytes={rules.CreateApiKeyRequest.displayName.maxBytes}
+        />
         <Choice
           label="May do"
           value={role}

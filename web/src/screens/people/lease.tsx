@@ -1,4 +1,5 @@
 import { useState } from 'preact/hooks';
+import * as rules from '../../api/rules';
 import { breakLease, rig } from '../../state/rig';
 import { Careful, Figures, TextField } from '../../ui/controls';
 import { When } from '../../ui/job_text';
@@ -25,7 +26,7 @@ export function Lease() {
             label="Why it is taken away; it is logged"
             value={reason}
             onValue={setReason}
-            maxLength={150}
+            maxBytes={rules.BreakLeaseRequest.reason.maxBytes}
           />
           <Careful
             kind="danger"

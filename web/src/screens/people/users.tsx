@@ -111,7 +111,7 @@ function NewUser({ isFirst, again }: { isFirst: boolean; again: () => Promise<vo
     <div class="new">
       <h3>{isFirst ? 'Add the first admin' : 'Add a user'}</h3>
       <div class="row">
-        <TextField label="Name" value={name} onValue={setName} maxLength={64} />
+        <TextField label="Name" value={name} onValue={setName} maxBytes={64} />
         {!isFirst && <Choice label="Role" value={role} choices={kRoles} onValue={setRole} />}
         <TextField
           label={

@@ -1,4 +1,5 @@
 import { useEffect, useState } from 'preact/hooks';
+import * as rules from '../../api/rules';
 import { jobs as api, newRequestId, queue as queueApi } from '../../api/services';
 import type { Job } from '../../api/types';
 import { beginnings } from '../../events';
@@ -122,7 +123,7 @@ function Line() {
               value={reason}
               onValue={setReason}
               placeholder="new film"
-              maxLength={150}
+              maxBytes={rules.PauseQueueRequest.reason.maxBytes}
             />
             <Button
               onPress={async () => {

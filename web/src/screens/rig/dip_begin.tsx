@@ -1,20 +1,25 @@
 import { useEffect, useState } from 'preact/hooks';
+import * as rules from '../../api/rules';
 import { jobs as api, newRequestId } from '../../api/services';
 import type { DipSpecInput } from '../../api/types';
+import { limitsOf } from '../../model/limits';
 import { jobPath } from '../../route';
 import { known, refresh, remember } from '../../state/jobs';
 import { orComplain } from '../../state/notices';
 import { isOurs, leaseId, refreshRig, rig } from '../../state/rig';
 import { Button, NumberField } from '../../ui/controls';
+import { FieldErrorsOf, remedyOf, useFieldErrors } from '../../ui/field_errors';
 import { numberOf } from '../../ui/job_text';
 
 /** Begins the guided dip of a film image. */
 export function BeginDip({ simulateJob }: { simulateJob: string }) {
   const [requestId] = useState(newRequestId);
   const [spec, setSpec] = useState<DipSpecInput>({});
+  const errors = useFieldErrors();
   useEffect(() => void refresh(simulateJob), [simulateJob]);
   const simulated = known.value.get(simulateJob);
   const isReady = isOurs.value && rig.value?.state === 'IDLE';
+  const remedy = remedyOf(errors);
   const begin = async () => {
     const job = orComplain(
       await api.create({ dip: { ...spec, simulateJob } }, requestId, leaseId.value),
@@ -26,17 +31,13 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
   const field = (
     key: 'soakS' | 'activatorWaitS' | 'holdS' | 'clearanceMm' | 'waterTemperatureC',
     label: string,
-    unit: string,
-    usual: string,
-    max: number,
+    placeholder?: string,
   ) => (
     <NumberField
       label={label}
-      unit={unit}
+      {...limitsOf(rules.DipSpec[key])}
+      {...(placeholder ? { placeholder } : {})}
       value={spec[key]}
-      placeholder={usual}
-      min={0}
-      max={max}
       onValue={(value) => setSpec({ ...spec, [key]: value })}
       onEmpty={() => setSpec({ ...spec, [key]: undefined })}
     />
@@ -51,17 +52,20 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
       </p>
       <details>
         <summary>Settings of the dip</summary>
-        <div class="row">
-          {field('soakS', 'Film soaks', 's', '60', 3600)}
-          {field('activatorWaitS', 'Activator works', 's', '20', 3600)}
-          {field('holdS', 'Hold at the depth', 's', '2', 600)}
-          {field('clearanceMm', 'Room for the film', 'mm', '20', 200)}
-          {field('waterTemperatureC', 'Water', '°C', 'for the record', 100)}
-        </div>
+        <FieldErrorsOf value={errors}>
+          <div class="row">
+            {field('soakS', 'Film soaks')}
+            {field('activatorWaitS', 'Activator works')}
+            {field('holdS', 'Hold at the depth')}
+            {field('clearanceMm', 'Room for the film')}
+            {field('waterTemperatureC', 'Water', 'for the record')}
+          </div>
+        </FieldErrorsOf>
       </details>
-      <Button kind="primary" disabled={!isReady} onPress={begin}>
+      <Button kind="primary" disabled={!isReady || remedy !== undefined} onPress={begin}>
         Begin the dip
       </Button>
+      {remedy && <p class="error">{remedy}.</p>}
       {!isReady && (
         <p class="quiet">
           {isOurs.value ? 'Arm and home the rig first.' : 'Take the rig first.'} Nothing moves

@@ -1,4 +1,5 @@
 import { useEffect, useState } from 'preact/hooks';
+import * as rules from '../../api/rules';
 import { rig as api } from '../../api/services';
 import type { Rig } from '../../api/types';
 import { formatSeconds } from '../../model/units';
@@ -17,6 +18,7 @@ import {
 import { may, me } from '../../state/session';
 import { secondsUntil } from '../../ui/clock';
 import { Button, Careful, Figures, NumberField, TextField } from '../../ui/controls';
+import { FieldErrorsOf, useFieldErrors } from '../../ui/field_errors';
 import { DepthPicture } from './depth_picture';
 import { DipEnd, DipGuide } from './dip_guide';
 import { BeginDip } from './dip_begin';
@@ -128,7 +130,7 @@ function LeasePanel({ now }: { now: Rig }) {
           value={purpose}
           onValue={setPurpose}
           placeholder="the mug"
-          maxLength={150}
+          maxBytes={rules.AcquireLeaseRequest.purpose.maxBytes}
         />
         <Button kind="primary" onPress={() => takeLease(purpose.trim() || 'the web page')}>
           Take the rig
@@ -161,7 +163,7 @@ function LeasePanel({ now }: { now: Rig }) {
                 label="Why; it is logged"
                 value={reason}
                 onValue={setReason}
-                maxLength={150}
+                maxBytes={rules.BreakLeaseRequest.reason.maxBytes}
               />
               <Careful
                 sure="Take it away"
@@ -181,6 +183,7 @@ function LeasePanel({ now }: { now: Rig }) {
 /** What may be asked of the rig now; what it would refuse is not offered. */
 function Commands({ now }: { now: Rig }) {
   const [target, setTarget] = useState<number>();
+  const errors = useFieldErrors();
   const isIdle = now.state === 'IDLE';
   const wantsReset = now.state === 'FAULT' || now.state === 'ESTOPPED';
   const axis = now.axis!;
@@ -213,8 +216,9 @@ function Commands({ now }: { now: Rig }) {
           </Careful>
         )}
       </div>
-      {isIdle && (
-        <div class="row">
+      {/* Hidden, not removed: what is typed stays while the axis moves. */}
+      <div class="row" hidden={!isIdle}>
+        <FieldErrorsOf value={errors}>
           <NumberField
             label="Move to"
             unit="mm"
@@ -222,15 +226,16 @@ function Commands({ now }: { now: Rig }) {
             min={axis.minMm ?? 0}
             max={axis.maxMm ?? 0}
             onValue={setTarget}
+            onEmpty={() => setTarget(undefined)}
           />
-          <Button
-            disabled={target === undefined}
-            onPress={() => command((id) => api.moveTo(id, target!))}
-          >
-            Move
-          </Button>
-        </div>
-      )}
+        </FieldErrorsOf>
+        <Button
+          disabled={target === undefined || errors.value.size > 0}
+          onPress={() => command((id) => api.moveTo(id, target!))}
+        >
+          Move
+        </Button>
+      </div>
       {(isIdle || now.state === 'MOVING') && !now.dip && (
         <Jog fastest_mm_per_s={axis.maxSpeedMmPerS ?? 10} />
       )}

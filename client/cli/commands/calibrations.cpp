@@ -1,0 +1,155 @@
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "client/calibration.h"
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/calibration_text.h"
+#include "client/cli/format/json.h"
+#include "client/cli/job_io/inputs.h"
+#include "client/cli/program/program.h"
+#include "client/cli/terminal/console.h"
+#include "client/pose_file.h"
+
+namespace hydroprint::cli {
+namespace {
+
+struct EnterOptions {
+  client::Calibration entered;
+  std::string mesh, pose;
+};
+
+std::string holds(const client::Calibration& calibration) {
+  std::string out;
+  for (const std::string& why : calibration.stale) out += (out.empty() ? "" : ",") + why;
+  return out.empty() ? "yes" : out;
+}
+
+void print_table(const std::vector<client::Calibration>& all) {
+  std::cout << std::left << std::setw(18) << "CALIBRATION" << std::setw(8) << "KIND" << std::setw(8)
+            << "ACTIVE" << std::setw(14) << "HOLDS" << std::setw(21) << "CREATED"
+            << "NAME\n";
+  for (const client::Calibration& one : all) {
+    std::cout << std::setw(18) << one.name << std::setw(8) << one.kind << std::setw(8)
+              << (one.active ? "yes" : "") << std::setw(14) << holds(one) << std::setw(21)
+              << format_time(one.create_time) << printable(one.display_name) << "\n";
+  }
+}
+
+void tell(const Program& program, const client::Calibration& calibration) {
+  if (program.json())
+    print(to_json(calibration));
+  else
+    std::cout << text_of(calibration) << std::flush;
+}
+
+Status list(Program& program, int limit) {
+  HP_ASSIGN_OR_RETURN(const auto all, client::list_calibrations(program.daemon(), limit));
+  if (program.json())
+    print({{"calibrations", to_json(all)}});
+  else
+    print_table(all);
+  return {};
+}
+
+Status show(Program& program, const std::string& name) {
+  HP_ASSIGN_OR_RETURN(const client::Calibration found,
+                      client::get_calibration(program.daemon(), calibration_name(name)));
+  if (program.json())
+    print(to_json(found));
+  else
+    print_tree(to_json(found));
+  return {};
+}
+
+Status activate(Program& program, const std::string& name) {
+  HP_ASSIGN_OR_RETURN(const client::Calibration found,
+                      client::activate_calibration(program.daemon(), calibration_name(name)));
+  tell(program, found);
+  return {};
+}
+
+Status remove(Program& program, const std::string& text) {
+  const std::string name = calibration_name(text);
+  HP_RETURN_IF_ERROR(client::delete_calibration(program.daemon(), name));
+  if (program.json())
+    print({{"deleted", {name}}});
+  else
+    std::cout << name << " deleted" << std::endl;
+  return {};
+}
+
+Status enter(Program& program, const EnterOptions& options) {
+  client::Calibration entered = options.entered;
+  HP_ASSIGN_OR_RETURN(entered.pose, client::read_pose_file(options.pose));
+  Inputs inputs(program.daemon());
+  HP_ASSIGN_OR_RETURN(const auto mesh, inputs.add(options.mesh));
+  entered.mesh = mesh.value_or(client::InputFile());
+  HP_ASSIGN_OR_RETURN(const client::Calibration made,
+                      client::create_calibration(program.daemon(), entered));
+  tell(program, made);
+  return {};
+}
+
+CLI::App* add_named(CLI::App& parent, Program& program, const char* verb, const char* help,
+                    Status (*action)(Program&, const std::string&)) {
+  auto name = std::make_shared<std::string>();
+  CLI::App* command = parent.add_subcommand(verb, help);
+  command->add_option("calibration", *name, "The calibration: calibrations/3, 3 or active")
+      ->type_name("CALIBRATION")
+      ->required();
+  program.on(*command, [&program, name, action] { return action(program, *name); });
+  return command;
+}
+
+void add_listing(CLI::App& parent, Program& program) {
+  auto limit = std::make_shared<int>(50);
+  CLI::App* command = parent.add_subcommand("list", "List calibrations, newest first");
+  command->add_option("--limit", *limit, "At most so many")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  program.on(*command, [&program, limit] { return list(program, *limit); });
+}
+
+void add_enter(CLI::App& parent, Program& program) {
+  auto options = std::make_shared<EnterOptions>();
+  CLI::App* command =
+      parent.add_subcommand("enter", "Enter by hand how the object hangs, without a camera");
+  command->add_option("--mesh", options->mesh, "The object")->type_name("FILE")->required();
+  command
+      ->add_option("--pose", options->pose,
+                   R"({"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]})")
+      ->type_name("FILE")
+      ->required();
+  command->add_option("--scale", options->entered.scale, "Model units to mm")->type_name("FACTOR");
+  command
+      ->add_option("--film", options->entered.film,
+                   "A4, A3, letter, WxH or circle:RADIUS, in mm; default A4")
+      ->type_name("FILM");
+  command->add_option("--name", options->entered.display_name, "What people call it")
+      ->type_name("TEXT");
+  command->footer(
+      "For a rig without a camera: hang the object as the placement template shows ('hydroprint "
+      "submit\n"
+      "template'). Nobody can tell when it does not hold any more.\n\n"
+      "Example:\n  hydroprint calibrations enter --mesh mug.obj --scale 10 --pose held.json");
+  program.on(*command, [&program, options] { return enter(program, *options); });
+}
+
+}  // namespace
+
+void add_calibrations(CLI::App& app, Program& program) {
+  CLI::App* command = app.add_subcommand(
+      "calibrations", "What is known of how objects hang, and of the camera: list, show, ...");
+  command->require_subcommand(1);
+  add_listing(*command, program);
+  add_named(*command, program, "show", "Show all there is to know about one", show);
+  add_named(*command, program, "activate", "Make it the one that is used where none is named",
+            activate);
+  add_named(*command, program, "delete", "Delete it; its job stays", remove);
+  add_enter(*command, program);
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,54 @@
+#include "client/camera.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/program/program.h"
+#include "client/cli/terminal/console.h"
+#include "sim/base/artifact_file.h"
+
+namespace hydroprint::cli {
+namespace {
+
+void show(const client::DepthPicture& seen) {
+  std::printf("%s: from %.0f to %.0f mm, %.0f %% of it measured, %.1f s ago\n",
+              printable(seen.camera).c_str(), seen.nearest_mm, seen.farthest_mm,
+              100 * seen.measured_share, seen.age_s);
+}
+
+Json camera_json(const client::DepthPicture& seen) {
+  return {{"camera", seen.camera},           {"nearest_mm", seen.nearest_mm},
+          {"farthest_mm", seen.farthest_mm}, {"measured_share", seen.measured_share},
+          {"time", format_time(seen.time)},  {"age_s", seen.age_s}};
+}
+
+Status look(Program& program, const std::filesystem::path& out) {
+  HP_ASSIGN_OR_RETURN(const client::DepthPicture seen, client::depth_picture(program.daemon()));
+  if (!out.empty()) {
+    HP_RETURN_IF_ERROR(image::write_artifact(out, std::string_view(seen.png)));
+  }
+  if (program.json()) {
+    print(camera_json(seen));
+  } else {
+    show(seen);
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_camera(CLI::App& app, Program& program) {
+  auto out = std::make_shared<std::filesystem::path>();
+  CLI::App* command = app.add_subcommand("camera", "What the daemon's depth camera sees now");
+  command->add_option("--out", *out, "Write it as a picture: the nearer the brighter, PNG")
+      ->type_name("FILE");
+  command->footer(
+      "The camera runs while somebody looks, and a little longer; a capture has it to itself.\n\n"
+      "Example:\n  hydroprint camera --out depth.png");
+  program.on(*command, [&program, out] { return look(program, *out); });
+}
+
+}  // namespace hydroprint::cli

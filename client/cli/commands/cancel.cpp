@@ -1,0 +1,35 @@
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/program/program.h"
+#include "client/jobs.h"
+
+namespace hydroprint::cli {
+namespace {
+
+Status cancel(Program& program, const std::vector<std::string>& names) {
+  std::vector<client::Job> jobs;
+  for (const std::string& name : names) {
+    HP_ASSIGN_OR_RETURN(const client::Job job,
+                        client::cancel_job(program.daemon(), job_name(name)));
+    jobs.push_back(job);
+    if (!program.json()) std::cout << job.name << " is " << client::name_of(job.state) << std::endl;
+  }
+  if (program.json()) print({{"jobs", to_json(jobs)}});
+  return {};
+}
+
+}  // namespace
+
+void add_cancel(CLI::App& app, Program& program) {
+  auto jobs = std::make_shared<std::vector<std::string>>();
+  CLI::App* command = app.add_subcommand("cancel", "Cancel jobs, queued or running");
+  command->add_option("job", *jobs, "The jobs: jobs/7, or 7")->type_name("JOB")->required();
+  program.on(*command, [&program, jobs] { return cancel(program, *jobs); });
+}
+
+}  // namespace hydroprint::cli

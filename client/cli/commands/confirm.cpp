@@ -1,0 +1,46 @@
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/program/program.h"
+#include "client/cli/rig_session/dip_steps.h"
+#include "client/cli/rig_session/held_lease.h"
+#include "client/jobs.h"
+
+namespace hydroprint::cli {
+namespace {
+
+struct ConfirmOptions {
+  std::string job, step, with_lease;
+};
+
+Status confirm(Program& program, const ConfirmOptions& options) {
+  HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take(program, options.with_lease));
+  HP_ASSIGN_OR_RETURN(const client::Job job,
+                      client::confirm_step(program.daemon(), job_name(options.job),
+                                           client::dip_step_of(options.step), lease->id()));
+  print_dip(program, job);
+  return {};
+}
+
+}  // namespace
+
+void add_confirm(CLI::App& app, Program& program) {
+  auto options = std::make_shared<ConfirmOptions>();
+  CLI::App* command =
+      app.add_subcommand("confirm", "Say that a step of a dip is done, so that it goes on");
+  add_job_argument(*command, options->job);
+  command->add_option("step", options->step, "The step that was done")
+      ->type_name("STEP")
+      ->required()
+      ->transform(CLI::IsMember(client::operator_steps(), CLI::ignore_case));
+  add_lease_flag(*command, options->with_lease);
+  command->footer(
+      "Needs the lease that the dip was created with, or another one since. 'hydroprint show JOB'\n"
+      "tells the step. Saying it again does nothing.\n\nExample:\n"
+      "  hydroprint confirm 8 LAY_FILM");
+  program.on(*command, [&program, options] { return confirm(program, *options); });
+}
+
+}  // namespace hydroprint::cli

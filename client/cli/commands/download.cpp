@@ -1,0 +1,56 @@
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/job_io/wait.h"
+#include "client/cli/program/program.h"
+
+namespace hydroprint::cli {
+namespace {
+
+struct DownloadOptions {
+  std::string job;
+  std::vector<std::string> artifacts;
+  std::string out;
+};
+
+// "jobs/7" to "job-7".
+std::string default_folder(const std::string& job) {
+  return "job-" + job.substr(job.find('/') + 1);
+}
+
+Status download(Program& program, const DownloadOptions& options) {
+  const std::string job = job_name(options.job);
+  const std::string folder = options.out.empty() ? default_folder(job) : options.out;
+  HP_ASSIGN_OR_RETURN(const auto files,
+                      download_all(program.daemon(), job, options.artifacts, folder));
+  if (program.json()) {
+    print({{"files", to_json(files)}});
+    return {};
+  }
+  for (const Downloaded& file : files) std::cout << file.path.string() << std::endl;
+  return {};
+}
+
+}  // namespace
+
+void add_download(CLI::App& app, Program& program) {
+  auto options = std::make_shared<DownloadOptions>();
+  CLI::App* command = app.add_subcommand("download", "Download the files that a job made");
+  add_job_argument(*command, options->job);
+  command->add_option("artifacts", options->artifacts, "Their names; default: all of them")
+      ->type_name("ARTIFACT");
+  command->add_option("--out", options->out, "Folder to put them in; default: job-NUMBER")
+      ->type_name("DIR");
+  command->footer(
+      "Each file is checked by its SHA-256 and appears only when it is complete. What was\n"
+      "received before an interruption is kept and not fetched again.\n\nExample:\n"
+      "  hydroprint download 7 film.png report.json --out result");
+  program.on(*command, [&program, options] { return download(program, *options); });
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,158 @@
+#include <unistd.h>
+
+#include <array>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/format/people_json.h"
+#include "client/cli/program/credentials.h"
+#include "client/cli/program/program.h"
+#include "client/cli/terminal/console.h"
+#include "client/cli/terminal/secret.h"
+#include "client/people.h"
+
+namespace hydroprint::cli {
+namespace {
+
+constexpr std::chrono::hours kKeyHolds{24 * 90};
+
+struct LoginOptions {
+  std::string user;
+  bool key_from_stdin = false;
+  bool link_from_stdin = false;
+};
+
+std::string host_name() {
+  std::array<char, 65> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "a machine";
+}
+
+// "hp_0a1b_SECRET" to "apiKeys/0a1b".
+std::string name_of_key(const std::string& key) {
+  return "apiKeys/" + key.substr(3, key.find('_', 3) - 3);
+}
+
+Status show_identity(const Program& program, const client::Identity& me) {
+  if (program.json()) {
+    print(to_json(me));
+    return {};
+  }
+  std::cout << printable(me.user) << " is " << me.role << " at " << program.server() << " (by "
+            << printable(me.via) << ")" << std::endl;
+  if (!me.accounts) {
+    std::cout
+        << "There are no users yet: whoever is on that machine is admin. 'hydroprint users add "
+           "NAME --role ADMIN' makes the first."
+        << std::endl;
+  }
+  return {};
+}
+
+// "1.2 GB of 20 GB"
+std::string of_allowed(const std::string& used, const std::string& allowed, bool is_limited) {
+  return is_limited ? used + " of " + allowed : used;
+}
+
+// What one has there, after who one is.
+Status show_all(Program& program) {
+  HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const client::Usage usage, client::get_usage(program.daemon()));
+  if (program.json()) {
+    Json json = to_json(me);
+    json["usage"] = to_json(usage);
+    print(json);
+    return {};
+  }
+  HP_RETURN_IF_ERROR(show_identity(program, me));
+  std::cout << "queued: "
+            << of_allowed(std::to_string(usage.queued_jobs), std::to_string(usage.max_queued_jobs),
+                          usage.max_queued_jobs > 0)
+            << " jobs\nstored: "
+            << of_allowed(format_bytes(usage.stored_bytes), format_bytes(usage.max_stored_bytes),
+                          usage.max_stored_bytes > 0);
+  if (usage.pinned_bytes > 0) std::cout << ", " << format_bytes(usage.pinned_bytes) << " pinned";
+  std::cout << std::endl;
+  return {};
+}
+
+Result<std::string> begin_session(client::Connection& nobody, const LoginOptions& options) {
+  if (options.link_from_stdin) {
+    HP_ASSIGN_OR_RETURN(const std::string link, ask_secret("Sign-in link: "));
+    // The whole address, or what stands behind its "#".
+    return client::sign_in_by_link(nobody, link.substr(link.rfind('#') + 1));
+  }
+  HP_ASSIGN_OR_RETURN(const std::string user, options.user.empty() ? ask("Name: ") : options.user);
+  HP_ASSIGN_OR_RETURN(const std::string password, ask_secret("Password: "));
+  return client::sign_in(nobody, user, password);
+}
+
+// A key made with a session that lasts no longer than that.
+Result<std::string> make_key(const Program& program, const LoginOptions& options) {
+  client::Connection nobody(program.options_as("", ""));
+  HP_ASSIGN_OR_RETURN(const std::string session, begin_session(nobody, options));
+  client::Connection somebody(program.options_as("", session));
+  auto key = client::create_api_key(somebody, "hydroprint login on " + host_name(), "", kKeyHolds);
+  HP_RETURN_IF_ERROR(client::sign_out(somebody));
+  HP_RETURN_IF_ERROR(key);
+  return key->text;
+}
+
+Status log_in(Program& program, const LoginOptions& options) {
+  HP_RETURN_IF_ERROR(client::check_secrets_may_go(program.options({})));
+  HP_ASSIGN_OR_RETURN(const std::string key, options.key_from_stdin ? ask_secret("API key: ")
+                                                                    : make_key(program, options));
+  client::Connection connection(program.options_as(key, ""));
+  HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(connection));
+  if (!me.accounts) {
+    return fail(Code::kFailedPrecondition,
+                "there are no users at " + program.server() + " yet, and nobody needs to log in");
+  }
+  HP_RETURN_IF_ERROR(keep_key(program.server(), key));
+  return show_identity(program, me);
+}
+
+// Forgets the key here first: that holds even if the daemon does not answer.
+Status log_out(const Program& program) {
+  HP_ASSIGN_OR_RETURN(const std::string key, kept_key(program.server()));
+  if (key.empty()) {
+    return fail(Code::kFailedPrecondition, "nobody is logged in at " + program.server() + " here");
+  }
+  HP_RETURN_IF_ERROR(keep_key(program.server(), ""));
+  client::Connection connection(program.options_as(key, ""));
+  const Status ended = client::delete_api_key(connection, name_of_key(key));
+  if (!ended && ended.error().code != Code::kUnauthenticated) {
+    return fail(ended.error().code, "forgotten here, but the key still holds: " +
+                                        ended.error().message + "; delete it: hydroprint keys");
+  }
+  if (program.json()) print({{"logged_out", program.server()}});
+  if (!program.json()) std::cout << "logged out of " << program.server() << std::endl;
+  return {};
+}
+
+}  // namespace
+
+void add_login(CLI::App& app, Program& program) {
+  auto options = std::make_shared<LoginOptions>();
+  CLI::App* login = app.add_subcommand(
+      "login",
+      "Keep an API key for a daemon, made with name and password or a link, or one you have");
+  login->add_option("--user", options->user, "Your name; else it is asked for")->type_name("NAME");
+  auto* key = login->add_flag("--api-key-stdin", options->key_from_stdin,
+                              "Read an API key from standard input");
+  login
+      ->add_flag("--link-stdin", options->link_from_stdin,
+                 "Read a one-time sign-in link from standard input")
+      ->excludes(key);
+  login->footer("Example:\n  hydroprint login --api-key-stdin < key");
+  program.on(*login, [&program, options] { return log_in(program, *options); });
+  program.on(*app.add_subcommand("logout", "Forget the key and end it"),
+             [&program] { return log_out(program); });
+  program.on(*app.add_subcommand(
+                 "whoami", "Show who you are to the daemon, what you may do, and what you have"),
+             [&program] { return show_all(program); });
+}
+
+}  // namespace hydroprint::cli

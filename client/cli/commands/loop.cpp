@@ -1,0 +1,120 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/loop/rounds.h"
+#include "client/cli/program/program.h"
+#include "client/cli/rig_session/held_lease.h"
+#include "client/cli/rig_session/motion.h"
+#include "client/loop/control.h"
+#include "client/loop/report.h"
+#include "client/rig.h"
+#include "sim/base/artifact_file.h"
+
+namespace hydroprint::cli {
+namespace {
+
+/// The axis armed and homed, whatever happened to it: on a machine that is too busy the drive's
+/// watchdog stops it between two poses, and it hurts nobody.
+Status make_ready(Program& program, const HeldLease& lease) {
+  HP_ASSIGN_OR_RETURN(client::Rig rig, client::get_rig(program.daemon()));
+  if (!rig.axis || !rig.axis->is_virtual)
+    return fail(Code::kFailedPrecondition,
+                "the loop runs on hydroprint-virtual-rig alone; start the daemon with one");
+  if (rig.state == client::RigState::kFault) {
+    HP_ASSIGN_OR_RETURN(rig, client::reset_rig(program.daemon(), lease.id()));
+  }
+  if (rig.state == client::RigState::kDisarmed)
+    HP_RETURN_IF_ERROR(client::arm_rig(program.daemon(), lease.id()));
+  if (rig.homed) return {};
+  HP_RETURN_IF_ERROR(wait_for_motion(program, client::home_rig(program.daemon(), lease.id())));
+  return {};
+}
+
+Status write(const loop::Report& report, const std::filesystem::path& folder) {
+  HP_RETURN_IF_ERROR(image::write_artifact(folder / "report.html", loop::report_html(report)));
+  return image::write_artifact(folder / "report.json", loop::report_json(report));
+}
+
+Status run_loop(Program& program, const LoopOptions& options) {
+  HP_ASSIGN_OR_RETURN(loop::Body body, loop::make_body(options.object));
+  const std::filesystem::path folder(options.out);
+  loop::Report report{options.object, loop::bound_mm(body), options.seed, {}, {}};
+  HP_RETURN_IF_ERROR(loop::talk(options.control, "show nothing"));  // before anything moves
+  HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take_or_acquire(program, "the loop"));
+  HP_RETURN_IF_ERROR(make_ready(program, *lease));
+  LoopRounds rounds(program, options, std::move(body), *lease);
+  HP_RETURN_IF_ERROR(rounds.prepare());
+  report.camera = rounds.camera();
+  for (int i = 0; i < options.poses; ++i) {
+    HP_RETURN_IF_ERROR(make_ready(program, *lease));
+    HP_ASSIGN_OR_RETURN(report.rounds.emplace_back(), rounds.round(i));
+    HP_RETURN_IF_ERROR(write(report, folder));
+  }
+  if (program.json())
+    print(Json::parse(loop::report_json(report)));
+  else
+    std::cout << loop::report_text(report) << (folder / "report.html").string() << std::endl;
+  return {};
+}
+
+constexpr char kLoopFooter[] =
+    "Calibrates the virtual rig's camera from twelve views of the board. Then, for each pose: "
+    "hangs "
+    "the\n"
+    "object crookedly in the gripper, calibrates through the noisy camera, simulates, puts it on "
+    "paper and\n"
+    "dips on the rig; dips that film image in the computation at the true pose, along an axis that "
+    "is not\n"
+    "quite vertical, with film and printer a little off; and measures where the picture's "
+    "cross-points land.\n"
+    "The rig's --scene must have a [camera], and its water must be far enough below for the "
+    "object.\n\n"
+    "Example:\n"
+    "  hydroprint loop --object board --control /tmp/rig --poses 10 --out loop";
+
+}  // namespace
+
+void add_loop(CLI::App& app, Program& program) {
+  auto options = std::make_shared<LoopOptions>();
+  CLI::App* command = app.add_subcommand(
+      "loop", "The whole loop in silico, on the virtual rig: how far off the print lands");
+  command->add_option("--object", options->object, "The sample that hangs there")
+      ->type_name("OBJECT")
+      ->check(CLI::IsMember({"board", "sphere80"}))
+      ->capture_default_str();
+  command->add_option("--control", options->control, "The virtual rig's --control socket")
+      ->type_name("PATH")
+      ->required();
+  command
+      ->add_option("--camera", options->camera,
+                   "The lens, if it is known: calibrations/2, 2, a camera.json, or 'active'")
+      ->type_name("CALIBRATION");
+  command->add_option("--poses", options->poses, "How many")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "Of what is drawn")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--seconds", options->seconds, "How long frames are taken")
+      ->type_name("S")
+      ->capture_default_str();
+  command->add_option("--dpi", options->dpi, "Resolution of the film image")
+      ->type_name("DPI")
+      ->capture_default_str();
+  command->add_option("--model", options->model, "How the film flows; stokes is faster")
+      ->type_name("MODEL")
+      ->check(CLI::IsMember({"sheet", "stokes"}));
+  command->add_option("--out", options->out, "Folder of report.html, report.json and the pictures")
+      ->type_name("DIR")
+      ->required();
+  command->footer(kLoopFooter);
+  program.on(*command, [&program, options] { return run_loop(program, *options); });
+}
+
+}  // namespace hydroprint::cli

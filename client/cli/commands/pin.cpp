@@ -1,0 +1,47 @@
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/program/program.h"
+#include "client/cli/terminal/console.h"
+#include "client/jobs.h"
+
+namespace hydroprint::cli {
+namespace {
+
+std::string fate_of(const client::Job& job) {
+  if (job.pinned) return "is pinned, and kept";
+  if (!job.purge_time) return "is not pinned any more";
+  return "will be deleted on " + format_time(job.purge_time);
+}
+
+Status pin(Program& program, const std::vector<std::string>& names, bool pinned) {
+  Json all = Json::array();
+  for (const std::string& name : names) {
+    HP_ASSIGN_OR_RETURN(const client::Job job,
+                        client::pin_job(program.daemon(), job_name(name), pinned));
+    if (!program.json()) std::cout << printable(job.name) << " " << fate_of(job) << std::endl;
+    all.push_back(to_json(job));
+  }
+  if (program.json()) print({{"jobs", all}});
+  return {};
+}
+
+void add(CLI::App& app, Program& program, const char* verb, const char* help, bool pinned) {
+  auto jobs = std::make_shared<std::vector<std::string>>();
+  CLI::App* command = app.add_subcommand(verb, help);
+  command->add_option("job", *jobs, "The jobs: jobs/7, or 7")->type_name("JOB")->required();
+  program.on(*command, [&program, jobs, pinned] { return pin(program, *jobs, pinned); });
+}
+
+}  // namespace
+
+void add_pin(CLI::App& app, Program& program) {
+  add(app, program, "pin", "Keep jobs with their artifacts, however old they get", true);
+  add(app, program, "unpin", "Let jobs be deleted when their time is up, which begins anew", false);
+}
+
+}  // namespace hydroprint::cli

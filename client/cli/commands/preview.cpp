@@ -1,0 +1,71 @@
+#include "client/preview.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/job_io/submit_flags.h"
+#include "client/cli/program/program.h"
+#include "client/cli/terminal/console.h"
+
+namespace hydroprint::cli {
+namespace {
+
+Json preview_json(const client::Preview& preview) {
+  Json warnings = Json::array();
+  for (const Warning& warning : preview.warnings) {
+    warnings.push_back(
+        {{"code", warning.code}, {"message", warning.message}, {"where", warning.where}});
+  }
+  return {{"pose",
+           {{"rotation_wxyz", preview.pose.rotation_wxyz},
+            {"translation_mm", preview.pose.translation_mm}}},
+          {"depth_mm", preview.depth_mm},
+          {"coverage", preview.coverage},
+          {"theta_clamped_share", preview.theta_clamped_share},
+          {"stretch_p50", preview.stretch_p50},
+          {"stretch_p95", preview.stretch_p95},
+          {"stretch_max", preview.stretch_max},
+          {"seconds", preview.seconds},
+          {"warnings", warnings}};
+}
+
+void show(const client::Preview& preview) {
+  std::printf(
+      "film reaches %.0f %% of the surface in %.1f mm of immersion; half of that is stretched less "
+      "than %.2f times, 95 %% less than %.2f times\n",
+      100 * preview.coverage, preview.depth_mm, preview.stretch_p50, preview.stretch_p95);
+  for (const Warning& warning : preview.warnings) {
+    std::fprintf(stderr, "hydroprint: warning: %s (%s)\n", printable(warning.message).c_str(),
+                 printable(warning.where).c_str());
+  }
+}
+
+Status preview(Program& program, const SubmitOptions& options) {
+  HP_ASSIGN_OR_RETURN(const client::Spec spec, upload_inputs(program, options));
+  HP_ASSIGN_OR_RETURN(const client::Preview answer,
+                      client::compute_preview(program.daemon(), spec));
+  if (program.json()) {
+    print(preview_json(answer));
+  } else {
+    show(answer);
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_preview(CLI::App& app, Program& program) {
+  auto options = std::make_shared<SubmitOptions>();
+  CLI::App* command =
+      app.add_subcommand("preview", "How a dip would roughly go, in a fraction of a second");
+  add_preview_flags(*command, *options);
+  command->footer(
+      "Stokes flow on a coarse film; no job. The daemon keeps the mesh in memory for the next "
+      "one.\n\n"
+      "Example:\n  hydroprint preview --mesh mug.obj --scale 10 --pose pose.json --film A3");
+  program.on(*command, [&program, options] { return preview(program, *options); });
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,78 @@
+#include "client/queue.h"
+
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/program/program.h"
+#include "client/cli/terminal/console.h"
+
+namespace hydroprint::cli {
+namespace {
+
+void print_names(const char* title, const std::vector<std::string>& names) {
+  std::cout << title;
+  for (const std::string& name : names) std::cout << " " << name;
+  std::cout << "\n";
+}
+
+Status show(const Program& program, const Result<client::Queue>& queue) {
+  if (!queue) return tl::unexpected(queue.error());
+  if (program.json()) {
+    print(to_json(*queue));
+    return {};
+  }
+  std::cout << (queue->paused ? "paused: " + printable(queue->pause_reason) : "open") << "\n";
+  print_names("running:", queue->running_jobs);
+  print_names("queued: ", queue->queued_jobs);
+  return {};
+}
+
+Status move(Program& program, const std::string& name, const std::string& before) {
+  HP_ASSIGN_OR_RETURN(const client::Job job, client::move_job(program.daemon(), name, before));
+  if (program.json())
+    print(to_json(job));
+  else
+    std::cout << job.name << " moved" << std::endl;
+  return {};
+}
+
+void add_pause(CLI::App& parent, Program& program) {
+  auto reason = std::make_shared<std::string>();
+  CLI::App* command = parent.add_subcommand("pause", "Start no further job until resumed");
+  command->add_option("--reason", *reason, "For others to read")->type_name("TEXT");
+  program.on(*command, [&program, reason] {
+    return show(program, client::pause_queue(program.daemon(), *reason));
+  });
+}
+
+void add_move(CLI::App& parent, Program& program) {
+  auto job = std::make_shared<std::string>();
+  auto before = std::make_shared<std::string>();
+  CLI::App* command =
+      parent.add_subcommand("move", "Put a queued job in front of another, or behind all");
+  add_job_argument(*command, *job);
+  command
+      ->add_option("--before", *before, "In front of this one; default: behind all of its owner's")
+      ->type_name("JOB");
+  program.on(*command, [&program, job, before] {
+    return move(program, job_name(*job), before->empty() ? "" : job_name(*before));
+  });
+}
+
+}  // namespace
+
+void add_queue(CLI::App& app, Program& program) {
+  CLI::App* command = app.add_subcommand("queue", "Show, pause, resume or reorder the queue");
+  command->require_subcommand(1);
+  program.on(*command->add_subcommand("show", "Show the queue"),
+             [&program] { return show(program, client::get_queue(program.daemon())); });
+  add_pause(*command, program);
+  program.on(*command->add_subcommand("resume", "Start jobs again"),
+             [&program] { return show(program, client::resume_queue(program.daemon())); });
+  add_move(*command, program);
+}
+
+}  // namespace hydroprint::cli

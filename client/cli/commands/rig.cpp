@@ -1,0 +1,194 @@
+#include "client/rig.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/durations.h"
+#include "client/cli/format/json.h"
+#include "client/cli/format/rig_display.h"
+#include "client/cli/job_io/field_help.h"
+#include "client/cli/program/program.h"
+#include "client/cli/rig_session/held_lease.h"
+#include "client/cli/rig_session/jog.h"
+#include "client/cli/rig_session/motion.h"
+#include "client/cli/terminal/console.h"
+
+namespace hydroprint::cli {
+namespace {
+
+constexpr char kLeaseFooter[] =
+    "Needs the lease: 'hydroprint rig lease acquire --purpose ...', or --with-lease.\n\n";
+
+Status show(const Program& program, const Result<client::Rig>& rig, bool whole = false) {
+  if (!rig) return tl::unexpected(rig.error());
+  if (program.json())
+    print(to_json(*rig));
+  else
+    std::cout << (whole ? rig_lines(*rig) : rig_line(*rig) + "\n") << std::flush;
+  return {};
+}
+
+Status watch(Program& program, double rate_hz) {
+  RigDisplay display(STDOUT_FILENO);
+  for (bool seen = false;;) {
+    const Status watched =
+        client::watch_rig(program.daemon(), rate_hz, [&](const client::Rig& rig) {
+          seen = true;
+          program.json() ? print(to_json(rig)) : display.update(rig);
+          return static_cast<bool>(std::cout);
+        });
+    if (watched) return {};
+    if (watched.error().code != Code::kUnavailable || !seen) return watched;
+    if (!program.json()) display.say("hydroprint: " + watched.error().message + "; trying again");
+    seen = false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  }
+}
+
+// What the commands under the lease take.
+struct CommandOptions {
+  std::string with_lease;
+  double position_mm = 0;
+  std::optional<double> speed_mm_per_s;
+  bool no_wait = false;
+};
+
+using Order = Result<client::Rig> (*)(client::Connection&, const std::string&);
+
+Status command(Program& program, const CommandOptions& options, Order order) {
+  HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take(program, options.with_lease));
+  return show(program, order(program.daemon(), lease->id()));
+}
+
+template <class Motion>
+Status drive(Program& program, const CommandOptions& options, const Motion& motion) {
+  HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take(program, options.with_lease));
+  auto begun = motion(program.daemon(), lease->id());
+  if (options.no_wait && begun) return show(program, begun);
+  return show(program, wait_for_motion(program, std::move(begun)));
+}
+
+void add_rig_status(CLI::App& parent, Program& program) {
+  CLI::App* command = parent.add_subcommand("status", "Say how the rig is");
+  program.on(*command,
+             [&program] { return show(program, client::get_rig(program.daemon()), true); });
+}
+
+void add_rig_watch(CLI::App& parent, Program& program) {
+  auto rate_hz = std::make_shared<double>(10);
+  CLI::App* command = parent.add_subcommand("watch", "Show the rig as it changes, until Ctrl-C");
+  command->add_option("--rate", *rate_hz, "At most so many messages a second")
+      ->type_name("HZ")
+      ->check(field_range("WatchRigRequest.max_rate_hz"))
+      ->capture_default_str();
+  command->footer(
+      "One live line on a terminal; elsewhere a line for each change, with --json one of JSON.");
+  program.on(*command, [&program, rate_hz] { return watch(program, *rate_hz); });
+}
+
+void add_order(CLI::App& parent, Program& program, const char* name, const char* help,
+               const char* footer, Order order) {
+  auto options = std::make_shared<CommandOptions>();
+  CLI::App* command_ = parent.add_subcommand(name, help);
+  add_lease_flag(*command_, options->with_lease);
+  command_->footer(std::string(kLeaseFooter) + footer);
+  program.on(*command_, [&program, options, order] { return command(program, *options, order); });
+}
+
+void add_wait_flag(CLI::App& command, CommandOptions& options) {
+  command.add_flag("--no-wait", options.no_wait,
+                   "Return once the axis moves; Ctrl-C will not stop it then");
+  add_lease_flag(command, options.with_lease);
+}
+
+void add_home(CLI::App& parent, Program& program) {
+  auto options = std::make_shared<CommandOptions>();
+  CLI::App* command = parent.add_subcommand("home", "Look for the home switch");
+  add_wait_flag(*command, *options);
+  command->footer(std::string(kLeaseFooter) +
+                  "Waits for the end; Ctrl-C stops the axis. Exit status 0 only if it is home.\n\n"
+                  "Example:\n  hydroprint rig home --with-lease 'setting up'");
+  program.on(*command, [&program, options] { return drive(program, *options, client::home_rig); });
+}
+
+void add_rig_move(CLI::App& parent, Program& program) {
+  auto options = std::make_shared<CommandOptions>();
+  CLI::App* command = parent.add_subcommand("move", "Go to a place");
+  command->add_option("position", options->position_mm, "Where to: 0 is home, positive is down")
+      ->type_name("MM")
+      ->required();
+  command->add_option("--speed", options->speed_mm_per_s, "How fast; default 5")->type_name("MM/S");
+  add_wait_flag(*command, *options);
+  command->footer(std::string(kLeaseFooter) +
+                  "Waits for the end; Ctrl-C stops the axis. Exit status 0 only if it got there.\n"
+                  "\nExample:\n  hydroprint rig move 120 --speed 8");
+  program.on(*command, [&program, options] {
+    return drive(program, *options, [&](client::Connection& daemon, const std::string& lease_id) {
+      return client::move_rig(daemon, lease_id, options->position_mm, options->speed_mm_per_s);
+    });
+  });
+}
+
+void add_jog(CLI::App& parent, Program& program) {
+  auto options = std::make_shared<JogOptions>();
+  CLI::App* command = parent.add_subcommand("jog", "Move for as long as a key is held");
+  command->add_option("--speed", options->speed_mm_per_s, "How fast, positive is down; default 2")
+      ->type_name("MM/S");
+  add_duration(*command, "--for", options->time_s,
+               "Move that long instead, with no key: 1.5s, 500ms");
+  add_lease_flag(*command, options->with_lease);
+  command->footer(
+      std::string(kLeaseFooter) +
+      "Hold Down or j to go down, Up or k to go up; + and - double and halve the speed; q ends.\n"
+      "A terminal tells of a held key only by repeating it. So each key event moves the axis for\n"
+      "0.2 s: a tap is a short step; a held key moves on once the keyboard repeats it (after "
+      "about\n"
+      "half a second), and the axis is stopped 0.2 s after the last repeat. If this program or "
+      "its\n"
+      "connection is gone, the daemon stops the axis within half a second.\n\n"
+      "Examples:\n  hydroprint rig jog --speed 1\n  hydroprint rig jog --speed -5 --for 2s");
+  program.on(*command, [&program, options] { return jog(program, *options); });
+}
+
+void add_stop(CLI::App& parent, Program& program) {
+  CLI::App* command = parent.add_subcommand("stop", "Stop any motion; needs no lease");
+  command->footer("This is not an emergency stop: that is the button which cuts the power.");
+  program.on(*command, [&program] {
+    client::Connection daemon = program.uninterrupted();
+    return show(program, client::stop_rig(daemon));
+  });
+}
+
+}  // namespace
+
+void add_rig(CLI::App& app, Program& program) {
+  CLI::App* command = app.add_subcommand("rig", "Watch, move and stop the rig; its lease");
+  command->require_subcommand(1);
+  add_rig_status(*command, program);
+  add_rig_watch(*command, program);
+  add_order(*command, program, "arm", "Give the drive torque", "Example:\n  hydroprint rig arm",
+            client::arm_rig);
+  add_order(*command, program, "disarm", "Take the drive's torque away",
+            "Where the axis is, is not known afterwards. A vertical axis without a brake sinks.",
+            client::disarm_rig);
+  add_home(*command, program);
+  add_rig_move(*command, program);
+  add_jog(*command, program);
+  add_stop(*command, program);
+  add_order(*command, program, "reset", "After a fault or the stop button: clear the alarm",
+            "Starts nothing: then arm and home.", client::reset_rig);
+  add_lease(*command, program);
+  command->footer(
+      "Examples:\n  hydroprint rig lease acquire --purpose 'new bath'\n  hydroprint rig arm\n"
+      "  hydroprint rig home\n  hydroprint rig move 120\n  hydroprint rig stop\n"
+      "  hydroprint rig lease release");
+}
+
+}  // namespace hydroprint::cli

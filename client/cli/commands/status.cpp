@@ -1,0 +1,42 @@
+#include <iostream>
+
+#include "client/cli/commands/commands.h"
+#include "client/cli/format/json.h"
+#include "client/cli/program/program.h"
+#include "client/cli/terminal/console.h"
+#include "client/connection/health.h"
+#include "client/queue.h"
+
+namespace hydroprint::cli {
+namespace {
+
+void show(const Program& program, const std::string& health, const client::Queue& queue) {
+  if (program.json()) {
+    print({{"server", program.server()}, {"health", health}, {"queue", to_json(queue)}});
+    return;
+  }
+  std::cout << "hydroprintd " << queue.daemon_version << " at " << program.server() << ": "
+            << health << "\n"
+            << queue.running_jobs.size() << " running on " << queue.worker_slots << " workers, "
+            << queue.queued_count << " queued"
+            << (queue.paused ? ", paused: " + printable(queue.pause_reason) : "") << "\n";
+}
+
+Status status(Program& program) {
+  HP_ASSIGN_OR_RETURN(const std::string health, client::check_health(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const client::Queue queue, client::get_queue(program.daemon()));
+  show(program, health, queue);
+  if (health != "SERVING")
+    return fail(Code::kUnavailable,
+                program.server() + ": hydroprintd says " + health + "; its log says why");
+  return {};
+}
+
+}  // namespace
+
+void add_status(CLI::App& app, Program& program) {
+  CLI::App* command = app.add_subcommand("status", "Say how the daemon is");
+  program.on(*command, [&program] { return status(program); });
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,49 @@
+#include "client/cli/job_io/finish.h"
+
+#include <iostream>
+#include <vector>
+
+#include "client/cli/format/json.h"
+
+namespace hydroprint::cli {
+
+void add_finish_flags(CLI::App& command, FinishOptions& options) {
+  command.add_option("--out", options.out, "Download what it makes into this folder")
+      ->type_name("DIR");
+  command.add_flag("--no-wait", options.no_wait, "Do not follow it to its end")->excludes("--out");
+  add_wait_flags(command, options.wait);
+}
+
+void tell_created(const Program& program, const client::Job& job) {
+  if (program.json())
+    print(to_json(job));
+  else
+    std::cout << job.name << std::endl;
+}
+
+void tell_valid(const Program& program, const client::Job& job) {
+  if (program.json())
+    print(to_json(job));
+  else
+    std::cout << "The daemon would take this job." << std::endl;
+}
+
+Status finish_job(Program& program, const client::Job& job, const FinishOptions& options) {
+  if (options.no_wait || !program.json()) tell_created(program, job);
+  if (options.no_wait) return {};
+  HP_ASSIGN_OR_RETURN(const client::Job ended, wait_for(program, job.name, options.wait));
+  std::vector<Downloaded> files;
+  if (!options.out.empty()) {
+    HP_ASSIGN_OR_RETURN(files, download_all(program.daemon(), job.name, {}, options.out));
+  }
+  if (!program.json()) {
+    for (const Downloaded& file : files) std::cout << file.path.string() << std::endl;
+    return {};
+  }
+  Json json = to_json(ended);
+  if (!options.out.empty()) json["files"] = to_json(files);
+  print(json);
+  return {};
+}
+
+}  // namespace hydroprint::cli

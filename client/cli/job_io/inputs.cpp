@@ -1,0 +1,84 @@
+#include "client/cli/job_io/inputs.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+#include <string_view>
+#include <utility>
+
+#include "client/cli/terminal/console.h"
+#include "client/files/references.h"
+
+namespace hydroprint::cli {
+
+Result<client::Uploaded> upload_shown(client::Connection& connection,
+                                      const std::filesystem::path& file) {
+  ProgressLine line(STDERR_FILENO);
+  return client::upload_file(connection, file, [&](std::int64_t done, std::int64_t total) {
+    line.show("uploading " + file.filename().string(),
+              static_cast<double>(done) / static_cast<double>(total), format_bytes(total));
+  });
+}
+
+Status Inputs::add_model(const std::filesystem::path& mesh, client::Spec& spec) {
+  HP_ASSIGN_OR_RETURN(spec.mesh, add_as(mesh.filename().string(), mesh));
+  HP_ASSIGN_OR_RETURN(const client::References references, client::find_references(mesh));
+  for (const std::string& note : references.notes)
+    std::cerr << "hydroprint: note: " << printable(note) << std::endl;
+  for (const client::Reference& reference : references.files) {
+    HP_ASSIGN_OR_RETURN(auto file, add_as(reference.name, reference.path));
+    spec.extra_files.push_back(std::move(file));
+  }
+  return {};
+}
+
+Result<std::optional<client::InputFile>> Inputs::add(const std::filesystem::path& file) {
+  if (file.empty()) return std::nullopt;
+  std::string name = file.filename().string();
+  for (int i = 2; names_.contains(name); ++i)
+    name = std::to_string(i) + "-" + file.filename().string();
+  HP_ASSIGN_OR_RETURN(auto input, add_as(name, file));
+  return input;
+}
+
+Result<std::vector<client::InputFile>> Inputs::add_frames(
+    const std::vector<std::filesystem::path>& folders) {
+  std::vector<client::InputFile> out;
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    std::error_code error;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folders[i], error)) {
+      if (entry.is_regular_file()) files.push_back(entry.path());
+    }
+    if (error || !std::filesystem::exists(folders[i] / "frames.json")) {
+      return fail(Code::kNotFound, folders[i].string() +
+                                       ": no frames.json there; give a folder that "
+                                       "hydroprint-capture, or 'hydroprint capture', wrote");
+    }
+    std::sort(files.begin(), files.end());
+    for (const auto& file : files) {
+      const std::string name = "view" + std::to_string(i + 1) + "/" + file.filename().string();
+      HP_ASSIGN_OR_RETURN(out.emplace_back(), add_as(name, file));
+    }
+  }
+  return out;
+}
+
+Result<std::string> Inputs::add_film(const std::string& film, client::Spec& spec) {
+  constexpr std::string_view kPolygon = "polygon:";
+  if (!film.starts_with(kPolygon)) return film;
+  HP_ASSIGN_OR_RETURN(auto file, add(film.substr(kPolygon.size())));
+  if (!file) return fail(Code::kInvalidArgument, "--film polygon: needs a file, polygon:FILE.json");
+  spec.extra_files.push_back(*file);
+  return std::string(kPolygon) + file->name;
+}
+
+Result<client::InputFile> Inputs::add_as(const std::string& name,
+                                         const std::filesystem::path& file) {
+  HP_ASSIGN_OR_RETURN(const client::Uploaded uploaded, upload_shown(connection_, file));
+  names_.insert(name);
+  return client::InputFile{name, uploaded.asset.name};
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,284 @@
+#include "client/cli/loop/rounds.h"
+
+#include <Eigen/Geometry>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+
+#include "client/artifacts.h"
+#include "client/cli/job_io/wait.h"
+#include "client/cli/loop/camera.h"
+#include "client/cli/loop/jobs.h"
+#include "client/cli/rig_session/motion.h"
+#include "client/jobs.h"
+#include "client/loop/control.h"
+#include "client/rig.h"
+#include "sim/base/artifact_file.h"
+#include "sim/sample/sample.h"
+
+namespace hydroprint::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kAbove_mm = 40;       ///< the water, where the object hangs while it is seen
+constexpr double kRoundDepth_mm = 90;  ///< of the sphere: to its equator, and a little beyond
+
+}  // namespace
+
+LoopRounds::LoopRounds(Program& program, const LoopOptions& options, loop::Body body,
+                       const HeldLease& lease)
+    : program_(program),
+      options_(options),
+      body_(std::move(body)),
+      lease_(lease),
+      inputs_(program.daemon()) {}
+
+fs::path LoopRounds::file(const std::string& name) const {
+  return fs::absolute(fs::path(options_.out) / name);
+}
+
+void LoopRounds::say(const std::string& what) const {
+  if (!program_.json()) std::cerr << "pose " << number_ << ": " << what << std::endl;
+}
+
+Result<double> LoopRounds::gripper_mm() const {
+  HP_ASSIGN_OR_RETURN(const std::string sight, loop::talk(options_.control, "sight"));
+  const auto json = nlohmann::json::parse(sight, nullptr, false);
+  if (json.is_object() && json.contains("gripper_height_mm"))
+    return json["gripper_height_mm"].get<double>();
+  return fail(Code::kInvalidArgument,
+              options_.control + ": this virtual rig has no camera; give its --scene a [camera]");
+}
+
+Status LoopRounds::hang(const Pose& X_GO) const {
+  const fs::path held = file("held.json");
+  HP_RETURN_IF_ERROR(image::write_artifact(held, loop::pose_json(X_GO)));
+  const fs::path mesh = file("sample") / (body_.name + ".obj");
+  HP_RETURN_IF_ERROR(
+      loop::talk(options_.control, "hang " + loop::quoted(held) + " " + loop::quoted(mesh)));
+  return {};
+}
+
+Status LoopRounds::prepare() {
+  HP_RETURN_IF_ERROR(sample::write_sample(body_.name, file("sample")));
+  HP_RETURN_IF_ERROR(inputs_.add_model(file("sample") / (body_.name + ".obj"), object_));
+  HP_RETURN_IF_ERROR(move_to_view());
+  return take_camera();
+}
+
+/// As it was named; otherwise it is calibrated first.
+Status LoopRounds::take_camera() {
+  camera_name_ = calibration_name(options_.camera);
+  if (options_.camera.empty()) {
+    HP_ASSIGN_OR_RETURN(camera_name_, calibrate_loop_camera(program_, options_.control,
+                                                            file("sample"), options_.seed));
+    camera_calibration_ = camera_name_;
+  } else if (options_.camera == "active") {  // which calibrate takes by itself
+    camera_name_ = "the active one";
+  } else if (camera_name_.starts_with("calibrations/")) {
+    camera_calibration_ = camera_name_;
+  } else {
+    HP_ASSIGN_OR_RETURN(camera_, inputs_.add(options_.camera));
+  }
+  return {};
+}
+
+Status LoopRounds::move_to_view() {
+  const loop::Truth straight{loop::nominal_pose(body_), {0, 0}, {0, 0}, 1};
+  HP_ASSIGN_OR_RETURN(const client::Rig rig, client::get_rig(program_.daemon()));
+  HP_ASSIGN_OR_RETURN(const double now_mm, gripper_mm());
+  const double wanted_mm = kAbove_mm - loop::height_mm(body_, straight, 0);
+  const double axis_mm = rig.position_mm.value_or(0) + now_mm - wanted_mm;
+  HP_RETURN_IF_ERROR(wait_for_motion(
+      program_, client::move_rig(program_.daemon(), lease_.id(), axis_mm, std::nullopt)));
+  HP_ASSIGN_OR_RETURN(gripper_mm_, gripper_mm());
+  return {};
+}
+
+Result<client::Calibration> LoopRounds::calibrate(loop::Round& out) {
+  say("capture");
+  HP_ASSIGN_OR_RETURN(const client::Job capture, capture_quietly(program_, options_.seconds));
+  client::Spec spec = object_;
+  spec.verb = client::Verb::kCalibrate;
+  spec.pose = spec_of(loop::nominal_pose(body_));
+  spec.scan.capture_jobs = {capture.name};
+  spec.scan.camera = camera_;
+  spec.scan.camera_calibration = camera_calibration_;
+  spec.scan.gripper_mm = gripper_mm_;
+  say("calibrate");
+  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
+  out.jobs = {capture.name, job.name};
+  HP_RETURN_IF_ERROR(fetch(job.name, "alignment.png", "alignment", out));
+  HP_ASSIGN_OR_RETURN(const client::Calibration found,
+                      client::get_calibration(program_.daemon(), "calibrations/active"));
+  if (found.job == job.name) return found;
+  return fail(Code::kAborted, "somebody else calibrated meanwhile; run the loop alone");
+}
+
+Result<client::Job> LoopRounds::simulate(const std::string& calibration, loop::Round& out) {
+  say("simulate");
+  client::Spec spec = object_;
+  spec.calibration = calibration;
+  spec.dpi = options_.dpi;
+  spec.model = options_.model;
+  if (body_.is_round) spec.depth_mm = kRoundDepth_mm;
+  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
+  out.jobs.push_back(job.name);
+  return job;
+}
+
+Result<client::Job> LoopRounds::print(const std::string& simulation, loop::Round& out) {
+  say("print-image");
+  client::Spec spec;
+  spec.verb = client::Verb::kPrintImage;
+  spec.simulate_job = simulation;
+  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
+  out.jobs.push_back(job.name);
+  HP_RETURN_IF_ERROR(fetch(job.name, "print.pdf", "print", out));
+  return job;
+}
+
+Result<client::Job> LoopRounds::dip(const std::string& simulation, loop::Round& out) {
+  say("dip");
+  client::DipSpec spec;
+  spec.simulate_job = simulation;
+  spec.yes_to_all = true;
+  HP_ASSIGN_OR_RETURN(const client::Job job,
+                      client::create_dip(program_.daemon(), spec, lease_.id(), {}));
+  HP_ASSIGN_OR_RETURN(const client::Job ended, finish_quietly(program_, job));
+  out.jobs.push_back(ended.name);
+  return ended;
+}
+
+/// Under a name with the pose's number; pictures are for the report.
+Result<std::string> LoopRounds::fetch(const std::string& job, const std::string& artifact,
+                                      const std::string& as, loop::Round& out) const {
+  HP_ASSIGN_OR_RETURN(const auto files,
+                      download_all(program_.daemon(), job, {artifact}, file("download")));
+  const std::string name =
+      "pose" + std::to_string(number_) + "-" + as + fs::path(artifact).extension().string();
+  std::error_code error;
+  fs::rename(files.front().path, file(name), error);
+  if (error) return fail(Code::kInternal, file(name).string() + ": cannot be written");
+  if (artifact.ends_with(".png")) out.pictures.push_back(name);
+  return name;
+}
+
+/// Where a film image lands at a pose, as predict has it.
+Result<loop::SurfaceMap> LoopRounds::predict(client::Spec spec, const Pose& pose,
+                                             const std::string& as, loop::Round& out) {
+  spec.pose = spec_of(pose);
+  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
+  HP_ASSIGN_OR_RETURN(const std::string map, fetch(job.name, "surface_map.ply", as, out));
+  return loop::read_surface_map(file(map));
+}
+
+/// The way down as the axis went it, along its true direction.
+Result<client::InputFile> LoopRounds::driven(const std::string& dip, loop::Round& out) {
+  HP_ASSIGN_OR_RETURN(const std::string positions, fetch(dip, "positions.csv", "positions", out));
+  std::ifstream from(file(positions));
+  std::ostringstream rows;
+  rows << "t_s,x_mm,y_mm,z_mm\n";
+  double last_s = -1, last_mm = 0;
+  for (std::string line; std::getline(from, line);) {
+    double time_s = 0, depth_mm = 0;
+    char comma = 0;
+    std::istringstream words(line);
+    if (!(words >> time_s >> comma >> depth_mm) || !line.ends_with(",0,dip")) continue;
+    if (depth_mm < last_mm || time_s <= last_s) continue;
+    last_s = time_s;
+    last_mm = depth_mm;
+    const Eigen::Vector2d aside_mm = depth_mm * out.truth.slope;
+    rows << time_s << ',' << aside_mm.x() << ',' << aside_mm.y() << ',' << -depth_mm << '\n';
+  }
+  const fs::path path = file("pose" + std::to_string(number_) + "-motion.csv");
+  HP_RETURN_IF_ERROR(image::write_artifact(path, rows.str()));
+  HP_ASSIGN_OR_RETURN(const auto input, inputs_.add(path));
+  return *input;
+}
+
+Status LoopRounds::compare(const client::Calibration& found, loop::Round& out) const {
+  if (!found.pose) return fail(Code::kInternal, found.name + " has no pose");
+  Pose seen = out.truth.X_GO;  // where it truly was when it was seen, F
+  seen.translation().z() += gripper_mm_;
+  const Pose pose = pose_of(*found.pose);
+  const Eigen::Matrix3d off = pose.linear().transpose() * seen.linear();
+  out.turn_off_deg = Eigen::AngleAxisd(off).angle() / loop::kDegree;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : body_.points) box.extend(p);
+  const Eigen::Vector3d middle = box.center();
+  out.shift_off_mm = (pose * middle - seen * middle).head<2>().norm();
+  if (found.contact_mm && found.axis_mm)
+    out.contact_off_mm =
+        *found.contact_mm - *found.axis_mm - loop::height_mm(body_, out.truth, gripper_mm_);
+  out.stated_p95_mm = found.error_p95_mm.value_or(0);
+  return {};
+}
+
+/// A virtual dip of the film image that was made.
+Result<client::Spec> LoopRounds::landing(const client::Job& simulation, loop::Round& out) {
+  HP_ASSIGN_OR_RETURN(const std::string film, fetch(simulation.name, "film.png", "film", out));
+  client::Spec spec = object_;
+  spec.verb = client::Verb::kPredict;
+  spec.artifacts = "map";
+  spec.dpi = options_.dpi;
+  spec.model = options_.model;
+  spec.depth_mm = simulation.spec ? simulation.spec->depth_mm : std::nullopt;
+  HP_ASSIGN_OR_RETURN(spec.film_image, inputs_.add(file(film)));
+  return spec;
+}
+
+/// What became of it, to be looked at.
+Status LoopRounds::show_landed(client::Spec spec, loop::Round& out) {
+  spec.pose = spec_of(loop::pose_at_contact(body_, out.truth, gripper_mm_));
+  spec.artifacts = "all";
+  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
+  HP_RETURN_IF_ERROR(fetch(job.name, "predicted.png", "landed", out));
+  return {};
+}
+
+Status LoopRounds::measure(const client::Calibration& found, const client::Job& simulation,
+                           const std::string& dip, loop::Round& out) {
+  HP_ASSIGN_OR_RETURN(const std::string planned,
+                      fetch(simulation.name, "surface_map.ply", "planned", out));
+  HP_ASSIGN_OR_RETURN(const loop::SurfaceMap plan, loop::read_surface_map(file(planned)));
+  HP_RETURN_IF_ERROR(fetch(simulation.name, "predicted.png", "planned", out));
+  HP_ASSIGN_OR_RETURN(client::Spec spec, landing(simulation, out));
+  const loop::Truth well;
+  loop::Truth upright = out.truth;
+  upright.slope.setZero();
+  say("its film image in the computation: as calibrated");
+  HP_ASSIGN_OR_RETURN(auto map, predict(spec, pose_of(*found.pose), "as-calibrated", out));
+  out.numerics = loop::cross_errors(body_, plan, map, well);
+  say("at the true pose");
+  HP_ASSIGN_OR_RETURN(
+      map, predict(spec, loop::pose_at_contact(body_, upright, gripper_mm_), "upright", out));
+  out.calibration = loop::cross_errors(body_, plan, map, well);
+  say("as the axis was driven");
+  HP_ASSIGN_OR_RETURN(spec.motion, driven(dip, out));
+  HP_ASSIGN_OR_RETURN(
+      map, predict(spec, loop::pose_at_contact(body_, out.truth, gripper_mm_), "landed", out));
+  out.motion = loop::cross_errors(body_, plan, map, well);
+  out.placement = loop::cross_errors(body_, plan, map, out.truth);
+  return number_ == 1 ? show_landed(spec, out) : Status();
+}
+
+Result<loop::Round> LoopRounds::round(int index) {
+  number_ = index + 1;
+  loop::Round out;
+  out.truth = loop::draw(body_, options_.seed, index);
+  HP_RETURN_IF_ERROR(hang(out.truth.X_GO));
+  if (index > 0) HP_RETURN_IF_ERROR(move_to_view());
+  HP_ASSIGN_OR_RETURN(const client::Calibration found, calibrate(out));
+  HP_RETURN_IF_ERROR(compare(found, out));
+  HP_ASSIGN_OR_RETURN(const client::Job simulation, simulate(found.name, out));
+  HP_RETURN_IF_ERROR(print(simulation.name, out));
+  HP_ASSIGN_OR_RETURN(const client::Job dipped, dip(simulation.name, out));
+  HP_RETURN_IF_ERROR(measure(found, simulation, dipped.name, out));
+  return out;
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "client/calibration.h"
+#include "client/cli/job_io/inputs.h"
+#include "client/cli/program/program.h"
+#include "client/cli/rig_session/held_lease.h"
+#include "client/loop/draws.h"
+#include "client/loop/measure.h"
+#include "sim/base/result.h"
+
+namespace hydroprint::cli {
+
+struct LoopOptions {
+  std::string object = "board", control, camera, out;
+  int poses = 10;
+  std::uint32_t seed = 1;
+  double dpi = 150, seconds = 2;
+  std::optional<std::string> model;  ///< of the film: "sheet" or "stokes"
+};
+
+/// The object round the whole loop, pose by pose: from how it is hung to how its film lands.
+class LoopRounds {
+ public:
+  LoopRounds(Program& program, const LoopOptions& options, loop::Body body, const HeldLease& lease);
+
+  /// Makes the object, the camera's lens known, and moves the axis to where the object is seen.
+  [[nodiscard]] Status prepare();
+  /// The pose number `index`.
+  [[nodiscard]] Result<loop::Round> round(int index);
+  /// The calibration of the lens, or its file.
+  [[nodiscard]] const std::string& camera() const { return camera_name_; }
+
+ private:
+  [[nodiscard]] std::filesystem::path file(const std::string& name) const;
+  [[nodiscard]] Result<double> gripper_mm() const;
+  [[nodiscard]] Status hang(const Pose& X_GO) const;
+  Status take_camera();
+  Status move_to_view();
+  Result<client::Calibration> calibrate(loop::Round& out);
+  Result<client::Job> simulate(const std::string& calibration, loop::Round& out);
+  Result<client::Job> print(const std::string& simulation, loop::Round& out);
+  Result<client::Job> dip(const std::string& simulation, loop::Round& out);
+  Result<std::string> fetch(const std::string& job, const std::string& artifact,
+                            const std::string& as, loop::Round& out) const;
+  Result<loop::SurfaceMap> predict(client::Spec spec, const Pose& pose, const std::string& as,
+                                   loop::Round& out);
+  Result<client::InputFile> driven(const std::string& dip, loop::Round& out);
+  Result<client::Spec> landing(const client::Job& simulation, loop::Round& out);
+  Status measure(const client::Calibration& found, const client::Job& simulation,
+                 const std::string& dip, loop::Round& out);
+  Status show_landed(client::Spec spec, loop::Round& out);
+  Status compare(const client::Calibration& found, loop::Round& out) const;
+  void say(const std::string& what) const;
+
+  Program& program_;
+  const LoopOptions& options_;
+  loop::Body body_;
+  const HeldLease& lease_;
+  Inputs inputs_;
+  client::Spec object_;  // mesh and what goes with it
+  std::optional<client::InputFile> camera_;
+  std::string camera_calibration_, camera_name_;
+  double gripper_mm_ = 0;  // over the water, while the object is seen
+  int number_ = 0;
+};
+
+}  // namespace hydroprint::cli

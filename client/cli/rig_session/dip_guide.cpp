@@ -1,0 +1,226 @@
+#include "client/cli/rig_session/dip_guide.h"
+
+#include <unistd.h>
+
+#include <mutex>
+#include <stop_token>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "client/cli/format/job_display.h"
+#include "client/cli/format/rig_display.h"
+#include "client/cli/rig_session/jogger.h"
+#include "client/cli/terminal/console.h"
+#include "client/cli/terminal/terminal.h"
+#include "client/jobs.h"
+
+namespace hydroprint::cli {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+using client::Time;
+
+constexpr double kJogSpeed_mm_per_s = 2;
+constexpr auto kLookAtRigEvery = 200ms;
+constexpr auto kRedrawEvery = 250ms;
+constexpr char kJogKeys[] = "  hold Down/j or Up/k to jog, + and - for the speed";
+constexpr char kConfirmKey[] = "  Enter when that is done; Ctrl-C aborts the dip";
+
+// The job as the daemon tells of it, watched on a thread of its own.
+class WatchedJob {
+ public:
+  WatchedJob(const Program& program, client::Job job)
+      : daemon_(program.options(stop_.get_token())),
+        job_(std::move(job)),
+        watcher_([this] { watch(); }) {}
+  ~WatchedJob() {
+    stop_.request_stop();
+    watcher_.join();
+  }
+  WatchedJob(const WatchedJob&) = delete;
+  WatchedJob& operator=(const WatchedJob&) = delete;
+
+  [[nodiscard]] client::Job job() const {
+    const std::lock_guard lock(mutex_);
+    return job_;
+  }
+  /// What was said since the last call.
+  [[nodiscard]] std::vector<std::string> take_messages() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
+  }
+  /// How watching ended; none while it goes on.
+  [[nodiscard]] std::optional<Result<client::Job>> ended() const {
+    const std::lock_guard lock(mutex_);
+    return ended_;
+  }
+
+ private:
+  void watch() {
+    const std::string name = job().name;
+    auto ended = client::watch_job(
+        daemon_, name, [this](const client::JobUpdate& update) { take(update); },
+        [this](const Error& error) { say("hydroprint: " + error.message + "; trying again"); });
+    const std::lock_guard lock(mutex_);
+    ended_ = std::move(ended);
+  }
+
+  void take(const client::JobUpdate& update) {
+    if (std::string news = message_of(update); !news.empty()) say(std::move(news));
+    if (!update.job) return;
+    const std::lock_guard lock(mutex_);
+    job_ = *update.job;
+  }
+
+  void say(std::string message) {
+    const std::lock_guard lock(mutex_);
+    messages_.push_back(std::move(message));
+  }
+
+  std::stop_source stop_;
+  client::Connection daemon_;
+  mutable std::mutex mutex_;
+  client::Job job_;
+  std::vector<std::string> messages_;
+  std::optional<Result<client::Job>> ended_;
+  std::thread watcher_;  // the last: it uses all the others
+};
+
+double to_seconds(auto time) { return std::chrono::duration<double>(time).count(); }
+
+bool waits(const client::Job& job) {
+  return job.state == client::JobState::kWaitingForOperator && job.dip_status &&
+         client::waits_for_operator(job.dip_status->step);
+}
+
+class Guide {
+ public:
+  Guide(Program& program, const HeldLease& lease, client::Job job)
+      : program_(program),
+        daemon_(program.daemon()),
+        lease_(lease),
+        watched_(program, std::move(job)),
+        line_(STDERR_FILENO) {}
+
+  Result<client::Job> run() {
+    for (;;) {
+      if (const auto ended = watched_.ended()) return *ended;
+      if (program_.is_interrupted()) return fail(Code::kCancelled, "interrupted");
+      if (keyboard_.gone())
+        return fail(Code::kCancelled, "the terminal is gone; " + watched_.job().name + " goes on");
+      show(watched_.job());
+      take_keys(keyboard_.read(30ms));
+      jog();
+      look_at_rig();
+    }
+  }
+
+ private:
+  void show(const client::Job& job) {
+    for (const std::string& message : watched_.take_messages()) line_.say(message);
+    if (!job.dip_status) return;
+    const client::DipStatus& status = *job.dip_status;
+    for (const std::string& warning : new_warnings(shown_, status))
+      line_.say("  WARNING: " + warning);
+    if (!shown_ || shown_->step != status.step) begin(status);
+    shown_ = status;
+    show_clock(job);
+  }
+
+  // A new step: what was typed before it could be read was not meant for it.
+  void begin(const client::DipStatus& status) {
+    Keyboard::forget();
+    begun_ = std::chrono::system_clock::now();
+    drawn_ = {};
+    line_.say("");
+    line_.say(std::string(client::name_of(status.step)) + ": " + status.instruction);
+    jogger_.reset();
+    if (status.step == client::DipStep::kFindContact) {
+      line_.say(kJogKeys);
+      jogger_.emplace(daemon_, lease_.id(), kJogSpeed_mm_per_s);
+    }
+    if (client::waits_for_operator(status.step)) line_.say(kConfirmKey);
+  }
+
+  void show_clock(const client::Job& job) {
+    if (Clock::now() - drawn_ < kRedrawEvery) return;
+    drawn_ = Clock::now();
+    const client::DipStatus& status = *job.dip_status;
+    const std::string name(client::name_of(status.step));
+    const Time now = std::chrono::system_clock::now();
+    std::string text;
+    if (jogger_ || !waits(job)) text = place();
+    if (jogger_) text += "  " + jogger_->text();
+    if (status.activation_end_time) text += "  " + film_age(*status.activation_end_time - now);
+    if (!status.step_end_time) return line_.show(name, job.progress_fraction, text);
+    const auto left = *status.step_end_time - now;
+    const double whole_s = to_seconds(*status.step_end_time - begun_);
+    text = format_duration(std::chrono::ceil<std::chrono::seconds>(left)) + " left  " + text;
+    line_.show(name, whole_s > 0 ? 1 - to_seconds(left) / whole_s : 1, text);
+  }
+
+  static std::string film_age(Time::duration left) {
+    const auto time = std::chrono::ceil<std::chrono::seconds>(left);
+    if (time.count() <= 0) return "FILM TOO OLD since " + format_duration(-time);
+    return "film good for " + format_duration(time);
+  }
+
+  std::string place() const {
+    if (!rig_.position_mm) return std::string(client::name_of(rig_.state));
+    return "at " + format_fixed(*rig_.position_mm) + " mm";
+  }
+
+  void take_keys(const std::vector<Key>& keys) {
+    for (const Key key : keys) {
+      if (key == Key::kEnter) confirm();
+      if (jogger_) jogger_->press(key, Clock::now());
+    }
+  }
+
+  void confirm() {
+    const client::Job job = watched_.job();
+    if (!waits(job) || !shown_ || shown_->step != job.dip_status->step) return;
+    if (jogger_ && jogger_->is_held()) return;  // let go first: contact is where the axis rests
+    // The next step is shown as soon as it is told of; the answer may be older than that.
+    const auto next = client::confirm_step(daemon_, job.name, job.dip_status->step, lease_.id());
+    if (!next) line_.say("  REFUSED: " + in_our_words(next.error()).message);
+  }
+
+  void jog() {
+    if (!jogger_) return;
+    auto answer = jogger_->tick(Clock::now());
+    if (!answer && answer.error().code != Code::kCancelled)
+      line_.say("  REFUSED: " + in_our_words(answer.error()).message);
+    if (!answer) jogger_->press(Key::kOther, Clock::now());
+    if (answer && *answer) rig_ = std::move(**answer);
+  }
+
+  void look_at_rig() {
+    if (Clock::now() - looked_ < kLookAtRigEvery || (jogger_ && jogger_->is_held())) return;
+    looked_ = Clock::now();
+    if (auto rig = client::get_rig(daemon_)) rig_ = std::move(*rig);
+  }
+
+  const Program& program_;
+  client::Connection& daemon_;
+  const HeldLease& lease_;
+  WatchedJob watched_;
+  ProgressLine line_;
+  Keyboard keyboard_;
+  std::optional<client::DipStatus> shown_;
+  Time begun_;  // when the step shown was first shown
+  std::optional<Jogger> jogger_;
+  client::Rig rig_;
+  Clock::time_point looked_;
+  Clock::time_point drawn_;  // the live line; what stays is told at once, and a new step drawn
+};
+
+}  // namespace
+
+Result<client::Job> guide(Program& program, const HeldLease& lease, client::Job job) {
+  return Guide(program, lease, std::move(job)).run();
+}
+
+}  // namespace hydroprint::cli

@@ -1,0 +1,130 @@
+#include "client/cli/rig_session/held_lease.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+
+#include "client/cli/rig_session/lease_file.h"
+#include "client/cli/terminal/console.h"
+
+namespace hydroprint::cli {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr auto kLookEvery = 30s;
+constexpr auto kRenewBefore = 5min;
+
+std::string at(const std::map<std::string, std::string>& metadata, const char* key) {
+  const auto found = metadata.find(key);
+  return found == metadata.end() ? "" : found->second;
+}
+
+// "alice has it for 'calibration' until 2026-03-01T14:05:09Z"; empty if nobody is named.
+std::string who_has_it(const Error& error) {
+  const std::string holder = at(error.metadata, "holder");
+  if (holder.empty()) return "";
+  const std::string purpose = at(error.metadata, "purpose");
+  return holder + " has it" + (purpose.empty() ? "" : " for '" + purpose + "'") + " until " +
+         at(error.metadata, "expire_time");
+}
+
+std::map<std::string, std::string> metadata_of(const client::Lease& lease) {
+  return {{"holder", lease.holder},
+          {"purpose", lease.purpose},
+          {"expire_time", lease.expire_time ? format_rfc3339(*lease.expire_time) : ""}};
+}
+
+// Time for which a lease still holds, at least kLeaseTime: renewing must not shorten it.
+std::chrono::seconds time_to_renew_to(const client::Lease& lease) {
+  if (!lease.expire_time) return kLeaseTime;
+  using namespace std::chrono;
+  return std::max<seconds>(kLeaseTime, ceil<seconds>(*lease.expire_time - system_clock::now()));
+}
+
+Error none_is_kept(Program& program) {
+  Error error{Code::kFailedPrecondition, "", "LEASE_REQUIRED"};
+  if (const auto lease = client::get_lease(program.daemon())) error.metadata = metadata_of(*lease);
+  return error;
+}
+
+}  // namespace
+
+HeldLease::HeldLease(const Program& program, std::string id, bool is_given_back)
+    : server_(program.server()),
+      daemon_(program.options({})),
+      id_(std::move(id)),
+      is_given_back_(is_given_back),
+      renewer_([this](const std::stop_token& stop) { renew_until(stop); }) {}
+
+HeldLease::~HeldLease() {
+  renewer_.request_stop();
+  renewer_.join();
+  if (!is_given_back_) return;
+  static_cast<void>(client::release_lease(daemon_, id_));  // else it runs out
+  forget_lease(server_, id_);
+}
+
+Result<std::unique_ptr<HeldLease>> HeldLease::acquire(Program& program,
+                                                      const std::string& purpose) {
+  HP_ASSIGN_OR_RETURN(const client::Lease lease,
+                      client::acquire_lease(program.daemon(), purpose, kLeaseTime));
+  return std::unique_ptr<HeldLease>(new HeldLease(program, lease.lease_id, true));
+}
+
+Result<std::unique_ptr<HeldLease>> HeldLease::take(Program& program, const std::string& purpose) {
+  static_cast<void>(program.daemon());  // Ctrl-C must be caught before there are other threads
+  if (!purpose.empty()) return acquire(program, purpose);
+  const auto kept = kept_lease(program.server());
+  if (!kept) return tl::unexpected(none_is_kept(program));
+  return std::unique_ptr<HeldLease>(new HeldLease(program, *kept, false));
+}
+
+Result<std::unique_ptr<HeldLease>> HeldLease::take_or_acquire(Program& program,
+                                                              const std::string& purpose) {
+  const auto kept = kept_lease(program.server());
+  const auto current = client::get_lease(program.daemon());
+  if (kept && current && client::renew_lease(program.daemon(), *kept, time_to_renew_to(*current)))
+    return std::unique_ptr<HeldLease>(new HeldLease(program, *kept, false));
+  HP_ASSIGN_OR_RETURN(auto lease, acquire(program, purpose));
+  HP_RETURN_IF_ERROR(keep_lease(program.server(), lease->id()));
+  return lease;
+}
+
+void HeldLease::renew_until(const std::stop_token& stop) {
+  std::mutex mutex;
+  std::unique_lock lock(mutex);
+  std::condition_variable_any bell;
+  // A renewal that fails is told by the next command, which is refused.
+  while (!bell.wait_for(lock, stop, kLookEvery, [] { return false; }) && !stop.stop_requested()) {
+    const auto lease = client::get_lease(daemon_);
+    if (!lease || !lease->expire_time) continue;
+    if (*lease->expire_time - std::chrono::system_clock::now() < kRenewBefore)
+      static_cast<void>(client::renew_lease(daemon_, id_, kLeaseTime));
+  }
+}
+
+void add_lease_flag(CLI::App& command, std::string& purpose) {
+  command
+      .add_option("--with-lease", purpose,
+                  "Take the lease for this command alone, and what for; default: the one that\n"
+                  "'hydroprint rig lease acquire' took")
+      ->type_name("PURPOSE");
+}
+
+Error in_our_words(Error error) {
+  const std::string who = who_has_it(error);
+  if (error.reason == "LEASE_HELD")
+    error.message = "the rig's lease is taken" + (who.empty() ? "" : ": " + who) +
+                    "; ask there, or take it away with 'hydroprint rig lease break --reason ...'";
+  if (error.reason == "LEASE_REQUIRED")
+    error.message = "commanding the rig needs its lease, which is not yours" +
+                    (who.empty() ? "; 'hydroprint rig lease acquire --purpose ...' takes it"
+                                 : ": " + who +
+                                       "; ask there, or take it away with 'hydroprint "
+                                       "rig lease break --reason ...'");
+  return error;
+}
+
+}  // namespace hydroprint::cli

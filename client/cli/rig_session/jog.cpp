@@ -1,0 +1,104 @@
+#include "client/cli/rig_session/jog.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <thread>
+
+#include "client/cli/format/json.h"
+#include "client/cli/format/rig_display.h"
+#include "client/cli/rig_session/held_lease.h"
+#include "client/cli/rig_session/jogger.h"
+#include "client/cli/rig_session/motion.h"
+#include "client/cli/terminal/console.h"
+
+namespace hydroprint::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using namespace std::chrono_literals;
+
+constexpr double kSpeedByKeys_mm_per_s = 2;
+
+// Sleeps until then, or until Ctrl-C.
+void sleep_until(Program& program, Clock::time_point time) {
+  while (!program.is_interrupted() && Clock::now() < time) std::this_thread::sleep_for(5ms);
+}
+
+// Tells the daemon every 100 ms that somebody is there, until the time is over.
+Status jog_for(Program& program, const std::string& lease_id, double speed_mm_per_s,
+               double time_s) {
+  RigDisplay display(STDERR_FILENO);
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                      std::chrono::duration<double>(time_s));
+  for (auto next = Clock::now(); next < end && !program.is_interrupted();) {
+    HP_ASSIGN_OR_RETURN(const auto rig,
+                        client::jog_rig(program.daemon(), lease_id, speed_mm_per_s));
+    display.update(rig);
+    next = std::min(next + Jogger::kPeriod, end);
+    sleep_until(program, next);
+  }
+  return {};
+}
+
+// Jogs while keys are held, until q or Ctrl-C.
+Status jog_by_keys(Program& program, const std::string& lease_id, double speed_mm_per_s) {
+  std::cerr << "hold Down or j: down; hold Up or k: up; + and -: faster, slower; q: end; any other "
+               "key, or none: stop"
+            << std::endl;
+  LiveLine line(STDERR_FILENO);
+  Keyboard keyboard;
+  Jogger jogger(program.daemon(), lease_id, speed_mm_per_s);
+  auto looked = Clock::now() - 1s;
+  client::Rig rig;
+  while (!program.is_interrupted() && !keyboard.gone()) {
+    for (const Key key : keyboard.read(20ms)) {
+      if (key == Key::kQuit) return {};
+      jogger.press(key, Clock::now());
+    }
+    HP_ASSIGN_OR_RETURN(const auto answer, jogger.tick(Clock::now()));
+    if (answer) rig = *answer;
+    if (!answer && Clock::now() - looked > Jogger::kPeriod) {
+      HP_ASSIGN_OR_RETURN(rig, client::get_rig(program.daemon()));
+      looked = Clock::now();
+    }
+    line.show(rig_line(rig) + "   " + jogger.text());
+  }
+  return {};
+}
+
+Status jog_as_told(Program& program, const JogOptions& options) {
+  if (!options.time_s && !Keyboard::is_there())
+    return fail(Code::kInvalidArgument,
+                "without a terminal nobody can hold a key: give --speed MM/S and --for TIME");
+  if (options.time_s && !options.speed_mm_per_s)
+    return fail(Code::kInvalidArgument, "--for needs --speed MM/S, positive for down");
+  HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take(program, options.with_lease));
+  if (options.time_s)
+    return jog_for(program, lease->id(), *options.speed_mm_per_s, *options.time_s);
+  return jog_by_keys(program, lease->id(),
+                     std::abs(options.speed_mm_per_s.value_or(kSpeedByKeys_mm_per_s)));
+}
+
+}  // namespace
+
+Status jog(Program& program, const JogOptions& options) {
+  const Status jogged = jog_as_told(program, options);
+  const bool cancelled = program.is_interrupted();
+  // What was refused needs no stop; by keys, it was sent when they were let go.
+  const bool lost = !jogged && jogged.error().code == Code::kUnavailable;
+  if (!jogged && !cancelled && !lost) return jogged;
+  const auto rig = options.time_s ? stop_and_wait(program) : wait_for_rest(program);
+  if (!jogged && !cancelled) return jogged;
+  if (!rig) return tl::unexpected(rig.error());
+  if (cancelled) return fail(Code::kCancelled, "interrupted: the axis was stopped");
+  if (program.json())
+    print(to_json(*rig));
+  else
+    std::cout << rig_line(*rig) << std::endl;
+  return {};
+}
+
+}  // namespace hydroprint::cli

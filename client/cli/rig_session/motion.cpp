@@ -1,0 +1,110 @@
+#include "client/cli/rig_session/motion.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "client/cli/format/rig_display.h"
+#include "client/cli/terminal/console.h"
+
+namespace hydroprint::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kRate_hz = 10;
+constexpr std::chrono::seconds kRestWithin{2};
+
+bool moves(const client::Rig& rig) {
+  using enum client::RigState;
+  return rig.state == kMoving || rig.state == kDipping || rig.state == kStopping;
+}
+
+std::string position(const client::Rig& rig) {
+  return rig.position_mm ? "at " + format_fixed(*rig.position_mm) + " mm" : "at an unknown place";
+}
+
+// Whether the motion of that number has ended, and whatever is to be seen of its end was.
+bool is_over(const client::Rig& rig, std::uint64_t number) {
+  if (!rig.motion || rig.motion->number != number) return true;
+  if (rig.motion->outcome == client::MotionOutcome::kRunning) return false;
+  return rig.motion->at_rest || !moves(rig);
+}
+
+// What became of it, where that is not all one could wish.
+Status judge(const client::Rig& rig, std::uint64_t number) {
+  if (!rig.motion || rig.motion->number != number)
+    return fail(Code::kAborted, "another motion came after this one; see 'hydroprint rig status'");
+  const client::Motion& motion = *rig.motion;
+  if (motion.outcome == client::MotionOutcome::kDone) return {};
+  if (motion.outcome == client::MotionOutcome::kStopped)
+    return fail(Code::kAborted, "the axis was stopped " + position(rig));
+  return fail(Code::kInternal,
+              "the motion failed " + position(rig) + ": " +
+                  (rig.trouble.empty() ? motion.cause : rig.trouble),
+              motion.cause);
+}
+
+Error stopped_on_request(const Program& program) {
+  const auto rig = stop_and_wait(program);
+  if (!rig)
+    return {rig.error().code, "the axis could not be told to stop: " + rig.error().message,
+            rig.error().reason};
+  if (moves(*rig))
+    return {Code::kCancelled, "interrupted: the axis was told to stop, and still moves", {}};
+  return {Code::kCancelled, "interrupted: the axis was stopped " + position(*rig), {}};
+}
+
+Error lost(Error error) {
+  error.message +=
+      "; what became of the motion is not known: see 'hydroprint rig status', or use the stop "
+      "button";
+  return error;
+}
+
+}  // namespace
+
+Result<client::Rig> wait_for_rest(const Program& program) {
+  client::Connection daemon = program.uninterrupted();
+  auto rig = client::get_rig(daemon);
+  for (const auto begin = Clock::now(); rig && moves(*rig) && Clock::now() - begin < kRestWithin;) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    rig = client::get_rig(daemon);
+  }
+  return rig;
+}
+
+Result<client::Rig> stop_and_wait(const Program& program) {
+  client::Connection daemon = program.uninterrupted();
+  HP_RETURN_IF_ERROR(client::stop_rig(daemon));
+  return wait_for_rest(program);
+}
+
+Result<client::Rig> wait_for_motion(Program& program, Result<client::Rig> begun) {
+  RigDisplay display(STDERR_FILENO);
+  std::uint64_t number = 0;
+  Status followed;
+  if (begun) {
+    number = begun->motion ? begun->motion->number : 0;
+    followed = client::watch_rig(program.daemon(), kRate_hz, [&](const client::Rig& rig) {
+      begun = rig;
+      if (is_over(rig, number)) return false;
+      display.update(rig);
+      return true;
+    });
+  } else {
+    followed = tl::unexpected(begun.error());
+  }
+  if (followed) {
+    HP_RETURN_IF_ERROR(judge(*begun, number));
+    return begun;
+  }
+  if (followed.error().code == Code::kCancelled) return tl::unexpected(stopped_on_request(program));
+  if (followed.error().code == Code::kUnavailable) return tl::unexpected(lost(followed.error()));
+  return tl::unexpected(std::move(followed).error());
+}
+
+}  // namespace hydroprint::cli

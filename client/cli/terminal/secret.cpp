@@ -1,0 +1,75 @@
+#include "client/cli/terminal/secret.h"
+
+#include <termios.h>
+#include <unistd.h>
+
+#include <iostream>
+
+namespace hydroprint::cli {
+namespace {
+
+constexpr char kCtrlC = 3;
+
+// The terminal without echo, for as long as this lives. Ctrl-C ends the line instead of the
+// program, which would leave the terminal as it is.
+class Unseen {
+ public:
+  Unseen() {
+    if (tcgetattr(STDIN_FILENO, &before_) != 0) return;
+    termios now = before_;
+    now.c_lflag &= ~static_cast<tcflag_t>(ECHO | ISIG);
+    now.c_cc[VEOL] = kCtrlC;
+    changed_ = tcsetattr(STDIN_FILENO, TCSAFLUSH, &now) == 0;
+  }
+  ~Unseen() {
+    if (!changed_) return;
+    tcsetattr(STDIN_FILENO, TCSAFLUSH, &before_);
+    std::cerr << std::endl;
+  }
+  Unseen(const Unseen&) = delete;
+  Unseen& operator=(const Unseen&) = delete;
+
+ private:
+  termios before_{};
+  bool changed_ = false;
+};
+
+bool is_asked() { return isatty(STDIN_FILENO) == 1; }
+
+// Byte by byte: a line that ends with Ctrl-C has no end for std::getline.
+Result<std::string> read_line() {
+  std::string line;
+  for (char c = 0;;) {
+    const auto count = ::read(STDIN_FILENO, &c, 1);
+    if (count == 1 && c == kCtrlC) return fail(Code::kCancelled, "interrupted");
+    if (count != 1 && line.empty()) {
+      return fail(Code::kInvalidArgument, "standard input ends where a line was expected");
+    }
+    if (count != 1 || c == '\n') return line;
+    line += c;
+  }
+}
+
+}  // namespace
+
+Result<std::string> ask(const std::string& prompt) {
+  if (is_asked()) std::cerr << prompt << std::flush;
+  return read_line();
+}
+
+Result<std::string> ask_secret(const std::string& prompt) {
+  if (!is_asked()) return read_line();
+  const Unseen unseen;
+  std::cerr << prompt << std::flush;
+  return read_line();
+}
+
+Result<std::string> ask_new_password() {
+  HP_ASSIGN_OR_RETURN(std::string password, ask_secret("New password: "));
+  if (!is_asked()) return password;
+  HP_ASSIGN_OR_RETURN(const std::string again, ask_secret("The same again: "));
+  if (again != password) return fail(Code::kInvalidArgument, "the two are not the same; try again");
+  return password;
+}
+
+}  // namespace hydroprint::cli

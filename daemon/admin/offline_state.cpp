@@ -1,0 +1,81 @@
+#include "daemon/admin/offline_state.h"
+
+#include <pwd.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "daemon/auth/audit_log.h"
+#include "daemon/config/config.h"
+#include "daemon/store/database/schema.h"
+#include "daemon/store/state_lock.h"
+
+namespace hydroprint::admin {
+namespace {
+
+std::string user_name(uid_t id) {
+  const passwd* const entry = ::getpwuid(id);
+  return entry != nullptr ? entry->pw_name : std::to_string(id);
+}
+
+}  // namespace
+
+Result<std::filesystem::path> state_root(const std::filesystem::path& root) {
+  if (root.empty()) return daemon::default_state_dir();
+  return std::filesystem::absolute(root).lexically_normal();
+}
+
+Status check_is_mine(const std::filesystem::path& folder) {
+  struct stat info {};
+  if (::stat(folder.c_str(), &info) != 0) return daemon::system_failure(folder, "cannot be read");
+  if (info.st_uid == ::geteuid()) return {};
+  const std::string owner = user_name(info.st_uid);
+  return fail(Code::kPermissionDenied, folder.string() + ": belongs to " + owner +
+                                           ", whose daemon must be able to use all in it; run "
+                                           "this as that user (sudo -u " +
+                                           owner + " ...)");
+}
+
+Result<State> open_state(const std::filesystem::path& root) {
+  State state;
+  HP_ASSIGN_OR_RETURN(state.layout.root, state_root(root));
+  std::error_code ignored;
+  if (!std::filesystem::exists(state.layout.database(), ignored)) {
+    return fail(Code::kNotFound,
+                state.layout.root.string() +
+                    ": is no state folder of hydroprintd, or not this user's to read; name the one "
+                    "that is, with --state-dir, and run this as the daemon's user");
+  }
+  HP_RETURN_IF_ERROR(check_is_mine(state.layout.root));
+  HP_RETURN_IF_ERROR(daemon::check_restored(state.layout));
+  auto lock = daemon::lock_state(state.layout);
+  if (!lock && lock.error().code != Code::kFailedPrecondition) {
+    return tl::unexpected(std::move(lock).error());
+  }
+  if (lock) state.lock = std::move(*lock);
+  HP_ASSIGN_OR_RETURN(state.database, daemon::open_store_as_it_is(state.layout.database()));
+  return state;
+}
+
+std::string operator_name() {
+  const char* const before = std::getenv("SUDO_USER");
+  return before != nullptr && *before != '\0' ? before : user_name(::getuid());
+}
+
+Status note(daemon::Database& database, const std::string& what, const std::string& object) {
+  auth::AuditLog audit(database, daemon::system_clock_ms);
+  auth::AuditEntry entry;
+  entry.via = "command line";
+  entry.what = "hydroprint admin " + what;
+  entry.object = object;
+  entry.outcome = "OK";
+  entry.detail = "by " + operator_name() + " on the daemon's machine";
+  audit.note(std::move(entry));
+  auth::AuditFilter none;
+  none.limit = 1;
+  HP_RETURN_IF_ERROR(audit.list(none));  // writes it, and says so if it cannot
+  return {};
+}
+
+}  // namespace hydroprint::admin

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace hydroprint::admin {
+
+/// "1.4 GB"
+[[nodiscard]] std::string bytes_text(std::int64_t bytes);
+
+/// Shows on stderr how far something is and how long it will take: a line that is written anew on a
+/// terminal, else a line every ten seconds.
+class ProgressMeter {
+ public:
+  /// @param what  "backup"
+  ProgressMeter(std::string what, std::int64_t total_bytes);
+  /// Ends the line.
+  ~ProgressMeter();
+  ProgressMeter(const ProgressMeter&) = delete;
+  ProgressMeter& operator=(const ProgressMeter&) = delete;
+
+  void add(std::int64_t bytes);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string what_;
+  std::int64_t total_bytes_, done_bytes_ = 0;
+  bool is_terminal_;
+  Clock::time_point begun_ = Clock::now(), shown_ = Clock::now();
+  bool is_line_open_ = false;
+};
+
+}  // namespace hydroprint::admin

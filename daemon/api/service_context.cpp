@@ -1,0 +1,41 @@
+#include "daemon/api/service_context.h"
+
+#include "daemon/platform/resource_names.h"
+
+namespace hydroprint::daemon {
+
+Result<std::string> owner_of(const ServiceContext& backend,
+                             const grpc::ServerContextBase& context) {
+  HP_ASSIGN_OR_RETURN(auth::Caller caller, backend.access.caller(context));
+  return std::move(caller).name;
+}
+
+Result<int> page_size(std::int32_t asked, int otherwise) {
+  if (asked < 0) return invalid_field("page_size", "must not be negative");
+  return asked == 0 ? otherwise : std::min(asked, 1000);
+}
+
+Status check_serving(const ServiceContext& backend) {
+  if (!backend.stopping) return {};
+  return fail(Code::kUnavailable, "the daemon is shutting down; try again when it is back",
+              "SHUTTING_DOWN");
+}
+
+Error never_again(Error error) {
+  if (error.code == Code::kUnavailable || error.reason == "DRIVE_BUSY") error.code = Code::kAborted;
+  return error;
+}
+
+tl::unexpected<Error> bad_page_token() {
+  return fail(Code::kInvalidArgument, "page_token: no page gave this one; begin again without it",
+              "PAGE_TOKEN_INVALID");
+}
+
+Result<std::int64_t> number_token(const std::string& token) {
+  if (token.empty()) return 0;
+  const std::int64_t number = parse_number(token);
+  if (number == 0) return bad_page_token();
+  return number;
+}
+
+}  // namespace hydroprint::daemon

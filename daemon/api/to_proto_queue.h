@@ -1,0 +1,11 @@
+#pragma once
+
+#include "daemon/api/service_context.h"
+#include "hydroprint/v1/queue_service.pb.h"
+
+namespace hydroprint::daemon {
+
+/// The queue as the API shows it now.
+[[nodiscard]] Result<v1::Queue> queue_message(const ServiceContext& backend);
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace hydroprint::auth {
+
+/// What somebody may do; numbers and meanings as hydroprint.v1.Role.
+enum class Role : std::int8_t { kViewer = 1, kMaker = 2, kOperator = 3, kAdmin = 4 };
+
+/// "OPERATOR".
+[[nodiscard]] const char* name_of(Role role);
+
+/// Somebody who may use the daemon. Times, here and below, are Unix times in ms.
+struct User {
+  std::string name;
+  Role role = Role::kViewer;
+  bool disabled = false;
+  std::string password;  ///< what hash_password() gave; empty: there is none
+  std::int64_t create_ms = 0;
+};
+
+/// A key that stands for a user in scripts.
+struct ApiKey {
+  std::string id;
+  std::string user;
+  std::string display_name;
+  std::string secret_hash;
+  Role role = Role::kViewer;  ///< as it was given; the user's own role counts if it is lower
+  std::int64_t create_ms = 0;
+  std::int64_t expire_ms = 0;  ///< 0: never
+  std::int64_t use_ms = 0;     ///< 0: never used
+};
+
+/// Somebody who is signed in.
+struct Session {
+  std::string id;
+  std::string user;
+  std::string token_hash;
+  std::string peer;  ///< address from which it began
+  std::int64_t create_ms = 0;
+  std::int64_t use_ms = 0;
+};
+
+/// Who makes a call.
+struct Caller {
+  std::string name;
+  Role role = Role::kViewer;
+  std::string via;      ///< "session", "key 0a1b...", "loopback"
+  std::string session;  ///< id of the session, if it is one
+  bool is_user = true;  ///< false: there are no users, and whoever is on this machine is admin
+};
+
+}  // namespace hydroprint::auth

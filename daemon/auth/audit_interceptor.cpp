@@ -1,0 +1,217 @@
+#include "daemon/auth/audit_interceptor.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <sstream>
+
+#include "daemon/platform/clock.h"
+#include "daemon/rpc/grpc_status.h"
+#include "google/api/annotations.pb.h"
+#include "hydroprint/v1/access.pb.h"
+#include "sim/base/one_line.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using grpc::experimental::InterceptionHookPoints;
+using grpc::experimental::InterceptorBatchMethods;
+using grpc::experimental::ServerRpcInfo;
+
+constexpr std::int64_t kQuietAbout_ms = 60'000;
+constexpr std::chrono::milliseconds kWritten_ms{2000};
+constexpr std::size_t kLongestDetail = 300;
+constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // only computes
+
+// "/hydroprint.v1.RigService/MoveTo" to "RigService.MoveTo".
+std::string short_name(const std::string& method) {
+  const auto slash = method.rfind('/');
+  const auto dot = method.rfind('.', slash);
+  return method.substr(dot + 1, slash - dot - 1) + "." + method.substr(slash + 1);
+}
+
+std::string text_field(const Message& message, const char* name) {
+  const auto* const field = message.GetDescriptor()->FindFieldByName(name);
+  if (field == nullptr || field->is_repeated() || field->type() != FieldDescriptor::TYPE_STRING) {
+    return {};
+  }
+  return one_line(message.GetReflection()->GetString(message, field).substr(0, kLongestDetail));
+}
+
+// "jobs/7": what the message is about.
+std::string object_of(const Message& message) {
+  for (const char* const name : {"name", "parent"}) {
+    if (std::string text = text_field(message, name); !text.empty()) return text;
+  }
+  const auto* const user = message.GetDescriptor()->FindFieldByName("user");
+  if (user == nullptr || user->type() != FieldDescriptor::TYPE_MESSAGE) return {};
+  const std::string name = text_field(message.GetReflection()->GetMessage(message, user), "name");
+  return name.starts_with("users/") || name.empty() ? name : "users/" + name;
+}
+
+std::string plain_text(const Message& message, const FieldDescriptor& field) {
+  const auto& reflection = *message.GetReflection();
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_DOUBLE: {
+      std::ostringstream out;
+      out << reflection.GetDouble(message, &field);
+      return out.str();
+    }
+    case FieldDescriptor::CPPTYPE_BOOL:
+      return reflection.GetBool(message, &field) ? "true" : "false";
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return reflection.GetEnum(message, &field)->name();
+    default:
+      return {};
+  }
+}
+
+// Numbers, choices and reasons of a request; other text may be a secret.
+std::string detail_of(const Message& message) {
+  std::string out = text_field(message, "reason");
+  std::vector<const FieldDescriptor*> set;
+  message.GetReflection()->ListFields(message, &set);
+  for (const FieldDescriptor* const field : set) {
+    if (field->is_repeated()) continue;
+    const std::string text = plain_text(message, *field);
+    if (!text.empty()) out += (out.empty() ? "" : ", ") + field->name() + " " + text;
+  }
+  return out;
+}
+
+std::string outcome_of(const grpc::Status& status) {
+  switch (status.error_code()) {
+    case grpc::StatusCode::OK:
+      return "OK";
+    case grpc::StatusCode::UNKNOWN:
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+      return "UNKNOWN";
+    default:
+      break;
+  }
+  for (int code = 0; code <= static_cast<int>(Code::kUnauthenticated); ++code) {
+    if (number_of(static_cast<Code>(code)) == status.error_code()) {
+      return std::string(code_name(static_cast<Code>(code)));
+    }
+  }
+  return "UNKNOWN";
+}
+
+/// Whether something said again and again is to be told of now.
+class Quiet {
+ public:
+  bool is_new(const std::string& key) {
+    const std::lock_guard lock(mutex_);
+    const std::int64_t now_ms = system_clock_ms();
+    std::erase_if(told_, [&](const auto& entry) { return now_ms - entry.second > kQuietAbout_ms; });
+    return told_.emplace(key, now_ms).second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::int64_t> told_;
+};
+
+struct Surroundings {
+  const Authenticator& access;
+  auth::AuditLog& audit;
+  Quiet quiet;
+};
+
+class AuditInterceptor final : public grpc::experimental::Interceptor {
+ public:
+  AuditInterceptor(ServerRpcInfo& call, Surroundings& around) : call_(call), around_(around) {}
+
+  void Intercept(InterceptorBatchMethods* step) override {
+    if (step->QueryInterceptionHookPoint(InterceptionHookPoints::POST_RECV_INITIAL_METADATA)) {
+      see_caller();
+    }
+    if (step->QueryInterceptionHookPoint(InterceptionHookPoints::POST_RECV_MESSAGE)) {
+      see_request(static_cast<const Message*>(step->GetRecvMessage()));
+    }
+    if (step->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_MESSAGE)) {
+      see_reply(static_cast<const Message*>(step->GetSendMessage()));
+    }
+    if (step->QueryInterceptionHookPoint(InterceptionHookPoints::PRE_SEND_STATUS)) {
+      tell(step->GetSendStatus());
+    }
+    step->Proceed();
+  }
+
+ private:
+  void see_caller() {
+    const auto caller = around_.access.caller(*call_.server_context());
+    if (!caller) return;
+    entry_.who = caller->name;
+    entry_.via = caller->via;
+    entry_.peer = peer_address(*call_.server_context());
+  }
+  void see_request(const Message* request) {
+    if (request == nullptr) return;
+    entry_.object = object_of(*request);
+    entry_.detail = detail_of(*request);
+  }
+  // What was created has its name from here.
+  void see_reply(const Message* reply) {
+    if (reply != nullptr && entry_.object.empty()) entry_.object = object_of(*reply);
+  }
+  void tell(const grpc::Status& status) {
+    if (entry_.who.empty()) return;
+    entry_.what = short_name(call_.method());
+    entry_.outcome = outcome_of(status);
+    if (!status.ok()) entry_.detail = one_line(status.error_message());
+    entry_.detail = entry_.detail.substr(0, kLongestDetail);
+    const bool is_repeated =
+        entry_.what == "RigService.Jog" || entry_.what == "LeaseService.RenewLease";
+    if (is_repeated && !around_.quiet.is_new(entry_.who + " " + entry_.what + entry_.outcome))
+      return;
+    const std::uint64_t noted = around_.audit.note(entry_);
+    if (is_repeated || entry_.what == "RigService.StopMotion") return;
+    around_.audit.wait_written(noted, kWritten_ms);
+  }
+
+  ServerRpcInfo& call_;
+  Surroundings& around_;
+  auth::AuditEntry entry_;
+};
+
+class AuditInterceptorFactory final : public grpc::experimental::ServerInterceptorFactoryInterface {
+ public:
+  AuditInterceptorFactory(const Authenticator& access, auth::AuditLog& audit)
+      : around_{access, audit, {}} {}
+
+  grpc::experimental::Interceptor* CreateServerInterceptor(ServerRpcInfo* call) override {
+    return is_noted(call->method()) ? new AuditInterceptor(*call, around_)
+                                    : nullptr;  // gRPC takes it
+  }
+
+ private:
+  static bool is_noted(std::string method) {
+    if (method.empty()) return false;
+    method.erase(0, 1);
+    std::replace(method.begin(), method.end(), '/', '.');
+    const auto* const found =
+        google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
+    if (found == nullptr || found->client_streaming() || found->server_streaming() ||
+        method == kPreview)
+      return false;
+    const auto& options = found->options();
+    return options.HasExtension(v1::role) && !options.GetExtension(google::api::http).has_get();
+  }
+
+  Surroundings around_;
+};
+
+}  // namespace
+
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_audit_tap(
+    const Authenticator& access, auth::AuditLog& audit) {
+  return std::make_unique<AuditInterceptorFactory>(access, audit);
+}
+
+}  // namespace hydroprint::daemon

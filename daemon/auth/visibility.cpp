@@ -1,0 +1,149 @@
+#include "daemon/auth/visibility.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+
+#include <functional>
+#include <vector>
+
+#include "daemon/auth/authenticator.h"
+#include "daemon/platform/resource_names.h"
+#include "daemon/store/to_proto.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+using auth::Caller;
+using auth::Role;
+using google::protobuf::Message;
+using Field = google::protobuf::FieldDescriptor;
+
+bool is_theirs(const Caller& caller, const std::string& owner) {
+  return caller.role >= Role::kOperator || caller.name == owner;
+}
+
+tl::unexpected<Error> not_yours(const Caller& caller, const Job& job, const char* what) {
+  auto refused =
+      fail(Code::kPermissionDenied,
+           job_name(job.id) + ": is " + job.made.owner + "'s, not " + caller.name + "'s; " + what,
+           "NOT_YOURS");
+  refused.value().metadata = {{"job", job_name(job.id)}, {"owner", job.made.owner}};
+  return refused;
+}
+
+// The input files in a message and those within that name an asset at all.
+void find_files(const Message& message, std::vector<InputFile>& found) {
+  if (message.GetDescriptor() == v1::InputFile::descriptor()) {
+    v1::InputFile file;
+    file.CopyFrom(message);
+    const auto hash = parse_asset_name(file.asset());
+    if (hash) found.push_back({file.name(), *hash});
+    return;
+  }
+  const auto& reflection = *message.GetReflection();
+  std::vector<const Field*> fields;
+  reflection.ListFields(message, &fields);
+  for (const Field* const field : fields) {
+    if (field->cpp_type() != Field::CPPTYPE_MESSAGE || field->is_map()) continue;
+    const int count = field->is_repeated() ? reflection.FieldSize(message, field) : 1;
+    for (int i = 0; i < count; ++i) {
+      find_files(field->is_repeated() ? reflection.GetRepeatedMessage(message, field, i)
+                                      : reflection.GetMessage(message, field),
+                 found);
+    }
+  }
+}
+
+// Takes all files out of a message and those within.
+void clear_files(Message& message) {
+  const auto& reflection = *message.GetReflection();
+  std::vector<const Field*> fields;
+  reflection.ListFields(message, &fields);
+  for (const Field* const field : fields) {
+    if (field->cpp_type() != Field::CPPTYPE_MESSAGE || field->is_map()) continue;
+    if (field->message_type() == v1::InputFile::descriptor()) {
+      reflection.ClearField(&message, field);
+    } else if (field->is_repeated()) {
+      for (int i = 0; i < reflection.FieldSize(message, field); ++i) {
+        clear_files(*reflection.MutableRepeatedMessage(&message, field, i));
+      }
+    } else {
+      clear_files(*reflection.MutableMessage(&message, field));
+    }
+  }
+}
+
+// The names of jobs ("jobs/7", and below) in a message and those within.
+void find_jobs(const Message& message, std::vector<std::string>& found) {
+  const auto& reflection = *message.GetReflection();
+  const auto keep = [&](const std::string& text) {
+    if (text.starts_with("jobs/")) found.push_back(text.substr(0, text.find('/', 5)));
+  };
+  std::vector<const Field*> fields;
+  reflection.ListFields(message, &fields);
+  for (const Field* const field : fields) {
+    const int count = field->is_repeated() ? reflection.FieldSize(message, field) : 1;
+    for (int i = 0; i < count && !field->is_map(); ++i) {
+      if (field->cpp_type() == Field::CPPTYPE_STRING) {
+        keep(field->is_repeated() ? reflection.GetRepeatedString(message, field, i)
+                                  : reflection.GetString(message, field));
+      } else if (field->cpp_type() == Field::CPPTYPE_MESSAGE) {
+        find_jobs(field->is_repeated() ? reflection.GetRepeatedMessage(message, field, i)
+                                       : reflection.GetMessage(message, field),
+                  found);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+bool may_see(const Caller& caller, const Job& job) {
+  return job.shared || is_theirs(caller, job.made.owner);
+}
+
+Status check_may_see(const Caller& caller, const Job& job) {
+  if (may_see(caller, job)) return {};
+  return not_yours(caller, job, "ask them to share it");
+}
+
+Status check_may_change(const Caller& caller, const Job& job) {
+  if (is_theirs(caller, job.made.owner)) return {};
+  return not_yours(caller, job, "ask them, or an operator");
+}
+
+v1::Job shown_to(const Caller& caller, const Job& job) {
+  v1::Job out = to_message(job);
+  if (!may_see(caller, job)) clear_files(out);
+  return out;
+}
+
+void hide_files(const Caller& caller, v1::Calibration& calibration) {
+  if (!is_theirs(caller, calibration.owner())) clear_files(calibration);
+}
+
+AssetUser asset_user(const Caller& caller) { return {caller.name, caller.role >= Role::kOperator}; }
+
+Status check_may_use_files(const Caller& caller, const Message& request, AssetStore& assets) {
+  std::vector<InputFile> files;
+  find_files(request, files);
+  return assets.check_use(files, asset_user(caller));
+}
+
+Status check_may_create(const Caller& caller, Role needed, const v1::Job& job, JobStore& jobs,
+                        AssetStore& assets) {
+  HP_RETURN_IF_ERROR(check_role(caller, needed));
+  const Message* const spec = spec_of(job);
+  if (spec == nullptr || caller.role >= Role::kOperator) return {};
+  std::vector<std::string> names;
+  find_jobs(*spec, names);
+  for (const std::string& name : names) {
+    const auto id = parse_job_name(name);
+    if (!id) continue;  // no job: what is wrong is said where the field is read
+    HP_ASSIGN_OR_RETURN(const Job other, jobs.get(*id));
+    HP_RETURN_IF_ERROR(check_may_see(caller, other));
+  }
+  return check_may_use_files(caller, *spec, assets);
+}
+
+}  // namespace hydroprint::daemon

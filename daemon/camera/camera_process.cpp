@@ -1,0 +1,123 @@
+#include "daemon/camera/camera_process.h"
+
+#include <poll.h>
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <utility>
+
+#include "daemon/platform/durable_file.h"
+#include "daemon/store/artifact_files.h"
+#include "daemon/workers/worker_outcome.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::size_t kLargestPicture = 4 << 20;
+constexpr std::size_t kReadAtOnce = 1 << 20;
+constexpr std::size_t kWordsHeld = 16 << 10;
+constexpr std::chrono::seconds kTimeToEnd{2};
+// More than the program itself has with the camera, which says it better.
+constexpr std::chrono::seconds kMorePatience{10};
+constexpr std::int64_t kDay_s = 24LL * 3600;
+constexpr std::string_view kProgramPrefix = "hydroprint-capture: ";
+
+Launch launch_of(const CameraConfig& camera, const std::filesystem::path& folder) {
+  Launch out;
+  out.program = camera.program;
+  out.inputs = folder / "in";
+  out.work = folder / "work";
+  out.arguments = {"--live", "--json", "--patience-s=" + std::to_string(camera.patience_s)};
+  if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
+  out.limits = {0, kDay_s, kLargestPicture};
+  out.confined = false;  // it needs the camera; what it reads is that alone
+  return out;
+}
+
+}  // namespace
+
+CameraProcess::CameraProcess(std::filesystem::path folder, std::chrono::seconds patience)
+    : folder_(std::move(folder)), patience_(patience), heard_(std::chrono::steady_clock::now()) {}
+
+Result<std::unique_ptr<CameraProcess>> CameraProcess::start(const CameraConfig& camera,
+                                                            const Sandbox& sandbox,
+                                                            const Layout& layout) {
+  std::unique_ptr<CameraProcess> made(new CameraProcess(
+      layout.live_camera(), std::chrono::seconds(camera.patience_s) + kMorePatience));
+  const Launch launched = launch_of(camera, made->folder_);
+  HP_RETURN_IF_ERROR(make_folder(launched.inputs));
+  HP_RETURN_IF_ERROR(make_folder(launched.work));
+  HP_ASSIGN_OR_RETURN(made->process_, launch(launched, sandbox));
+  return made;
+}
+
+CameraProcess::~CameraProcess() {
+  if (process_.pid > 0 && !wait_status_) {
+    signal_group(process_, SIGKILL);
+    pollfd ended{process_.handle.get(), POLLIN, 0};
+    ::poll(&ended, 1, static_cast<int>(std::chrono::milliseconds(kTimeToEnd).count()));
+    ::waitpid(process_.pid, nullptr, WNOHANG);
+  }
+  discard(folder_);
+}
+
+std::vector<int> CameraProcess::descriptors() const {
+  return {process_.handle.get(), talks_ ? process_.answer.get() : -1};
+}
+
+std::vector<FramedMessage> CameraProcess::read(Time now) {
+  std::vector<FramedMessage> pictures;
+  const std::size_t before = said_.size();
+  if (!talks_) return pictures;
+  talks_ = drain(process_.answer, said_, kReadAtOnce);
+  if (said_.size() > before) heard_ = now;
+  for (;;) {
+    auto picture = cut_framed(said_, kLargestPicture);
+    // Its last line is no picture, but why it ends.
+    if (!picture) talks_ = false;
+    if (!picture || !*picture) return pictures;
+    pictures.push_back(std::move(**picture));
+  }
+}
+
+void CameraProcess::ask_to_end(Time now) {
+  if (kill_at_) return;
+  kill_at_ = now + kTimeToEnd;
+  signal_group(process_, SIGTERM);
+}
+
+bool CameraProcess::has_ended(Time now) {
+  if (wait_status_) return true;
+  silent_ = silent_ || (!kill_at_ && now >= heard_ + patience_);
+  if (silent_ || (kill_at_ && now >= *kill_at_)) signal_group(process_, SIGKILL);
+  int status = 0;
+  if (::waitpid(process_.pid, &status, WNOHANG) == 0) return false;
+  wait_status_ = status;
+  (void)drain(process_.answer, said_, kReadAtOnce);
+  (void)drain(process_.errors, words_, kWordsHeld);
+  return true;
+}
+
+std::optional<Error> CameraProcess::failure() const {
+  if (!wait_status_ || kill_at_) return {};
+  if (silent_) {
+    return Error{Code::kUnavailable,
+                 "the camera says nothing and cannot be asked; unplug it and plug it in again",
+                 "CAMERA_STALLED",
+                 {}};
+  }
+  auto why = judge(*wait_status_, StoppedFor::kNothing, words_, said_);
+  if (!why) {
+    return Error{Code::kUnavailable,
+                 "the program that looks through the camera ended by itself; check that "
+                 "camera.program is hydroprint-capture",
+                 "WORKER_UNUSABLE",
+                 {}};
+  }
+  Error& error = why->error;
+  error.code = Code::kUnavailable;
+  if (error.message.starts_with(kProgramPrefix)) error.message.erase(0, kProgramPrefix.size());
+  return std::move(error);
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,155 @@
+#include "daemon/camera/capture_executor.h"
+
+#include <poll.h>
+
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "daemon/platform/durable_file.h"
+#include "daemon/platform/log.h"
+#include "daemon/workers/worker_run.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr int kTick_ms = 50;
+constexpr std::chrono::milliseconds kStoreAgainAfter{500};
+// To start, to open the camera, and to write what was taken.
+constexpr int kMargin_s = 60;
+constexpr std::int64_t kLargestFile = 64 << 20;
+constexpr double kDefaultSeconds = 2;
+
+std::string seconds_text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+Launch plan(const CameraConfig& camera, const Layout& layout, std::int64_t job, double seconds) {
+  Launch out;
+  out.program = camera.program;
+  out.inputs = layout.run_inputs(job);
+  out.work = layout.run_work(job);
+  out.arguments = {"--seconds=" + seconds_text(seconds),
+                   "--patience-s=" + std::to_string(camera.patience_s),
+                   "--out=" + layout.run_out(job).string(),
+                   "--progress-fd=" + std::to_string(kProgressFd), "--json"};
+  if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
+  out.limits = {0, static_cast<std::int64_t>(10 * (seconds + kMargin_s)), kLargestFile};
+  out.confined = false;  // it needs the camera; what it reads is that alone
+  return out;
+}
+
+void wait_for(const WorkerRun& run) {
+  std::vector<pollfd> fds;
+  for (const int fd : run.descriptors()) fds.push_back({fd, POLLIN, 0});
+  ::poll(fds.data(), fds.size(), kTick_ms);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<CaptureExecutor>> CaptureExecutor::make(CaptureSurroundings surroundings) {
+  HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
+  return std::unique_ptr<CaptureExecutor>(
+      new CaptureExecutor(std::move(surroundings), std::move(sandbox)));
+}
+
+CaptureExecutor::~CaptureExecutor() { stop(); }
+
+Status CaptureExecutor::check_camera_and_rig() const {
+  HP_RETURN_IF_ERROR(check_camera(around_.camera));
+  const rig::Controller* rig = around_.gateway.controller();
+  if (rig != nullptr && rig::in_motion(rig->snapshot().condition.state)) {
+    return fail(Code::kAborted, "the axis moves; wait until it is at rest, or stop it",
+                "MOTION_IN_PROGRESS");
+  }
+  return {};
+}
+
+Result<Job> CaptureExecutor::check(const JobRequest& request) {
+  HP_RETURN_IF_ERROR(check_camera_and_rig());
+  Job job;
+  job.made = request.made;
+  return job;
+}
+
+Result<Job> CaptureExecutor::create(const JobRequest& request) {
+  const v1::CaptureSpec& spec = request.job.capture();
+  const double seconds = spec.has_seconds() ? spec.seconds() : kDefaultSeconds;
+  const std::lock_guard lock(mutex_);
+  if (end_) return fail(Code::kAborted, "the daemon is shutting down", "SHUTTING_DOWN");
+  HP_ASSIGN_OR_RETURN(auto earlier, around_.jobs.repeated(request.made.owner, request.key));
+  if (earlier) return std::move(*earlier);
+  HP_RETURN_IF_ERROR(check_camera_and_rig());
+  const RigPlace place = around_.places.place();
+  HP_RETURN_IF_ERROR(around_.places.keep());
+  HP_ASSIGN_OR_RETURN(Job job, around_.jobs.create(request.made, request.key));
+  // The store has it that no other one is under way.
+  if (thread_.joinable()) thread_.join();
+  if (const Status noted = around_.calibrations.note_capture(job.id, place); !noted) {
+    give_up(job, noted.error());
+    return around_.jobs.get(job.id);
+  }
+  cancelled_ = false;
+  job_ = job.id;
+  // Before this is answered: who looks from then on is told of the job.
+  thread_ =
+      std::thread([this, job, seconds, camera = around_.live.lend(job.id)] { go(job, seconds); });
+  return job;
+}
+
+Result<Job> CaptureExecutor::cancel(std::int64_t id) {
+  const std::lock_guard lock(mutex_);
+  auto job = around_.jobs.cancel(id);
+  if (job && job_ == id) cancelled_ = true;
+  return job;
+}
+
+void CaptureExecutor::go(const Job& job, double seconds) {
+  if (const Status done = run(job, seconds); !done) give_up(job, done.error());
+  job_ = 0;
+}
+
+Status CaptureExecutor::run(const Job& job, double seconds) {
+  around_.live.wait_until_free();
+  HP_RETURN_IF_ERROR(make_folder(around_.layout.run_work(job.id)));
+  const Launch launch = plan(around_.camera, around_.layout, job.id, seconds);
+  const std::chrono::seconds limit(static_cast<int>(std::ceil(seconds)) + kMargin_s +
+                                   around_.camera.patience_s);
+  HP_ASSIGN_OR_RETURN(const auto run,
+                      WorkerRun::start(job, launch, sandbox_, around_.layout, limit, [] {}));
+  while (!run->step(around_.jobs, around_.clock())) {
+    if (left_) run->stop(StoppedFor::kShutdown);
+    if (cancelled_) run->stop(StoppedFor::kCancel);
+    wait_for(*run);
+  }
+  const auto ended = around_.jobs.get(job.id);
+  if (ended && ended->state == JobState::kSucceeded) latest_ms_ = ended->end_ms;
+  return {};
+}
+
+/// What never got to run.
+void CaptureExecutor::give_up(const Job& job, const Error& error) {
+  discard(around_.layout.run(job.id));
+  log(LogLevel::kError, "capture_not_started", {{"job", job.id}, {"message", error.message}});
+  while (!left_) {
+    const auto ended = around_.jobs.give_up(job.id, {error, {}, {}});
+    if (ended || ended.error().code == Code::kFailedPrecondition ||
+        ended.error().code == Code::kNotFound) {
+      return;
+    }
+    std::this_thread::sleep_for(kStoreAgainAfter);
+  }
+}
+
+void CaptureExecutor::stop() {
+  left_ = true;
+  {
+    const std::lock_guard lock(mutex_);
+    end_ = true;
+  }
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "daemon/camera/live_camera.h"
+#include "daemon/config/camera_config.h"
+#include "daemon/jobs/executor.h"
+#include "daemon/platform/clock.h"
+#include "daemon/rig/rig_gateway.h"
+#include "daemon/rig/rig_reference.h"
+#include "daemon/store/calibration_store.h"
+#include "daemon/store/job_store.h"
+#include "daemon/store/state_layout.h"
+#include "daemon/workers/sandbox.h"
+
+namespace hydroprint::daemon {
+
+/// What captures work on.
+struct CaptureSurroundings {
+  CameraConfig camera;
+  LiveCamera& live;
+  JobStore& jobs;
+  CalibrationStore& calibrations;
+  RigGateway& gateway;
+  RigReference& places;
+  Layout layout;
+  Clock clock;
+};
+
+/// Takes frames of the camera, one capture at a time: a process of hydroprint-capture each, watched
+/// by a thread of its own, so that a driver that hangs or crashes harms nothing. Any thread may
+/// call.
+class CaptureExecutor final : public JobExecutor {
+ public:
+  /// @param surroundings  outlive it
+  [[nodiscard]] static Result<std::unique_ptr<CaptureExecutor>> make(
+      CaptureSurroundings surroundings);
+  /// Stops if stop() was not called.
+  ~CaptureExecutor() override;
+
+  /// kFailedPrecondition, CAMERA_MISSING if none is configured; kAborted, MOTION_IN_PROGRESS while
+  /// the axis moves.
+  [[nodiscard]] Result<Job> check(const JobRequest& request) override;
+  [[nodiscard]] Result<Job> create(const JobRequest& request) override;
+  [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
+  /// Ends a capture that is under way, whose job is left to JobStore::interrupt_all(); a few
+  /// seconds at most.
+  void stop() override;
+
+  /// When the latest successful capture of this daemon ended; Unix time in ms, 0 if there is none.
+  [[nodiscard]] std::int64_t latest_ms() const { return latest_ms_; }
+
+ private:
+  [[nodiscard]] Status check_camera_and_rig() const;
+  CaptureExecutor(CaptureSurroundings surroundings, Sandbox sandbox)
+      : around_(std::move(surroundings)), sandbox_(std::move(sandbox)) {}
+  void go(const Job& job, double seconds);
+  [[nodiscard]] Status run(const Job& job, double seconds);
+  void give_up(const Job& job, const Error& error);
+
+  CaptureSurroundings around_;
+  Sandbox sandbox_;
+  std::mutex mutex_;
+  bool end_ = false;  // no more of them
+  std::atomic<std::int64_t> job_{0}, latest_ms_{0};
+  std::atomic<bool> cancelled_{false}, left_{false};
+  std::thread thread_;
+};
+
+}  // namespace hydroprint::daemon

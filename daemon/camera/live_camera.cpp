@@ -1,0 +1,229 @@
+#include "daemon/camera/live_camera.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+
+#include <utility>
+#include <vector>
+
+#include "daemon/platform/log.h"
+#include "daemon/platform/resource_names.h"
+#include "sim/base/checked_json.h"
+#include "sim/base/one_line.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+using LiveClock = std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kLooks{10};  // who asked, and so long after
+constexpr std::chrono::seconds kFresh{3};
+constexpr std::chrono::seconds kLongestLook{5};
+constexpr std::chrono::seconds kReopenAfter{3};
+constexpr std::chrono::seconds kLongestLend{5};
+constexpr std::chrono::milliseconds kGlance{50};
+constexpr int kMostWaiting = 16;
+constexpr int kAwake_ms = 200;
+constexpr int kAsleep_ms = 5000;
+
+/// None for what is no picture.
+std::optional<LivePicture> read_picture(const FramedMessage& told, std::int64_t now_ms) {
+  const auto parsed = parse_json(told.head);
+  if (!parsed) return {};
+  const nlohmann::json& head = *parsed;
+  try {
+    LivePicture out;
+    out.png = told.bytes;
+    out.width = head.at("width").get<int>();
+    out.height = head.at("height").get<int>();
+    out.nearest_mm = head.at("nearest_mm").get<double>();
+    out.farthest_mm = head.at("farthest_mm").get<double>();
+    out.measured_share = head.at("measured_share").get<double>();
+    out.camera = one_line(head.at("camera").get<std::string>());
+    out.time_ms = now_ms;
+    return out;
+  } catch (const nlohmann::json::exception&) {
+    return {};
+  }
+}
+
+/// Counts one who waits, for as long as they do.
+class Waiting {
+ public:
+  explicit Waiting(int& count) : count_(count) { ++count_; }
+  ~Waiting() { --count_; }
+  Waiting(const Waiting&) = delete;
+  Waiting& operator=(const Waiting&) = delete;
+
+ private:
+  int& count_;
+};
+
+}  // namespace
+
+LiveCamera::LiveCamera(CameraConfig camera, Layout layout, Clock clock, Sandbox sandbox)
+    : camera_(std::move(camera)),
+      layout_(std::move(layout)),
+      clock_(std::move(clock)),
+      sandbox_(std::move(sandbox)) {}
+
+Result<std::unique_ptr<LiveCamera>> LiveCamera::make(CameraConfig camera, Layout layout,
+                                                     Clock clock) {
+  HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
+  std::unique_ptr<LiveCamera> made(
+      new LiveCamera(std::move(camera), std::move(layout), std::move(clock), std::move(sandbox)));
+  made->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  if (!made->wake_.valid()) return system_failure("eventfd", "cannot be made");
+  made->thread_ = std::thread([&live = *made] { live.work(); });
+  return made;
+}
+
+LiveCamera::~LiveCamera() { stop(); }
+
+void LiveCamera::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  wake();
+  if (thread_.joinable()) thread_.join();
+}
+
+void LiveCamera::wake() {
+  ::eventfd_write(wake_.get(), 1);
+  news_.notify_all();
+}
+
+Result<LivePicture> LiveCamera::look(const std::function<bool()>& gone) {
+  HP_RETURN_IF_ERROR(check_camera(camera_));
+  std::unique_lock lock(mutex_);
+  const Time start = LiveClock::now();
+  if (start >= wanted_until_) failure_.reset();  // of those who looked before
+  wanted_until_ = start + kLooks;
+  wake();
+  if (waiting_ >= kMostWaiting) {
+    return fail(Code::kResourceExhausted, "too many people wait for the camera; try again later",
+                "WATCHES_FULL");
+  }
+  const Waiting waiting(waiting_);
+  for (Time now = start; now < start + kLongestLook; now = LiveClock::now()) {
+    if (auto answer = known(now)) return std::move(*answer);
+    news_.wait_for(lock, kGlance);
+    if (gone()) return fail(Code::kCancelled, "the caller left");
+  }
+  return fail(Code::kUnavailable,
+              "no picture came in 5 s; the camera may be starting still: ask again",
+              "CAMERA_STALLED");
+}
+
+/// What there is to answer at once.
+std::optional<Result<LivePicture>> LiveCamera::known(Time now) const {
+  if (stopping_) {
+    return fail(Code::kUnavailable, "the daemon is shutting down; try again when it is back",
+                "SHUTTING_DOWN");
+  }
+  if (lent_to_ != 0) {
+    const std::string job = job_name(lent_to_);
+    return tl::unexpected(Error{Code::kAborted,
+                                job + " has the camera; look again when it has ended",
+                                "CAMERA_BUSY",
+                                {{"job", job}}});
+  }
+  if (picture_ && now < came_ + kFresh) return *picture_;
+  if (failure_) return tl::unexpected(*failure_);
+  return {};
+}
+
+std::int64_t LiveCamera::latest_ms() const {
+  const std::lock_guard lock(mutex_);
+  return picture_ ? picture_->time_ms : 0;
+}
+
+LiveCamera::Loan LiveCamera::lend(std::int64_t job) {
+  {
+    const std::lock_guard lock(mutex_);
+    lent_to_ = job;
+  }
+  wake();
+  return Loan(this);
+}
+
+void LiveCamera::wait_until_free() {
+  std::unique_lock lock(mutex_);
+  news_.wait_for(lock, kLongestLend, [this] { return !process_ || stopping_; });
+}
+
+void LiveCamera::take_back() {
+  {
+    const std::lock_guard lock(mutex_);
+    lent_to_ = 0;
+    failure_.reset();
+  }
+  wake();
+}
+
+void LiveCamera::work() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    step(LiveClock::now());
+    wait(lock);
+  }
+  const std::unique_ptr<CameraProcess> last = std::move(process_);
+  lock.unlock();
+  news_.notify_all();
+}
+
+/// Waits until there may be something to do.
+void LiveCamera::wait(std::unique_lock<std::mutex>& lock) {
+  std::vector<pollfd> fds{{wake_.get(), POLLIN, 0}};
+  if (process_) {
+    for (const int fd : process_->descriptors()) fds.push_back({fd, POLLIN, 0});
+  }
+  const bool is_busy = process_ || LiveClock::now() < wanted_until_;
+  lock.unlock();
+  ::poll(fds.data(), fds.size(), is_busy ? kAwake_ms : kAsleep_ms);
+  eventfd_t rings = 0;
+  ::eventfd_read(wake_.get(), &rings);
+  lock.lock();
+}
+
+void LiveCamera::step(Time now) {
+  const bool is_wanted = lent_to_ == 0 && now < wanted_until_;
+  if (!process_) {
+    if (is_wanted && now >= again_) begin(now);
+    return;
+  }
+  for (const FramedMessage& told : process_->read(now)) show(told, now);
+  if (!is_wanted) process_->ask_to_end(now);
+  if (!process_->has_ended(now)) return;
+  if (auto why = process_->failure()) fail_for_now(std::move(*why), now);
+  process_ = nullptr;
+  log(LogLevel::kDebug, "live_camera_ended", {});
+  news_.notify_all();
+}
+
+void LiveCamera::begin(Time now) {
+  auto started = CameraProcess::start(camera_, sandbox_, layout_);
+  if (!started) return fail_for_now(std::move(started.error()), now);
+  process_ = std::move(*started);
+  log(LogLevel::kDebug, "live_camera_started", {});
+}
+
+void LiveCamera::show(const FramedMessage& told, Time now) {
+  auto picture = read_picture(told, clock_());
+  if (!picture) return;
+  picture_ = std::move(picture);
+  came_ = now;
+  failure_.reset();
+  news_.notify_all();
+}
+
+void LiveCamera::fail_for_now(Error error, Time now) {
+  log(LogLevel::kWarning, "live_camera_failed",
+      {{"reason", error.reason}, {"message", error.message}});
+  failure_ = std::move(error);
+  again_ = now + kReopenAfter;
+  news_.notify_all();
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,171 @@
+#include "daemon/dip/job_plan.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "daemon/jobs/calibration_binding.h"
+#include "daemon/jobs/referenced_job.h"
+#include "daemon/platform/resource_names.h"
+#include "hydroprint/v1/spec.pb.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr const char* kReport = "report.json";
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+/// Takes numbers out of a report; keeps the first thing that is wrong.
+class ReportReader {
+ public:
+  explicit ReportReader(const Json& report) : report_(report) {}
+
+  double number(const std::string& pointer, double least, double most) {
+    const Json::json_pointer place(pointer);
+    if (report_.contains(place) && report_.at(place).is_number()) {
+      const double value = report_.at(place).get<double>();
+      if (value >= least && value <= most) return value;
+    }
+    if (status_) {
+      status_ = fail(Code::kFailedPrecondition,
+                     "the simulation's " + std::string(kReport) + ": " + pointer +
+                         " is not a number from " + text(least) + " to " + text(most) +
+                         "; simulate again, or give all that it would say in the dip's spec",
+                     "STATE_FORBIDS");
+    }
+    return 0;
+  }
+  [[nodiscard]] bool is_round() const {
+    const Json::json_pointer place("/parameters/film/name");
+    if (!report_.contains(place) || !report_.at(place).is_string()) return false;
+    return report_.at(place).get<std::string>().starts_with("circle:");
+  }
+  [[nodiscard]] const Status& status() const { return status_; }
+
+ private:
+  const Json& report_;
+  Status status_;
+};
+
+/// Of a polygon, the area of the box around it.
+double film_area_mm2(ReportReader& reader) {
+  double area_mm2 = reader.is_round() ? std::numbers::pi / 4 : 1;
+  for (const char* axis : {"0", "1"}) {
+    const std::string film = "/parameters/film/";
+    const double least = reader.number(film + "min_mm/" + axis, -2000, 2000);
+    const double most = reader.number(film + "max_mm/" + axis, -2000, 2000);
+    area_mm2 *= std::max(0.0, most - least);
+  }
+  return area_mm2;
+}
+
+Result<SimulatedDip> simulated_dip(const std::string& name, JobStore& jobs, const Layout& layout) {
+  HP_ASSIGN_OR_RETURN(const Job job, earlier_job(name, "simulate", "dip.simulate_job", jobs));
+  HP_ASSIGN_OR_RETURN(const std::string report, report_of(job, layout));
+  return read_simulated_dip(report);
+}
+
+void fill_from(const SimulatedDip& simulated, dip::Plan& plan) {
+  plan.depth_mm = simulated.depth_mm;
+  plan.speed_mm_per_s = simulated.speed_mm_per_s;
+  plan.film_area_mm2 = simulated.film_area_mm2;
+  plan.activator_ml_per_m2 = simulated.activator_ml_per_m2;
+  plan.clocks.soak_s = simulated.soak_s;
+  plan.clocks.activator_wait_s = simulated.activator_wait_s;
+}
+
+void fill_from(const v1::DipSpec& spec, dip::Plan& plan) {
+  if (spec.has_depth_mm()) plan.depth_mm = spec.depth_mm();
+  if (spec.has_speed_mm_per_s()) plan.speed_mm_per_s = spec.speed_mm_per_s();
+  if (spec.has_hold_s()) plan.hold_s = spec.hold_s();
+  plan.retract_speed_mm_per_s =
+      spec.has_retract_speed_mm_per_s() ? spec.retract_speed_mm_per_s() : plan.speed_mm_per_s;
+  if (spec.has_clearance_mm()) plan.clearance_mm = spec.clearance_mm();
+  if (spec.has_film_area_mm2()) plan.film_area_mm2 = spec.film_area_mm2();
+  if (spec.has_activator_ml_per_m2()) plan.activator_ml_per_m2 = spec.activator_ml_per_m2();
+  if (spec.has_soak_s()) plan.clocks.soak_s = spec.soak_s();
+  if (spec.has_activator_wait_s()) plan.clocks.activator_wait_s = spec.activator_wait_s();
+  if (spec.has_activation_window_s()) {
+    plan.clocks.activation_window_s = spec.activation_window_s();
+  }
+  if (spec.has_water_temperature_c()) plan.water_temperature_c = spec.water_temperature_c();
+  plan.clocks.skip = spec.yes_to_all();
+}
+
+}  // namespace
+
+Result<SimulatedDip> read_simulated_dip(const std::string& report) {
+  const Json json = Json::parse(report, nullptr, false);
+  ReportReader reader(json);
+  SimulatedDip out;
+  out.depth_mm = reader.number("/depth_mm", 1e-3, 1e6);
+  out.speed_mm_per_s = reader.number("/parameters/dip_speed_mm_per_s", 1e-3, 1000);
+  out.film_area_mm2 = film_area_mm2(reader);
+  const std::string profile = "/parameters/profile/";
+  out.activator_ml_per_m2 = reader.number(profile + "activator_ml_per_m2", 0, 1000);
+  out.soak_s = reader.number(profile + "soak_s", 0, 3600);
+  out.activator_wait_s = reader.number(profile + "activator_wait_s", 0, 3600);
+  HP_RETURN_IF_ERROR(reader.status());
+  return out;
+}
+
+Result<dip::Plan> plan_of(const v1::DipSpec& spec, JobStore& jobs, const Layout& layout) {
+  dip::Plan plan;
+  if (!spec.simulate_job().empty()) {
+    plan.simulate_job = spec.simulate_job();
+    HP_ASSIGN_OR_RETURN(const SimulatedDip simulated,
+                        simulated_dip(spec.simulate_job(), jobs, layout));
+    fill_from(simulated, plan);
+    if (spec.has_depth_mm() && spec.depth_mm() > simulated.depth_mm) {
+      plan.warnings.push_back({"deeper_than_simulated",
+                               "the dip is deeper than the simulation's " +
+                                   text(simulated.depth_mm) +
+                                   " mm: what lands beyond that was not computed",
+                               spec.simulate_job()});
+    }
+  }
+  fill_from(spec, plan);
+  return plan;
+}
+
+Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs, CalibrationStore& calibrations,
+                         const RigPlace& now, dip::Plan& plan) {
+  if (spec.calibration().empty()) return {};
+  HP_ASSIGN_OR_RETURN(const Calibration found,
+                      needed_calibration(spec.calibration(), "dip.calibration", calibrations));
+  v1::SimulateSpec simulated;
+  if (!spec.simulate_job().empty()) {
+    HP_ASSIGN_OR_RETURN(auto simulation,
+                        earlier_simulation(spec.simulate_job(), "dip.simulate_job", jobs));
+    simulated = std::move(simulation.spec);
+  }
+  const v1::Calibration calibration = to_message(found, now);
+  const Objection why = objection(calibration, simulated.mesh());
+  HP_RETURN_IF_ERROR(check_objection(calibration, why, spec.allow_stale_calibration()));
+  plan.calibration = calibration.name();
+  if (!why.words.empty()) {
+    plan.warnings.push_back({"calibration_stale",
+                             calibration.name() + " does not hold any more: " + why.words,
+                             calibration.name()});
+  }
+  if (!spec.simulate_job().empty() && simulated.calibration().empty()) {
+    plan.warnings.push_back({"pose_not_simulated",
+                             spec.simulate_job() + " was not made for the pose of " +
+                                 calibration.name() + ": what is printed may not fit",
+                             spec.simulate_job()});
+  }
+  if (!knows_contact(calibration)) return {};
+  plan.contact_mm = calibration.contact_mm();
+  plan.homings = found.captured->place.homings;
+  return {};
+}
+
+}  // namespace hydroprint::daemon

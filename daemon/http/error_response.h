@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "daemon/http/in_process_channel.h"
+#include "daemon/http/protocol/exchange.h"
+#include "sim/base/result.h"
+
+namespace hydroprint::http {
+
+/// Answers a request with an error.
+/// @param status  the HTTP status; by default that of the error's code
+[[nodiscard]] Task<bool> refuse(Exchange& exchange, Error error, std::optional<int> status = {});
+
+/// The response to a call that failed.
+[[nodiscard]] Response refusal(const Reply& reply);
+
+}  // namespace hydroprint::http

@@ -1,0 +1,27 @@
+#include "daemon/http/protocol/upload_head.h"
+
+#include <charconv>
+
+#include "daemon/rest/percent.h"
+
+namespace hydroprint::http {
+
+Result<std::string> upload_name(std::string_view path) {
+  return rest::decode(path.substr(std::string_view("/v1/").size()));
+}
+
+Result<std::int64_t> upload_offset(const HeaderFields& fields) {
+  constexpr const char* kName = "Upload-Offset";
+  const std::string_view text = fields.find(kName).value_or("");
+  std::int64_t offset = -1;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), offset);
+  const bool is_number = parsed.ec == std::errc() && parsed.ptr == text.data() + text.size();
+  if (is_number && offset >= 0 && fields.count(kName) == 1) return offset;
+  auto error =
+      fail(Code::kInvalidArgument,
+           "the header Upload-Offset must say where these bytes go; HEAD tells", "SPEC_INVALID");
+  error.value().metadata["field"] = kName;
+  return error;
+}
+
+}  // namespace hydroprint::http

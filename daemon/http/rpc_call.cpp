@@ -1,0 +1,159 @@
+// Calls of the services: one request, one answer.
+#include "daemon/http/rpc_call.h"
+
+#include <algorithm>
+
+#include "daemon/http/artifact_path.h"
+#include "daemon/http/caller_metadata.h"
+#include "daemon/http/download.h"
+#include "daemon/http/error_response.h"
+#include "daemon/http/idempotency_key.h"
+#include "daemon/http/protocol/async_value.h"
+#include "daemon/http/session_cookie.h"
+#include "daemon/http/sse.h"
+#include "daemon/rest/answer.h"
+
+namespace hydroprint::http {
+namespace {
+
+constexpr milliseconds kGrace{5000};  // for gRPC to say itself that the time is up
+
+// "/hydroprint.v1.JobService/GetJob" -> "JobService/GetJob".
+std::string short_name(const std::string& method) {
+  return method.substr(method.rfind('.', method.rfind('/')) + 1);
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+// The methods of a path, with those that HTTP itself adds.
+std::string allowed_at(const ServerContext& server, const std::string& target) {
+  std::vector<std::string> methods = server.transcoder.methods_at(target);
+  const bool is_artifact = artifact_target(target).has_value();
+  if (is_artifact) methods = {"GET"};
+  if (std::find(methods.begin(), methods.end(), "GET") != methods.end()) {
+    methods.emplace_back("HEAD");
+  }
+  if (!methods.empty() && target.starts_with("/v1/uploads/")) {
+    methods.emplace_back("PATCH");
+  }
+  if (!methods.empty()) methods.emplace_back("OPTIONS");
+  return joined(methods);
+}
+
+Task<std::string> answer_options(const ServerContext& server, Exchange& exchange) {
+  Response response;
+  response.status = 204;
+  const std::string allowed = allowed_at(server, exchange.head().target);
+  if (allowed.empty()) {
+    response = refusal(
+        {Code::kNotFound, "nothing is at this path; see /openapi.json", "ROUTE_NOT_FOUND", {}});
+  } else {
+    response.fields.set("Allow", allowed);
+  }
+  co_await exchange.send(std::move(response));
+  co_return "options";
+}
+
+Task<void> answer_unary(ServerContext& server, Exchange& exchange, rest::Call request) {
+  const auto unprintable = request.stops_motion ? Unprintable::kReplace : Unprintable::kRefuse;
+  auto metadata = metadata_of(exchange.head(), exchange.socket().peer(), unprintable);
+  if (!metadata) {
+    co_await refuse(exchange, metadata.error());
+    co_return;
+  }
+  const std::string method = request.method;
+  Reply reply = co_await call(server, exchange, std::move(request), std::move(*metadata));
+  if (!reply.ok()) {
+    co_await exchange.send(refusal(reply));
+    co_return;
+  }
+  const auto set_cookie = take_session(method, reply.response, exchange.socket().is_secure());
+  Result<std::string> json = server.transcoder.write(method, reply.response);
+  if (!json) {
+    co_await refuse(exchange, json.error());
+    co_return;
+  }
+  Response response = json_response(200, std::move(*json));
+  if (set_cookie) response.fields.set("Set-Cookie", *set_cookie);
+  co_await exchange.send(std::move(response));
+}
+
+// The body. A call that stops motion does not wait for one, which may never come.
+Task<Result<std::string>> body_of(const ServerContext& server, Exchange& exchange) {
+  const Head& head = exchange.head();
+  if (server.transcoder.stops_motion(head.method, head.target)) co_return std::string();
+  co_return co_await exchange.read_body();
+}
+
+// Answers what the transcoder refuses.
+Task<std::string> refuse_call(const ServerContext& server, Exchange& exchange, Error error) {
+  Response response = refusal(error);
+  if (error.reason == "METHOD_NOT_ALLOWED") {
+    response = refusal(error, 405);
+    response.fields.set("Allow", allowed_at(server, exchange.head().target));
+  }
+  co_await exchange.send(std::move(response));
+  co_return "refused";
+}
+
+}  // namespace
+
+Task<Reply> call(ServerContext& server, Exchange& exchange, rest::Call request,
+                 InProcessChannel::Metadata metadata) {
+  AsyncValue<Reply> coming(exchange.shared_socket());
+  const milliseconds patience = server.options.limits.call_time;
+  const auto under_way =
+      server.rpc.unary(request.method, request.request, metadata, patience, coming.receiver());
+  if (!request.stops_motion) exchange.socket().watch([under_way] { under_way->cancel(); });
+  const bool came = co_await coming.wait(patience + kGrace);
+  exchange.socket().unwatch();
+  if (came) co_return coming.take();
+  under_way->cancel();
+  co_return Reply{4, "the daemon did not answer in time; look whether it was done", "", ""};
+}
+
+Task<std::string> answer_call(ServerContext& server, Exchange& exchange) {
+  const Head& head = exchange.head();
+  if (head.method == "OPTIONS") co_return co_await answer_options(server, exchange);
+  if (auto artifact = artifact_target(head.target)) {
+    co_return co_await answer_download(server, exchange, std::move(*artifact));
+  }
+  Result<std::string> body = co_await body_of(server, exchange);
+  if (!body) {
+    const bool is_too_long = body.error().reason == "BODY_TOO_LARGE";
+    const bool is_late = body.error().reason == "REQUEST_TIMED_OUT";
+    const std::optional<int> status = is_too_long ? std::optional(413)
+                                      : is_late   ? std::optional(408)
+                                                  : std::nullopt;
+    co_await refuse(exchange, body.error(), status);
+    co_return "refused";
+  }
+  const bool wants_head = head.method == "HEAD";
+  Result<rest::Call> request =
+      server.transcoder.read(wants_head ? "GET" : head.method, head.target, *body);
+  if (request && request->streams && wants_head) {
+    request = fail(Code::kUnimplemented, "a stream has no head of its own; use GET",
+                   "METHOD_NOT_ALLOWED");
+  }
+  const auto last_event = head.fields.find("Last-Event-ID");
+  if (request && request->streams && last_event) {
+    request = server.transcoder.resume(std::move(*request), *last_event);
+  }
+  if (!request) co_return co_await refuse_call(server, exchange, request.error());
+  if (const auto key = head.fields.find("Idempotency-Key")) {
+    request->request = with_request_id(request->method, request->request, *key);
+  }
+  const std::string name = short_name(request->method);
+  if (request->streams) {
+    co_await answer_events(server, exchange, std::move(*request));
+  } else {
+    co_await answer_unary(server, exchange, std::move(*request));
+  }
+  co_return name;
+}
+
+}  // namespace hydroprint::http

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "daemon/http/in_process_channel.h"
+#include "daemon/http/protocol/exchange.h"
+#include "daemon/http/server_context.h"
+#include "daemon/rest/transcoder.h"
+
+namespace hydroprint::http {
+
+/// Answers a request for a method of the API.
+/// @return the name under which the request is counted
+[[nodiscard]] Task<std::string> answer_call(ServerContext& server, Exchange& exchange);
+
+/// Calls and waits for the answer. A client that leaves meanwhile cancels the call unless it stops
+/// motion.
+[[nodiscard]] Task<Reply> call(ServerContext& server, Exchange& exchange, rest::Call call,
+                               InProcessChannel::Metadata metadata);
+
+}  // namespace hydroprint::http

@@ -1,0 +1,47 @@
+// Who is signed in with a browser: a cookie that no script can read, and what a page has to send
+// along with it.
+#include "daemon/http/session_cookie.h"
+
+#include "daemon/auth/secret.h"
+#include "daemon/http/caller_metadata.h"
+#include "hydroprint/v1/people_service.pb.h"
+
+namespace hydroprint::http {
+namespace {
+
+constexpr std::string_view kSignIn = "/hydroprint.v1.PeopleService/SignIn";
+constexpr std::string_view kSignOut = "/hydroprint.v1.PeopleService/SignOut";
+using rest::kCsrfHeader;
+
+std::string cookie_text(std::string_view token, bool is_secure, std::string_view more) {
+  return std::string(kSessionCookie) + "=" + std::string(token) +
+         "; Path=/; HttpOnly; SameSite=Strict" + (is_secure ? "; Secure" : "") + std::string(more);
+}
+
+}  // namespace
+
+Status check_csrf(const Head& head) {
+  if (head.method == "GET" || head.method == "HEAD" || head.method == "OPTIONS") return {};
+  const auto session = cookie(head.fields, kSessionCookie);
+  // Who brings a key of their own is no page that somebody was led to.
+  if (!session || head.fields.find("Authorization")) return {};
+  const std::string wanted = auth::csrf_token(*session);
+  if (auth::equal_in_constant_time(head.fields.find(kCsrfHeader).value_or(""), wanted)) return {};
+  return fail(Code::kPermissionDenied,
+              "with a session, what changes something needs the header " +
+                  std::string(kCsrfHeader) + ", which /v1/session tells; load the page anew",
+              "CSRF_TOKEN_MISSING");
+}
+
+std::optional<std::string> take_session(const std::string& method, std::string& response,
+                                        bool is_secure) {
+  if (method == kSignOut) return cookie_text("", is_secure, "; Max-Age=0");
+  v1::SignInResponse signed_in;
+  if (method != kSignIn || !signed_in.ParseFromString(response)) return {};
+  const std::string set = cookie_text(signed_in.session_token(), is_secure, "");
+  signed_in.clear_session_token();
+  response = signed_in.SerializeAsString();
+  return set;
+}
+
+}  // namespace hydroprint::http

@@ -1,0 +1,63 @@
+// What the server says of itself and of the daemon, and the web client's files.
+#include "daemon/http/system_pages.h"
+
+#include "daemon/http/error_response.h"
+#include "daemon/http/protocol/async_value.h"
+
+namespace hydroprint::http {
+namespace {
+
+constexpr milliseconds kSourcePatience{5000};
+constexpr int kMostAsides = 100;
+
+/// Has another thread do what may take its time: nothing if that takes too long, as it does when
+/// the disk hangs.
+template <class T>
+Task<std::optional<T>> ask_aside(ServerContext& server, Exchange& exchange,
+                                 std::function<T()> source) {
+  if (server.asides >= kMostAsides) co_return std::nullopt;
+  ++server.asides;
+  AsyncValue<T> coming(exchange.shared_socket());
+  server.listener.aside([&server, source, receive = coming.receiver()] {
+    receive(source());
+    --server.asides;
+  });
+  const bool came = co_await coming.wait(kSourcePatience);
+  if (!came) co_return std::nullopt;
+  co_return coming.take();
+}
+
+}  // namespace
+
+Task<std::string> answer_health(ServerContext& server, Exchange& exchange) {
+  const std::optional<Health> health =
+      co_await ask_aside<Health>(server, exchange, server.sources.health);
+  if (!health) {
+    co_await exchange.send(json_response(503, R"({"status":"bad","store":"does not answer"})"));
+  } else {
+    co_await exchange.send(json_response(health->is_good ? 200 : 503, health->json));
+  }
+  co_return "healthz";
+}
+
+Task<std::string> answer_metrics(ServerContext& server, Exchange& exchange) {
+  std::optional<std::string> text =
+      co_await ask_aside<std::string>(server, exchange, server.sources.metrics);
+  // Without the store's figures there are still the server's own.
+  Response response =
+      text_response(200, text.value_or("") + server.metrics.text(server.connections.count()));
+  response.fields.set("Content-Type", "text/plain; version=0.0.4; charset=utf-8");
+  co_await exchange.send(std::move(response));
+  co_return "metrics";
+}
+
+Task<std::string> answer_file(ServerContext& server, Exchange& exchange) {
+  Response response = server.files.answer(exchange.head());
+  if (response.status == 404) {
+    response = refusal({Code::kNotFound, "there is no such file", "ROUTE_NOT_FOUND", {}});
+  }
+  co_await exchange.send(std::move(response));
+  co_return "file";
+}
+
+}  // namespace hydroprint::http

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+
+#include "daemon/http/protocol/exchange.h"
+#include "daemon/http/server_context.h"
+
+namespace hydroprint::http {
+
+// Each answers one request and returns the name under which the request is counted.
+
+/// A file of the web client.
+[[nodiscard]] Task<std::string> answer_file(ServerContext& server, Exchange& exchange);
+/// /healthz.
+[[nodiscard]] Task<std::string> answer_health(ServerContext& server, Exchange& exchange);
+/// /metrics.
+[[nodiscard]] Task<std::string> answer_metrics(ServerContext& server, Exchange& exchange);
+
+}  // namespace hydroprint::http

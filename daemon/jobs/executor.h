@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "daemon/store/job.h"
+#include "hydroprint/v1/job.pb.h"
+
+namespace hydroprint::daemon {
+
+/// A job that somebody asks for, checked and with every reference resolved.
+struct JobRequest {
+  NewJob made;
+  v1::Job job;  ///< as it shows its spec, which `made.body` serialises
+  RequestKey key;
+  std::string lease_id;
+};
+
+/// Carries out jobs of some kinds. Any thread may call.
+class JobExecutor {
+ public:
+  virtual ~JobExecutor() = default;
+  JobExecutor(const JobExecutor&) = delete;
+  JobExecutor& operator=(const JobExecutor&) = delete;
+
+  /// Refuses what create() would refuse, except for limits of the store.
+  /// @return the job as it would begin, without a name
+  [[nodiscard]] virtual Result<Job> check(const JobRequest& request) = 0;
+  /// Stores a job and starts or queues it. A repeated request returns its first job.
+  [[nodiscard]] virtual Result<Job> create(const JobRequest& request) = 0;
+  /// Cancels a job, whether or not it is running.
+  [[nodiscard]] virtual Result<Job> cancel(std::int64_t job) = 0;
+  /// Brings running jobs to rest for a shutdown and refuses new ones. What remains open is left to
+  /// JobStore::interrupt_all().
+  virtual void stop() = 0;
+
+ protected:
+  JobExecutor() = default;
+};
+
+/// The executors, in the order in which they are stopped: the axis comes to rest first.
+enum class ExecutorId : std::uint8_t { kDips, kPrints, kCaptures, kWorkers };
+
+/// One executor for each id.
+class Executors {
+ public:
+  Executors(JobExecutor& dips, JobExecutor& prints, JobExecutor& captures, JobExecutor& workers)
+      : all_{&dips, &prints, &captures, &workers} {}
+
+  [[nodiscard]] JobExecutor& operator[](ExecutorId id) const {
+    return *all_.at(static_cast<std::size_t>(id));
+  }
+  [[nodiscard]] auto begin() const { return all_.begin(); }
+  [[nodiscard]] auto end() const { return all_.end(); }
+
+ private:
+  std::array<JobExecutor*, 4> all_;
+};
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "sim/base/result.h"
+
+namespace google::protobuf {
+class Message;
+}
+
+namespace hydroprint::daemon {
+
+/// Checks a message by the rules of its fields, films and paper sizes as the worker reads them.
+/// @return kInvalidArgument with all wrong fields (rest::bad_request())
+[[nodiscard]] Status check_fields(const google::protobuf::Message& message);
+
+}  // namespace hydroprint::daemon

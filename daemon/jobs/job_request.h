@@ -1,0 +1,18 @@
+#pragma once
+
+#include "daemon/jobs/executor.h"
+#include "daemon/jobs/kind.h"
+
+namespace hydroprint::daemon {
+
+/// Resolves and checks a job that a client sent; see proto/hydroprint/v1/spec.proto for what is
+/// refused. Sets all of the request but NewJob's owner, the key and the lease.
+/// @return what the kind's resolve() refuses, then as check_job()
+[[nodiscard]] Result<JobRequest> job_request(const JobKind& kind, const v1::Job& sent,
+                                             const JobSources& sources);
+
+/// Checks a job whose spec has no references. Sets all of NewJob but owner, digest and retry_of.
+/// @return kInvalidArgument: SPEC_INVALID (metadata field), NAME_INVALID, ID_INVALID
+[[nodiscard]] Result<NewJob> check_job(const v1::Job& job);
+
+}  // namespace hydroprint::daemon

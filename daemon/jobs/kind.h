@@ -1,0 +1,99 @@
+#pragma once
+
+#include <google/protobuf/message.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "daemon/auth/account.h"
+#include "daemon/config/camera_config.h"
+#include "daemon/jobs/executor.h"
+#include "daemon/store/asset_store.h"
+#include "daemon/store/calibration_store.h"
+#include "daemon/store/job_store.h"
+#include "daemon/store/state_layout.h"
+
+namespace hydroprint::daemon {
+
+/// What the references of a spec (earlier jobs, calibrations, the configuration) are resolved with.
+struct JobSources {
+  JobStore& jobs;
+  AssetStore& assets;
+  CalibrationStore& calibrations;
+  const CameraConfig& camera;
+  Layout layout;
+  RigPlace place;  ///< where the rig stands now
+};
+
+/// One kind of job: everything the daemon knows about it. Each has a file in daemon/jobs/kinds, and
+/// kinds derive from KindOf below. Objects are constant and live as long as the program.
+class JobKind {
+ public:
+  virtual ~JobKind() = default;
+  JobKind(const JobKind&) = delete;
+  JobKind& operator=(const JobKind&) = delete;
+
+  /// Its field in the oneof of hydroprint.v1.Job, whose name stands in errors ("print_image").
+  [[nodiscard]] const google::protobuf::FieldDescriptor& field() const { return field_; }
+  /// "print-image": the worker's verb, and the kind in logs and metrics.
+  [[nodiscard]] const std::string& name() const { return name_; }
+
+  /// The role that creating such a job requires.
+  [[nodiscard]] virtual auth::Role least_role() const { return auth::Role::kMaker; }
+  [[nodiscard]] virtual ExecutorId executor() const { return ExecutorId::kWorkers; }
+  [[nodiscard]] virtual JobTraits traits() const { return {}; }
+  /// Whether a job may get the artifacts of an earlier one with the same inputs.
+  [[nodiscard]] virtual bool is_cacheable() const { return true; }
+  /// Why a finished job cannot be retried, to follow "jobs/7 is "; empty if it can.
+  [[nodiscard]] virtual std::string why_no_retry() const { return {}; }
+
+  /// Resolves the references of a spec. Both messages are copies of the spec as it was sent.
+  /// @param shown     becomes the spec that the job shows, with default references named
+  /// @param resolved  becomes the spec that is carried out, without any reference
+  [[nodiscard]] virtual Status resolve(google::protobuf::Message& shown,
+                                       google::protobuf::Message& resolved,
+                                       const JobSources& sources) const = 0;
+  /// Checks what the rules of single fields cannot express: fields that depend on each other, and
+  /// fields that a resolved spec must have. SPEC_INVALID, ID_INVALID
+  [[nodiscard]] virtual Status check(const google::protobuf::Message& resolved) const = 0;
+  /// What a job without a display name is named after ("jobs/3", "mug.obj"): the earlier job that
+  /// its spec refers to, else its first file.
+  [[nodiscard]] virtual std::string subject(const google::protobuf::Message& shown) const;
+  /// The calibration that a successful job produces, read from its (untrusted) artifacts.
+  /// @return nullopt if the kind produces none; kInternal, WORKER_UNUSABLE
+  [[nodiscard]] virtual Result<std::optional<NewCalibration>> calibration(
+      const Job& job, const std::filesystem::path& artifacts) const;
+
+ protected:
+  /// @param spec  the message of the kind
+  explicit JobKind(const google::protobuf::Descriptor& spec);
+
+ private:
+  const google::protobuf::FieldDescriptor& field_;
+  std::string name_;
+};
+
+/// A kind whose spec is the message `Spec`.
+template <class Spec>
+class KindOf : public JobKind {
+ protected:
+  KindOf() : JobKind(*Spec::descriptor()) {}
+  [[nodiscard]] virtual Status resolve_spec(Spec& /*shown*/, Spec& /*resolved*/,
+                                            const JobSources& /*sources*/) const {
+    return {};
+  }
+  [[nodiscard]] virtual Status check_spec(const Spec& /*resolved*/) const { return {}; }
+
+ private:
+  [[nodiscard]] Status resolve(google::protobuf::Message& shown,
+                               google::protobuf::Message& resolved,
+                               const JobSources& sources) const final {
+    return resolve_spec(static_cast<Spec&>(shown), static_cast<Spec&>(resolved), sources);
+  }
+  [[nodiscard]] Status check(const google::protobuf::Message& resolved) const final {
+    return check_spec(static_cast<const Spec&>(resolved));
+  }
+};
+
+}  // namespace hydroprint::daemon

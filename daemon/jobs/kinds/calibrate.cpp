@@ -1,0 +1,146 @@
+// From depth frames to where the object hangs over the film.
+#include "daemon/jobs/adopted_files.h"
+#include "daemon/jobs/calibration_file.h"
+#include "daemon/jobs/kind.h"
+#include "daemon/jobs/spec_fields.h"
+#include "daemon/platform/resource_names.h"
+#include "hydroprint/v1/calibration_service.pb.h"
+#include "hydroprint/v1/job.pb.h"
+#include "sim/base/input_file.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::size_t kLargestCalibration = 4 << 20;
+constexpr const char* kLens = "camera.json";
+
+/// The lens that a spec names, else the active one; nullopt if there is none.
+Result<std::optional<Calibration>> lens_of(const v1::CalibrateSpec& spec,
+                                           CalibrationStore& calibrations) {
+  if (spec.camera_calibration().empty()) return calibrations.active(CalibrationKind::kCamera);
+  HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_calibration_name(spec.camera_calibration()));
+  auto found = calibrations.get(id);
+  if (!found && found.error().code == Code::kNotFound) {
+    return tl::unexpected(Error{Code::kFailedPrecondition,
+                                "calibrate.camera_calibration: " + found.error().message +
+                                    "; name another one, or calibrate the camera",
+                                "CALIBRATION_MISSING",
+                                {{"calibration", spec.camera_calibration()}}});
+  }
+  HP_RETURN_IF_ERROR(found);
+  if (found->made.kind != CalibrationKind::kCamera) {
+    return invalid_field("calibrate.camera_calibration",
+                         "names the calibration of an object; name one of a camera");
+  }
+  return std::optional(std::move(*found));
+}
+
+class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
+ public:
+  [[nodiscard]] auth::Role least_role() const override { return auth::Role::kOperator; }
+  [[nodiscard]] bool is_cacheable() const override { return false; }
+
+  [[nodiscard]] Result<std::optional<NewCalibration>> calibration(
+      const Job& job, const std::filesystem::path& artifacts) const override {
+    v1::Job body;
+    body.ParseFromString(job.made.body);
+    const v1::CalibrateSpec& spec = body.calibrate();
+    v1::Calibration found;
+    HP_ASSIGN_OR_RETURN(const std::string text,
+                        read_text_file(artifacts / "calibration.json", kLargestCalibration));
+    HP_RETURN_IF_ERROR(read_calibration(text, found));
+    take_object(spec, found);
+    found.set_display_name(job.made.display_name);
+    NewCalibration out;
+    out.owner = job.made.owner;
+    out.job = job.id;
+    if (!spec.capture_job().empty()) {
+      HP_ASSIGN_OR_RETURN(out.capture, parse_job_name(spec.capture_job()));
+    }
+    out.body = found.SerializeAsString();
+    return std::optional(std::move(out));
+  }
+
+ private:
+  /// Frames come from the capture job, if one is named; layout, lens and the gripper's height come
+  /// from the configuration, the active calibration of the camera and the capture, if not given.
+  [[nodiscard]] Status resolve_spec(v1::CalibrateSpec& shown, v1::CalibrateSpec& resolved,
+                                    const JobSources& sources) const override {
+    if (!shown.capture_job().empty()) {
+      if (shown.frames_size() > 0) return taken_from("calibrate.frames", "capture_job");
+      HP_RETURN_IF_ERROR(adopt_frames(shown.capture_job(), "calibrate.capture_job", "frames",
+                                      sources, *resolved.mutable_frames()));
+    }
+    HP_RETURN_IF_ERROR(take_layout(resolved, sources));
+    HP_RETURN_IF_ERROR(take_lens(shown, resolved, sources));
+    HP_RETURN_IF_ERROR(take_gripper(shown, sources));
+    if (shown.has_gripper_mm()) resolved.set_gripper_mm(shown.gripper_mm());
+    resolved.clear_capture_job();
+    resolved.clear_camera_calibration();
+    return {};
+  }
+
+  [[nodiscard]] Status check_spec(const v1::CalibrateSpec& spec) const override {
+    HP_RETURN_IF_ERROR(check_polygon(field().name(), spec));
+    HP_RETURN_IF_ERROR(check_frames(field().name(), spec.frames(), 1));
+    if (spec.has_layout()) return {};
+    return invalid_field("calibrate.layout", "is missing");
+  }
+
+  [[nodiscard]] static Status take_layout(v1::CalibrateSpec& spec, const JobSources& sources) {
+    if (spec.has_layout()) return {};
+    if (sources.camera.layout.empty()) {
+      return invalid_field(
+          "calibrate.layout",
+          "is missing, and the daemon's configuration has no camera.layout; give one");
+    }
+    HP_ASSIGN_OR_RETURN(const std::string text, read_layout_text(sources.camera));
+    HP_ASSIGN_OR_RETURN(*spec.mutable_layout(), adopt_text(text, "rig/layout.toml", sources));
+    return {};
+  }
+
+  [[nodiscard]] static Status take_lens(v1::CalibrateSpec& shown, v1::CalibrateSpec& resolved,
+                                        const JobSources& sources) {
+    if (shown.has_camera()) {
+      if (shown.camera_calibration().empty()) return {};
+      return taken_from("calibrate.camera", "camera_calibration");
+    }
+    HP_ASSIGN_OR_RETURN(const auto lens, lens_of(shown, sources.calibrations));
+    if (!lens) return {};
+    shown.set_camera_calibration(calibration_name(lens->id));
+    HP_ASSIGN_OR_RETURN(const Artifact artifact, sources.jobs.artifact(lens->made.job, kLens));
+    HP_ASSIGN_OR_RETURN(
+        *resolved.mutable_camera(),
+        adopt_artifact(lens->made.job, artifact, std::string("rig/") + kLens, sources));
+    return {};
+  }
+
+  /// Where the gripper was, if the configuration and the capture tell.
+  [[nodiscard]] static Status take_gripper(v1::CalibrateSpec& spec, const JobSources& sources) {
+    const auto& gripper_water_mm = sources.camera.gripper_water_mm;
+    if (spec.has_gripper_mm() || spec.capture_job().empty() || !gripper_water_mm) return {};
+    HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(spec.capture_job()));
+    HP_ASSIGN_OR_RETURN(const auto captured, sources.calibrations.capture(id));
+    if (!captured || !captured->place.homed) return {};
+    spec.set_gripper_mm(*gripper_water_mm - captured->place.axis_mm);
+    return {};
+  }
+
+  static void take_object(const v1::CalibrateSpec& spec, v1::Calibration& out) {
+    *out.mutable_mesh() = spec.mesh();
+    out.set_scale(spec.has_scale() ? spec.scale() : 1);
+    out.set_film(spec.film());
+    for (const v1::InputFile& file : spec.extra_files()) {
+      if (spec.film() == "polygon:" + file.name()) *out.mutable_film_file() = file;
+    }
+  }
+};
+
+}  // namespace
+
+const JobKind& calibrate_kind() {
+  static const CalibrateKind kind;
+  return kind;
+}
+
+}  // namespace hydroprint::daemon

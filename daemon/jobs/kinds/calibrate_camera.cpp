@@ -1,0 +1,75 @@
+// From views of the calibration board to the camera's lens.
+#include "daemon/jobs/adopted_files.h"
+#include "daemon/jobs/calibration_file.h"
+#include "daemon/jobs/kind.h"
+#include "daemon/jobs/spec_fields.h"
+#include "daemon/platform/resource_names.h"
+#include "hydroprint/v1/calibration_service.pb.h"
+#include "sim/base/input_file.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr int kMostViews = 30;
+constexpr std::size_t kLargestCamera = 16 << 20;  // with its fixed pattern; as calibrate reads it
+
+class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
+ public:
+  [[nodiscard]] auth::Role least_role() const override { return auth::Role::kOperator; }
+  [[nodiscard]] bool is_cacheable() const override { return false; }
+
+  [[nodiscard]] std::string subject(const google::protobuf::Message& shown) const override {
+    const auto& spec = static_cast<const v1::CalibrateCameraSpec&>(shown);
+    const int views =
+        spec.capture_jobs().empty() ? count_views(spec.frames()) : spec.capture_jobs_size();
+    return "of " + std::to_string(views) + (views == 1 ? " view" : " views");
+  }
+
+  [[nodiscard]] Result<std::optional<NewCalibration>> calibration(
+      const Job& job, const std::filesystem::path& artifacts) const override {
+    v1::Calibration found;
+    HP_ASSIGN_OR_RETURN(const std::string text,
+                        read_text_file(artifacts / "camera.json", kLargestCamera));
+    HP_RETURN_IF_ERROR(read_camera(text, found));
+    found.set_display_name(job.made.display_name);
+    NewCalibration out;
+    out.kind = CalibrationKind::kCamera;
+    out.owner = job.made.owner;
+    out.job = job.id;
+    out.body = found.SerializeAsString();
+    return std::optional(std::move(out));
+  }
+
+ private:
+  /// Frames come from the capture jobs, if any are named.
+  [[nodiscard]] Status resolve_spec(v1::CalibrateCameraSpec& shown,
+                                    v1::CalibrateCameraSpec& resolved,
+                                    const JobSources& sources) const override {
+    if (shown.capture_jobs().empty()) return {};
+    if (shown.frames_size() > 0) return taken_from("calibrate_camera.frames", "capture_jobs");
+    if (shown.capture_jobs_size() > kMostViews) {
+      return invalid_field("calibrate_camera.capture_jobs", "are more than 30");
+    }
+    int view = 0;
+    for (const std::string& capture : shown.capture_jobs()) {
+      HP_RETURN_IF_ERROR(adopt_frames(capture, "calibrate_camera.capture_jobs",
+                                      "view" + std::to_string(++view), sources,
+                                      *resolved.mutable_frames()));
+    }
+    resolved.clear_capture_jobs();
+    return {};
+  }
+
+  [[nodiscard]] Status check_spec(const v1::CalibrateCameraSpec& spec) const override {
+    return check_frames(field().name(), spec.frames(), kMostViews);
+  }
+};
+
+}  // namespace
+
+const JobKind& calibrate_camera_kind() {
+  static const CalibrateCameraKind kind;
+  return kind;
+}
+
+}  // namespace hydroprint::daemon

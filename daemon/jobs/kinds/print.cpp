@@ -1,0 +1,38 @@
+// Sends what a print-image job made to the printer.
+#include "daemon/jobs/kind.h"
+#include "daemon/platform/resource_names.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+class PrintKind final : public KindOf<v1::PrintSpec> {
+ public:
+  [[nodiscard]] ExecutorId executor() const override { return ExecutorId::kPrints; }
+  [[nodiscard]] bool is_cacheable() const override { return false; }
+  [[nodiscard]] JobTraits traits() const override {
+    JobTraits out;
+    out.computed = false;
+    out.reads_artifacts = true;
+    out.interrupted_advice =
+        "the printer may have printed this or not; look before you print again";
+    return out;
+  }
+  [[nodiscard]] std::string why_no_retry() const override {
+    return "a print, which may lie in the printer's tray; look, and create a new one";
+  }
+
+ private:
+  [[nodiscard]] Status check_spec(const v1::PrintSpec& spec) const override {
+    HP_RETURN_IF_ERROR(parse_job_name(spec.print_image_job()));
+    return {};
+  }
+};
+
+}  // namespace
+
+const JobKind& print_kind() {
+  static const PrintKind kind;
+  return kind;
+}
+
+}  // namespace hydroprint::daemon

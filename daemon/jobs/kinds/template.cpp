@@ -1,0 +1,53 @@
+// A page that shows where the object belongs.
+#include "daemon/jobs/kind.h"
+#include "daemon/jobs/referenced_job.h"
+#include "daemon/jobs/spec_fields.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+class TemplateKind final : public KindOf<v1::TemplateSpec> {
+ private:
+  /// The object, its pose and the film come from the simulate job, if one is named.
+  [[nodiscard]] Status resolve_spec(v1::TemplateSpec& shown, v1::TemplateSpec& resolved,
+                                    const JobSources& sources) const override {
+    if (shown.simulate_job().empty()) return {};
+    HP_RETURN_IF_ERROR(take_simulation(resolved, sources));
+    resolved.clear_simulate_job();
+    return {};
+  }
+
+  [[nodiscard]] Status check_spec(const v1::TemplateSpec& spec) const override {
+    if (!spec.has_mesh()) return invalid_field("template.mesh", "is missing");
+    HP_RETURN_IF_ERROR(check_polygon(field().name(), spec));
+    return check_margin(field().name(), spec);
+  }
+
+  [[nodiscard]] static Status take_simulation(v1::TemplateSpec& spec, const JobSources& sources) {
+    const std::string source = "simulate_job";
+    if (spec.has_mesh()) return taken_from("template.mesh", source);
+    if (spec.extra_files_size() > 0) return taken_from("template.extra_files", source);
+    if (spec.has_scale()) return taken_from("template.scale", source);
+    if (spec.has_pose()) return taken_from("template.pose", source);
+    if (spec.has_film()) return taken_from("template.film", source);
+    HP_ASSIGN_OR_RETURN(
+        const EarlierSimulation simulation,
+        earlier_simulation(spec.simulate_job(), "template.simulate_job", sources.jobs));
+    const v1::SimulateSpec& simulated = simulation.spec;
+    *spec.mutable_mesh() = simulated.mesh();
+    *spec.mutable_extra_files() = simulated.extra_files();
+    if (simulated.has_scale()) spec.set_scale(simulated.scale());
+    if (simulated.has_pose()) *spec.mutable_pose() = simulated.pose();
+    if (simulated.has_film()) spec.set_film(simulated.film());
+    return {};
+  }
+};
+
+}  // namespace
+
+const JobKind& template_kind() {
+  static const TemplateKind kind;
+  return kind;
+}
+
+}  // namespace hydroprint::daemon

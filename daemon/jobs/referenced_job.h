@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "daemon/store/job_store.h"
+#include "daemon/store/state_layout.h"
+#include "hydroprint/v1/spec.pb.h"
+
+namespace hydroprint::daemon {
+
+/// A job that another one continues from.
+/// @param name   "jobs/7"
+/// @param kind   that it must be of: "print-image"
+/// @param field  of the spec that names it, for errors
+/// @return ID_INVALID, JOB_NOT_FOUND; SPEC_INVALID if it is of another kind; STATE_FORBIDS if it
+/// did
+///   not succeed
+[[nodiscard]] Result<Job> earlier_job(const std::string& name, const std::string& kind,
+                                      const std::string& field, JobStore& jobs);
+
+/// A simulate job that another one continues from, and its spec.
+struct EarlierSimulation {
+  Job job;
+  v1::SimulateSpec spec;
+};
+/// As earlier_job(); kInternal, STORE_FAILED if its spec cannot be read.
+[[nodiscard]] Result<EarlierSimulation> earlier_simulation(const std::string& name,
+                                                           const std::string& field,
+                                                           JobStore& jobs);
+
+/// Its report.json.
+/// @return kFailedPrecondition, STATE_FORBIDS if that cannot be used
+[[nodiscard]] Result<std::string> report_of(const Job& job, const Layout& layout);
+
+}  // namespace hydroprint::daemon

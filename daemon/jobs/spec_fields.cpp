@@ -1,0 +1,28 @@
+#include "daemon/jobs/spec_fields.h"
+
+#include <algorithm>
+
+namespace hydroprint::daemon {
+
+tl::unexpected<Error> taken_from(const std::string& field, const std::string& source) {
+  return invalid_field(field, "is taken from " + source + "; leave one of the two out");
+}
+
+Status check_frames(const std::string& kind, const InputFiles& frames, int most_views) {
+  const int views = count_views(frames);
+  if (views == 0) {
+    return invalid_field(kind + ".frames",
+                         "have no FOLDER/frames.json; name captures, or upload what "
+                         "hydroprint-capture wrote");
+  }
+  if (views <= most_views) return {};
+  return invalid_field(kind + ".frames", "are of more views than " + std::to_string(most_views));
+}
+
+int count_views(const InputFiles& frames) {
+  return static_cast<int>(std::count_if(
+      frames.begin(), frames.end(),
+      [](const v1::InputFile& file) { return file.name().ends_with("/frames.json"); }));
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+
+#include "daemon/platform/resource_names.h"
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/print/settings.h"
+
+namespace hydroprint::daemon {
+
+// Checks that several kinds have in common, of fields that depend on each other; the rules of
+// single fields stand in the .proto. A `Spec` is a message of proto/hydroprint/v1/spec.proto that
+// has these fields; `kind` is the kind's field ("print_image"), for errors.
+
+using InputFiles = google::protobuf::RepeatedPtrField<v1::InputFile>;
+
+/// Refuses a field whose value comes from elsewhere: "is taken from simulate_job; ...".
+[[nodiscard]] tl::unexpected<Error> taken_from(const std::string& field, const std::string& source);
+
+/// Frames as hydroprint-capture wrote them: for each view a folder with frames.json.
+[[nodiscard]] Status check_frames(const std::string& kind, const InputFiles& frames,
+                                  int most_views);
+/// How many folders of frames there are.
+[[nodiscard]] int count_views(const InputFiles& frames);
+
+/// A film that is a polygon must be among the extra files.
+template <class Spec>
+[[nodiscard]] Status check_polygon(const std::string& kind, const Spec& spec) {
+  if (!spec.film().starts_with("polygon:")) return {};
+  for (const v1::InputFile& file : spec.extra_files()) {
+    if (spec.film() == "polygon:" + file.name()) return {};
+  }
+  return invalid_field(kind + ".film", "names a polygon that is not in extra_files");
+}
+
+/// Only the sheet moves with inertia.
+template <class Spec>
+[[nodiscard]] Status check_inertia(const std::string& kind, const Spec& spec) {
+  if (!spec.inertia() || spec.model() != v1::MODEL_STOKES) return {};
+  return invalid_field(kind + ".inertia",
+                       "Stokes flow has none; leave it out or let the model be sheet");
+}
+
+/// There must be room between the margins of the paper.
+template <class Spec>
+[[nodiscard]] Status check_margin(const std::string& kind, const Spec& spec) {
+  print::PageSettings page;
+  if (spec.has_paper()) {
+    HP_ASSIGN_OR_RETURN(page.paper_mm, print::parse_paper(spec.paper()));
+  }
+  page.printer_margin_mm = spec.printer_margin_mm();
+  const Status fits = print::check(page);
+  if (fits) return {};
+  return invalid_field(kind + ".printer_margin_mm", fits.error().message);
+}
+
+}  // namespace hydroprint::daemon

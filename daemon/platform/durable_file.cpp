@@ -1,0 +1,131 @@
+#include "daemon/platform/durable_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <vector>
+
+#include "sim/base/sha256.h"
+
+namespace hydroprint::daemon {
+
+UniqueFd& UniqueFd::operator=(UniqueFd&& other) noexcept {
+  if (this != &other) {
+    reset();
+    fd_ = std::exchange(other.fd_, -1);
+  }
+  return *this;
+}
+
+void UniqueFd::reset() {
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = -1;
+}
+
+tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::string_view what) {
+  const int error = errno;
+  const std::string text = path.string() + ": " + std::string(what) + ": ";
+  if (error == ENOSPC || error == EDQUOT) {
+    return fail(Code::kResourceExhausted, text + "the disk is full; make room and try again",
+                "DISK_FULL");
+  }
+  return fail(Code::kInternal,
+              text + std::generic_category().message(error) +
+                  "; check the state folder's disk and permissions",
+              "STORE_FAILED");
+}
+
+Result<UniqueFd> open_file(const std::filesystem::path& path, int flags, unsigned mode) {
+  UniqueFd file(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, mode));
+  if (!file.valid()) return system_failure(path, "cannot be opened");
+  return file;
+}
+
+Status write_at(const UniqueFd& file, const std::filesystem::path& path, std::string_view bytes,
+                std::int64_t offset) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::pwrite(file.get(), bytes.data(), bytes.size(), offset);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return system_failure(path, "cannot be written");
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    offset += count;
+  }
+  return {};
+}
+
+Status write_file(const std::filesystem::path& path, std::string_view bytes) {
+  HP_ASSIGN_OR_RETURN(const UniqueFd file, open_file(path, O_WRONLY | O_CREAT | O_TRUNC));
+  return write_at(file, path, bytes, 0);
+}
+
+Status sync_path(const std::filesystem::path& path) {
+  HP_ASSIGN_OR_RETURN(const UniqueFd file, open_file(path, O_RDONLY));
+  if (::fsync(file.get()) != 0) return system_failure(path, "cannot be made safe on disk");
+  return {};
+}
+
+Status publish(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (::rename(from.c_str(), to.c_str()) != 0) return system_failure(to, "cannot be renamed to");
+  return sync_path(to.parent_path());
+}
+
+Status make_folder(const std::filesystem::path& path) {
+  if (!path.parent_path().empty() && !std::filesystem::exists(path.parent_path())) {
+    HP_RETURN_IF_ERROR(make_folder(path.parent_path()));
+  }
+  if (::mkdir(path.c_str(), 0700) == 0) {
+    return path.has_parent_path() ? sync_path(path.parent_path()) : Status();
+  }
+  if (errno != EEXIST) return system_failure(path, "the folder cannot be made");
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(path, ignored)) {
+    errno = ENOTDIR;
+    return system_failure(path, "is in the way");
+  }
+  return {};
+}
+
+void discard(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::filesystem::remove_all(path, ignored);
+}
+
+Status link_or_copy(const std::filesystem::path& from, const std::filesystem::path& to) {
+  if (::link(from.c_str(), to.c_str()) == 0) return {};
+  if (errno == ENOENT || errno == EEXIST) return system_failure(from, "cannot be linked");
+  std::error_code error;
+  if (!std::filesystem::copy_file(from, to, error)) {
+    errno = error.value();
+    return system_failure(to, "cannot be written");
+  }
+  return {};
+}
+
+Result<std::string> sha256_of_file(const std::filesystem::path& path) {
+  HP_ASSIGN_OR_RETURN(const UniqueFd file, open_file(path, O_RDONLY));
+  std::vector<char> buffer(1 << 20);
+  Sha256 hash;
+  for (;;) {
+    const ssize_t count = ::read(file.get(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return system_failure(path, "cannot be read");
+    if (count == 0) return hash.finish();
+    hash.add({buffer.data(), static_cast<std::size_t>(count)});
+  }
+}
+
+Status check_free_space(const std::filesystem::path& path, std::int64_t bytes) {
+  struct statvfs disk {};
+  if (::statvfs(path.c_str(), &disk) != 0) return system_failure(path, "cannot be looked at");
+  const auto free = static_cast<std::int64_t>(disk.f_bavail * disk.f_frsize);
+  if (free >= bytes) return {};
+  return fail(Code::kResourceExhausted,
+              "the daemon's disk is nearly full (" + std::to_string(free >> 20) + " MiB free, " +
+                  std::to_string(bytes >> 20) + " MiB needed); delete jobs or assets, or make room",
+              "DISK_FULL");
+}
+
+}  // namespace hydroprint::daemon

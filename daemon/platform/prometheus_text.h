@@ -1,0 +1,29 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace hydroprint::daemon {
+
+/// Figures as Prometheus reads them (text format 0.0.4).
+class PrometheusText {
+ public:
+  using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
+
+  /// Begins a figure; its samples follow.
+  /// @param type  "gauge", "counter" or "summary"
+  void begin(const std::string& name, std::string_view type, std::string_view help);
+  /// @param suffix  behind the name: "_sum"
+  void sample(double value, Labels labels = {}, std::string_view suffix = "");
+  /// A figure of one sample.
+  void single(const std::string& name, std::string_view type, std::string_view help, double value);
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string name_, text_;
+};
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "daemon/jobs/executor.h"
+#include "daemon/printing/session.h"
+
+namespace hydroprint::daemon {
+
+/// Carries out prints, one at a time, each in a thread of its own. Any thread may call.
+class PrintExecutor final : public JobExecutor {
+ public:
+  /// @param setup  none: no printer is configured
+  PrintExecutor(std::optional<PrinterConfig> setup, JobStore& jobs, const Layout& layout);
+  /// Stops if stop() was not called.
+  ~PrintExecutor() override;
+
+  /// Refuses what print_plan_of() refuses; kFailedPrecondition, PRINTER_MISSING if no printer is
+  /// configured.
+  [[nodiscard]] Result<Job> check(const JobRequest& request) override;
+  [[nodiscard]] Result<Job> create(const JobRequest& request) override;
+  /// Asks for its end, which comes when the printer says so.
+  [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
+  /// Leaves a print that is under way to the printer, and its job to JobStore::interrupt_all(); a
+  /// few seconds at most.
+  void stop() override;
+
+ private:
+  [[nodiscard]] Status check_printer() const;
+
+  const std::optional<PrinterConfig> setup_;
+  JobStore& jobs_;
+  const Layout layout_;
+  std::mutex mutex_;
+  bool end_ = false;
+  std::unique_ptr<PrintSession> run_;
+  std::thread thread_;
+};
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,91 @@
+#include "daemon/rig/rig_gateway.h"
+
+#include <chrono>
+#include <utility>
+
+#include "daemon/platform/resource_names.h"
+#include "hardware/rig/errors.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::size_t kMostStops = 64;
+// A jog that nobody asked for again is over by then, or at least on its way to rest.
+constexpr std::int64_t kJogMemoryMs = static_cast<std::int64_t>(1000 * rig::kPresence_s) + 50;
+
+std::int64_t steady_ms() {
+  using namespace std::chrono;
+  return duration_cast<milliseconds>(steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+tl::unexpected<Error> no_rig() {
+  return tl::unexpected(
+      Error{Code::kFailedPrecondition,
+            "no rig is configured; set rig.drive and rig.profile, or start hydroprintd with --rig "
+            "and --rig-profile",
+            "RIG_OFFLINE",
+            {{"state", "OFFLINE"}}});
+}
+
+Status RigGateway::check_free() const {
+  if (controller_ == nullptr) return no_rig();
+  if (!claimed_) return {};
+  const std::string name = job_name(dip_);
+  return tl::unexpected(
+      Error{Code::kFailedPrecondition,
+            "the dip " + name + " has the rig to itself until it ends; stop the rig or cancel it",
+            "STATE_FORBIDS",
+            {{"dip", name}}});
+}
+
+Result<std::future<rig::Answer>> RigGateway::order(const std::string& lease_id,
+                                                   const Order& order) {
+  return leases_.with(lease_id, [&]() -> Result<std::future<rig::Answer>> {
+    HP_RETURN_IF_ERROR(check_free());
+    return order(*controller_);
+  });
+}
+
+Result<std::future<rig::Answer>> RigGateway::jog(const std::string& lease_id,
+                                                 double speed_mm_per_s) {
+  return order(lease_id, [&](rig::Controller& controller) {
+    jogged_ms_ = steady_ms();
+    return controller.jog(speed_mm_per_s);
+  });
+}
+
+void RigGateway::note_stop(const std::string& who) {
+  const std::lock_guard lock(stops_mutex_);
+  if (stops_.size() < kMostStops) stops_.push_back(who);
+}
+
+std::vector<std::string> RigGateway::take_stops() {
+  const std::lock_guard lock(stops_mutex_);
+  return std::exchange(stops_, {});
+}
+
+bool RigGateway::jogged_lately() const {
+  const std::int64_t jogged_ms = jogged_ms_;
+  return jogged_ms != 0 && steady_ms() - jogged_ms < kJogMemoryMs;
+}
+
+// A dip goes on: it had the rig at rest before it began, and to itself since.
+void RigGateway::end_jog() {
+  if (controller_ == nullptr || claimed_) return;
+  if (jogged_lately() || controller_->snapshot().condition.motion == rig::Motion::kJog) {
+    controller_->stop();
+  }
+}
+
+Status RigGateway::check_at_rest() const {
+  if (controller_ == nullptr) return no_rig();
+  const rig::Condition condition = controller_->snapshot().condition;
+  auto refusal = rig::step(condition, {rig::Event::Kind::kMove}).refusal;
+  if (!refusal && jogged_lately()) refusal = rig::Refusal::kMotionInProgress;
+  if (!refusal) return {};
+  return tl::unexpected(rig::refused(*refusal, condition));
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,47 @@
+#include "daemon/rig/rig_monitor.h"
+
+#include <chrono>
+#include <utility>
+
+#include "daemon/platform/log.h"
+#include "daemon/rig/to_proto_rig.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::chrono::milliseconds kLook{100};
+
+bool wants_help(v1::Rig::State state) {
+  return state == v1::Rig::OFFLINE || state == v1::Rig::FAULT || state == v1::Rig::ESTOPPED;
+}
+
+}  // namespace
+
+RigMonitor::RigMonitor(RigGateway& gateway, RigReference& places, std::function<void(bool)> tell)
+    : gateway_(gateway),
+      places_(places),
+      tell_(std::move(tell)),
+      thread_(kLook, [this] { look(); }) {}
+
+void RigMonitor::look() {
+  if (const auto expired = gateway_.leases().take_expired()) {
+    gateway_.end_jog();
+    log(LogLevel::kInfo, "lease_expired", {{"holder", expired->holder}});
+  }
+  for (const std::string& who : gateway_.take_stops()) {
+    log(LogLevel::kInfo, "rig_stop_asked", {{"by", who}});
+  }
+  places_.look();
+  const v1::Rig rig = rig_message(gateway_);
+  const bool serving = !wants_help(rig.state());
+  if (told_ != serving) tell_(serving);
+  told_ = serving;
+  const std::string state = v1::Rig::State_Name(rig.state()) + (serving ? "" : " " + rig.cause());
+  if (std::exchange(state_, state) == state || gateway_.controller() == nullptr) return;
+  log(serving ? LogLevel::kInfo : LogLevel::kWarning, "rig_state",
+      {{"state", v1::Rig::State_Name(rig.state())},
+       {"cause", rig.cause()},
+       {"message", rig.trouble()}});
+}
+
+}  // namespace hydroprint::daemon

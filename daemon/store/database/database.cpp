@@ -1,0 +1,166 @@
+#include "daemon/store/database/database.h"
+
+#include <sqlite3.h>
+
+#include <cerrno>
+#include <mutex>
+#include <unordered_map>
+
+namespace hydroprint::daemon {
+namespace {
+
+struct CloseStatement {
+  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+};
+using Statement = std::unique_ptr<sqlite3_stmt, CloseStatement>;
+
+sqlite3_stmt* as_statement(void* statement) { return static_cast<sqlite3_stmt*>(statement); }
+
+// SQLite says "full" where a write finds no room, but not where it stretches or syncs a file.
+bool disk_is_full(sqlite3* db) {
+  const int code = sqlite3_errcode(db), error = sqlite3_system_errno(db);
+  return code == SQLITE_FULL || ((code == SQLITE_IOERR || code == SQLITE_CANTOPEN) &&
+                                 (error == ENOSPC || error == EDQUOT));
+}
+
+tl::unexpected<Error> database_failure(sqlite3* db) {
+  if (disk_is_full(db)) {
+    return fail(Code::kResourceExhausted,
+                "the daemon's disk is full; delete jobs or assets, or make room", "DISK_FULL");
+  }
+  return fail(Code::kInternal,
+              std::string("the job database: ") + sqlite3_errmsg(db) +
+                  "; check the state folder's disk and permissions",
+              "STORE_FAILED");
+}
+
+// Once the log's content is in the database, the log begins anew and has room without growing: so a
+// change that found the disk full may succeed the next time. No harm where that fails too.
+void empty_log(sqlite3* db) {
+  sqlite3_wal_checkpoint_v2(db, nullptr, SQLITE_CHECKPOINT_RESTART, nullptr, nullptr);
+}
+
+// Empty pages in the file, and room in its log, from which the end of a job can still be written
+// when the disk is full. No harm where there is no room for them now.
+void keep_room(sqlite3* db) {
+  sqlite3_exec(db,
+               "BEGIN IMMEDIATE; CREATE TABLE kept_room(bytes BLOB); "
+               "INSERT INTO kept_room VALUES (zeroblob(65536)); DROP TABLE kept_room; COMMIT;",
+               nullptr, nullptr, nullptr);
+  if (sqlite3_get_autocommit(db) == 0) sqlite3_exec(db, "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+int bind(sqlite3_stmt* statement, int index, const DbValue& value) {
+  struct Binder {
+    sqlite3_stmt* statement;
+    int index;
+    int operator()(std::monostate) const { return sqlite3_bind_null(statement, index); }
+    int operator()(std::int64_t number) const {
+      return sqlite3_bind_int64(statement, index, number);
+    }
+    int operator()(double number) const { return sqlite3_bind_double(statement, index, number); }
+    int operator()(const std::string& text) const {
+      return sqlite3_bind_text64(statement, index, text.data(), text.size(), SQLITE_TRANSIENT,
+                                 SQLITE_UTF8);
+    }
+  };
+  return std::visit(Binder{statement, index}, value);
+}
+
+}  // namespace
+
+struct Database::Impl {
+  ~Impl() {
+    statements.clear();
+    sqlite3_close(db);
+  }
+  Result<sqlite3_stmt*> prepared(const std::string& sql) {
+    Statement& statement = statements[sql];
+    if (!statement) {
+      sqlite3_stmt* made = nullptr;
+      if (sqlite3_prepare_v3(db, sql.c_str(), -1, SQLITE_PREPARE_PERSISTENT, &made, nullptr) !=
+          SQLITE_OK) {
+        return database_failure(db);
+      }
+      statement.reset(made);
+    }
+    return statement.get();
+  }
+
+  std::recursive_mutex mutex;  // a transaction holds it round its statements
+  sqlite3* db = nullptr;
+  std::unordered_map<std::string, Statement> statements;
+};
+
+Database::Database() : impl_(std::make_unique<Impl>()) {}
+Database::~Database() = default;
+
+Result<std::unique_ptr<Database>> Database::open(const std::filesystem::path& path,
+                                                 const char* schema) {
+  std::unique_ptr<Database> database(new Database);
+  sqlite3*& db = database->impl_->db;
+  const std::string setup =
+      "PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; "
+      "PRAGMA busy_timeout=5000; BEGIN IMMEDIATE; " +
+      std::string(schema) + " COMMIT;";
+  if (sqlite3_open_v2(path.c_str(), &db, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr) !=
+          SQLITE_OK ||
+      sqlite3_exec(db, setup.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
+    auto failure = database_failure(db);
+    failure.value().message = path.string() + ": " + failure.value().message;
+    return failure;
+  }
+  keep_room(db);
+  empty_log(db);
+  return database;
+}
+
+Status Database::each(const std::string& sql, std::initializer_list<DbValue> values,
+                      const std::function<void(const DbRow&)>& row) {
+  const std::lock_guard lock(impl_->mutex);
+  HP_ASSIGN_OR_RETURN(sqlite3_stmt* const statement, impl_->prepared(sql));
+  int index = 0;
+  for (const DbValue& value : values) bind(statement, ++index, value);
+  int code = sqlite3_step(statement);
+  for (; code == SQLITE_ROW; code = sqlite3_step(statement)) row(DbRow(statement));
+  Status status = code == SQLITE_DONE ? Status() : database_failure(impl_->db);
+  sqlite3_reset(statement);
+  sqlite3_clear_bindings(statement);
+  return status;
+}
+
+Status Database::run(const std::string& sql, std::initializer_list<DbValue> values) {
+  return each(sql, values, [](const DbRow&) {});
+}
+
+Status Database::transaction(const std::function<Status()>& body) {
+  const std::lock_guard lock(impl_->mutex);
+  HP_RETURN_IF_ERROR(run("BEGIN IMMEDIATE"));
+  Status status = body();
+  if (status) status = run("COMMIT");
+  // A failed COMMIT may leave the transaction open; some errors have rolled it back already.
+  if (!status && sqlite3_get_autocommit(impl_->db) == 0) (void)run("ROLLBACK");
+  if (!status && status.error().reason == "DISK_FULL") empty_log(impl_->db);
+  return status;
+}
+
+std::int64_t Database::last_id() const { return sqlite3_last_insert_rowid(impl_->db); }
+std::int64_t Database::changes() const { return sqlite3_changes64(impl_->db); }
+
+std::int64_t DbRow::integer(int column) const {
+  return sqlite3_column_int64(as_statement(statement_), column);
+}
+double DbRow::real(int column) const {
+  return sqlite3_column_double(as_statement(statement_), column);
+}
+std::string DbRow::text(int column) const {
+  const auto* bytes =
+      static_cast<const char*>(sqlite3_column_blob(as_statement(statement_), column));
+  const int size = sqlite3_column_bytes(as_statement(statement_), column);
+  return bytes == nullptr ? std::string() : std::string(bytes, static_cast<std::size_t>(size));
+}
+bool DbRow::is_null(int column) const {
+  return sqlite3_column_type(as_statement(statement_), column) == SQLITE_NULL;
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,143 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/base/result.h"
+
+namespace hydroprint::daemon {
+
+/// States of a job; names and numbers are those of hydroprint.v1.Job.State, where they are
+/// explained.
+enum class JobState : std::int8_t {
+  kQueued = 1,
+  kWaitingForOperator = 2,
+  kRunning = 3,
+  kCancelling = 4,
+  kSucceeded = 5,
+  kFailed = 6,
+  kCancelled = 7,
+  kInterrupted = 8,
+};
+
+/// "RUNNING".
+[[nodiscard]] const char* name_of(JobState state);
+
+/// True once nothing more will happen to the job. (A computation is INTERRUPTED in its history
+/// only, others for good.)
+[[nodiscard]] constexpr bool is_finished(JobState state) {
+  return state == JobState::kSucceeded || state == JobState::kFailed ||
+         state == JobState::kCancelled || state == JobState::kInterrupted;
+}
+
+/// Kinds of event; numbers as in hydroprint.v1.JobEvent.Kind.
+enum class EventKind : std::int8_t { kStateChanged = 1, kProgress = 2, kMoved = 3 };
+
+/// A file a job reads: the name the computation sees and the hash of its bytes.
+struct InputFile {
+  std::string name;
+  std::string sha256;
+  bool operator==(const InputFile&) const = default;
+};
+
+/// What a job does: the worker's verb (also the kind's name), the spec with every reference
+/// resolved as proto3 JSON, and the files.
+struct Work {
+  std::string verb;
+  std::string spec;
+  std::vector<InputFile> inputs;
+  /// Jobs stored before schema version 4 have no spec but the worker's flags ("--dpi=300") and the
+  /// content of the file for --pose.
+  std::vector<std::string> flags = {};
+  std::string pose_json = {};
+};
+
+/// What the store must know about a job's kind.
+struct JobTraits {
+  /// A worker computes it: it is queued, and queued again after the daemon was lost. Other jobs
+  /// start at once, one of each kind at a time, and stay INTERRUPTED.
+  bool computed = true;
+  /// It reads the artifacts of another job, which therefore must not be purged.
+  bool reads_artifacts = false;
+  /// Advice for people, appended to the event if the job is interrupted.
+  std::string interrupted_advice = {};
+};
+
+/// SHA-256 of everything that determines the result of a work; `worker` identifies the program.
+[[nodiscard]] std::string input_digest(const Work& work, const std::string& worker);
+
+/// A client's own id of a request, so that a repeated request is not done twice.
+struct RequestKey {
+  std::string method;
+  std::string id;      ///< empty: the client gave none
+  std::string digest;  ///< SHA-256 of the request's content
+};
+
+/// What makes a job.
+struct NewJob {
+  std::string display_name;
+  std::string owner;
+  std::int32_t priority = 0;
+  std::string body;  ///< display name, labels and spec as the client sent them, serialised
+  Work work;
+  JobTraits traits;
+  std::string digest;         ///< see input_digest()
+  std::int64_t retry_of = 0;  ///< 0: none
+  bool use_cache = true;
+  std::int32_t threads = 0;  ///< 0: the pool decides
+  std::string dip_status;    ///< of a dip: where it begins, a hydroprint.v1.DipStatus, serialised
+};
+
+/// Why a job failed; see hydroprint.v1.JobError.
+struct JobFailure {
+  Error error;
+  std::optional<std::int32_t> exit_status;
+  std::optional<std::int32_t> signal;
+};
+
+/// How far a job is; fractions in [0, 1].
+struct Progress {
+  double fraction = 0;
+  std::string phase;
+  double phase_fraction = 0;
+  std::int64_t eta_ms = 0;  ///< Unix time; 0: unknown
+};
+
+/// A job as it is stored. Times are Unix times in ms, 0 where there is none yet.
+struct Job {
+  std::int64_t id = 0;
+  std::string uid;
+  NewJob made;
+  JobState state = JobState::kQueued;
+  Progress progress;
+  std::int64_t create_ms = 0, start_ms = 0, end_ms = 0, update_ms = 0, purge_ms = 0;
+  std::int64_t version = 0;  ///< increases with every change
+  bool cache_hit = false;
+  bool shared = false;  ///< see hydroprint.v1.Job.shared
+  bool pinned = false;  ///< see hydroprint.v1.Job.pinned; then, as in other cases, purge_ms is 0
+  std::optional<JobFailure> failure;
+  std::string dip_status;  ///< of a dip: where it stands, as NewJob::dip_status
+};
+
+/// Something that happened to a job, as it is stored.
+struct JobEvent {
+  std::int64_t seq = 0;
+  std::int64_t time_ms = 0;
+  std::int64_t job = 0;
+  EventKind kind = EventKind::kStateChanged;
+  JobState state = JobState::kQueued;
+  Progress progress;
+  std::string message;
+};
+
+/// One file of a finished job.
+struct Artifact {
+  std::string name;
+  std::int64_t size_bytes = 0;
+  std::string sha256;
+  std::string media_type;
+};
+
+}  // namespace hydroprint::daemon

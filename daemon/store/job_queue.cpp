@@ -1,0 +1,95 @@
+// The queue's side of the job store: what waits, in which place, and whether it moves on.
+#include <algorithm>
+
+#include "daemon/platform/resource_names.h"
+#include "daemon/store/job_rows.h"
+#include "daemon/store/job_store.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+// Puts the ranks the jobs already have, and their priorities, in the new order.
+std::vector<WaitingJob> reordered(std::vector<WaitingJob> jobs, std::int64_t id,
+                                  std::int64_t before) {
+  std::vector<std::int64_t> ranks;
+  ranks.reserve(jobs.size());
+  for (const WaitingJob& job : jobs) ranks.push_back(job.rank);
+  std::sort(ranks.begin(), ranks.end());
+  const auto is = [](std::int64_t wanted) {
+    return [wanted](const WaitingJob& job) { return job.id == wanted; };
+  };
+  const auto from = std::find_if(jobs.begin(), jobs.end(), is(id));
+  WaitingJob moved = *from;
+  jobs.erase(from);
+  const auto place = std::find_if(jobs.begin(), jobs.end(), is(before));
+  if (place != jobs.end()) moved.priority = place->priority;
+  if (place == jobs.end() && !jobs.empty()) moved.priority = jobs.back().priority;
+  jobs.insert(place, moved);
+  for (std::size_t i = 0; i < jobs.size(); ++i) jobs[i].rank = ranks[i];
+  return jobs;
+}
+
+tl::unexpected<Error> cannot_move(std::int64_t id, const std::string& why) {
+  return fail(Code::kFailedPrecondition, job_name(id) + " " + why, "STATE_FORBIDS");
+}
+
+}  // namespace
+
+Result<std::vector<WaitingJob>> JobStore::waiting() {
+  std::vector<WaitingJob> jobs;
+  HP_RETURN_IF_ERROR(database_.each(
+      "SELECT id, owner, priority, rank FROM jobs WHERE state=? ORDER BY priority DESC, rank",
+      {static_cast<std::int64_t>(JobState::kQueued)}, [&](const DbRow& row) {
+        jobs.push_back({row.integer(0), row.text(1), static_cast<std::int32_t>(row.integer(2)),
+                        row.integer(3)});
+      }));
+  return jobs;
+}
+
+Result<Job> JobStore::move(std::int64_t id, std::int64_t before) {
+  return changed(id, [&](const Job& job) -> Status {
+    if (job.state != JobState::kQueued) return cannot_move(id, "is not queued; it stays as it is");
+    HP_ASSIGN_OR_RETURN(std::vector<WaitingJob> all, waiting());
+    std::erase_if(all, [&](const WaitingJob& other) { return other.owner != job.made.owner; });
+    const bool there = std::any_of(all.begin(), all.end(),
+                                   [&](const WaitingJob& other) { return other.id == before; });
+    if (before != 0 && !there) {
+      HP_RETURN_IF_ERROR(select_job(database_, before));
+      return cannot_move(before, "is not a queued job of the same owner; name one that is");
+    }
+    if (before == id) return {};
+    for (const WaitingJob& place : reordered(all, id, before)) {
+      HP_RETURN_IF_ERROR(
+          database_.run("UPDATE jobs SET rank=?, priority=?, version=version+1 WHERE id=?",
+                        {place.rank, std::int64_t{place.priority}, place.id}));
+    }
+    return add_event(id, EventKind::kMoved, "");
+  });
+}
+
+Result<Job> JobStore::share(std::int64_t id, bool shared) {
+  return changed(id, [&](const Job&) {
+    return database_.run("UPDATE jobs SET shared=?, update_ms=?, version=version+1 WHERE id=?",
+                         {std::int64_t{shared}, clock_(), id});
+  });
+}
+
+Result<QueuePause> JobStore::pause() {
+  QueuePause pause;
+  HP_RETURN_IF_ERROR(
+      database_.each("SELECT value FROM settings WHERE name='pause'", {}, [&](const DbRow& row) {
+        pause = {true, row.text(0)};
+      }));
+  return pause;
+}
+
+Status JobStore::set_pause(const QueuePause& pause) {
+  Status status =
+      pause.paused
+          ? database_.run("INSERT OR REPLACE INTO settings VALUES ('pause', ?)", {pause.reason})
+          : database_.run("DELETE FROM settings WHERE name='pause'");
+  notifier_.ring();
+  return status;
+}
+
+}  // namespace hydroprint::daemon

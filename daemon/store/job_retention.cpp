@@ -1,0 +1,99 @@
+// How long the job store keeps what is finished.
+#include <algorithm>
+#include <cstdlib>
+
+#include "daemon/platform/durable_file.h"
+#include "daemon/platform/log.h"
+#include "daemon/platform/resource_names.h"
+#include "daemon/store/database/retention_clock.h"
+#include "daemon/store/idempotency.h"
+#include "daemon/store/job_rows.h"
+#include "daemon/store/job_store.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+// Of jobs that are not kept for another reason than their time.
+constexpr const char* kIsDue =
+    "purge_ms>0 AND purge_ms<=?1 AND pinned=0 AND NOT EXISTS (SELECT 1 FROM calibrations WHERE "
+    "calibrations.job=jobs.id)";
+
+constexpr std::int64_t kWorthLogging_ms = 60 * 1000;
+
+void log_jump(std::int64_t jump_ms) {
+  if (std::abs(jump_ms) < kWorthLogging_ms) return;
+  log(LogLevel::kWarning, "clock_jumped",
+      {{"by_s", jump_ms / 1000},
+       {"message",
+        "the daemon was off for more than a day, or the clock was set; all retention times moved "
+        "with it"}});
+}
+
+}  // namespace
+
+// Of finished jobs that `where` (with one value) picks.
+Status JobStore::set_purge_time(const std::string& where, std::int64_t value) {
+  const std::int64_t keep = options_.keep_finished_ms, keep_dips = options_.keep_dips_ms;
+  const bool for_ever = keep == 0 || keep_dips == 0;
+  return database_.run(
+      "UPDATE jobs SET purge_ms=coalesce(keep_from_ms+nullif(CASE WHEN EXISTS(SELECT 1 FROM dips "
+      "WHERE job=jobs.id) THEN ?2 ELSE ?3 END, 0), 0) WHERE " +
+          std::string(where).replace(where.find('?'), 1, "?1"),
+      {value, for_ever ? std::int64_t{0} : std::max(keep, keep_dips), keep});
+}
+
+Result<Job> JobStore::pin(std::int64_t id, bool pinned) {
+  return changed(id, [&](const Job& job) -> Status {
+    if (job.pinned == pinned) return {};
+    const std::int64_t now = clock_();
+    HP_RETURN_IF_ERROR(
+        database_.run("UPDATE jobs SET pinned=?, update_ms=?, version=version+1 WHERE id=?",
+                      {std::int64_t{pinned}, now, id}));
+    if (pinned || !is_finished(job.state)) return {};
+    HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET keep_from_ms=? WHERE id=?", {now, id}));
+    return set_purge_time("id=?", id);
+  });
+}
+
+// Unless somebody has just pinned it.
+Status JobStore::purge_one(std::int64_t id) {
+  bool is_gone = false;
+  std::string owner, name;
+  const Status done = database_.transaction([&]() -> Status {
+    HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
+    if (!is_finished(job.state)) return {};
+    HP_RETURN_IF_ERROR(database_.run(std::string("DELETE FROM jobs WHERE ") + kIsDue + " AND id=?2",
+                                     {clock_(), id}));
+    is_gone = database_.changes() > 0;
+    owner = job.made.owner;
+    name = job.made.display_name;
+    return {};
+  });
+  HP_RETURN_IF_ERROR(done);
+  if (!is_gone) return {};
+  discard(layout_.artifacts(id));
+  log(LogLevel::kInfo, "job_deleted",
+      {{"job", id}, {"owner", owner}, {"name", name}, {"why", "its time was up"}});
+  notifier_.ring();
+  return {};
+}
+
+Status JobStore::purge() {
+  HP_ASSIGN_OR_RETURN(const std::int64_t jump_ms, follow_clock(database_, clock_()));
+  log_jump(jump_ms);
+  HP_ASSIGN_OR_RETURN(
+      const auto readers,
+      select_numbers(database_,
+                     "SELECT 1 FROM jobs WHERE state IN (2,3,4) AND reads_artifacts=1 LIMIT 1",
+                     {}));
+  HP_ASSIGN_OR_RETURN(const auto old, select_numbers(database_,
+                                                     std::string("SELECT id FROM jobs WHERE ") +
+                                                         kIsDue + " ORDER BY purge_ms, id",
+                                                     {clock_()}));
+  for (const std::int64_t id : old) {
+    if (readers.empty()) HP_RETURN_IF_ERROR(purge_one(id));
+  }
+  return forget_old_requests(database_, clock_());
+}
+
+}  // namespace hydroprint::daemon

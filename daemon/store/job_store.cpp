@@ -1,0 +1,473 @@
+#include "daemon/store/job_store.h"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+#include "daemon/platform/durable_file.h"
+#include "daemon/platform/resource_names.h"
+#include "daemon/store/asset_owners.h"
+#include "daemon/store/calibration_store.h"
+#include "daemon/store/idempotency.h"
+#include "daemon/store/job_rows.h"
+#include "daemon/store/set_aside.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::int64_t kMostLosses = 3;
+
+std::int64_t number(JobState state) { return static_cast<std::int64_t>(state); }
+std::int64_t number(EventKind kind) { return static_cast<std::int64_t>(kind); }
+
+tl::unexpected<Error> state_forbids(const Job& job, const std::string& remedy) {
+  auto error =
+      fail(Code::kFailedPrecondition,
+           job_name(job.id) + " is " + name_of(job.state) + "; " + remedy, "STATE_FORBIDS");
+  error.value().metadata["state"] = name_of(job.state);
+  return error;
+}
+
+}  // namespace
+
+std::int64_t system_clock_ms() {
+  using std::chrono::milliseconds;
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<milliseconds>(now).count();
+}
+
+JobStore::JobStore(Database& database, const Layout& layout, const JobStoreOptions& options,
+                   Clock clock)
+    : database_(database), layout_(layout), options_(options), clock_(std::move(clock)) {}
+
+Status JobStore::check_inputs(const std::vector<InputFile>& inputs) {
+  for (const InputFile& input : inputs) {
+    HP_ASSIGN_OR_RETURN(
+        const auto found,
+        select_numbers(database_, "SELECT 1 FROM assets WHERE sha256=?", {input.sha256}));
+    if (found.empty()) return asset_missing(input);
+  }
+  return {};
+}
+
+Status JobStore::check_queue() {
+  HP_ASSIGN_OR_RETURN(const auto queued,
+                      select_numbers(database_, "SELECT count(*) FROM jobs WHERE state=?",
+                                     {number(JobState::kQueued)}));
+  if (queued.front() >= options_.max_queued) {
+    return fail(Code::kResourceExhausted,
+                "the queue is full (" + std::to_string(options_.max_queued) +
+                    " jobs); try again when some are done",
+                "QUEUE_FULL");
+  }
+  return {};
+}
+
+Result<std::int64_t> JobStore::insert(const NewJob& made) {
+  const JobTraits& traits = made.traits;
+  const bool is_dip = !made.dip_status.empty();
+  const JobState state = traits.computed ? JobState::kQueued
+                         : is_dip        ? JobState::kWaitingForOperator
+                                         : JobState::kRunning;
+  HP_RETURN_IF_ERROR(traits.computed ? check_queue() : check_none_open(made.work.verb));
+  HP_RETURN_IF_ERROR(check_job_quota(database_, made.owner, options_.quota, traits.computed));
+  HP_RETURN_IF_ERROR(check_inputs(made.work.inputs));
+  const std::int64_t now = clock_();
+  HP_RETURN_IF_ERROR(database_.run(
+      "INSERT INTO jobs(uid, display_name, owner, priority, rank, body, verb, spec, flags, pose, "
+      "computed, reads_artifacts, interrupted_advice, threads, digest, retry_of, use_cache, state, "
+      "start_ms, create_ms, update_ms) VALUES (?,?,?,?,0,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+      {make_uuid(),
+       made.display_name,
+       made.owner,
+       std::int64_t{made.priority},
+       made.body,
+       made.work.verb,
+       made.work.spec,
+       join_lines(made.work.flags),
+       made.work.pose_json,
+       std::int64_t{traits.computed},
+       std::int64_t{traits.reads_artifacts},
+       traits.interrupted_advice,
+       std::int64_t{made.threads},
+       made.digest,
+       made.retry_of,
+       std::int64_t{made.use_cache},
+       number(state),
+       state == JobState::kRunning ? now : 0,
+       now,
+       now}));
+  const std::int64_t id = database_.last_id();
+  // Later jobs rank behind earlier ones; moving permutes ranks.
+  HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET rank=id WHERE id=?", {id}));
+  for (const InputFile& input : made.work.inputs) {
+    HP_RETURN_IF_ERROR(
+        database_.run("INSERT INTO job_inputs VALUES (?,?,?)", {id, input.name, input.sha256}));
+    HP_RETURN_IF_ERROR(
+        database_.run("UPDATE assets SET use_ms=? WHERE sha256=?", {now, input.sha256}));
+  }
+  if (is_dip) HP_RETURN_IF_ERROR(store_dip_status(id, made.dip_status));
+  HP_RETURN_IF_ERROR(add_event(id, EventKind::kStateChanged, ""));
+  return id;
+}
+
+Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
+  std::int64_t id = 0, inserted = 0;
+  const Status done = database_.transaction([&]() -> Status {
+    HP_ASSIGN_OR_RETURN(const auto earlier,
+                        earlier_result(database_, made.owner, request, clock_()));
+    if (earlier) {
+      id = parse_number(*earlier);
+      return {};
+    }
+    HP_ASSIGN_OR_RETURN(inserted, insert(made));
+    id = inserted;
+    HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
+    if (made.traits.computed) HP_RETURN_IF_ERROR(adopt_cached(job));
+    return remember_result(database_, made.owner, request, std::to_string(id), clock_());
+  });
+  if (!done && inserted != 0) discard_unowned(inserted);
+  HP_RETURN_IF_ERROR(done);
+  notifier_.ring();
+  return get(id);
+}
+
+// Gives a job the artifacts of one with the same inputs, if there is one.
+Result<bool> JobStore::adopt_cached(const Job& job) {
+  if (!job.made.use_cache) return false;
+  HP_ASSIGN_OR_RETURN(
+      const auto equal,
+      select_numbers(database_,
+                     "SELECT id FROM jobs WHERE digest=? AND state=? ORDER BY id DESC LIMIT 1",
+                     {job.made.digest, number(JobState::kSucceeded)}));
+  if (equal.empty()) return false;
+  HP_ASSIGN_OR_RETURN(const auto files,
+                      select_artifacts(database_, "WHERE job=? ORDER BY name", {equal.front()}));
+  const auto folder = layout_.artifacts(job.id);
+  discard(folder);
+  HP_RETURN_IF_ERROR(make_folder(folder));
+  for (const Artifact& file : files) {
+    const auto from = layout_.artifacts(equal.front()) / file.name;
+    if (link_or_copy(from, folder / file.name)) continue;
+    discard(folder);  // damaged: compute it again
+    return false;
+  }
+  HP_RETURN_IF_ERROR(sync_path(folder));
+  HP_RETURN_IF_ERROR(store_artifacts(job.id, files));
+  HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET cache_hit=1, fraction=1 WHERE id=?", {job.id}));
+  HP_RETURN_IF_ERROR(finish(job.id, JobState::kSucceeded,
+                            "same inputs as " + job_name(equal.front()) + ": its artifacts"));
+  return true;
+}
+
+// Deletes the artifacts' folder of a job that has none: adopted, then not stored.
+void JobStore::discard_unowned(std::int64_t id) {
+  (void)database_.transaction([&]() -> Status {
+    HP_ASSIGN_OR_RETURN(const auto owner,
+                        select_numbers(database_, "SELECT id FROM jobs WHERE id=? AND state=?",
+                                       {id, number(JobState::kSucceeded)}));
+    if (owner.empty()) discard(layout_.artifacts(id));
+    return {};
+  });
+}
+
+Status JobStore::store_artifacts(std::int64_t id, const std::vector<Artifact>& artifacts) {
+  for (const Artifact& file : artifacts) {
+    HP_RETURN_IF_ERROR(
+        database_.run("INSERT INTO artifacts VALUES (?,?,?,?,?)",
+                      {id, file.name, file.size_bytes, file.sha256, file.media_type}));
+  }
+  return {};
+}
+
+Status JobStore::add_event(std::int64_t id, EventKind kind, const std::string& message) {
+  return database_.run(
+      "INSERT INTO events(job, time_ms, kind, state, fraction, phase, phase_fraction, eta_ms, "
+      "message) SELECT id, ?, ?, state, fraction, phase, phase_fraction, eta_ms, ? FROM jobs "
+      "WHERE id=?",
+      {clock_(), number(kind), message, id});
+}
+
+Status JobStore::change(std::int64_t id, JobState state, const std::string& message) {
+  HP_RETURN_IF_ERROR(
+      database_.run("UPDATE jobs SET state=?, update_ms=?, version=version+1 WHERE id=?",
+                    {number(state), clock_(), id}));
+  return add_event(id, EventKind::kStateChanged, message);
+}
+
+Status JobStore::finish(std::int64_t id, JobState state, const std::string& message) {
+  const std::int64_t now = clock_();
+  HP_RETURN_IF_ERROR(
+      database_.run("UPDATE jobs SET end_ms=?1, keep_from_ms=?1, phase='', phase_fraction=0, "
+                    "eta_ms=0 WHERE id=?2",
+                    {now, id}));
+  HP_RETURN_IF_ERROR(set_purge_time("id=?", id));
+  HP_RETURN_IF_ERROR(database_.run("DELETE FROM events WHERE job=? AND kind=?",
+                                   {id, number(EventKind::kProgress)}));
+  return change(id, state, message);
+}
+
+// Changes one job within a transaction and returns it as it is afterwards.
+Result<Job> JobStore::changed(std::int64_t id, const std::function<Status(const Job&)>& body) {
+  Job after;
+  const Status done = database_.transaction([&]() -> Status {
+    HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
+    HP_RETURN_IF_ERROR(body(job));
+    HP_ASSIGN_OR_RETURN(after, select_job(database_, id));
+    return {};
+  });
+  HP_RETURN_IF_ERROR(done);
+  notifier_.ring();
+  return after;
+}
+
+Result<Job> JobStore::get(std::int64_t id) {
+  Result<Job> job = fail(Code::kInternal, "");
+  // One turn, so that the job and its inputs belong together.
+  const Status done = database_.transaction([&]() -> Status {
+    job = select_job(database_, id);
+    return {};
+  });
+  HP_RETURN_IF_ERROR(done);
+  return job;
+}
+
+Result<std::vector<Job>> JobStore::list(const JobFilter& filter) {
+  std::string states;
+  for (const JobState state : filter.states) states += "," + std::to_string(number(state));
+  const std::string where =
+      "WHERE (?1='' OR owner=?1) AND (?2=0 OR id<?2)" +
+      (states.empty() ? std::string() : " AND state IN (" + states.substr(1) + ")") +
+      " ORDER BY id DESC LIMIT ?3";
+  return select_jobs(database_, where,
+                     {filter.owner, filter.before_id, std::int64_t{filter.limit}});
+}
+
+Status JobStore::remove(std::int64_t id) {
+  const Status done = database_.transaction([&]() -> Status {
+    HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
+    if (!is_finished(job.state)) return state_forbids(job, "cancel it first");
+    HP_ASSIGN_OR_RETURN(const std::int64_t calibration, calibration_of_job(database_, id));
+    if (calibration != 0) {
+      return state_forbids(
+          job, "delete " + calibration_name(calibration) + ", which it made, before it");
+    }
+    return database_.run("DELETE FROM jobs WHERE id=?", {id});
+  });
+  HP_RETURN_IF_ERROR(done);
+  discard(layout_.artifacts(id));
+  notifier_.ring();
+  return {};
+}
+
+Result<Job> JobStore::cancel(std::int64_t id) {
+  const auto mark = [&](const Job& job) -> Status {
+    switch (job.state) {
+      case JobState::kQueued:
+        return finish(id, JobState::kCancelled, "");
+      case JobState::kWaitingForOperator:
+      case JobState::kRunning:
+        return change(id, JobState::kCancelling, "");
+      case JobState::kCancelling:
+      case JobState::kCancelled:
+        return {};
+      default:
+        return state_forbids(job, "there is nothing to cancel");
+    }
+  };
+  auto marked = changed(id, mark);
+  // It may be this job that has filled the disk, and the database's log has been emptied since.
+  if (!marked && marked.error().reason == "DISK_FULL") marked = changed(id, mark);
+  return marked;
+}
+
+Result<Job> JobStore::start(std::int64_t id) {
+  auto started = changed(id, [&](const Job& job) -> Status {
+    if (job.state != JobState::kQueued) return state_forbids(job, "only a queued job can start");
+    HP_ASSIGN_OR_RETURN(const bool cached, adopt_cached(job));
+    if (cached) return {};
+    HP_RETURN_IF_ERROR(database_.run(
+        "UPDATE jobs SET start_ms=?, fraction=0, phase='', phase_fraction=0, eta_ms=0 WHERE id=?",
+        {clock_(), id}));
+    return change(id, JobState::kRunning, "");
+  });
+  if (!started && started.error().reason == "DISK_FULL") discard_unowned(id);
+  return started;
+}
+
+Status JobStore::report(std::int64_t id, const Progress& progress) {
+  const Status done = database_.transaction([&]() -> Status {
+    HP_RETURN_IF_ERROR(database_.run(
+        "UPDATE jobs SET fraction=?, phase=?, phase_fraction=?, eta_ms=?, update_ms=?, "
+        "version=version+1 WHERE id=? AND state=?",
+        {progress.fraction, progress.phase, progress.phase_fraction, progress.eta_ms, clock_(), id,
+         number(JobState::kRunning)}));
+    return database_.changes() == 0 ? Status() : add_event(id, EventKind::kProgress, "");
+  });
+  HP_RETURN_IF_ERROR(done);
+  notifier_.ring();
+  return {};
+}
+
+Result<Job> JobStore::succeed(std::int64_t id, const std::vector<Artifact>& artifacts,
+                              const std::optional<NewCalibration>& calibration) {
+  return changed(id, [&](const Job& job) -> Status {
+    if (job.state == JobState::kCancelling) return finish(id, JobState::kCancelled, "");
+    if (job.state != JobState::kRunning) return state_forbids(job, "only a running job can end");
+    HP_RETURN_IF_ERROR(store_artifacts(id, artifacts));
+    HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET fraction=1 WHERE id=?", {id}));
+    if (!calibration) return finish(id, JobState::kSucceeded, "");
+    HP_ASSIGN_OR_RETURN(const std::int64_t made,
+                        insert_calibration(database_, *calibration, clock_()));
+    return finish(id, JobState::kSucceeded, calibration_name(made));
+  });
+}
+
+Result<Job> JobStore::give_up(std::int64_t id, const JobFailure& failure) {
+  return changed(id, [&](const Job& job) -> Status {
+    if (job.state == JobState::kCancelling) return finish(id, JobState::kCancelled, "");
+    if (job.state != JobState::kRunning) return state_forbids(job, "only a running job can end");
+    return store_failure(id, failure);
+  });
+}
+
+Status JobStore::store_failure(std::int64_t id, const JobFailure& failure) {
+  const auto optional = [](const std::optional<std::int32_t>& value) {
+    return value ? DbValue(std::int64_t{*value}) : DbValue();
+  };
+  HP_RETURN_IF_ERROR(database_.run(
+      "UPDATE jobs SET error_code=?, error_reason=?, error_message=?, exit_status=?, signal=? "
+      "WHERE id=?",
+      {static_cast<std::int64_t>(failure.error.code), failure.error.reason, failure.error.message,
+       optional(failure.exit_status), optional(failure.signal), id}));
+  return finish(id, JobState::kFailed, failure.error.message);
+}
+
+Status JobStore::change_running(JobState from, const std::function<Status(std::int64_t)>& to) {
+  HP_ASSIGN_OR_RETURN(const auto ids, ids_in_state(from));
+  for (const std::int64_t id : ids) HP_RETURN_IF_ERROR(to(id));
+  return {};
+}
+
+// A job that takes the machine down with it must not do so at every start.
+Status JobStore::queue_again(std::int64_t id, Interruption why) {
+  if (why == Interruption::kLoss) {
+    HP_RETURN_IF_ERROR(
+        database_.run("INSERT INTO losses VALUES (?,1) ON CONFLICT(job) DO UPDATE SET "
+                      "count=count+1",
+                      {id}));
+    HP_ASSIGN_OR_RETURN(const auto losses,
+                        select_numbers(database_, "SELECT count FROM losses WHERE job=?", {id}));
+    if (losses.front() >= kMostLosses) {
+      const Error lost{Code::kInternal,
+                       "the daemon or its machine was lost " + std::to_string(kMostLosses) +
+                           " times while this job ran, so it is not tried again; look into the "
+                           "daemon's log, and retry it if it was not at fault",
+                       "DAEMON_LOST",
+                       {}};
+      return store_failure(id, {lost, {}, {}});
+    }
+  }
+  return change(id, JobState::kQueued, "queued again");
+}
+
+Status JobStore::interrupt_all(Interruption why) {
+  const std::string words =
+      why == Interruption::kLoss ? "the daemon was restarted" : "the daemon was shut down";
+  const Status done = database_.transaction([&]() -> Status {
+    const auto cancelled = [&](std::int64_t id) { return finish(id, JobState::kCancelled, words); };
+    const auto interrupted = [&](std::int64_t id) -> Status {
+      HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
+      const std::string& advice = job.made.traits.interrupted_advice;
+      return finish(id, JobState::kInterrupted, advice.empty() ? words : words + ": " + advice);
+    };
+    HP_RETURN_IF_ERROR(change_running(JobState::kCancelling, cancelled));
+    HP_RETURN_IF_ERROR(change_running(JobState::kWaitingForOperator, interrupted));
+    return change_running(JobState::kRunning, [&](std::int64_t id) -> Status {
+      HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
+      if (!job.made.traits.computed) return interrupted(id);
+      HP_RETURN_IF_ERROR(change(id, JobState::kInterrupted, words));
+      return queue_again(id, why);
+    });
+  });
+  HP_RETURN_IF_ERROR(done);
+  notifier_.ring();
+  return {};
+}
+
+Result<std::vector<Artifact>> JobStore::artifacts(std::int64_t id, const std::string& after,
+                                                  int limit) {
+  HP_RETURN_IF_ERROR(get(id));
+  return select_artifacts(database_, "WHERE job=? AND name>? ORDER BY name LIMIT ?",
+                          {id, after, std::int64_t{limit}});
+}
+
+Result<Artifact> JobStore::artifact(std::int64_t id, const std::string& name) {
+  HP_RETURN_IF_ERROR(get(id));
+  HP_ASSIGN_OR_RETURN(const auto found,
+                      select_artifacts(database_, "WHERE job=? AND name=?", {id, name}));
+  if (found.empty()) {
+    return fail(Code::kNotFound, job_name(id) + " has no artifact \"" + name + "\"",
+                "ARTIFACT_NOT_FOUND");
+  }
+  return found.front();
+}
+
+Status JobStore::check_was_given(std::int64_t seq) {
+  HP_ASSIGN_OR_RETURN(const std::int64_t newest, last_seq());
+  if (seq >= 0 && seq <= newest) return {};
+  return fail(Code::kOutOfRange,
+              "after_seq: this store never gave event " + std::to_string(seq) +
+                  "; get the job anew and watch without it",
+              "EVENTS_GONE");
+}
+
+Result<std::vector<JobEvent>> JobStore::all_events(std::int64_t after_seq, int limit) {
+  HP_RETURN_IF_ERROR(check_was_given(after_seq));
+  return select_events(database_, "WHERE seq>? ORDER BY seq LIMIT ?",
+                       {after_seq, std::int64_t{limit}});
+}
+
+Result<std::vector<JobEvent>> JobStore::events(std::int64_t id, std::int64_t after_seq, int limit) {
+  HP_RETURN_IF_ERROR(check_was_given(after_seq));
+  return select_events(database_, "WHERE job=? AND seq>? ORDER BY seq LIMIT ?",
+                       {id, after_seq, std::int64_t{limit}});
+}
+
+Result<std::int64_t> JobStore::last_seq() {
+  // Of all events ever, also of those deleted since.
+  HP_ASSIGN_OR_RETURN(
+      const auto newest,
+      select_numbers(database_, "SELECT seq FROM sqlite_sequence WHERE name='events'", {}));
+  return newest.empty() ? 0 : newest.front();
+}
+
+Result<std::vector<std::int64_t>> JobStore::ids_in_state(JobState state) {
+  return select_numbers(database_, "SELECT id FROM jobs WHERE state=? ORDER BY id",
+                        {number(state)});
+}
+
+Result<std::vector<std::int64_t>> JobStore::computing() {
+  return select_numbers(
+      database_, "SELECT id FROM jobs WHERE state IN (?,?) AND computed=1 ORDER BY state, id",
+      {number(JobState::kRunning), number(JobState::kCancelling)});
+}
+
+Status JobStore::sweep() {
+  discard(layout_.runs());
+  HP_RETURN_IF_ERROR(make_folder(layout_.runs()));
+  HP_RETURN_IF_ERROR(make_folder(layout_.artifacts()));
+  HP_RETURN_IF_ERROR(set_purge_time("end_ms>?", 0));
+  HP_ASSIGN_OR_RETURN(const auto done,
+                      select_numbers(database_, "SELECT DISTINCT job FROM artifacts", {}));
+  const std::set<std::int64_t> owned(done.begin(), done.end());
+  SetAside set_aside(layout_, clock_());
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(layout_.artifacts(), ignored)) {
+    if (owned.contains(parse_number(entry.path().filename().string()))) continue;
+    HP_RETURN_IF_ERROR(set_aside.move(entry.path()));
+  }
+  return {};
+}
+
+}  // namespace hydroprint::daemon

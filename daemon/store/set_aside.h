@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "daemon/store/state_layout.h"
+#include "sim/base/result.h"
+
+namespace hydroprint::daemon {
+
+/// Moves files that the database does not know out of the way. Most are leftovers of a crash, but
+/// if the database is missing or an older copy was put back, they are people's results, so nothing
+/// is deleted. Writes one log line at the end that says how many were moved, and where.
+class SetAside {
+ public:
+  explicit SetAside(const Layout& layout, std::int64_t now_ms);
+  ~SetAside();
+  SetAside(const SetAside&) = delete;
+  SetAside& operator=(const SetAside&) = delete;
+
+  /// Moves a file or folder of the state folder to `set-aside/TIME/`, under the same relative path.
+  /// Empty folders are deleted.
+  [[nodiscard]] Status move(const std::filesystem::path& path);
+
+ private:
+  const Layout& layout_;
+  std::filesystem::path folder_;
+  int count_ = 0;
+};
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace hydroprint::daemon {
+
+/// Where things are in the state folder.
+struct Layout {
+  std::filesystem::path root;
+
+  [[nodiscard]] std::filesystem::path lock() const { return root / "lock"; }
+  [[nodiscard]] std::filesystem::path database() const { return root / "hydroprint.db"; }
+  [[nodiscard]] std::filesystem::path assets() const { return root / "assets"; }
+  [[nodiscard]] std::filesystem::path asset(const std::string& sha256) const {
+    return assets() / sha256.substr(0, 2) / sha256.substr(2);
+  }
+  [[nodiscard]] std::filesystem::path uploads() const { return root / "uploads"; }
+  [[nodiscard]] std::filesystem::path upload(const std::string& id) const { return uploads() / id; }
+  /// Folders of the jobs that run now: their inputs, and where they write until it is published.
+  [[nodiscard]] std::filesystem::path runs() const { return root / "runs"; }
+  [[nodiscard]] std::filesystem::path run(std::int64_t job) const {
+    return runs() / std::to_string(job);
+  }
+  [[nodiscard]] std::filesystem::path run_inputs(std::int64_t job) const { return run(job) / "in"; }
+  [[nodiscard]] std::filesystem::path run_work(std::int64_t job) const { return run(job) / "work"; }
+  [[nodiscard]] std::filesystem::path run_out(std::int64_t job) const {
+    return run_work(job) / "out";
+  }
+  /// The job's spec, apart from its inputs, whose names it might collide with.
+  [[nodiscard]] std::filesystem::path run_spec(std::int64_t job) const {
+    return run_work(job) / "spec.json";
+  }
+  /// The pose of a job whose options are stored as flags.
+  [[nodiscard]] std::filesystem::path run_pose(std::int64_t job) const {
+    return run_work(job) / "pose.json";
+  }
+  /// The resident worker of one who is shown previews.
+  [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {
+    return runs() / ("preview-" + std::to_string(number));
+  }
+  /// What a restore unpacks, and what says that it has not finished putting it in place.
+  [[nodiscard]] std::filesystem::path restoring() const { return root / "restoring"; }
+  [[nodiscard]] std::filesystem::path unrestored() const { return root / "unrestored"; }
+  /// The process that shows what the camera sees.
+  [[nodiscard]] std::filesystem::path live_camera() const { return runs() / "live-camera"; }
+  /// Files that the database does not know; see SetAside.
+  [[nodiscard]] std::filesystem::path set_aside() const { return root / "set-aside"; }
+  /// Records of dips that are not finished.
+  [[nodiscard]] std::filesystem::path dips() const { return root / "dips"; }
+  [[nodiscard]] std::filesystem::path dip(std::int64_t job) const {
+    return dips() / std::to_string(job);
+  }
+  [[nodiscard]] std::filesystem::path artifacts() const { return root / "artifacts"; }
+  [[nodiscard]] std::filesystem::path artifacts(std::int64_t job) const {
+    return artifacts() / std::to_string(job);
+  }
+};
+
+}  // namespace hydroprint::daemon

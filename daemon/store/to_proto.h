@@ -1,0 +1,45 @@
+#pragma once
+
+#include <google/protobuf/timestamp.pb.h>
+
+#include <string>
+
+#include "daemon/store/asset_store.h"
+#include "daemon/store/job.h"
+#include "hydroprint/v1/artifact_service.pb.h"
+#include "hydroprint/v1/asset_service.pb.h"
+#include "hydroprint/v1/job.pb.h"
+#include "sim/base/sha256.h"
+
+namespace hydroprint::daemon {
+
+/// A wall clock's milliseconds since 1970 as the API shows them, and as text
+/// ("2026-11-22T02:05:39Z").
+[[nodiscard]] google::protobuf::Timestamp time_of(std::int64_t ms);
+[[nodiscard]] std::string time_text(std::int64_t ms);
+
+/// What is stored as the API shows it.
+[[nodiscard]] v1::Job to_message(const Job& job);
+[[nodiscard]] v1::JobEvent to_message(const JobEvent& event);
+[[nodiscard]] v1::Artifact to_message(std::int64_t job, const Artifact& artifact);
+[[nodiscard]] v1::Asset to_message(const Asset& asset);
+[[nodiscard]] v1::Upload to_message(const Upload& upload);
+
+/// The message that says what the job does, whatever its kind; null if the job has none.
+[[nodiscard]] const google::protobuf::Message* spec_of(const v1::Job& job);
+
+/// SHA-256 of a request's content without its request_id, to tell a repeated one from another one.
+template <class Request>
+[[nodiscard]] RequestKey request_key(const char* method, const Request& request);
+
+/// The same bytes for the same content (maps sorted).
+[[nodiscard]] std::string deterministic_bytes(const google::protobuf::Message& message);
+
+template <class Request>
+RequestKey request_key(const char* method, const Request& request) {
+  Request content = request;
+  content.clear_request_id();
+  return {method, request.request_id(), sha256(deterministic_bytes(content))};
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,179 @@
+#include "daemon/workers/child_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+
+#include "daemon/workers/landlock.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+struct Pipe {
+  UniqueFd read;
+  UniqueFd write;
+};
+
+// Both ends above the descriptors that the child puts in place; ours does not block.
+Result<Pipe> make_pipe(UniqueFd Pipe::*ours = &Pipe::read) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return system_failure("pipe", "cannot be made");
+  const UniqueFd low_read(ends[0]), low_write(ends[1]);
+  Pipe pipe{UniqueFd(::fcntl(ends[0], F_DUPFD_CLOEXEC, 10)),
+            UniqueFd(::fcntl(ends[1], F_DUPFD_CLOEXEC, 10))};
+  if (!pipe.read.valid() || !pipe.write.valid() ||
+      ::fcntl((pipe.*ours).get(), F_SETFL, O_NONBLOCK) != 0) {
+    return system_failure("pipe", "cannot be made");
+  }
+  return pipe;
+}
+
+/// What a worker finds at stdin.
+Result<Pipe> make_stdin(bool is_asked) {
+  if (is_asked) return make_pipe(&Pipe::write);
+  const UniqueFd null(::open("/dev/null", O_RDWR | O_CLOEXEC));
+  return Pipe{UniqueFd(::fcntl(null.get(), F_DUPFD_CLOEXEC, 10)), {}};
+}
+
+// Little of the daemon's environment reaches a worker: what sanitizers and the loader need.
+std::vector<std::string> make_environment(const std::filesystem::path& work) {
+  std::vector<std::string> out{"PATH=/usr/bin:/bin", "LANG=C.UTF-8", "HOME=" + work.string(),
+                               "TMPDIR=" + work.string()};
+  for (const char* name :
+       {"LD_LIBRARY_PATH", "ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS"}) {
+    if (const char* value = std::getenv(name)) out.push_back(std::string(name) + "=" + value);
+  }
+  return out;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& strings) {
+  std::vector<char*> out;
+  out.reserve(strings.size() + 1);
+  for (std::string& text : strings) out.push_back(text.data());
+  out.push_back(nullptr);
+  return out;
+}
+
+// All that the child needs, made before fork: afterwards only calls that take no lock are safe.
+struct ChildPlan {
+  const char* program;
+  char* const* arguments;
+  char* const* environment;
+  const char* folder;
+  int requests, progress, errors, answer, fence;
+  pid_t parent;
+  bool confined;
+};
+
+[[noreturn]] void give_up(const char* what) {
+  const char* const reason = ::strerrordesc_np(errno);
+  for (const char* part : {"the worker cannot be started: ", what, ": ", reason, "\n"}) {
+    if (::write(2, part, std::strlen(part)) < 0) break;
+  }
+  ::_exit(127);
+}
+
+[[noreturn]] void become_worker(const ChildPlan& plan, const Limits& limits,
+                                const Sandbox& sandbox) {
+  ::dup2(plan.errors, 2);
+  ::dup2(plan.requests, 0);
+  ::dup2(plan.answer, 1);
+  ::dup2(plan.progress, kProgressFd);
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != plan.parent) ::_exit(127);  // the daemon died before that took effect
+  sigset_t none;
+  ::sigemptyset(&none);
+  ::sigprocmask(SIG_SETMASK, &none, nullptr);
+  ::signal(SIGPIPE, SIG_DFL);
+  if (::chdir(plan.folder) != 0) give_up(plan.folder);
+  if (const char* problem =
+          plan.confined ? sandbox.confine(limits, plan.fence) : Sandbox::limit_use(limits)) {
+    give_up(problem);
+  }
+  ::close_range(kProgressFd + 1, ~0U, 0);
+  ::execve(plan.program, plan.arguments, plan.environment);
+  give_up(plan.program);
+}
+
+}  // namespace
+
+std::vector<std::string> spec_options(const std::filesystem::path& spec_file) {
+  return {"--spec=" + spec_file.string(), "--inputs=."};
+}
+
+Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox) {
+  HP_ASSIGN_OR_RETURN(Pipe progress, make_pipe());
+  HP_ASSIGN_OR_RETURN(Pipe errors, make_pipe());
+  HP_ASSIGN_OR_RETURN(Pipe answer, make_pipe());
+  HP_ASSIGN_OR_RETURN(Pipe requests, make_stdin(what.is_asked));
+  HP_ASSIGN_OR_RETURN(const UniqueFd fence, make_fence(what.program, what.inputs, what.work));
+  std::vector<std::string> arguments = what.arguments;
+  arguments.insert(arguments.begin(), what.program.string());
+  std::vector<std::string> environment = make_environment(what.work);
+  const std::vector<char*> argv = pointers(arguments), envp = pointers(environment);
+  const ChildPlan plan{what.program.c_str(), argv.data(),         envp.data(),
+                       what.inputs.c_str(),  requests.read.get(), progress.write.get(),
+                       errors.write.get(),   answer.write.get(),  fence.get(),
+                       ::getpid(),           what.confined};
+  ChildProcess worker;
+  worker.pid = ::fork();
+  if (worker.pid == 0) become_worker(plan, what.limits, sandbox);
+  if (worker.pid < 0) {
+    return fail(Code::kInternal,
+                std::string("no worker can be started: ") + std::strerror(errno) +
+                    "; the machine is short of processes or memory",
+                "WORKER_UNUSABLE");
+  }
+  ::setpgid(worker.pid, worker.pid);
+  worker.handle = UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, worker.pid, 0)));
+  worker.progress = std::move(progress.read);
+  worker.errors = std::move(errors.read);
+  worker.answer = std::move(answer.read);
+  worker.requests = std::move(requests.write);
+  return worker;
+}
+
+void signal_group(const ChildProcess& worker, int signal) {
+  if (worker.pid > 0) ::kill(-worker.pid, signal);
+}
+
+int kill_and_wait(const ChildProcess& worker) {
+  int wait_status = 0;
+  if (worker.pid <= 0) return wait_status;
+  signal_group(worker, SIGKILL);
+  while (::waitpid(worker.pid, &wait_status, 0) < 0 && errno == EINTR) {
+  }
+  return wait_status;
+}
+
+bool drain(const UniqueFd& pipe, std::string& bytes, std::size_t most) {
+  std::array<char, 16 << 10> buffer{};
+  for (std::size_t read = 0; read < most;) {
+    const ssize_t count = ::read(pipe.get(), buffer.data(), buffer.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno == EAGAIN;
+    if (count == 0) return false;
+    bytes.append(buffer.data(), static_cast<std::size_t>(count));
+    read += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+std::int64_t resident_bytes(const ChildProcess& worker) {
+  std::ifstream file("/proc/" + std::to_string(worker.pid) + "/statm");
+  std::int64_t total = 0, resident = 0;
+  file >> total >> resident;
+  return file ? resident * ::sysconf(_SC_PAGESIZE) : 0;
+}
+
+}  // namespace hydroprint::daemon

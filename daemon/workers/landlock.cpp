@@ -1,0 +1,80 @@
+#include "daemon/workers/landlock.h"
+
+#include <fcntl.h>
+#include <linux/landlock.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::uint64_t kRead = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
+constexpr std::uint64_t kWrite = LANDLOCK_ACCESS_FS_WRITE_FILE | LANDLOCK_ACCESS_FS_REMOVE_DIR |
+                                 LANDLOCK_ACCESS_FS_REMOVE_FILE | LANDLOCK_ACCESS_FS_MAKE_CHAR |
+                                 LANDLOCK_ACCESS_FS_MAKE_DIR | LANDLOCK_ACCESS_FS_MAKE_REG |
+                                 LANDLOCK_ACCESS_FS_MAKE_SOCK | LANDLOCK_ACCESS_FS_MAKE_FIFO |
+                                 LANDLOCK_ACCESS_FS_MAKE_BLOCK | LANDLOCK_ACCESS_FS_MAKE_SYM;
+constexpr std::array kSystem{"/usr", "/lib",  "/lib64", "/lib32", "/bin",
+                             "/etc", "/proc", "/sys",   "/dev",   "/opt"};
+constexpr std::uint64_t kOnFiles = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE;
+
+// The version of Landlock; 0 if there is none.
+long version() {
+  const long answer =
+      ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
+  return answer > 0 ? answer : 0;
+}
+
+// The right to move files between folders came with the second version; before, nobody has it.
+std::uint64_t move_right() { return version() >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0; }
+
+// Allows what is below a path; one that is not there needs no rule.
+bool allow(const UniqueFd& rules, const std::filesystem::path& path, std::uint64_t access) {
+  const UniqueFd place(::open(path.c_str(), O_PATH | O_CLOEXEC));
+  if (!place.valid()) return errno == ENOENT || errno == EACCES;
+  if (!std::filesystem::is_directory(path)) access &= kOnFiles;
+  const landlock_path_beneath_attr rule{access, place.get()};
+  return ::syscall(SYS_landlock_add_rule, rules.get(), LANDLOCK_RULE_PATH_BENEATH, &rule, 0) == 0;
+}
+
+}  // namespace
+
+bool fences_work() { return version() > 0; }
+
+bool is_within_fence(const std::filesystem::path& file, const std::filesystem::path& program) {
+  std::error_code ignored;
+  const std::filesystem::path real = std::filesystem::weakly_canonical(file, ignored);
+  const auto is_below = [&](const std::filesystem::path& folder) {
+    return std::mismatch(folder.begin(), folder.end(), real.begin(), real.end()).first ==
+           folder.end();
+  };
+  return std::any_of(kSystem.begin(), kSystem.end(), is_below) ||
+         is_below(std::filesystem::weakly_canonical(program, ignored).parent_path());
+}
+
+Result<UniqueFd> make_fence(const std::filesystem::path& program,
+                            const std::filesystem::path& inputs,
+                            const std::filesystem::path& work) {
+  if (!fences_work()) return UniqueFd();
+  const landlock_ruleset_attr everything{kRead | kWrite | move_right()};
+  const UniqueFd low(
+      static_cast<int>(::syscall(SYS_landlock_create_ruleset, &everything, sizeof everything, 0)));
+  // Above the descriptors that a worker's are put at.
+  UniqueFd rules(::fcntl(low.get(), F_DUPFD_CLOEXEC, 10));
+  bool good = rules.valid();
+  for (const char* path : kSystem) good = good && allow(rules, path, kRead);
+  good = good && allow(rules, "/dev/null", kOnFiles) &&
+         allow(rules, program.parent_path(), kRead) && allow(rules, inputs, kRead) &&
+         allow(rules, work, kRead | kWrite | move_right());
+  if (!good) return system_failure("landlock", "the worker's files cannot be fenced off");
+  return rules;
+}
+
+bool enter_fence(int fence) {
+  return fence < 0 || ::syscall(SYS_landlock_restrict_self, fence, 0) == 0;
+}
+
+}  // namespace hydroprint::daemon

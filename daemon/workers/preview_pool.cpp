@@ -1,0 +1,218 @@
+#include "daemon/workers/preview_pool.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "daemon/platform/log.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+// Each has a mesh in memory.
+constexpr std::size_t kMostSeats = 4;
+constexpr std::chrono::seconds kKept{120};
+constexpr std::chrono::seconds kTimeLimit{30};
+constexpr std::chrono::milliseconds kLook{50};
+constexpr int kLookAgain_ms = 500;
+
+tl::unexpected<Error> shutting_down() {
+  return fail(Code::kUnavailable, "the daemon is shutting down; try again when it is back",
+              "SHUTTING_DOWN");
+}
+
+/// What a worker's answer says of a request, if it is one of that number.
+std::optional<Result<PreviewFrame>> answer_to(std::int64_t id, PreviewFrame frame) {
+  const auto head = nlohmann::json::parse(frame.head, nullptr, /*allow_exceptions=*/false);
+  const auto told = head.find("id");
+  if (told == head.end() || !told->is_number_integer() || *told != id) return {};
+  const auto error = head.find("error");
+  if (error == head.end()) return frame;
+  const std::string message =
+      error->is_object() && error->contains("message") && error->at("message").is_string()
+          ? error->at("message").get<std::string>()
+          : "the worker refused it without a word";
+  return fail(Code::kInvalidArgument, message, "PREVIEW_REFUSED");
+}
+
+}  // namespace
+
+struct PreviewPool::Call {
+  std::int64_t id = 0;
+  PreviewRequest ask;
+  bool sent = false;
+  SteadyTime deadline;
+  std::optional<Result<Previewed>> result;
+};
+
+struct PreviewPool::Slot {
+  std::unique_ptr<PreviewWorker> worker;
+  std::shared_ptr<const PreviewFrame> mesh;  // once the worker told it
+  std::shared_ptr<Call> call;                // the one that waits, if any
+  SteadyTime used;
+};
+
+Result<std::unique_ptr<PreviewPool>> PreviewPool::make(PreviewOptions options,
+                                                       const Layout& layout) {
+  HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
+  std::unique_ptr<PreviewPool> made(
+      new PreviewPool(std::move(options), layout, std::move(sandbox)));
+  made->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
+  if (!made->wake_.valid()) return system_failure("eventfd", "cannot be made");
+  made->thread_ = std::thread([&pool = *made] { pool.work(); });
+  return made;
+}
+
+PreviewPool::PreviewPool(PreviewOptions options, Layout layout, Sandbox sandbox)
+    : options_(std::move(options)), layout_(std::move(layout)), sandbox_(std::move(sandbox)) {}
+
+PreviewPool::~PreviewPool() { stop(); }
+
+void PreviewPool::stop() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  ::eventfd_write(wake_.get(), 1);
+  if (thread_.joinable()) thread_.join();
+}
+
+Result<Previewed> PreviewPool::compute(const std::string& owner, const PreviewRequest& ask,
+                                       const std::function<bool()>& gone) {
+  std::unique_lock lock(mutex_);
+  HP_ASSIGN_OR_RETURN(const std::shared_ptr<Call> call, place(owner, ask));
+  ::eventfd_write(wake_.get(), 1);
+  while (!call->result) {
+    answered_.wait_for(lock, kLook);
+    if (call->result || !gone()) continue;
+    const auto slot = slots_.find(owner);
+    if (slot != slots_.end() && slot->second->call == call) slot->second->call = nullptr;
+    return fail(Code::kCancelled, "the caller left");
+  }
+  return std::move(*call->result);
+}
+
+/// Gives the owner a slot, whose call before ends.
+Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string& owner,
+                                                              const PreviewRequest& ask) {
+  if (stopping_) return shutting_down();
+  if (!slots_.contains(owner) && !make_room()) {
+    return fail(Code::kResourceExhausted,
+                "as many people as can be are shown previews; try again in a moment",
+                "PREVIEWS_FULL");
+  }
+  std::unique_ptr<Slot>& slot = slots_[owner];
+  if (!slot) slot = std::make_unique<Slot>();
+  if (slot->call) {
+    finish(*slot, fail(Code::kAborted, "a newer preview was asked for; this one is not wanted",
+                       "PREVIEW_SUPERSEDED"));
+  }
+  const auto now = SteadyClock::now();
+  slot->used = now;
+  slot->call = std::make_shared<Call>(Call{++last_id_, ask, false, now + kTimeLimit, {}});
+  return slot->call;
+}
+
+/// Frees the slot that was not used for longest, if all are taken and one waits for nothing.
+bool PreviewPool::make_room() {
+  if (slots_.size() < kMostSeats) return true;
+  auto oldest = slots_.end();
+  for (auto slot = slots_.begin(); slot != slots_.end(); ++slot) {
+    if (slot->second->call || (oldest != slots_.end() && oldest->second->used < slot->second->used))
+      continue;
+    oldest = slot;
+  }
+  if (oldest == slots_.end()) return false;
+  slots_.erase(oldest);
+  return true;
+}
+
+void PreviewPool::work() {
+  std::unique_lock lock(mutex_);
+  while (!stopping_) {
+    const auto now = SteadyClock::now();
+    for (const auto& [owner, slot] : slots_) serve(*slot, now);
+    std::erase_if(slots_, [&](const auto& entry) {
+      return !entry.second->call && now - entry.second->used > kKept;
+    });
+    wait(lock);
+  }
+  for (const auto& [owner, slot] : slots_) {
+    if (slot->call) finish(*slot, shutting_down());
+  }
+  slots_.clear();
+}
+
+/// Waits until there may be something to do.
+void PreviewPool::wait(std::unique_lock<std::mutex>& lock) {
+  std::vector<pollfd> fds{{wake_.get(), POLLIN, 0}};
+  for (const auto& [owner, slot] : slots_) {
+    if (slot->worker) fds.push_back({slot->worker->answers_fd(), POLLIN, 0});
+  }
+  lock.unlock();
+  ::poll(fds.data(), fds.size(), kLookAgain_ms);
+  eventfd_t rings = 0;
+  ::eventfd_read(wake_.get(), &rings);
+  lock.lock();
+}
+
+void PreviewPool::serve(Slot& slot, SteadyTime now) {
+  if (slot.call && !slot.call->sent) begin(slot);
+  if (!slot.worker) return;
+  for (PreviewFrame& frame : slot.worker->read()) take(slot, std::move(frame));
+  if (const auto& failure = slot.worker->failure()) {
+    if (slot.call) finish(slot, tl::unexpected(*failure));
+    slot.worker = nullptr;
+  } else if (slot.call && now > slot.call->deadline) {
+    finish(slot, fail(Code::kResourceExhausted,
+                      "the preview took longer than 30 s; simplify the mesh, or submit it as a job",
+                      "TIME_LIMIT"));
+    slot.worker = nullptr;
+  }
+}
+
+/// Sends the call to the slot's worker, or to a new one if that has another mesh.
+void PreviewPool::begin(Slot& slot) {
+  Call& call = *slot.call;
+  call.sent = true;
+  if (!slot.worker || slot.worker->key() != call.ask.key) {
+    slot.mesh = nullptr;
+    slot.worker = nullptr;
+    auto started = PreviewWorker::start(call.ask, call.id, options_.program, options_.limits,
+                                        options_.threads, sandbox_, layout_);
+    if (!started) return finish(slot, tl::unexpected(started.error()));
+    slot.worker = std::move(*started);
+    log(LogLevel::kDebug, "preview_worker_started", {{"preview", call.id}});
+  }
+  slot.worker->ask(call.id, call.ask.dip);
+}
+
+void PreviewPool::take(Slot& slot, PreviewFrame frame) {
+  if (!slot.mesh) {
+    slot.mesh = std::make_shared<const PreviewFrame>(std::move(frame));
+    return;
+  }
+  if (!slot.call) return;
+  auto answer = answer_to(slot.call->id, std::move(frame));
+  if (!answer) return;  // of a call that has ended
+  slot.used = SteadyClock::now();
+  if (!*answer) return finish(slot, tl::unexpected(answer->error()));
+  finish(slot, Previewed{slot.mesh, std::move(**answer)});
+}
+
+void PreviewPool::finish(Slot& slot, Result<Previewed> result) {
+  slot.call->result = std::move(result);
+  slot.call = nullptr;
+  answered_.notify_all();
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include "daemon/workers/preview_worker.h"
+
+namespace hydroprint::daemon {
+
+/// How previews are computed.
+struct PreviewOptions {
+  std::filesystem::path program;
+  int threads = 1;
+  Limits limits;
+};
+
+/// An answer, with the mesh that it is of.
+struct Previewed {
+  std::shared_ptr<const PreviewFrame> mesh;
+  PreviewFrame dip;
+};
+
+/// Shows people how dips would go while they turn an object: a worker for each of them, which has
+/// the mesh in memory for as long as somebody asks. The latest call of a caller counts.
+class PreviewPool {
+ public:
+  /// @return kFailedPrecondition if workers cannot be confined
+  [[nodiscard]] static Result<std::unique_ptr<PreviewPool>> make(PreviewOptions options,
+                                                                 const Layout& layout);
+  ~PreviewPool();
+  PreviewPool(const PreviewPool&) = delete;
+  PreviewPool& operator=(const PreviewPool&) = delete;
+
+  /// Waits for the answer.
+  /// @param gone  whether the caller has left, asked now and then
+  /// @return kAborted, PREVIEW_SUPERSEDED; kResourceExhausted, PREVIEWS_FULL, TIME_LIMIT or
+  ///   MEMORY_LIMIT; kUnavailable, SHUTTING_DOWN; kCancelled; what the worker refuses
+  [[nodiscard]] Result<Previewed> compute(const std::string& owner, const PreviewRequest& ask,
+                                          const std::function<bool()>& gone);
+  /// Ends all of it; whoever waits is told.
+  void stop();
+
+ private:
+  using SteadyTime = std::chrono::steady_clock::time_point;
+  struct Call;
+  struct Slot;
+
+  PreviewPool(PreviewOptions options, Layout layout, Sandbox sandbox);
+  [[nodiscard]] Result<std::shared_ptr<Call>> place(const std::string& owner,
+                                                    const PreviewRequest& ask);
+  [[nodiscard]] bool make_room();
+  void work();
+  void serve(Slot& slot, SteadyTime now);
+  void begin(Slot& slot);
+  void take(Slot& slot, PreviewFrame frame);
+  void wait(std::unique_lock<std::mutex>& lock);
+  void finish(Slot& slot, Result<Previewed> result);
+
+  PreviewOptions options_;
+  Layout layout_;
+  Sandbox sandbox_;
+  UniqueFd wake_;
+  std::mutex mutex_;
+  std::condition_variable answered_;
+  std::map<std::string, std::unique_ptr<Slot>> slots_;  // by owner
+  std::int64_t last_id_ = 0;
+  bool stopping_ = false;
+  std::thread thread_;  // starts all workers, which die with it
+};
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,95 @@
+#include "daemon/workers/preview_worker.h"
+
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <utility>
+
+#include "daemon/platform/durable_file.h"
+#include "daemon/store/artifact_files.h"
+#include "daemon/workers/worker_outcome.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::size_t kMostBytes = 256 << 20;
+constexpr std::size_t kAtOnce = 4 << 20;
+constexpr std::size_t kWordsKept = 16 << 10;
+constexpr int kToEnd_ms = 500;
+
+Error unusable() {
+  return {Code::kInternal,
+          "the worker says what no preview says; check that workers.program is hydroprint-worker",
+          "WORKER_UNUSABLE",
+          {}};
+}
+
+}  // namespace
+
+PreviewWorker::PreviewWorker(std::string key, std::filesystem::path folder)
+    : key_(std::move(key)), folder_(std::move(folder)) {}
+
+PreviewWorker::~PreviewWorker() {
+  if (worker_.pid > 0) kill_and_wait(worker_);
+  discard(folder_);
+}
+
+Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
+    const PreviewRequest& ask, std::int64_t number, const std::filesystem::path& program,
+    const Limits& limits, int threads, const Sandbox& sandbox, const Layout& layout) {
+  std::unique_ptr<PreviewWorker> made(new PreviewWorker(ask.key, layout.preview(number)));
+  Launch plan;
+  plan.program = program;
+  plan.arguments = {"preview", "--threads=" + std::to_string(threads)};
+  plan.inputs = made->folder_ / "in";
+  plan.work = made->folder_ / "work";
+  plan.limits = limits;
+  plan.is_asked = true;
+  HP_RETURN_IF_ERROR(lay_out_inputs(layout, ask.inputs, plan.inputs));
+  HP_RETURN_IF_ERROR(make_folder(plan.work));
+  const auto spec_file = plan.work / "spec.json";
+  HP_RETURN_IF_ERROR(write_file(spec_file, ask.spec));
+  for (std::string& option : spec_options(spec_file)) plan.arguments.push_back(std::move(option));
+  HP_ASSIGN_OR_RETURN(made->worker_, launch(plan, sandbox));
+  return made;
+}
+
+void PreviewWorker::ask(std::int64_t id, const std::string& dip) {
+  const std::string line = "{\"id\":" + std::to_string(id) + (dip.empty() ? "" : ",") + dip + "}\n";
+  // A few hundred bytes: a pipe takes all of them or none.
+  ssize_t written = 0;
+  do {
+    written = ::write(worker_.requests.get(), line.data(), line.size());
+  } while (written < 0 && errno == EINTR);
+  if (written != static_cast<ssize_t>(line.size())) judge_end();
+}
+
+std::vector<PreviewFrame> PreviewWorker::read() {
+  std::vector<PreviewFrame> frames;
+  if (failure_) return frames;
+  const bool goes_on = drain(worker_.answer, bytes_, kAtOnce);
+  for (;;) {
+    auto frame = cut_framed(bytes_, kMostBytes);
+    if (!frame) failure_ = unusable();
+    if (!frame || !*frame) break;
+    frames.push_back(std::move(**frame));
+  }
+  if (!goes_on && !failure_) judge_end();
+  return frames;
+}
+
+void PreviewWorker::judge_end() {
+  // It closes its pipes a little before it has ended.
+  pollfd ended{worker_.handle.get(), POLLIN, 0};
+  ::poll(&ended, 1, kToEnd_ms);
+  (void)drain(worker_.errors, words_, kWordsKept);
+  int wait_status = 0;
+  if (::waitpid(worker_.pid, &wait_status, WNOHANG) == 0) wait_status = kill_and_wait(worker_);
+  worker_.pid = -1;
+  const auto why = judge(wait_status, StoppedFor::kNothing, words_);
+  failure_ = why ? why->error : unusable();
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/store/state_layout.h"
+#include "daemon/workers/child_process.h"
+#include "daemon/workers/message_framing.h"
+#include "daemon/workers/preview_request.h"
+
+namespace hydroprint::daemon {
+
+/// One answer of `hydroprint-worker preview`.
+using PreviewFrame = FramedMessage;
+
+/// A confined worker that has a mesh in memory and answers requests, the first of all with the mesh
+/// itself. Belongs to the thread that started it.
+class PreviewWorker {
+ public:
+  /// @param number  names its folder, which is deleted with it
+  /// @return kFailedPrecondition, ASSET_MISSING; kInternal, WORKER_UNUSABLE
+  [[nodiscard]] static Result<std::unique_ptr<PreviewWorker>> start(
+      const PreviewRequest& ask, std::int64_t number, const std::filesystem::path& program,
+      const Limits& limits, int threads, const Sandbox& sandbox, const Layout& layout);
+  ~PreviewWorker();
+  PreviewWorker(const PreviewWorker&) = delete;
+  PreviewWorker& operator=(const PreviewWorker&) = delete;
+
+  /// What it can answer; see PreviewRequest.
+  [[nodiscard]] const std::string& key() const { return key_; }
+  [[nodiscard]] int answers_fd() const { return worker_.answer.get(); }
+
+  /// Sends a request; one that cannot take it has come to its end.
+  void ask(std::int64_t id, const std::string& dip);
+  /// What it has answered by now.
+  [[nodiscard]] std::vector<PreviewFrame> read();
+  /// Why it ended, once it has; also one that says what no preview says.
+  [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
+
+ private:
+  PreviewWorker(std::string key, std::filesystem::path folder);
+  void judge_end();
+
+  std::string key_;
+  std::filesystem::path folder_;
+  ChildProcess worker_;
+  std::string bytes_;  // read, and no whole frame yet
+  std::string words_;
+  std::optional<Error> failure_;
+};
+
+}  // namespace hydroprint::daemon

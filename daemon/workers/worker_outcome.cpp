@@ -1,0 +1,211 @@
+#include "daemon/workers/worker_outcome.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "hydroprint/v1/error_reason.pb.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::size_t kLongestMessage = 1000;
+constexpr std::size_t kLongestPhase = 64;
+
+// Printable ASCII and well-formed UTF-8 pass; everything else becomes '?'.
+std::string printable(std::string_view text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    std::size_t length = c < 0x80 ? 1 : c >= 0xc2 && c < 0xe0 ? 2 : c >= 0xe0 && c < 0xf0 ? 3 : 0;
+    bool good = length != 0 && i + length <= text.size() && c >= ' ' && c != 0x7f;
+    for (std::size_t j = 1; good && j < length; ++j) {
+      good = (static_cast<unsigned char>(text[i + j]) & 0xc0) == 0x80;
+    }
+    // Overlong forms, surrogates and C1 controls.
+    if (good && length > 1) {
+      const auto d = static_cast<unsigned char>(text[i + 1]);
+      good = !(c == 0xe0 && d < 0xa0) && !(c == 0xed && d >= 0xa0) && !(c == 0xc2 && d < 0xa0);
+    }
+    if (!good) length = 1;
+    out += good ? std::string(text.substr(i, length)) : "?";
+    i += length;
+  }
+  return out;
+}
+
+// Cuts at a character's border.
+std::string shortened(std::string text, std::size_t longest) {
+  if (text.size() <= longest) return text;
+  while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0) == 0x80) --longest;
+  return text.substr(0, longest);
+}
+
+bool out_of_memory(const std::string& words) {
+  return words.find("out of memory") != std::string::npos ||
+         words.find("bad_alloc") != std::string::npos ||
+         words.find("cannot allocate memory") != std::string::npos;
+}
+
+JobFailure failure(Code code, std::string reason, std::string message) {
+  return {{code, std::move(message), std::move(reason), {}}, {}, {}};
+}
+
+JobFailure memory_failure() {
+  return failure(Code::kResourceExhausted, "MEMORY_LIMIT",
+                 "the worker needed more memory than it may use; simplify the model, lower dpi, or "
+                 "raise workers.memory_mib");
+}
+
+JobFailure time_failure() {
+  return failure(Code::kResourceExhausted, "TIME_LIMIT",
+                 "the worker took longer than it may; simplify the model, lower dpi, or raise "
+                 "workers.time_limit_s");
+}
+
+bool out_of_disk(const std::string& words) {
+  return words.find("the disk is full") != std::string::npos ||
+         words.find("No space left on device") != std::string::npos;
+}
+
+JobFailure disk_failure() {
+  return failure(Code::kResourceExhausted, "DISK_FULL",
+                 "the artifacts do not fit on the daemon's disk; delete jobs or assets, make room, "
+                 "or lower dpi, and retry");
+}
+
+JobFailure output_failure() {
+  return failure(Code::kResourceExhausted, "OUTPUT_LIMIT",
+                 "the worker wrote a larger file than it may; lower dpi or raise "
+                 "workers.file_mib");
+}
+
+JobFailure judge_exit(int status, const std::string& words) {
+  if (out_of_memory(words) && status != 2) return memory_failure();
+  if (out_of_disk(words)) return disk_failure();
+  if (words.find("limit on file sizes") != std::string::npos) return output_failure();
+  switch (status) {
+    case 2:
+    case 3:
+      return failure(Code::kInvalidArgument, "INPUT_REFUSED",
+                     words.empty() ? "the worker refused its input without a word" : words);
+    case 4:
+      return failure(Code::kInternal, "COMPUTATION_FAILED",
+                     words.empty() ? "the computation failed without a word" : words);
+    case 127:
+      return failure(Code::kInternal, "WORKER_UNUSABLE",
+                     words.empty() ? "the worker cannot be started; check workers.program" : words);
+    case 130:
+      return failure(Code::kCancelled, "WORKER_KILLED", "the worker was interrupted from outside");
+    default:
+      return failure(Code::kInternal, "COMPUTATION_FAILED",
+                     "the worker ended with status " + std::to_string(status) +
+                         (words.empty() ? "" : ": " + words));
+  }
+}
+
+JobFailure judge_signal(int signal, const std::string& words) {
+  if (signal == SIGXCPU) return time_failure();
+  if (signal == SIGXFSZ) return output_failure();
+  if (out_of_memory(words)) return memory_failure();
+  if (signal == SIGKILL || signal == SIGTERM) {
+    return failure(Code::kInternal, "WORKER_KILLED",
+                   "the worker was killed (signal " + std::to_string(signal) +
+                       ") by someone or by a machine short of memory; try again");
+  }
+  return failure(Code::kInternal, "WORKER_KILLED",
+                 "the worker crashed (signal " + std::to_string(signal) + ", " +
+                     std::string(::strsignal(signal)) +
+                     "); please report it together with the model");
+}
+
+// The reason that a program printed for its failure, if it is one that the API has.
+std::optional<std::string> told_reason(std::string_view answer) {
+  const std::string line = last_line(answer);
+  // Deeply nested text would exhaust the parser's stack.
+  if (std::count(line.begin(), line.end(), '{') > 3 || line.find('[') != std::string::npos) {
+    return std::nullopt;
+  }
+  const auto object = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+  const nlohmann::json::json_pointer place("/error/reason");
+  if (!object.is_object() || !object.contains(place) || !object.at(place).is_string()) {
+    return std::nullopt;
+  }
+  const auto reason = object.at(place).get<std::string>();
+  v1::ErrorReason known = v1::ERROR_REASON_UNSPECIFIED;
+  if (!v1::ErrorReason_Parse(reason, &known)) return std::nullopt;
+  return reason;
+}
+
+std::optional<double> fraction(const nlohmann::json& object, const char* key) {
+  const auto found = object.find(key);
+  if (found == object.end() || !found->is_number()) return std::nullopt;
+  const double value = found->get<double>();
+  if (!std::isfinite(value)) return std::nullopt;
+  return std::clamp(value, 0.0, 1.0);
+}
+
+}  // namespace
+
+std::string last_line(std::string_view errors) {
+  const std::size_t end = errors.find_last_not_of(" \t\r\n");
+  if (end == std::string_view::npos) return {};
+  errors = errors.substr(0, end + 1);
+  const std::size_t newline = errors.rfind('\n');
+  if (newline != std::string_view::npos) errors.remove_prefix(newline + 1);
+  return shortened(printable(errors), kLongestMessage);
+}
+
+std::optional<JobFailure> judge(int wait_status, StoppedFor stopped, std::string_view errors,
+                                std::string_view answer) {
+  const std::string words = last_line(errors);
+  if (WIFEXITED(wait_status) && WEXITSTATUS(wait_status) == 0) return std::nullopt;
+  JobFailure out;
+  if (stopped == StoppedFor::kTime) {
+    out = time_failure();
+  } else if (stopped == StoppedFor::kMemory) {
+    out = memory_failure();
+  } else if (WIFEXITED(wait_status)) {
+    out = judge_exit(WEXITSTATUS(wait_status), words);
+    std::string& reason = out.error.reason;
+    if (reason == "INPUT_REFUSED" || reason == "COMPUTATION_FAILED") {
+      reason = told_reason(answer).value_or(reason);
+    }
+  } else {
+    out = judge_signal(WTERMSIG(wait_status), words);
+  }
+  if (WIFEXITED(wait_status)) out.exit_status = WEXITSTATUS(wait_status);
+  if (WIFSIGNALED(wait_status)) out.signal = WTERMSIG(wait_status);
+  return out;
+}
+
+std::optional<Progress> read_progress(std::string_view line, std::int64_t now_ms) {
+  // Deeply nested text would exhaust the parser's stack; a progress line is flat.
+  if (std::count(line.begin(), line.end(), '{') != 1 || line.find('[') != std::string_view::npos) {
+    return std::nullopt;
+  }
+  const auto object = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
+  if (!object.is_object()) return std::nullopt;
+  const auto stage = object.find("stage");
+  const auto total = fraction(object, "total_fraction");
+  if (stage == object.end() || !stage->is_string() || !total) return std::nullopt;
+  Progress progress;
+  progress.fraction = *total;
+  progress.phase = shortened(printable(stage->get<std::string>()), kLongestPhase);
+  progress.phase_fraction = fraction(object, "fraction").value_or(0);
+  constexpr double kLongestEta_s = 30.0 * 24 * 3600;
+  const auto eta = object.find("eta_s");
+  if (eta != object.end() && eta->is_number()) {
+    const double eta_s = eta->get<double>();
+    if (eta_s >= 0 && eta_s <= kLongestEta_s) {
+      progress.eta_ms = now_ms + static_cast<std::int64_t>(eta_s * 1000);
+    }
+  }
+  return progress;
+}
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <chrono>
+#include <future>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/store/artifact_files.h"
+#include "daemon/store/job_store.h"
+#include "daemon/workers/child_process.h"
+#include "daemon/workers/worker_outcome.h"
+
+namespace hydroprint::daemon {
+
+/// One job at its worker, from the start of the process to the job's end in the store. Used by the
+/// pool's thread alone; no call waits.
+class WorkerRun {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// Lays out the inputs and starts the worker. `wake` is called (from another thread) when there
+  /// is something to do for step().
+  static Result<std::unique_ptr<WorkerRun>> start(const Job& job, const Launch& launch,
+                                                  const Sandbox& sandbox, const Layout& layout,
+                                                  std::chrono::seconds time_limit,
+                                                  std::function<void()> wake);
+  ~WorkerRun();
+  WorkerRun(const WorkerRun&) = delete;
+  WorkerRun& operator=(const WorkerRun&) = delete;
+
+  [[nodiscard]] std::int64_t job() const { return job_.id; }
+  [[nodiscard]] const std::string& owner() const { return job_.made.owner; }
+  /// Descriptors that become readable when step() has something to do.
+  [[nodiscard]] std::vector<int> descriptors() const;
+
+  /// Reads what came, looks at limits, and does what is next. True once the job is ended in the
+  /// store (or, after a stop for shutdown, the worker is gone); a store that fails is tried again.
+  [[nodiscard]] bool step(JobStore& store, std::int64_t now_ms);
+  /// Asks the worker to end; it is killed if it has not ended 3 s later.
+  void stop(StoppedFor why);
+
+ private:
+  /// What a successful worker left.
+  struct Outcome {
+    std::vector<Artifact> artifacts;
+    std::optional<NewCalibration> calibration;
+  };
+
+  WorkerRun(const Job& job, const Layout& layout) : job_(job), layout_(layout) {}
+  void read_words();
+  void read_progress_lines(JobStore& store, std::int64_t now_ms);
+  void report(JobStore& store);
+  void watch_limits();
+  bool reap();
+  [[nodiscard]] Result<Outcome> publish() const;
+  void begin_publishing();
+  bool finish(JobStore& store);
+  [[nodiscard]] Result<Job> store_end(JobStore& store) const;
+  void free_disk_for(const Error& error);
+  void discard_output() const;
+  void log_end(const Result<Job>& job) const;
+
+  Job job_;
+  Layout layout_;
+  std::function<void()> wake_;
+  ChildProcess worker_;
+  std::int64_t memory_bytes_ = 0;
+  Time deadline_;
+  StoppedFor stopped_ = StoppedFor::kNothing;
+  std::optional<Time> kill_at_;
+  std::optional<int> wait_status_;
+  std::string words_;                 // the end of what it wrote to stderr
+  std::string answer_;                // and to stdout
+  std::string progress_bytes_;        // a line that is not complete yet
+  std::optional<Progress> progress_;  // not reported yet
+  Time next_report_, next_end_;
+  std::future<Result<Outcome>> publishing_;
+  std::optional<Result<Outcome>> published_;
+};
+
+}  // namespace hydroprint::daemon

@@ -1,0 +1,264 @@
+#include "hardware/depth_camera/depth_camera.h"
+
+#include <OpenNI.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <utility>
+
+#include "sim/base/input_file.h"
+
+namespace hydroprint::depth_camera {
+namespace {
+
+constexpr int kWidth_px = 640;
+constexpr int kHeight_px = 480;
+constexpr int kRate_hz = 30;
+/// A frame of a recording only has to be read.
+constexpr std::chrono::seconds kReadTime{20};
+
+/// What OpenNI2 has to say, on one line.
+std::string details() {
+  std::string out = openni::OpenNI::getExtendedError();
+  for (char& c : out) {
+    if (c == '\n' || c == '\t') c = ' ';
+  }
+  while (out.ends_with(' ')) out.pop_back();
+  out.erase(0, out.find_first_not_of(' '));
+  return out.empty() ? "" : " (" + out + ")";
+}
+
+Status initialise() {
+  static const openni::Status status = openni::OpenNI::initialize();
+  if (status == openni::STATUS_OK) return {};
+  return fail(
+      Code::kInternal,
+      "OpenNI2 does not start" + details() + ". Install the packages of deploy/packages.txt",
+      "CAMERA_UNUSABLE");
+}
+
+tl::unexpected<Error> unusable(const std::string& uri, const std::string& what) {
+  return fail(Code::kFailedPrecondition,
+              uri + ": " + what + details() + ". Use a depth camera of 640 x 480 pixels at 30 Hz",
+              "CAMERA_UNUSABLE");
+}
+
+/// Hears whether a camera is unplugged.
+class Unplugging : public openni::OpenNI::DeviceDisconnectedListener {
+ public:
+  explicit Unplugging(std::string uri) : uri_(std::move(uri)) {
+    openni::OpenNI::addDeviceDisconnectedListener(this);
+  }
+  ~Unplugging() { openni::OpenNI::removeDeviceDisconnectedListener(this); }
+  Unplugging(const Unplugging&) = delete;
+  Unplugging& operator=(const Unplugging&) = delete;
+
+  void onDeviceDisconnected(const openni::DeviceInfo* info) override {
+    if (uri_ == info->getUri()) happened_ = true;
+  }
+  [[nodiscard]] bool happened() const { return happened_; }
+
+ private:
+  std::string uri_;
+  std::atomic<bool> happened_ = false;
+};
+
+class OpenNiCamera : public DepthCamera {
+ public:
+  ~OpenNiCamera() override {
+    finish_recording();
+    stream_.destroy();
+    device_.close();
+  }
+
+  [[nodiscard]] Status open(const std::string& uri);
+  [[nodiscard]] Status start_device();
+  [[nodiscard]] Status start_recording(const std::filesystem::path& path);
+
+  [[nodiscard]] const SourceInfo& info() const override { return info_; }
+  [[nodiscard]] Result<std::optional<DepthFrame>> next(std::chrono::milliseconds timeout) override;
+  [[nodiscard]] Status record(const std::filesystem::path& path) override;
+  void finish_recording() override {
+    // First no more frames, so that none meets a recorder that is going.
+    if (stream_.isValid()) stream_.stop();
+    recorder_.destroy();
+  }
+
+ private:
+  [[nodiscard]] Status choose_mode();
+  [[nodiscard]] tl::unexpected<Error> no_frame() const;
+  [[nodiscard]] Result<std::optional<DepthFrame>> read();
+
+  openni::Device device_;
+  openni::VideoStream stream_;
+  openni::Recorder recorder_;
+  std::unique_ptr<Unplugging> unplugging_;
+  SourceInfo info_;
+  int told_ = 0;  // frames of a recording
+};
+
+Status OpenNiCamera::open(const std::string& uri) {
+  HP_RETURN_IF_ERROR(initialise());
+  const char* const wanted = uri.empty() ? openni::ANY_DEVICE : uri.c_str();
+  if (device_.open(wanted) != openni::STATUS_OK) {
+    return fail(Code::kNotFound,
+                (uri.empty() ? "no depth camera is plugged in" : uri + ": no such depth camera") +
+                    details() + ". Plug it in, or name the right one",
+                "CAMERA_NOT_FOUND");
+  }
+  const openni::DeviceInfo& info = device_.getDeviceInfo();
+  info_.uri = info.getUri();
+  info_.name = std::string(info.getVendor()) + " " + info.getName();
+  return {};
+}
+
+Status OpenNiCamera::choose_mode() {
+  const openni::SensorInfo* sensor = device_.getSensorInfo(openni::SENSOR_DEPTH);
+  if (sensor == nullptr || stream_.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
+    return unusable(info_.uri, "it has no depth stream");
+  }
+  const auto& modes = sensor->getSupportedVideoModes();
+  for (int i = 0; i < modes.getSize(); ++i) {
+    if (modes[i].getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_1_MM &&
+        modes[i].getResolutionX() == kWidth_px && modes[i].getResolutionY() == kHeight_px &&
+        modes[i].getFps() == kRate_hz && stream_.setVideoMode(modes[i]) == openni::STATUS_OK) {
+      return {};
+    }
+  }
+  return unusable(info_.uri, "it has no such depth frames");
+}
+
+Status OpenNiCamera::start_device() {
+  unplugging_ = std::make_unique<Unplugging>(info_.uri);
+  HP_RETURN_IF_ERROR(choose_mode());
+  std::array<char, 256> serial{};
+  int size = serial.size() - 1;
+  if (device_.getProperty(openni::DEVICE_PROPERTY_SERIAL_NUMBER, serial.data(), &size) ==
+      openni::STATUS_OK) {
+    info_.serial = serial.data();
+  }
+  (void)stream_.setMirroringEnabled(false);  // those that cannot do not mirror
+  if (stream_.start() != openni::STATUS_OK) return unusable(info_.uri, "it does not start");
+  info_.width = kWidth_px;
+  info_.height = kHeight_px;
+  return {};
+}
+
+Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& what) {
+    return fail(Code::kDataLoss,
+                path.string() + ": " + what + details() + ". Name an OpenNI2 recording (.oni)",
+                "RECORDING_INVALID");
+  };
+  HP_RETURN_IF_ERROR(initialise());
+  if (device_.open(path.c_str()) != openni::STATUS_OK || !device_.isFile()) {
+    return refuse("not a recording");
+  }
+  info_ = {path.string(), "recording", "", 0, 0, 0};
+  if (stream_.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
+    return refuse("it has no depth stream");
+  }
+  openni::PlaybackControl* const playback = device_.getPlaybackControl();
+  // Only stepped by hand (speed -1) does no frame get lost; seeking crashes OpenNI 2.2.
+  if (playback == nullptr || playback->setSpeed(-1) != openni::STATUS_OK ||
+      playback->setRepeatEnabled(false) != openni::STATUS_OK) {
+    return refuse("it cannot be played frame by frame");
+  }
+  const openni::VideoMode mode = stream_.getVideoMode();
+  info_.width = mode.getResolutionX();
+  info_.height = mode.getResolutionY();
+  info_.frames = playback->getNumberOfFrames(stream_);
+  if (mode.getPixelFormat() != openni::PIXEL_FORMAT_DEPTH_1_MM || *info_.frames < 1 ||
+      info_.width < 1 || info_.width > 4096 || info_.height < 1 || info_.height > 4096) {
+    return refuse("it holds no depth frames in whole mm");
+  }
+  if (stream_.start() != openni::STATUS_OK) return refuse("it does not start");
+  return {};
+}
+
+tl::unexpected<Error> OpenNiCamera::no_frame() const {
+  if (info_.frames) {
+    return fail(Code::kDataLoss,
+                info_.uri + ": ends after " + std::to_string(told_) + " of " +
+                    std::to_string(*info_.frames) + " frames. Record it again",
+                "RECORDING_INVALID");
+  }
+  return fail(Code::kUnavailable,
+              info_.uri + ": no frame came in time. Unplug the camera and plug it in again",
+              "CAMERA_STALLED");
+}
+
+Result<std::optional<DepthFrame>> OpenNiCamera::next(std::chrono::milliseconds timeout) {
+  if (info_.frames && told_ >= *info_.frames) return std::optional<DepthFrame>();
+  openni::VideoStream* stream = &stream_;
+  int ready = 0;
+  const auto wait =
+      info_.frames ? std::max<std::chrono::milliseconds>(timeout, kReadTime) : timeout;
+  // Never readFrame() alone: it waits for ever.
+  const openni::Status status =
+      openni::OpenNI::waitForAnyStream(&stream, 1, &ready, static_cast<int>(wait.count()));
+  if (unplugging_ && unplugging_->happened()) {
+    return fail(Code::kUnavailable,
+                info_.uri + ": the camera has gone. Plug it in again, and look at its cable",
+                "CAMERA_GONE");
+  }
+  if (status != openni::STATUS_OK) return no_frame();
+  return read();
+}
+
+Result<std::optional<DepthFrame>> OpenNiCamera::read() {
+  openni::VideoFrameRef frame;
+  if (stream_.readFrame(&frame) != openni::STATUS_OK || !frame.isValid()) return no_frame();
+  const auto width = static_cast<std::size_t>(frame.getWidth());
+  const auto height = static_cast<std::size_t>(frame.getHeight());
+  const auto stride = static_cast<std::size_t>(frame.getStrideInBytes());
+  if (frame.getWidth() != info_.width || frame.getHeight() != info_.height || stride < 2 * width ||
+      static_cast<std::size_t>(frame.getDataSize()) < stride * height) {
+    return no_frame();
+  }
+  DepthFrame out{info_.width,
+                 info_.height,
+                 std::vector<std::uint16_t>(width * height),
+                 static_cast<double>(frame.getTimestamp()) / 1e6,
+                 frame.getFrameIndex(),
+                 stream_.getHorizontalFieldOfView(),
+                 stream_.getVerticalFieldOfView()};
+  for (std::size_t y = 0; y < height; ++y) {
+    const auto* const row = static_cast<const unsigned char*>(frame.getData()) + y * stride;
+    std::memcpy(&out.depth_mm[y * width], row, 2 * width);
+  }
+  ++told_;
+  return std::optional<DepthFrame>(std::move(out));
+}
+
+Status OpenNiCamera::record(const std::filesystem::path& path) {
+  const bool starts = recorder_.create(path.c_str()) == openni::STATUS_OK &&
+                      recorder_.attach(stream_) == openni::STATUS_OK &&
+                      recorder_.start() == openni::STATUS_OK;
+  if (starts) return {};
+  recorder_.destroy();
+  return fail(Code::kPermissionDenied,
+              path.string() + ": cannot be recorded to" + details() + ". Choose another file");
+}
+
+}  // namespace
+
+Result<std::unique_ptr<DepthCamera>> DepthCamera::open_device(const std::string& uri) {
+  auto out = std::make_unique<OpenNiCamera>();
+  HP_RETURN_IF_ERROR(out->open(uri));
+  HP_RETURN_IF_ERROR(out->start_device());
+  return std::unique_ptr<DepthCamera>(std::move(out));
+}
+
+Result<std::unique_ptr<DepthCamera>> DepthCamera::open_recording(
+    const std::filesystem::path& path) {
+  if (const auto file = open_input_file(path); !file) return tl::unexpected(file.error());
+  auto out = std::make_unique<OpenNiCamera>();
+  // OpenNI2 changes the working folder while it loads drivers.
+  HP_RETURN_IF_ERROR(out->start_recording(std::filesystem::absolute(path)));
+  return std::unique_ptr<DepthCamera>(std::move(out));
+}
+
+}  // namespace hydroprint::depth_camera

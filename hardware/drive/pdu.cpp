@@ -1,0 +1,114 @@
+#include "hardware/drive/pdu.h"
+
+#include <array>
+#include <string>
+
+namespace hydroprint::drive {
+namespace {
+
+constexpr std::uint8_t kExceptionFlag = 0x80;
+
+void put_word(std::vector<std::uint8_t>& out, std::size_t word) {
+  out.push_back(static_cast<std::uint8_t>(word >> 8U & 0xffU));
+  out.push_back(static_cast<std::uint8_t>(word & 0xffU));
+}
+
+std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
+  return static_cast<std::uint16_t>(bytes[at] << 8U | bytes[at + 1]);
+}
+
+tl::unexpected<Error> invalid(const std::string& what) {
+  return fail(Code::kDataLoss,
+              "the drive's reply " + what +
+                  ". If this goes on, check cable, termination, baud rate and unit id",
+              "REPLY_INVALID");
+}
+
+std::string_view exception_text(int exception) {
+  constexpr std::array<std::string_view, 7> kTexts = {
+      "",
+      "function not supported",
+      "no such register",
+      "value not allowed",
+      "not possible in its present state",
+      "accepted, but not done yet",
+      "busy",
+  };
+  const auto at = static_cast<std::size_t>(exception);
+  return at < kTexts.size() ? kTexts.at(at) : "";
+}
+
+tl::unexpected<Error> refused(const Request& request, int exception) {
+  const bool busy = exception == 5 || exception == 6;
+  const std::string number = std::to_string(exception);
+  Error error{busy ? Code::kAborted : Code::kFailedPrecondition,
+              "the drive refuses the request for register " + std::to_string(request.address) +
+                  " with exception " + number,
+              busy ? "DRIVE_BUSY" : "DRIVE_REFUSED",
+              {{"exception", number}}};
+  if (const std::string_view text = exception_text(exception); !text.empty()) {
+    error.message.append(" (").append(text).append(")");
+  }
+  error.message += busy ? ". Try again" : ". Check the drive's state and its profile";
+  return tl::unexpected(std::move(error));
+}
+
+Result<std::vector<std::uint16_t>> decode_words(const Request& request,
+                                                std::span<const std::uint8_t> reply) {
+  const std::size_t bytes = std::size_t{2} * request.count;
+  if (reply.size() != 3 + bytes || reply[2] != bytes) return invalid("has the wrong length");
+  std::vector<std::uint16_t> words(request.count);
+  for (std::size_t i = 0; i < words.size(); ++i) words[i] = word_at(reply, 3 + 2 * i);
+  return words;
+}
+
+Result<std::vector<std::uint16_t>> decode_echo(const Request& request,
+                                               std::span<const std::uint8_t> reply) {
+  if (reply.size() != 6) return invalid("has the wrong length");
+  const auto expected = request.function == Function::kWriteOne
+                            ? request.values[0]
+                            : static_cast<std::uint16_t>(request.values.size());
+  if (word_at(reply, 2) != request.address || word_at(reply, 4) != expected) {
+    return invalid("repeats another request than the one sent");
+  }
+  return std::vector<std::uint16_t>();
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_request(const Request& request) {
+  std::vector<std::uint8_t> out = {static_cast<std::uint8_t>(request.unit),
+                                   static_cast<std::uint8_t>(request.function)};
+  put_word(out, request.address);
+  switch (request.function) {
+    case Function::kReadHolding:
+    case Function::kReadInput:
+      put_word(out, request.count);
+      break;
+    case Function::kWriteOne:
+      put_word(out, request.values.at(0));
+      break;
+    case Function::kWriteMany:
+      put_word(out, request.values.size());
+      out.push_back(static_cast<std::uint8_t>(2 * request.values.size()));
+      for (const std::uint16_t value : request.values) put_word(out, value);
+      break;
+  }
+  return out;
+}
+
+Result<std::vector<std::uint16_t>> decode_reply(const Request& request,
+                                                std::span<const std::uint8_t> reply) {
+  const auto function = static_cast<std::uint8_t>(request.function);
+  if (reply.size() < 3) return invalid("is cut off");
+  if (reply[0] != request.unit) return invalid("comes from another unit");
+  if (reply[1] == (function | kExceptionFlag) && reply.size() == 3) {
+    return refused(request, reply[2]);
+  }
+  if (reply[1] != function) return invalid("is for another function");
+  const bool is_read =
+      request.function == Function::kReadHolding || request.function == Function::kReadInput;
+  return is_read ? decode_words(request, reply) : decode_echo(request, reply);
+}
+
+}  // namespace hydroprint::drive

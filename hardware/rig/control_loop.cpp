@@ -1,0 +1,333 @@
+#include "hardware/rig/control_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include "hardware/rig/errors.h"
+#include "hardware/rig/limits.h"
+#include "hardware/rig/order_checks.h"
+#include "hardware/rig/state_names.h"
+
+namespace hydroprint::rig {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Kind = Event::Kind;
+
+constexpr double kPendingPatience_s = 2;
+constexpr double kStopAgain_s = 0.2;
+constexpr int kStillLooks = 2;
+// Beyond its set time, before the watchdog of a drive has surely acted.
+constexpr double kWatchdogMargin_s = 0.05;
+// Beyond the computed time, before an axis that goes on after a stop counts as not obeying.
+constexpr double kObeyMargin_s = 0.5;
+// Beyond the computed one, before an axis that nobody sees counts as being at rest.
+constexpr double kStandstillMargin_s = 0.5;
+
+double seconds_since(TimePoint time) {
+  return std::chrono::duration<double>(Clock::now() - time).count();
+}
+
+}  // namespace
+
+ControlLoop::ControlLoop(const RigConfig& config, drive::Drive& drive, StopChannel& stop_channel,
+                         SharedState& shared)
+    : config_(config),
+      drive_(drive),
+      stop_channel_(stop_channel),
+      shared_(shared),
+      link_monitor_(drive),
+      log_(shared.status) {}
+
+void ControlLoop::run() {
+  const auto period = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(config_.poll_period_s));
+  TimePoint due = Clock::now();
+  double squares = 0;
+  while (!shared_.end) {
+    std::this_thread::sleep_until(due);
+    const double late_s = seconds_since(due);
+    squares += late_s * late_s;
+    ++jitter_.ticks;
+    jitter_.largest_s = std::max(jitter_.largest_s, late_s);
+    jitter_.rms_s = std::sqrt(squares / static_cast<double>(jitter_.ticks));
+    tick();
+    for (due += period; due < Clock::now(); due += period) ++jitter_.skipped;
+  }
+  shut_down();
+}
+
+void ControlLoop::shut_down() {
+  refuse_all();
+  if (in_motion(condition_.state)) apply({Kind::kStop});
+  const TimePoint begun = Clock::now();
+  const double patience_s = stopping_time_s(config_, drive_.profile()) + 2 * kStandstillMargin_s;
+  while (condition_.state == State::kStopping && seconds_since(begun) < patience_s) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(config_.poll_period_s));
+    look();
+    keep_going();
+    publish();
+  }
+  stop_channel_.watch(false, link_monitor_.clean());
+  if (link_monitor_.is_up())
+    (void)drive_.disable();  // else its watchdog stops it, and nobody moves it
+  drive_.disconnect();
+}
+
+void ControlLoop::tick() {
+  take_stops();
+  look();
+  take_orders();
+  keep_going();
+  publish();
+}
+
+void ControlLoop::take_stops() {
+  if (stop_channel_.take_trip()) {  // it was this thread that did not look
+    link_monitor_.lose();
+    lose();
+  }
+  const std::uint64_t asked = shared_.stops;
+  if (asked == stops_) return;
+  stops_ = asked;
+  apply({Kind::kStop});
+}
+
+/// At rest is what was seen twice after a stop, lest a motion begins that was sent before it.
+Bits ControlLoop::settled(Bits bits) {
+  if (condition_.state != State::kStopping) return bits;
+  still_ = bits.moving ? 0 : still_ + 1;
+  bits.moving = still_ < kStillLooks;
+  return bits;
+}
+
+void ControlLoop::look() {
+  auto seen = link_monitor_.look();
+  if (seen.event && seen.event->kind == Kind::kLost) return lose();
+  if (seen.axis) {
+    axis_ = std::move(*seen.axis);
+    seen.event->bits = settled(seen.event->bits);
+    if (seen.event->kind == Kind::kSeen) {
+      stop_channel_.prepare();
+      stopping_since_ = Clock::now();  // if it is: from now on it can obey
+    }
+  }
+  if (seen.event) apply(*seen.event);
+  if (seen.axis) {
+    follow(*axis_);
+    record(*axis_);
+    return;
+  }
+  const double unseen_s = seconds_since(link_monitor_.clean());
+  if (condition_.state == State::kStopping && condition_.link == Link::kNone &&
+      unseen_s > stopping_time_s(config_, drive_.profile()) + kStandstillMargin_s) {
+    apply({Kind::kStandstillAssumed});
+  }
+}
+
+/// A drive that may be moving and was perhaps not reached by the stop is left alone until its own
+/// watchdog has stopped it: whatever it hears would keep it going.
+void ControlLoop::lose() {
+  axis_.reset();
+  apply({Kind::kLost});
+  if (condition_.state != State::kStopping) return;
+  const double patience_s = std::chrono::duration<double>(StopChannel::kPatience).count();
+  link_monitor_.keep_silent(patience_s + link_monitor_.watchdog_s() + kWatchdogMargin_s);
+}
+
+void ControlLoop::follow(const drive::DriveState& axis) {
+  if (!supervisor_) return;
+  const MotionSupervisor::Advice advice = supervisor_->look(axis);
+  if (advice.next && !command_leg(*advice.next)) apply({Kind::kFollowingError});
+  if (advice.event) apply({*advice.event});
+}
+
+void ControlLoop::record(const drive::DriveState& axis) {
+  Sample sample;
+  sample.time = axis.time;
+  sample.time_error_s = axis.time_error.count();
+  sample.position_mm = axis.position_mm;
+  sample.velocity_mm_per_s = axis.velocity_mm_per_s;
+  sample.expected_mm = std::numeric_limits<double>::quiet_NaN();
+  sample.motion = log_.current();
+  sample.state = condition_.state;
+  if (supervisor_) supervisor_->note(sample);
+  sample.number = shared_.status.samples.add(sample);
+  log_.see(sample, condition_.state != State::kStopping && !bits_of(axis).moving);
+}
+
+Step ControlLoop::apply(const Event& event) {
+  const Condition before = condition_;
+  const Step taken = step(before, event);
+  condition_ = taken.next;
+  note_change(before);
+  if (!act(taken.actions) && condition_.pending != Pending::kNone) apply({Kind::kTimedOut});
+  answer_waiting();
+  return taken;
+}
+
+void ControlLoop::note_change(const Condition& before) {
+  if (condition_.state == State::kStopping && before.state != State::kStopping) {
+    still_ = 0;
+    stopping_since_ = Clock::now();
+  }
+  if (condition_.pending != before.pending) pending_since_ = Clock::now();
+  if (!in_motion(before.state) || in_motion(condition_.state)) return;
+  supervisor_.reset();
+  auto outcome = MotionReport::Outcome::kFailed;
+  if (condition_.cause == Cause::kNone) {
+    const bool done = condition_.state == State::kIdle;
+    outcome = done ? MotionReport::Outcome::kDone : MotionReport::Outcome::kStopped;
+  }
+  log_.end(outcome, condition_.cause, axis_ ? axis_->alarm_code : 0);
+}
+
+void ControlLoop::send_stop() {
+  stop_sent_ = Clock::now();
+  stop_channel_.stop();
+  // On a line that was just lost this would have to wait; the stop_channel does not.
+  if (link_monitor_.is_up()) (void)drive_.stop();
+}
+
+/// Fails with the first thing that the drive did not take; a stop and taking torque away are
+/// repeated until they can be seen, so they do not count.
+Status ControlLoop::act(const Actions& actions) {
+  if (actions.stop) send_stop();
+  if (actions.disable && link_monitor_.is_up()) (void)drive_.disable();
+  if (actions.clear_alarm) HP_RETURN_IF_ERROR(drive_.reset_fault());
+  if (actions.enable) HP_RETURN_IF_ERROR(drive_.enable());
+  return {};
+}
+
+void ControlLoop::keep_going() {
+  if (condition_.pending != Pending::kNone && seconds_since(pending_since_) > kPendingPatience_s) {
+    apply({Kind::kTimedOut});
+  }
+  if (condition_.motion == Motion::kJog &&
+      seconds_since(jogged_) >= drive_.profile().jog_refresh_s / 2) {
+    jogged_ = Clock::now();
+    (void)drive_.jog(supervisor_->plan().jog_mm_per_s);  // one that is missing ends by itself
+  }
+  if (condition_.state != State::kStopping || !link_monitor_.is_up()) return;
+  const double braking_s =
+      config_.max_speed_mm_per_s / drive_.profile().stopping_deceleration_mm_per_s2;
+  if (seconds_since(stopping_since_) > braking_s + kObeyMargin_s) {
+    link_monitor_.lose();
+    lose();
+  } else if (seconds_since(stop_sent_) >= kStopAgain_s) {
+    send_stop();
+  }
+}
+
+void ControlLoop::take_orders() {
+  if (stop_channel_.is_busy()) return;  // at the next look
+  for (Order& order : shared_.orders.take()) carry_out(order);
+}
+
+void ControlLoop::answer(Order& order, Answer answer) {
+  answers_.emplace_back(std::move(order.answer), std::move(answer));
+}
+
+void ControlLoop::carry_out(Order& order) {
+  if (const auto refusal = step(condition_, {order.kind}).refusal) {
+    const auto& trouble = link_monitor_.trouble();
+    const bool says_more =
+        trouble && (*refusal == Refusal::kOffline || *refusal == Refusal::kConfigUnsafe);
+    Error error = says_more ? after_start(*trouble) : refused(*refusal, condition_);
+    error.metadata["state"] = name(condition_.state);
+    answer(order, tl::unexpected(std::move(error)));
+    return;
+  }
+  if (Status sound = check_order(order, shared_.stops, config_, drive_.profile(), axis_); !sound) {
+    answer(order, tl::unexpected(std::move(sound).error()));
+    return;
+  }
+  if (apply({order.kind}).actions.start) {
+    answer(order, begin(order));
+  } else {
+    waiting_.push_back(std::move(order));
+    answer_waiting();
+  }
+}
+
+Answer ControlLoop::begin(const Order& order) {
+  if (supervisor_) {  // a jog that goes on
+    supervisor_->hold_jog(order.given, order.plan.jog_mm_per_s);
+  } else {
+    const TimePoint now = Clock::now();
+    supervisor_.emplace(config_, drive_.profile(), order.plan, now, axis_->position_mm);
+    if (order.kind == Kind::kJog) supervisor_->hold_jog(order.given, order.plan.jog_mm_per_s);
+    log_.begin(order.plan.motion, now, axis_->position_mm);
+  }
+  if (Status sent = command(order); !sent) {
+    apply({Kind::kStop});  // perhaps it did arrive
+    return tl::unexpected(after_start(std::move(sent).error()));
+  }
+  return log_.latest();
+}
+
+Status ControlLoop::command(const Order& order) {
+  if (order.kind == Kind::kHome) return drive_.home();
+  if (order.kind != Kind::kJog) return command_leg(order.plan.legs.front());
+  jogged_ = Clock::now();
+  return drive_.jog(order.plan.jog_mm_per_s);
+}
+
+Status ControlLoop::command_leg(const Leg& leg) {
+  HP_RETURN_IF_ERROR(drive_.move_to(leg.target_mm, leg.speed_mm_per_s));
+  supervisor_->begin_leg(Clock::now());
+  return {};
+}
+
+/// Answers who waits for what is pending no longer.
+void ControlLoop::answer_waiting() {
+  if (condition_.pending != Pending::kNone) return;
+  for (Order& order : std::exchange(waiting_, {})) {
+    const bool failed = (order.kind == Kind::kArm && !is_armed(condition_.state)) ||
+                        (order.kind == Kind::kReset && condition_.cause != Cause::kNone);
+    if (!failed) {
+      answer(order, 0);
+      continue;
+    }
+    Error error{Code::kAborted,
+                "the drive did not confirm it; look at its display and order it again",
+                "STATE_FORBIDS",
+                {{"state", std::string(name(condition_.state))}}};
+    answer(order, tl::unexpected(std::move(error)));
+  }
+}
+
+void ControlLoop::refuse_all() {
+  std::deque<Order> orders = shared_.orders.take_all();
+  for (Order& order : waiting_) orders.push_back(std::move(order));
+  waiting_.clear();
+  for (Order& order : orders) order.answer.set_value(aborted("the rig is being let go of"));
+}
+
+void ControlLoop::publish() {
+  Snapshot now;
+  now.condition = condition_;
+  now.time = link_monitor_.clean();
+  now.has_axis = axis_.has_value();
+  if (axis_) {
+    now.bits = bits_of(*axis_);
+    now.position_mm = axis_->position_mm;
+    now.velocity_mm_per_s = axis_->velocity_mm_per_s;
+    now.alarm_code = axis_->alarm_code;
+  }
+  now.watchdog_s = link_monitor_.watchdog_s();
+  now.motion = log_.latest();
+  now.missed_polls = link_monitor_.missed();
+  now.connects = link_monitor_.connects();
+  now.jitter = jitter_;
+  shared_.status.snapshot.store(now);
+  (void)shared_.status.put(link_monitor_.trouble());  // the next time, if somebody is reading
+  stop_channel_.watch(in_motion(condition_.state), link_monitor_.clean());
+  for (auto& [promise, answer] : answers_) promise.set_value(std::move(answer));
+  answers_.clear();
+}
+
+}  // namespace hydroprint::rig

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <atomic>
+#include <optional>
+#include <vector>
+
+#include "hardware/rig/command_queue.h"
+#include "hardware/rig/link_monitor.h"
+#include "hardware/rig/motion_log.h"
+#include "hardware/rig/motion_supervisor.h"
+#include "hardware/rig/stop_channel.h"
+
+namespace hydroprint::rig {
+
+/// What the callers of the controller and the owner of the drive share; neither waits for the
+/// other.
+struct SharedState {
+  CommandQueue orders;
+  RigStatus status;
+  std::atomic<std::uint64_t> stops{0};  ///< how often a stop was asked for
+  std::atomic<bool> end{false};
+};
+
+/// The one thread that talks to the drive: looks at it at a fixed period, feeds the state machine,
+/// and does what comes of it.
+class ControlLoop {
+ public:
+  /// @param drive, stop_channel, shared  outlive it
+  ControlLoop(const RigConfig& config, drive::Drive& drive, StopChannel& stop_channel,
+              SharedState& shared);
+
+  /// Until shared.end; then brings the axis to rest, takes its torque away and lets go of the
+  /// drive.
+  void run();
+
+ private:
+  void tick();
+  void take_stops();
+  void look();
+  void follow(const drive::DriveState& axis);
+  void take_orders();
+  void keep_going();
+  void publish();
+  void shut_down();
+
+  /// Feeds the state machine and does what it says, but for starting a motion.
+  Step apply(const Event& event);
+  void note_change(const Condition& before);
+  [[nodiscard]] Status act(const Actions& actions);
+  void send_stop();
+  void lose();
+
+  void carry_out(Order& order);
+  [[nodiscard]] Answer begin(const Order& order);
+  [[nodiscard]] Status command(const Order& order);
+  [[nodiscard]] Status command_leg(const Leg& leg);
+  void answer(Order& order, Answer answer);
+  void answer_waiting();
+  void refuse_all();
+
+  void record(const drive::DriveState& axis);
+  [[nodiscard]] Bits settled(Bits bits);
+
+  RigConfig config_;
+  drive::Drive& drive_;
+  StopChannel& stop_channel_;
+  SharedState& shared_;
+  LinkMonitor link_monitor_;
+  MotionLog log_;
+  Condition condition_;
+  std::optional<drive::DriveState> axis_;
+  std::optional<MotionSupervisor> supervisor_;
+  std::uint64_t stops_ = 0;  // of shared_.stops, those that were taken
+  int still_ = 0;            // looks in a row, while STOPPING, that saw the axis at rest
+  TimePoint jogged_, stop_sent_, stopping_since_;
+  std::vector<Order> waiting_;  // for what is pending
+  /// What is answered once the snapshot shows what came of it.
+  std::vector<std::pair<std::promise<Answer>, Answer>> answers_;
+  TimePoint pending_since_;
+  Jitter jitter_;
+};
+
+}  // namespace hydroprint::rig

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+#include "hardware/rig/state.h"
+
+namespace hydroprint::rig {
+
+/// Stable names: "OFFLINE", "RIG_NOT_HOMED", "LINK_LOST", "HOME".
+[[nodiscard]] std::string_view name(State state);
+[[nodiscard]] std::string_view name(Motion motion);
+[[nodiscard]] std::string_view name(Cause cause);
+[[nodiscard]] std::string_view reason(Refusal refusal);
+
+}  // namespace hydroprint::rig

@@ -1,0 +1,72 @@
+#include "hardware/rig/stop_channel.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include "hardware/rig/config.h"
+
+namespace hydroprint::rig {
+namespace {
+
+constexpr int kTick_ms = 10;
+
+}  // namespace
+
+StopChannel::StopChannel(const drive::Drive& drive)
+    : line_(drive), bell_(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), thread_([this] { run(); }) {}
+
+StopChannel::~StopChannel() {
+  end_ = true;
+  ring();
+  thread_.join();
+  ::close(bell_);
+}
+
+void StopChannel::ring() noexcept {
+  const std::uint64_t one = 1;
+  // Fails only if it was rung so often that it is awake anyway.
+  if (::write(bell_, &one, sizeof one) < 0) return;
+}
+
+void StopChannel::stop() noexcept {
+  stop_ = true;
+  ring();
+}
+
+void StopChannel::prepare() noexcept {
+  prepare_ = true;
+  ring();
+}
+
+void StopChannel::watch(bool in_motion, TimePoint clean) noexcept {
+  clean_ = clean.time_since_epoch().count();
+  if (in_motion_.exchange(in_motion) != in_motion) ring();
+}
+
+bool StopChannel::owner_is_late() const {
+  if (!in_motion_) return false;
+  const TimePoint clean{TimePoint::duration(clean_)};
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - clean).count() > kStale_s;
+}
+
+void StopChannel::run() {
+  while (!end_ || stop_) {
+    pollfd bell{bell_, POLLIN, 0};
+    ::poll(&bell, 1, in_motion_ ? kTick_ms : -1);
+    std::uint64_t rings = 0;
+    if (::read(bell_, &rings, sizeof rings) < 0) rings = 0;
+    if (owner_is_late()) {
+      in_motion_ = false;  // once
+      tripped_ = true;
+      stop_ = true;
+    }
+    // What the owner cannot see here it sees by looking at the drive.
+    stopping_ = true;
+    if (stop_.exchange(false)) (void)line_.stop(kPatience);
+    stopping_ = false;
+    if (prepare_.exchange(false)) (void)line_.connect();
+  }
+}
+
+}  // namespace hydroprint::rig

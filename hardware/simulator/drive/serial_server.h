@@ -1,0 +1,45 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "hardware/drive/transaction.h"
+#include "hardware/simulator/drive/plant.h"
+
+struct _modbus;
+
+namespace hydroprint::simulated_drive {
+
+/// Serves Modbus RTU on a pseudo-terminal, in the time that the bytes would take on a wire. The
+/// terminal goes with this: who holds it gets errors at once, as when an adapter is unplugged.
+class SerialServer {
+ public:
+  /// @param line  device: where a link to the terminal is made (what is there is replaced if it is
+  ///   a link); baud, parity and stop bits count for the time
+  [[nodiscard]] static Result<std::unique_ptr<SerialServer>> start(Plant& plant,
+                                                                   const drive::Endpoint& line);
+  ~SerialServer();
+  SerialServer(const SerialServer&) = delete;
+  SerialServer& operator=(const SerialServer&) = delete;
+
+ private:
+  SerialServer(Plant& plant, const drive::Endpoint& line);
+  [[nodiscard]] Status open();
+  void serve();
+  void reply_to(std::size_t adu_bytes);
+
+  Plant& plant_;
+  drive::Endpoint line_;
+  int master_ = -1;
+  int slave_ = -1;  // kept open: without one, reading the master fails
+  _modbus* modbus_ = nullptr;
+  std::vector<std::uint8_t> adu_;
+  std::chrono::steady_clock::time_point free_at_;  // when the line is silent long enough
+  std::atomic<bool> ends_ = false;
+  std::thread thread_;
+};
+
+}  // namespace hydroprint::simulated_drive

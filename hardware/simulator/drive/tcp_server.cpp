@@ -1,0 +1,43 @@
+#include "hardware/simulator/drive/tcp_server.h"
+
+#include <modbus/modbus.h>
+
+#include <array>
+#include <span>
+#include <thread>
+
+#include "hardware/simulator/drive/reply_bytes.h"
+
+namespace hydroprint::simulated_drive {
+namespace {
+
+constexpr std::size_t kHeader = 6;
+
+struct Free {
+  void operator()(modbus_t* modbus) const { modbus_free(modbus); }
+};
+
+// libmodbus frames what comes in; what goes out is made here, for it may have to be wrong.
+void serve(Plant& plant, int descriptor) {
+  const std::unique_ptr<modbus_t, Free> modbus(modbus_new_tcp("127.0.0.1", 0));
+  modbus_set_socket(modbus.get(), descriptor);
+  std::array<std::uint8_t, MODBUS_TCP_MAX_ADU_LENGTH> adu{};
+  for (;;) {
+    const int got = modbus_receive(modbus.get(), adu.data());
+    if (got < static_cast<int>(kHeader) + 2) return;
+    const std::span<const std::uint8_t> query(adu.data(), static_cast<std::size_t>(got));
+    const Answer answer = plant.answer(query.subspan(kHeader));
+    if (answer.reply_fault.fault == ReplyFaultKind::kLate) {
+      std::this_thread::sleep_for(answer.reply_fault.delay);
+    }
+    write_all(descriptor, tcp_frame(query.first(kHeader), answer.reply, answer.reply_fault.fault));
+  }
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SocketServer>> serve_tcp(Plant& plant, int port) {
+  return SocketServer::tcp(port, [&plant](int descriptor) { serve(plant, descriptor); });
+}
+
+}  // namespace hydroprint::simulated_drive

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "hardware/simulator/scene/scenery.h"
+
+namespace hydroprint::simulated_scene {
+
+/// Width of the square base and height of a marker, mm (the paper's are of this kind, section 5.2).
+inline constexpr double kMarkerWidth_mm = 60;
+inline constexpr double kMarkerHeight_mm = 40;
+
+/// Axis-parallel box between two corners, faces outward.
+[[nodiscard]] Mesh box(const Eigen::Vector3d& least, const Eigen::Vector3d& most);
+
+/// Square pyramid on z = 0 over the origin.
+[[nodiscard]] Mesh pyramid(double width_mm, double height_mm);
+
+/// Upright round rod about the z axis.
+[[nodiscard]] Mesh rod(double radius_mm, double bottom_mm, double top_mm);
+
+/// The mesh with all its points taken elsewhere.
+[[nodiscard]] Mesh moved(Mesh mesh, const Pose& pose);
+
+/// All of them as one.
+[[nodiscard]] Mesh joined(const std::vector<Mesh>& meshes);
+
+/// What is to be seen of a marker, F: the pyramid, lying on its side, or a box over it.
+[[nodiscard]] Mesh marker_mesh(const Marker& marker, MarkerState state);
+
+}  // namespace hydroprint::simulated_scene

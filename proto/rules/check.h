@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace google::protobuf {
+class Message;
+}
+
+namespace hydroprint::rules {
+
+/// A field that breaks its rules.
+struct Violation {
+  std::string field;    ///< its path: "simulate.dpi", "simulate.extra_files[1].name"
+  std::string problem;  ///< "must be from 20 to 2400 dots per inch"
+  std::string reason;   ///< name of an ErrorReason
+
+  bool operator==(const Violation&) const = default;
+};
+
+/// Checks of notations by their names (FieldRules.format). Each returns the problem with a text, or
+/// an empty string. A notation without a check is not checked.
+using FormatChecks = std::map<std::string, std::function<std::string(const std::string& text)>>;
+
+/// Checks a message and the messages in it. Fields that only the daemon sets are not looked at.
+/// @param path  where the message itself is, for Violation::field; empty: at the root
+/// @return all violations, in the order of the fields' declarations; one for each field
+[[nodiscard]] std::vector<Violation> check(const google::protobuf::Message& message,
+                                           const FormatChecks& formats = {},
+                                           const std::string& path = {});
+
+}  // namespace hydroprint::rules

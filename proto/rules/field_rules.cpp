@@ -1,0 +1,126 @@
+#include "proto/rules/field_rules.h"
+
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "hydroprint/v1/field_rules.pb.h"
+
+namespace hydroprint::rules {
+namespace {
+
+namespace pb = google::protobuf;
+
+// The shortest notation without an exponent.
+std::string number_text(double value) {
+  std::array<char, 400> buffer{};
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed);
+  return {buffer.data(), end.ptr};
+}
+
+// In the largest unit that divides it: "8 hours".
+std::string duration_text(double seconds) {
+  struct Unit {
+    double seconds;
+    const char* name;
+  };
+  constexpr std::array kUnits = {Unit{86400, "day"}, Unit{3600, "hour"}, Unit{60, "minute"}};
+  for (const Unit& unit : kUnits) {
+    if (seconds == 0 || std::fmod(seconds, unit.seconds) != 0) continue;
+    const double count = seconds / unit.seconds;
+    return number_text(count) + " " + unit.name + (count == 1 ? "" : "s");
+  }
+  return number_text(seconds) + (seconds == 1 ? " second" : " seconds");
+}
+
+bool is_duration(const pb::FieldDescriptor& field) {
+  return field.message_type() != nullptr &&
+         field.message_type()->full_name() == "google.protobuf.Duration";
+}
+
+// "MODEL_SHEET" as "sheet": without the prefix that its zero value ("MODEL_UNSPECIFIED") shows.
+std::string choice_text(const pb::EnumValueDescriptor& value) {
+  constexpr std::string_view kZero = "UNSPECIFIED";
+  const std::string& zero = value.type()->value(0)->name();
+  const std::string prefix =
+      zero.ends_with(kZero) ? zero.substr(0, zero.size() - kZero.size()) : std::string();
+  std::string text = value.name();
+  if (text.starts_with(prefix)) text.erase(0, prefix.size());
+  for (char& c : text) {
+    c = c == '_' ? '-' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return text;
+}
+
+}  // namespace
+
+const v1::FieldRules* rules_of(const pb::FieldDescriptor& field) {
+  if (!field.options().HasExtension(v1::rules)) return nullptr;
+  const v1::FieldRules& rules = field.options().GetExtension(v1::rules);
+  if (rules.like().empty()) return &rules;
+  const auto* other =
+      field.file()->pool()->FindFieldByName(field.file()->package() + "." + rules.like());
+  return other == nullptr ? nullptr : &other->options().GetExtension(v1::rules);
+}
+
+std::string range_text(const pb::FieldDescriptor& field) {
+  const v1::FieldRules* const rules = rules_of(field);
+  if (rules == nullptr || (!rules->has_min() && !rules->has_max())) return {};
+  const auto number = is_duration(field) ? duration_text : number_text;
+  const std::string unit = rules->unit().empty() || is_duration(field) ? "" : " " + rules->unit();
+  const std::string min = number(rules->min()), max = number(rules->max());
+  if (!rules->has_max()) return (rules->above_min() ? "above " : "at least ") + min + unit;
+  if (!rules->has_min()) return "at most " + max + unit;
+  return (rules->above_min() ? "above " + min + " and at most " : "from " + min + " to ") + max +
+         unit;
+}
+
+std::vector<std::string> choices(const pb::FieldDescriptor& field) {
+  if (field.enum_type() != nullptr) {
+    std::vector<std::string> out;
+    for (int i = 1; i < field.enum_type()->value_count(); ++i) {
+      out.push_back(choice_text(*field.enum_type()->value(i)));
+    }
+    return out;
+  }
+  const v1::FieldRules* const rules = rules_of(field);
+  if (rules == nullptr) return {};
+  return {rules->values().begin(), rules->values().end()};
+}
+
+std::string default_text(const pb::FieldDescriptor& field) {
+  const v1::FieldRules* const rules = rules_of(field);
+  if (rules == nullptr) return {};
+  if (field.enum_type() != nullptr) {
+    const auto* value = field.enum_type()->FindValueByName(rules->default_value());
+    return value == nullptr ? std::string() : choice_text(*value);
+  }
+  return rules->default_value();
+}
+
+std::string help_text(const pb::FieldDescriptor& field) {
+  std::string text = range_text(field);
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  const v1::FieldRules* const rules = rules_of(field);
+  if (text.empty() && rules != nullptr && !rules->unit().empty()) add("in " + rules->unit());
+  std::string names;
+  for (const std::string& name : choices(field)) names += (names.empty() ? "" : ", ") + name;
+  if (!names.empty()) add(names);
+  if (const std::string value = default_text(field); !value.empty()) add("default " + value);
+  return text;
+}
+
+std::string flag_of(const pb::FieldDescriptor& field) {
+  const v1::FieldRules* const rules = rules_of(field);
+  if (rules != nullptr && !rules->flag().empty()) return rules->flag();
+  std::string flag = field.name();
+  std::replace(flag.begin(), flag.end(), '_', '-');
+  return flag;
+}
+
+}  // namespace hydroprint::rules

@@ -1,0 +1,252 @@
+#include "sim/base/process/out_folder.h"
+
+#include <fcntl.h>
+#include <stdio.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <random>
+#include <string_view>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace hydroprint::worker {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 17> kArtifacts = {
+    "film.png",        "film_map.exr",  "film_profile.toml", "landed.ply",    "landed.png",
+    "placement.pdf",   "predicted.png", "print.pdf",         "print.png",     "print.tif",
+    "report.html",     "report.json",   "residuals.csv",     "residuals.png", "stretch.png",
+    "surface_map.ply", "wrinkles.png"};
+
+/// Every run leaves one of these: what a folder is of is known by it.
+bool is_record(std::string_view name) { return name == "report.json" || name == "frames.json"; }
+
+/// Whether a run may leave a file of that name.
+bool is_artifact_name(std::string_view name) {
+  // The pictures of `validate`, the sheets of `print-image` and the frames of a camera are many.
+  return is_record(name) ||
+         std::find(kArtifacts.begin(), kArtifacts.end(), name) != kArtifacts.end() ||
+         ((name.starts_with("validate-") || name.starts_with("frame-")) &&
+          name.ends_with(".png")) ||
+         (name.starts_with("print-") && (name.ends_with(".png") || name.ends_with(".tif")));
+}
+
+constexpr std::string_view kPartial = ".partial-";
+constexpr std::size_t kSuffixLength = 6;
+
+Status check_replaceable(const fs::path& dir) {
+  std::error_code error;
+  const auto status = fs::status(dir, error);
+  if (!fs::exists(status)) return {};
+  if (!fs::is_directory(status)) {
+    return fail(Code::kAlreadyExists, dir.string() + ": is a file. Choose another --out");
+  }
+  bool has_report = false;
+  bool empty = true;
+  std::string stranger;
+  for (fs::directory_iterator entry(dir, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    empty = false;
+    has_report = has_report || is_record(name);
+    if (!is_artifact_name(name)) stranger = name;
+  }
+  if (error) {
+    return fail(Code::kPermissionDenied,
+                dir.string() + ": cannot be listed. Check its permissions");
+  }
+  if (!stranger.empty()) {
+    return fail(Code::kAlreadyExists, dir.string() + ": holds " + stranger +
+                                          ", which is no artifact. Choose another --out");
+  }
+  if (!empty && !has_report) {
+    return fail(Code::kAlreadyExists,
+                dir.string() + ": not empty and without a report.json. Choose another --out");
+  }
+  return {};
+}
+
+std::string random_suffix() {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::random_device device;
+  std::uniform_int_distribution<std::size_t> letter(0, kLetters.size() - 1);
+  std::string out;
+  for (std::size_t i = 0; i < kSuffixLength; ++i) out += kLetters[letter(device)];
+  return out;
+}
+
+tl::unexpected<Error> system_failure(const fs::path& dir, int error) {
+  if (error == ENOSPC || error == EDQUOT) {
+    return fail(Code::kResourceExhausted,
+                dir.string() + ": the disk is full. Free some space or choose another --out",
+                "DISK_FULL");
+  }
+  return fail(Code::kPermissionDenied, dir.string() + ": cannot be written (" +
+                                           std::generic_category().message(error) +
+                                           "). Choose another --out");
+}
+
+/// So that after a power cut DIR is there with all its files or not at all.
+void sync_folder(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::fsync(file);
+  ::close(file);
+}
+
+void remove_quietly(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+}
+
+bool is_artifact(const std::string& name) {
+  return is_artifact_name(name.substr(0, name.find(".part-")));
+}
+
+/// Opens a folder and takes its lock; else -1, errno being ENOENT if it is gone and EWOULDBLOCK if
+/// another process has it.
+int open_locked(const fs::path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
+  if (file < 0) return -1;
+  struct stat ours {};
+  struct stat there {};
+  int error = ::flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+  // It may have been removed before it was locked.
+  if (error == 0 && (::fstat(file, &ours) != 0 || ::lstat(folder.c_str(), &there) != 0 ||
+                     ours.st_ino != there.st_ino)) {
+    error = ENOENT;
+  }
+  if (error == 0) return file;
+  ::close(file);
+  errno = error;
+  return -1;
+}
+
+/// Removes partial folders of `dir` whose process is dead.
+void remove_stale(const fs::path& dir) {
+  const std::string prefix = dir.filename().string() + std::string(kPartial);
+  std::error_code error;
+  std::vector<fs::path> stale;
+  for (fs::directory_iterator entry(dir.parent_path(), error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.starts_with(prefix) && name.size() == prefix.size() + kSuffixLength) {
+      stale.push_back(entry->path());
+    }
+  }
+  for (const fs::path& folder : stale) {
+    const int locked = open_locked(folder);
+    if (locked < 0) continue;  // alive, or a file system without locks: nobody's to remove
+    const bool ours = std::all_of(fs::directory_iterator(folder, error), {}, [](const auto& entry) {
+      return is_artifact(entry.path().filename().string());
+    });
+    if (ours && !error) remove_quietly(folder);
+    ::close(locked);
+  }
+}
+
+Status move_into_place(const fs::path& partial, const fs::path& dir) {
+  if (::rename(partial.c_str(), dir.c_str()) == 0) return {};  // DIR was not there, or empty
+  if (::renameat2(AT_FDCWD, partial.c_str(), AT_FDCWD, dir.c_str(), RENAME_EXCHANGE) == 0) {
+    remove_quietly(partial);  // the earlier run's, which has this name now
+    return {};
+  }
+  // Some file systems cannot exchange names.
+  const fs::path old = partial.string() + "-old";
+  if (::rename(dir.c_str(), old.c_str()) != 0) return system_failure(dir, errno);
+  if (::rename(partial.c_str(), dir.c_str()) != 0) {
+    const int error = errno;
+    ::rename(old.c_str(), dir.c_str());
+    return system_failure(dir, error);
+  }
+  remove_quietly(old);
+  return {};
+}
+
+}  // namespace
+
+Result<OutFolder> OutFolder::plan(const fs::path& dir) {
+  std::error_code error;
+  // The folder itself, not a link to it, is what gets replaced.
+  fs::path target = fs::weakly_canonical(fs::absolute(dir, error), error);
+  if (!target.has_filename()) target = target.parent_path();
+  if (error || !target.has_filename()) {
+    return fail(Code::kInvalidArgument,
+                dir.string() + ": not a folder to write to. Choose another --out");
+  }
+  if (!fs::is_directory(target.parent_path(), error)) {
+    return fail(Code::kNotFound, target.parent_path().string() +
+                                     ": no such folder. Create it or choose another --out");
+  }
+  if (::access(target.parent_path().c_str(), W_OK | X_OK) != 0) {
+    return system_failure(target, errno);
+  }
+  HP_RETURN_IF_ERROR(check_replaceable(target));
+  return OutFolder(std::move(target));
+}
+
+OutFolder::OutFolder(fs::path dir)
+    : dir_(std::move(dir)), partial_(dir_.string() + std::string(kPartial) + random_suffix()) {}
+
+OutFolder::OutFolder(OutFolder&& other) noexcept
+    : dir_(std::move(other.dir_)),
+      partial_(std::move(other.partial_)),
+      lock_(std::exchange(other.lock_, -1)),
+      created_(std::exchange(other.created_, false)) {}
+
+OutFolder::~OutFolder() {
+  if (created_) remove_quietly(partial_);
+  if (lock_ >= 0) ::close(lock_);
+}
+
+Status OutFolder::create() {
+  remove_stale(dir_);
+  // Until it is locked, another process may take it for a dead one's and remove it: then once more.
+  for (int attempt = 0; attempt < 100 && lock_ < 0; ++attempt) {
+    if (::mkdir(partial_.c_str(), 0777) != 0 && !(created_ && errno == EEXIST)) {
+      return system_failure(dir_, errno);
+    }
+    created_ = true;
+    lock_ = open_locked(partial_);
+    if (lock_ < 0 && errno != EWOULDBLOCK && errno != ENOENT) break;  // no locks there
+    if (lock_ < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return {};
+}
+
+Status OutFolder::commit() {
+  HP_RETURN_IF_ERROR(check_replaceable(dir_));
+  sync_folder(partial_);
+  HP_RETURN_IF_ERROR(move_into_place(partial_, dir_));
+  created_ = false;
+  sync_folder(dir_.parent_path());
+  return {};
+}
+
+void OutFolder::abandon() const {
+  // A file that is being written may appear between emptying the folder and removing it.
+  std::error_code error;
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    remove_quietly(partial_);
+    if (!fs::exists(partial_, error)) return;
+  }
+}
+
+std::string OutFolder::in_terms_of_dir(std::string message) const {
+  const std::string partial = partial_.string();
+  for (auto at = message.find(partial); at != std::string::npos; at = message.find(partial)) {
+    message.replace(at, partial.size(), dir_.string());
+  }
+  return message;
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <span>
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/image/figures/object_views.h"
+#include "sim/image/io/rgb_image.h"
+
+namespace hydroprint::image {
+
+/// A sheet of views of the plain object (found without tiles), with the points of a scan over it,
+/// coloured by how far they are off its surface: blue inside, red outside.
+/// @param points_O  frame O
+/// @param off_mm    one a point, outward
+[[nodiscard]] Result<RgbImage> alignment_picture(const ObjectViews& views,
+                                                 std::span<const Eigen::Vector3d> points_O,
+                                                 std::span<const double> off_mm,
+                                                 const Context& context);
+
+}  // namespace hydroprint::image

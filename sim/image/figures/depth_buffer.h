@@ -1,0 +1,134 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/base/pose.h"
+#include "sim/flow/surface_map.h"
+#include "sim/image/io/rgb_image.h"
+#include "sim/image/texture/raster.h"
+#include "sim/mesh/surface.h"
+
+namespace hydroprint::image {
+
+/// A direction to look at the object from, in parallel projection. Rows of `axes`: right, up and
+/// towards the viewer, in the film frame F.
+struct View {
+  std::string name;
+  Eigen::Matrix3d axes;
+};
+
+/// Front (from -y), back, three-quarter and from below (where the film takes hold first); +z of F
+/// is up.
+[[nodiscard]] std::vector<View> standard_views();
+
+/// Size of the object as seen: half the width and height about its middle, mm.
+[[nodiscard]] Eigen::Vector2d half_extent_mm(const mesh::Surface& surface, const Pose& X_FO,
+                                             const View& view);
+
+/// What can be seen of an object, and of tiles of film on it, from one side, by 2 x 2 samples a
+/// pixel: found once with a depth buffer, for drawings in any colours. Object and tiles must
+/// outlive it.
+class SeenObject {
+ public:
+  SeenObject(const mesh::Surface& surface, const Pose& X_FO,
+             std::span<const flow::MappedTriangle> tiles, const View& view, int width_px,
+             int height_px, double px_per_mm);
+
+  struct Sample {
+    int tile = -1;               ///< whose film is seen there; -1: bare, or background
+    float towards = -HUGE_VALF;  ///< place along the view, mm; -infinity: background
+    float light = 1;             ///< from a lamp over the viewer's left shoulder
+    [[nodiscard]] bool is_background() const { return towards == -HUGE_VALF; }
+  };
+  /// A tile that can be seen, and at which samples.
+  struct SeenTile {
+    const flow::MappedTriangle& tile;
+    std::span<const int> samples;
+  };
+
+  [[nodiscard]] int width() const { return width_; }  ///< in samples, as the height
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] double samples_per_mm() const { return samples_per_mm_; }
+  [[nodiscard]] double depth_step_mm() const { return depth_step_mm_; }
+  [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
+  [[nodiscard]] std::size_t seen_tiles() const { return tile_numbers_.size(); }
+  [[nodiscard]] SeenTile seen_tile(std::size_t i) const;
+  /// x and y in samples, z along the view.
+  [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& point_O) const;
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> tile_corners(const flow::MappedTriangle& tile) const;
+
+ private:
+  [[nodiscard]] Window window() const { return {0, 0, width_, height_}; }
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * width_ + x;
+  }
+  [[nodiscard]] std::array<Eigen::Vector3d, 3> corners_of(std::size_t triangle) const;
+  /// Of its corners, one a column, as seen.
+  [[nodiscard]] Eigen::Matrix3d normals_of(std::size_t triangle) const;
+  /// Which triangle of the surface is seen at each sample; -1: none.
+  std::vector<int> place_surface();
+  void place_tiles();
+  void sort_by_tile();
+  void light_tiles();
+  void light_bare(const std::vector<int>& triangles);
+
+  const mesh::Surface& surface_;
+  std::span<const flow::MappedTriangle> tiles_;
+  Eigen::Isometry3d X_VO_;  ///< object to view, mm, about the object's middle
+  int width_, height_;
+  double samples_per_mm_;
+  double depth_step_mm_;  ///< jumps in depth beyond this are outlines
+  std::vector<Sample> samples_;
+  /// The tiles that are seen, where the samples of each begin among `by_tile_`, and these.
+  std::vector<int> tile_numbers_, first_of_tile_, by_tile_;
+};
+
+/// A picture of it.
+class ViewDrawing {
+ public:
+  explicit ViewDrawing(const SeenObject& seen);
+
+  /// Draws the tiles. `colour_of` is asked once a tile with its corners on the grid of samples and
+  /// returns the linear colour, before light, at a sample from its barycentric coordinates.
+  using TileColour = std::function<Eigen::Vector3f(int x, int y, const Eigen::Vector3d&)>;
+  using TileColourMaker =
+      std::function<TileColour(const flow::MappedTriangle& tile, const Corners& at)>;
+  void draw_tiles(const TileColourMaker& colour_of);
+
+  /// Draws the rest of the surface in linear colours, before light, of the sample.
+  using Colour = std::function<Eigen::Vector3f(int x, int y)>;
+  void draw_bare(const Colour& colour);
+
+  /// Draws points as discs over what has been drawn, where the surface does not hide them.
+  /// @param points_O  a point that lies deeper than `deep_mm` below the surface is hidden
+  /// @param colours   linear, one a point
+  void draw_points(std::span<const Eigen::Vector3d> points_O,
+                   std::span<const Eigen::Vector3f> colours, double radius_mm, double deep_mm);
+
+  /// Puts the drawing, with its outlines, on a picture whose pixels there are background.
+  void put_on(RgbImage& picture, int left_px, int top_px) const;
+
+ private:
+  struct Sample {
+    Eigen::Vector3f colour;
+    float towards;  ///< of what is drawn there
+  };
+  [[nodiscard]] bool is_outline(int x, int y) const;
+  [[nodiscard]] Sample& at(int x, int y) {
+    return samples_[static_cast<std::size_t>(y) * seen_.width() + x];
+  }
+  [[nodiscard]] const Sample& at(int x, int y) const {
+    return samples_[static_cast<std::size_t>(y) * seen_.width() + x];
+  }
+
+  const SeenObject& seen_;
+  std::vector<Sample> samples_;
+};
+
+}  // namespace hydroprint::image

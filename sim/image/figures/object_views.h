@@ -1,0 +1,37 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/base/pose.h"
+#include "sim/base/result.h"
+#include "sim/flow/surface_map.h"
+#include "sim/image/figures/depth_buffer.h"
+#include "sim/mesh/surface.h"
+
+namespace hydroprint::image {
+
+/// Width of a sheet of pictures, and of the space around each view on it.
+inline constexpr int kSheetWidth_px = 1360;
+inline constexpr int kMargin_px = 40;
+
+/// The standard views of an object with film on it, as they stand on a sheet, row by row. What is
+/// seen in them is found once for all pictures of it.
+struct ObjectViews {
+  const mesh::Surface& surface;
+  int columns = 2;
+  int width_px = 0, height_px = 0;  ///< of a view
+  std::vector<std::string> names;
+  std::vector<SeenObject> seen;
+};
+
+/// Looks at an object as it goes into the water (+z of F up). Surface and tiles must outlive the
+/// views.
+/// @param tiles  film that has landed; none: the object alone
+[[nodiscard]] Result<ObjectViews> find_views(const mesh::Surface& surface, const Pose& X_FO,
+                                             std::span<const flow::MappedTriangle> tiles,
+                                             const Context& context);
+
+}  // namespace hydroprint::image

@@ -1,0 +1,258 @@
+#include "sim/image/film/film_image.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "sim/base/check.h"
+#include "sim/image/film/tile_bins.h"
+#include "sim/image/io/colour.h"
+
+namespace hydroprint::image {
+namespace {
+
+constexpr int kBlock_px = 64;
+constexpr int kSamples = 4;
+/// A rotated grid: no two samples in one row or column, so that edges near either axis are smooth.
+const std::array<Eigen::Vector2d, kSamples> kOffsets = {
+    Eigen::Vector2d(-0.125, -0.375), Eigen::Vector2d(0.375, -0.125), Eigen::Vector2d(0.125, 0.375),
+    Eigen::Vector2d(-0.375, 0.125)};
+
+/// A set of a pixel's samples: bit s for sample s.
+using SampleSet = unsigned;
+constexpr SampleSet kAllSamples = (1U << kSamples) - 1;
+
+/// Where the samples of each set lie in the mean, from the pixel's middle.
+const std::array<Eigen::Vector2d, kAllSamples + 1>& mean_offsets() {
+  static const auto offsets = [] {
+    std::array<Eigen::Vector2d, kAllSamples + 1> out;
+    for (SampleSet set = 0; set <= kAllSamples; ++set) {
+      Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+      for (int s = 0; s < kSamples; ++s) {
+        if ((set >> s & 1) != 0) sum += kOffsets[s];
+      }
+      out[set] = sum / std::max(1, std::popcount(set));
+    }
+    return out;
+  }();
+  return offsets;
+}
+
+/// How far beyond a tile's edge its colours are believed, as a part of its size.
+constexpr double kBeyondEdge = 0.5;
+
+/// Where a pixel's colour is looked up, once for all its samples: in its middle, so that tiles that
+/// share the pixel agree, unless that lies far outside a tiny tile.
+/// @param covered  the mean place of the samples that the tile covers
+Eigen::Vector2d look_up_at(const BarycentricMap& map, const Eigen::Vector2d& middle,
+                           const Eigen::Vector2d& covered) {
+  return map.at(middle.x(), middle.y()).minCoeff() >= -kBeyondEdge ? middle : covered;
+}
+
+/// One block of the image while it is painted: the colour of each sample and when it landed.
+class Block {
+ public:
+  explicit Block(const Window& window)
+      : window_(window), pixels_(static_cast<std::size_t>(kBlock_px) * kBlock_px) {}
+
+  /// @param at  the tile's corners on the pixel grid
+  void paint(const Corners& at, const std::array<float, 3>& time_s, const Brush& brush) {
+    collect_spans(at);
+    const BarycentricMap map(at);
+    const TimePlane times(map, {time_s[0], time_s[1], time_s[2]});
+    for (int y = first_row_; y <= last_row_; ++y) paint_row(y, map, times, brush);
+  }
+
+  void resolve(RgbImage& image) const {
+    const Srgb8Encoder encode;
+    for (int y = window_.y0; y < window_.y1; ++y) {
+      std::uint8_t* out = image.at(window_.x0, y);
+      const Pixel* in = &pixels_[index(window_.x0, y)];
+      for (int x = window_.x0; x < window_.x1; ++x, out += 3, ++in) {
+        for (int c = 0; c < 3; ++c) {
+          const auto& light = in->light[c];
+          out[c] = encode((light[0] + light[1] + light[2] + light[3]) * (1.0F / kSamples));
+        }
+      }
+    }
+  }
+
+ private:
+  using PerSample = std::array<float, kSamples>;
+
+  /// The samples of one, as long as nothing landed on them of white film.
+  struct Pixel {
+    std::array<PerSample, 3> light = {
+        PerSample{1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}};  ///< linear
+    PerSample landed_s = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
+  };
+
+  /// Contact time over the pixel grid, at the samples of a pixel.
+  struct TimePlane {
+    TimePlane(const BarycentricMap& map, const Eigen::Vector3d& time_s)
+        : per_x(map.per_x().dot(time_s)), per_y(map.per_y().dot(time_s)) {
+      for (int s = 0; s < kSamples; ++s) {
+        const Eigen::Vector2d place = Eigen::Vector2d(0.5, 0.5) + kOffsets[s];
+        origin[s] = map.at(place.x(), place.y()).dot(time_s);
+      }
+    }
+    Eigen::Array4d origin;
+    double per_x, per_y;
+  };
+
+  struct Span {
+    int begin = 0, end = 0;
+  };
+  using Spans = std::array<Span, kSamples>;
+
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - window_.y0) * kBlock_px +
+           static_cast<std::size_t>(x - window_.x0);
+  }
+
+  /// Rasterises the tile once per sample of a pixel.
+  void collect_spans(const Corners& at) {
+    first_row_ = window_.y1;
+    last_row_ = window_.y0 - 1;
+    for (int s = 0; s < kSamples; ++s) {
+      const Corners shifted = {at[0] - kOffsets[s], at[1] - kOffsets[s], at[2] - kOffsets[s]};
+      for_each_span(shifted, window_, [&](int y, int begin, int end) {
+        if (y < first_row_ || y > last_row_) clear_rows(y);
+        rows_[y - window_.y0][s] = {begin, end};
+      });
+    }
+  }
+
+  void clear_rows(int y) {
+    const int begin = first_row_ > last_row_ ? y : std::min(y, last_row_ + 1);
+    const int end = first_row_ > last_row_ ? y : std::max(y, first_row_ - 1);
+    for (int row = begin; row <= end; ++row) rows_[row - window_.y0] = {};
+    first_row_ = std::min(first_row_, y);
+    last_row_ = std::max(last_row_, y);
+  }
+
+  void paint_row(int y, const BarycentricMap& map, const TimePlane& times, const Brush& brush) {
+    const Spans& spans = rows_[y - window_.y0];
+    Span some{window_.x1, window_.x0}, all{window_.x0, window_.x1};  // of a pixel's samples
+    for (const Span& span : spans) {
+      all = {std::max(all.begin, span.begin), std::min(all.end, span.end)};
+      if (span.begin >= span.end) continue;
+      some = {std::min(some.begin, span.begin), std::max(some.end, span.end)};
+    }
+    const Eigen::Array4d row_times = times.origin + times.per_y * y;
+    for (int x = some.begin; x < some.end; ++x) {
+      Pixel& pixel = pixels_[index(x, y)];
+      const Eigen::Array4f time_s = (row_times + times.per_x * x).cast<float>();
+      const SampleSet covered = x >= all.begin && x < all.end ? kAllSamples : samples_at(x, spans);
+      const SampleSet mine = covered & earlier(time_s, pixel);
+      if (mine == 0) continue;
+      const Eigen::Vector2d middle(x + 0.5, y + 0.5);
+      const Eigen::Vector2d place =
+          mine == kAllSamples ? middle : look_up_at(map, middle, middle + mean_offsets()[mine]);
+      put(pixel, mine, brush.at(place.x(), place.y()), time_s);
+    }
+  }
+
+  static SampleSet samples_at(int x, const Spans& spans) {
+    SampleSet set = 0;
+    for (int s = 0; s < kSamples; ++s) {
+      if (x >= spans[s].begin && x < spans[s].end) set |= 1U << s;
+    }
+    return set;
+  }
+
+  static SampleSet earlier(const Eigen::Array4f& time_s, const Pixel& pixel) {
+    SampleSet set = 0;
+    for (int s = 0; s < kSamples; ++s) {
+      set |= static_cast<SampleSet>(time_s[s] < pixel.landed_s[s]) << s;
+    }
+    return set;
+  }
+
+  static void put(Pixel& pixel, SampleSet set, const Eigen::Vector3f& light,
+                  const Eigen::Array4f& time_s) {
+    for (int s = 0; s < kSamples; ++s) {
+      if ((set >> s & 1) == 0) continue;
+      for (int c = 0; c < 3; ++c) pixel.light[c][s] = light[c];
+      pixel.landed_s[s] = time_s[s];
+    }
+  }
+
+  Window window_;
+  std::vector<Pixel> pixels_;
+  std::array<Spans, kBlock_px> rows_;
+  int first_row_ = 0, last_row_ = -1;
+};
+
+Status check_size(const film::Outline& outline, double dpi) {
+  if (!(dpi >= kMinDpi && dpi <= kMaxDpi)) {
+    return fail(Code::kOutOfRange, "dpi " + std::to_string(dpi) +
+                                       ": must lie in 20 to 2400. "
+                                       "Give the resolution of the printer, such as 300 or 600");
+  }
+  const Eigen::Vector2d size_px = outline.size_mm() * dpi / 25.4;
+  if (!(size_px.x() * size_px.y() <= kMaxFilmImage_px)) {
+    return fail(Code::kOutOfRange, "dpi " + std::to_string(dpi) + " on film " + outline.name +
+                                       ": an image of more than 400 million pixels. Lower the dpi");
+  }
+  return {};
+}
+
+}  // namespace
+
+FilmGrid film_grid(const film::Outline& outline, double pitch_mm) {
+  const Eigen::Vector2d cells = outline.size_mm() / pitch_mm;
+  const Eigen::Vector2d centre = 0.5 * (outline.min_mm + outline.max_mm);
+  FilmGrid grid;
+  grid.columns = std::max(1, static_cast<int>(std::lround(cells.x())));
+  grid.rows = std::max(1, static_cast<int>(std::lround(cells.y())));
+  grid.pitch_mm = pitch_mm;
+  grid.left_mm = centre.x() - 0.5 * grid.columns * pitch_mm;
+  grid.top_mm = centre.y() + 0.5 * grid.rows * pitch_mm;
+  return grid;
+}
+
+std::array<Eigen::Vector3d, 3> model_barycentric(const mesh::Surface& surface,
+                                                 const flow::MappedTriangle& tile) {
+  std::array<Eigen::Vector3d, 3> out;
+  const auto& source = surface.source_barycentric[tile.triangle];
+  for (int i = 0; i < 3; ++i) {
+    out[i].setZero();
+    for (int k = 0; k < 3; ++k) {
+      out[i] += static_cast<double>(tile.barycentric[i][k]) * source[k].cast<double>();
+    }
+  }
+  return out;
+}
+
+Result<RgbImage> film_image(const mesh::Surface& surface,
+                            const std::vector<flow::MappedTriangle>& tiles, const Paint& paint,
+                            const film::Outline& outline, double dpi, const Context& context) {
+  HP_CHECK(surface.source_triangle.size() == surface.triangles.size());
+  HP_RETURN_IF_ERROR(check_size(outline, dpi));
+  const FilmGrid grid = film_grid(outline, 25.4 / dpi);
+  RgbImage image{grid.columns, grid.rows, {}};
+  image.rgb.assign(3 * static_cast<std::size_t>(grid.columns) * grid.rows, 255);
+  if (!paint.has_colour()) return image;
+
+  const TileBins bins(tiles, grid, kBlock_px);
+  HP_RETURN_IF_ERROR(parallel_for(context, "film image", bins.count(), [&](std::size_t b) {
+    const auto in_block = bins.tiles(b);
+    if (in_block.empty()) return Status{};
+    Block block(bins.window(b));
+    for (const int t : in_block) {
+      const flow::MappedTriangle& tile = tiles[t];
+      const Corners at = {grid.cell(tile.film_mm[0]), grid.cell(tile.film_mm[1]),
+                          grid.cell(tile.film_mm[2])};
+      block.paint(at, tile.contact_time_s,
+                  paint.brush(surface.source_triangle[tile.triangle], at,
+                              model_barycentric(surface, tile)));
+    }
+    block.resolve(image);
+    return Status{};
+  }));
+  return image;
+}
+
+}  // namespace hydroprint::image

@@ -1,0 +1,299 @@
+// The only file that knows OpenImageIO; a module of its own (image_codecs.h).
+#include "sim/image/io/codecs.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "sim/base/check.h"
+#include "sim/image/io/colour.h"
+#include "sim/image/io/header.h"
+
+namespace hydroprint::image {
+namespace {
+
+using OIIO::ImageInput;
+using OIIO::ImageOutput;
+using OIIO::ImageSpec;
+using OIIO::TypeDesc;
+using OIIO::Filesystem::IOProxy;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+tl::unexpected<Error> corrupt(const std::string& name, const std::string& why) {
+  return fail(Code::kDataLoss,
+              name + ": truncated or corrupt image (" + first_line(why) + "). Get the file again");
+}
+
+/// How the channels of a file make a texel.
+struct Layout {
+  int channels = 3;
+  int alpha = -1;  ///< channel, -1: none
+  bool premultiplied = false;
+  bool grey = false;
+  bool is_float = false;
+};
+
+Layout layout_of(const ImageSpec& spec) {
+  Layout layout;
+  layout.channels = spec.nchannels;
+  layout.alpha = spec.alpha_channel;
+  if (layout.alpha < 0 && (spec.nchannels == 2 || spec.nchannels == 4)) {
+    layout.alpha = spec.nchannels - 1;  // TIFF may leave the extra channel unnamed
+  }
+  layout.premultiplied = spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
+  layout.grey = spec.nchannels < 3;
+  layout.is_float = spec.format.is_floating_point();
+  return layout;
+}
+
+/// One texel from values in [0, 1], sRGB-coded unless the file holds floats.
+Texel to_texel(std::array<float, 3> colour, float alpha, const Layout& layout, bool& had_alpha) {
+  const float opacity = alpha > 0 ? std::min(alpha, 1.0F) : 0;
+  had_alpha = had_alpha || opacity < 1;
+  std::array<std::uint16_t, 3> out{};
+  for (int i = 0; i < 3; ++i) {
+    float value = colour[i];
+    if (layout.premultiplied && opacity > 0 && opacity < 1) value /= opacity;
+    value = layout.is_float ? (value > 0 ? std::min(value, 1.0F) : 0) : linear_from_srgb(value);
+    out[i] = static_cast<std::uint16_t>(std::lround((value * opacity + (1 - opacity)) * 65535.0F));
+  }
+  return {out[0], out[1], out[2], 0};
+}
+
+void convert(const float* from, std::size_t count, const Layout& layout, Texel* to,
+             bool& had_alpha) {
+  for (std::size_t i = 0; i < count; ++i, from += layout.channels) {
+    const float alpha = layout.alpha >= 0 ? from[layout.alpha] : 1;
+    to[i] = layout.grey ? to_texel({from[0], from[0], from[0]}, alpha, layout, had_alpha)
+                        : to_texel({from[0], from[1], from[2]}, alpha, layout, had_alpha);
+  }
+}
+
+void convert(const std::uint16_t* from, std::size_t count, const Layout& layout, Texel* to,
+             bool& had_alpha) {
+  for (std::size_t i = 0; i < count; ++i, from += layout.channels) {
+    if (layout.alpha >= 0 && from[layout.alpha] != 65535) {
+      std::array<float, 3> colour{};
+      for (int k = 0; k < 3; ++k) {
+        colour[k] = static_cast<float>(from[layout.grey ? 0 : k]) / 65535.0F;
+      }
+      const float alpha = static_cast<float>(from[layout.alpha]) / 65535.0F;
+      to[i] = to_texel(colour, alpha, layout, had_alpha);
+    } else {
+      to[i].r = linear16_from_srgb16(from[0]);
+      to[i].g = layout.grey ? to[i].r : linear16_from_srgb16(from[1]);
+      to[i].b = layout.grey ? to[i].r : linear16_from_srgb16(from[2]);
+    }
+  }
+}
+
+bool read_rows(ImageInput& input, const ImageSpec& spec, int y0, int y1, TypeDesc type, void* to) {
+  if (spec.tile_width == 0) {
+    return input.read_scanlines(0, 0, y0, y1, 0, 0, spec.nchannels, type, to);
+  }
+  return input.read_tiles(0, 0, 0, spec.width, y0, y1, 0, 1, 0, spec.nchannels, type, to);
+}
+
+template <class Value>
+Status read_pixels(ImageInput& input, const ImageSpec& spec, const std::string& name,
+                   const Context& context, ReadImage& out) {
+  const Layout layout = layout_of(spec);
+  const int rows = spec.tile_width ? spec.tile_height : 64;
+  const std::size_t row = static_cast<std::size_t>(spec.width) * spec.nchannels;
+  if (rows < 1 || row * static_cast<std::size_t>(rows) > (std::size_t{1} << 29)) {
+    return corrupt(name, "tiles of " + std::to_string(spec.tile_height) + " rows");
+  }
+  std::vector<Value> buffer(row * static_cast<std::size_t>(rows));
+  const TypeDesc type = layout.is_float ? TypeDesc::FLOAT : TypeDesc::UINT16;
+  for (int y = 0; y < spec.height; y += rows) {
+    HP_RETURN_IF_ERROR(check_cancelled(context));
+    const int end = std::min(y + rows, spec.height);
+    const bool read = read_rows(input, spec, y, end, type, buffer.data());
+    if (!read || input.has_error()) return corrupt(name, input.geterror());
+    const std::size_t width = static_cast<std::size_t>(spec.width);
+    convert(buffer.data(), width * static_cast<std::size_t>(end - y), layout,
+            &out.image.texels[width * static_cast<std::size_t>(y)], out.had_alpha);
+  }
+  return {};
+}
+
+/// An image file whose header has been looked at.
+struct Opened {
+  std::unique_ptr<ImageInput> input;
+  ImageSpec spec;
+};
+
+Result<Opened> open(IOProxy& proxy, const std::string& name) {
+  const ByteSource bytes{static_cast<std::int64_t>(proxy.size()),
+                         [&](void* to, std::size_t count, std::int64_t offset) {
+                           return proxy.pread(to, count, offset);
+                         }};
+  HP_ASSIGN_OR_RETURN(const Format format, check_header(bytes, name));
+  Opened out{ImageInput::create(decoder_name(format), false, nullptr), {}};
+  if (!out.input || !out.input->set_ioproxy(&proxy)) {
+    return fail(Code::kUnimplemented,
+                name + ": no decoder for " + decoder_name(format) + ". Convert the image to PNG");
+  }
+  ImageSpec config;
+  config.attribute("oiio:UnassociatedAlpha", 1);
+  if (!out.input->open(name, out.spec, config)) return corrupt(name, out.input->geterror());
+  HP_RETURN_IF_ERROR(check_size(out.spec.width, out.spec.height, bytes.size, format, name));
+  if (out.spec.depth > 1 || out.spec.nchannels < 1 || out.spec.nchannels > 64) {
+    return corrupt(name, std::to_string(out.spec.nchannels) + " channels");
+  }
+  return out;
+}
+
+Result<ReadImage> decode(IOProxy& proxy, const std::string& name, const Context& context) {
+  HP_ASSIGN_OR_RETURN(const Opened opened, open(proxy, name));
+  const ImageSpec& spec = opened.spec;
+  ReadImage out;
+  out.image.width = spec.width;
+  out.image.height = spec.height;
+  out.image.texels.resize(static_cast<std::size_t>(spec.width) * spec.height);
+  if (spec.format.is_floating_point()) {
+    HP_RETURN_IF_ERROR(read_pixels<float>(*opened.input, spec, name, context, out));
+  } else {
+    HP_RETURN_IF_ERROR(read_pixels<std::uint16_t>(*opened.input, spec, name, context, out));
+  }
+  return out;
+}
+
+Result<Grey16Image> decode_grey16(IOProxy& proxy, const std::string& name) {
+  HP_ASSIGN_OR_RETURN(const Opened opened, open(proxy, name));
+  const ImageSpec& spec = opened.spec;
+  if (spec.nchannels != 1 || spec.format != TypeDesc::UINT16 || spec.tile_width != 0) {
+    return fail(
+        Code::kInvalidArgument,
+        name + ": not a grey image of 16 bits. Give depths as hydroprint-capture writes them");
+  }
+  Grey16Image out{spec.width, spec.height, {}};
+  out.grey.resize(static_cast<std::size_t>(spec.width) * spec.height);
+  if (!read_rows(*opened.input, spec, 0, spec.height, TypeDesc::UINT16, out.grey.data()) ||
+      opened.input->has_error()) {
+    return corrupt(name, opened.input->geterror());
+  }
+  return out;
+}
+
+/// The libraries behind OpenImageIO report through return values, but it is C++: nothing of theirs
+/// may pass this file.
+template <class Decode>
+auto safely(const std::string& name, Decode decode) -> decltype(decode()) {
+  try {
+    return decode();
+  } catch (const std::bad_alloc&) {
+    return fail(Code::kResourceExhausted,
+                name + ": not enough memory for this image. Scale it down", "OUT_OF_MEMORY");
+  } catch (const std::exception& exception) {
+    return corrupt(name, exception.what());
+  }
+}
+
+/// @param name  for messages; its extension is what the encoder expects
+Result<std::vector<unsigned char>> encode(const std::string& name, const char* encoder,
+                                          const ImageSpec& spec, TypeDesc type,
+                                          const void* pixels) {
+  std::vector<unsigned char> file;
+  OIIO::Filesystem::IOVecOutput proxy(file);
+  try {
+    const auto output = ImageOutput::create(encoder);
+    if (!output || !output->set_ioproxy(&proxy) || !output->open(name, spec) ||
+        !output->write_image(type, pixels) || !output->close()) {
+      const std::string why = output ? output->geterror() : "no encoder";
+      return fail(Code::kInternal,
+                  name + ": encoding failed (" + first_line(why) + "). Please report this");
+    }
+  } catch (const std::exception& exception) {
+    return fail(Code::kInternal,
+                name + ": encoding failed (" + exception.what() + "). Is there enough memory?");
+  }
+  return file;
+}
+
+/// Opens a file and decodes it.
+template <class Decode>
+auto from_file(const std::filesystem::path& path, Decode decode)
+    -> decltype(decode(std::declval<IOProxy&>())) {
+  OIIO::Filesystem::IOFile proxy(path.string(), IOProxy::Read);
+  if (!proxy.opened()) {
+    return fail(Code::kPermissionDenied,
+                path.string() + ": cannot be opened. Check its permissions");
+  }
+  return safely(path.string(), [&] { return decode(proxy); });
+}
+
+Result<ReadImage> read_file(const std::filesystem::path& path, const Context& context) {
+  return from_file(path, [&](IOProxy& proxy) { return decode(proxy, path.string(), context); });
+}
+
+Result<Grey16Image> read_grey16_file(const std::filesystem::path& path, const Context&) {
+  return from_file(path, [&](IOProxy& proxy) { return decode_grey16(proxy, path.string()); });
+}
+
+Result<ReadImage> read_bytes(const std::vector<unsigned char>& bytes, const std::string& name,
+                             const Context& context) {
+  OIIO::Filesystem::IOMemReader proxy(bytes.data(), bytes.size());
+  return safely(name, [&] { return decode(proxy, name, context); });
+}
+
+Result<std::vector<unsigned char>> encode_png_rgba(const std::string& name, int width, int height,
+                                                   const std::vector<std::uint8_t>& rgba) {
+  HP_CHECK(rgba.size() == 4 * static_cast<std::size_t>(width) * height);
+  ImageSpec spec(width, height, 4, TypeDesc::UINT8);
+  spec.attribute("png:compressionLevel", 1);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.alpha_channel = 3;
+  spec.attribute("oiio:UnassociatedAlpha", 1);
+  return encode(name, "png", spec, TypeDesc::UINT8, rgba.data());
+}
+
+Result<std::vector<unsigned char>> encode_tiff(const std::string& name, const PrinterImage& image,
+                                               double dpi, const std::string& icc_profile) {
+  HP_CHECK(image.samples.size() == image.row_bytes() * image.height);
+  ImageSpec spec(image.width, image.height, image.channels, TypeDesc::UINT8);
+  spec.attribute("compression", "lzw");
+  spec.attribute("XResolution", static_cast<float>(dpi));
+  spec.attribute("YResolution", static_cast<float>(dpi));
+  spec.attribute("ResolutionUnit", "in");
+  // Left out, the library writes the time; so Exif (2.3, tag 306) has one that is not known.
+  spec.attribute("DateTime", "    :  :     :  :  ");
+  if (image.channels == 4) {
+    spec.channelnames = {"C", "M", "Y", "K"};
+    spec.alpha_channel = -1;
+    spec.attribute("tiff:ColorSpace", "CMYK");
+  }
+  if (!icc_profile.empty()) {
+    spec.attribute("ICCProfile", TypeDesc(TypeDesc::UINT8, static_cast<int>(icc_profile.size())),
+                   icc_profile.data());
+  }
+  return encode(name, "tiff", spec, TypeDesc::UINT8, image.samples.data());
+}
+
+Result<std::vector<unsigned char>> encode_exr(const std::string& name, int width, int height,
+                                              const std::vector<std::string>& channels,
+                                              const std::vector<float>& values) {
+  HP_CHECK(values.size() == channels.size() * static_cast<std::size_t>(width) * height);
+  ImageSpec spec(width, height, static_cast<int>(channels.size()), TypeDesc::FLOAT);
+  spec.channelnames = channels;
+  spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // else the time of writing: equal images are equal files
+  return encode(name, "openexr", spec, TypeDesc::FLOAT, values.data());
+}
+
+}  // namespace
+}  // namespace hydroprint::image
+
+const hydroprint::image::ImageCodecs* hydroprint_image_codecs() {
+  using namespace hydroprint::image;
+  static const ImageCodecs codecs = {read_file,   read_bytes, encode_png_rgba,
+                                     encode_tiff, encode_exr, read_grey16_file};
+  return &codecs;
+}

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/image/io/rgb_image.h"
+
+namespace hydroprint::image {
+
+/// One texel in linear light, 16 bits a channel; `chart` is Texture's own mark (0 when read).
+struct Texel {
+  std::uint16_t r = 0, g = 0, b = 0, chart = 0;
+};
+
+/// An image as read, row 0 on top.
+struct Texels {
+  int width = 0, height = 0;
+  std::vector<Texel> texels;
+};
+
+struct ReadImage {
+  Texels image;
+  bool had_alpha = false;  ///< some of it was not opaque, and lay on white
+};
+
+/// Images larger than this are refused before anything is decoded.
+inline constexpr int kMaxImageSide_px = 16384;
+inline constexpr std::int64_t kMaxImageArea_px = 200'000'000;
+
+/// Loads the image libraries, which else happens when the first image is read. Ahead of what takes
+/// much memory: they end the program where they find none.
+void load_image_libraries();
+
+/// Reads PNG, JPEG or TIFF (told by their first bytes, not by their name): grey, RGB, palette, with
+/// or without alpha (laid over white in linear light), 8 or 16 bits or floats. Integers are taken
+/// as sRGB-coded, floats as linear.
+/// Refuses, naming the file: other formats (kInvalidArgument), images beyond the limits above
+/// (kOutOfRange), files too short for the size they announce, truncated or corrupt ones
+/// (kDataLoss).
+[[nodiscard]] Result<ReadImage> read_image(const std::filesystem::path& path,
+                                           const Context& context);
+
+/// The same for an image embedded in another file; `name` says where in messages.
+[[nodiscard]] Result<ReadImage> read_image(const std::vector<unsigned char>& bytes,
+                                           const std::string& name, const Context& context);
+
+/// Resolution stated in pictures that are to be looked at, not printed.
+inline constexpr double kScreenDpi = 96;
+
+/// Writes a PNG with its resolution (encode_png), under a temporary name that is renamed at the
+/// end. Refuses with kResourceExhausted (reason DISK_FULL) when the disk is full, kPermissionDenied
+/// or kNotFound when the place cannot be written to.
+[[nodiscard]] Status write_png(const std::filesystem::path& path, const RgbImage& image, double dpi,
+                               const Context& context = {});
+
+/// The same with an alpha channel (unassociated); `rgba` holds width * height * 4 bytes.
+[[nodiscard]] Status write_png_rgba(const std::filesystem::path& path, int width, int height,
+                                    const std::vector<std::uint8_t>& rgba);
+
+/// Writes float channels, interleaved, as a zip-compressed OpenEXR, as write_png does.
+[[nodiscard]] Status write_exr(const std::filesystem::path& path, int width, int height,
+                               const std::vector<std::string>& channels,
+                               const std::vector<float>& values);
+
+}  // namespace hydroprint::image

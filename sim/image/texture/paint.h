@@ -1,0 +1,90 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/image/texture/raster.h"
+#include "sim/image/texture/texture.h"
+#include "sim/mesh/model.h"
+
+namespace hydroprint::image {
+
+/// The colour of one small piece of the surface, seen through an affine map from some grid of
+/// samples: filtered for that grid.
+class Brush {
+ public:
+  /// One colour all over: white.
+  Brush() = default;
+  /// A patch of a texture, which must outlive the brush, as must the chart.
+  /// @param at  three places on the grid of samples
+  /// @param uv  what lies there
+  Brush(const Texture& texture, const Chart& chart, const Corners& at, const Corners& uv);
+
+  /// Mean colour in linear light over the sample at this place of the grid.
+  [[nodiscard]] Eigen::Vector3f at(double x, double y) const;
+
+ private:
+  friend class Paint;
+  const Texture* texture_ = nullptr;  ///< none: colour_ and its slopes hold
+  const Chart* chart_ = nullptr;
+  Texture::Footprint footprint_;
+  Texture::Shortcut shortcut_;
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d uv_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d uv_per_sample_ = Eigen::Matrix2d::Zero();
+  Eigen::Vector3f colour_ = Eigen::Vector3f::Ones();
+  Eigen::Matrix<float, 3, 2> colour_per_sample_ = Eigen::Matrix<float, 3, 2>::Zero();
+};
+
+/// What the object is to look like: a colour for every point of its surface.
+class Paint {
+ public:
+  /// False: the model says nothing about colour, and the film stays white everywhere.
+  [[nodiscard]] bool has_colour() const { return has_colour_; }
+  /// Size of the largest texture; zero if there is none.
+  [[nodiscard]] Eigen::Vector2i texture_size_px() const;
+  [[nodiscard]] const Warnings& warnings() const { return warnings_; }
+
+  /// @param model_triangle  into Model::triangles
+  /// @param at  where three points of that triangle lie on the grid of samples (sample (i, j) at
+  ///            (i + 1/2, j + 1/2))
+  /// @param barycentric  the three points, in that triangle
+  [[nodiscard]] Brush brush(int model_triangle, const Corners& at,
+                            const std::array<Eigen::Vector3d, 3>& barycentric) const;
+
+ private:
+  friend class PaintLoader;
+  /// Where the colour of a triangle comes from; several triangles share one.
+  struct Ink {
+    enum class Kind { kNone, kColour, kTexture, kVertices };
+    Kind kind = Kind::kNone;
+    Eigen::Vector3f colour = Eigen::Vector3f::Ones();  ///< linear
+    int texture = -1;
+  };
+
+  bool has_colour_ = false;
+  Warnings warnings_;
+  std::vector<Ink> inks_;
+  std::vector<int> ink_of_triangle_;
+  std::vector<Texture> textures_;
+  std::vector<Chart> chart_of_triangle_;  ///< empty: no textures
+  std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs_;
+  std::vector<Eigen::Vector3i> triangles_;
+  std::vector<Eigen::Vector3f> vertex_colours_;  ///< linear
+};
+
+/// Gathers a model's colours: `texture` on its UVs if given, else its materials' textures and
+/// colours, else its vertex colours, else none.
+/// Refuses, naming file and remedy: a texture for a model without UVs (kInvalidArgument), a
+/// material's texture that is missing (kNotFound), and what read_image refuses; more than
+/// kMaxImageArea_px in all textures together (kOutOfRange).
+[[nodiscard]] Result<Paint> load_paint(const mesh::Model& model,
+                                       const std::optional<std::filesystem::path>& texture,
+                                       const Context& context);
+
+}  // namespace hydroprint::image

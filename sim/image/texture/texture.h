@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/image/io/image_file.h"
+#include "sim/image/texture/charts.h"
+#include "sim/mesh/model.h"
+
+namespace hydroprint::image {
+
+/// A picture to be sampled at any size: linear light, a pyramid of halved copies, averages that
+/// keep to one chart.
+class Texture {
+ public:
+  /// Takes the texels as level 0 and builds the rest: 8 bytes a texel, a third more for the
+  /// pyramid.
+  [[nodiscard]] static Result<Texture> build(Texels texels, mesh::Wrap wrap_u, mesh::Wrap wrap_v,
+                                             const Context& context);
+
+  /// How the neighbourhood of one sample lies on the texture; the same all over an affine patch.
+  struct Footprint {
+    int level = 0;
+    float blend = 0;  ///< share of the next level
+    int probes = 1;   ///< along the longer axis of the footprint
+    Eigen::Vector2d step_uv = Eigen::Vector2d::Zero();
+  };
+  /// @param uv_per_sample  columns: change of (u, v) from one sample to the next in x and in y
+  [[nodiscard]] Footprint footprint(const Eigen::Matrix2d& uv_per_sample) const;
+
+  /// Mean colour, linear light, of the footprint round a point (v up).
+  [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector2d& uv, const Footprint& footprint,
+                                       const Chart& chart) const;
+
+  /// The short way to the samples of an affine patch, for those that are no larger than a texel and
+  /// lie among four of their chart, away from the texture's edges: most do. The texture must
+  /// outlive it, and not move.
+  class Shortcut {
+   public:
+    /// Leads nowhere.
+    Shortcut() = default;
+    /// As sample(), but for rounding.
+    /// @param offset  from the patch's origin, in samples
+    /// @param colour  linear light, in [0, 1]
+    /// @return false, and no colour, where the long way has to be gone
+    [[nodiscard]] bool sample(const Eigen::Vector2d& offset, Eigen::Vector3f& colour) const;
+
+   private:
+    friend class Texture;
+    const Texels* image_ = nullptr;
+    std::uint16_t chart_ = 0;
+    Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();  ///< in texels, (0, 0) a texel's centre
+    Eigen::Matrix2d per_sample_ = Eigen::Matrix2d::Zero();
+  };
+  /// @param uv  of the patch's origin
+  [[nodiscard]] Shortcut shortcut(const Eigen::Vector2d& uv, const Eigen::Matrix2d& uv_per_sample,
+                                  const Footprint& footprint, const Chart& chart) const;
+
+  [[nodiscard]] int width() const { return levels_[0].width; }
+  [[nodiscard]] int height() const { return levels_[0].height; }
+
+ private:
+  struct Sum {
+    Eigen::Vector3f colour = Eigen::Vector3f::Zero();
+    float weight = 0;
+  };
+  [[nodiscard]] Eigen::Vector2d fold(const Eigen::Vector2d& uv, const Chart& chart) const;
+  [[nodiscard]] Sum bilinear(const Eigen::Vector2d& folded, int level, const Chart& chart) const;
+  [[nodiscard]] Sum trilinear(const Eigen::Vector2d& folded, const Footprint& footprint,
+                              const Chart& chart) const;
+  [[nodiscard]] Eigen::Vector3f finer(const Eigen::Vector2d& uv, const Footprint& footprint,
+                                      const Chart& chart) const;
+  [[nodiscard]] Eigen::Vector3f nearest(const Eigen::Vector2d& folded) const;
+
+  std::vector<Texels> levels_;
+  std::array<mesh::Wrap, 2> wrap_ = {mesh::Wrap::kRepeat, mesh::Wrap::kRepeat};
+};
+
+}  // namespace hydroprint::image

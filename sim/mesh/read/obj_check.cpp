@@ -1,0 +1,156 @@
+#include "sim/mesh/read/obj_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "sim/mesh/read/file.h"
+#include "sim/mesh/read/numbers.h"
+
+namespace hydroprint::mesh {
+namespace {
+
+std::string quoted(std::string_view word) {
+  std::string text(1, '"');
+  text.append(word.substr(0, 40));
+  return text.append(1, '"');
+}
+
+class ObjChecker {
+ public:
+  ObjChecker(std::string_view text, const std::filesystem::path& path) : rest_(text), path_(path) {}
+
+  Result<ObjFacts> run(const Context& context) {
+    while (!rest_.empty()) {
+      if (++line_ % 65536 == 0) HP_RETURN_IF_ERROR(check_cancelled(context));
+      HP_RETURN_IF_ERROR(check(next_line()));
+    }
+    HP_RETURN_IF_ERROR(check_last(vertex_, facts_.vertices, "vertex"));
+    HP_RETURN_IF_ERROR(check_last(texture_, facts_.texture_coordinates, "texture coordinate"));
+    return std::move(facts_);
+  }
+
+ private:
+  /// Largest index seen, and where; more may be defined further down.
+  struct Largest {
+    std::int64_t index = 0;
+    std::size_t line = 0;
+  };
+
+  std::string_view next_line() {
+    const auto is_end = [](char c) { return c == '\n' || c == '\r'; };  // find_first_of is slow
+    const auto end = static_cast<std::size_t>(std::ranges::find_if(rest_, is_end) - rest_.begin());
+    const auto line = rest_.substr(0, end);
+    rest_.remove_prefix(end);
+    rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : rest_.empty() ? 0 : 1);
+    return line;
+  }
+
+  [[nodiscard]] tl::unexpected<Error> bad(std::size_t line, std::string_view what) const {
+    return bad_input(path_, "line " + std::to_string(line), what);
+  }
+
+  Status check(std::string_view line) {
+    if (line.find('\0') != line.npos)
+      return bad(line_, "holds binary data; give a Wavefront OBJ file as text");
+    const auto keyword = next_word(line);
+    if (keyword == "v") return check_vertex(line);
+    if (keyword == "vt") return check_texture_coordinate(line);
+    if (keyword == "f") return check_face(line);
+    if (keyword == "mtllib") facts_.libraries.emplace_back(line);
+    return {};
+  }
+
+  /// @return how many numbers the line holds
+  Result<std::size_t> numbers(std::string_view line, std::array<double, 8>& values) {
+    std::size_t count = 0;
+    for (auto word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
+      const auto number = parse_number(word);
+      if (!number)
+        return bad(line_, quoted(word) + " is not a finite number" + std::string(kExportAgain));
+      if (count < values.size()) values[count] = *number;
+      ++count;
+    }
+    return count;
+  }
+
+  Status check_vertex(std::string_view line) {
+    std::array<double, 8> values{};
+    HP_ASSIGN_OR_RETURN(const std::size_t count, numbers(line, values));
+    if (count < 3)
+      return bad(line_, "a vertex needs three coordinates" + std::string(kExportAgain));
+    ++facts_.vertices;
+    if (count == 6 || count == 7)
+      facts_.vertex_colours.push_back(
+          Eigen::Vector3d(values[count - 3], values[count - 2], values[count - 1]).cast<float>());
+    return {};
+  }
+
+  Status check_texture_coordinate(std::string_view line) {
+    std::array<double, 8> values{};
+    HP_ASSIGN_OR_RETURN(const std::size_t count, numbers(line, values));
+    if (count < 1) return bad(line_, "a texture coordinate is empty" + std::string(kExportAgain));
+    ++facts_.texture_coordinates;
+    return {};
+  }
+
+  Status check_face(std::string_view line) {
+    std::size_t corners = 0;
+    for (auto word = next_word(line); !word.empty(); word = next_word(line)) {
+      HP_RETURN_IF_ERROR(check_corner(word));
+      ++corners;
+    }
+    if (corners < 3)
+      return bad(line_, "a face has fewer than three corners" + std::string(kExportAgain));
+    facts_.triangles += corners - 2;
+    return {};
+  }
+
+  Status check_corner(std::string_view word) {
+    const auto slash = std::min(word.find('/'), word.size());
+    HP_RETURN_IF_ERROR(check_index(word.substr(0, slash), facts_.vertices, vertex_, "vertex"));
+    word.remove_prefix(std::min(slash + 1, word.size()));
+    const auto texture = word.substr(0, word.find('/'));
+    if (texture.empty()) return {};
+    return check_index(texture, facts_.texture_coordinates, texture_, "texture coordinate");
+  }
+
+  Status check_index(std::string_view word, std::size_t count, Largest& largest,
+                     std::string_view what) {
+    std::int64_t index = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
+    if (error != std::errc() || end != word.data() + word.size() || index == 0 ||
+        -index > static_cast<std::int64_t>(count) || index > INT32_MAX)
+      return out_of_range(line_, word, count, what);
+    if (index > largest.index) largest = {index, line_};
+    return {};
+  }
+
+  Status check_last(const Largest& largest, std::size_t count, std::string_view what) const {
+    if (largest.index <= static_cast<std::int64_t>(count)) return {};
+    return out_of_range(largest.line, std::to_string(largest.index), count, what);
+  }
+
+  [[nodiscard]] tl::unexpected<Error> out_of_range(std::size_t line, std::string_view word,
+                                                   std::size_t count, std::string_view what) const {
+    std::string text = "a face uses ";
+    text.append(what).append(" ").append(quoted(word)).append(", but there are ");
+    return bad(line, text.append(std::to_string(count)).append(kExportAgain));
+  }
+
+  std::string_view rest_;
+  const std::filesystem::path& path_;
+  std::size_t line_ = 0;
+  Largest vertex_;
+  Largest texture_;
+  ObjFacts facts_;
+};
+
+}  // namespace
+
+Result<ObjFacts> check_obj(std::string_view text, const std::filesystem::path& path,
+                           const Context& context) {
+  return ObjChecker(text, path).run(context);
+}
+
+}  // namespace hydroprint::mesh

@@ -1,0 +1,297 @@
+#include <tiny_obj_loader.h>
+
+#include <exception>
+#include <fstream>
+#include <map>
+#include <new>
+#include <set>
+#include <sstream>
+#include <streambuf>
+
+#include "sim/mesh/read/file.h"
+#include "sim/mesh/read/numbers.h"
+#include "sim/mesh/read/obj_check.h"
+#include "sim/mesh/read/readers.h"
+#include "sim/mesh/read/textures.h"
+#include "sim/mesh/read/triangulate.h"
+
+namespace hydroprint::mesh {
+namespace {
+
+/// Lets the importer read from memory without a copy.
+class MemoryBuffer : public std::streambuf {
+ public:
+  explicit MemoryBuffer(std::string& text) {
+    setg(text.data(), text.data(), text.data() + text.size());
+  }
+};
+
+/// Lines that end with a backslash go on; the importer does not know that.
+void join_continued_lines(std::string& text) {
+  for (auto at = text.find('\\'); at != text.npos; at = text.find('\\', at + 1)) {
+    const auto end = text.compare(at + 1, 2, "\r\n") == 0 ? at + 3
+                     : text.compare(at + 1, 1, "\n") == 0 ? at + 2
+                                                          : at;
+    for (auto i = at; i < end; ++i) text[i] = ' ';
+  }
+}
+
+/// The importer would take a comment behind a face for more corners.
+void blank_face_comments(std::string& text) {
+  for (auto at = text.find('#'); at != text.npos; at = text.find('#', at)) {
+    const auto begin = text.find_last_of("\r\n", at) + 1;  // npos + 1 is 0: the first line
+    const auto end = std::min(text.find_first_of("\r\n", at), text.size());
+    std::string_view before(text.data() + begin, at - begin);
+    if (next_word(before) == "f") text.replace(at, end - at, end - at, ' ');
+    at = end;
+  }
+}
+
+struct MaterialFile {
+  std::vector<tinyobj::material_t> materials;
+  std::map<std::string, int> by_name;
+  std::set<std::string> coloured;  ///< those with a Kd line, which the importer does not tell
+  std::filesystem::path folder;
+};
+
+std::set<std::string> names_with_colour(const std::string& text) {
+  std::set<std::string> names;
+  std::string name;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::string_view rest = line;
+    const auto keyword = next_word(rest);
+    if (keyword == "newmtl") {
+      const auto begin = rest.find_first_not_of(" \t");
+      const auto end = rest.find_last_not_of(" \t\r");
+      name = begin == rest.npos ? "" : rest.substr(begin, end - begin + 1);
+    } else if (keyword == "Kd") {
+      names.insert(name);
+    }
+  }
+  return names;
+}
+
+class ObjImporter {
+ public:
+  ObjImporter(const std::filesystem::path& path, ObjFacts facts) : facts_(std::move(facts)) {
+    model_.path = path;
+    model_.vertices.reserve(facts_.vertices);
+    model_.triangles.reserve(facts_.triangles);
+    for (const auto& line : facts_.libraries) read_library(line);
+  }
+
+  Result<Model> run(std::string& text) {
+    tinyobj::callback_t callback;
+    callback.vertex_cb = [](void* self, double x, double y, double z, double) {
+      cast(self).model_.vertices.emplace_back(x, y, z);
+    };
+    callback.texcoord_cb = [](void* self, double u, double v, double) {
+      cast(self).uvs_.emplace_back(static_cast<float>(u), static_cast<float>(v));
+    };
+    callback.index_cb = [](void* self, tinyobj::index_t* indices, int count) {
+      cast(self).keep_face({indices, static_cast<std::size_t>(count)});
+    };
+    callback.usemtl_cb = [](void* self, const char* name, int) { cast(self).use(name); };
+    MemoryBuffer buffer(text);
+    std::istream stream(&buffer);
+    if (!tinyobj::LoadObjWithCallback(stream, callback, this) ||
+        model_.vertices.size() != facts_.vertices || uvs_.size() != facts_.texture_coordinates)
+      return bad_input(model_.path, "", "could not be read whole" + std::string(kExportAgain));
+    add_faces();
+    finish();
+    return std::move(model_);
+  }
+
+ private:
+  static ObjImporter& cast(void* self) { return *static_cast<ObjImporter*>(self); }
+
+  void warn(std::string code, std::string message) {
+    model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
+  }
+
+  void read_library(const std::string& line) {
+    const auto folder = model_.path.parent_path();
+    std::vector<std::filesystem::path> candidates = {resolve_texture(folder, line)};
+    std::string_view rest = line;
+    for (auto word = next_word(rest); !word.empty(); word = next_word(rest))
+      candidates.push_back(folder / word);
+    bool found = false;
+    for (const auto& candidate : candidates) {
+      if (candidate.empty() || !std::filesystem::is_regular_file(candidate)) continue;
+      read_materials(candidate);
+      found = true;
+      if (&candidate == &candidates.front()) break;  // the whole line was one name
+    }
+    if (!found)
+      warn("material_file_missing",
+           "the material file" + line + " was not found: its colours and textures are not used");
+  }
+
+  void read_materials(const std::filesystem::path& path) {
+    auto text = read_file(path);
+    if (!text) return warn("material_file_missing", text.error().message);
+    MaterialFile file;
+    file.folder = path.parent_path();
+    file.coloured = names_with_colour(*text);
+    MemoryBuffer buffer(*text);
+    std::istream stream(&buffer);
+    std::string warning;
+    std::string error;
+    tinyobj::LoadMtl(&file.by_name, &file.materials, &stream, &warning, &error);
+    files_.push_back(std::move(file));
+  }
+
+  void use(std::string name) {
+    name.erase(name.find_last_not_of(" \t\r") + 1);
+    const auto known = used_.find(name);
+    if (known != used_.end()) {
+      current_ = known->second;
+      return;
+    }
+    current_ = static_cast<int>(model_.materials.size());
+    used_.emplace(name, current_);
+    model_.materials.push_back(find(name));
+    transforms_.push_back(transform_);
+  }
+
+  /// The material as the files state it; if they do not, one without colour.
+  Material find(const std::string& name) {
+    Material material;
+    material.name = name;
+    transform_ = {};
+    for (const auto& file : files_) {
+      const auto at = file.by_name.find(name);
+      if (at == file.by_name.end()) continue;
+      const auto& found = file.materials[static_cast<std::size_t>(at->second)];
+      if (file.coloured.contains(name)) {
+        material.has_colour = true;
+        for (int k = 0; k < 3; ++k)
+          material.colour[k] = std::clamp(static_cast<float>(found.diffuse[k]), 0.0F, 1.0F);
+      }
+      if (!found.diffuse_texname.empty()) {
+        const auto& options = found.diffuse_texopt;
+        material.texture = resolve_texture(file.folder, found.diffuse_texname);
+        material.wrap_u = material.wrap_v = options.clamp ? Wrap::kClamp : Wrap::kRepeat;
+        transform_.scale = {static_cast<float>(options.scale[0]),
+                            static_cast<float>(options.scale[1])};
+        transform_.offset = {static_cast<float>(options.origin_offset[0]),
+                             static_cast<float>(options.origin_offset[1])};
+      }
+      return material;
+    }
+    missing_.insert(name);
+    return material;
+  }
+
+  /// Corners may come before their vertices, so faces wait until all is read.
+  void keep_face(std::span<const tinyobj::index_t> corners) {
+    const auto resolve = [](int index, std::size_t count) {
+      return index < 0 ? static_cast<int>(count) + index : index - 1;
+    };
+    for (const auto& corner : corners) {
+      corners_.push_back(resolve(corner.vertex_index, model_.vertices.size()));
+      corner_uvs_.push_back(resolve(corner.texcoord_index, uvs_.size()));
+    }
+    face_end_.push_back(corners_.size());
+    face_material_.push_back(current_);
+  }
+
+  void add_faces() {
+    std::size_t begin = 0;
+    for (std::size_t f = 0; f < face_end_.size(); ++f) {
+      const auto polygon = std::span(corners_).subspan(begin, face_end_[f] - begin);
+      for (const auto& t : triangulate(model_.vertices, polygon)) {
+        model_.triangles.emplace_back(polygon[static_cast<std::size_t>(t[0])],
+                                      polygon[static_cast<std::size_t>(t[1])],
+                                      polygon[static_cast<std::size_t>(t[2])]);
+        add_uvs(begin, t, face_material_[f]);
+        model_.triangle_material.push_back(face_material_[f]);
+      }
+      begin = face_end_[f];
+    }
+  }
+
+  void add_uvs(std::size_t begin, const std::array<int, 3>& triangle, int material) {
+    std::array<Eigen::Vector2f, 3> uvs;
+    bool complete = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int index = corner_uvs_[begin + static_cast<std::size_t>(triangle[k])];
+      complete = complete && index >= 0;
+      uvs[k] = index < 0 ? Eigen::Vector2f::Zero() : uvs_[static_cast<std::size_t>(index)];
+      if (material < 0) continue;
+      const auto& transform = transforms_[static_cast<std::size_t>(material)];
+      uvs[k] = uvs[k].cwiseProduct(transform.scale) + transform.offset;
+    }
+    if (!complete) ++without_uvs_;
+    model_.corner_uvs.push_back(uvs);
+  }
+
+  void finish() {
+    if (without_uvs_ == model_.triangles.size())
+      model_.corner_uvs.clear();
+    else if (without_uvs_ > 0)
+      warn("faces_without_uv", std::to_string(without_uvs_) +
+                                   " faces have no texture coordinates: " +
+                                   "they take the texture's lower left corner");
+    if (model_.materials.empty())
+      model_.triangle_material.clear();
+    else
+      add_default_material();
+    if (facts_.vertex_colours.size() == model_.vertices.size())
+      model_.vertex_colours = std::move(facts_.vertex_colours);
+    else if (!facts_.vertex_colours.empty())
+      warn("vertex_colours_ignored", "only some vertices have colours: they are not used");
+    const bool already_said = files_.empty() && !facts_.libraries.empty();
+    if (!missing_.empty() && !already_said)
+      warn("material_missing",
+           "material \"" + *missing_.begin() + "\" is not in the material file: it has no colour");
+  }
+
+  void add_default_material() {
+    bool needed = false;
+    for (auto& material : model_.triangle_material) {
+      if (material >= 0) continue;
+      needed = true;
+      material = static_cast<int>(model_.materials.size());
+    }
+    if (needed) model_.materials.emplace_back();
+  }
+
+  struct Transform {
+    Eigen::Vector2f scale = {1, 1};
+    Eigen::Vector2f offset = {0, 0};
+  };
+
+  ObjFacts facts_;
+  Model model_;
+  std::vector<MaterialFile> files_;
+  std::map<std::string, int> used_;
+  std::set<std::string> missing_;
+  Transform transform_;
+  std::vector<Transform> transforms_;  ///< per material
+  std::vector<Eigen::Vector2f> uvs_;
+  std::vector<int> corners_;
+  std::vector<int> corner_uvs_;  ///< -1: none
+  std::vector<std::size_t> face_end_;
+  std::vector<int> face_material_;
+  int current_ = -1;
+  std::size_t without_uvs_ = 0;
+};
+
+}  // namespace
+
+Result<Model> read_obj(std::string bytes, const std::filesystem::path& path,
+                       const Context& context) try {
+  join_continued_lines(bytes);
+  blank_face_comments(bytes);
+  HP_ASSIGN_OR_RETURN(ObjFacts facts, check_obj(bytes, path, context));
+  HP_RETURN_IF_ERROR(check_face_count(facts.triangles, path));
+  return ObjImporter(path, std::move(facts)).run(bytes);
+} catch (const std::bad_alloc&) {
+  throw;  // says nothing about the file
+} catch (const std::exception& e) {
+  return bad_input(path, "", e.what());
+}
+
+}  // namespace hydroprint::mesh

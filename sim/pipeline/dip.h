@@ -1,0 +1,26 @@
+#pragma once
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/flow/flow_map.h"
+#include "sim/mesh/model.h"
+#include "sim/pipeline/pipeline.h"
+#include "sim/pipeline/stokes_pass.h"
+
+namespace hydroprint::pipeline {
+
+/// The method of section 4: mesh, pose, waterline, film mesh, velocity, flow map.
+/// Refuses a pose whose first contact misses the film (kFailedPrecondition).
+[[nodiscard]] Result<Dip> dip(const mesh::Model& model, const DipOptions& options,
+                              const Context& context);
+
+/// The same, from a first pass of this model with these options.
+[[nodiscard]] Result<Dip> dip(const mesh::Model& model, StokesPass first, const DipOptions& options,
+                              const Context& context);
+
+/// Puts figures, warnings and flow map together.
+/// @param unsettled_mm  see DipFigures
+[[nodiscard]] Dip assemble_dip(const mesh::Model& model, StokesPass first, flow::FlowMap map,
+                               double unsettled_mm, const DipOptions& options);
+
+}  // namespace hydroprint::pipeline

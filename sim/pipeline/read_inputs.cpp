@@ -1,0 +1,63 @@
+#include "sim/pipeline/read_inputs.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "sim/base/run_beside.h"
+#include "sim/image/io/image_file.h"
+#include "sim/mesh/read/read_model.h"
+
+namespace hydroprint::pipeline {
+namespace {
+
+/// A model of up to this size leaves memory for the image libraries to load beside it.
+constexpr std::uintmax_t kSmallModel_bytes = std::uintmax_t{16} << 20;
+
+bool is_small(const std::filesystem::path& file) {
+  std::error_code unknown;
+  const auto bytes = std::filesystem::file_size(file, unknown);
+  return !unknown && bytes <= kSmallModel_bytes;
+}
+
+/// Refuses a model whose faces would be white although it means them to have a colour.
+Status check_materials(const mesh::Model& model) {
+  for (const Warning& warning : model.warnings) {
+    if (warning.code != "material_file_missing" && warning.code != "material_missing") continue;
+    return fail(Code::kNotFound, warning.where + ": " + warning.message +
+                                     ". Put it beside the model or give a texture");
+  }
+  return {};
+}
+
+/// Loading the image libraries takes as long as reading most models. They are loaded before a large
+/// model, because they end the program if they find no memory, and always by the calling thread,
+/// because LeakSanitizer fails on libraries whose loading thread has ended.
+Result<mesh::Model> read_model(const SimulateOptions& options, const Context& context) {
+  const auto read = [&](const Context& reading) {
+    return mesh::read_model(options.mesh, options.scale, reading);
+  };
+  if (!options.images && !options.texture) return read(context);
+  const auto load = [](const Context&) -> Result<bool> {
+    image::load_image_libraries();
+    return true;
+  };
+  if (!is_small(options.mesh)) {
+    (void)load(context);
+    return read(context);
+  }
+  HP_ASSIGN_OR_RETURN(auto both, run_beside(context, read, load));
+  return std::move(both.first);
+}
+
+}  // namespace
+
+Result<mesh::Model> read_inputs(const SimulateOptions& options, const Context& context) {
+  context.progress("reading", 0);
+  HP_ASSIGN_OR_RETURN(mesh::Model model, read_model(options, context));
+  if (options.images && !options.texture) HP_RETURN_IF_ERROR(check_materials(model));
+  return model;
+}
+
+}  // namespace hydroprint::pipeline

@@ -1,0 +1,126 @@
+#include "sim/pipeline/stokes_pass.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "sim/flow/flow_map.h"
+#include "sim/mesh/make_surface.h"
+#include "sim/sheet/inertial_flow.h"
+#include "sim/sheet/sheet_flow.h"
+#include "sim/velocity/film_mesh.h"
+#include "sim/velocity/velocity.h"
+#include "sim/waterline/waterlines.h"
+
+namespace hydroprint::pipeline {
+namespace {
+
+/// The film as it floats: swollen, its clamped edge with it.
+film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
+  for (Eigen::Vector2d& p : outline.polygon) p = p.cwiseProduct(swelling);
+  outline.min_mm = outline.min_mm.cwiseProduct(swelling);
+  outline.max_mm = outline.max_mm.cwiseProduct(swelling);
+  return outline;
+}
+
+/// Waterlines whose film cannot be meshed, since two of their curves just touch, are passed over;
+/// more of them than this share are an error.
+constexpr double kMostPassedOver = 0.2;
+
+/// Stokes has no memory: every waterline is meshed and solved by itself, all in parallel.
+/// @return no field for a waterline that is passed over
+Result<std::vector<std::optional<velocity::VelocityField>>> solve(
+    const film::Outline& outline, waterline::Waterlines& waterlines,
+    const velocity::MeshOptions& options, const Context& context) {
+  std::vector<std::optional<velocity::VelocityField>> fields(waterlines.lines.size());
+  std::vector<Status> refusals(fields.size());
+  HP_RETURN_IF_ERROR(parallel_for(context, "velocity", fields.size(), [&](std::size_t k) -> Status {
+    waterline::Waterline& line = waterlines.lines[k];
+    auto mesh = velocity::mesh_film(outline, line, options);
+    if (!mesh && mesh.error().reason == velocity::kMeshUnbounded) {
+      refusals[k] = tl::unexpected(std::move(mesh.error()));
+      return {};
+    }
+    if (!mesh) return tl::unexpected(std::move(mesh.error()));
+    const auto fixed = velocity::boundary_velocities(*mesh, line.pulls);
+    HP_ASSIGN_OR_RETURN(auto nodes, velocity::solve_stokes(*mesh, fixed));
+    fields[k] = velocity::VelocityField(std::move(*mesh), std::move(nodes));
+    line = {line.immersion_mm, {}, {}, {}};  // its curves are not needed any more
+    return {};
+  }));
+  const auto is_refused = [](const Status& status) { return !status; };
+  const auto refused = std::count_if(refusals.begin(), refusals.end(), is_refused);
+  if (static_cast<double>(refused) > kMostPassedOver * static_cast<double>(fields.size())) {
+    return tl::unexpected(std::find_if(refusals.begin(), refusals.end(), is_refused)->error());
+  }
+  return fields;
+}
+
+}  // namespace
+
+Result<StokesPass> run_stokes_pass(const mesh::Model& model, const DipOptions& options,
+                                   const Context& context) {
+  StokesPass out;
+  HP_ASSIGN_OR_RETURN(out.surface, mesh::make_surface(model, options.surface_edge_mm, context));
+  out.X_FO = options.X_FO.value_or(waterline::centred_pose(out.surface));
+  out.body = waterline::place(out.surface, out.X_FO);
+  out.stokes.outline = floating(options.outline, options.profile.swelling);
+
+  HP_ASSIGN_OR_RETURN(waterline::Waterlines waterlines,
+                      waterline::take_waterlines(out.body, out.stokes.outline,
+                                                 options.depth_mm.value_or(out.body.height_mm),
+                                                 options.motion, options.schedule, context));
+  out.stopped_at_edge = waterlines.stopped_at_edge;
+  out.traps = waterlines.traps;
+  out.stokes.depth_mm = waterlines.depth_mm;
+  HP_ASSIGN_OR_RETURN(auto fields, solve(out.stokes.outline, waterlines, options.mesh, context));
+  for (std::size_t k = 0; k < fields.size(); ++k) {
+    const double immersion_mm = waterlines.lines[k].immersion_mm;
+    if (!fields[k]) {
+      out.passed_over_mm.push_back(immersion_mm);
+      continue;
+    }
+    out.stokes.immersion_mm.push_back(immersion_mm);
+    out.stokes.fields.push_back(std::move(*fields[k]));
+  }
+  return out;
+}
+
+Result<sheet::SheetFlow> sheet_field(const flow::DipField& first, const ink::InkField& ink,
+                                     const DipOptions& options, const Context& context) {
+  const film::Profile& profile = options.profile;
+  const auto rest_thickness = [&](const std::array<Eigen::Vector2d, 3>& rest_mm) {
+    // Swelling spreads a printed amount of film and ink alike; only relative thickness matters.
+    const auto printed = [&](const Eigen::Vector2d& p) {
+      return p.cwiseQuotient(profile.swelling);
+    };
+    return film::rest_thickness_mm(
+        profile, ink.mean(printed(rest_mm[0]), printed(rest_mm[1]), printed(rest_mm[2])));
+  };
+  const double drag_per_mm =
+      profile.drag_length_mm > 0
+          ? profile.thickness_mm / (profile.drag_length_mm * profile.drag_length_mm)
+          : 0;
+  if (options.inertia) {
+    const sheet::InertialOptions inertial = {{profile.young_modulus_mpa, profile.poisson_ratio},
+                                             profile.density_kg_per_m3,
+                                             options.dip_speed_mm_per_s,
+                                             drag_per_mm};
+    HP_ASSIGN_OR_RETURN(flow::DipField field,
+                        sheet::inertial_flow(first, rest_thickness, inertial, context));
+    return sheet::SheetFlow{std::move(field)};
+  }
+  sheet::SheetOptions sheet = options.sheet;
+  sheet.drag_per_mm = drag_per_mm;
+  return sheet::sheet_flow(first, rest_thickness, sheet, context);
+}
+
+Result<flow::FlowMap> trace_flow_map(const StokesPass& pass, const flow::DipField& field,
+                                     const DipOptions& options, const Context& context) {
+  flow::MapOptions map = options.map;
+  map.dip_speed_mm_per_s = options.dip_speed_mm_per_s;
+  map.swelling = options.profile.swelling;
+  return flow::make_flow_map(pass.surface, pass.body, field, options.motion, map, context);
+}
+
+}  // namespace hydroprint::pipeline

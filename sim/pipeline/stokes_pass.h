@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/base/result.h"
+#include "sim/flow/trace.h"
+#include "sim/mesh/model.h"
+#include "sim/mesh/surface.h"
+#include "sim/pipeline/pipeline.h"
+#include "sim/waterline/body.h"
+#include "sim/waterline/traps.h"
+
+namespace hydroprint::pipeline {
+
+/// The first pass of a dip, which does not depend on the film's ink: the placed object and the
+/// Stokes flow (section 4.2).
+struct StokesPass {
+  mesh::Surface surface;
+  Pose X_FO;             ///< as used: lowest point on the water, z = 0
+  waterline::Body body;  ///< the surface placed over the film
+  flow::DipField stokes;
+  std::vector<double> passed_over_mm;  ///< see DipFigures
+  bool stopped_at_edge = false;
+  std::vector<waterline::Trap> traps;  ///< film and air closed in, largest first
+};
+
+/// Computes mesh, pose, waterlines, film meshes and velocities. Returns the errors of its stages.
+[[nodiscard]] Result<StokesPass> run_stokes_pass(const mesh::Model& model,
+                                                 const DipOptions& options, const Context& context);
+
+/// The flow of the viscous sheet (section 4.3) that carries this ink.
+/// @param first  the flow to start from: Stokes flow, or the sheet's with nearly the same ink
+[[nodiscard]] Result<sheet::SheetFlow> sheet_field(const flow::DipField& first,
+                                                   const ink::InkField& ink,
+                                                   const DipOptions& options,
+                                                   const Context& context);
+
+/// Traces where a film that moves like `field` lands on the object (section 4.5).
+[[nodiscard]] Result<flow::FlowMap> trace_flow_map(const StokesPass& pass,
+                                                   const flow::DipField& field,
+                                                   const DipOptions& options,
+                                                   const Context& context);
+
+}  // namespace hydroprint::pipeline

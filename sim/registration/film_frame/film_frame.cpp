@@ -1,0 +1,171 @@
+#include "sim/registration/film_frame/film_frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "sim/registration/film_frame/agreement.h"
+#include "sim/registration/film_frame/matching.h"
+#include "sim/registration/plane.h"
+#include "sim/registration/visibility.h"
+
+namespace hydroprint::registration {
+namespace {
+
+constexpr std::size_t kFewestMarkers = 3;
+constexpr std::size_t kSightSamples = 600;
+constexpr double kSight_mm = 8;
+constexpr double kHiddenShare = 0.5;
+constexpr double kMoved_mm = 40;  ///< a marker found so near to its place is that marker
+constexpr double kWeak_mm = 5;
+
+std::string in_mm(double value) {
+  char buffer[32];
+  std::snprintf(buffer, sizeof buffer, "%.1f mm", value);
+  return buffer;
+}
+
+/// The pyramids that are used, at their places: one body in the film frame.
+Shape body_of(const MarkerLayout& layout, const Matching& matching) {
+  mesh::Surface all;
+  for (std::size_t a = 0; a < layout.markers.size(); ++a) {
+    if (matching.found[a] < 0) continue;
+    all = joined(std::move(all),
+                 moved(pyramid(layout.width_mm, layout.height_mm), layout.markers[a].X_FM));
+  }
+  return Shape(all);
+}
+
+std::vector<scan::ScanPoint> points_of(const std::vector<FoundMarker>& found,
+                                       const Matching& matching) {
+  std::vector<scan::ScanPoint> out;
+  for (const int i : matching.found) {
+    if (i < 0) continue;
+    const auto& points = found[static_cast<std::size_t>(i)].points;
+    out.insert(out.end(), points.begin(), points.end());
+  }
+  return out;
+}
+
+double rms_of(const Shape& shape, const Pose& X_BC, const std::vector<scan::ScanPoint>& points) {
+  double squares = 0;
+  for (const auto& p : points) {
+    const Eigen::Vector3d at = X_BC * p.point_mm;
+    squares += (shape.closest(at).point_mm - at).squaredNorm();
+  }
+  return std::sqrt(squares / static_cast<double>(points.size()));
+}
+
+/// Why the marker at this place is not used.
+std::string reason(const Marker& marker, const MarkerLayout& layout,
+                   const std::vector<FoundMarker>& found, const Matching& matching,
+                   const scan::DepthFrame& depth, const scan::Lens& lens, const Pose& X_CF) {
+  const Pose X_CM = X_CF * marker.X_FM;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (std::find(matching.found.begin(), matching.found.end(), static_cast<int>(i)) !=
+        matching.found.end())
+      continue;
+    const double off = (found[i].place_C() - X_CM.translation()).norm();
+    if (off < kMoved_mm)
+      return "it stands " + in_mm(off) + " from its place: move it back to its mark";
+  }
+  const Shape shape(pyramid(layout.width_mm, layout.height_mm));
+  const Sight sight = look_at(visible(shape, X_CM, kSightSamples), depth, lens, kSight_mm);
+  if (sight.out_of_view > kHiddenShare) return "it is out of the camera's view";
+  if (sight.before + sight.without_depth + sight.out_of_view > kHiddenShare)
+    return "it is hidden: clear the camera's view of it";
+  return "what is seen in its place has not its shape: it is knocked over, dirty or gone";
+}
+
+scan::DepthFrame depths_of(const scan::Cloud& cloud) {
+  scan::DepthFrame out{cloud.camera.lens.width_px, cloud.camera.lens.height_px,
+                       std::vector<float>(cloud.at_pixel.size())};
+  for (const auto& p : cloud.points)
+    out.depth_mm[out.index(p.u, p.v)] = static_cast<float>(p.reported_mm);
+  return out;
+}
+
+std::vector<MarkerReport> report(const std::vector<FoundMarker>& found, const Matching& matching,
+                                 const MarkerLayout& layout, const Pose& X_CF,
+                                 const scan::Cloud& cloud) {
+  const Shape shape(pyramid(layout.width_mm, layout.height_mm));
+  const scan::DepthFrame depth = depths_of(cloud);
+  std::vector<MarkerReport> out;
+  for (std::size_t a = 0; a < layout.markers.size(); ++a) {
+    const Marker& marker = layout.markers[a];
+    MarkerReport one{marker.name, matching.found[a] >= 0, 0, 0, {}};
+    if (one.used) {
+      const FoundMarker& own = found[static_cast<std::size_t>(matching.found[a])];
+      const Pose X_CM = X_CF * marker.X_FM;
+      one.rms_mm = rms_of(shape, X_CM.inverse(), own.points);
+      one.residual_mm = (own.place_C() - X_CM.translation()).norm();
+    } else {
+      one.why_not = reason(marker, layout, found, matching, depth, cloud.camera.lens, X_CF);
+    }
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+tl::unexpected<Error> too_few(const std::string& what) {
+  return fail(Code::kFailedPrecondition, what, "TOO_FEW_MARKERS");
+}
+
+/// What is wrong, as far as the nominal pose of the camera tells.
+tl::unexpected<Error> no_match(const std::vector<FoundMarker>& found, const MarkerLayout& layout,
+                               const Pose& nominal_CF) {
+  if (found.size() >= kFewestMarkers)
+    return too_few(std::to_string(found.size()) +
+                   " markers are seen, but not so far from each other as the configuration says: "
+                   "move them back to their marks");
+  std::vector<bool> is_seen(layout.markers.size());
+  for (const FoundMarker& f : found) {
+    const auto distance = [&](const Marker& marker) {
+      return (nominal_CF * marker.X_FM.translation() - f.place_C()).norm();
+    };
+    const auto nearest = std::min_element(
+        layout.markers.begin(), layout.markers.end(),
+        [&](const Marker& a, const Marker& b) { return distance(a) < distance(b); });
+    is_seen[static_cast<std::size_t>(nearest - layout.markers.begin())] = true;
+  }
+  std::string text = "only " + std::to_string(found.size()) + " markers can be used, of three";
+  for (std::size_t a = 0; a < is_seen.size(); ++a)
+    if (!is_seen[a])
+      text += "; \"" + layout.markers[a].name +
+              "\" is not seen: it is hidden, knocked over, dirty or gone";
+  return too_few(text);
+}
+
+}  // namespace
+
+Result<FilmFrame> find_film_frame(const scan::Cloud& cloud, const MarkerLayout& layout,
+                                  const Pose& nominal_CF, const Context& context) {
+  if (layout.markers.size() < kFewestMarkers)
+    return fail(Code::kInvalidArgument, "the rig's configuration names fewer than three markers");
+  HP_ASSIGN_OR_RETURN(const Plane level, find_plane(cloud, nominal_CF.linear().col(2)));
+  HP_ASSIGN_OR_RETURN(const auto found, find_markers(cloud, level, layout, context));
+  Matching matching = match(found, layout, nominal_CF);
+  if (matching.count() < static_cast<int>(kFewestMarkers))
+    return no_match(found, layout, nominal_CF);
+  matching = agreeing(std::move(matching), found, layout);
+  if (!matching.agrees)
+    return too_few(
+        "the three markers that can be used do not stand to each other as the configuration says: "
+        "move them back to their marks, or calibrate the camera");
+  FitOptions options;
+  options.weak_sigma_mm = kWeak_mm;
+  options.reach_mm = kSight_mm;
+  FilmFrame out;
+  HP_ASSIGN_OR_RETURN(out.fit,
+                      fit_pose(body_of(layout, matching), points_of(found, matching), cloud.camera,
+                               matching.X_CF, matching.X_CF, options, context));
+  out.markers = report(found, matching, layout, out.X_CF(), cloud);
+  for (const MarkerReport& m : out.markers)
+    if (!m.used)
+      out.warnings.push_back(
+          {"marker_left_out", "marker \"" + m.name + "\": " + m.why_not, m.name});
+  return out;
+}
+
+}  // namespace hydroprint::registration

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "sim/registration/film_frame/film_frame.h"
+
+namespace hydroprint::registration {
+
+/// Height of the water's surface in the film frame, and its standard error.
+struct WaterLevel {
+  double z_mm = 0;
+  double sigma_mm = 0;
+  std::size_t points = 0;
+};
+
+/// Mean height of the points near z = 0 over the film; its error from noise, the film frame's
+/// covariance and the camera's.
+/// @param half_film_mm  half of the film's width and height
+/// Refuses (kFailedPrecondition, NO_WATER) fewer than 200 points within 15 mm of z = 0.
+[[nodiscard]] Result<WaterLevel> water_level(const scan::Cloud& cloud, const FilmFrame& frame,
+                                             const Eigen::Vector2d& half_film_mm);
+
+}  // namespace hydroprint::registration

@@ -1,0 +1,258 @@
+#include "sim/registration/object/object.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <span>
+#include <unordered_map>
+#include <utility>
+
+#include "sim/registration/object/units.h"
+#include "sim/registration/pairs.h"
+#include "sim/registration/segments.h"
+#include "sim/registration/starts.h"
+
+namespace hydroprint::registration {
+namespace {
+
+constexpr std::size_t kFewestPoints = 300;
+constexpr std::size_t kMostStarts = 5;
+constexpr std::size_t kTrialPoints = 1500;
+constexpr std::size_t kSightSamples = 2000;
+constexpr double kSight_mm = 8;
+constexpr double kOn_mm = 4;
+constexpr int kBlock_px = 16;
+constexpr std::size_t kFewestInBlock = 40;
+constexpr double kLeastOn = 0.85;
+constexpr double kMostThrough = 0.12;
+constexpr double kMostMisfit_mm = 1;
+constexpr double kAsGood = 0.03;
+constexpr double kOtherShare = 0.08;  ///< of the points, in one piece: another object
+constexpr double kOtherJump_mm = 12;
+constexpr double kMostlySeen = 0.6;
+constexpr double kOutOfView = 0.15;
+constexpr double kHidden = 0.4;
+
+/// A pose and how well it explains the scan.
+struct Candidate {
+  PoseFit fit;
+  Sight sight;
+  double on_share = 0;
+  double misfit_mm = 0;
+
+  [[nodiscard]] double mismatch() const {
+    return 1 - on_share + sight.through + misfit_mm / (10 * kMostMisfit_mm);
+  }
+  [[nodiscard]] bool explains() const {
+    return on_share > kLeastOn && sight.through < kMostThrough && misfit_mm < kMostMisfit_mm;
+  }
+};
+
+double misfit_of(const std::vector<Pair>& pairs, int width_px) {
+  struct Block {
+    double sum = 0;
+    std::size_t count = 0;
+  };
+  std::unordered_map<int, Block> blocks;
+  for (const Pair& pair : pairs) {
+    Block& block =
+        blocks[pair.scan->v / kBlock_px * (width_px / kBlock_px + 1) + pair.scan->u / kBlock_px];
+    block.sum += pair.residual_mm;
+    ++block.count;
+  }
+  double squares = 0, count = 0;
+  for (const auto& [place, block] : blocks) {
+    if (block.count < kFewestInBlock) continue;
+    const double mean = block.sum / static_cast<double>(block.count);
+    squares += mean * mean;
+    ++count;
+  }
+  return count > 0 ? std::sqrt(squares / count) : 0;
+}
+
+class Finder {
+ public:
+  Finder(const Shape& shape, const std::vector<scan::ScanPoint>& points,
+         const scan::DepthFrame& depth, const scan::Camera& camera, const Pose& nominal_CO,
+         const FitOptions& options, const Context& context)
+      : shape_(shape),
+        points_(points),
+        depth_(depth),
+        camera_(camera),
+        nominal_(nominal_CO),
+        options_(options),
+        context_(context) {}
+
+  Result<Candidate> best() const {
+    HP_ASSIGN_OR_RETURN(const auto starts,
+                        rough_alignments(shape_, points_, nominal_, kMostStarts, context_));
+    std::vector<Candidate> tried;
+    for (const Pose& start : starts) {
+      HP_RETURN_IF_ERROR(check_cancelled(context_));
+      const auto fit = fit_pose(shape_, some(), camera_, start, nominal_, options_, context_);
+      if (!fit) continue;
+      HP_ASSIGN_OR_RETURN(Candidate candidate, judged(*fit));
+      tried.push_back(std::move(candidate));
+    }
+    if (tried.empty()) return not_this("no way to hold the mesh brings it near the scan");
+    const Candidate& chosen = choose(tried);
+    HP_ASSIGN_OR_RETURN(const PoseFit fit, fit_pose(shape_, points_, camera_, chosen.fit.X_CB,
+                                                    nominal_, options_, context_));
+    return judged(fit);
+  }
+
+  [[nodiscard]] static tl::unexpected<Error> not_this(const std::string& why) {
+    return fail(
+        Code::kFailedPrecondition,
+        "what hangs there is not this object: " + why + "; give the mesh of what is in the gripper",
+        "NOT_THIS_OBJECT");
+  }
+
+  /// The largest piece of what does not lie on the mesh, as a share of the scan.
+  [[nodiscard]] double other_share(const Candidate& candidate, const scan::Cloud& cloud) const {
+    std::vector<bool> off(cloud.points.size());
+    const Pose X_BC = candidate.fit.X_CB.inverse();
+    for (const scan::ScanPoint& p : points_)
+      if (distance(X_BC, p) > 2 * kOn_mm)
+        off[static_cast<std::size_t>(cloud.at(p.u, p.v) - cloud.points.data())] = true;
+    const auto pieces = segments(cloud, off, kOtherJump_mm);
+    if (pieces.empty()) return 0;
+    return static_cast<double>(pieces[0].size()) / static_cast<double>(points_.size());
+  }
+
+ private:
+  [[nodiscard]] std::vector<scan::ScanPoint> some() const {
+    std::vector<scan::ScanPoint> out;
+    const std::size_t step = std::max<std::size_t>(1, points_.size() / kTrialPoints);
+    for (std::size_t i = 0; i < points_.size(); i += step) out.push_back(points_[i]);
+    return out;
+  }
+
+  [[nodiscard]] double distance(const Pose& X_BC, const scan::ScanPoint& p) const {
+    const Eigen::Vector3d p_B = X_BC * p.point_mm;
+    return (shape_.closest(p_B).point_mm - p_B).norm();
+  }
+
+  Result<Candidate> judged(const PoseFit& fit) const {
+    Candidate out{
+        fit, look_at(visible(shape_, fit.X_CB, kSightSamples), depth_, camera_.lens, kSight_mm), 0,
+        0};
+    const Pose X_BC = fit.X_CB.inverse();
+    for (const auto& p : points_) out.on_share += distance(X_BC, p) < kOn_mm ? 1 : 0;
+    out.on_share /= static_cast<double>(points_.size());
+    HP_ASSIGN_OR_RETURN(const auto pairs,
+                        pair_up(shape_, points_, fit.X_CB, Pairing::kOnRay, kOn_mm, context_));
+    out.misfit_mm = misfit_of(pairs, camera_.lens.width_px);
+    return out;
+  }
+
+  /// Of those about as good as the best: the one turned least from the nominal pose.
+  [[nodiscard]] const Candidate& choose(const std::vector<Candidate>& tried) const {
+    double least = 1e9;
+    for (const Candidate& c : tried) least = std::min(least, c.mismatch());
+    const auto turn = [&](const Candidate& c) {
+      if (c.mismatch() > least + kAsGood) return 1e9;
+      return Eigen::AngleAxisd(c.fit.X_CB.linear().transpose() * nominal_.linear()).angle();
+    };
+    return *std::min_element(tried.begin(), tried.end(),
+                             [&](const auto& a, const auto& b) { return turn(a) < turn(b); });
+  }
+
+  const Shape& shape_;
+  const std::vector<scan::ScanPoint>& points_;
+  const scan::DepthFrame& depth_;
+  const scan::Camera& camera_;
+  const Pose& nominal_;
+  const FitOptions& options_;
+  const Context& context_;
+};
+
+std::string percent(double share) {
+  return std::to_string(static_cast<int>(std::lround(100 * share))) + " %";
+}
+
+std::string how_wrong(const Candidate& c) {
+  char buffer[160];
+  std::snprintf(buffer, sizeof buffer,
+                "at best %.0f %% of the scan lies on the mesh, %.1f mm off on average, and the "
+                "camera sees through %.0f %% of it",
+                100 * c.on_share, c.misfit_mm, 100 * c.sight.through);
+  return buffer;
+}
+
+/// Into the film frame, with what the frame and the camera add to what is not known.
+void place_in_film(const FilmFrame& frame, ObjectPose& out) {
+  const Pose X_FC = frame.X_CF().inverse();
+  const PoseFit& fit = out.fit;
+  const Matrix6 shift = recentred(frame.fit.centre_mm, fit.centre_mm);
+  const CameraGain gain = fit.camera_gain - frame.camera_gain(shift, fit.camera_gain.cols());
+  const Matrix6 in_camera =
+      fit.covariance + shift * frame.fit.covariance * shift.transpose() + gain * gain.transpose();
+  const Matrix6 turn = turned(X_FC.linear());
+  out.X_FO = X_FC * fit.X_CB;
+  out.centre_mm = X_FC * fit.centre_mm;
+  out.covariance = turn * in_camera * turn.transpose();
+  for (const WeakDirection& weak : fit.weak)
+    out.weak.push_back(describe(weak, fit.centre_mm, X_FC));
+}
+
+void warn(ObjectPose& out) {
+  if (out.sight.out_of_view > kOutOfView)
+    out.warnings.push_back({"object_partly_out_of_view",
+                            percent(out.sight.out_of_view) +
+                                " of what the camera could see of the object is out of its view: "
+                                "move the camera",
+                            "object"});
+  if (out.sight.before + out.sight.without_depth > kHidden)
+    out.warnings.push_back({"object_partly_hidden",
+                            percent(out.sight.before + out.sight.without_depth) +
+                                " of what the camera could see of the object is hidden",
+                            "object"});
+  for (const std::string& weak : out.weak)
+    out.warnings.push_back({"pose_unconstrained",
+                            "the scan does not tell this, the nominal pose does: " + weak,
+                            "object"});
+}
+
+}  // namespace
+
+Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame& depth,
+                               const FilmFrame& film_frame, const ObjectTask& task,
+                               const Context& context) {
+  const ObjectPoints found = object_points(cloud, film_frame, task.surroundings);
+  const auto& points = found.all;
+  if (points.size() < kFewestPoints)
+    return fail(Code::kFailedPrecondition,
+                "no object in view above the water: hang it there, or raise it", "NO_OBJECT");
+  const Shape shape(task.surface);
+  HP_RETURN_IF_ERROR(check_size(shape, std::span(points).first(found.largest)));
+  const Pose nominal_CO = film_frame.X_CF() * task.nominal_FO;
+  const Finder finder(shape, points, depth, cloud.camera, nominal_CO, task.fit, context);
+  HP_ASSIGN_OR_RETURN(const Candidate best, finder.best());
+  const double other = finder.other_share(best, cloud);
+  if (other > kOtherShare && best.sight.on > kMostlySeen && best.sight.through < kMostThrough)
+    return fail(
+        Code::kFailedPrecondition,
+        "a second object is in view (" + percent(other) + " of what hangs there): take it away",
+        "TWO_OBJECTS");
+  if (!best.explains()) {
+    const Shape mirror(mirrored(task.surface));
+    const auto turned_round =
+        Finder(mirror, points, depth, cloud.camera, nominal_CO, task.fit, context).best();
+    if (turned_round && turned_round->explains())
+      return fail(Code::kFailedPrecondition,
+                  "the object is the mesh's mirror image: export the mesh without mirroring",
+                  "MIRRORED");
+    return Finder::not_this(how_wrong(best));
+  }
+  ObjectPose out;
+  out.fit = best.fit;
+  out.misfit_mm = best.misfit_mm;
+  out.on_share = best.on_share;
+  out.sight = best.sight;
+  place_in_film(film_frame, out);
+  warn(out);
+  return out;
+}
+
+}  // namespace hydroprint::registration

@@ -1,0 +1,74 @@
+#include "sim/worker/common/artifact_task.h"
+
+#include <chrono>
+#include <functional>
+#include <string_view>
+#include <utility>
+
+#include "sim/base/artifact_file.h"
+#include "sim/base/process/progress_sinks.h"
+
+namespace hydroprint::worker {
+namespace {
+
+double seconds_now() {
+  const auto now = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double>(now).count();
+}
+
+/// Sends progress to a pipe, a terminal, both or neither.
+class ProgressSink {
+ public:
+  ProgressSink(int pipe, int stderr_fd) : pipe_(pipe), line_(stderr_fd) {}
+  void operator()(const ProgressReport& report) {
+    pipe_.write(report);
+    line_.show(report);
+  }
+
+ private:
+  ProgressPipe pipe_;
+  ProgressLine line_;
+};
+
+}  // namespace
+
+Status ArtifactTask::write_all(OutFolder& folder, Report& report, Progress& progress,
+                               const Context& context) {
+  context.progress("inputs", 0);
+  report.threads = context.threads;
+  HP_RETURN_IF_ERROR(add_inputs(report, input_files()));
+  HP_RETURN_IF_ERROR(compute(folder, report, context));
+  report.stage_seconds = progress.stage_seconds();
+  report.total_s = progress.total_s();
+  HP_RETURN_IF_ERROR(image::write_artifact(folder.partial() / "report.json",
+                                           report_json(verb_, findings(report), report)));
+  context.progress("writing", 1);
+  return check_cancelled(context);
+}
+
+Result<Finished> ArtifactTask::run(const RunOptions& options, Termination& termination,
+                                   int stderr_fd) {
+  HP_ASSIGN_OR_RETURN(OutFolder folder, OutFolder::plan(options.out));
+  const CleanupAtTermination cleanup(termination, [&folder] { folder.abandon(); });
+  Report report;
+  {
+    ProgressSink sink(options.progress_fd, stderr_fd);
+    Progress progress(stages(), seconds_now, std::ref(sink));
+    const Context context{
+        options.threads,
+        [&progress](std::string_view stage, double fraction) { progress.update(stage, fraction); },
+        [&termination] { return termination.requested(); }};
+    Status status = write_all(folder, report, progress, context);
+    if (!status) {
+      status.error().message = folder.in_terms_of_dir(std::move(status.error().message));
+      return tl::unexpected(std::move(status).error());
+    }
+  }
+  termination.decide();
+  HP_RETURN_IF_ERROR(folder.commit());
+  return Finished{
+      options.json ? summary_json(folder.dir(), figures(), report) : summary(report, folder.dir()),
+      report.warnings};
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/base/process/out_folder.h"
+#include "sim/base/process/progress.h"
+#include "sim/worker/common/report.h"
+#include "sim/worker/common/task.h"
+
+// For inclusion in .cpp files only.
+namespace hydroprint::worker {
+
+/// A task that leaves an artifact folder with a report.json.
+class ArtifactTask : public Task {
+ public:
+  /// @param verb  as report.json states it
+  explicit ArtifactTask(std::string verb) : verb_(std::move(verb)) {}
+
+  [[nodiscard]] Result<Finished> run(const RunOptions& options, Termination& termination,
+                                     int stderr_fd) final;
+
+  /// The stages of a run in order, repeated ones as often as they come, each with its rough share
+  /// of the total time, for the time left. A run may skip stages.
+  [[nodiscard]] virtual std::vector<Stage> stages() const = 0;
+
+ protected:
+  /// Files that must be readable before anything is computed. report.json lists them.
+  [[nodiscard]] virtual std::vector<InputPath> input_files() const = 0;
+
+  /// Computes, creates `folder` and writes the artifacts into it. Adds warnings, artifacts and
+  /// further inputs to the report.
+  [[nodiscard]] virtual Status compute(OutFolder& folder, Report& report,
+                                       const Context& context) = 0;
+
+  /// After compute(): the verb's own keys of report.json, in their order.
+  [[nodiscard]] virtual Json findings(const Report& report) const = 0;
+  /// After compute(): the figures of the summary for programs.
+  [[nodiscard]] virtual Json figures() const = 0;
+  /// After compute(): the summary for people, with line ends.
+  [[nodiscard]] virtual std::string summary(const Report& report,
+                                            const std::filesystem::path& dir) const = 0;
+
+ private:
+  [[nodiscard]] Status write_all(OutFolder& folder, Report& report, Progress& progress,
+                                 const Context& context);
+
+  std::string verb_;
+};
+
+}  // namespace hydroprint::worker

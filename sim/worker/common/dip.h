@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "sim/pipeline/pipeline.h"
+#include "sim/worker/common/object.h"
+#include "sim/worker/common/report.h"
+
+// For inclusion in .cpp files only.
+namespace hydroprint::worker {
+
+/// An object that is dipped through a film.
+struct DipOptions {
+  ObjectOptions object;
+  std::filesystem::path profile;   ///< empty: the defaults of film::Profile
+  std::optional<double> depth_mm;  ///< none: full
+  double dip_speed_mm_per_s = 5;
+};
+
+void add_dip_flags(Flags& flags);
+
+template <class Spec>
+Result<DipOptions> dip_options(const Spec& spec, const InputFolder& inputs) {
+  DipOptions out;
+  HP_ASSIGN_OR_RETURN(out.object, object_options(spec, inputs));
+  out.profile = inputs.path(spec.profile());
+  if (spec.has_depth_mm()) out.depth_mm = spec.depth_mm();
+  if (spec.has_dip_speed_mm_per_s()) out.dip_speed_mm_per_s = spec.dip_speed_mm_per_s();
+  return out;
+}
+
+/// Reads film and profile.
+[[nodiscard]] Result<pipeline::DipOptions> read_dip(const DipOptions& options);
+
+/// The same with the ink on the film, if an image of it is given. Adds the profile's own files to
+/// the report's inputs.
+[[nodiscard]] Result<pipeline::DipOptions> read_inked_dip(const DipOptions& options,
+                                                          const std::filesystem::path& ink_image,
+                                                          Report& report, const Context& context);
+
+/// Parameters in report.json of every verb with a dip.
+/// @param dip   as read
+/// @param X_FO  as used
+[[nodiscard]] Json dip_parameters_json(const DipOptions& options, const pipeline::DipOptions& dip,
+                                       const Pose& X_FO, int threads);
+
+[[nodiscard]] Json profile_json(const film::Profile& profile);
+
+/// {p50, p95, max}
+[[nodiscard]] Json stretch_json(const pipeline::DipFigures& figures);
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,94 @@
+#include "sim/worker/common/fields.h"
+
+#include <google/protobuf/message.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/image/film/film_image.h"
+
+namespace hydroprint::worker {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+struct Range {
+  std::string_view field;
+  double min, max;
+};
+
+/// Fields mean the same in every spec.
+constexpr std::array kRanges = {Range{"scale", 1e-6, 1e6},
+                                Range{"dpi", image::kMinDpi, image::kMaxDpi},
+                                Range{"dip_speed_mm_per_s", 1e-3, 1000},
+                                Range{"depth_mm", 1e-3, 1e4},
+                                Range{"voxel_mm", 1.5, 4},
+                                Range{"gripper_mm", -1e4, 1e4},
+                                Range{"ink_passes", 0, 20},
+                                Range{"threads", 1, 1024}};
+
+Status check_range(const FieldDescriptor& field, double value, Code code) {
+  if (!std::isfinite(value)) return fail_field(code, field.name(), "not a finite number");
+  const auto* const range = std::find_if(kRanges.begin(), kRanges.end(),
+                                         [&](const Range& r) { return r.field == field.name(); });
+  if (range == kRanges.end() || (value >= range->min && value <= range->max)) return {};
+  std::ostringstream problem;
+  problem << value << " is out of range. Use " << range->min << " to " << range->max;
+  return fail_field(code, field.name(), problem.str());
+}
+
+Status check_choice(const FieldDescriptor& field, int number) {
+  if (field.enum_type()->FindValueByNumber(number) != nullptr) return {};
+  return fail_field(Code::kInvalidArgument, field.name(),
+                    std::to_string(number) + " is unknown. Use one of the names");
+}
+
+Status check_field(const Message& spec, const FieldDescriptor& field) {
+  if (field.is_repeated()) return {};
+  const auto& reflection = *spec.GetReflection();
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return check_range(field, reflection.GetDouble(spec, &field), Code::kOutOfRange);
+    case FieldDescriptor::CPPTYPE_INT32:
+      return check_range(field, reflection.GetInt32(spec, &field), Code::kInvalidArgument);
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return check_choice(field, reflection.GetEnumValue(spec, &field));
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+tl::unexpected<Error> fail_field(Code code, const std::string& field, std::string problem) {
+  return tl::unexpected<Error>(Error{code, std::move(problem), {}, {{"field", field}}});
+}
+
+Error name_field(Error error, bool as_flag) {
+  const auto field = error.metadata.find("field");
+  if (field == error.metadata.end()) return error;
+  error.message.insert(0, (as_flag ? flag_of(field->second) : field->second) + ": ");
+  if (as_flag) error.metadata.erase(field);
+  return error;
+}
+
+std::string flag_of(const std::string& field) {
+  std::string out = "--" + field;
+  std::replace(out.begin(), out.end(), '_', '-');
+  return out;
+}
+
+Status check_fields(const Message& spec) {
+  std::vector<const FieldDescriptor*> fields;
+  spec.GetReflection()->ListFields(spec, &fields);
+  for (const FieldDescriptor* field : fields) HP_RETURN_IF_ERROR(check_field(spec, *field));
+  return {};
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,159 @@
+#include "sim/worker/common/film_flow.h"
+
+#include <cstdio>
+
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/worker/common/fields.h"
+
+namespace hydroprint::worker {
+namespace {
+
+Json ink_passes_json(const std::vector<pipeline::InkPass>& passes) {
+  Json out = Json::array();
+  for (const pipeline::InkPass& pass : passes) {
+    out.push_back({{"moved_rms_mm", pass.moved_rms_mm},
+                   {"moved_p999_mm", pass.moved_most_mm},
+                   {"moved_max_mm", pass.moved_max_mm}});
+  }
+  return out;
+}
+
+void append(std::vector<Stage>& stages, const std::vector<Stage>& more) {
+  stages.insert(stages.end(), more.begin(), more.end());
+}
+
+std::vector<Stage> stages(const FlowOptions& options, bool is_simulation) {
+  const int passes = options.is_sheet() ? options.passes() : 0;
+  const Stage ink{"ink", 0.5};
+  const Stage sheet{"sheet", options.inertia ? 90.0 : 30.0};
+
+  std::vector<Stage> out = {{"inputs", 0.5}};
+  if (!options.ink_image.empty()) out.push_back(ink);
+  out.push_back({"reading", 4});
+  if (!is_simulation && passes > 0) out.push_back(ink);
+  append(out, {{"surface", 1}, {"waterline", 1}, {"velocity", 9}});
+  if (is_simulation && passes > 0) {
+    for (int pass = 0; pass < passes; ++pass) {
+      append(out, {{"flow map", 10}, {"film image", 1}, ink, sheet});
+    }
+  } else if (options.is_sheet()) {
+    out.push_back(sheet);
+  }
+  out.push_back({"flow map", 15});
+  if (!options.map_only) {
+    if (is_simulation) out.push_back({"film image", 7});
+    out.push_back({"pictures", 20});
+  }
+  out.push_back({"writing", 4});
+  return out;
+}
+
+}  // namespace
+
+void add_flow_flags(Flags& flags) {
+  const FlowOptions defaults;
+  add_dip_flags(flags);
+  flags.add("dpi", "Resolution of the film image", {.default_value = default_text(defaults.dpi)});
+  flags.add("model",
+            "How the film moves: as a viscous sheet or as Stokes flow, which is faster and good "
+            "while the film is stretched less than 1.3 times",
+            {.default_value = "sheet"});
+  flags.add("inertia",
+            "The sheet moves with inertia (Young's modulus, density and Poisson's ratio of the "
+            "profile). Slower; only Poisson's ratio changes the result");
+  flags.add("ink_passes",
+            "Passes that take the thickness of the image's own ink into account; 0: none. Only "
+            "with the sheet",
+            {.default_value = default_text(defaults.ink_passes)});
+  flags.add("ink_image", "What is printed on the film, in place of --ink-passes: an RGB film image",
+            {.type = "FILE.png"});
+  flags.add("artifacts", "map: only the map and report.json", {.default_value = "all"});
+}
+
+Status choose(FlowOptions& options, v1::Model model, bool inertia, v1::ArtifactSet artifacts) {
+  if (inertia && model == v1::MODEL_STOKES) {
+    return fail_field(Code::kInvalidArgument, "inertia",
+                      "Stokes flow has none. Use it with model sheet");
+  }
+  if (model == v1::MODEL_STOKES) options.film_model = pipeline::FilmModel::kStokes;
+  options.inertia = inertia;
+  options.map_only = artifacts == v1::ARTIFACT_SET_MAP;
+  return {};
+}
+
+std::vector<Stage> simulate_stages(const FlowOptions& options) { return stages(options, true); }
+
+std::vector<Stage> predict_stages(const FlowOptions& options) { return stages(options, false); }
+
+Result<pipeline::DipOptions> read_flow(const FlowOptions& options, Report& report,
+                                       const Context& context) {
+  HP_ASSIGN_OR_RETURN(pipeline::DipOptions dip,
+                      read_inked_dip(options.dip, options.ink_image, report, context));
+  dip.film_model = options.film_model;
+  dip.inertia = options.inertia;
+  return dip;
+}
+
+DipFindings::DipFindings(const pipeline::DipOptions& dip, const mesh::Model& model,
+                         const pipeline::Dip& result)
+    : X_FO_(result.X_FO),
+      mesh_{model.vertices.size(), model.triangles.size()},
+      surface_{result.surface.points.size(), result.surface.triangles.size()},
+      closed_(result.surface.closed),
+      figures_(result.figures) {
+  dip_.outline = dip.outline;
+  dip_.profile = dip.profile;
+}
+
+Json DipFindings::parameters(const FlowOptions& options, std::array<int, 2> film_image_px,
+                             int threads) const {
+  Json out = dip_parameters_json(options.dip, dip_, X_FO_, threads);
+  out.update({{"dpi", options.dpi},
+              {"film_image_px", film_image_px},
+              {"model", options.is_sheet() ? "sheet" : "stokes"},
+              {"inertia", options.inertia},
+              {"ink_passes", options.is_sheet() ? options.passes() : 0},
+              {"artifacts", options.map_only ? "map" : "all"}});
+  return out;
+}
+
+Json DipFindings::report(const FlowOptions& options, std::array<int, 2> film_image_px,
+                         int threads) const {
+  const pipeline::DipFigures& f = figures_;
+  return {{"parameters", parameters(options, film_image_px, threads)},
+          {"mesh",
+           {{"vertices", mesh_.vertices},
+            {"triangles", mesh_.triangles},
+            {"surface_points", surface_.vertices},
+            {"surface_triangles", surface_.triangles},
+            {"closed", closed_},
+            {"film_vertices_max", f.film_vertices_max},
+            {"film_triangles_max", f.film_triangles_max}}},
+          {"steps", f.steps},
+          {"waterlines_passed_over", f.passed_over_mm.size()},
+          {"depth_mm", f.depth_mm},
+          {"stopped_at_film_edge", f.stopped_at_edge},
+          {"coverage", f.coverage},
+          {"theta_clamped_share", f.clamped_share},
+          {"wrinkled_share", f.wrinkled_share},
+          {"torn_share", f.torn_share},
+          {"stretch", stretch_json(f)},
+          {"sheet_unsettled_mm", f.unsettled_mm},
+          {"ink_passes", ink_passes_json(f.ink_passes)}};
+}
+
+Json DipFindings::figures() const {
+  return {{"coverage", figures_.coverage},
+          {"depth_mm", figures_.depth_mm},
+          {"stretch", stretch_json(figures_)}};
+}
+
+std::string DipFindings::summary(const Report& report, const std::filesystem::path& dir) const {
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(),
+                "film reaches %.1f %% of the surface, stretched at most %.2f times; %.1f s\n",
+                100 * figures_.coverage, figures_.stretch_max, report.total_s);
+  return artifacts_line(dir, report) + line.data();
+}
+
+}  // namespace hydroprint::worker

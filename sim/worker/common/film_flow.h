@@ -1,0 +1,90 @@
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sim/base/process/progress.h"
+#include "sim/mesh/model.h"
+#include "sim/pipeline/pipeline.h"
+#include "sim/worker/common/dip.h"
+#include "sim/worker/common/report.h"
+#include "sim/worker/common/report_values.h"
+
+namespace hydroprint::v1 {
+enum Model : int;
+enum ArtifactSet : int;
+}  // namespace hydroprint::v1
+
+// What simulate and predict share. For inclusion in .cpp files only.
+namespace hydroprint::worker {
+
+/// A dip whose film carries an image.
+struct FlowOptions {
+  DipOptions dip;
+  double dpi = 300;
+  pipeline::FilmModel film_model = pipeline::FilmModel::kSheet;
+  bool inertia = false;
+  int ink_passes = 1;
+  std::filesystem::path ink_image;  ///< empty: none
+  bool map_only = false;            ///< `--artifacts map`
+
+  /// Passes over the image's own ink; an ink image takes their place.
+  [[nodiscard]] int passes() const { return ink_image.empty() ? ink_passes : 0; }
+  [[nodiscard]] bool is_sheet() const { return film_model == pipeline::FilmModel::kSheet; }
+};
+
+void add_flow_flags(Flags& flags);
+
+/// Sets the fields that are choices. Fails with fail_field() if they exclude each other.
+[[nodiscard]] Status choose(FlowOptions& options, v1::Model model, bool inertia,
+                            v1::ArtifactSet artifacts);
+
+template <class Spec>
+Result<FlowOptions> flow_options(const Spec& spec, const InputFolder& inputs) {
+  FlowOptions out;
+  HP_ASSIGN_OR_RETURN(out.dip, dip_options(spec, inputs));
+  if (spec.has_dpi()) out.dpi = spec.dpi();
+  if (spec.has_ink_passes()) out.ink_passes = spec.ink_passes();
+  out.ink_image = inputs.path(spec.ink_image());
+  HP_RETURN_IF_ERROR(choose(out, spec.model(), spec.inertia(), spec.artifacts()));
+  return out;
+}
+
+/// Stages of a run. The weights are roughly the percentages that dips of a globe and of a cow took
+/// with the default options; the sheet takes three times as long with inertia.
+[[nodiscard]] std::vector<Stage> simulate_stages(const FlowOptions& options);
+[[nodiscard]] std::vector<Stage> predict_stages(const FlowOptions& options);
+
+/// Reads what the options name.
+[[nodiscard]] Result<pipeline::DipOptions> read_flow(const FlowOptions& options, Report& report,
+                                                     const Context& context);
+
+/// The dip as report.json and the summaries show it.
+class DipFindings {
+ public:
+  DipFindings() = default;
+  /// @param dip     what was computed
+  /// @param result  what came of it
+  DipFindings(const pipeline::DipOptions& dip, const mesh::Model& model,
+              const pipeline::Dip& result);
+
+  /// @param film_image_px  zeros: no film image
+  [[nodiscard]] Json report(const FlowOptions& options, std::array<int, 2> film_image_px,
+                            int threads) const;
+  [[nodiscard]] Json figures() const;
+  [[nodiscard]] std::string summary(const Report& report, const std::filesystem::path& dir) const;
+
+ private:
+  [[nodiscard]] Json parameters(const FlowOptions& options, std::array<int, 2> film_image_px,
+                                int threads) const;
+
+  pipeline::DipOptions dip_;  ///< film and profile
+  Pose X_FO_ = Pose::Identity();
+  MeshSize mesh_, surface_;
+  bool closed_ = false;
+  pipeline::DipFigures figures_;
+};
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,82 @@
+#include "sim/worker/common/frames.h"
+
+#include <string>
+#include <utility>
+
+#include "sim/calibrate/calibrate.h"
+#include "sim/calibrate/camera_file.h"
+#include "sim/worker/common/fields.h"
+#include "sim/worker/common/report_values.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr const char* kListing = "frames.json";
+
+Json markers_json(const std::vector<registration::MarkerReport>& markers) {
+  Json out = Json::array();
+  for (const auto& m : markers) {
+    out.push_back({{"name", m.name}, {"used", m.used}});
+    if (m.used)
+      out.back().update({{"rms_mm", m.rms_mm}, {"residual_mm", m.residual_mm}});
+    else
+      out.back()["why_not"] = m.why_not;
+  }
+  return out;
+}
+
+}  // namespace
+
+Result<std::vector<std::filesystem::path>> frames_folders(
+    const std::vector<std::filesystem::path>& files, std::size_t most) {
+  const std::string suffix = std::string("/") + kListing;
+  std::vector<std::filesystem::path> folders;
+  for (const std::filesystem::path& file : files) {
+    const std::string& name = file.native();
+    if (name.ends_with(suffix)) folders.emplace_back(name.substr(0, name.size() - suffix.size()));
+  }
+  if (folders.empty()) {
+    return fail_field(Code::kInvalidArgument, "frames",
+                      "no FOLDER/frames.json among them. Name what hydroprint-capture wrote");
+  }
+  if (most > 0 && folders.size() > most) {
+    return fail_field(
+        Code::kInvalidArgument, "frames",
+        std::to_string(folders.size()) + " folders. Give at most " + std::to_string(most));
+  }
+  return folders;
+}
+
+void append_frames(std::vector<InputPath>& files,
+                   const std::vector<std::filesystem::path>& folders) {
+  for (const auto& folder : folders) files.push_back({"frames", folder / kListing});
+}
+
+void add_frames_flag(Flags& flags, const std::string& description, int most) {
+  flags.require_folders("frames", kListing, description, most);
+}
+
+void add_camera_flag(Flags& flags) {
+  flags.add("camera", "The camera's lens, of calibrate-camera; default: what its driver says",
+            {.type = "FILE.json"});
+}
+
+Result<Scan> read_scan(const std::filesystem::path& folder, const std::filesystem::path& camera,
+                       const Context& context) {
+  Scan out;
+  HP_ASSIGN_OR_RETURN(out.frames, calibrate::read_frames(folder, context));
+  if (camera.empty()) {
+    out.camera = calibrate::uncalibrated(out.frames.nominal_lens);
+  } else {
+    HP_ASSIGN_OR_RETURN(out.camera, calibrate::read_camera(camera));
+  }
+  return out;
+}
+
+Json film_frame_json(const registration::FilmFrame& frame) {
+  return {{"camera", pose_json(frame.X_CF().inverse())},
+          {"rms_mm", frame.fit.rms_mm},
+          {"markers", markers_json(frame.markers)}};
+}
+
+}  // namespace hydroprint::worker

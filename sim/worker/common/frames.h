@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/base/context.h"
+#include "sim/calibrate/frames_folder.h"
+#include "sim/registration/camera/calibrate_camera.h"
+#include "sim/registration/film_frame/film_frame.h"
+#include "sim/worker/common/flags.h"
+#include "sim/worker/common/input_folder.h"
+#include "sim/worker/common/report.h"
+
+// What calibrate, calibrate-camera and fuse share. For inclusion in .cpp files only.
+namespace hydroprint::worker {
+
+/// Folders of hydroprint-capture among the files of a spec: those with a frames.json. Fails with
+/// fail_field() if there is none or more than `most`; 0: any number.
+[[nodiscard]] Result<std::vector<std::filesystem::path>> frames_folders(
+    const std::vector<std::filesystem::path>& files, std::size_t most);
+
+/// The same of the field `frames`.
+template <class Spec>
+Result<std::vector<std::filesystem::path>> frames_folders(const Spec& spec,
+                                                          const InputFolder& inputs,
+                                                          std::size_t most) {
+  std::vector<std::filesystem::path> files;
+  for (const v1::InputFile& file : spec.frames()) files.push_back(inputs.path(file));
+  return frames_folders(files, most);
+}
+
+/// The input files of report.json that stand for the frames.
+void append_frames(std::vector<InputPath>& files,
+                   const std::vector<std::filesystem::path>& folders);
+
+/// `--frames DIR`
+void add_frames_flag(Flags& flags, const std::string& description, int most);
+void add_camera_flag(Flags& flags);
+
+/// Frames and the camera that took them.
+struct Scan {
+  calibrate::Frames frames;
+  registration::CameraCalibration camera;
+};
+
+/// Reads the frames of a folder. The camera is that of the file or, without one, the driver's.
+[[nodiscard]] Result<Scan> read_scan(const std::filesystem::path& folder,
+                                     const std::filesystem::path& camera, const Context& context);
+
+/// Where the camera was, how well the markers fit together, and which of them were used.
+[[nodiscard]] Json film_frame_json(const registration::FilmFrame& frame);
+
+}  // namespace hydroprint::worker

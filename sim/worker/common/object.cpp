@@ -1,0 +1,57 @@
+#include "sim/worker/common/object.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/base/pose_file.h"
+#include "sim/film/outline.h"
+#include "sim/worker/common/fields.h"
+
+namespace hydroprint::worker {
+namespace {
+
+/// Adds the numbers as a key unless there are none.
+void add_key(nlohmann::json& json, const std::string& key,
+             const google::protobuf::RepeatedField<double>& numbers) {
+  if (!numbers.empty()) json[key] = std::vector<double>(numbers.begin(), numbers.end());
+}
+
+bool all_finite(const google::protobuf::RepeatedField<double>& numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
+
+void add_object_flags(Flags& flags) {
+  flags.require("mesh", "Model: OBJ, STL, PLY, glTF or GLB");
+  flags.add("scale", "Model units to mm", {.default_value = default_text(ObjectOptions{}.scale)});
+  flags.add_pose();
+}
+
+void add_film_flag(Flags& flags) {
+  flags.add("film", "A4, A3, letter, WxH, circle:RADIUS (mm) or polygon:FILE.json",
+            {.default_value = ObjectOptions{}.film, .type = "FILM"});
+}
+
+InputPath film_file(const std::string& film) {
+  return {"film", film::polygon_file(film).value_or("")};
+}
+
+Result<Pose> pose_of(const v1::Pose& pose) {
+  if (!all_finite(pose.rotation_wxyz()) || !all_finite(pose.translation_mm())) {
+    return fail_field(Code::kInvalidArgument, "pose", "not all numbers are finite");
+  }
+  nlohmann::json json = nlohmann::json::object();
+  add_key(json, "rotation_wxyz", pose.rotation_wxyz());
+  add_key(json, "translation_mm", pose.translation_mm());
+  const auto file = parse_pose(json, "pose");
+  if (!file) {
+    // "pose: rotation_wxyz: ..."
+    return fail_field(file.error().code, "pose",
+                      file.error().message.substr(std::string("pose: ").size()));
+  }
+  return file->pose();
+}
+
+}  // namespace hydroprint::worker

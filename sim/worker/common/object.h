@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/base/pose.h"
+#include "sim/worker/common/flags.h"
+#include "sim/worker/common/input_folder.h"
+#include "sim/worker/common/report.h"
+
+namespace hydroprint::v1 {
+class Pose;
+}
+
+// For inclusion in .cpp files only.
+namespace hydroprint::worker {
+
+/// An object over a film.
+struct ObjectOptions {
+  std::filesystem::path mesh;
+  double scale = 1;                 ///< model units to mm
+  std::optional<Pose> X_FO;         ///< none: as in the file, centred on the film
+  std::filesystem::path pose_file;  ///< file of X_FO; empty: none
+  std::string film = "A4";          ///< for film::parse_outline()
+};
+
+void add_object_flags(Flags& flags);
+void add_film_flag(Flags& flags);
+
+/// Files of a film for report.json: those of a polygon.
+[[nodiscard]] InputPath film_file(const std::string& film);
+
+/// Reads the field `pose`. Fails with fail_field() if it is not a rigid transform.
+[[nodiscard]] Result<Pose> pose_of(const v1::Pose& pose);
+
+/// Reads the field `film`.
+template <class Spec>
+Result<std::string> film_of(const Spec& spec, const InputFolder& inputs) {
+  return inputs.film(spec.has_film() ? spec.film() : ObjectOptions{}.film);
+}
+
+template <class Spec>
+Result<ObjectOptions> object_options(const Spec& spec, const InputFolder& inputs) {
+  ObjectOptions out;
+  HP_ASSIGN_OR_RETURN(out.mesh, inputs.required("mesh", spec.mesh()));
+  if (spec.has_scale()) out.scale = spec.scale();
+  if (spec.has_pose()) {
+    HP_ASSIGN_OR_RETURN(out.X_FO, pose_of(spec.pose()));
+    out.pose_file = inputs.pose_file();
+  }
+  HP_ASSIGN_OR_RETURN(out.film, film_of(spec, inputs));
+  return out;
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,30 @@
+#include "sim/worker/common/page.h"
+
+#include "sim/worker/common/report_values.h"
+
+namespace hydroprint::worker {
+
+void add_page_flags(Flags& flags) {
+  flags.add("paper", "A4, A3, letter or WxH (mm)", {.default_value = "A4", .type = "PAPER"});
+  flags.add("printer_margin_mm", "Strip along each edge of the paper that the printer leaves blank",
+            {.default_value = default_text(print::PageSettings{}.printer_margin_mm)});
+  flags.add("job_name", "Printed beside the film");
+  flags.add("date", "Printed beside the film, as given");
+}
+
+Status set_paper(print::PageSettings& page, const std::string& paper) {
+  HP_ASSIGN_OR_RETURN(page.paper_mm, print::parse_paper(paper));
+  return {};
+}
+
+Json page_parameters_json(const print::PageSettings& page, const film::Outline& outline,
+                          int threads) {
+  return {{"film", film_json(outline)},
+          {"paper_mm", pair_of(page.paper_mm)},
+          {"printer_margin_mm", page.printer_margin_mm},
+          {"job_name", page.job_name},
+          {"date", page.date},
+          {"threads", threads}};
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/base/file_digest.h"
+#include "sim/base/result.h"
+
+// For inclusion in .cpp files only.
+namespace hydroprint::worker {
+
+using Json = nlohmann::ordered_json;
+
+/// A file that a run reads, by its role in report.json ("mesh", "pose", ...).
+struct InputPath {
+  std::string role;
+  std::filesystem::path path;  ///< empty: not given
+};
+
+/// An input file as report.json lists it.
+struct Input {
+  InputPath file;
+  FileDigest digest;
+};
+
+/// The part of report.json that all verbs have in common.
+struct Report {
+  int threads = 1;
+  std::vector<Input> inputs;
+  std::vector<std::pair<std::string, double>> stage_seconds;
+  double total_s = 0;
+  Warnings warnings;
+  std::vector<std::string> artifacts;  ///< file names without report.json
+};
+
+/// Adds the files with their digests to the report's inputs; skips empty paths. Fails as
+/// digest_file() does.
+[[nodiscard]] Status add_inputs(Report& report, const std::vector<InputPath>& files);
+
+/// Content of report.json. `findings` holds the keys of the verb itself, in their order; values
+/// that are not finite become null.
+[[nodiscard]] std::string report_json(const std::string& verb, const Json& findings,
+                                      const Report& report);
+
+/// Summary for `--json` on one line: the folder, the artifacts and the verb's main figures.
+[[nodiscard]] std::string summary_json(const std::filesystem::path& dir, const Json& figures,
+                                       const Report& report);
+
+/// "DIR: film.png report.json", the first line of a summary for people.
+[[nodiscard]] std::string artifacts_line(const std::filesystem::path& dir, const Report& report);
+
+}  // namespace hydroprint::worker

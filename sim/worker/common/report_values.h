@@ -1,0 +1,34 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+
+#include "sim/base/pose.h"
+#include "sim/base/result.h"
+#include "sim/film/outline.h"
+#include "sim/worker/common/report.h"
+
+// Values that the reports of several verbs contain. For inclusion in .cpp files only.
+namespace hydroprint::worker {
+
+/// [x, y]
+[[nodiscard]] Json pair_of(const Eigen::Vector2d& v);
+/// [x, y, z]
+[[nodiscard]] Json list_of(const Eigen::Vector3d& v);
+
+/// A pose as pose files have it (contract, `--pose`).
+[[nodiscard]] Json pose_json(const Pose& X_FO);
+
+[[nodiscard]] Json film_json(const film::Outline& outline);
+
+/// [{code, message, where}]
+[[nodiscard]] Json warnings_json(const Warnings& warnings);
+
+/// Size of a mesh as its file has it.
+struct MeshSize {
+  std::size_t vertices = 0, triangles = 0;
+};
+[[nodiscard]] Json mesh_json(const MeshSize& size);
+
+}  // namespace hydroprint::worker

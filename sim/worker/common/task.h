@@ -1,0 +1,42 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "sim/base/process/termination.h"
+#include "sim/base/result.h"
+
+namespace hydroprint::worker {
+
+/// Options of a run that do not depend on the verb.
+struct RunOptions {
+  std::filesystem::path out;
+  int threads = 1;
+  bool json = false;
+  int progress_fd = -1;  ///< -1: none
+};
+
+/// What the program prints at the end of a successful run.
+struct Finished {
+  std::string summary;  ///< for stdout; JSON if RunOptions::json
+  Warnings warnings;
+};
+
+/// A computation with its options, ready to run.
+class Task {
+ public:
+  Task() = default;
+  virtual ~Task() = default;
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
+
+  /// The main input, for error messages: a file name, or the verb if it reads no file.
+  [[nodiscard]] virtual std::string subject() const = 0;
+
+  /// Runs to the end. Reports progress to the pipe of the options and, if it is a terminal, to
+  /// `stderr_fd`. Leaves nothing behind on failure.
+  [[nodiscard]] virtual Result<Finished> run(const RunOptions& options, Termination& termination,
+                                             int stderr_fd) = 0;
+};
+
+}  // namespace hydroprint::worker

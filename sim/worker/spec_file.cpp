@@ -1,0 +1,106 @@
+#include "sim/worker/spec_file.h"
+
+#include <google/protobuf/message.h>
+#include <google/protobuf/stubs/logging.h>
+#include <google/protobuf/util/json_util.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/base/input_file.h"
+#include "sim/worker/common/fields.h"
+
+namespace hydroprint::worker {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
+
+/// References that a daemon replaces by files and values before a worker starts.
+constexpr std::array<std::string_view, 6> kReferences = {
+    "simulate_job", "capture_job",        "capture_jobs",
+    "calibration",  "camera_calibration", "allow_stale_calibration"};
+
+Result<std::string> read_stdin() {
+  std::string text;
+  std::array<char, 1 << 16> chunk{};
+  for (;;) {
+    const ssize_t got = ::read(STDIN_FILENO, chunk.data(), chunk.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return fail(Code::kDataLoss, std::string("stdin: ") + std::strerror(errno));
+    if (got == 0) return text;
+    text.append(chunk.data(), static_cast<std::size_t>(got));
+    if (text.size() > kMaxBytes) return fail(Code::kOutOfRange, "stdin: larger than 16 MiB");
+  }
+}
+
+Status parse(const std::string& json, const std::filesystem::path& file, Message& spec) {
+  // A parse error is reported once, as our own error.
+  const google::protobuf::LogSilencer silencer;
+  const auto status = google::protobuf::util::JsonStringToMessage(json, &spec);
+  if (status.ok()) return {};
+  return fail(Code::kInvalidArgument, file.string() + ": not a valid " +
+                                          spec.GetDescriptor()->name() + ": " +
+                                          std::string(status.message()));
+}
+
+Status check_file(const std::string& field, const v1::InputFile& file,
+                  const std::filesystem::path& inputs) {
+  if (file.name().empty()) return fail_field(Code::kInvalidArgument, field + ".name", "missing");
+  const auto opened = open_input_file(inputs / file.name());
+  if (!opened) return fail_field(opened.error().code, field, opened.error().message);
+  return {};
+}
+
+bool is_input_file(const FieldDescriptor& field) {
+  return field.message_type() == v1::InputFile::descriptor();
+}
+
+Status check_files(const Message& spec, const FieldDescriptor& field,
+                   const std::filesystem::path& inputs) {
+  const auto& reflection = *spec.GetReflection();
+  if (!field.is_repeated()) {
+    return check_file(field.name(),
+                      static_cast<const v1::InputFile&>(reflection.GetMessage(spec, &field)),
+                      inputs);
+  }
+  for (int i = 0; i < reflection.FieldSize(spec, &field); ++i) {
+    HP_RETURN_IF_ERROR(check_file(
+        field.name() + "[" + std::to_string(i) + "]",
+        static_cast<const v1::InputFile&>(reflection.GetRepeatedMessage(spec, &field, i)), inputs));
+  }
+  return {};
+}
+
+Status check(const Message& spec, const std::filesystem::path& inputs) {
+  std::vector<const FieldDescriptor*> fields;
+  spec.GetReflection()->ListFields(spec, &fields);
+  for (const FieldDescriptor* field : fields) {
+    if (std::find(kReferences.begin(), kReferences.end(), field->name()) != kReferences.end()) {
+      return fail_field(Code::kInvalidArgument, field->name(),
+                        "only a daemon can look this up. Name files and values instead");
+    }
+    if (is_input_file(*field)) HP_RETURN_IF_ERROR(check_files(spec, *field, inputs));
+  }
+  return {};
+}
+
+}  // namespace
+
+Status read_spec(const std::filesystem::path& file, const std::filesystem::path& inputs,
+                 Message& spec) {
+  HP_ASSIGN_OR_RETURN(const std::string text,
+                      file == "-" ? read_stdin() : read_text_file(file, kMaxBytes));
+  HP_RETURN_IF_ERROR(parse(text, file, spec));
+  return check(spec, inputs);
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <filesystem>
+
+#include "sim/base/result.h"
+
+namespace google::protobuf {
+class Message;
+}
+
+namespace hydroprint::worker {
+
+/// Reads a spec from proto3 JSON of at most 16 MiB; "-" is stdin.
+/// Refuses, naming file and field: text that is not JSON, unknown fields, values of another type,
+/// fields that only the daemon can resolve (references to jobs and calibrations), and named files
+/// that are missing in `inputs`.
+[[nodiscard]] Status read_spec(const std::filesystem::path& file,
+                               const std::filesystem::path& inputs,
+                               google::protobuf::Message& spec);
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,271 @@
+#include "sim/worker/verbs/calibrate.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/base/artifact_file.h"
+#include "sim/calibrate/calibrate.h"
+#include "sim/film/outline.h"
+#include "sim/image/figures/alignment_picture.h"
+#include "sim/image/figures/pictures.h"
+#include "sim/image/io/image_file.h"
+#include "sim/mesh/make_surface.h"
+#include "sim/mesh/read/read_model.h"
+#include "sim/worker/common/artifact_task.h"
+#include "sim/worker/common/frames.h"
+#include "sim/worker/common/object.h"
+#include "sim/worker/common/report_values.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr const char* kExamples =
+    R"(calibration.json: the object's pose in the film frame with its covariance, what the scan does not tell and the
+nominal pose does, what became of each marker, and the water's level. pose.json: the pose for simulate --pose.
+alignment.png: the scan's points over the mesh by how far they are off; error.png: how well the surface's place is known.
+
+Examples:
+  hydroprint-capture --seconds 2 --out frames
+  hydroprint-worker calibrate --frames frames --layout rig_layout.toml --camera camera.json --mesh mug.obj --scale 10 --out held
+  hydroprint-worker simulate --mesh mug.obj --scale 10 --pose held/pose.json --out film
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+struct CalibrateOptions {
+  ObjectOptions object;  ///< its pose is the nominal one
+  std::filesystem::path frames;
+  std::filesystem::path layout;
+  std::filesystem::path camera;      ///< empty: the driver's lens
+  std::optional<double> gripper_mm;  ///< none: not in view
+};
+
+void add_flags(Flags& flags) {
+  add_frames_flag(flags, "Depth frames: a folder of hydroprint-capture", 1);
+  flags.require("layout", "The rig's markers and camera", {.type = "FILE.toml"});
+  add_camera_flag(flags);
+  add_object_flags(flags);
+  add_film_flag(flags);
+  flags.add("gripper_mm",
+            "Height of the gripper's lower end over the water, which holds the object's top; "
+            "default: the gripper is not in view");
+}
+
+Result<CalibrateOptions> read_options(const v1::CalibrateSpec& spec, const InputFolder& inputs) {
+  CalibrateOptions out;
+  HP_ASSIGN_OR_RETURN(out.object, object_options(spec, inputs));
+  HP_ASSIGN_OR_RETURN(const auto folders, frames_folders(spec, inputs, 1));
+  out.frames = folders.front();
+  HP_ASSIGN_OR_RETURN(out.layout, inputs.required("layout", spec.layout()));
+  out.camera = inputs.path(spec.camera());
+  if (spec.has_gripper_mm()) out.gripper_mm = spec.gripper_mm();
+  return out;
+}
+
+/// The object coloured by registration error.
+Result<image::RgbImage> error_picture(const mesh::Surface& surface, const Pose& X_FO,
+                                      const std::vector<double>& error_mm, const Context& context) {
+  std::vector<flow::MappedTriangle> whole(surface.triangles.size());
+  for (std::size_t t = 0; t < whole.size(); ++t) {
+    whole[t].triangle = static_cast<int>(t);
+    whole[t].barycentric = {Eigen::Vector3f::UnitX(), Eigen::Vector3f::UnitY(),
+                            Eigen::Vector3f::UnitZ()};
+  }
+  const auto at_corners = [&](const flow::MappedTriangle& tile) {
+    const Eigen::Vector3i& v = surface.triangles[static_cast<std::size_t>(tile.triangle)];
+    return std::array{error_mm[static_cast<std::size_t>(v[0])],
+                      error_mm[static_cast<std::size_t>(v[1])],
+                      error_mm[static_cast<std::size_t>(v[2])]};
+  };
+  const image::Quantity error{"error, mm", error_mm, 0, 0.1, at_corners, {}};
+  HP_ASSIGN_OR_RETURN(const auto views, image::find_views(surface, X_FO, whole, context));
+  return image::quantity_picture(views, error, context);
+}
+
+Status write_pictures(const std::filesystem::path& folder, const mesh::Surface& surface,
+                      const calibrate::Calibration& found, const Context& context) {
+  context.progress("pictures", 0);
+  const Pose& X_FO = found.object.X_FO;
+  HP_ASSIGN_OR_RETURN(const auto views, image::find_views(surface, X_FO, {}, context));
+  HP_ASSIGN_OR_RETURN(const auto alignment,
+                      image::alignment_picture(views, found.points_O, found.off_mm, context));
+  HP_RETURN_IF_ERROR(
+      image::write_png(folder / "alignment.png", alignment, image::kScreenDpi, context));
+  HP_ASSIGN_OR_RETURN(const auto error, error_picture(surface, X_FO, found.error_mm, context));
+  return image::write_png(folder / "error.png", error, image::kScreenDpi, context);
+}
+
+/// z of the lowest point where the object hangs.
+double lowest_mm(const mesh::Surface& surface, const Pose& X_FO) {
+  double out = std::numeric_limits<double>::infinity();
+  for (const Eigen::Vector3d& p : surface.points) out = std::min(out, (X_FO * p).z());
+  return out;
+}
+
+Json matrix_json(const registration::Matrix6& matrix) {
+  Json out = Json::array();
+  for (const auto& row : matrix.rowwise())
+    out.push_back(std::vector<double>(row.begin(), row.end()));
+  return out;
+}
+
+double share_of(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+Json scan_json(const registration::ObjectPose& object) {
+  return {{"points", object.fit.points},
+          {"on_object_share", object.on_share},
+          {"misfit_mm", object.misfit_mm},
+          {"rms_mm", object.fit.rms_mm},
+          {"rms_sigmas", object.fit.rms_sigmas},
+          {"out_of_view_share", object.sight.out_of_view},
+          {"hidden_share", object.sight.before + object.sight.without_depth}};
+}
+
+/// Content of calibration.json.
+/// @param lowest_mm  z of the object's lowest point (F)
+Json calibration_json(const calibrate::Calibration& c, double lowest_mm) {
+  Json out = {{"pose", pose_json(c.object.X_FO)},
+              {"uncertainty",
+               {{"about_mm", list_of(c.object.centre_mm)},
+                {"covariance_turn_rad_shift_mm", matrix_json(c.object.covariance)},
+                {"error_p50_mm", share_of(c.error_mm, 0.5)},
+                {"error_p95_mm", share_of(c.error_mm, 0.95)},
+                {"error_max_mm", share_of(c.error_mm, 1)}}},
+              {"from_nominal_pose", c.object.weak},
+              {"film_frame", film_frame_json(c.film_frame)},
+              {"scan", scan_json(c.object)}};
+  if (c.water)
+    out["water"] = {{"z_mm", c.water->z_mm}, {"sigma_mm", c.water->sigma_mm}};
+  else
+    out["water"] = nullptr;
+  out["height_mm"] = lowest_mm - (c.water ? c.water->z_mm : 0);
+  return out;
+}
+
+class Calibrate final : public ArtifactTask {
+ public:
+  explicit Calibrate(CalibrateOptions options)
+      : ArtifactTask("calibrate"), options_(std::move(options)) {}
+
+  [[nodiscard]] std::string subject() const override { return options_.frames.string(); }
+  [[nodiscard]] std::vector<Stage> stages() const override {
+    return {{"inputs", 1},  {"reading", 5},   {"fusing", 5},    {"normals", 5}, {"markers", 20},
+            {"object", 15}, {"aligning", 30}, {"pictures", 15}, {"writing", 4}};
+  }
+
+ protected:
+  [[nodiscard]] std::vector<InputPath> input_files() const override {
+    std::vector<InputPath> out = {{"mesh", options_.object.mesh},
+                                  {"pose", options_.object.pose_file},
+                                  film_file(options_.object.film),
+                                  {"layout", options_.layout},
+                                  {"camera", options_.camera}};
+    append_frames(out, {options_.frames});
+    return out;
+  }
+
+  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+
+  [[nodiscard]] Json findings(const Report& report) const override {
+    return {{"parameters",
+             {{"scale", options_.object.scale},
+              {"film", film_json(outline_)},
+              {"threads", report.threads},
+              {"gripper_mm", options_.gripper_mm ? Json(*options_.gripper_mm) : Json()}}},
+            {"mesh", mesh_json(mesh_)},
+            {"calibration", figures()}};
+  }
+  [[nodiscard]] Json figures() const override { return calibration_json(found_, lowest_mm_); }
+  [[nodiscard]] std::string summary(const Report& report,
+                                    const std::filesystem::path& dir) const override;
+
+ private:
+  [[nodiscard]] Status write(const std::filesystem::path& folder, const mesh::Surface& surface,
+                             const Context& context) const;
+
+  CalibrateOptions options_;
+  film::Outline outline_;
+  MeshSize mesh_;
+  calibrate::Calibration found_;
+  double lowest_mm_ = 0;  ///< z of the object's lowest point (F)
+};
+
+Status Calibrate::compute(OutFolder& folder, Report& report, const Context& context) {
+  const ObjectOptions& object = options_.object;
+  HP_ASSIGN_OR_RETURN(outline_, film::parse_outline(object.film));
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+  context.progress("reading", 0);
+  calibrate::Task task;
+  HP_ASSIGN_OR_RETURN(task.layout, calibrate::read_layout(options_.layout));
+  HP_ASSIGN_OR_RETURN(const Scan scan, read_scan(options_.frames, options_.camera, context));
+  HP_ASSIGN_OR_RETURN(const mesh::Model model,
+                      mesh::read_model(object.mesh, object.scale, context));
+  HP_ASSIGN_OR_RETURN(task.surface,
+                      mesh::make_surface(model, std::numeric_limits<double>::infinity(), context));
+  mesh_ = {model.vertices.size(), model.triangles.size()};
+  task.frames = scan.frames.frames;
+  task.camera = scan.camera;
+  task.nominal_FO = object.X_FO;
+  task.gripper_mm = options_.gripper_mm;
+  task.half_film_mm = outline_.size_mm() / 2;
+  HP_ASSIGN_OR_RETURN(found_, calibrate::calibrate(task, context));
+  lowest_mm_ = lowest_mm(task.surface, found_.object.X_FO);
+  report.warnings = model.warnings;
+  report.warnings.insert(report.warnings.end(), found_.warnings.begin(), found_.warnings.end());
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_RETURN_IF_ERROR(write(folder.partial(), task.surface, context));
+  report.artifacts = {"calibration.json", "pose.json", "alignment.png", "error.png"};
+  return {};
+}
+
+Status Calibrate::write(const std::filesystem::path& folder, const mesh::Surface& surface,
+                        const Context& context) const {
+  HP_RETURN_IF_ERROR(write_pictures(folder, surface, found_, context));
+  context.progress("writing", 0);
+  HP_RETURN_IF_ERROR(image::write_artifact(folder / "calibration.json", figures().dump(1) + "\n"));
+  return image::write_artifact(folder / "pose.json", pose_json(found_.object.X_FO).dump(1) + "\n");
+}
+
+std::string Calibrate::summary(const Report& report, const std::filesystem::path& dir) const {
+  const auto& markers = found_.film_frame.markers;
+  const auto used =
+      std::count_if(markers.begin(), markers.end(), [](const auto& m) { return m.used; });
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(),
+                "%d of %zu markers; the object lies within %.2f mm of the mesh, its place is known "
+                "to %.2f mm\n",
+                static_cast<int>(used), markers.size(), found_.object.fit.rms_mm,
+                share_of(found_.error_mm, 0.95));
+  std::string weak;
+  for (const std::string& what : found_.object.weak)
+    weak += "from the nominal pose: " + what + "\n";
+  return artifacts_line(dir, report) + line.data() + weak;
+}
+
+Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
+                                   const InputFolder& inputs) {
+  HP_ASSIGN_OR_RETURN(CalibrateOptions options,
+                      read_options(static_cast<const v1::CalibrateSpec&>(spec), inputs));
+  return std::make_unique<Calibrate>(std::move(options));
+}
+
+}  // namespace
+
+Verb calibrate_verb() {
+  return {
+      "calibrate", "From depth frames to the object's pose over the film, and how well it is known",
+      kExamples,   &v1::CalibrateSpec::default_instance(),
+      add_flags,   plan};
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,131 @@
+#include "sim/worker/verbs/calibrate_camera.h"
+
+#include <array>
+#include <cstdio>
+#include <string>
+#include <utility>
+
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/base/artifact_file.h"
+#include "sim/calibrate/camera_file.h"
+#include "sim/registration/camera/calibration_board.h"
+#include "sim/worker/common/artifact_task.h"
+#include "sim/worker/common/frames.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr const char* kExamples =
+    R"(Each view: 1 s of frames of the calibration board (sim/registration), held still, whole in view and 30 mm before what
+is behind it; twelve views, tilted each way by 30 degrees, near and far, and out to the corners of the image.
+
+Example:
+  hydroprint-worker calibrate-camera --frames view1 view2 view3 view4 view5 view6 --out camera
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+constexpr std::size_t kFramesForSteps = 10;
+
+using Views = std::vector<std::filesystem::path>;
+
+void add_flags(Flags& flags) {
+  add_frames_flag(flags, "Views of the board: folders of hydroprint-capture", 0);
+}
+
+/// Depth steps of the camera, from all views: one view alone need not show them.
+Result<std::optional<scan::DepthSteps>> depth_steps(const std::vector<std::filesystem::path>& views,
+                                                    const Context& context) {
+  scan::DepthCounts counts;
+  for (const std::filesystem::path& view : views) {
+    HP_ASSIGN_OR_RETURN(const auto taken, calibrate::read_frames(view, context, kFramesForSteps));
+    counts.add(taken.frames);
+  }
+  return scan::find_depth_steps(counts);
+}
+
+class CalibrateCamera final : public ArtifactTask {
+ public:
+  explicit CalibrateCamera(Views views)
+      : ArtifactTask("calibrate-camera"), views_(std::move(views)) {}
+
+  [[nodiscard]] std::string subject() const override { return views_.front().string(); }
+  [[nodiscard]] std::vector<Stage> stages() const override {
+    return {{"inputs", 1}, {"reading", 20}, {"boards", 60}, {"adjusting", 18}, {"writing", 1}};
+  }
+
+ protected:
+  [[nodiscard]] std::vector<InputPath> input_files() const override {
+    std::vector<InputPath> out;
+    append_frames(out, views_);
+    return out;
+  }
+
+  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+
+  [[nodiscard]] Json findings(const Report& /*report*/) const override {
+    return {{"camera", Json::parse(calibrate::camera_summary_json(camera_))}};
+  }
+  [[nodiscard]] Json figures() const override {
+    return {{"views", camera_.views}, {"rms_mm", camera_.rms_mm}};
+  }
+  [[nodiscard]] std::string summary(const Report& report,
+                                    const std::filesystem::path& dir) const override;
+
+ private:
+  Views views_;
+  registration::CameraCalibration camera_;
+};
+
+Status CalibrateCamera::compute(OutFolder& folder, Report& report, const Context& context) {
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+  const scan::DepthNoise noise;
+  HP_ASSIGN_OR_RETURN(const auto steps, depth_steps(views_, context));
+  std::vector<scan::FusedFrame> fused_views;
+  scan::Lens nominal;
+  for (const std::filesystem::path& view : views_) {
+    HP_ASSIGN_OR_RETURN(const calibrate::Frames frames, calibrate::read_frames(view, context));
+    auto fused = scan::fuse(frames.frames, noise, steps, context);
+    if (!fused) {
+      fused.error().message.insert(0, view.string() + ": ");
+      return tl::unexpected(std::move(fused).error());
+    }
+    fused_views.push_back(std::move(*fused));
+    nominal = frames.nominal_lens;
+  }
+  HP_ASSIGN_OR_RETURN(camera_,
+                      registration::calibrate_camera(fused_views, registration::calibration_board(),
+                                                     nominal, noise, context));
+  context.progress("writing", 0);
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_RETURN_IF_ERROR(
+      image::write_artifact(folder.partial() / "camera.json", calibrate::camera_json(camera_)));
+  report.artifacts = {"camera.json"};
+  return {};
+}
+
+std::string CalibrateCamera::summary(const Report& report, const std::filesystem::path& dir) const {
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(),
+                "%zu views; focal length %.1f px, depths %+.2f %%; the board fits to %.2f mm\n",
+                camera_.views, camera_.lens.fx_px, 100 * (camera_.lens.depth_scale - 1),
+                camera_.rms_mm);
+  return artifacts_line(dir, report) + line.data();
+}
+
+Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
+                                   const InputFolder& inputs) {
+  HP_ASSIGN_OR_RETURN(Views views,
+                      frames_folders(static_cast<const v1::CalibrateCameraSpec&>(spec), inputs, 0));
+  return std::make_unique<CalibrateCamera>(std::move(views));
+}
+
+}  // namespace
+
+Verb calibrate_camera_verb() {
+  return {
+      "calibrate-camera", "From views of the calibration board to a camera's lens and depth scale",
+      kExamples,          &v1::CalibrateCameraSpec::default_instance(),
+      add_flags,          plan};
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,299 @@
+#include "sim/worker/verbs/fit.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/base/artifact_file.h"
+#include "sim/film/profile.h"
+#include "sim/fit/fit.h"
+#include "sim/fit/residual_picture.h"
+#include "sim/image/io/image_file.h"
+#include "sim/mesh/read/read_model.h"
+#include "sim/worker/common/artifact_task.h"
+#include "sim/worker/common/dip.h"
+#include "sim/worker/common/fields.h"
+#include "sim/worker/common/report_values.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr const char* kExamples =
+    R"(The measured points: film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm, a header and then one point a line: where it was printed on
+the film, and where it was found on the object (mesh coordinates after --scale). What the points cannot tell keeps the
+value of --profile, and report.json says why.
+
+Examples:
+  hydroprint-worker fit --mesh ball.ply --film circle:105 --points measured.csv --ink-image film.png --out fitted
+  hydroprint-worker fit --mesh ball.ply --points measured.csv --profile film.toml --free drag,swelling --out fitted
+  hydroprint-worker simulate --mesh spot.obj --profile fitted/film_profile.toml --out spot
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+struct FitOptions {
+  DipOptions dip;
+  std::filesystem::path points;
+  std::filesystem::path ink_image;  ///< empty: none
+  fit::Options fit;
+};
+
+void add_flags(Flags& flags) {
+  add_dip_flags(flags);
+  flags.require("points", "Measured landing points", {.type = "FILE.csv"});
+  flags.add("ink_image",
+            "What was printed on the film: an RGB film image. Without it the ink ratio cannot be "
+            "fitted",
+            {.type = "FILE.png"});
+  flags.add("free",
+            "What to fit: ink_ratio, drag, swelling; default: all that the points determine",
+            {.type = "NAME[,NAME]"});
+  flags.add("drop_outliers",
+            "Leave out points beyond 4 robust standard deviations; else they are only named");
+}
+
+Result<FitOptions> read_options(const v1::FitSpec& spec, const InputFolder& inputs) {
+  FitOptions out;
+  HP_ASSIGN_OR_RETURN(out.dip, dip_options(spec, inputs));
+  HP_ASSIGN_OR_RETURN(out.points, inputs.required("points", spec.points()));
+  out.ink_image = inputs.path(spec.ink_image());
+  auto free = fit::parse_parameters({spec.free().begin(), spec.free().end()});
+  if (!free) return fail_field(free.error().code, "free", free.error().message);
+  out.fit.free = std::move(*free);
+  out.fit.drop_outliers = spec.drop_outliers();
+  out.fit.points_name = out.points.string();
+  return out;
+}
+
+/// The shortest text that reads back as the same number; empty if there is none.
+std::string cell(double value) {
+  if (!std::isfinite(value)) return {};
+  std::array<char, 32> buffer{};
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
+}
+
+std::string residuals_csv(const std::vector<fit::PointResult>& points) {
+  std::string out =
+      "film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm,before_x_mm,before_y_mm,before_residual_mm,after_x_mm,"
+      "after_y_mm,after_residual_mm,used,outlier,left_out\n";
+  for (const fit::PointResult& p : points) {
+    const auto& film = p.point.film_mm;
+    const auto& surface = p.point.surface_mm;
+    for (const double value : {film.x(), film.y(), surface.x(), surface.y(), surface.z(),
+                               p.before_mm.x(), p.before_mm.y(), (p.before_mm - film).norm(),
+                               p.after_mm.x(), p.after_mm.y(), (p.after_mm - film).norm()}) {
+      out += cell(value) + ",";
+    }
+    out += std::string(p.is_used() ? "1," : "0,") + (p.is_outlier ? "1," : "0,");
+    out += p.is_used() ? "\n" : "\"" + p.left_out + "\"\n";
+  }
+  return out;
+}
+
+constexpr const char* kMethod =
+    "Gauss-Newton least squares of predicted minus measured printed points on the film, drag "
+    "fitted as 1/drag_length_mm^2; covariance by leaving out one point at a time (linearised "
+    "jackknife), to which the computation's own error is added: what is left of the difference "
+    "that 0.6 times finer meshes and steps make; intervals by Student's t, cut where the profile's "
+    "range ends, one-sided for an estimate that lies there";
+
+/// JSON has no infinity: an infinite drag length becomes null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json estimate_json(const fit::Estimate& e) {
+  Json out = {{"name", e.name},
+              {"start", number(e.start)},
+              {"value", number(e.value)},
+              {"standard_error", number(e.standard_error)},
+              {"interval", {number(e.low), number(e.high)}},
+              {"one_sided", e.is_one_sided},
+              {"discretisation_share", e.discretisation_error / e.scaled_error}};
+  return out;
+}
+
+Json estimates_json(const fit::Outcome& outcome) {
+  Json out = Json::array();
+  for (const fit::Estimate& e : outcome.estimates) out.push_back(estimate_json(e));
+  return out;
+}
+
+Json correlation_json(const fit::Outcome& outcome) {
+  Json out = Json::array();
+  for (Eigen::Index i = 0; i < outcome.correlation.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < outcome.correlation.cols(); ++j) {
+      row.push_back(outcome.correlation(i, j));
+    }
+    out.push_back(row);
+  }
+  return out;
+}
+
+Json undetermined_json(const fit::Outcome& outcome) {
+  Json out = Json::array();
+  for (const fit::Undetermined& u : outcome.undetermined) {
+    out.push_back({{"name", u.name}, {"reason", u.reason}});
+  }
+  return out;
+}
+
+Json points_json(const fit::Outcome& outcome) {
+  std::map<std::string, int> reasons;
+  int used = 0, outliers = 0;
+  for (const fit::PointResult& p : outcome.points) {
+    used += p.is_used() ? 1 : 0;
+    outliers += p.is_outlier ? 1 : 0;
+    if (!p.is_used()) ++reasons[p.left_out];
+  }
+  Json left_out = Json::array();
+  for (const auto& [reason, count] : reasons) {
+    left_out.push_back({{"reason", reason}, {"points", count}});
+  }
+  return {{"given", outcome.points.size()},
+          {"used", used},
+          {"outliers", outliers},
+          {"left_out", left_out}};
+}
+
+Json names_json(const fit::Outcome& outcome) {
+  Json out = Json::array();
+  for (const fit::Estimate& e : outcome.estimates) out.push_back(e.name);
+  return out;
+}
+
+/// "drag_length_mm = 60.2  (95 %: 57 to 63.5)"; a drag length without end is no drag.
+std::string estimate_text(const fit::Estimate& e) {
+  const auto text = [](double value) -> std::string {
+    if (!std::isfinite(value)) return "none";
+    std::array<char, 32> buffer{};
+    std::snprintf(buffer.data(), buffer.size(), "%.5g", value);
+    return buffer.data();
+  };
+  return e.name + " = " + text(e.value) + "  (95 %: " + text(e.low) +
+         (std::isfinite(e.high) ? " to " + text(e.high) : " or more, or none") + ")\n";
+}
+
+Json fit_json(const fit::Outcome& outcome, const fit::Options& options) {
+  return {{"confidence", fit::kConfidence},
+          {"method", kMethod},
+          {"drop_outliers", options.drop_outliers},
+          {"estimates", estimates_json(outcome)},
+          {"correlation", {{"names", names_json(outcome)}, {"matrix", correlation_json(outcome)}}},
+          {"undetermined", undetermined_json(outcome)},
+          {"points", points_json(outcome)},
+          {"rms_before_mm", number(outcome.rms_before_mm)},
+          {"rms_after_mm", number(outcome.rms_after_mm)},
+          {"residual_sigma_mm", number(outcome.residual_sigma_mm)},
+          {"discretisation_mm", outcome.discretisation_mm},
+          {"degrees_of_freedom", outcome.degrees_of_freedom},
+          {"student_t", outcome.t_quantile},
+          {"iterations", outcome.iterations},
+          {"dips", outcome.dips},
+          {"settled", outcome.settled}};
+}
+
+class Fit final : public ArtifactTask {
+ public:
+  explicit Fit(FitOptions options) : ArtifactTask("fit"), options_(std::move(options)) {}
+
+  [[nodiscard]] std::string subject() const override { return options_.dip.object.mesh.string(); }
+  [[nodiscard]] std::vector<Stage> stages() const override {
+    return {{"inputs", 1}, {"reading", 2}, {"fit", 96}, {"writing", 1}};
+  }
+
+ protected:
+  [[nodiscard]] std::vector<InputPath> input_files() const override {
+    const ObjectOptions& object = options_.dip.object;
+    return {{"mesh", object.mesh},
+            {"pose", object.pose_file},
+            {"profile", options_.dip.profile},
+            {"ink_image", options_.ink_image},
+            film_file(object.film),
+            {"points", options_.points}};
+  }
+
+  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+
+  [[nodiscard]] Json findings(const Report& report) const override {
+    return {{"parameters", dip_parameters_json(options_.dip, dip_, outcome_.X_FO, report.threads)},
+            {"mesh", mesh_json(mesh_)},
+            {"fit", fit_json(outcome_, options_.fit)},
+            {"profile", profile_json(outcome_.profile)}};
+  }
+  [[nodiscard]] Json figures() const override {
+    return {{"estimates", estimates_json(outcome_)},
+            {"undetermined", undetermined_json(outcome_)},
+            {"rms_before_mm", number(outcome_.rms_before_mm)},
+            {"rms_after_mm", number(outcome_.rms_after_mm)}};
+  }
+  [[nodiscard]] std::string summary(const Report& report,
+                                    const std::filesystem::path& dir) const override;
+
+ private:
+  [[nodiscard]] Status write(const std::filesystem::path& folder) const;
+
+  FitOptions options_;
+  pipeline::DipOptions dip_;
+  MeshSize mesh_;
+  fit::Outcome outcome_;
+};
+
+Status Fit::compute(OutFolder& folder, Report& report, const Context& context) {
+  HP_ASSIGN_OR_RETURN(dip_, read_inked_dip(options_.dip, options_.ink_image, report, context));
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+  HP_ASSIGN_OR_RETURN(const std::vector<fit::Point> points, fit::read_points(options_.points));
+  context.progress("reading", 0);
+  const ObjectOptions& object = options_.dip.object;
+  HP_ASSIGN_OR_RETURN(const mesh::Model model,
+                      mesh::read_model(object.mesh, object.scale, context));
+  mesh_ = {model.vertices.size(), model.triangles.size()};
+  HP_ASSIGN_OR_RETURN(outcome_, fit::fit(model, dip_, points, options_.fit, context));
+  report.warnings = outcome_.warnings;
+  context.progress("writing", 0);
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_RETURN_IF_ERROR(write(folder.partial()));
+  report.artifacts = {"film_profile.toml", "residuals.csv", "residuals.png"};
+  return {};
+}
+
+Status Fit::write(const std::filesystem::path& folder) const {
+  HP_RETURN_IF_ERROR(
+      image::write_artifact(folder / "film_profile.toml", film::profile_toml(outcome_.profile)));
+  HP_RETURN_IF_ERROR(
+      image::write_artifact(folder / "residuals.csv", residuals_csv(outcome_.points)));
+  return image::write_png(folder / "residuals.png", fit::residual_picture(dip_.outline, outcome_),
+                          image::kScreenDpi);
+}
+
+std::string Fit::summary(const Report& /*report*/, const std::filesystem::path& dir) const {
+  std::array<char, 120> rms{};
+  std::snprintf(rms.data(), rms.size(), "residuals %.3f mm rms, %.3f mm before the fit\n",
+                outcome_.rms_after_mm, outcome_.rms_before_mm);
+  std::string out = dir.string() + "/film_profile.toml: " + rms.data();
+  for (const fit::Estimate& e : outcome_.estimates) out += estimate_text(e);
+  for (const fit::Undetermined& u : outcome_.undetermined) {
+    out += u.name + " is not determined: " + u.reason + "\n";
+  }
+  return out;
+}
+
+Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
+                                   const InputFolder& inputs) {
+  HP_ASSIGN_OR_RETURN(FitOptions options,
+                      read_options(static_cast<const v1::FitSpec&>(spec), inputs));
+  return std::make_unique<Fit>(std::move(options));
+}
+
+}  // namespace
+
+Verb fit_verb() {
+  return {"fit",     "From measured landing points to the film profile that explains them",
+          kExamples, &v1::FitSpec::default_instance(),
+          add_flags, plan};
+}
+
+}  // namespace hydroprint::worker

@@ -1,0 +1,200 @@
+#include "sim/worker/verbs/fuse.h"
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/base/artifact_file.h"
+#include "sim/calibrate/swept_scan.h"
+#include "sim/image/figures/alignment_picture.h"
+#include "sim/image/io/image_file.h"
+#include "sim/mesh/make_surface.h"
+#include "sim/worker/common/artifact_task.h"
+#include "sim/worker/common/frames.h"
+#include "sim/worker/common/surface_ply.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr const char* kExamples =
+    R"(scan.ply: the surface that a camera saw while it was swept by hand, by volume of signed distances, in mm; with
+--layout in the film frame and cut off outside the bars, else in the camera's frame at its first depth frame.
+camera_path.csv: where the camera was. Begin with the markers in view, keep 0.6 to 1.2 m away, and take 10 s.
+
+Examples:
+  hydroprint-capture --seconds 10 --record sweep.oni --out sweep
+  hydroprint-worker fuse --frames sweep --layout rig_layout.toml --camera camera.json --out fused
+
+Exit status: 0 done, 2 bad usage, 3 bad input (the camera was lost among it), 4 the computation failed, 130 cancelled.)";
+
+struct FuseOptions {
+  std::filesystem::path frames;
+  std::filesystem::path layout;  ///< empty: no markers
+  std::filesystem::path camera;  ///< empty: the driver's lens
+  double voxel_mm = 3;
+};
+
+void add_flags(Flags& flags) {
+  add_frames_flag(flags, "Depth frames of a camera swept by hand: a folder of hydroprint-capture",
+                  1);
+  flags.add("layout", "The rig's markers and camera", {.type = "FILE.toml"});
+  add_camera_flag(flags);
+  flags.add("voxel_mm", "Resolution of the volume",
+            {.default_value = default_text(FuseOptions{}.voxel_mm)});
+}
+
+Result<FuseOptions> read_options(const v1::FuseSpec& spec, const InputFolder& inputs) {
+  FuseOptions out;
+  HP_ASSIGN_OR_RETURN(const auto folders, frames_folders(spec, inputs, 1));
+  out.frames = folders.front();
+  out.layout = inputs.path(spec.layout());
+  out.camera = inputs.path(spec.camera());
+  if (spec.has_voxel_mm()) out.voxel_mm = spec.voxel_mm();
+  return out;
+}
+
+/// The camera's path, one line for each registered frame: its time, and the camera's pose in the
+/// mesh's frame.
+std::string path_csv(const scan::Path& path, const std::vector<double>& times_s) {
+  std::string out = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n";
+  for (std::size_t i = 0; i < path.X_WC.size(); ++i) {
+    if (!path.is_placed[i]) continue;
+    const Eigen::Quaterniond q(path.X_WC[i].linear());
+    const Eigen::Vector3d p = path.X_WC[i].translation();
+    std::array<char, 200> line{};
+    std::snprintf(line.data(), line.size(), "%.6f,%.4f,%.4f,%.4f,%.8f,%.8f,%.8f,%.8f\n",
+                  times_s[i] - times_s[0], p.x(), p.y(), p.z(), q.w(), q.x(), q.y(), q.z());
+    out += line.data();
+  }
+  return out;
+}
+
+Status write_picture(const std::filesystem::path& path, const scan::TriangleMesh& mesh,
+                     const Context& context) {
+  context.progress("pictures", 0);
+  mesh::Model model;
+  model.path = path;
+  model.vertices = mesh.points_mm;
+  model.triangles = mesh.triangles;
+  HP_ASSIGN_OR_RETURN(const mesh::Surface surface,
+                      mesh::make_surface(model, std::numeric_limits<double>::infinity(), context));
+  HP_ASSIGN_OR_RETURN(const auto views, image::find_views(surface, Pose::Identity(), {}, context));
+  HP_ASSIGN_OR_RETURN(const auto picture, image::alignment_picture(views, {}, {}, context));
+  return image::write_png(path, picture, image::kScreenDpi, context);
+}
+
+double length_mm(const scan::Path& path) {
+  double out = 0;
+  for (std::size_t i = 1; i < path.X_WC.size(); ++i)
+    out += (path.X_WC[i].translation() - path.X_WC[i - 1].translation()).norm();
+  return out;
+}
+
+Json swept_json(const calibrate::SweptScan& swept) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : swept.mesh.points_mm) box.extend(p);
+  const scan::Path& path = swept.path;
+  Json out = {{"frames_tracked", path.X_WC.size() - path.lost()},
+              {"frames_lost", path.lost()},
+              {"rms_mm", path.rms_mm},
+              {"path_mm", length_mm(path)},
+              {"vertices", swept.mesh.points_mm.size()},
+              {"triangles", swept.mesh.triangles.size()},
+              {"min_mm", {box.min().x(), box.min().y(), box.min().z()}},
+              {"max_mm", {box.max().x(), box.max().y(), box.max().z()}},
+              {"frame", swept.film_frame ? "film" : "camera at its first frame"}};
+  if (swept.film_frame) out["film_frame"] = film_frame_json(*swept.film_frame);
+  return out;
+}
+
+class Fuse final : public ArtifactTask {
+ public:
+  explicit Fuse(FuseOptions options) : ArtifactTask("fuse"), options_(std::move(options)) {}
+
+  [[nodiscard]] std::string subject() const override { return options_.frames.string(); }
+  [[nodiscard]] std::vector<Stage> stages() const override {
+    return {{"inputs", 1},  {"reading", 8}, {"following", 45}, {"fusing", 30},
+            {"markers", 4}, {"surface", 4}, {"pictures", 6},   {"writing", 2}};
+  }
+
+ protected:
+  [[nodiscard]] std::vector<InputPath> input_files() const override {
+    std::vector<InputPath> out = {{"layout", options_.layout}, {"camera", options_.camera}};
+    append_frames(out, {options_.frames});
+    return out;
+  }
+
+  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+
+  [[nodiscard]] Json findings(const Report& report) const override {
+    return {{"parameters", {{"voxel_mm", options_.voxel_mm}, {"threads", report.threads}}},
+            {"scan", figures()}};
+  }
+  [[nodiscard]] Json figures() const override { return swept_json(swept_); }
+  [[nodiscard]] std::string summary(const Report& report,
+                                    const std::filesystem::path& dir) const override;
+
+ private:
+  FuseOptions options_;
+  calibrate::SweptScan swept_;
+};
+
+Status Fuse::compute(OutFolder& folder, Report& report, const Context& context) {
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+  context.progress("reading", 0);
+  calibrate::SweptTask task;
+  if (!options_.layout.empty()) {
+    HP_ASSIGN_OR_RETURN(task.layout, calibrate::read_layout(options_.layout));
+  }
+  HP_ASSIGN_OR_RETURN(const Scan scan, read_scan(options_.frames, options_.camera, context));
+  task.frames = scan.frames.frames;
+  task.times_s = scan.frames.times_s;
+  task.camera = scan.camera;
+  task.volume.voxel_mm = options_.voxel_mm;
+  auto found = calibrate::fuse_swept(task, context);
+  if (!found) {
+    found.error().message.insert(0, options_.frames.string() + ": ");
+    return tl::unexpected(std::move(found).error());
+  }
+  swept_ = std::move(*found);
+  report.warnings = swept_.warnings;
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_RETURN_IF_ERROR(write_picture(folder.partial() / "scan.png", swept_.mesh, context));
+  context.progress("writing", 0);
+  HP_RETURN_IF_ERROR(write_scan(folder.partial() / "scan.ply", swept_.mesh));
+  HP_RETURN_IF_ERROR(image::write_artifact(folder.partial() / "camera_path.csv",
+                                           path_csv(swept_.path, scan.frames.times_s)));
+  report.artifacts = {"scan.ply", "scan.png", "camera_path.csv"};
+  return {};
+}
+
+std::string Fuse::summary(const Report& report, const std::filesystem::path& dir) const {
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(),
+                "%zu frames, %zu of them lost; smoothed, they lie within %.2f mm (rms) of the "
+                "surface of %zu triangles\n",
+                swept_.path.X_WC.size(), swept_.path.lost(), swept_.path.rms_mm,
+                swept_.mesh.triangles.size());
+  return artifacts_line(dir, report) + line.data();
+}
+
+Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
+                                   const InputFolder& inputs) {
+  HP_ASSIGN_OR_RETURN(FuseOptions options,
+                      read_options(static_cast<const v1::FuseSpec&>(spec), inputs));
+  return std::make_unique<Fuse>(std::move(options));
+}
+
+}  // namespace
+
+Verb fuse_verb() {
+  return {"fuse",    "From depth frames of a camera swept by hand to the surface that they show",
+          kExamples, &v1::FuseSpec::default_instance(),
+          add_flags, plan};
+}
+
+}  // namespace hydroprint::worker

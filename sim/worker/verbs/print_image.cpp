@@ -1,0 +1,281 @@
+#include "sim/worker/verbs/print_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/base/artifact_file.h"
+#include "sim/film/outline.h"
+#include "sim/image/io/printer_image.h"
+#include "sim/print/pdf.h"
+#include "sim/print/print_image.h"
+#include "sim/worker/common/artifact_task.h"
+#include "sim/worker/common/fields.h"
+#include "sim/worker/common/object.h"
+#include "sim/worker/common/page.h"
+#include "sim/worker/common/report_values.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr const char* kExamples =
+    R"(Files: print.pdf, pages of the paper's size with registration marks, rulers, an arrow and a line of text wherever
+no film is; print.png and print.tif, the film image (of each sheet, where it takes several) alone. Print them at 100 %,
+without fitting to the page. The same options give the same files, bit for bit.
+
+Examples:
+  hydroprint-worker print-image --film-image film.png --out paper
+  hydroprint-worker print-image --film-image film.png --film circle:105 --job-name "mug 7" --date 2025-03-14 --out paper
+  hydroprint-worker print-image --film-image film.png --icc-profile printer.icc --ink-limit 3 --formats pdf,tiff --out paper
+  hydroprint-worker print-image --film-image film.png --film A3 --paper A4 --overlap-mm 15 --out paper
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+/// Files that print-image writes.
+enum class Format { kPdf, kPng, kTiff };
+
+struct PrintImageOptions {
+  std::filesystem::path film_image;
+  std::string film;
+  print::PrintSettings print;
+  std::vector<Format> formats;  ///< empty: by the colours
+};
+
+void add_flags(Flags& flags) {
+  const print::PrintSettings defaults;
+  flags.require("film_image", "The film image: film.png of simulate");
+  add_film_flag(flags);
+  flags.add("dpi", "Resolution of the film image; default: the whole number that its size means");
+  add_page_flags(flags);
+  flags.add("bar_mm",
+            "Length of the sliding bars that hold the film, for marks at their ends; 0: marks at "
+            "their middles only",
+            {.default_value = default_text(defaults.page.bar_mm)});
+  flags.add("overlap_mm", "Overlap of neighbouring sheets where the film takes several",
+            {.default_value = default_text(defaults.page.overlap_mm)});
+  flags.add("mirror", "Print it mirrored; else it is seen from above, ink side up");
+  flags.add("no_marks", "Nothing except the film image");
+  flags.add("colours", "rgb: sRGB; cmyk: plain CMYK", {.default_value = "rgb"});
+  flags.add("icc_profile", "The printer's ICC output profile, CMYK or RGB, in place of --colours",
+            {.type = "FILE.icc"});
+  flags.add("ink_limit", "Largest C + M + Y + K of a pixel; only for CMYK",
+            {.default_value = default_text(defaults.colours.ink_limit)});
+  flags.add("formats", "pdf, png, tiff; default: pdf, and png for RGB or tiff for CMYK",
+            {.type = "FORMAT[,FORMAT]"});
+}
+
+/// Reads the field `formats`; repeated names count once.
+Result<std::vector<Format>> read_formats(const v1::PrintImageSpec& spec) {
+  constexpr std::array kNames = {"pdf", "png", "tiff"};
+  std::vector<Format> out;
+  for (const std::string& name : spec.formats()) {
+    const auto* const found = std::find(kNames.begin(), kNames.end(), name);
+    if (found == kNames.end()) {
+      return fail_field(Code::kInvalidArgument, "formats",
+                        "'" + name + "' is unknown. Use pdf, png or tiff");
+    }
+    const auto format = static_cast<Format>(found - kNames.begin());
+    if (std::find(out.begin(), out.end(), format) == out.end()) out.push_back(format);
+  }
+  return out;
+}
+
+Result<print::PrintSettings> read_settings(const v1::PrintImageSpec& spec,
+                                           const InputFolder& inputs) {
+  print::PrintSettings out;
+  HP_ASSIGN_OR_RETURN(out.page, page_settings(spec));
+  if (spec.has_bar_mm()) out.page.bar_mm = spec.bar_mm();
+  if (spec.has_overlap_mm()) out.page.overlap_mm = spec.overlap_mm();
+  out.page.mirror = spec.mirror();
+  out.page.marks = !spec.no_marks();
+  HP_RETURN_IF_ERROR(print::check(out.page));
+  out.colours.cmyk = spec.colours() == v1::COLOURS_CMYK;
+  out.colours.icc_profile = inputs.path(spec.icc_profile());
+  if (spec.has_ink_limit()) out.colours.ink_limit = spec.ink_limit();
+  if (spec.has_dpi()) out.dpi = spec.dpi();
+  return out;
+}
+
+Result<PrintImageOptions> read_options(const v1::PrintImageSpec& spec, const InputFolder& inputs) {
+  PrintImageOptions out;
+  HP_ASSIGN_OR_RETURN(out.film_image, inputs.required("film_image", spec.film_image()));
+  HP_ASSIGN_OR_RETURN(out.film, film_of(spec, inputs));
+  HP_ASSIGN_OR_RETURN(out.print, read_settings(spec, inputs));
+  HP_ASSIGN_OR_RETURN(out.formats, read_formats(spec));
+  return out;
+}
+
+std::vector<Format> formats_of(const PrintImageOptions& options, bool cmyk) {
+  if (!options.formats.empty()) return options.formats;
+  return {Format::kPdf, cmyk ? Format::kTiff : Format::kPng};
+}
+
+/// print.png of a single sheet, print-1.png and so on of several.
+std::string sheet_name(std::size_t index, std::size_t sheets, const char* extension) {
+  return "print" + (sheets > 1 ? "-" + std::to_string(index + 1) : std::string()) + extension;
+}
+
+Status write_sheets(const print::Print& print, Format format, const std::filesystem::path& folder,
+                    std::vector<std::string>& names, const Context& context) {
+  const auto& pages = print.document.pages;
+  const std::string& icc = print.document.icc_profile;
+  for (std::size_t i = 0; i < pages.size(); ++i) {
+    HP_RETURN_IF_ERROR(check_cancelled(context));
+    const image::PrinterImage& image = pages[i].images.front().image;
+    const bool is_tiff = format == Format::kTiff;
+    names.push_back(sheet_name(i, pages.size(), is_tiff ? ".tif" : ".png"));
+    const std::filesystem::path path = folder / names.back();
+    if (is_tiff) {
+      HP_RETURN_IF_ERROR(image::write_tiff(path, image, print.dpi, icc));
+      continue;
+    }
+    HP_ASSIGN_OR_RETURN(const auto file, image::encode_png(image, print.dpi, icc, context));
+    HP_RETURN_IF_ERROR(image::write_artifact(path, file));
+  }
+  return {};
+}
+
+Status write_files(const print::Print& print, const std::vector<Format>& formats,
+                   const std::filesystem::path& folder, std::vector<std::string>& names,
+                   const Context& context) {
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    context.progress("writing", static_cast<double>(i) / static_cast<double>(formats.size() + 1));
+    HP_RETURN_IF_ERROR(check_cancelled(context));
+    if (formats[i] != Format::kPdf) {
+      HP_RETURN_IF_ERROR(write_sheets(print, formats[i], folder, names, context));
+      continue;
+    }
+    HP_ASSIGN_OR_RETURN(const auto file, print::encode_pdf(print.document, context));
+    names.emplace_back("print.pdf");
+    HP_RETURN_IF_ERROR(image::write_artifact(folder / names.back(), file));
+  }
+  return {};
+}
+
+Json pixels_json(const print::Pixels& p) { return {p.x0, p.y0, p.x1, p.y1}; }
+
+Json sheet_json(const print::Sheet& sheet) {
+  return {{"column", sheet.column},
+          {"row", sheet.row},
+          {"size_mm", pair_of(sheet.size_mm)},
+          {"low_mm", pair_of(sheet.low_mm)},
+          {"window_px", pixels_json(sheet.window)},
+          {"printable_px", pixels_json(sheet.printable)},
+          {"marks", sheet.drawn},
+          {"marks_dropped", sheet.dropped}};
+}
+
+Json print_json(const print::Print& print) {
+  Json sheets = Json::array();
+  for (const print::Sheet& sheet : print.layout.sheets) sheets.push_back(sheet_json(sheet));
+  Json out = {{"dpi", print.dpi},
+              {"pitch_mm", print.layout.pitch_mm},
+              {"colours", print.document.cmyk ? "cmyk" : "rgb"},
+              {"cut_off_mm2", print.cut_off_mm2},
+              {"columns", print.layout.columns},
+              {"rows", print.layout.rows},
+              {"sheets", sheets}};
+  if (print.document.cmyk) {
+    out.update({{"most_ink", print.most_ink}, {"ink_limited_share", print.limited_share}});
+  }
+  return out;
+}
+
+Json parameters_json(const print::PrintSettings& settings, const film::Outline& outline,
+                     int threads) {
+  Json out = page_parameters_json(settings.page, outline, threads);
+  out.update({{"bar_mm", settings.page.bar_mm},
+              {"overlap_mm", settings.page.overlap_mm},
+              {"mirror", settings.page.mirror},
+              {"marks", settings.page.marks},
+              {"icc_profile", settings.colours.icc_profile.string()},
+              {"ink_limit", settings.colours.ink_limit}});
+  return out;
+}
+
+class PrintImage final : public ArtifactTask {
+ public:
+  explicit PrintImage(PrintImageOptions options)
+      : ArtifactTask("print-image"), options_(std::move(options)) {}
+
+  [[nodiscard]] std::string subject() const override { return options_.film_image.string(); }
+  [[nodiscard]] std::vector<Stage> stages() const override {
+    return {{"inputs", 2}, {"reading", 20}, {"colours", 18}, {"writing", 60}};
+  }
+
+ protected:
+  [[nodiscard]] std::vector<InputPath> input_files() const override {
+    return {{"film_image", options_.film_image},
+            film_file(options_.film),
+            {"icc_profile", options_.print.colours.icc_profile}};
+  }
+
+  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+
+  [[nodiscard]] Json findings(const Report& report) const override {
+    return {{"parameters", parameters_json(options_.print, outline_, report.threads)},
+            {"print", print_json(print_)}};
+  }
+  [[nodiscard]] Json figures() const override {
+    return {{"sheets", print_.layout.sheets.size()}, {"dpi", print_.dpi}};
+  }
+  [[nodiscard]] std::string summary(const Report& report,
+                                    const std::filesystem::path& dir) const override;
+
+ private:
+  PrintImageOptions options_;
+  film::Outline outline_;
+  print::Print print_;  ///< its pages only until they are written
+};
+
+Status PrintImage::compute(OutFolder& folder, Report& report, const Context& context) {
+  HP_ASSIGN_OR_RETURN(outline_, film::parse_outline(options_.film));
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+  context.progress("reading", 0);
+  HP_ASSIGN_OR_RETURN(const image::RgbImage film_image,
+                      print::read_film_image(options_.film_image, context));
+  HP_ASSIGN_OR_RETURN(print_, print::print_image(film_image, options_.film_image.string(), outline_,
+                                                 options_.print, context));
+  const std::vector<Format> formats = formats_of(options_, print_.document.cmyk);
+  const bool has_png = std::find(formats.begin(), formats.end(), Format::kPng) != formats.end();
+  if (print_.document.cmyk && has_png) {
+    return fail_field(Code::kInvalidArgument, "formats",
+                      "PNG has no CMYK. Leave png out, or print in RGB");
+  }
+  report.warnings = print_.warnings;
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_RETURN_IF_ERROR(write_files(print_, formats, folder.partial(), report.artifacts, context));
+  print_.document.pages.clear();
+  return {};
+}
+
+std::string PrintImage::summary(const Report& report, const std::filesystem::path& dir) const {
+  const std::size_t sheets = print_.layout.sheets.size();
+  const Eigen::Vector2d& size = print_.layout.sheets.front().size_mm;
+  std::array<char, 160> line{};
+  std::snprintf(line.data(), line.size(),
+                "%zu sheet%s of %g x %g mm at %g dpi; print at 100 %%, not fitted to the page\n",
+                sheets, sheets > 1 ? "s" : "", size.x(), size.y(), print_.dpi);
+  return artifacts_line(dir, report) + line.data();
+}
+
+Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
+                                   const InputFolder& inputs) {
+  HP_ASSIGN_OR_RETURN(PrintImageOptions options,
+                      read_options(static_cast<const v1::PrintImageSpec&>(spec), inputs));
+  return std::make_unique<PrintImage>(std::move(options));
+}
+
+}  // namespace
+
+Verb print_image_verb() {
+  return {"print-image", "From a film image to the files to print, at exact scale on paper",
+          kExamples,     &v1::PrintImageSpec::default_instance(),
+          add_flags,     plan};
+}
+
+}  // namespace hydroprint::worker

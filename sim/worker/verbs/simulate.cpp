@@ -1,0 +1,175 @@
+#include "sim/worker/verbs/simulate.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "hydroprint/v1/spec.pb.h"
+#include "sim/image/film/film_image.h"
+#include "sim/image/io/image_file.h"
+#include "sim/pipeline/simulate.h"
+#include "sim/worker/common/artifact_task.h"
+#include "sim/worker/common/artifact_writer.h"
+#include "sim/worker/common/fields.h"
+#include "sim/worker/common/film_flow.h"
+
+namespace hydroprint::worker {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  hydroprint-worker simulate --mesh spot.obj --texture spot.png --scale 50 --out spot-film
+  hydroprint-worker simulate --mesh mug.obj --scale 10 --pose pose.json --film A3 --dpi 600 --out mug
+  hydroprint-worker simulate --mesh ball.ply --film circle:105 --depth-mm 40 --artifacts map --out map
+
+Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 cancelled.)";
+
+struct SimulateOptions {
+  FlowOptions flow;
+  std::filesystem::path texture;  ///< empty: the model's own colours
+};
+
+void add_flags(Flags& flags) {
+  add_flow_flags(flags);
+  flags.add("texture", "PNG, JPEG or TIFF; default: the model's own materials");
+}
+
+Result<SimulateOptions> read_options(const v1::SimulateSpec& spec, const InputFolder& inputs) {
+  SimulateOptions out;
+  HP_ASSIGN_OR_RETURN(out.flow, flow_options(spec, inputs));
+  out.texture = inputs.path(spec.texture());
+  return out;
+}
+
+/// Refuses before the dip a film image that would be too large after it.
+Status check_film_image(const film::Outline& outline, double dpi) {
+  const image::FilmGrid grid = image::film_grid(outline, 25.4 / dpi);
+  const double pixels = static_cast<double>(grid.columns) * grid.rows;
+  if (pixels <= image::kMaxFilmImage_px) return {};
+  const int most_dpi = static_cast<int>(dpi * std::sqrt(image::kMaxFilmImage_px / pixels));
+  return fail_field(Code::kOutOfRange, "dpi",
+                    "the film image would have " + std::to_string(grid.columns) + " x " +
+                        std::to_string(grid.rows) + " pixels. Use at most " +
+                        std::to_string(most_dpi) + " for this film");
+}
+
+class Simulate final : public ArtifactTask {
+ public:
+  explicit Simulate(SimulateOptions options)
+      : ArtifactTask("simulate"), options_(std::move(options)) {}
+
+  [[nodiscard]] std::string subject() const override {
+    return options_.flow.dip.object.mesh.string();
+  }
+  [[nodiscard]] std::vector<Stage> stages() const override {
+    return simulate_stages(options_.flow);
+  }
+
+ protected:
+  [[nodiscard]] std::vector<InputPath> input_files() const override {
+    const ObjectOptions& object = options_.flow.dip.object;
+    return {{"mesh", object.mesh},
+            {"texture", options_.texture},
+            {"pose", object.pose_file},
+            {"profile", options_.flow.dip.profile},
+            {"ink_image", options_.flow.ink_image},
+            film_file(object.film)};
+  }
+
+  [[nodiscard]] Status compute(OutFolder& folder, Report& report, const Context& context) override;
+
+  [[nodiscard]] Json findings(const Report& report) const override {
+    return dip_.report(options_.flow, film_image_px_, report.threads);
+  }
+  [[nodiscard]] Json figures() const override { return dip_.figures(); }
+  [[nodiscard]] std::string summary(const Report& report,
+                                    const std::filesystem::path& dir) const override {
+    return dip_.summary(report, dir);
+  }
+
+ private:
+  [[nodiscard]] pipeline::SimulateOptions pipeline_options(pipeline::DipOptions dip) const;
+  [[nodiscard]] Status add_material_textures(const mesh::Model& model, Report& report) const;
+  [[nodiscard]] std::vector<FileTask> files(const pipeline::Simulation& simulation,
+                                            const Context& context) const;
+
+  SimulateOptions options_;
+  DipFindings dip_;
+  std::array<int, 2> film_image_px_ = {0, 0};
+};
+
+pipeline::SimulateOptions Simulate::pipeline_options(pipeline::DipOptions dip) const {
+  const FlowOptions& flow = options_.flow;
+  pipeline::SimulateOptions out;
+  out.mesh = flow.dip.object.mesh;
+  out.scale = flow.dip.object.scale;
+  if (!options_.texture.empty()) out.texture = options_.texture;
+  out.dip = std::move(dip);
+  out.dpi = flow.dpi;
+  out.ink_passes = flow.passes();
+  out.images = !flow.map_only;
+  return out;
+}
+
+/// Lists the textures of the model's materials, unless they are embedded in the model's file.
+Status Simulate::add_material_textures(const mesh::Model& model, Report& report) const {
+  if (options_.flow.map_only || !options_.texture.empty()) return {};
+  for (const mesh::Material& material : model.materials) {
+    if (!material.texture_bytes.empty()) continue;
+    HP_RETURN_IF_ERROR(add_inputs(report, {{"material_texture", material.texture}}));
+  }
+  return {};
+}
+
+std::vector<FileTask> Simulate::files(const pipeline::Simulation& simulation,
+                                      const Context& context) const {
+  std::vector<FileTask> out = {surface_map_file(simulation.dip)};
+  if (!simulation.images) return out;
+  const pipeline::SimulatedImages& images = *simulation.images;
+  out.push_back(png_file("film.png", images.film, options_.flow.dpi, context));
+  out.emplace_back("film_map.exr", [&images](const std::filesystem::path& path) {
+    return image::write_film_map_exr(path, images.film_map);
+  });
+  out.push_back(png_file("stretch.png", images.stretch, image::kScreenDpi, context));
+  if (images.wrinkles) {
+    out.push_back(png_file("wrinkles.png", *images.wrinkles, image::kScreenDpi, context));
+  }
+  out.push_back(png_file("predicted.png", images.predicted, image::kScreenDpi, context));
+  return out;
+}
+
+Status Simulate::compute(OutFolder& folder, Report& report, const Context& context) {
+  HP_ASSIGN_OR_RETURN(pipeline::DipOptions dip, read_flow(options_.flow, report, context));
+  if (!options_.flow.map_only) {
+    HP_RETURN_IF_ERROR(check_film_image(dip.outline, options_.flow.dpi));
+  }
+  HP_RETURN_IF_ERROR(check_cancelled(context));
+  const pipeline::SimulateOptions options = pipeline_options(std::move(dip));
+  HP_ASSIGN_OR_RETURN(const pipeline::Simulation simulation, pipeline::simulate(options, context));
+  dip_ = {options.dip, simulation.model, simulation.dip};
+  report.warnings = simulation.warnings;
+  HP_RETURN_IF_ERROR(add_material_textures(simulation.model, report));
+  if (simulation.images) {
+    film_image_px_ = {simulation.images->film.width, simulation.images->film.height};
+  }
+  HP_RETURN_IF_ERROR(folder.create());
+  HP_ASSIGN_OR_RETURN(report.artifacts,
+                      write_files(folder.partial(), files(simulation, context), context));
+  return {};
+}
+
+Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
+                                   const InputFolder& inputs) {
+  HP_ASSIGN_OR_RETURN(SimulateOptions options,
+                      read_options(static_cast<const v1::SimulateSpec&>(spec), inputs));
+  return std::make_unique<Simulate>(std::move(options));
+}
+
+}  // namespace
+
+Verb simulate_verb() {
+  return {"simulate", "From a textured model to the film image to print",
+          kExamples,  &v1::SimulateSpec::default_instance(),
+          add_flags,  plan};
+}
+
+}  // namespace hydroprint::worker

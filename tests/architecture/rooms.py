@@ -1,0 +1,127 @@
+"""The rules of docs/architecture.md, as functions of file names and texts."""
+
+import fnmatch
+import posixpath
+import re
+
+LARGEST_ROOM = 35
+CODE = ('.h', '.cpp')
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
+# These keep the axis safe; their threads must not throw.
+WITHOUT_CHECKS = ('hardware/rig', 'hardware/drive')
+ROW = re.compile(r'^\| `([^`]+)` \|([^|]*)\|', re.MULTILINE)
+
+
+def room_of(path):
+    """The folder of a file or of an included name; generated code of the API counts as `proto`."""
+    folder = posixpath.dirname(path)
+    return 'proto' if folder.startswith(('hydroprint/v1', 'google/')) else folder
+
+
+def section(document, title):
+    """The text under a heading of the second level; empty without it."""
+    return (document + f'\n## {title}\n').split(f'\n## {title}\n')[1].split('\n## ')[0]
+
+
+def allowed_arrows(document):
+    """{room: rooms that it may include}, from the table of the document."""
+    table = {}
+    for room, targets in ROW.findall(section(document, 'Allowed arrows')):
+        if room in table:
+            raise ValueError(f'docs/architecture.md lists {room} twice')
+        table[room] = set(re.findall(r'`([^`]+)`', targets))
+    return table
+
+
+def headerless_files(document):
+    """Sources (names or patterns) that the document excuses from having a header of their own name."""
+    return set(re.findall(r'`([^`\s]+\.cpp)`', section(document, 'Sources without a header')))
+
+
+def arrows(files):
+    """{(room, included room): [(file, included name)]} of {path: text}, without arrows within a room."""
+    found = {}
+    for path, text in files.items():
+        if path.endswith(CODE):
+            for name in INCLUDE.findall(text):
+                if room_of(name) != room_of(path):
+                    found.setdefault((room_of(path), room_of(name)), []).append((path, name))
+    return found
+
+
+def cycle_in(table):
+    """The rooms of one cycle of arrows, or an empty list."""
+    state = {}
+
+    def visit(room, path):
+        state[room] = 'open'
+        for target in sorted(table.get(room, ())):
+            if state.get(target) == 'open':
+                return path[path.index(target):] + [target]
+            if target not in state:
+                found = visit(target, path + [target])
+                if found:
+                    return found
+        state[room] = 'done'
+        return []
+
+    for room in sorted(table):
+        if room not in state:
+            found = visit(room, [room])
+            if found:
+                return found
+    return []
+
+
+def violations(files, document):
+    """What breaks the rules, one line each.
+
+    files: {path: text} of production code, paths from the root of the project.
+    document: text of docs/architecture.md.
+    """
+    return (list(_arrow_violations(files, document)) + list(_size_violations(files)) +
+            list(_header_violations(files, document)))
+
+
+def _arrow_violations(files, document):
+    table = allowed_arrows(document)
+    found = arrows(files)
+    for (room, target), places in sorted(found.items()):
+        if room not in table:
+            yield f'{room} is not in the table of docs/architecture.md'
+        elif target.startswith('sim/worker') and not room.startswith('sim/worker'):
+            yield f'{places[0][0]} includes {places[0][1]}: nothing outside sim/worker may include it'
+        elif target != 'sim/base' and target not in table[room]:
+            yield f'{places[0][0]} includes {places[0][1]}: no arrow from {room} to {target} in docs/architecture.md'
+    for room, targets in sorted(table.items()):
+        for target in sorted(targets):
+            if (room, target) not in found:
+                yield f'docs/architecture.md allows {room} to include {target}, which nothing does'
+    for (room, _), places in sorted(found.items()):
+        for path, name in places:
+            if name == 'sim/base/check.h' and room in WITHOUT_CHECKS:
+                yield f'{path} includes {name}, but a failed check throws, and {room} must not throw'
+    cycle = cycle_in(table)
+    if cycle:
+        yield 'docs/architecture.md allows a cycle: ' + ' -> '.join(cycle)
+
+
+def _size_violations(files):
+    sizes = {}
+    for path in files:
+        sizes[posixpath.dirname(path)] = sizes.get(posixpath.dirname(path), 0) + 1
+    for folder, size in sorted(sizes.items()):
+        if size > LARGEST_ROOM:
+            yield f'{folder} holds {size} files; {LARGEST_ROOM} at most'
+
+
+def _header_violations(files, document):
+    excused = headerless_files(document)
+    for path in sorted(files):
+        if not path.endswith('.cpp') or path[:-4] + '.h' in files or posixpath.basename(path) == 'main.cpp':
+            continue
+        if not any(fnmatch.fnmatchcase(path, pattern) for pattern in excused):
+            yield f'{path} has no header of its own name'
+    for pattern in sorted(excused):
+        if not fnmatch.filter(files, pattern):
+            yield f'docs/architecture.md excuses {pattern}, which does not exist'

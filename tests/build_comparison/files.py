@@ -1,0 +1,274 @@
+"""Compares what two builds wrote: folders, and files by what may differ in them.
+
+Everything must be equal byte for byte, except
+  - pictures with text (PICTURES_WITH_TEXT): pixels that are paper or ink in both may differ; the size may not;
+  - PDF: the letters may differ; pages, boxes, other lines and images may not;
+  - report.json, report.html and other JSON: times, memory and wording may differ, and where a camera is;
+  - film_profile.toml: comments may differ;
+  - residuals.csv: the reason in the last column may differ.
+"""
+import csv
+import dataclasses
+import fnmatch
+import functools
+import html
+import io
+import itertools
+import json
+import re
+import tomllib
+
+from build_comparison import decode, pdf
+
+# The colours of paper and ink of each picture with text.
+VIEWS = ((250, 250, 249), (60, 64, 70))
+PLOT = ((255, 255, 255), (40, 40, 40))
+PICTURES_WITH_TEXT = {"stretch.png": VIEWS, "wrinkles.png": VIEWS, "predicted.png": VIEWS, "alignment.png": VIEWS,
+                      "error.png": VIEWS, "scan.png": VIEWS, "validate-*.png": VIEWS, "residuals.png": PLOT}
+PICTURES_WITHOUT_TEXT = "validate-*-film.png"
+
+# Keys of JSON whose values may differ; the keys themselves, types and lengths of lists may not.
+MEASURED = {"total_seconds", "stage_seconds", "seconds", "peak_memory_bytes"}
+OF_THE_CALL = {"threads", "uri"}  # uri: where the virtual rig's control socket is
+WORDING = {"message", "why", "why_not", "text", "title", "caption", "paper", "method", "frame",
+           "from_nominal_pose", "marks", "marks_dropped"}
+TABLES = {"where", "header", "rows"}  # wording, but the numbers in it may not differ
+
+
+@dataclasses.dataclass
+class Finding:
+    """What became of one file."""
+    name: str
+    how: str = ""  # it differs; empty: not at all, or in times and memory alone
+    is_allowed: bool = True
+
+
+def numbers(text):
+    return re.findall(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?", text)
+
+
+def first_difference(old, new):
+    at = next((i for i, (a, b) in enumerate(zip(old, new)) if a != b), min(len(old), len(new)))
+    sizes = f"{len(old)}" if len(old) == len(new) else f"{len(old)} and {len(new)}"
+    return f"first differing byte {at} of {sizes}"
+
+
+def is_code(value):
+    return isinstance(value, str) and re.fullmatch(r"[A-Z0-9_]+", value)
+
+
+def json_differences(old, new, path="", freedom=""):
+    """Yields (path, freedom) for each value that differs; freedom says why it may, or is empty."""
+    if kind_of(old) is not kind_of(new):
+        yield path, ""
+    elif isinstance(old, dict):
+        yield from ((f"{path}.{key}", "") for key in old.keys() ^ new.keys())
+        for key in old.keys() & new.keys():
+            yield from json_differences(old[key], new[key], f"{path}.{key}", freedom or freedom_of(key, old[key]))
+    elif isinstance(old, list):
+        if len(old) != len(new):
+            yield f"{path}[]", ""
+        for i, (a, b) in enumerate(zip(old, new)):
+            yield from json_differences(a, b, f"{path}[{i}]", freedom)
+    elif old != new:
+        yield path, freedom if is_free(old, new, freedom) else ""
+
+
+def kind_of(value):
+    return float if type(value) is int else type(value)
+
+
+def is_free(old, new, freedom):
+    """Whether two values that differ may do so."""
+    if freedom == "measured":
+        return True
+    return isinstance(old, str) and (freedom != "table" or numbers(old) == numbers(new))
+
+
+def freedom_of(key, value):
+    if key in MEASURED | OF_THE_CALL:
+        return "measured"
+    if key in WORDING:
+        return "wording"
+    if key == "reason" and not is_code(value):
+        return "wording" if value else "new reasons"
+    return "table" if key in TABLES else ""
+
+
+def compare_json(old, new):
+    """Returns how they differ, and whether they may."""
+    differences = list(json_differences(json.loads(old), json.loads(new)))
+    paths = sorted(path.lstrip(".") for path, freedom in differences if not freedom)
+    if paths:
+        return f"differs in {', '.join(paths[:5])}{f' and {len(paths) - 5} more' if len(paths) > 5 else ''}", False
+    kinds = {"wording" if freedom == "table" else freedom for _, freedom in differences}
+    if not kinds:
+        return "the same values, written differently", False
+    return " and ".join(sorted(kinds - {"measured"})), True
+
+
+def compare_html(old, new):
+    """Tags and the numbers of tables may not differ; other text may."""
+    def parts(page):
+        cells = re.findall(r'<td class="number">(.*?)</td>', page)
+        tags = [re.sub(r' alt="[^"]*"', "", tag) for tag in re.findall(r"<[^>]*>", page)]
+        return tags, [numbers(html.unescape(cell)) for cell in cells]
+
+    if parts(old.decode()) != parts(new.decode()):
+        return "tags or numbers differ", False
+    return "wording", True
+
+
+def compare_toml(old, new):
+    if tomllib.loads(old.decode()) != tomllib.loads(new.decode()):
+        return "values differ", False
+    return "comments", True
+
+
+def compare_residuals(old, new):
+    """Compares all columns but the last, which says in words why a point is left out."""
+    tables = [list(csv.reader(io.StringIO(text.decode()))) for text in (old, new)]
+    lines = [i + 1 for i, (a, b) in enumerate(itertools.zip_longest(*tables, fillvalue=[]))
+             if a[:-1] != b[:-1] or len(a) != len(b) or bool(a[-1:]) != bool(b[-1:])]
+    return (f"line {lines[0]} differs, and {len(lines) - 1} more", False) if lines else ("wording", True)
+
+
+def is_mixture(pixel, colours):
+    """Whether a colour lies between paper and ink, as the edges of letters do."""
+    paper, ink = colours
+    share = (paper[0] - pixel[0]) / (paper[0] - ink[0])
+    return -0.02 < share < 1.02 and all(abs(p + share * (i - p) - v) <= 1 for p, i, v in zip(paper, ink, pixel))
+
+
+def compare_png(old, new, colours=None):
+    """`colours`: of paper and ink, if there may be text in the picture."""
+    *shapes, = decode.read_png(old), decode.read_png(new)
+    if shapes[0][:4] != shapes[1][:4]:
+        return "size, channels or resolution differ", False
+    step, pixels, most, outside = shapes[0][2], 0, 0, 0
+    for a, b in zip(shapes[0][4], shapes[1][4]):
+        if a == b:
+            continue
+        for x in range(0, len(a), step):
+            left, right = a[x:x + step], b[x:x + step]
+            if left == right:
+                continue
+            pixels += 1
+            most = max(most, *(abs(p - q) for p, q in zip(left, right)))
+            outside += not (colours and is_mixture(left, colours) and is_mixture(right, colours))
+    if not pixels:
+        return "the same pixels, compressed differently", False
+    if colours and not outside:
+        return f"text ({pixels} pixels)", True
+    return f"pixels{' outside text' if colours else ''} that differ: {outside}, by {most} at most", False
+
+
+def compare_ply(old, new):
+    *files, = decode.read_ply(old), decode.read_ply(new)
+    if files[0][0] != files[1][0]:
+        return "headers differ", False
+    names = files[0][1]
+    most = dict.fromkeys(names, 0.0)
+    vertices = 0
+    for a, b in zip(files[0][2], files[1][2]):
+        if same_numbers(a, b):
+            continue
+        vertices += 1
+        for name, x, y in zip(names, a, b):
+            most[name] = max(most[name], distance(x, y))
+    if not vertices:
+        return "faces differ", False
+    return f"vertices that differ: {vertices}, by at most: {as_text(most)}", False
+
+
+def compare_exr(old, new):
+    *files, = decode.read_exr(old), decode.read_exr(new)
+    if files[0][0] != files[1][0]:
+        return "headers differ", False
+    most = {name: max(map(distance, samples, files[1][1][name])) for name, samples in files[0][1].items()}
+    if not any(most.values()):
+        return "the same samples, compressed differently", False
+    return f"samples differ by at most: {as_text(most)}", False
+
+
+def as_text(distances):
+    return ", ".join(f"{name} {value:.3g}" for name, value in distances.items() if value)
+
+
+def same_numbers(a, b):
+    return all(x == y or x != x and y != y for x, y in zip(a, b))
+
+
+def distance(x, y):
+    """NaN equals NaN, and differs from any number without bound."""
+    if x != x or y != y:
+        return 0.0 if x != x and y != y else float("inf")
+    return abs(x - y)
+
+
+def compare_interface(old, new):
+    """Compares lists of flags and commands: none may vanish."""
+    old, new = json.loads(old), json.loads(new)
+    gone = [f"{of} {name}" for of, names in old.items() for name in names if name not in new.get(of, [])]
+    if gone:
+        return f"gone: {', '.join(gone)}", False
+    added = [f"{of} {name}" for of, names in new.items() for name in names if name not in old.get(of, [])]
+    return f"added: {', '.join(added)}", True
+
+
+def compare_pdf(old, new):
+    return pdf.compare(old, new, compare_png)
+
+
+def compare_placement(old, new):
+    """A PDF, too; its second page shows views of the object with their names."""
+    return pdf.compare(old, new, functools.partial(compare_png, colours=VIEWS))
+
+
+def compare_exactly(old, new):
+    return "bytes", False
+
+
+COMPARISONS = {"interface.json": compare_interface, "*.json": compare_json, "*.html": compare_html,
+               "film_profile.toml": compare_toml, "residuals.csv": compare_residuals,
+               PICTURES_WITHOUT_TEXT: compare_png,
+               **{name: functools.partial(compare_png, colours=colours)
+                  for name, colours in PICTURES_WITH_TEXT.items()},
+               "placement.pdf": compare_placement, "*.pdf": compare_pdf, "*.png": compare_png, "*.ply": compare_ply,
+               "*.exr": compare_exr, "*": compare_exactly}
+
+
+def comparison_for(base):
+    return next(compare for pattern, compare in COMPARISONS.items() if fnmatch.fnmatch(base, pattern))
+
+
+def compare_bytes(name, old, new):
+    """Returns the Finding for two files that both builds wrote."""
+    if old == new:
+        return Finding(name)
+    base = name.rpartition("/")[2]
+    try:
+        how, is_allowed = comparison_for(base)(old, new)
+    except Exception as error:  # of whatever kind a damaged file leads to
+        how, is_allowed = f"cannot be decoded ({error})", False
+    return Finding(name, how if is_allowed else f"{how}; {first_difference(old, new)}", is_allowed)
+
+
+def files_in(folder):
+    return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
+
+
+def compare_folders(old, new):
+    """Yields a Finding for each file of either folder. Names of the folders themselves, in JSON, do not count."""
+    for name in sorted(files_in(old) | files_in(new)):
+        if not (new / name).exists():
+            yield Finding(name, "not written by the new build", False)
+        elif not (old / name).exists():
+            yield Finding(name, "written by the new build alone", False)
+        else:
+            yield compare_bytes(name, *(content(folder, name) for folder in (old, new)))
+
+
+def content(folder, name):
+    data = (folder / name).read_bytes()
+    return data.replace(f"{folder}/".encode(), b"FOLDER/") if name.endswith(".json") else data

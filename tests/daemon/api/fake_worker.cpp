@@ -1,0 +1,224 @@
+// Speaks the worker's flags and does what the mesh file says, one command a line:
+//   sleep SECONDS     with progress, ends on SIGTERM          stubborn  like sleep 60, ignores
+//   SIGTERM exit N WORDS      says WORDS and ends with status N       crash     aborts eat uses
+//   memory until it has no more        huge      writes a file of 64 MiB fill              writes a
+//   file until the disk is full        many      leaves 900 empty files with long names
+//   socket    says whether it could open a socket
+//   nothing           leaves no artifacts          link      leaves a symbolic link as artifact
+//   babble    writes nonsense as progress orphan            leaves a child behind kill-parent tries
+//   to kill the daemon read FILE         says whether it could                   write FILE   says
+//   whether it could
+//   reason WORD       prints that as the reason of an error
+//   garbage           leaves a calibration that is none
+// and then leaves film.png and report.json, which ends with its spec; print-image leaves print.pdf,
+// made of its film image, and spec.json; calibrate and calibrate-camera a calibration and
+// spec.json.
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+std::map<std::string, std::string> flags;
+nlohmann::json spec;
+std::string facts;
+bool is_garbage = false;
+
+/// Name of a file of the spec; empty without one.
+std::string file_of(const char* field) {
+  return spec.contains(field) ? spec[field].value("name", "") : "";
+}
+
+void tell(const std::string& line) {
+  const int fd = std::stoi(flags["--progress-fd"]);
+  if (write(fd, line.data(), line.size()) < 0) std::cerr << "the progress pipe is closed\n";
+}
+
+void sleep_for(double seconds) {
+  constexpr int kSteps_per_s = 20;
+  const int steps = static_cast<int>(seconds * kSteps_per_s);
+  for (int i = 0; i < steps; ++i) {
+    const double done = static_cast<double>(i) / steps;
+    std::ostringstream line;
+    line << R"({"stage":"velocity","fraction":)" << done << R"(,"total_fraction":)" << done
+         << R"(,"eta_s":)" << seconds * (1 - done) << "}\n";
+    tell(line.str());
+    usleep(1000000 / kSteps_per_s);
+  }
+}
+
+void eat() {
+  constexpr std::size_t kBlock = 16 << 20;
+  std::vector<char*> blocks;
+  for (int i = 0; i < 4096; ++i) {
+    blocks.push_back(new char[kBlock]);
+    std::memset(blocks.back(), i, kBlock);
+    usleep(1000);
+  }
+}
+
+void leave_child_behind() {
+  if (fork() == 0) {
+    signal(SIGTERM, SIG_IGN);
+    for (int i = 0; i < 60; ++i) sleep(1);
+    _exit(0);
+  }
+}
+
+void obey(const std::string& line) {
+  std::istringstream words(line);
+  std::string command, rest;
+  words >> command;
+  if (command == "sleep") {
+    double seconds = 0;
+    words >> seconds;
+    sleep_for(seconds);
+  } else if (command == "stubborn") {
+    signal(SIGTERM, SIG_IGN);
+    sleep_for(60);
+  } else if (command == "exit") {
+    int status = 0;
+    words >> status;
+    std::getline(words >> std::ws, rest);
+    std::cerr << rest << std::endl;
+    std::_Exit(status);
+  } else if (command == "crash") {
+    std::abort();
+  } else if (command == "eat") {
+    eat();
+  } else if (command == "huge") {
+    std::ofstream(flags["--out"] + "/huge") << std::string(64 << 20, 'x') << std::flush;
+  } else if (command == "fill") {
+    std::ofstream file(flags["--out"] + "/fill");
+    while (file << std::string(4096, 'x') << std::flush) {
+    }
+  } else if (command == "many") {
+    for (int i = 0; i < 900; ++i) {
+      std::ofstream(flags["--out"] + "/" + std::string(200, 'n') + std::to_string(i));
+    }
+  } else if (command == "socket") {
+    facts += socket(AF_INET, SOCK_STREAM, 0) < 0 ? " no-inet" : " INET";
+    facts += socket(AF_UNIX, SOCK_STREAM, 0) < 0 ? " no-unix" : " UNIX";
+  } else if (command == "read") {
+    words >> rest;
+    facts += std::ifstream(rest).get() < 0 ? " cannot-read" : " READ";
+  } else if (command == "write") {
+    words >> rest;
+    facts += std::ofstream(rest, std::ios::app).put('x').flush() ? " WROTE" : " cannot-write";
+  } else if (command == "kill-parent") {
+    facts += kill(getppid(), SIGKILL) < 0 ? " no-kill" : " KILL";
+    facts += tgkill(getppid(), getppid(), SIGKILL) < 0 ? " no-tgkill" : " TGKILL";
+    const rlimit none{};
+    facts += prlimit(getppid(), RLIMIT_NOFILE, &none, nullptr) < 0 ? " no-prlimit" : " PRLIMIT";
+  } else if (command == "garbage") {
+    is_garbage = true;
+  } else if (command == "reason") {
+    words >> rest;
+    std::cout << R"({"error":{"reason":")" << rest << "\"}}" << std::endl;
+  } else if (command == "nothing") {
+    std::filesystem::remove_all(flags["--out"]);
+    std::_Exit(0);
+  } else if (command == "link") {
+    std::filesystem::create_symlink("/etc/passwd", flags["--out"] + "/passwd");
+  } else if (command == "orphan") {
+    leave_child_behind();
+  } else if (command == "babble") {
+    tell(std::string(100000, '[') + "\n{\"stage\":7}\n\x01\x02\n");
+    tell(R"({"stage":"last\n\u0007word","total_fraction":7e99,"fraction":-1,"eta_s":1e300})"
+         "\n");
+    usleep(600000);
+  }
+}
+
+void calibrate() {
+  const std::string out = flags["--out"];
+  std::ofstream(out + "/spec.json") << spec;
+  std::ofstream(out + "/camera.json") << R"({"views":12,"rms_mm":0.7})";
+  std::ofstream(out + "/alignment.png") << "picture of " << file_of("mesh");
+  std::string row = "[1,0,0,0,0,0]", rows = row;
+  for (int i = 1; i < 6; ++i) rows += "," + row;
+  std::ofstream file(out + "/calibration.json");
+  if (is_garbage) {
+    file << R"({"pose":{"rotation_wxyz":[1,0,0,"x"]}})";
+    return;
+  }
+  file << R"({"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[3,-2,40]},"uncertainty":{)"
+       << R"("about_mm":[0,0,40],"covariance_turn_rad_shift_mm":[)" << rows
+       << R"(],"error_p50_mm":0.2,"error_p95_mm":0.4,"error_max_mm":0.5},)"
+       << R"("from_nominal_pose":["turn"],"film_frame":{"markers":[)"
+       << R"({"name":"left","used":true,"rms_mm":0.3,"residual_mm":0.1},)"
+       << R"({"name":"near","used":false,"why_not":"hidden"}]},)"
+       << R"("water":{"z_mm":0.25,"sigma_mm":0.1},"height_mm":10.5})";
+}
+
+void print_image() {
+  const std::string out = flags["--out"];
+  std::ofstream(out + "/print.pdf") << "%PDF of " << std::ifstream(file_of("filmImage")).rdbuf();
+  std::ofstream(out + "/spec.json") << spec;
+  std::ofstream(out + "/report.json")
+      << R"({"parameters":{"printer_margin_mm":0},"print":{"sheets":[{"size_mm":[297,210]}]}})";
+}
+
+void answer(const std::string& head, const std::string& bytes) {
+  std::cout << head << ",\"bytes\":" << bytes.size() << "}\n" << bytes << std::flush;
+}
+
+// With "mute" in the mesh it answers nothing, with "rubbish" what is no answer, with "end" it ends.
+void preview() {
+  std::stringstream mesh;
+  mesh << std::ifstream(file_of("mesh")).rdbuf();
+  answer(R"({"vertices":1,"triangles":0,"warnings":[])", std::string(12, 'v'));
+  for (std::string line; std::getline(std::cin, line);) {
+    if (mesh.str().find("mute") != std::string::npos) continue;
+    if (mesh.str().find("rubbish") != std::string::npos) std::cout << std::string(300000, '[');
+    if (mesh.str().find("end") != std::string::npos) std::_Exit(4);
+    answer(line.substr(0, line.size() - 1) +
+               R"(,"pose":{"rotation_wxyz":[1,0,0,0],"translation_mm":[0,0,0]},"coverage":0.5,)"
+               R"("theta_clamped_share":null,"stretch":{"p50":1,"p95":2,"max":null},"seconds":0.1,)"
+               R"("depth_mm":)" +
+               std::to_string(getpid()) + R"(,"warnings":[{"code":"c","message":"m","where":"w"}])",
+           std::string(16, 'm'));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  for (int i = 2; i < argc; ++i) {
+    const std::string text = argv[i];
+    flags[text.substr(0, text.find('='))] = text.substr(text.find('=') + 1);
+  }
+  spec = nlohmann::json::parse(std::ifstream(flags["--spec"]));
+  const bool is_preview = std::string(argv[1]) == "preview";
+  if (!is_preview) std::filesystem::create_directory(flags["--out"]);
+  std::ifstream mesh(file_of("mesh"));
+  for (std::string line; std::getline(mesh, line);) obey(line);
+  if (is_preview) {
+    preview();
+    return 0;
+  }
+  if (std::string(argv[1]).starts_with("calibrate")) {
+    calibrate();
+    return 0;
+  }
+  if (std::string(argv[1]) == "print-image") {
+    print_image();
+    return 0;
+  }
+  std::ofstream(flags["--out"] + "/film.png") << "film of " << file_of("mesh");
+  std::ofstream report(flags["--out"] + "/report.json");
+  for (int i = 1; i < argc; ++i) report << argv[i] << '\n';
+  report << facts << '\n' << spec << '\n';
+}

@@ -1,0 +1,183 @@
+// Previews while an object is turned: with a worker that misbehaves on request, and the real one.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "hydroprint/v1/preview_service.grpc.pb.h"
+#include "tests/daemon/api/support.h"
+
+namespace hydroprint::tests {
+namespace {
+
+// A pyramid on its tip, 20 mm high.
+constexpr const char* kPyramid =
+    "v 0 0 0\nv 15 15 20\nv -15 15 20\nv -15 -15 20\nv 15 -15 20\n"
+    "f 1 2 3\nf 1 3 4\nf 1 4 5\nf 1 5 2\nf 2 5 4 3\n";
+
+class Previews : public ::testing::Test {
+ protected:
+  void start(const DaemonProcess::Options& options) {
+    daemon = std::make_unique<DaemonProcess>(folder.path(), options);
+    client = std::make_unique<Client>(daemon->address());
+  }
+  /// The pid of the fake worker that answered comes as the depth.
+  grpc::Status preview(const std::string& mesh, v1::Preview& out, bool with_mesh = false,
+                       const std::string& owner = "") {
+    Client caller(daemon->address(), owner);
+    v1::ComputePreviewRequest request;
+    v1::SimulateSpec& spec = *request.mutable_simulate();
+    spec.mutable_mesh()->set_name("m.obj");
+    spec.mutable_mesh()->set_asset(caller.upload(mesh));
+    spec.set_film("100x100");
+    for (const double x : {1, 0, 0, 0}) spec.mutable_pose()->add_rotation_wxyz(x);
+    for (const double x : {0, 0, 0}) spec.mutable_pose()->add_translation_mm(x);
+    request.set_with_mesh(with_mesh);
+    return v1::PreviewService::NewStub(caller.channel)
+        ->ComputePreview(caller.context().get(), request, &out);
+  }
+  void expect_refused(const std::string& mesh, int code, const std::string& reason) {
+    v1::Preview out;
+    const grpc::Status status = preview(mesh, out);
+    EXPECT_EQ(status.error_code(), code) << status.error_message();
+    EXPECT_EQ(error_info(status).reason(), reason) << status.error_message();
+  }
+
+  TemporaryFolder folder;
+  std::unique_ptr<DaemonProcess> daemon;
+  std::unique_ptr<Client> client;
+};
+
+TEST_F(Previews, KeepTheMeshInAWorkerOfTheirOwn) {
+  start(DaemonProcess::fake());
+  v1::Preview first, second, other, third;
+  ASSERT_TRUE(preview("a", first, true).ok());
+  ASSERT_TRUE(preview("a", second).ok());
+  EXPECT_EQ(first.depth_mm(), second.depth_mm()) << "the same process";
+  EXPECT_EQ(first.vertex_positions(), std::string(12, 'v'));
+  EXPECT_EQ(second.vertex_positions(), "");
+  EXPECT_EQ(second.vertex_map(), std::string(16, 'm'));
+  EXPECT_EQ(second.warnings_size(), 1);
+  EXPECT_TRUE(std::isnan(second.stretch_max()));
+  ASSERT_TRUE(preview("b", other).ok());
+  EXPECT_NE(first.depth_mm(), other.depth_mm());
+  ASSERT_TRUE(preview("a", third, false, "somebody").ok());
+  EXPECT_NE(first.depth_mm(), third.depth_mm()) << "each has their own";
+  if (proc_is_mounted()) {
+    EXPECT_EQ(daemon->workers().size(), 2u) << "and no more than one";
+  }
+  EXPECT_EQ(daemon->terminate(), 0);
+}
+
+TEST_F(Previews, AreNoJobs) {
+  start(DaemonProcess::fake());
+  v1::Preview out;
+  ASSERT_TRUE(preview("a", out).ok());
+  EXPECT_EQ(client->simulate("").name(), "jobs/1");
+}
+
+TEST_F(Previews, TheLatestOfACallerCounts) {
+  start(DaemonProcess::fake());
+  std::atomic<bool> superseded = false;
+  std::thread before([&] {
+    expect_refused("mute", grpc::ABORTED, "PREVIEW_SUPERSEDED");
+    superseded = true;
+  });
+  v1::Preview out;
+  while (!superseded) (void)preview("a", out);
+  before.join();
+  EXPECT_TRUE(preview("a", out).ok());
+}
+
+TEST_F(Previews, OneMoreThanThereAreSeatsTakesThatOfWhoeverAsksNothing) {
+  start(DaemonProcess::fake());
+  v1::Preview out;
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_TRUE(preview("a", out, false, "owner-" + std::to_string(i)).ok()) << i;
+  }
+  if (proc_is_mounted()) {
+    EXPECT_LE(daemon->workers().size(), 4u);
+  }
+}
+
+TEST_F(Previews, WhatIsWrongIsSaidAndTheNextOneWorks) {
+  start(DaemonProcess::fake());
+  expect_refused("exit 3 m.obj:7: not a number; fix the line", grpc::INVALID_ARGUMENT,
+                 "INPUT_REFUSED");
+  expect_refused("crash", grpc::INTERNAL, "WORKER_KILLED");
+  expect_refused("end", grpc::INTERNAL, "COMPUTATION_FAILED");
+  expect_refused("rubbish", grpc::INTERNAL, "WORKER_UNUSABLE");
+  v1::Preview out;
+  EXPECT_TRUE(preview("a", out).ok());
+
+  v1::ComputePreviewRequest request;
+  const auto refused = [&] {
+    const grpc::Status status = v1::PreviewService::NewStub(client->channel)
+                                    ->ComputePreview(client->context().get(), request, &out);
+    return error_info(status).reason();
+  };
+  EXPECT_EQ(refused(), "SPEC_INVALID") << "no mesh";
+  request.mutable_simulate()->mutable_mesh()->set_name("m.obj");
+  request.mutable_simulate()->mutable_mesh()->set_asset("assets/" + std::string(64, 'a'));
+  EXPECT_EQ(refused(), "ASSET_MISSING");
+  request.mutable_simulate()->mutable_mesh()->set_name("../m.obj");
+  EXPECT_EQ(refused(), "NAME_INVALID");
+}
+
+TEST_F(Previews, EndWithTheDaemonThoughAWorkerIsMute) {
+  start(DaemonProcess::fake());
+  std::thread waiting([this] {
+    v1::Preview out;
+    EXPECT_FALSE(preview("mute", out).ok());
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_EQ(daemon->terminate(), 0);
+  waiting.join();
+}
+
+TEST_F(Previews, TellWhereFilmLands) {
+  if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
+  start({});
+  v1::Preview out;
+  const grpc::Status status = preview(kPyramid, out, true);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  EXPECT_EQ(out.vertices(), 5);
+  EXPECT_EQ(out.triangles(), 6);
+  EXPECT_EQ(out.vertex_positions().size(), 5u * 12);
+  EXPECT_EQ(out.triangle_corners().size(), 6u * 12);
+  ASSERT_EQ(out.vertex_map().size(), 5u * 16);
+  std::array<float, 4> tip{};
+  std::memcpy(tip.data(), out.vertex_map().data(), sizeof tip);
+  EXPECT_NEAR(tip[0], 0, 0.5);
+  EXPECT_NEAR(tip[1], 0, 0.5);
+  EXPECT_NEAR(tip[2], 0, 0.01) << "touches the water first";
+  EXPECT_NEAR(out.depth_mm(), 20, 0.01);
+  EXPECT_GT(out.coverage(), 0.3);
+  EXPECT_GE(out.stretch_p95(), out.stretch_p50());
+
+  expect_refused("v 0 0 nothing\n", grpc::INVALID_ARGUMENT, "INPUT_REFUSED");
+}
+
+TEST_F(Previews, ADipThatCannotBeIsRefusedWithItsReason) {
+  if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
+  start({});
+  v1::ComputePreviewRequest request;
+  request.mutable_simulate()->mutable_mesh()->set_name("m.obj");
+  request.mutable_simulate()->mutable_mesh()->set_asset(client->upload(kPyramid));
+  for (const double x : {1, 0, 0, 0})
+    request.mutable_simulate()->mutable_pose()->add_rotation_wxyz(x);
+  for (const double x : {400, 0, 0})
+    request.mutable_simulate()->mutable_pose()->add_translation_mm(x);
+  v1::Preview out;
+  const grpc::Status status = v1::PreviewService::NewStub(client->channel)
+                                  ->ComputePreview(client->context().get(), request, &out);
+  EXPECT_EQ(status.error_code(), grpc::INVALID_ARGUMENT);
+  EXPECT_EQ(error_info(status).reason(), "PREVIEW_REFUSED");
+  EXPECT_NE(status.error_message().find("film"), std::string::npos) << status.error_message();
+}
+
+}  // namespace
+}  // namespace hydroprint::tests

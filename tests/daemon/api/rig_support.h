@@ -1,0 +1,124 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hydroprint/v1/lease_service.grpc.pb.h"
+#include "hydroprint/v1/rig_service.grpc.pb.h"
+#include "tests/daemon/api/support.h"
+#include "tests/support/process.h"
+
+namespace hydroprint::tests {
+
+/// Waits, looking every few ms; false if `until` did not come true in time.
+[[nodiscard]] bool wait_until(const std::function<bool()>& until, double seconds = 10);
+
+/// hydroprint-virtual-rig on a free port of loopback, with a short way home.
+class VirtualRigProcess {
+ public:
+  /// @param scene  more of its scene
+  /// @param files  that the scene names, and what is in them
+  explicit VirtualRigProcess(const std::string& scene = "",
+                             const std::vector<std::pair<std::string, std::string>>& files = {});
+
+  /// Does what a control line says; what came back.
+  std::string act(const std::string& line);
+  /// What it really is, whatever it tells.
+  nlohmann::json truth();
+  [[nodiscard]] double position_mm() { return truth().at("position_mm"); }
+  [[nodiscard]] double speed_mm_per_s();
+  /// True once it moves as fast as that, or does not move.
+  [[nodiscard]] bool gets_to(double speed_mm_per_s, double seconds = 10);
+  /// Time by the drive's own clock, which does not depend on when a test gets to look.
+  [[nodiscard]] double now_s() { return truth().at("time_s"); }
+  /// Waits until it rests: since when, by that clock. Throws if it goes on.
+  [[nodiscard]] double rested_s();
+
+  /// Lines of a daemon's configuration that name it.
+  [[nodiscard]] std::string section() const;
+  /// OpenNI2's name of its camera.
+  [[nodiscard]] std::string camera() const {
+    return "hydroprint:" + (folder_.path() / "control").string();
+  }
+  void signal(int number) const { process_.signal(number); }
+
+ private:
+  TemporaryFolder folder_;
+  std::string endpoint_;
+  testing::Process process_;
+};
+
+/// A client that can command the rig. What is not expected to fail throws if it does.
+class RigClient : public Client {
+ public:
+  explicit RigClient(const std::string& address, const std::string& owner = "ann");
+
+  v1::Rig rig();
+  /// Takes the lease, and keeps its id for what follows.
+  void take_lease(int seconds = 600);
+  grpc::Status acquire(v1::Lease& lease, int seconds = 600, const std::string& request_id = "");
+  grpc::Status break_lease(const std::string& reason);
+  grpc::Status release();
+  grpc::Status arm();
+  grpc::Status disarm();
+  grpc::Status home(const std::string& request_id = "");
+  grpc::Status move_to(double position_mm, double speed_mm_per_s = 10,
+                       const std::string& request_id = "");
+  grpc::Status jog(double speed_mm_per_s);
+  grpc::Status stop();
+  grpc::Status reset();
+
+  /// Waits until the rig is in this state.
+  [[nodiscard]] bool becomes(v1::Rig::State state, double seconds = 10);
+  /// Lease, arming and homing.
+  void make_ready();
+  /// Goes there and waits.
+  void go_to(double position_mm);
+
+  /// Creates a dip; throws if it is refused.
+  v1::Job dip(const v1::DipSpec& spec);
+  grpc::Status create_dip(const v1::DipSpec& spec, v1::Job& job);
+  grpc::Status confirm(const std::string& job, v1::DipStatus::Step step);
+  /// Waits until a dip has come to this step.
+  v1::Job wait_for_step(const std::string& job, v1::DipStatus::Step step);
+  /// Confirms whatever is asked for until the dip is at this step. First contact is where the axis
+  /// stands.
+  v1::Job guide_to(const std::string& job, v1::DipStatus::Step step);
+  nlohmann::json report(const std::string& job);
+
+  std::string lease_id;
+  std::unique_ptr<v1::RigService::Stub> rigs;
+  std::unique_ptr<v1::LeaseService::Stub> leases;
+};
+
+/// Reason of a refusal; "" if there is none.
+[[nodiscard]] std::string reason_of(const grpc::Status& status);
+
+/// What grpc.health.v1 says of a service: "SERVING" or "NOT_SERVING".
+[[nodiscard]] std::string health_of(const Client& client, const std::string& service);
+
+/// A short dip: 5 mm deep from 3 mm above at 10 mm/s, clocks of a tenth of a second.
+[[nodiscard]] v1::DipSpec short_dip();
+
+/// A daemon and the rig that it drives.
+class RigTest : public ::testing::Test {
+ protected:
+  static DaemonProcess::Options options(const VirtualRigProcess& rig) {
+    auto options = DaemonProcess::fake();
+    options.extra = rig.section();
+    return options;
+  }
+
+  TemporaryFolder folder;
+  VirtualRigProcess rig;
+  DaemonProcess daemon{folder.path(), options(rig)};
+  RigClient ann{daemon.address(), "ann"};
+};
+
+}  // namespace hydroprint::tests

@@ -1,0 +1,328 @@
+#include "tests/daemon/api/support.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <stdexcept>
+#include <thread>
+
+#include "google/rpc/status.pb.h"
+#include "sim/base/sha256.h"
+
+namespace hydroprint::tests {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using SteadyClock = std::chrono::steady_clock;
+
+const std::string kDaemon = std::string(HYDROPRINT_BIN_DIR) + "/hydroprintd";
+constexpr seconds kPatience{120};  // a busy machine may need a minute for a real computation
+
+void check(const grpc::Status& status, const char* call) {
+  if (status.ok()) return;
+  throw std::runtime_error(std::string(call) + ": " + std::to_string(status.error_code()) + " " +
+                           status.error_message());
+}
+
+// Starts hydroprintd with stdout and stderr in files of this folder.
+pid_t spawn_daemon(const std::vector<std::string>& arguments, const std::filesystem::path& out,
+                   const std::filesystem::path& err) {
+  std::vector<std::string> strings = arguments;
+  strings.insert(strings.begin(), kDaemon);
+  std::vector<char*> argv;
+  for (std::string& text : strings) argv.push_back(text.data());
+  argv.push_back(nullptr);
+  // The leak checker would need ptrace, which workers are refused.
+  ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  pid_t pid = -1;
+  const int error = posix_spawn(&pid, kDaemon.c_str(), &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw std::runtime_error(kDaemon + " cannot be started");
+  return pid;
+}
+
+int wait_for_exit(pid_t pid) {
+  int status = 0;
+  ::waitpid(pid, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+}  // namespace
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+bool proc_is_mounted() { return std::filesystem::exists("/proc/self/task"); }
+
+bool real_worker_is_built() {
+  return std::filesystem::exists(std::string(HYDROPRINT_BIN_DIR) + "/hydroprint-worker");
+}
+
+Ended run_daemon(std::vector<std::string> arguments) {
+  if (std::find(arguments.begin(), arguments.end(), "--http") == arguments.end()) {
+    arguments.insert(arguments.end(), {"--http", "127.0.0.1:0"});
+  }
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "out", err = folder.path() / "err";
+  const pid_t pid = spawn_daemon(arguments, out, err);
+  const int status = wait_for_exit(pid);
+  return {status, content(out) + content(err)};
+}
+
+nlohmann::json given_spec(const std::string& report) {
+  const std::size_t begin = report.find('{');
+  return begin == std::string::npos ? nlohmann::json()
+                                    : nlohmann::json::parse(report.substr(begin));
+}
+
+google::rpc::ErrorInfo error_info(const grpc::Status& status) {
+  google::rpc::Status details;
+  google::rpc::ErrorInfo info;
+  if (!details.ParseFromString(status.error_details())) return info;
+  for (const auto& detail : details.details()) {
+    if (detail.Is<google::rpc::ErrorInfo>()) detail.UnpackTo(&info);
+  }
+  return info;
+}
+
+std::string hash_of(const std::string& bytes) { return sha256(bytes); }
+
+DaemonProcess::Options DaemonProcess::fake() {
+  Options options;
+  options.worker = FAKE_WORKER;
+  return options;
+}
+
+DaemonProcess::DaemonProcess(const std::filesystem::path& folder, Options options)
+    : folder_(folder), options_(std::move(options)) {
+  std::ofstream file(config());
+  file << "[workers]\nprogram = \"" << options_.worker.string() << "\"\ncount = " << options_.slots
+       << "\nmemory_mib = " << options_.memory_mib << "\ntime_limit_s = " << options_.time_limit_s
+       << "\nfile_mib = " << options_.file_mib << "\n[queue]\nmax_jobs = " << options_.max_jobs
+       << "\nmax_jobs_per_owner = " << options_.max_jobs_per_owner
+       << "\n[store]\nmin_free_mib = 1\n"
+       << options_.extra;
+  file.close();
+  start();
+}
+
+DaemonProcess::~DaemonProcess() {
+  if (pid_ > 0) kill();
+  if (::testing::Test::HasFailure()) std::cerr << content(folder_ / "err");
+}
+
+void DaemonProcess::start() {
+  const auto out = folder_ / "out";
+  std::filesystem::remove(out);
+  std::vector<std::string> arguments = options_.arguments;
+  arguments.insert(arguments.end(),
+                   {"--config", config().string(), "--state-dir", state().string(), "--grpc",
+                    options_.host + ":0", "--http", options_.host + ":0"});
+  pid_ = spawn_daemon(arguments, out, folder_ / "err");
+  const auto deadline = SteadyClock::now() + kPatience;
+  const auto named = [](const std::string& words, const std::string& name) {
+    const std::size_t from = words.find(" " + name + "=") + name.size() + 2;
+    return words.substr(from, words.find(' ', from) - from);
+  };
+  while (SteadyClock::now() < deadline) {
+    const std::string words = content(out);
+    if (words.find(" ready ") != std::string::npos && words.ends_with('\n')) {
+      address_ = named(words, "grpc");
+      http_ = named(words, "http");
+      return;
+    }
+    std::this_thread::sleep_for(milliseconds(10));
+  }
+  throw std::runtime_error("hydroprintd did not get ready: " + content(folder_ / "err"));
+}
+
+void DaemonProcess::kill() {
+  ::kill(pid_, SIGKILL);
+  wait_for_exit(pid_);
+  pid_ = -1;
+}
+
+int DaemonProcess::terminate() {
+  ::kill(pid_, SIGTERM);
+  const int status = wait_for_exit(pid_);
+  pid_ = -1;
+  return status;
+}
+
+std::string DaemonProcess::log() const { return content(folder_ / "err"); }
+
+std::vector<pid_t> DaemonProcess::workers() const {
+  std::vector<pid_t> out;
+  for (const auto& entry :
+       std::filesystem::directory_iterator("/proc/" + std::to_string(pid_) + "/task")) {
+    std::ifstream children(entry.path() / "children");
+    for (pid_t child = 0; children >> child;) out.push_back(child);
+  }
+  return out;
+}
+
+Client::Client(const std::string& address, const std::string& owner, const std::string& ca_pem)
+    : owner_(owner) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  const auto credentials =
+      ca_pem.empty() ? grpc::InsecureChannelCredentials() : grpc::SslCredentials({ca_pem, "", ""});
+  channel = grpc::CreateCustomChannel(address, credentials, arguments);
+  jobs = v1::JobService::NewStub(channel);
+  queues = v1::QueueService::NewStub(channel);
+  assets = v1::AssetService::NewStub(channel);
+  artifacts = v1::ArtifactService::NewStub(channel);
+  people = v1::PeopleService::NewStub(channel);
+}
+
+std::unique_ptr<grpc::ClientContext> Client::context() const {
+  auto context = std::make_unique<grpc::ClientContext>();
+  context->set_deadline(std::chrono::system_clock::now() + kPatience);
+  context->set_wait_for_ready(patient);
+  if (!owner_.empty()) context->AddMetadata("hydroprint-owner", owner_);
+  if (!key.empty()) context->AddMetadata("authorization", "Bearer " + key);
+  if (!session.empty()) context->AddMetadata("hydroprint-session", session);
+  return context;
+}
+
+std::string Client::upload(const std::string& bytes) {
+  v1::StartUploadRequest request;
+  request.set_size_bytes(static_cast<std::int64_t>(bytes.size()));
+  request.set_sha256(hash_of(bytes));
+  v1::StartUploadResponse started;
+  check(assets->StartUpload(context().get(), request, &started), "StartUpload");
+  if (started.has_asset()) return started.asset().name();
+  v1::UploadChunkResponse reply;
+  const auto call = context();
+  const auto writer = assets->UploadChunk(call.get(), &reply);
+  std::size_t offset = 0;
+  do {
+    v1::UploadChunkRequest chunk;
+    if (offset == 0) chunk.set_upload(started.upload().name());
+    chunk.set_offset(static_cast<std::int64_t>(offset));
+    chunk.set_data(bytes.substr(offset, 65536));
+    offset += chunk.data().size();
+    if (!writer->Write(chunk)) break;
+  } while (offset < bytes.size());
+  writer->WritesDone();
+  check(writer->Finish(), "UploadChunk");
+  return reply.asset().name();
+}
+
+grpc::Status Client::create(const v1::CreateJobRequest& request, v1::Job& job) {
+  return jobs->CreateJob(context().get(), request, &job);
+}
+
+v1::Job Client::simulate(const std::string& mesh) {
+  v1::Job job;
+  check(create(simulate_request(upload(mesh)), job), "CreateJob");
+  return job;
+}
+
+v1::Job Client::job(const std::string& name) {
+  v1::GetJobRequest request;
+  request.set_name(name);
+  v1::Job job;
+  check(jobs->GetJob(context().get(), request, &job), "GetJob");
+  return job;
+}
+
+v1::Job Client::cancel(const std::string& name) {
+  v1::CancelJobRequest request;
+  request.set_name(name);
+  v1::Job job;
+  check(jobs->CancelJob(context().get(), request, &job), "CancelJob");
+  return job;
+}
+
+v1::Job Client::wait(const std::string& name, const std::function<bool(const v1::Job&)>& until) {
+  const auto deadline = SteadyClock::now() + kPatience;
+  for (;;) {
+    const v1::Job now = job(name);
+    if (until(now)) return now;
+    if (SteadyClock::now() > deadline) {
+      throw std::runtime_error("waited too long: " + now.ShortDebugString());
+    }
+    std::this_thread::sleep_for(milliseconds(20));
+  }
+}
+
+v1::Job Client::wait_for(const std::string& name, v1::Job::State state) {
+  return wait(name, [&](const v1::Job& job) { return job.state() == state; });
+}
+
+v1::Job Client::wait_for_end(const std::string& name) { return wait(name, finished); }
+
+std::vector<v1::JobEvent> Client::events(const std::string& name) {
+  v1::ListJobEventsRequest request;
+  request.set_parent(name);
+  request.set_page_size(1000);
+  v1::ListJobEventsResponse reply;
+  check(jobs->ListJobEvents(context().get(), request, &reply), "ListJobEvents");
+  return {reply.events().begin(), reply.events().end()};
+}
+
+std::string Client::download(const std::string& artifact, std::int64_t offset) {
+  v1::DownloadArtifactRequest request;
+  request.set_name(artifact);
+  request.set_offset(offset);
+  const auto call = context();
+  const auto reader = artifacts->DownloadArtifact(call.get(), request);
+  std::string bytes;
+  for (v1::DownloadArtifactResponse chunk; reader->Read(&chunk);) {
+    EXPECT_LE(chunk.data().size(), 65536U);
+    EXPECT_EQ(chunk.offset(), offset + static_cast<std::int64_t>(bytes.size()));
+    bytes += chunk.data();
+  }
+  check(reader->Finish(), "DownloadArtifact");
+  return bytes;
+}
+
+v1::Queue Client::queue() {
+  v1::Queue queue;
+  check(queues->GetQueue(context().get(), {}, &queue), "GetQueue");
+  return queue;
+}
+
+void Client::pause() {
+  v1::PauseQueueRequest request;
+  request.set_reason("test");
+  v1::Queue queue;
+  check(queues->PauseQueue(context().get(), request, &queue), "PauseQueue");
+}
+
+void Client::resume() {
+  v1::Queue queue;
+  check(queues->ResumeQueue(context().get(), {}, &queue), "ResumeQueue");
+}
+
+v1::CreateJobRequest simulate_request(const std::string& asset, const std::string& name) {
+  v1::CreateJobRequest request;
+  auto& mesh = *request.mutable_job()->mutable_simulate()->mutable_mesh();
+  mesh.set_name(name);
+  mesh.set_asset(asset);
+  return request;
+}
+
+bool finished(const v1::Job& job) {
+  return job.state() == v1::Job::SUCCEEDED || job.state() == v1::Job::FAILED ||
+         job.state() == v1::Job::CANCELLED ||
+         ((job.has_dip() || job.has_print() || job.has_capture()) &&
+          job.state() == v1::Job::INTERRUPTED);
+}
+
+}  // namespace hydroprint::tests

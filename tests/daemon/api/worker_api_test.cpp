@@ -1,0 +1,267 @@
+// What becomes of jobs whose workers misbehave, and the main round trip with the real worker.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <thread>
+
+#include "daemon/workers/landlock.h"
+#include "tests/daemon/api/support.h"
+
+namespace hydroprint::tests {
+namespace {
+
+class Workers : public ::testing::Test {
+ protected:
+  void start(const DaemonProcess::Options& options) {
+    daemon = std::make_unique<DaemonProcess>(folder.path(), options);
+    client = std::make_unique<Client>(daemon->address());
+  }
+  v1::Job run(const std::string& mesh) {
+    return client->wait_for_end(client->simulate(mesh).name());
+  }
+  void expect_failed(const std::string& mesh, int code, const std::string& reason) {
+    const v1::Job job = run(mesh);
+    EXPECT_EQ(job.state(), v1::Job::FAILED);
+    EXPECT_EQ(job.error().code(), code) << job.error().message();
+    EXPECT_EQ(job.error().reason(), reason) << job.error().message();
+    EXPECT_FALSE(job.error().message().empty());
+    EXPECT_EQ(job.error().message().find('\n'), std::string::npos);
+    v1::ListArtifactsRequest list;
+    list.set_parent(job.name());
+    v1::ListArtifactsResponse page;
+    ASSERT_TRUE(client->artifacts->ListArtifacts(client->context().get(), list, &page).ok());
+    EXPECT_EQ(page.artifacts_size(), 0);
+    EXPECT_FALSE(std::filesystem::exists(daemon->state() / "artifacts" / job.name().substr(5)));
+  }
+  pid_t wait_for_worker() {
+    for (int i = 0; i < 1000; ++i) {
+      if (const auto pids = daemon->workers(); !pids.empty()) return pids.front();
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    throw std::runtime_error("no worker");
+  }
+
+  TemporaryFolder folder;
+  std::unique_ptr<DaemonProcess> daemon;
+  std::unique_ptr<Client> client;
+};
+
+TEST_F(Workers, EachWayToFailHasItsError) {
+  start(DaemonProcess::fake());
+  expect_failed("exit 3 spot.obj:7: not a number; fix the line", grpc::INVALID_ARGUMENT,
+                "INPUT_REFUSED");
+  EXPECT_EQ(client->job("jobs/1").error().message(), "spot.obj:7: not a number; fix the line");
+  EXPECT_EQ(client->job("jobs/1").error().exit_status(), 3);
+  expect_failed("exit 2 not built yet", grpc::INVALID_ARGUMENT, "INPUT_REFUSED");
+  expect_failed("exit 4 it diverged", grpc::INTERNAL, "COMPUTATION_FAILED");
+  expect_failed("exit 77 what", grpc::INTERNAL, "COMPUTATION_FAILED");
+  expect_failed("crash", grpc::INTERNAL, "WORKER_KILLED");
+  expect_failed("nothing", grpc::INTERNAL, "WORKER_UNUSABLE");
+  expect_failed("link", grpc::INTERNAL, "WORKER_UNUSABLE");
+}
+
+TEST_F(Workers, KilledWorkerFailsItsJobAlone) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
+  start(DaemonProcess::fake());
+  const v1::Job job = client->simulate("sleep 60");
+  client->wait_for(job.name(), v1::Job::RUNNING);
+  ::kill(wait_for_worker(), SIGKILL);
+  const v1::Job ended = client->wait_for_end(job.name());
+  EXPECT_EQ(ended.state(), v1::Job::FAILED);
+  EXPECT_EQ(ended.error().reason(), "WORKER_KILLED");
+  EXPECT_EQ(ended.error().signal(), SIGKILL);
+  EXPECT_EQ(run("").state(), v1::Job::SUCCEEDED);
+}
+
+TEST_F(Workers, GiveWayToTheDaemon) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
+  start(DaemonProcess::fake());
+  client->simulate("sleep 60");
+  const pid_t worker = wait_for_worker();
+  // It is the daemon's child a moment before it is a worker.
+  const int least = std::max(10, ::getpriority(PRIO_PROCESS, 0));
+  for (int i = 0; i < 500 && ::getpriority(PRIO_PROCESS, worker) < least; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, worker), least);
+  EXPECT_EQ(::getpriority(PRIO_PROCESS, daemon->pid()), ::getpriority(PRIO_PROCESS, 0));
+}
+
+TEST_F(Workers, RunningJobIsCancelledAndItsWorkerEnded) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
+  start(DaemonProcess::fake());
+  const v1::Job job = client->simulate("sleep 60");
+  client->wait_for(job.name(), v1::Job::RUNNING);
+  wait_for_worker();
+  EXPECT_EQ(client->cancel(job.name()).state(), v1::Job::CANCELLING);
+  EXPECT_EQ(client->wait_for_end(job.name()).state(), v1::Job::CANCELLED);
+  EXPECT_TRUE(daemon->workers().empty());
+  EXPECT_EQ(client->cancel(job.name()).state(), v1::Job::CANCELLED);
+}
+
+TEST_F(Workers, StubbornWorkerIsKilled) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
+  start(DaemonProcess::fake());
+  const v1::Job job = client->simulate("stubborn");
+  client->wait(job.name(), [](const v1::Job& now) { return now.phase() == "velocity"; });
+  client->cancel(job.name());
+  EXPECT_EQ(client->wait_for_end(job.name()).state(), v1::Job::CANCELLED);
+  EXPECT_TRUE(daemon->workers().empty());
+}
+
+TEST_F(Workers, QueuedJobIsCancelledAtOnce) {
+  start(DaemonProcess::fake());
+  client->pause();
+  const v1::Job job = client->simulate("sleep 60");
+  EXPECT_EQ(client->cancel(job.name()).state(), v1::Job::CANCELLED);
+}
+
+// Sanitizers reserve far more memory than any limit: not under them.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(Workers, MemoryLimitEndsTheJobAlone) {
+  auto options = DaemonProcess::fake();
+  options.memory_mib = 128;
+  start(options);
+  expect_failed("eat", grpc::RESOURCE_EXHAUSTED, "MEMORY_LIMIT");
+  EXPECT_EQ(run("").state(), v1::Job::SUCCEEDED);
+}
+#endif
+
+TEST_F(Workers, TimeLimitEndsTheJob) {
+  auto options = DaemonProcess::fake();
+  options.time_limit_s = 1;
+  start(options);
+  expect_failed("sleep 60", grpc::RESOURCE_EXHAUSTED, "TIME_LIMIT");
+}
+
+TEST_F(Workers, FileLimitEndsTheJob) {
+  auto options = DaemonProcess::fake();
+  options.file_mib = 8;
+  start(options);
+  expect_failed("huge", grpc::RESOURCE_EXHAUSTED, "OUTPUT_LIMIT");
+}
+
+TEST_F(Workers, HaveNoNetworkAndCannotHarmTheDaemon) {
+  start(DaemonProcess::fake());
+  const v1::Job job = run("socket\nkill-parent");
+  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  const std::string report = client->download(job.name() + "/artifacts/report.json");
+  EXPECT_NE(report.find("no-inet no-unix no-kill no-tgkill no-prlimit"), std::string::npos)
+      << report;
+}
+
+TEST_F(Workers, ReadTheirOwnInputsAndChangeNothingOutsideTheirFolder) {
+  if (!hydroprint::daemon::fences_work()) GTEST_SKIP() << "this kernel has no Landlock";
+  start(DaemonProcess::fake());
+  const auto secret = folder.write("secret", "secret");
+  const v1::Job job =
+      run("read m.obj\nwrite m.obj\nread " + secret.string() + "\nwrite " + secret.string() +
+          "\nread " + (daemon->state() / "hydroprint.db").string() + "\nread /etc/passwd");
+  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  const std::string report = client->download(job.name() + "/artifacts/report.json");
+  EXPECT_NE(report.find("READ cannot-write cannot-read cannot-write cannot-read READ"),
+            std::string::npos)
+      << report;
+}
+
+TEST_F(Workers, ChildrenTheyLeaveBehindAreEnded) {
+  if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
+  start(DaemonProcess::fake());
+  EXPECT_EQ(run("orphan").state(), v1::Job::SUCCEEDED);
+  EXPECT_TRUE(daemon->workers().empty());
+}
+
+TEST_F(Workers, NonsenseAsProgressHarmsNobody) {
+  start(DaemonProcess::fake());
+  const v1::Job job = run("babble");
+  EXPECT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  EXPECT_EQ(run("#").state(), v1::Job::SUCCEEDED);
+}
+
+TEST_F(Workers, AsManyAsThereAreSlotsRunAtOnce) {
+  start(DaemonProcess::fake());
+  for (int i = 0; i < 3; ++i) client->simulate("sleep 60\n#" + std::to_string(i));
+  client->wait_for("jobs/1", v1::Job::RUNNING);
+  client->wait_for("jobs/2", v1::Job::RUNNING);
+  const v1::Queue queue = client->queue();
+  EXPECT_EQ(queue.worker_slots(), 2);
+  EXPECT_EQ(queue.running_jobs_size(), 2);
+  EXPECT_EQ(queue.queued_count(), 1);
+  client->cancel("jobs/1");
+  client->wait_for("jobs/3", v1::Job::RUNNING);
+}
+
+// A ball of radius 20 mm.
+std::string ball_obj() {
+  constexpr int kRings = 16, kSectors = 32;
+  std::ostringstream obj;
+  for (int i = 0; i <= kRings; ++i) {
+    for (int j = 0; j < kSectors; ++j) {
+      const double polar = M_PI * i / kRings, turn = 2 * M_PI * j / kSectors;
+      obj << "v " << 20 * std::sin(polar) * std::cos(turn) << ' '
+          << 20 * std::sin(polar) * std::sin(turn) << ' ' << 20 * std::cos(polar) << '\n';
+    }
+  }
+  const auto vertex = [](int i, int j) { return i * kSectors + j % kSectors + 1; };
+  for (int i = 0; i < kRings; ++i) {
+    for (int j = 0; j < kSectors; ++j) {
+      if (i > 0) {
+        obj << "f " << vertex(i, j) << ' ' << vertex(i + 1, j) << ' ' << vertex(i, j + 1) << '\n';
+      }
+      if (i + 1 < kRings) {
+        obj << "f " << vertex(i, j + 1) << ' ' << vertex(i + 1, j) << ' ' << vertex(i + 1, j + 1)
+            << '\n';
+      }
+    }
+  }
+  return obj.str();
+}
+
+class RealWorker : public Workers {
+ protected:
+  void SetUp() override {
+    if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
+    start({});
+  }
+};
+
+TEST_F(RealWorker, ModelGoesInAndTheContractsArtifactsComeOut) {
+  auto request = simulate_request(client->upload(ball_obj()), "ball.obj");
+  request.mutable_job()->mutable_simulate()->set_dpi(72);
+  v1::Job job;
+  ASSERT_TRUE(client->create(request, job).ok());
+  for (int i = 0; i < 10 && !finished(job); ++i) {
+    try {
+      job = client->wait_for_end(job.name());
+    } catch (const std::runtime_error&) {
+      job = client->job(job.name());  // a slow machine, or sanitizers
+    }
+  }
+  ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
+  const std::string film = client->download(job.name() + "/artifacts/film.png");
+  EXPECT_EQ(film.substr(0, 8), "\x89PNG\r\n\x1a\n");
+  for (const char* name :
+       {"surface_map.ply", "film_map.exr", "stretch.png", "predicted.png", "report.json"}) {
+    EXPECT_FALSE(client->download(job.name() + "/artifacts/" + name).empty()) << name;
+  }
+  EXPECT_TRUE(client->simulate(ball_obj()).cache_hit() == false) << "another dpi is another input";
+  v1::Job again;
+  ASSERT_TRUE(client->create(request, again).ok());
+  EXPECT_TRUE(again.cache_hit());
+}
+
+TEST_F(RealWorker, BadModelIsRefusedInOneLineThatNamesIt) {
+  const v1::Job job = run("v 0 0 nan\nf 1 1 1\n");
+  ASSERT_EQ(job.state(), v1::Job::FAILED);
+  EXPECT_EQ(job.error().reason(), "INPUT_REFUSED") << job.error().message();
+  EXPECT_EQ(job.error().exit_status(), 3);
+  EXPECT_NE(job.error().message().find("m.obj"), std::string::npos) << job.error().message();
+}
+
+}  // namespace
+}  // namespace hydroprint::tests

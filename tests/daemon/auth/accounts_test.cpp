@@ -1,0 +1,264 @@
+// Users, keys, sessions and links, with a clock of the test's.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "daemon/auth/secret.h"
+#include "tests/daemon/auth/accounts_fixture.h"
+
+namespace hydroprint::auth {
+namespace {
+
+using Users = PeopleTest;
+using Keys = PeopleTest;
+using Sessions = PeopleTest;
+using Links = PeopleTest;
+
+TEST_F(Users, TheFirstOneMustBeAnAdmin) {
+  EXPECT_FALSE(accounts->any());
+  const auto refused = accounts->create({"mae", Role::kOperator, false, "", 0}, kPassword);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().reason, "LAST_ADMIN");
+  EXPECT_FALSE(accounts->any());
+  add("ann", Role::kAdmin);
+  EXPECT_TRUE(accounts->any());
+}
+
+TEST_F(Users, AreThereAgainAfterTheDaemonWasKilled) {
+  add("ann", Role::kAdmin);
+  add("mae");
+  open();
+  EXPECT_EQ(accounts->user("mae")->role, Role::kMaker);
+  EXPECT_TRUE(accounts->sign_in("mae", kPassword, "p"));
+  EXPECT_EQ(accounts->users("", 10).size(), 2U);
+  EXPECT_EQ(accounts->users("ann", 10).front().name, "mae");
+}
+
+TEST_F(Users, TheLastAdminStaysOne) {
+  add("ann", Role::kAdmin);
+  EXPECT_EQ(accounts->remove("ann").error().reason, "LAST_ADMIN");
+  EXPECT_EQ(accounts->update("ann", {Role::kMaker, {}}).error().reason, "LAST_ADMIN");
+  EXPECT_EQ(accounts->update("ann", {{}, true}).error().reason, "LAST_ADMIN");
+  add("bea", Role::kAdmin);
+  EXPECT_TRUE(accounts->update("ann", {{}, true}));
+  EXPECT_EQ(accounts->remove("bea").error().reason, "LAST_ADMIN");  // ann is barred
+  EXPECT_TRUE(accounts->remove("ann"));
+}
+
+TEST_F(Users, NamesAreCheckedAndTakenOnce) {
+  add("ann", Role::kAdmin);
+  for (const char* const name : {"", ".", "a b", "a/b", "-a", "a\n", "\xC3\xA4"}) {
+    EXPECT_FALSE(accounts->create({name, Role::kMaker, false, "", 0}, "")) << name;
+  }
+  EXPECT_EQ(accounts->create({"ann", Role::kMaker, false, "", 0}, "").error().reason,
+            "USER_EXISTS");
+  EXPECT_EQ(accounts->create({"bob", Role::kMaker, false, "", 0}, "short").error().reason,
+            "SPEC_INVALID");
+}
+
+TEST_F(Users, APasswordIsStoredAsArgon2idAlone) {
+  add("ann", Role::kAdmin);
+  EXPECT_TRUE(accounts->user("ann")->password.starts_with("$argon2id$"));
+  std::ifstream file(folder.path() / "hydroprint.db-wal", std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(bytes.find("$argon2id$"), std::string::npos);
+  EXPECT_EQ(bytes.find(kPassword), std::string::npos);
+}
+
+TEST_F(Users, WhoeverIsBarredIsSoAtOnceAndWithAllTheyHave) {
+  add("ann", Role::kAdmin);
+  add("mae");
+  const auto session = accounts->sign_in("mae", kPassword, "p").value();
+  const auto key = accounts->create_key({"mae", "k", Role::kMaker, 0}).value();
+  ASSERT_TRUE(accounts->by_session(session.token));
+  ASSERT_TRUE(accounts->by_key(key.second));
+  ASSERT_TRUE(accounts->update("mae", {{}, true}));
+  EXPECT_FALSE(accounts->by_session(session.token));
+  EXPECT_FALSE(accounts->by_key(key.second));
+  EXPECT_FALSE(accounts->sign_in("mae", kPassword, "p"));
+}
+
+TEST_F(Users, ANewPasswordEndsAllOtherSessions) {
+  add("ann", Role::kAdmin);
+  const auto one = accounts->sign_in("ann", kPassword, "p").value();
+  const auto two = accounts->sign_in("ann", kPassword, "p").value();
+  ASSERT_TRUE(accounts->set_password("ann", "battery staple", one.session.id));
+  EXPECT_TRUE(accounts->by_session(one.token));
+  EXPECT_FALSE(accounts->by_session(two.token));
+  EXPECT_FALSE(accounts->sign_in("ann", kPassword, "p"));
+  EXPECT_TRUE(accounts->sign_in("ann", "battery staple", "p"));
+}
+
+TEST_F(Users, WhoeverIsDeletedLeavesNothingBehind) {
+  add("ann", Role::kAdmin);
+  add("mae");
+  const auto session = accounts->sign_in("mae", kPassword, "p").value();
+  const auto key = accounts->create_key({"mae", "k", Role::kMaker, 0}).value();
+  const auto link = accounts->make_link("mae").value();
+  ASSERT_TRUE(accounts->remove("mae"));
+  add("mae");  // another one of that name
+  for (int i = 0; i < 2; ++i, open()) {
+    EXPECT_FALSE(accounts->by_session(session.token));
+    EXPECT_FALSE(accounts->by_key(key.second));
+    EXPECT_FALSE(accounts->sign_in_by_link(link.first, "p"));
+  }
+}
+
+TEST_F(Keys, AreShownOnceAndHoldUntilTheyEnd) {
+  add("ann", Role::kAdmin);
+  const auto [key, text] =
+      accounts->create_key({"ann", "bench", Role::kOperator, kHour_ms}).value();
+  EXPECT_TRUE(text.starts_with("hp_" + key.id + "_"));
+  EXPECT_EQ(accounts->key(key.id)->secret_hash.find(text.substr(20)), std::string::npos);
+  open();
+  const auto caller = accounts->by_key(text);
+  ASSERT_TRUE(caller);
+  EXPECT_EQ(caller->name, "ann");
+  EXPECT_EQ(caller->role, Role::kOperator);
+  now_ms += kHour_ms;
+  EXPECT_FALSE(accounts->by_key(text));
+}
+
+TEST_F(Keys, AreNotGuessedFromTheirParts) {
+  add("ann", Role::kAdmin);
+  const auto text = accounts->create_key({"ann", "", Role::kAdmin, 0})->second;
+  std::string other = text;
+  other.back() = other.back() == '0' ? '1' : '0';
+  for (const std::string& wrong :
+       {other, text.substr(0, text.size() - 1), text + "0", text.substr(3), std::string("hp_"),
+        text.substr(0, text.rfind('_')), text.substr(0, text.rfind('_') + 1), std::string()}) {
+    EXPECT_FALSE(accounts->by_key(wrong)) << wrong;
+  }
+  EXPECT_TRUE(accounts->by_key(text));
+}
+
+TEST_F(Keys, AllowNoMoreThanTheirUserMay) {
+  add("ann", Role::kAdmin);
+  add("mae", Role::kOperator);
+  const auto text = accounts->create_key({"mae", "", Role::kOperator, 0})->second;
+  ASSERT_TRUE(accounts->update("mae", {Role::kViewer, {}}));
+  EXPECT_EQ(accounts->by_key(text)->role, Role::kViewer);
+}
+
+TEST_F(Keys, TellWhenTheyWereUsedAfterARestartToo) {
+  add("ann", Role::kAdmin);
+  const auto [key, text] = accounts->create_key({"ann", "", Role::kAdmin, 0}).value();
+  EXPECT_EQ(accounts->key(key.id)->use_ms, 0);
+  ASSERT_TRUE(accounts->by_key(text));
+  ASSERT_TRUE(accounts->clean_up());
+  open();
+  EXPECT_EQ(accounts->key(key.id)->use_ms, now_ms);
+}
+
+TEST_F(Keys, ThereAreOnlySoManyOfThem) {
+  options.most_keys = 2;
+  open();
+  add("ann", Role::kAdmin);
+  EXPECT_TRUE(accounts->create_key({"ann", "", Role::kAdmin, 0}));
+  EXPECT_TRUE(accounts->create_key({"ann", "", Role::kAdmin, 0}));
+  EXPECT_EQ(accounts->create_key({"ann", "", Role::kAdmin, 0}).error().reason, "KEYS_FULL");
+  ASSERT_TRUE(accounts->remove_key(accounts->keys("ann", "", 10).front().id));
+  EXPECT_TRUE(accounts->create_key({"ann", "", Role::kAdmin, 0}));
+}
+
+TEST_F(Sessions, EndWhenTheyAreNotUsed) {
+  add("ann", Role::kAdmin);
+  const auto in = accounts->sign_in("ann", kPassword, "p").value();
+  now_ms += 12 * kHour_ms - 1;
+  EXPECT_TRUE(accounts->by_session(in.token));
+  now_ms += 12 * kHour_ms - 1;
+  EXPECT_TRUE(accounts->by_session(in.token));
+  now_ms += 12 * kHour_ms;
+  EXPECT_FALSE(accounts->by_session(in.token));
+  ASSERT_TRUE(accounts->clean_up());
+  now_ms -= 12 * kHour_ms;
+  EXPECT_FALSE(accounts->by_session(in.token));  // gone for good
+}
+
+TEST_F(Sessions, AreNotKeptAliveByBeingLookedAt) {
+  add("ann", Role::kAdmin);
+  const auto in = accounts->sign_in("ann", kPassword, "p").value();
+  now_ms += 11 * kHour_ms;
+  EXPECT_TRUE(accounts->by_session(in.token, false));
+  now_ms += kHour_ms;
+  EXPECT_FALSE(accounts->by_session(in.token));
+}
+
+TEST_F(Sessions, EndAfterAWeekHoweverTheyAreUsed) {
+  add("ann", Role::kAdmin);
+  const auto in = accounts->sign_in("ann", kPassword, "p").value();
+  for (int hour = 1; hour < 7 * 24; ++hour) {
+    now_ms += kHour_ms;
+    ASSERT_TRUE(accounts->by_session(in.token)) << hour;
+  }
+  now_ms += kHour_ms;
+  EXPECT_FALSE(accounts->by_session(in.token));
+}
+
+TEST_F(Sessions, AreListedRevokedAndThereAfterARestart) {
+  add("ann", Role::kAdmin);
+  add("mae");
+  const auto one = accounts->sign_in("ann", kPassword, "1.2.3.4").value();
+  const auto two = accounts->sign_in("mae", kPassword, "5.6.7.8").value();
+  open();
+  EXPECT_EQ(accounts->sessions("", "", 10).size(), 2U);
+  ASSERT_EQ(accounts->sessions("mae", "", 10).size(), 1U);
+  EXPECT_EQ(accounts->sessions("mae", "", 10).front().peer, "5.6.7.8");
+  EXPECT_EQ(accounts->by_session(two.token)->session, two.session.id);
+  ASSERT_TRUE(accounts->end_session(two.session.id));
+  EXPECT_FALSE(accounts->by_session(two.token));
+  EXPECT_TRUE(accounts->by_session(one.token));
+  EXPECT_EQ(accounts->session(two.session.id).error().reason, "SESSION_NOT_FOUND");
+}
+
+TEST_F(Sessions, OneTooManyEndsTheOneUsedLeastLately) {
+  options.most_sessions = 2;
+  open();
+  add("ann", Role::kAdmin);
+  const auto one = accounts->sign_in("ann", kPassword, "p").value();
+  now_ms += 1;
+  const auto two = accounts->sign_in("ann", kPassword, "p").value();
+  now_ms += 1;
+  ASSERT_TRUE(accounts->by_session(one.token));
+  now_ms += 1;
+  const auto three = accounts->sign_in("ann", kPassword, "p").value();
+  EXPECT_TRUE(accounts->by_session(one.token));
+  EXPECT_FALSE(accounts->by_session(two.token));
+  EXPECT_TRUE(accounts->by_session(three.token));
+}
+
+TEST_F(Sessions, ThePagesTokenIsMadeFromTheSessionsAndIsNotIt) {
+  const std::string one = csrf_token("token 1");
+  EXPECT_EQ(one.size(), 64U);
+  EXPECT_EQ(one, csrf_token("token 1"));
+  EXPECT_NE(one, csrf_token("token 2"));
+}
+
+TEST_F(Links, HoldOnce) {
+  add("ann", Role::kAdmin);
+  const auto link = accounts->make_link("ann").value();
+  open();
+  const auto in = accounts->sign_in_by_link(link.first, "p");
+  ASSERT_TRUE(in);
+  EXPECT_EQ(accounts->by_session(in->token)->name, "ann");
+  EXPECT_EQ(accounts->sign_in_by_link(link.first, "p").error().reason, "SIGN_IN_FAILED");
+}
+
+TEST_F(Links, HoldForAQuarterOfAnHour) {
+  add("ann", Role::kAdmin);
+  const auto link = accounts->make_link("ann").value();
+  now_ms += 15 * kMinute_ms;
+  EXPECT_FALSE(accounts->sign_in_by_link(link.first, "p"));
+}
+
+TEST_F(Links, ANewOneReplacesThoseBefore) {
+  add("ann", Role::kAdmin);
+  const auto one = accounts->make_link("ann").value();
+  const auto two = accounts->make_link("ann").value();
+  EXPECT_FALSE(accounts->sign_in_by_link(one.first, "p"));
+  EXPECT_TRUE(accounts->sign_in_by_link(two.first, "p"));
+}
+
+}  // namespace
+}  // namespace hydroprint::auth

@@ -1,0 +1,124 @@
+#include "daemon/store/calibration_store.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/daemon/store/store_fixture.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+class CalibrationStoreTest : public StoreTest {
+ protected:
+  void reopen() {
+    store.reset();
+    open();
+    store = std::make_unique<CalibrationStore>(*database, [this] { return now_ms; });
+  }
+  CalibrationStoreTest() { reopen(); }
+
+  Calibration enter(CalibrationKind kind = CalibrationKind::kObject, const std::string& id = "") {
+    return store->create({kind, "ann", 0, 0, "body"}, {"CreateCalibration", id, "d"}).value();
+  }
+  /// A job that is at its worker.
+  std::int64_t running(const std::string& verb = "calibrate") {
+    NewJob made;
+    made.work.verb = verb;
+    made.use_cache = false;
+    const Job job = jobs->create(made, {}).value();
+    return jobs->start(job.id).value().id;
+  }
+
+  std::unique_ptr<CalibrationStore> store;
+};
+
+TEST_F(CalibrationStoreTest, TheNewestOfAKindIsActiveUntilAnotherOneIsMadeSo) {
+  const auto active = [&](CalibrationKind kind) { return store->active(kind).value()->id; };
+  EXPECT_FALSE(store->active(CalibrationKind::kObject).value());
+  const auto first = enter().id, lens = enter(CalibrationKind::kCamera).id, second = enter().id;
+  EXPECT_EQ(active(CalibrationKind::kObject), second);
+  EXPECT_EQ(active(CalibrationKind::kCamera), lens);
+  EXPECT_TRUE(store->activate(first).value().active);
+  EXPECT_FALSE(store->get(second).value().active);
+  reopen();
+  EXPECT_EQ(active(CalibrationKind::kObject), first);
+  EXPECT_EQ(active(CalibrationKind::kCamera), lens);
+  EXPECT_TRUE(store->remove(first));
+  EXPECT_FALSE(store->active(CalibrationKind::kObject).value()) << "nobody chose another one";
+  EXPECT_EQ(store->get(first).error().reason, "CALIBRATION_NOT_FOUND");
+  EXPECT_EQ(store->activate(first).error().reason, "CALIBRATION_NOT_FOUND");
+  EXPECT_EQ(store->remove(first).error().reason, "CALIBRATION_NOT_FOUND");
+}
+
+TEST_F(CalibrationStoreTest, ARequestThatIsRepeatedEntersNothing) {
+  const auto id = enter(CalibrationKind::kObject, "r").id;
+  EXPECT_EQ(enter(CalibrationKind::kObject, "r").id, id);
+  EXPECT_EQ(store->list(0, 10).value().size(), 1U);
+}
+
+TEST_F(CalibrationStoreTest, ListsNewestFirstByPages) {
+  for (int i = 0; i < 3; ++i) enter();
+  const auto page = store->list(0, 2).value();
+  ASSERT_EQ(page.size(), 2U);
+  EXPECT_GT(page[0].id, page[1].id);
+  EXPECT_EQ(store->list(page[1].id, 2).value().size(), 1U);
+}
+
+TEST_F(CalibrationStoreTest, ComesToBeWithTheSuccessOfItsJobOrNotAtAll) {
+  const std::int64_t done = running();
+  ASSERT_TRUE(
+      jobs->succeed(done, {}, NewCalibration{CalibrationKind::kObject, "ann", done, 0, ""}));
+  ASSERT_EQ(store->list(0, 10).value().size(), 1U);
+  EXPECT_EQ(store->list(0, 10).value().front().made.job, done);
+  const std::int64_t cancelled = running();
+  ASSERT_TRUE(jobs->cancel(cancelled));
+  ASSERT_TRUE(jobs->succeed(cancelled, {},
+                            NewCalibration{CalibrationKind::kObject, "ann", cancelled, 0, ""}));
+  EXPECT_EQ(store->list(0, 10).value().size(), 1U);
+}
+
+TEST_F(CalibrationStoreTest, KeepsItsJobFromBeingDeleted) {
+  const std::int64_t job = running();
+  ASSERT_TRUE(jobs->succeed(job, {}, NewCalibration{CalibrationKind::kObject, "ann", job, 0, ""}));
+  EXPECT_EQ(jobs->remove(job).error().reason, "STATE_FORBIDS");
+  now_ms += 10 * job_options.keep_finished_ms;
+  EXPECT_TRUE(jobs->purge());
+  EXPECT_TRUE(jobs->get(job));
+  ASSERT_TRUE(store->remove(store->list(0, 1).value().front().id));
+  EXPECT_TRUE(jobs->purge());
+  EXPECT_FALSE(jobs->get(job));
+}
+
+TEST_F(CalibrationStoreTest, WhereTheRigWasOutlivesTheCapture) {
+  const RigPlace place{true, true, 20.5, 3, 4};
+  NewJob made;
+  made.work.verb = "capture";
+  made.traits.computed = false;
+  const Job capture = jobs->create(made, {}).value();
+  EXPECT_EQ(capture.state, JobState::kRunning);
+  EXPECT_EQ(capture.start_ms, now_ms);
+  EXPECT_EQ(jobs->create(made, {}).error().reason, "STATE_FORBIDS") << "one at a time";
+  ASSERT_TRUE(store->note_capture(capture.id, place));
+  ASSERT_TRUE(jobs->succeed(capture.id, {}));
+  const auto id =
+      store->create({CalibrationKind::kObject, "ann", 0, capture.id, ""}, {}).value().id;
+  ASSERT_TRUE(jobs->remove(capture.id));
+  reopen();
+  const auto captured = store->get(id).value().captured;
+  ASSERT_TRUE(captured);
+  EXPECT_EQ(captured->place, place);
+  EXPECT_EQ(captured->time_ms, now_ms);
+  EXPECT_EQ(store->capture(capture.id).value()->place, place);
+  EXPECT_FALSE(store->capture(77).value());
+}
+
+TEST_F(CalibrationStoreTest, ACaptureThatWasLostIsInterruptedForGood) {
+  NewJob made;
+  made.work.verb = "capture";
+  made.traits.computed = false;
+  const Job capture = jobs->create(made, {}).value();
+  reopen();
+  EXPECT_EQ(jobs->get(capture.id).value().state, JobState::kInterrupted);
+}
+
+}  // namespace
+}  // namespace hydroprint::daemon

@@ -1,0 +1,234 @@
+// How much owners may have, and how long what they have is kept.
+#include "daemon/store/calibration_store.h"
+#include "tests/daemon/store/store_fixture.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+constexpr std::int64_t kKeep_ms = 1000;  // the fixture's
+
+class Retention : public StoreTest {
+ protected:
+  Job dip(const std::string& owner = "ann") {
+    NewJob made;
+    made.owner = owner;
+    made.work.verb = "dip";
+    made.traits.computed = false;
+    made.dip_status = "first";
+    const Job job = jobs->create(made, {}).value();
+    return jobs->end(job.id, JobState::kSucceeded, {}, "", {}, "").value();
+  }
+  Job done(const std::string& digest, const std::string& owner = "ann") {
+    return complete(add(digest, owner).id);
+  }
+  [[nodiscard]] bool is_there(const Job& job) { return jobs->get(job.id).has_value(); }
+  [[nodiscard]] std::int64_t purge_ms(const Job& job) { return jobs->get(job.id)->purge_ms; }
+  void wait(std::int64_t ms) {
+    now_ms += ms;
+    ASSERT_TRUE(jobs->purge());
+  }
+};
+
+TEST_F(Retention, APinnedJobIsKeptAndItsTimeBeginsAnewWhenItIsNot) {
+  const Job pinned = done("1"), other = done("2");
+  EXPECT_EQ(purge_ms(pinned), now_ms + kKeep_ms);
+  const Job after = jobs->pin(pinned.id, true).value();
+  EXPECT_TRUE(after.pinned);
+  EXPECT_GT(after.version, pinned.version);
+  EXPECT_EQ(after.purge_ms, 0);
+  wait(10 * kKeep_ms);
+  EXPECT_TRUE(is_there(pinned));
+  EXPECT_TRUE(std::filesystem::exists(layout.artifacts(pinned.id) / "film.png"));
+  EXPECT_FALSE(is_there(other));
+  EXPECT_FALSE(std::filesystem::exists(layout.artifacts(other.id)));
+  EXPECT_EQ(jobs->pin(pinned.id, false)->purge_ms, now_ms + kKeep_ms);
+  wait(kKeep_ms - 1);
+  EXPECT_TRUE(is_there(pinned));
+  wait(1);
+  EXPECT_FALSE(is_there(pinned));
+}
+
+TEST_F(Retention, AJobPinnedBeforeItsEndIsKeptToo) {
+  const Job job = add("1");
+  ASSERT_TRUE(jobs->pin(job.id, true));
+  complete(job.id);
+  EXPECT_EQ(purge_ms(job), 0);
+  wait(kKeep_ms);
+  EXPECT_TRUE(is_there(job));
+}
+
+TEST_F(Retention, WhatRunsOrWaitsIsNeverDeleted) {
+  const Job queued = add("1"), running = add("2");
+  ASSERT_TRUE(jobs->start(running.id));
+  NewJob made;
+  made.work.verb = "dip";
+  made.traits.computed = false;
+  const Job waiting = jobs->create(made, {}).value();
+  wait(1LL << 50);
+  for (const Job& job : {queued, running, waiting}) EXPECT_TRUE(is_there(job)) << job.id;
+}
+
+TEST_F(Retention, WhatMadeACalibrationIsKeptAsLongAsThatIs) {
+  CalibrationStore calibrations(*database, [this] { return now_ms; });
+  const Job job = add("1");
+  ASSERT_TRUE(jobs->start(job.id));
+  NewCalibration made;
+  made.job = job.id;
+  ASSERT_TRUE(jobs->succeed(job.id, {}, made));
+  EXPECT_EQ(purge_ms(job), 0);
+  wait(10 * kKeep_ms);
+  ASSERT_TRUE(is_there(job));
+  ASSERT_TRUE(calibrations.remove(1));
+  wait(0);
+  EXPECT_FALSE(is_there(job));
+}
+
+TEST_F(Retention, DipsAreKeptLonger) {
+  job_options.keep_dips_ms = 5 * kKeep_ms;
+  open();
+  const Job dipped = dip(), other = done("1");
+  EXPECT_EQ(purge_ms(dipped), now_ms + 5 * kKeep_ms);
+  wait(5 * kKeep_ms - 1);
+  EXPECT_FALSE(is_there(other));
+  EXPECT_TRUE(is_there(dipped));
+  wait(1);
+  EXPECT_FALSE(is_there(dipped));
+}
+
+TEST_F(Retention, ZeroKeepsForEverAndAChangeHoldsFromTheNextStartOn) {
+  job_options.keep_finished_ms = 0;
+  open();
+  const Job job = done("1"), dipped = dip();
+  EXPECT_EQ(purge_ms(job), 0);
+  EXPECT_EQ(purge_ms(dipped), 0);
+  wait(100 * kKeep_ms);
+  EXPECT_TRUE(is_there(job));
+  const std::int64_t ended_ms = jobs->get(job.id)->end_ms;
+  job_options.keep_finished_ms = 2 * kKeep_ms;
+  open();
+  EXPECT_EQ(purge_ms(job), ended_ms + 2 * kKeep_ms);
+  wait(0);
+  EXPECT_FALSE(is_there(job));
+}
+
+TEST_F(Retention, NothingIsDeletedWhileSomethingIsPrinted) {
+  const Job old = done("1");
+  NewJob made;
+  made.work.verb = "print";
+  made.traits = {false, true, ""};
+  const Job print = jobs->create(made, {}).value();
+  wait(kKeep_ms);
+  EXPECT_TRUE(is_there(old));  // it may be what is printed
+  ASSERT_TRUE(jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
+  wait(0);
+  EXPECT_FALSE(is_there(old));
+  EXPECT_TRUE(is_there(print));
+}
+
+constexpr std::int64_t kYear_ms = 365LL * 24 * 3600 * 1000;
+
+TEST_F(Retention, AClockThatJumpsAheadDeletesNothingAndComesBackWithoutATrace) {
+  asset_options.keep_unused_ms = 1000;
+  open();
+  const Job before = done("1");
+  const std::int64_t due_ms = purge_ms(before);
+  ASSERT_TRUE(jobs->purge());
+  now_ms += 3 * kYear_ms;
+  open();
+  ASSERT_TRUE(jobs->purge());
+  EXPECT_TRUE(is_there(before));
+  EXPECT_EQ(purge_ms(before), due_ms + 3 * kYear_ms);
+  const Job meanwhile = done("2");
+  now_ms -= 3 * kYear_ms;
+  open();
+  ASSERT_TRUE(jobs->purge());
+  EXPECT_EQ(purge_ms(before), due_ms);
+  EXPECT_EQ(purge_ms(meanwhile), due_ms);
+  wait(kKeep_ms);
+  EXPECT_FALSE(is_there(before));
+  EXPECT_FALSE(is_there(meanwhile));
+}
+
+TEST_F(Retention, AClockThatJumpsAheadLeavesUnusedAssetsAndOpenUploads) {
+  asset_options.keep_unused_ms = 1000;
+  open();
+  const auto started = assets->start({"", sha256("part"), 4, 0, "", 0}, {"ann", false}, {});
+  const std::string id = std::get<Upload>(started.value()).id;
+  std::ofstream(layout.root / "mesh") << "mesh";
+  ASSERT_TRUE(assets->adopt(layout.root / "mesh", {sha256("mesh"), 4, "", 0}));
+  now_ms += 3 * kYear_ms;
+  open();
+  EXPECT_TRUE(assets->upload(id, "ann"));
+  EXPECT_TRUE(assets->asset(sha256("mesh")));
+  now_ms += 1000;
+  ASSERT_TRUE(assets->purge());
+  EXPECT_FALSE(assets->upload(id, "ann"));
+  EXPECT_FALSE(assets->asset(sha256("mesh")));
+}
+
+TEST_F(Retention, OneDayAtATimeCounts) {
+  const Job job = done("1");
+  ASSERT_TRUE(jobs->purge());
+  wait(24LL * 3600 * 1000);
+  EXPECT_FALSE(is_there(job));
+}
+
+TEST_F(Retention, TheOldestGoFirst) {
+  const Job first = add("1"), second = done("2");
+  now_ms += 10;
+  complete(first.id);  // which ended last
+  ASSERT_TRUE(database->run("CREATE TABLE gone(job INTEGER)"));
+  ASSERT_TRUE(database->run(
+      "CREATE TRIGGER note AFTER DELETE ON jobs BEGIN INSERT INTO gone VALUES (old.id); END"));
+  wait(kKeep_ms);
+  std::vector<std::int64_t> gone;
+  ASSERT_TRUE(database->each("SELECT job FROM gone ORDER BY rowid", {},
+                             [&](const DbRow& row) { gone.push_back(row.integer(0)); }));
+  EXPECT_EQ(gone, (std::vector<std::int64_t>{second.id, first.id}));
+}
+
+TEST_F(Retention, AnOwnersQueueIsLimitedAndNotThatOfOthers) {
+  job_options.quota.max_queued_jobs = 2;
+  open();
+  add("1");
+  const Job second = add("2");
+  NewJob made;
+  made.owner = "ann";
+  made.work.verb = "simulate";
+  const auto refused = jobs->create(made, {});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, Code::kResourceExhausted);
+  EXPECT_EQ(refused.error().reason, "QUOTA_EXCEEDED");
+  EXPECT_EQ(refused.error().metadata.at("quota"), "jobs");
+  EXPECT_EQ(refused.error().metadata.at("used"), "2");
+  EXPECT_EQ(refused.error().metadata.at("allowed"), "2");
+  add("3", "bob");
+  ASSERT_TRUE(jobs->start(second.id));  // runs, and waits no longer
+  EXPECT_TRUE(jobs->create(made, {}));
+}
+
+TEST_F(Retention, AJobIsTakenWhileThereAreFewerBytesThanAllowed) {
+  job_options.quota.max_stored_bytes = 6;
+  open();
+  const Job first = done("1");  // 4 bytes
+  const Job second = done("2");
+  EXPECT_EQ(usage_of(*database, "ann")->stored_bytes, 8);
+  NewJob made;
+  made.owner = "ann";
+  for (const char* const verb : {"simulate", "dip", "print", "capture"}) {
+    made.work.verb = verb;
+    made.traits.computed = made.work.verb == "simulate";
+    const auto refused = jobs->create(made, {});
+    ASSERT_FALSE(refused) << verb;
+    EXPECT_EQ(refused.error().reason, "QUOTA_EXCEEDED");
+    EXPECT_EQ(refused.error().metadata.at("quota"), "bytes");
+  }
+  ASSERT_TRUE(jobs->pin(second.id, true));
+  EXPECT_EQ(usage_of(*database, "ann")->pinned_bytes, 4);
+  add("3", "bob");
+  ASSERT_TRUE(jobs->remove(first.id));
+  add("4");
+}
+
+}  // namespace
+}  // namespace hydroprint::daemon

@@ -1,0 +1,190 @@
+#include "hardware/rig/motion_supervisor.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "tests/hardware/rig/axis.h"
+
+namespace hydroprint::rig {
+namespace {
+
+using Kind = Event::Kind;
+
+TimePoint at(double t_s) {
+  return TimePoint(
+      std::chrono::duration_cast<TimePoint::duration>(std::chrono::duration<double>(1000 + t_s)));
+}
+
+drive::DriveState axis(double t_s, double position_mm, bool moving) {
+  drive::DriveState out;
+  out.time = at(t_s);
+  out.position_mm = position_mm;
+  out.enabled = out.homed = true;
+  out.moving = moving;
+  return out;
+}
+
+/// When a supervisor ends, and how.
+struct End {
+  std::optional<Kind> event;
+  double t_s = 0;
+  int legs = 0;
+};
+
+/// Plays a supervisor on an axis whose position, some time after the leg's start, `where` tells.
+End play(MotionSupervisor& supervisor, const std::function<double(const Travel&, double)>& where,
+         double latest_s = 60) {
+  End end;
+  std::optional<Travel> travel;
+  double leg_s = 0, position_mm = 10;
+  for (double t_s = 0; t_s < latest_s; t_s += 0.02) {
+    const bool moving = travel && t_s - leg_s < travel->duration_s();
+    if (travel) position_mm = where(*travel, t_s - leg_s);
+    const auto advice = supervisor.look(axis(t_s, position_mm, moving));
+    if (advice.event) {
+      end.event = advice.event;
+      end.t_s = t_s;
+      return end;
+    }
+    if (!advice.next) continue;
+    ++end.legs;
+    leg_s = t_s;
+    travel.emplace(position_mm, advice.next->target_mm, advice.next->speed_mm_per_s,
+                   test_profile().acceleration_mm_per_s2);
+    supervisor.begin_leg(at(t_s));
+  }
+  return end;
+}
+
+double on_time(const Travel& travel, double t_s) { return travel.position_mm(t_s); }
+
+MotionSupervisor move_supervisor(double target_mm, double speed_mm_per_s) {
+  return {test_config(), test_profile(), {Motion::kMove, {{target_mm, speed_mm_per_s}}}, at(0), 10};
+}
+
+TEST(MotionSupervisor, AMoveIsDoneWhenTheAxisRestsAtItsTarget) {
+  MotionSupervisor supervisor = move_supervisor(30, 10);
+  const End end = play(supervisor, on_time);
+  EXPECT_EQ(end.event, Kind::kMotionDone);
+  EXPECT_NEAR(end.t_s, Travel(10, 30, 10, 100).duration_s(), 0.05);
+}
+
+TEST(MotionSupervisor, ADipGoesEachLegAndHolds) {
+  MotionSupervisor supervisor(test_config(), test_profile(),
+                              {Motion::kDip, {{60, 5, 3}, {20, 10, 0}, {10, 10, 1}}}, at(0), 10);
+  const End end = play(supervisor, on_time);
+  EXPECT_EQ(end.event, Kind::kMotionDone);
+  EXPECT_EQ(end.legs, 3);
+  EXPECT_NEAR(end.t_s, 10 + 0.05 + 3 + 4 + 0.1 + 1 + 0.1 + 1, 0.2);
+}
+
+TEST(MotionSupervisor, AStalledAxisIsFoundBeforeItIsFurtherBehindThanTheBand) {
+  for (const double speed : {1.0, 5.0, 10.0}) {
+    MotionSupervisor supervisor = move_supervisor(200, speed);
+    const End end = play(supervisor, [](const Travel& t, double s) {
+      return t.position_mm(std::min(s, 1.0));  // held from 1 s on
+    });
+    EXPECT_EQ(end.event, Kind::kFollowingError);
+    const RigConfig config = test_config();
+    const double band_s = config.following_error_s + config.following_error_mm / speed;
+    EXPECT_NEAR(end.t_s, 1 + band_s, 0.05) << speed;
+  }
+}
+
+TEST(MotionSupervisor, AnAxisThatLagsWithinTheBandIsLetGoOn) {
+  MotionSupervisor supervisor = move_supervisor(100, 10);
+  const End end =
+      play(supervisor, [](const Travel& t, double s) { return t.position_mm(s - 0.1); });
+  EXPECT_EQ(end.event, Kind::kMotionDone);
+}
+
+TEST(MotionSupervisor, AFrozenPositionAndNoPositionAreFollowingErrors) {
+  MotionSupervisor frozen = move_supervisor(100, 10);
+  EXPECT_EQ(play(frozen, [](const Travel&, double) { return 10.0; }).event, Kind::kFollowingError);
+  MotionSupervisor none = move_supervisor(100, 10);
+  EXPECT_TRUE(play(none, [](const Travel&, double) {
+                return std::numeric_limits<double>::quiet_NaN();
+              }).event);
+}
+
+TEST(MotionSupervisor, AnAxisThatStopsShortIsNotDone) {
+  MotionSupervisor supervisor = move_supervisor(100, 10);
+  const End end = play(supervisor, [](const Travel& t, double s) {
+    return std::min(t.position_mm(s), 99.8);  // within the band, not at the target
+  });
+  EXPECT_EQ(end.event, Kind::kFollowingError);
+}
+
+TEST(MotionSupervisor, RunningPastTheSoftLimitTripsTheGuard) {
+  MotionSupervisor supervisor = move_supervisor(300, 10);
+  const End end =
+      play(supervisor, [](const Travel& t, double s) { return t.position_mm(s) + 1.1; });
+  EXPECT_EQ(end.event, Kind::kOutsideLimits);
+}
+
+MotionSupervisor home_supervisor() {
+  return {test_config(), test_profile(), {Motion::kHome}, at(0), 0};
+}
+
+drive::DriveState homing(double t_s, bool moving, bool homed) {
+  drive::DriveState out = axis(t_s, 500, moving);  // means nothing before homing
+  out.homed = homed;
+  return out;
+}
+
+TEST(MotionSupervisor, HomingIsDoneAtRestAndHomedOnceItWasSeenToMove) {
+  MotionSupervisor supervisor = home_supervisor();
+  EXPECT_FALSE(supervisor.look(homing(0.02, false, true)).event)
+      << "an earlier home does not count";
+  EXPECT_FALSE(supervisor.look(homing(0.04, true, false)).event);
+  EXPECT_FALSE(supervisor.look(homing(0.06, true, true)).event);
+  EXPECT_EQ(supervisor.look(homing(0.08, false, true)).event, Kind::kMotionDone);
+}
+
+TEST(MotionSupervisor, HomingThatEndsWithoutHomeOrTakesForEverFails) {
+  MotionSupervisor ends = home_supervisor();
+  EXPECT_FALSE(ends.look(homing(0.04, true, false)).event);
+  EXPECT_EQ(ends.look(homing(0.06, false, false)).event, Kind::kFollowingError);
+  MotionSupervisor never_moves = home_supervisor();
+  EXPECT_EQ(never_moves.look(homing(0.6, false, false)).event, Kind::kFollowingError);
+  MotionSupervisor endless = home_supervisor();
+  EXPECT_EQ(endless.look(homing(test_config().home_timeout_s + 1, true, false)).event,
+            Kind::kFollowingError);
+}
+
+TEST(MotionSupervisor, AJogGoesOnWhileItIsHeldAndNoLonger) {
+  MotionSupervisor supervisor(test_config(), test_profile(), {Motion::kJog, {}, 5}, at(0), 100);
+  for (double t_s = 0; t_s < 3; t_s += 0.2) {
+    supervisor.hold_jog(at(t_s), 5);
+    EXPECT_FALSE(supervisor.look(axis(t_s + 0.19, 100 + 5 * t_s, true)).event);
+  }
+  EXPECT_EQ(supervisor.look(axis(3.3, 116, true)).event, Kind::kJogOver);
+}
+
+TEST(MotionSupervisor, AnOlderHoldDoesNotShortenAJog) {
+  MotionSupervisor supervisor(test_config(), test_profile(), {Motion::kJog, {}, 5}, at(1), 100);
+  supervisor.hold_jog(at(0.5), 5);
+  EXPECT_FALSE(supervisor.look(axis(1.2, 101, true)).event);
+}
+
+TEST(MotionSupervisor, AJogEndsBeforeTheSoftLimit) {
+  MotionSupervisor supervisor(test_config(), test_profile(), {Motion::kJog, {}, 10}, at(0), 299);
+  EXPECT_EQ(supervisor.look(axis(0.01, 299.9, true)).event, Kind::kJogOver);
+}
+
+TEST(Plan, IsRefusedAsAWholeIfOneLegIsOutOfReach) {
+  const RigConfig config = test_config();
+  EXPECT_TRUE(check(config, {Motion::kDip, {{60, 5, 3}, {20, 10, 0}}}));
+  EXPECT_FALSE(check(config, {Motion::kDip, {{60, 5, 3}, {301, 10, 0}}}));
+  EXPECT_FALSE(check(config, {Motion::kDip, {{60, 5, 3}, {20, 11, 0}}}));
+  EXPECT_FALSE(check(config, {Motion::kDip, {{60, 5, -1}}}));
+  EXPECT_FALSE(check(config, {Motion::kDip, {}}));
+  EXPECT_FALSE(check(config, {Motion::kMove, {{60, 5}, {20, 5}}}));
+  EXPECT_FALSE(check(config, {Motion::kJog, {}, 0}));
+  EXPECT_TRUE(check(config, {Motion::kJog, {}, -10}));
+}
+
+}  // namespace
+}  // namespace hydroprint::rig

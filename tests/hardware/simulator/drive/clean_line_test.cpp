@@ -1,0 +1,89 @@
+// A reply that comes after its time is never taken for another request's.
+#include <thread>
+
+#include "tests/hardware/simulator/drive/bench_rig.h"
+
+namespace hydroprint::simulated_drive {
+namespace {
+
+using drive::Function;
+using drive::Request;
+
+// Two registers that hold different words, read with requests of one length.
+const Request kMaker{1, Function::kReadHolding, 0x0000, 1, {}};
+const Request kWatchdogTime{1, Function::kReadHolding, 0x0200, 1, {}};
+constexpr std::uint16_t kMakerWord = 0x4850;
+constexpr std::uint16_t kWatchdogWord = 250;
+
+class CleanLine : public OnBothWires {};
+HP_ON_BOTH_WIRES(CleanLine);
+
+// The hazard is real: with no silence after a timeout, the late word of one register is the answer
+// to the question for another. Without this, the next test would prove nothing.
+TEST(CleanLineSerial, WithoutSilenceALateReplyWouldPassForAnothers) {
+  BenchRig bench("rtu");
+  const auto hasty = bench.other_link({milliseconds(500), milliseconds(100), milliseconds(0)});
+  HP_ASSERT_OK(hasty->connect());
+  bench.act("fault late 180ms");
+  ASSERT_FALSE(hasty->transact(kMaker));
+  const auto words = hasty->transact(kWatchdogTime);
+  HP_ASSERT_OK(words);
+  EXPECT_EQ((*words)[0], kMakerWord) << "the other register's";
+}
+
+TEST_P(CleanLine, WithItsSilenceALateReplyIsNeverTakenForAnothers) {
+  BenchRig bench(GetParam());
+  const auto link = bench.other_link({milliseconds(500), milliseconds(60), milliseconds(200)});
+  HP_ASSERT_OK(link->connect());
+  for (const int late_ms : {70, 100, 130, 160, 190}) {
+    bench.act("fault late " + std::to_string(late_ms) + "ms");
+    ASSERT_FALSE(link->transact(kMaker));
+    if (!link->is_open()) HP_ASSERT_OK(link->connect());
+    const auto words = link->transact(kWatchdogTime);
+    HP_ASSERT_OK(words);
+    EXPECT_EQ((*words)[0], kWatchdogWord) << late_ms;
+  }
+}
+
+// The second line of defence, for a drive that is even slower than its profile says.
+TEST(CleanLineSerial, AStateIsNotMadeOfAnotherRequestsReply) {
+  BenchRig bench("rtu");
+  const auto link = std::make_shared<drive::Link>(
+      bench.endpoint(), drive::LinkTiming{milliseconds(500), milliseconds(100), milliseconds(0)});
+  drive::Drive drive(bench.profile(), link);
+  HP_ASSERT_OK(drive.connect());
+  HP_ASSERT_OK(drive.poll());
+  bench.act("fault late 180ms");
+  ASSERT_FALSE(link->transact(kMaker));
+  const auto state = drive.poll();
+  ASSERT_FALSE(state) << "made of another request's words";
+  EXPECT_EQ(state.error().reason, "REPLY_INVALID");
+  EXPECT_EQ(drive.enable().error().reason, "RIG_OFFLINE");
+}
+
+TEST_P(CleanLine, AStateIsNotMadeOfWordsWithoutTheirMark) {
+  BenchRig bench(GetParam());
+  drive::DriveProfile profile = bench.profile();
+  profile.blocks[0].mark.value = 0x1234;
+  drive::Drive drive(profile, bench.drive().link());
+  HP_ASSERT_OK(drive.connect());
+  const auto state = drive.poll();
+  ASSERT_FALSE(state);
+  EXPECT_EQ(state.error().reason, "REPLY_INVALID");
+  EXPECT_NE(state.error().message.find("0x0100"), std::string::npos) << state.error().message;
+  EXPECT_EQ(drive.enable().error().reason, "RIG_OFFLINE");
+}
+
+TEST_P(CleanLine, EveryCallEndsWithinItsTime) {
+  BenchRig bench(GetParam());
+  bench.make_ready();
+  bench.act("silent");
+  const double first_s = seconds_of([&] { EXPECT_FALSE(bench.drive().poll()); });
+  EXPECT_LT(first_s, 0.1 + 0.05);
+  // On a serial line, the silence that follows, and the time for the reply once more.
+  const double second_s = seconds_of([&] { EXPECT_FALSE(bench.drive().poll()); });
+  EXPECT_LT(second_s, 0.25 + 0.1 + 0.05);
+}
+
+}  // namespace
+}  // namespace hydroprint::simulated_drive

@@ -1,0 +1,175 @@
+// Every fault of the line and of the machine, with its stated outcome.
+#include <cctype>
+#include <thread>
+#include <tuple>
+
+#include "tests/hardware/simulator/drive/bench_rig.h"
+
+namespace hydroprint::simulated_drive {
+namespace {
+
+struct Outcome {
+  const char* fault;
+  const char* reason;  ///< of the poll that it strikes
+  bool timeout;        ///< whether nothing came in time
+  bool state_is_known = false;
+};
+
+constexpr Outcome kOutcomes[] = {
+    {"late 180ms", "RIG_OFFLINE", true},        {"drop", "RIG_OFFLINE", true},
+    {"truncate", "RIG_OFFLINE", true},          {"wrong-id", "REPLY_INVALID", false},
+    {"wrong-function", "REPLY_INVALID", false}, {"wrong-crc", "REPLY_INVALID", false},
+    {"wrong-length", "REPLY_INVALID", false},   {"busy", "DRIVE_BUSY", false, true},
+};
+
+class LineFault : public ::testing::TestWithParam<std::tuple<const char*, Outcome>> {};
+
+TEST_P(LineFault, HasItsOutcomeAndIsGotOver) {
+  const auto& [wire, outcome] = GetParam();
+  BenchRig bench(wire);
+  bench.make_ready();
+  bench.act(std::string("fault ") + outcome.fault);
+  const auto struck = bench.drive().poll();
+  ASSERT_FALSE(struck);
+  EXPECT_EQ(struck.error().reason, outcome.reason) << struck.error().message;
+  EXPECT_EQ(struck.error().metadata.contains("timeout"), outcome.timeout);
+  if (!outcome.state_is_known) {
+    const Status blind = bench.drive().move_to(5, 5);
+    ASSERT_FALSE(blind) << "a move while the state is not known";
+    EXPECT_EQ(blind.error().reason, "RIG_OFFLINE");
+  }
+  if (!bench.drive().connected()) HP_ASSERT_OK(bench.drive().connect());
+  HP_ASSERT_OK(bench.drive().poll());
+}
+
+INSTANTIATE_TEST_SUITE_P(All, LineFault,
+                         ::testing::Combine(::testing::Values("tcp", "rtu"),
+                                            ::testing::ValuesIn(kOutcomes)),
+                         [](const auto& value) {
+                           std::string name = std::string(std::get<0>(value.param)) + "_" +
+                                              std::get<1>(value.param).fault;
+                           for (char& c : name)
+                             c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+                           return name;
+                         });
+
+class MachineFault : public OnBothWires {};
+HP_ON_BOTH_WIRES(MachineFault);
+
+TEST_P(MachineFault, SilentDriveIsOfflineAndStopsByItself) {
+  BenchRig bench(GetParam());
+  bench.make_ready();
+  HP_ASSERT_OK(bench.drive().move_to(50, 10));
+  bench.act("silent");
+  for (int i = 0; i < 3; ++i) {
+    if (!bench.drive().connected()) {
+      EXPECT_FALSE(bench.drive().connect());
+      continue;
+    }
+    EXPECT_EQ(bench.drive().poll().error().reason, "RIG_OFFLINE");
+  }
+  std::this_thread::sleep_for(milliseconds(300));
+  EXPECT_EQ(bench.mode(), "off");
+  bench.act("clear");
+  HP_ASSERT_OK(bench.drive().connect());
+  EXPECT_EQ(bench.drive().poll()->alarm_code, kWatchdog);
+}
+
+TEST_P(MachineFault, WhenALostReplyHidesWhetherItObeyedNothingIsSentAgain) {
+  BenchRig bench(GetParam());
+  bench.make_ready();
+  const double requests = bench.truth("requests");
+  bench.act("fault drop");
+  const Status moved = bench.drive().move_to(1, 10);
+  ASSERT_FALSE(moved);
+  EXPECT_EQ(moved.error().metadata.count("timeout"), 1U);
+  EXPECT_EQ(bench.truth("requests"), requests + 1);
+}
+
+TEST_P(MachineFault, UnplugIsToldAtOnceAndPluggingInIsGotOver) {
+  BenchRig bench(GetParam());
+  bench.make_ready();
+  bench.act("unplug");
+  const double took_s = seconds_of([&] {
+    const auto state = bench.drive().poll();
+    ASSERT_FALSE(state);
+    EXPECT_EQ(state.error().reason, "RIG_OFFLINE");
+  });
+  EXPECT_LT(took_s, 0.05);
+  EXPECT_FALSE(bench.drive().connected());
+  const double refused_s = seconds_of([&] {
+    const auto found = bench.drive().connect();
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().reason, "RIG_OFFLINE");
+  });
+  EXPECT_LT(refused_s, 0.05);
+  bench.act("replug");
+  HP_ASSERT_OK(bench.drive().connect());
+  HP_ASSERT_OK(bench.drive().poll());
+}
+
+TEST_P(MachineFault, RebootForgetsHomeAndEnabling) {
+  BenchRig bench(GetParam(), {1.0});
+  bench.make_ready();
+  HP_ASSERT_OK(bench.drive().home());
+  bench.poll_until([](const auto& state) { return state.homed && !state.moving; });
+  HP_ASSERT_OK(bench.drive().move_to(30, 10));
+  bench.act("reboot 300ms");
+  EXPECT_FALSE(bench.drive().poll());
+  std::this_thread::sleep_for(milliseconds(400));
+  HP_ASSERT_OK(bench.drive().connect());
+  const auto state = bench.drive().poll();
+  HP_ASSERT_OK(state);
+  EXPECT_FALSE(state->homed || state->enabled || state->moving);
+}
+
+TEST_P(MachineFault, StopButtonIsSeenAndNothingMovesUntilItIsLetGo) {
+  BenchRig bench(GetParam());
+  bench.make_ready();
+  HP_ASSERT_OK(bench.drive().move_to(30, 10));
+  bench.act("press stop");
+  const auto state = bench.poll_until([](const auto& s) { return !s.moving; });
+  EXPECT_TRUE(state.stop_input);
+  EXPECT_FALSE(state.enabled);
+  const Status enabled = bench.drive().enable();
+  ASSERT_FALSE(enabled);
+  EXPECT_EQ(enabled.error().reason, "DRIVE_REFUSED");
+  bench.act("release stop");
+  std::this_thread::sleep_for(milliseconds(50));
+  EXPECT_FALSE(bench.drive().poll()->moving);
+  HP_ASSERT_OK(bench.drive().enable());
+}
+
+TEST_P(MachineFault, EndSwitchStopsAndIsNamed) {
+  BenchRig bench(GetParam());
+  bench.make_ready();
+  HP_ASSERT_OK(bench.drive().move_to(30, 10));
+  bench.act("press positive-end");
+  const auto state = bench.poll_until([](const auto& s) { return s.alarm && !s.moving; });
+  EXPECT_TRUE(state.positive_end);
+  EXPECT_EQ(state.alarm_code, kPositiveEnd);
+  EXPECT_EQ(state.alarm_text, "lower end switch hit");
+}
+
+TEST_P(MachineFault, StallIsAnAlarm) {
+  BenchRig bench(GetParam());
+  bench.make_ready();
+  HP_ASSERT_OK(bench.drive().move_to(30, 10));
+  bench.act("stall");
+  const auto state = bench.poll_until([](const auto& s) { return s.alarm; });
+  EXPECT_EQ(state.alarm_code, kFollowingError);
+}
+
+TEST_P(MachineFault, FrozenPositionShowsAgainstTheDrivesOwnTrajectory) {
+  BenchRig bench(GetParam());
+  bench.make_ready();
+  HP_ASSERT_OK(bench.drive().move_to(30, 10));
+  bench.poll_until([](const auto& s) { return s.position_mm > 1; });
+  bench.act("freeze");
+  const auto state = bench.poll_until([](const auto& s) { return *s.demand_mm > 4; });
+  EXPECT_LT(state.position_mm, 3);
+  EXPECT_FALSE(state.alarm) << "the drive does not know";
+}
+
+}  // namespace
+}  // namespace hydroprint::simulated_drive

@@ -1,0 +1,88 @@
+// hydroprint-virtual-rig as its users run it.
+#include <signal.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/hardware/simulator/drive/bench_rig.h"
+#include "tests/support/control_line.h"
+#include "tests/support/process.h"
+
+namespace hydroprint::simulated_drive {
+namespace {
+
+const std::string kProgram = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
+const std::string kProfile = HYDROPRINT_PROFILES "/virtual.toml";
+
+TEST(Program, SaysWhereItListensTakesActionsAndEndsCleanly) {
+  const testing::TemporaryFolder folder;
+  const auto control = folder.path() / "control";
+  const auto line = folder.path() / "drive";
+  testing::Process rig({kProgram, "--profile", kProfile, "--tcp", "0", "--rtu", line.string(),
+                        "--control", control.string(), "--json"});
+  const std::string reply = testing::talk(control, "press stop\nstate\ndance\n");
+  EXPECT_EQ(reply.substr(0, 3), "ok\n");
+  const auto state = nlohmann::json::parse(reply.substr(3, reply.find('\n', 3) - 3));
+  EXPECT_TRUE(state.at("stop_button").get<bool>());
+  EXPECT_NE(reply.find("error: \"dance\" is nothing that can be done"), std::string::npos);
+
+  const auto profile = drive::read_drive_profile(kProfile);
+  drive::Drive drive(*profile,
+                     std::make_shared<drive::Link>(*drive::parse_endpoint("rtu:" + line.string()),
+                                                   drive::LinkTiming{}));
+  HP_ASSERT_OK(drive.connect());
+  EXPECT_TRUE(drive.poll()->stop_input);
+
+  rig.signal(SIGTERM);
+  const auto ended = rig.wait();
+  EXPECT_EQ(ended.status, 0) << ended.err;
+  const auto where = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(where.at("tcp").get<std::string>().substr(0, 14), "tcp:127.0.0.1:");
+  EXPECT_EQ(where.at("rtu"), "rtu:" + line.string() + "?baud=115200&parity=E&stop=1");
+  EXPECT_FALSE(std::filesystem::exists(control));
+  EXPECT_FALSE(std::filesystem::is_symlink(line));
+}
+
+TEST(Program, FaultsOfTheCommandLineHappen) {
+  const testing::TemporaryFolder folder;
+  const auto control = folder.path() / "control";
+  testing::Process rig({kProgram, "--profile", kProfile, "--tcp", "0", "--control",
+                        control.string(), "--fault", "press=stop,stall@100ms"});
+  (void)testing::talk(control, "state\n");
+  const auto state = [&] { return nlohmann::json::parse(testing::talk(control, "state\n")); };
+  while (!state().at("stalled").get<bool>()) std::this_thread::sleep_for(milliseconds(50));
+  EXPECT_TRUE(state().at("stop_button").get<bool>());
+}
+
+TEST(Program, RefusalsAreOneLineAndTheContractsExitStatus) {
+  const testing::TemporaryFolder folder;
+  const auto bad = folder.write("bad.toml", "name = 3\n").string();
+  const auto torn = folder.write("torn.toml", "\"a\\nb\" = 3\n").string();
+  const auto scene = folder.write("scene.toml", "[water]\nat = 3\n").string();
+  const std::vector<std::pair<std::vector<std::string>, int>> cases = {
+      {{}, 2},
+      {{"--profile", kProfile, "--tcp", "70000"}, 2},
+      {{"--profile", "none.toml"}, 3},
+      {{"--profile", bad}, 3},
+      {{"--profile", torn}, 3},
+      {{"--profile", "no\nne.toml"}, 3},
+      {{"--profile", kProfile, "--scene", scene}, 3},
+      {{"--profile", kProfile, "--fault", "dance@3s"}, 3},
+      {{"--profile", kProfile, "--tcp", "0", "--control", "/nowhere/at/all"}, 3},
+      {{"--profile", kProfile, "--rtu", bad}, 3}};
+  for (const auto& [arguments, status] : cases) {
+    std::vector<std::string> all = {kProgram};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const auto ended = testing::run(all);
+    EXPECT_EQ(ended.status, status) << ended.err;
+    EXPECT_FALSE(ended.err.empty());
+    if (status == 3) {
+      EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1);
+    }
+  }
+  EXPECT_EQ(testing::run({kProgram, "--help"}).status, 0);
+}
+
+}  // namespace
+}  // namespace hydroprint::simulated_drive

@@ -1,0 +1,123 @@
+// Drives that must not be armed, and drives that are not the profile's.
+#include "sim/base/input_file.h"
+#include "tests/hardware/simulator/drive/bench_rig.h"
+
+namespace hydroprint::simulated_drive {
+namespace {
+
+class UnsafeDrive : public OnBothWires {};
+HP_ON_BOTH_WIRES(UnsafeDrive);
+
+/// What connect() holds against the drive; it must be readable, but must not move.
+Error held_against(BenchRig& bench) {
+  const auto found = bench.drive().connect();
+  if (!found || !found->unsafe) {
+    ADD_FAILURE() << "nothing";
+    return {};
+  }
+  EXPECT_TRUE(bench.drive().poll());
+  for (const Status& moved : {bench.drive().enable(), bench.drive().home(),
+                              bench.drive().move_to(1, 5), bench.drive().jog(5)}) {
+    EXPECT_FALSE(moved);
+    if (!moved) {
+      EXPECT_EQ(moved.error().reason, "DRIVE_CONFIG_UNSAFE");
+    }
+  }
+  EXPECT_TRUE(bench.drive().stop());
+  EXPECT_TRUE(bench.drive().disable());
+  return *found->unsafe;
+}
+
+TEST_P(UnsafeDrive, WatchdogThatDoesNotStopIsHeldAgainstIt) {
+  BenchOptions options;
+  options.watchdog_action = 0;
+  BenchRig bench(GetParam(), options);
+  const Error error = held_against(bench);
+  EXPECT_EQ(error.reason, "DRIVE_CONFIG_UNSAFE");
+  EXPECT_EQ(error.code, Code::kFailedPrecondition);
+  EXPECT_NE(error.message.find("does not stop the axis"), std::string::npos) << error.message;
+  EXPECT_NE(error.message.find("0x0201"), std::string::npos) << error.message;
+}
+
+TEST_P(UnsafeDrive, WatchdogThatIsOffIsHeldAgainstIt) {
+  BenchOptions options;
+  options.watchdog_s = 0;
+  BenchRig bench(GetParam(), options);
+  EXPECT_NE(held_against(bench).message.find("is off"), std::string::npos);
+}
+
+TEST_P(UnsafeDrive, WatchdogThatWaitsTooLongIsHeldAgainstIt) {
+  BenchOptions options;
+  options.watchdog_s = 0.3;
+  BenchRig bench(GetParam(), options);
+  const Error error = held_against(bench);
+  EXPECT_NE(error.message.find("waits 0.3 s. Set it to at most 0.25 s"), std::string::npos)
+      << error.message;
+}
+
+TEST_P(UnsafeDrive, GoodSettingsAreToldAndHeldAgainstNothing) {
+  BenchOptions options;
+  options.watchdog_s = 0.2;
+  BenchRig bench(GetParam(), options);
+  const auto found = bench.drive().connect();
+  HP_ASSERT_OK(found);
+  EXPECT_FALSE(found->unsafe);
+  EXPECT_EQ(found->watchdog_s, 0.2);
+  EXPECT_EQ(found->drive, "virtual drive");
+}
+
+TEST_P(UnsafeDrive, DriveWithoutAWatchdogIsNeverSafe) {
+  BenchRig bench(GetParam());
+  drive::DriveProfile profile = bench.profile();
+  profile.watchdog.reset();
+  drive::Drive drive(profile, bench.drive().link());
+  const auto found = drive.connect();
+  HP_ASSERT_OK(found);
+  ASSERT_TRUE(found->unsafe);
+  EXPECT_NE(found->unsafe->message.find("has no communication watchdog"), std::string::npos);
+}
+
+TEST_P(UnsafeDrive, AnotherDriveIsRefusedAndLeftAlone) {
+  const testing::TemporaryFolder folder;
+  std::string text = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
+  const std::string maker = "value = 0x4850";
+  text.replace(text.find(maker), maker.size(), "value = 0x4851");
+  BenchOptions options;
+  options.profile = folder.write("other.toml", text).string();
+  BenchRig bench(GetParam(), options);
+  const auto ours = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
+  HP_ASSERT_OK(ours);
+  drive::Drive drive(*ours, bench.drive().link());
+  const auto found = drive.connect();
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().reason, "DRIVE_CONFIG_UNSAFE");
+  EXPECT_NE(found.error().message.find("holds 0x4851, not 0x4850"), std::string::npos)
+      << found.error().message;
+  EXPECT_FALSE(drive.connected());
+  EXPECT_FALSE(drive.poll());
+  EXPECT_FALSE(drive.enable());
+}
+
+TEST_P(UnsafeDrive, ARegisterThatDoesNotExistIsAnotherDriveToo) {
+  BenchRig bench(GetParam());
+  drive::DriveProfile profile = bench.profile();
+  profile.identity[0].address = 0x7000;
+  drive::Drive drive(profile, bench.drive().link());
+  const auto found = drive.connect();
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().reason, "DRIVE_CONFIG_UNSAFE");
+  EXPECT_NE(found.error().message.find("does not exist"), std::string::npos);
+}
+
+TEST_P(UnsafeDrive, AnotherUnitIdIsOffline) {
+  BenchRig bench(GetParam());
+  drive::DriveProfile profile = bench.profile();
+  profile.unit = 2;
+  drive::Drive drive(profile, bench.drive().link());
+  const auto found = drive.connect();
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().reason, "RIG_OFFLINE");
+}
+
+}  // namespace
+}  // namespace hydroprint::simulated_drive
