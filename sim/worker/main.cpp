@@ -5,9 +5,11 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include "sim/base/one_line.h"
 #include "sim/base/process/error_output.h"
@@ -36,6 +38,20 @@ void keep_freed_memory() {
   constexpr int kMany = 256 << 20;
   ::mallopt(M_MMAP_THRESHOLD, kMany);
   ::mallopt(M_TRIM_THRESHOLD, kMany);
+}
+
+/// Ends a program whose caller reads JSON when memory runs out where no exception may pass, and
+/// states the reason. Other exceptions abort the program as usual.
+[[noreturn]] void on_terminate() {
+  try {
+    if (std::current_exception()) std::rethrow_exception(std::current_exception());
+  } catch (const std::bad_alloc&) {
+    constexpr std::string_view kAnswer = "{\"error\":{\"reason\":\"OUT_OF_MEMORY\"}}\n";
+    const bool written = ::write(STDOUT_FILENO, kAnswer.data(), kAnswer.size()) > 0;
+    if (written) ::_exit(static_cast<int>(ExitStatus::kFailed));
+  } catch (...) {
+  }
+  std::abort();
 }
 
 /// Runs the task, and turns exceptions of libraries into errors.
@@ -72,6 +88,7 @@ int main_of(int argc, char** argv) {
   keep_freed_memory();
   const CommandLine command = parse_command_line(argc, argv);
   const bool json = command.run.json;
+  if (json) std::set_terminate(on_terminate);
   switch (command.action) {
     case CommandLine::Action::kPrint:
       std::fputs(command.text.c_str(), stdout);
