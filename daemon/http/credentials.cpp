@@ -50,7 +50,9 @@ Result<auth::Credentials> credentials_in(const Head& head, const std::string& pe
   HP_ASSIGN_OR_RETURN(credentials.authorization,
                       text_of("authorization", head.fields.find("Authorization")));
   const auto owner = head.fields.find("Hydroprint-Owner");
-  if (owner) HP_ASSIGN_OR_RETURN(credentials.owner, text_of("hydroprint-owner", owner));
+  if (owner) {
+    HP_ASSIGN_OR_RETURN(credentials.owner, text_of("hydroprint-owner", owner));
+  }
   HP_ASSIGN_OR_RETURN(credentials.session,
                       text_of("hydroprint-session", cookie(head.fields, kSessionCookie)));
   return credentials;

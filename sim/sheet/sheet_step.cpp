@@ -226,7 +226,7 @@ Result<std::vector<Vector2d>> sheet_step(const FilmMesh& mesh,
                                          const std::vector<Vector2d>& fixed_mm_per_s) {
   HP_CHECK(step_s > 0);
   HP_CHECK(thickness_mm.size() == mesh.triangles.size());
-  HP_CHECK(before_mm_per_s.size() == mesh.node_count());
+  HP_CHECK(film.density_kg_per_m3 == 0 || before_mm_per_s.size() == mesh.node_count());
   HP_CHECK(fixed_mm_per_s.size() == mesh.node_count());
   return Step(mesh, thickness_mm, film, step_s, before_mm_per_s, fixed_mm_per_s).solve();
 }
