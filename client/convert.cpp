@@ -64,7 +64,7 @@ std::optional<std::string> from_proto(v1::Colours colours) {
   return std::nullopt;
 }
 
-// The fields that all specs share but ValidateSpec.
+// Fields shared by all specs except ValidateSpec.
 template <class Message>
 Spec film_from_proto(const Message& message) {
   Spec spec;
@@ -74,7 +74,7 @@ Spec film_from_proto(const Message& message) {
   return spec;
 }
 
-// Those that are about an object.
+// Fields of the specs that describe an object.
 template <class Message>
 Spec object_from_proto(const Message& message) {
   Spec spec = film_from_proto(message);
@@ -84,7 +84,7 @@ Spec object_from_proto(const Message& message) {
   return spec;
 }
 
-// Those that SimulateSpec, PredictSpec and FitSpec share.
+// Fields shared by SimulateSpec, PredictSpec and FitSpec.
 template <class Message>
 Spec dip_from_proto(const Message& message) {
   Spec spec = object_from_proto(message);
@@ -95,7 +95,7 @@ Spec dip_from_proto(const Message& message) {
   return spec;
 }
 
-// Those that SimulateSpec and PredictSpec share.
+// Fields shared by SimulateSpec and PredictSpec.
 template <class Message>
 Spec common_from_proto(const Message& message) {
   Spec spec = dip_from_proto(message);
@@ -107,7 +107,7 @@ Spec common_from_proto(const Message& message) {
   return spec;
 }
 
-// Those that PrintImageSpec and TemplateSpec share.
+// Fields shared by PrintImageSpec and TemplateSpec.
 template <class Message>
 PageSpec page_from_proto(const Message& message) {
   PageSpec page;
@@ -202,7 +202,7 @@ std::optional<Spec> spec_from_proto(const v1::Job& job) {
   return std::nullopt;
 }
 
-// Names of google.rpc.Code, by number.
+// Names of google.rpc.Code, indexed by number.
 constexpr std::array<std::string_view, 17> kCodeNames{
     "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
     "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
