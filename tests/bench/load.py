@@ -194,9 +194,9 @@ async def measure(address, pid, size_bytes):
 
 def main():
     size_bytes = UPLOAD_BYTES // 8 if "--quick" in sys.argv else UPLOAD_BYTES
-    with programs.daemon_with_rig(sys.argv[1], sys.argv[2]) as (daemon, address):
+    with programs.daemon_with_rig(sys.argv[1], sys.argv[2]) as daemon:
         time.sleep(2)  # what it does at first is not measured
-        asyncio.run(measure(address, daemon.pid, size_bytes))
+        asyncio.run(measure(daemon.http, daemon.process.pid, size_bytes))
 
 
 if __name__ == "__main__":

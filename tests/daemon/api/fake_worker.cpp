@@ -1,18 +1,28 @@
-// Speaks the worker's flags and does what the mesh file says, one command a line:
-//   sleep SECONDS     with progress, ends on SIGTERM          stubborn  like sleep 60, ignores
-//   SIGTERM exit N WORDS      says WORDS and ends with status N       crash     aborts eat uses
-//   memory until it has no more        huge      writes a file of 64 MiB fill              writes a
-//   file until the disk is full        many      leaves 900 empty files with long names
-//   socket    says whether it could open a socket
-//   nothing           leaves no artifacts          link      leaves a symbolic link as artifact
-//   babble    writes nonsense as progress orphan            leaves a child behind kill-parent tries
-//   to kill the daemon read FILE         says whether it could                   write FILE   says
-//   whether it could
-//   reason WORD       prints that as the reason of an error
-//   garbage           leaves a calibration that is none
-// and then leaves film.png and report.json, which ends with its spec; print-image leaves print.pdf,
-// made of its film image, and spec.json; calibrate and calibrate-camera a calibration and
+// A worker that does what the mesh file says instead of simulating; one command a line.
+//
+//   sleep SECONDS   waits and tells its progress; ends on SIGTERM
+//   stubborn        like sleep 60, but ignores SIGTERM
+//   exit N WORDS    says WORDS and ends with status N
+//   reason WORD     prints WORD as the reason of an error
+//   crash           aborts
+//   eat             takes memory until there is no more
+//   huge            writes a file of 64 MiB
+//   fill            writes a file until the disk is full
+//   many            leaves 900 empty files with long names
+//   nothing         leaves no artifacts
+//   link            leaves a symbolic link as artifact
+//   garbage         leaves a calibration that is none
+//   babble          writes nonsense as progress
+//   orphan          leaves a child behind
+//   socket          says whether it could open a socket
+//   kill-parent     says whether it could kill the daemon
+//   read FILE       says whether it could read the file
+//   write FILE      says whether it could write the file
+//
+// Then it leaves film.png and report.json, which ends with its spec. print-image leaves print.pdf,
+// made of its film image, and spec.json. calibrate and calibrate-camera leave a calibration and
 // spec.json.
+
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -36,8 +46,9 @@ nlohmann::json spec;
 std::string facts;
 bool is_garbage = false;
 
-/// Name of a file of the spec; empty without one.
-std::string file_of(const char* field) {
+/// Name of a file of the spec, or of a flag from before jobs had specs; empty without one.
+std::string file_of(const std::string& field) {
+  if (spec.is_null()) return flags["--" + field];
   return spec.contains(field) ? spec[field].value("name", "") : "";
 }
 
@@ -200,7 +211,7 @@ int main(int argc, char** argv) {
     const std::string text = argv[i];
     flags[text.substr(0, text.find('='))] = text.substr(text.find('=') + 1);
   }
-  spec = nlohmann::json::parse(std::ifstream(flags["--spec"]));
+  if (flags.contains("--spec")) spec = nlohmann::json::parse(std::ifstream(flags["--spec"]));
   const bool is_preview = std::string(argv[1]) == "preview";
   if (!is_preview) std::filesystem::create_directory(flags["--out"]);
   std::ifstream mesh(file_of("mesh"));

@@ -288,8 +288,8 @@ def wrong_calls(api):
 
 
 def main():
-    with programs.daemon_with_rig(*sys.argv[1:3]) as (_, address):
-        api = Api(address)
+    with programs.daemon_with_rig(*sys.argv[1:3]) as daemon:
+        api = Api(daemon.http)
         asset = files(api)
         calibrations(api, asset)
         rig(api, jobs(api, asset))
