@@ -183,7 +183,7 @@ Result<std::filesystem::path> download(Connection& connection, const Artifact& a
     if (stop.stop_requested()) return fail(Code::kCancelled, "interrupted");
     std::filesystem::remove(part, error);
     return fail(Code::kDataLoss,
-                artifact.name + ": the bytes received do not have its SHA-256; download it again");
+                artifact.name + ": SHA-256 does not match the bytes received; download it again");
   }
   HP_RETURN_IF_ERROR(file.rename_to(path));
   return path;

@@ -36,8 +36,8 @@ struct Calibration {
   double scale = 1;
   std::string film;
   std::optional<PoseSpec> pose;
-  std::vector<double>
-      covariance;  ///< 6 x 6, row-major: rotation (rad), translation (mm) at centre_mm
+  /// 6 x 6, row-major: rotation (rad), translation (mm) about centre_mm.
+  std::vector<double> covariance;
   std::vector<double> centre_mm;
   std::optional<double> error_p50_mm, error_p95_mm, error_max_mm;  ///< on the object's surface
   std::vector<std::string> from_nominal_pose;  ///< motions that the scan cannot determine

@@ -62,12 +62,11 @@ enum class DipStep {
 /// The progress of a dip; the fields are those of the API's DipStatus.
 struct DipStatus {
   DipStep step = DipStep::kUnknown;
-  std::string instruction;            ///< what to do now, or what is happening
-  std::optional<Time> step_end_time;  ///< when the activated film is too old
-  std::optional<Time>
-      activation_end_time;            ///< end of the time in which the activated film can be dipped
-  std::optional<double> contact_mm;   ///< axis position of first contact, once known
-  std::vector<std::string> warnings;  ///< reasons why the print may be poor
+  std::string instruction;                  ///< what to do now, or what is happening
+  std::optional<Time> step_end_time;        ///< when the step's timer or motion ends
+  std::optional<Time> activation_end_time;  ///< when the activated film is too old
+  std::optional<double> contact_mm;         ///< axis position of first contact, once known
+  std::vector<std::string> warnings;        ///< reasons why the print may be poor
 };
 
 }  // namespace hydroprint::client

@@ -74,7 +74,7 @@ struct Spec {
   /// Print-image and template only: "jobs/7". Its film image or object replaces the files, `scale`,
   /// `pose`, `film` and `dpi` here. Empty: not used.
   std::string simulate_job;
-  InputFile mesh;  ///< every kind except validate, print-image and calibrate-camera
+  InputFile mesh;                       ///< not in validate, print-image, calibrate-camera
   std::vector<InputFile> extra_files;   ///< files that others refer to by name
   std::optional<InputFile> texture;     ///< simulate only
   std::optional<InputFile> film_image;  ///< required by predict and print-image; not used otherwise
@@ -93,12 +93,12 @@ struct Spec {
   std::optional<double> dip_speed_mm_per_s;
   std::optional<int> threads;
   std::optional<std::string> artifacts;  ///< "all" or "map"
-  std::vector<std::string> only;         ///< fit only: parameters to fit; empty: all possible
+  std::vector<std::string> only;         ///< validate only: names of experiments; empty: all
   bool quick = false;                    ///< validate only
-  std::vector<std::string> free;  ///< fit only: parameters to fit; empty: all that can be fitted
-  bool drop_outliers = false;     ///< fit only
-  PageSpec page;                  ///< print-image and template only
-  ScanSpec scan;                  ///< calibrate and calibrate-camera only
+  std::vector<std::string> free;         ///< fit only: parameters to fit; empty: all
+  bool drop_outliers = false;            ///< fit only
+  PageSpec page;                         ///< print-image and template only
+  ScanSpec scan;                         ///< calibrate and calibrate-camera only
   /// Simulate only: "calibrations/3", which supplies pose, film and scale; empty: none.
   std::string calibration;
   bool allow_stale_calibration = false;  ///< simulate only
@@ -152,9 +152,9 @@ struct Job {
   std::optional<Time> purge_time;  ///< when retention deletes it, if it is finished and not pinned
   std::optional<Spec> spec;  ///< of a computation; nullopt for kinds that this client does not know
   std::optional<DipSpec> dip;                  ///< of a dip
-  std::optional<DipStatus> dip_status;         ///< of a capture: duration; 0: default
+  std::optional<DipStatus> dip_status;         ///< of an unfinished dip
   std::optional<std::string> print_image_job;  ///< of a print: "jobs/7", whose pages are printed
-  std::optional<double> capture_s;  ///< of a capture: its duration; 0: the daemon's default
+  std::optional<double> capture_s;             ///< of a capture; 0: the default
 };
 
 /// Whether the job's state can no longer change.

@@ -162,7 +162,7 @@ TEST(Loop, TheReportSaysWhatWasReachedWhereItComesFromAndWhatItCannotShow) {
   EXPECT_NEAR(report["errors"]["motion"]["share"],
               (-0.1 * 0.7 + 0.2 * 1.4) / (0.7 * 0.7 + 1.4 * 1.4), 1e-12);
   const std::string page = report_html(of);
-  for (const char* words : {"1.40 mm", "at most 1.00 mm", "cannot show", "src=\"a.png\""})
+  for (const char* words : {"1.40 mm", "limit: 1.00 mm", "Not covered", "src=\"a.png\""})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_NE(report_text(of).find("within 1.40 mm"), std::string::npos) << report_text(of);
 }

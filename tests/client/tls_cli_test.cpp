@@ -115,10 +115,10 @@ TEST_F(TlsCli, ACertificateThatHasExpiredIsSaidToHave) {
 TEST_F(TlsCli, WhereOnlyOneEndSpeaksTlsItIsSaid) {
   start();
   expect_refusal(client({"--server", at("localhost"), "list"}),
-                 "write --server https://" + at("localhost"));
+                 "use --server https://" + at("localhost"));
   const TemporaryFolder other;
   const DaemonProcess plain(other.path(), DaemonProcess::fake());
-  expect_refusal(client({"--server", plain.address(), "--ca", ca, "list"}), "not by TLS");
+  expect_refusal(client({"--server", plain.address(), "--ca", ca, "list"}), "does not speak TLS");
 }
 
 TEST_F(TlsCli, AnAuthorityThatCannotBeReadIsRefused) {

@@ -31,14 +31,14 @@ Result<toml::table> read_credentials() {
   if ((info.st_mode & 077) != 0) {
     return fail(
         Code::kPermissionDenied,
-        file.string() + ": others may read the keys in it; chmod 600 it, and make new keys");
+        file.string() + ": other users can read the keys in it; chmod 600 it, and create new keys");
   }
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& error) {
     return fail(Code::kInvalidArgument, file.string() + ": is not valid TOML (" +
                                             std::string(error.description()) +
-                                            "); mend or delete it");
+                                            "); correct or delete it");
   }
 }
 
