@@ -150,7 +150,7 @@ TEST_F(PeopleCli, WhoamiSaysWhatOneHasAndWhatIsPinnedIsKept) {
   EXPECT_EQ(usage.at("pinned_bytes"), 0);
   const Outcome words = client({"whoami"});
   EXPECT_NE(words.out.find("queued: 0 of 200 jobs"), std::string::npos) << words.out;
-  EXPECT_EQ(client({"pin", name}).out, name + " is pinned, and kept\n");
+  EXPECT_EQ(client({"pin", name}).out, name + " is pinned\n");
   EXPECT_EQ(client_json({"show", name}).at("pinned"), true);
   EXPECT_FALSE(client_json({"show", name}).contains("purge_time"));
   EXPECT_GT(client_json({"whoami"}).at("usage").at("pinned_bytes"), 0);
