@@ -361,7 +361,7 @@ TEST_F(AdminCli, APasswordIsAskedForTwiceOnATerminalAndNotShown) {
       command({"admin", "reset-password", "--state-dir", daemon_.state().string(), "ann"}));
   ASSERT_TRUE(terminal.shows("New password: "));
   terminal.type(std::string(kNewPassword) + "\n");
-  ASSERT_TRUE(terminal.shows("The same again: "));
+  ASSERT_TRUE(terminal.shows("Repeat password: "));
   terminal.type(std::string(kNewPassword) + "\n");
   EXPECT_TRUE(terminal.shows("ann has a new password"));
   EXPECT_EQ(terminal.wait(), 0);

@@ -142,7 +142,7 @@ TEST_F(Cli, TellsThatAnAnswerCameFromAnEarlierJob) {
   client({"submit", "simulate", "--mesh", path, "--wait"});
   const Outcome ended = client({"submit", "simulate", "--mesh", path, "--wait"});
   EXPECT_EQ(ended.status, 0);
-  EXPECT_NE(ended.err.find("from an earlier job"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("cached result of an earlier job"), std::string::npos) << ended.err;
 }
 
 TEST_F(Cli, PredictTakesTheFilmImageAndTheMotion) {
@@ -584,7 +584,7 @@ TEST_F(CalibrateCli, CalibrateTellsWhatWasFoundAndSimulateGoesByIt) {
   const Outcome ended = client(calibrate("sleep 0.1", {"--scale", "2", "--out", out()}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   for (const char* words :
-       {"jobs/1\n", "alignment.png", "calibrations/1 (active)", "known to 0.40 mm",
+       {"jobs/1\n", "alignment.png", "calibrations/1 (active)", "surface position error: 0.40 mm",
         "1 of 2 markers", "marker near left out: hidden", "from the nominal pose: turn"}) {
     EXPECT_NE(ended.out.find(words), std::string::npos) << words << ended.out;
   }

@@ -74,7 +74,7 @@ TEST_F(RigCli, WhoIsRefusedReadsWhoHasTheLeaseAndWhatFor) {
   expect_error({"rig", "jog", "--speed", "1", "--for", "1s"}, 3, words);
   EXPECT_EQ(programs_.client({"rig", "lease", "break", "--reason", "lunch"}).status, 0);
   EXPECT_EQ(programs_.client({"rig", "arm", "--with-lease", "mine"}).status, 0);
-  expect_error({"rig", "arm"}, 3, {"not yours"}, "alice");
+  expect_error({"rig", "arm"}, 3, {"which you do not hold"}, "alice");
 }
 
 TEST_F(RigCli, ALeaseIsRenewedAndNoLongerThanAskedFor) {
