@@ -30,7 +30,7 @@ TEST(Endpoint, RefusalsSayWhatToWrite) {
     const auto endpoint = parse_endpoint(text);
     ASSERT_FALSE(endpoint) << text;
     EXPECT_EQ(endpoint.error().code, Code::kInvalidArgument);
-    EXPECT_NE(endpoint.error().message.find("Write tcp:192.168.1.20:502"), std::string::npos);
+    EXPECT_NE(endpoint.error().message.find("Use tcp:192.168.1.20:502"), std::string::npos);
     EXPECT_EQ(endpoint.error().message.find('\n'), std::string::npos);
   }
 }

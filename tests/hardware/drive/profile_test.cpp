@@ -91,10 +91,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"worst_delay_s = 0.25", "worst_delay_s = \"long\"", "timing.worst_delay_s"},
         Wrong{"address = 0x0001", "address = 0x10000", "identity.address"},
         Wrong{"mask = 0xff00", "mask = 0xff00\nvalue2 = 1", "not a known key"},
-        Wrong{"value = 0x0100\nmask", "value = 0x0101\nmask", "leaves out bits of the value"},
+        Wrong{"value = 0x0100\nmask", "value = 0x0101\nmask", "omits bits of the value"},
         Wrong{"count = 9", "count = 126", "block.count"},
-        Wrong{"count = 9", "count = 8", "demand lies in no block"},
-        Wrong{"address = 0x0100, value", "address = 0x0109, value", "lies outside of its block"},
+        Wrong{"count = 9", "count = 8", "demand is not in any block"},
+        Wrong{"address = 0x0100, value", "address = 0x0109, value", "lies outside its block"},
         Wrong{"words = 2                     #", "words = 3 #", "position.words"},
         Wrong{"counts_per_mm = 10000.0       #", "counts_per_mm = 0 #", "position.counts_per_mm"},
         Wrong{"space = \"input\"\naddress = 0x0103", "space = \"coil\"\naddress = 0x0103",
@@ -107,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"largest_time_s = 0.25", "largest_time_s = 0", "watchdog.largest_time_s"},
         Wrong{"stopping_actions = [1]", "stopping_actions = [\"halt\"]",
               "watchdog.stopping_actions"},
-        Wrong{"code = 0x20", "code = 0x10", "stands here twice"},
+        Wrong{"code = 0x20", "code = 0x10", "appears twice"},
         Wrong{"[motion]", "[motion", "Correct the TOML there"}));
 
 TEST(DriveProfile, TwoBlocksOfOneLengthAreRefused) {
@@ -115,7 +115,7 @@ TEST(DriveProfile, TwoBlocksOfOneLengthAreRefused) {
                             "\n[[block]]\nspace = \"input\"\naddress = 0x0400\ncount = 9\n"
                             "mark = { address = 0x0400, value = 1 }\n");
   ASSERT_FALSE(read);
-  EXPECT_NE(read.error().message.find("late replies could be mistaken"), std::string::npos);
+  EXPECT_NE(read.error().message.find("late replies could be confused"), std::string::npos);
 }
 
 TEST(DriveProfile, ARefusalIsOneLineWhateverTheFilesKeysHold) {

@@ -51,7 +51,8 @@ TEST(SerialLine, IsOnePrograms) {
   const Status taken = other->connect();
   ASSERT_FALSE(taken);
   EXPECT_EQ(taken.error().reason, "RIG_OFFLINE");
-  EXPECT_NE(taken.error().message.find("in use by another program. End it"), std::string::npos)
+  EXPECT_NE(taken.error().message.find("in use by another program. Stop that program"),
+            std::string::npos)
       << taken.error().message;
   HP_ASSERT_OK(bench.drive().poll());
   bench.drive().disconnect();
@@ -66,7 +67,8 @@ TEST(SerialLine, RefusalsSayWhatToDo) {
     return opened ? std::string("opened") : opened.error().message;
   };
   EXPECT_NE(message((folder.path() / "none").string()).find("Plug in"), std::string::npos);
-  EXPECT_NE(message(folder.write("file", "x").string()).find("no serial line"), std::string::npos);
+  EXPECT_NE(message(folder.write("file", "x").string()).find("not a serial line"),
+            std::string::npos);
 }
 
 TEST(Tcp, AConnectionThatIsNotThereIsToldAtOnce) {
