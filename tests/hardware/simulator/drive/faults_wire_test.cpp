@@ -148,7 +148,7 @@ TEST_P(MachineFault, EndSwitchStopsAndIsNamed) {
   const auto state = bench.poll_until([](const auto& s) { return s.alarm && !s.moving; });
   EXPECT_TRUE(state.positive_end);
   EXPECT_EQ(state.alarm_code, kPositiveEnd);
-  EXPECT_EQ(state.alarm_text, "lower end switch hit");
+  EXPECT_EQ(state.alarm_text, "lower limit switch hit");
 }
 
 TEST_P(MachineFault, StallIsAnAlarm) {
