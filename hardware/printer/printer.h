@@ -80,9 +80,8 @@ struct Submitted {
 class Printer {
  public:
   /// @param gives_up  called repeatedly, from any thread. If it returns true, every call ends soon
-  /// with
-  ///                  kCancelled, reason PRINTER_LEFT (within Timing::connect while there is no
-  ///                  connection yet)
+  ///                  with kCancelled, reason PRINTER_LEFT (within Timing::connect while there is
+  ///                  no connection yet)
   explicit Printer(Address address, const Timing& timing = {}, std::function<bool()> gives_up = {});
 
   [[nodiscard]] Result<Attributes> attributes() const;
@@ -100,8 +99,7 @@ class Printer {
   [[nodiscard]] Status cancel(int id) const;
 
   /// Waits until a job is finished and reports every change.
-  /// @param is_cancelled  called at every poll; true cancels the job, which is still followed to
-  /// its end
+  /// @param is_cancelled  called at every poll; true cancels the job, which is still followed
   /// @return the report if the job completed. Otherwise kAborted, reason PRINT_ABORTED or
   ///         PRINT_CANCELED, with the printer's reasons; kUnavailable, reason PRINTER_LOST, if the
   ///         printer does not respond; kUnavailable, reason PRINT_UNFINISHED, after Timing::job.

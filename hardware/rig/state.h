@@ -127,10 +127,8 @@ struct Step {
 /// - a reset, a reconnect or a released button starts no motion;
 /// - everything that requires a reset also discards the home position, and so does disarming;
 /// - STOPPING ends when the axis is seen at rest. With the link lost, it ends when the drive's
-/// watchdog
-///   must have stopped the axis (then OFFLINE). It also ends as ESTOPPED, which cannot be left
-/// while the
-///   axis moves.
+///   watchdog must have stopped the axis (then OFFLINE). It also ends as ESTOPPED, which cannot be
+///   left while the axis moves.
 [[nodiscard]] Step step(const Condition& condition, const Event& event);
 
 /// Whether torque is or may be on.

@@ -42,7 +42,8 @@ TEST(Errors, NoRefusalInvitesToTryAgainBlindly) {
 TEST(Errors, AFaultSaysWhatHappened) {
   const Error error =
       refused(Refusal::kFaulted, {State::kFault, Motion::kNone, Cause::kFollowingError});
-  EXPECT_NE(error.message.find("not at its commanded position"), std::string::npos) << error.message;
+  EXPECT_NE(error.message.find("not at its commanded position"), std::string::npos)
+      << error.message;
 }
 
 }  // namespace
