@@ -13,8 +13,8 @@ namespace hydroprint::rig {
 /// @param stops  number of stops requested so far
 /// @param axis   the latest sample of the axis; nullopt if there is none
 /// @return kAborted, STATE_FORBIDS if a stop came after the order or it has waited too long (1 s;
-/// for
-///   a jog, the time for which a key counts as held); LIMIT_EXCEEDED for a motion beyond the limits
+///   for a jog, the time for which a key counts as held); LIMIT_EXCEEDED for a motion beyond the
+///   limits
 [[nodiscard]] Status check_order(const Order& order, std::uint64_t stops, const RigConfig& config,
                                  const drive::DriveProfile& profile,
                                  const std::optional<drive::DriveState>& axis);

@@ -77,7 +77,7 @@ TEST(Faults, OtherLinesAreRefusedWithWhatThereIs) {
                            "marker left gone"}) {
     const auto action = parse_action(line);
     ASSERT_FALSE(action) << line;
-    EXPECT_NE(action.error().message.find("There is: "), std::string::npos);
+    EXPECT_NE(action.error().message.find("is not a known action. Use: "), std::string::npos);
   }
 }
 

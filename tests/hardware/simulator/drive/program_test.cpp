@@ -25,7 +25,7 @@ TEST(Program, SaysWhereItListensTakesActionsAndEndsCleanly) {
   EXPECT_EQ(reply.substr(0, 3), "ok\n");
   const auto state = nlohmann::json::parse(reply.substr(3, reply.find('\n', 3) - 3));
   EXPECT_TRUE(state.at("stop_button").get<bool>());
-  EXPECT_NE(reply.find("error: \"dance\" is nothing that can be done"), std::string::npos);
+  EXPECT_NE(reply.find("error: \"dance\" is not a known action"), std::string::npos);
 
   const auto profile = drive::read_drive_profile(kProfile);
   drive::Drive drive(*profile,
