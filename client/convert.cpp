@@ -224,11 +224,13 @@ Status names_to_proto(const Spec& spec, Message& message) {
   if (spec.model == "sheet") message.set_model(v1::MODEL_SHEET);
   if (spec.model == "stokes") message.set_model(v1::MODEL_STOKES);
   if (spec.model && message.model() == v1::MODEL_UNSPECIFIED)
-    return fail(Code::kInvalidArgument, "model '" + *spec.model + "': give sheet or stokes");
+    return fail(Code::kInvalidArgument,
+                "model '" + *spec.model + "' is unknown; use sheet or stokes");
   if (spec.artifacts == "all") message.set_artifacts(v1::ARTIFACT_SET_ALL);
   if (spec.artifacts == "map") message.set_artifacts(v1::ARTIFACT_SET_MAP);
   if (spec.artifacts && message.artifacts() == v1::ARTIFACT_SET_UNSPECIFIED)
-    return fail(Code::kInvalidArgument, "artifacts '" + *spec.artifacts + "': give all or map");
+    return fail(Code::kInvalidArgument,
+                "artifacts '" + *spec.artifacts + "' is unknown; use all or map");
   return {};
 }
 
@@ -304,7 +306,8 @@ Status print_image_to_proto(const Spec& spec, v1::PrintImageSpec& message) {
   if (page.colours == "rgb") message.set_colours(v1::COLOURS_RGB);
   if (page.colours == "cmyk") message.set_colours(v1::COLOURS_CMYK);
   if (page.colours && message.colours() == v1::COLOURS_UNSPECIFIED)
-    return fail(Code::kInvalidArgument, "colours '" + *page.colours + "': give rgb or cmyk");
+    return fail(Code::kInvalidArgument,
+                "colours '" + *page.colours + "' is unknown; use rgb or cmyk");
   if (page.icc_profile) to_proto(*page.icc_profile, message.mutable_icc_profile());
   if (page.ink_limit) message.set_ink_limit(*page.ink_limit);
   for (const std::string& name : page.formats) message.add_formats(name);

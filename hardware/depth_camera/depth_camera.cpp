@@ -149,7 +149,7 @@ Status OpenNiCamera::start_device() {
 Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& what) {
     return fail(Code::kDataLoss,
-                path.string() + ": " + what + details() + ". Name an OpenNI2 recording (.oni)",
+                path.string() + ": " + what + details() + ". Use an OpenNI2 recording (.oni)",
                 "RECORDING_INVALID");
   };
   HP_RETURN_IF_ERROR(initialise());

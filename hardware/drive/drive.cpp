@@ -127,7 +127,8 @@ Result<Inspection> Drive::inspect_watchdog() {
 Result<DriveState> Drive::poll() {
   if (!connected()) {
     known_ = false;
-    return fail(Code::kUnavailable, profile_.name + " is not connected. Connect", "RIG_OFFLINE");
+    return fail(Code::kUnavailable, profile_.name + " is not connected. Connect to it first",
+                "RIG_OFFLINE");
   }
   std::vector<std::vector<std::uint16_t>> blocks;
   Clock::time_point time;

@@ -22,7 +22,7 @@ struct DriveState {
   bool homed = false;
   bool moving = false;
   bool alarm = false;
-  bool positive_end = false;  ///< end switch hit
+  bool positive_end = false;  ///< limit switch pressed
   bool negative_end = false;
   bool home_switch = false;
   bool stop_input = false;  ///< stop button pressed

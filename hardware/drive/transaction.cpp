@@ -159,7 +159,8 @@ tl::unexpected<Error> Link::Line::explain(Connection::End end, const std::string
 Result<std::vector<std::uint16_t>> Link::Line::transact(const Request& request, Urgency urgency) {
   const Turn turn(*this, urgency);
   if (!connection_) {
-    return fail(Code::kUnavailable, "drive at " + endpoint_.text() + ": not connected. Connect",
+    return fail(Code::kUnavailable,
+                "drive at " + endpoint_.text() + ": not connected. Connect to it first",
                 "RIG_OFFLINE");
   }
   const Clock::time_point quiet_until = quiet_until_;

@@ -43,10 +43,10 @@ inline constexpr int kMissedPolls = 3;
 /// A jog ends if it is not requested again within this time.
 inline constexpr double kPresence_s = 0.25;
 
-/// Checks that the drive can be operated safely with this configuration. The message has the key
-/// ("rig.keep_out_mm"), its value and the requirement. Refused are values that are out of range or
-/// not numbers, a speed above the drive's limit, and a keep-out shorter than the rig's own stopping
-/// distance (stopping_distance_mm).
+/// Checks that the drive can be operated safely with this configuration. It refuses values that are
+/// out of range or not numbers, and a speed above the drive's limit. It also refuses a keep-out
+/// shorter than the rig's own stopping distance (stopping_distance_mm). The message has the key
+/// ("rig.keep_out_mm"), its value and the requirement.
 /// @return kInvalidArgument, reason "CONFIG_INVALID"
 [[nodiscard]] Status check(const RigConfig& config, const drive::DriveProfile& profile);
 

@@ -12,8 +12,8 @@
 
 namespace hydroprint::rig {
 
-/// One rig. Its control loop polls the drive at a fixed period, whether or not the drive responds,
-/// and never waits for a caller, a log or a disk. It detects a lost drive and reconnects by itself.
+/// One rig. Its control loop polls the drive at a fixed period, whether or not the drive responds.
+/// It never waits for a caller, a log or a disk, detects a lost drive and reconnects by itself.
 ///
 /// Thread-safe. Orders are executed one after the other. The future of an order is set when the
 /// drive has accepted it (arm and reset: when the drive shows it), or when it is refused. Reasons
