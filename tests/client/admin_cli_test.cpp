@@ -62,7 +62,7 @@ class AdminCli : public PeopleCli {
   TemporaryFolder other_;
 };
 
-TEST_F(AdminCli, ABackupOfARunningDaemonIsAllThereIsAndBringsItBack) {
+TEST_F(AdminCli, ABackupOfARunningDaemonIsCompleteAndRestoresIt) {
   const std::string name = simulate("mesh");
   ASSERT_EQ(client({"pin", name}).status, 0);
   const auto out = folder_.path() / "got", film = out / "film.png";
@@ -98,7 +98,7 @@ TEST_F(AdminCli, ABackupOfARunningDaemonIsAllThereIsAndBringsItBack) {
   EXPECT_EQ(reader.upload("mesh"), job.simulate().mesh().asset());
 }
 
-TEST_F(AdminCli, BackupsMadeWhileJobsComeAndGoAreEachWhole) {
+TEST_F(AdminCli, BackupsDuringJobChangesAreConsistent) {
   std::atomic<bool> is_over{false};
   std::thread busy([&] {
     for (int i = 0; !is_over; ++i) {
@@ -116,7 +116,7 @@ TEST_F(AdminCli, BackupsMadeWhileJobsComeAndGoAreEachWhole) {
   busy.join();
 }
 
-TEST_F(AdminCli, ARunningJobIsBackedUpAndBegunAnewWhereItIsRestored) {
+TEST_F(AdminCli, ARunningJobIsBackedUpAndRestartedAfterARestore) {
   const std::string mesh = folder_.write("m.obj", "sleep 1000").string();
   const std::string name = client_json({"submit", "simulate", "--mesh", mesh}).at("name");
   Client watcher(daemon_.address());
@@ -130,7 +130,7 @@ TEST_F(AdminCli, ARunningJobIsBackedUpAndBegunAnewWhereItIsRestored) {
   reader.wait_for(name, v1::Job::RUNNING);
 }
 
-TEST_F(AdminCli, WhatIsMissingIsToldOfAndLeftOut) {
+TEST_F(AdminCli, MissingFilesAreReportedAndOmitted) {
   const std::string name = simulate("mesh"), other = simulate("other");
   std::filesystem::remove(daemon_.state() / "artifacts" / "1" / "film.png");
   const auto file = folder_.path() / "backup.tar";
@@ -176,7 +176,7 @@ class SmallDisk {
 };
 
 // Whatever the moment at which there is no more room.
-TEST_F(AdminCli, OnADiskThatIsTooSmallBackupAndRestoreAreWholeOrNotThere) {
+TEST_F(AdminCli, OnAFullDiskBackupAndRestoreAreCompleteOrAbsent) {
   const auto small = other_.path() / "small";
   if (!SmallDisk(small, 100).is_there) GTEST_SKIP() << "needs root, to mount a small disk";
   simulate(std::string(1 << 20, '#'));
@@ -201,7 +201,7 @@ TEST_F(AdminCli, OnADiskThatIsTooSmallBackupAndRestoreAreWholeOrNotThere) {
   EXPECT_GT(refused, 4);
 }
 
-TEST_F(AdminCli, ARestoreTakesNoFolderThatIsInUseOrNotEmptyUnlessTold) {
+TEST_F(AdminCli, ARestoreRefusesAFolderThatIsInUseOrNotEmpty) {
   const std::string name = simulate("mesh");
   const auto file = backup();
   const Outcome in_use = admin({"restore", file, "--replace"});
@@ -223,7 +223,7 @@ TEST_F(AdminCli, ARestoreTakesNoFolderThatIsInUseOrNotEmptyUnlessTold) {
   EXPECT_EQ(client({"show", name}).status, 0);
 }
 
-TEST_F(AdminCli, ADamagedBackupIsRefusedAndNothingIsTouched) {
+TEST_F(AdminCli, ADamagedBackupIsRefusedWithoutChanges) {
   simulate("mesh");
   const std::string good = content(backup());
   daemon_.terminate();
@@ -253,7 +253,7 @@ TEST_F(AdminCli, ADamagedBackupIsRefusedAndNothingIsTouched) {
   expect_refused(in_database, "a byte of the database");
 }
 
-TEST_F(AdminCli, AnArchiveThatLeadsElsewhereIsRefused) {
+TEST_F(AdminCli, AnArchiveWithPathsOutsideTheFolderIsRefused) {
   const std::vector<std::string> names{"../evil",          "/tmp/hydroprint-evil",
                                        "assets/../evil",   "artifacts/1/../x",
                                        "artifacts/0/x",    "artifacts/1/",
@@ -283,7 +283,7 @@ TEST_F(AdminCli, AnArchiveThatLeadsElsewhereIsRefused) {
   EXPECT_EQ(admin({"restore", file}, elsewhere()).status, 3);
 }
 
-TEST(Archive, NamesAndContentsComeBackAsTheyWere) {
+TEST(Archive, NamesAndContentsAreRestored) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.tar";
   const std::map<std::string, std::string> entries{
@@ -313,7 +313,7 @@ TEST(Archive, NamesAndContentsComeBackAsTheyWere) {
   EXPECT_EQ(read, entries);
 }
 
-TEST_F(AdminCli, NoDaemonStartsWhereARestoreWasBrokenOffUntilItWasDoneAgain) {
+TEST_F(AdminCli, NoDaemonStartsAfterAnInterruptedRestoreUntilItIsRepeated) {
   simulate("mesh");
   const auto file = backup();
   daemon_.terminate();
@@ -329,7 +329,7 @@ TEST_F(AdminCli, NoDaemonStartsWhereARestoreWasBrokenOffUntilItWasDoneAgain) {
   EXPECT_EQ(client({"show", "1"}).status, 0);
 }
 
-TEST_F(AdminCli, ANewPasswordHoldsAtOnceAndEndsTheSessionsAlsoWhileTheDaemonRuns) {
+TEST_F(AdminCli, ANewPasswordEndsSessionsAtOnceEvenWhileTheDaemonRuns) {
   Client reader(daemon_.address());
   v1::SignInRequest request;
   request.set_user("ann");
@@ -356,7 +356,7 @@ TEST_F(AdminCli, ANewPasswordHoldsAtOnceAndEndsTheSessionsAlsoWhileTheDaemonRuns
   log_in("ann");
 }
 
-TEST_F(AdminCli, APasswordIsAskedForTwiceOnATerminalAndNotShown) {
+TEST_F(AdminCli, APasswordIsAskedForTwiceOnATerminalWithoutEcho) {
   Terminal terminal(
       command({"admin", "reset-password", "--state-dir", daemon_.state().string(), "ann"}));
   ASSERT_TRUE(terminal.shows("New password: "));
@@ -391,7 +391,7 @@ TEST_F(AdminCli, ALinkSignsInOnce) {
   EXPECT_FALSE(reader.people->SignIn(reader.context().get(), request, &session).ok());
 }
 
-TEST_F(AdminCli, AnotherUsersFolderIsLeftAlone) {
+TEST_F(AdminCli, AnotherUsersFolderIsRefused) {
   if (::geteuid() != 0) GTEST_SKIP() << "needs root, who can give a folder to another user";
   daemon_.terminate();
   ASSERT_EQ(::chown(daemon_.state().c_str(), 65534, 65534), 0);
@@ -404,7 +404,7 @@ TEST_F(AdminCli, AnotherUsersFolderIsLeftAlone) {
   }
 }
 
-TEST_F(AdminCli, AStoreOfAnotherVersionIsLeftAsItIs) {
+TEST_F(AdminCli, AStoreOfAnotherVersionIsNotChanged) {
   daemon_.terminate();
   for (const char* const version : {"4000", "2"}) {
     {

@@ -111,7 +111,7 @@ class Cli : public ::testing::Test {
   std::unique_ptr<DaemonProcess> daemon_;
 };
 
-TEST_F(Cli, SubmitUploadsWhatTheModelNeedsWaitsAndDownloads) {
+TEST_F(Cli, SubmitUploadsTheModelsFilesWaitsAndDownloads) {
   start();
   folder_.write("m.mtl", "map_Kd skin.png\n");
   folder_.write("skin.png", "skin");
@@ -129,14 +129,14 @@ TEST_F(Cli, SubmitUploadsWhatTheModelNeedsWaitsAndDownloads) {
   EXPECT_EQ(job.at("files").size(), 2U);
 }
 
-TEST_F(Cli, SubmitPrintsTheJobsNameAndDoesNotWaitUnlessAsked) {
+TEST_F(Cli, SubmitPrintsTheJobsNameAndDoesNotWaitByDefault) {
   start();
   const Outcome ended = client({"submit", "simulate", "--mesh", mesh("sleep 30")});
   EXPECT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(ended.out, "jobs/1\n");
 }
 
-TEST_F(Cli, TellsThatAnAnswerCameFromAnEarlierJob) {
+TEST_F(Cli, ReportsACachedResult) {
   start();
   const std::string path = mesh("sleep 0.1");
   client({"submit", "simulate", "--mesh", path, "--wait"});
@@ -145,7 +145,7 @@ TEST_F(Cli, TellsThatAnAnswerCameFromAnEarlierJob) {
   EXPECT_NE(ended.err.find("cached result of an earlier job"), std::string::npos) << ended.err;
 }
 
-TEST_F(Cli, PredictTakesTheFilmImageAndTheMotion) {
+TEST_F(Cli, PredictUsesTheFilmImageAndTheMotion) {
   start();
   const json job = client_json({"submit", "predict", "--mesh", mesh("sleep 0.1"), "--film-image",
                                 folder_.write("film.png", "film").string(), "--motion",
@@ -173,7 +173,7 @@ TEST_F(Cli, InertiaReachesTheWorkerAndIsRefusedWithStokes) {
   EXPECT_FALSE(without.at("simulate").contains("inertia"));
 }
 
-TEST_F(Cli, FitTakesTheMeasuredPoints) {
+TEST_F(Cli, FitUsesTheMeasuredPoints) {
   start();
   const json job =
       client_json({"submit", "fit", "--mesh", mesh("sleep 0.1"), "--points",
@@ -205,7 +205,7 @@ TEST_F(Cli, ValidateNeedsNoFiles) {
   EXPECT_NE(flags.find("--only=repeatability,bowl\n--quick\n"), std::string::npos) << flags;
 }
 
-TEST_F(Cli, PrintImageTakesTheFilmImageAndThePaper) {
+TEST_F(Cli, PrintImageUsesTheFilmImageAndThePaper) {
   start();
   const json job =
       client_json({"submit", "print-image", "--film-image", folder_.write("film.png", "film"),
@@ -222,7 +222,7 @@ TEST_F(Cli, PrintImageTakesTheFilmImageAndThePaper) {
   EXPECT_NE(flags.find("--paper=A3\n--job-name=mug 7\n"), std::string::npos) << flags;
 }
 
-TEST_F(Cli, FilesOfOneNameAreKeptApartInAJob) {
+TEST_F(Cli, FilesWithTheSameNameAreKeptApartInAJob) {
   start();
   std::filesystem::create_directory(folder_.path() / "other");
   folder_.write("m.mtl", "map_Kd skin.png\n");
@@ -274,7 +274,7 @@ TEST_F(Cli, WatchPrintsALineOfJsonForEachEvent) {
   EXPECT_GT(progress_fraction, 0);
 }
 
-TEST_F(Cli, WatchShowsTheTimeLeftInLinesWhereThereIsNoTerminal) {
+TEST_F(Cli, WatchPrintsLinesWithTheTimeLeftWithoutATerminal) {
   start();
   const Outcome ended = watch_whole({});
   EXPECT_EQ(ended.status, 0) << ended.err;
@@ -282,7 +282,7 @@ TEST_F(Cli, WatchShowsTheTimeLeftInLinesWhereThereIsNoTerminal) {
   EXPECT_EQ(ended.out.find('\r'), std::string::npos) << ended.out;
 }
 
-TEST_F(Cli, ExitStatusTellsWhoIsAtFault) {
+TEST_F(Cli, ExitStatusDistinguishesBadInputFromFailure) {
   start();
   expect_error({"submit", "simulate", "--mesh", mesh("exit 3 m.obj:7: not a number; fix it"),
                 "--out", out().string()},
@@ -312,7 +312,7 @@ TEST_F(Cli, ValidateOnlyRefusesWhatTheWorkerWouldRefuse) {
       << ended.err;
 }
 
-TEST_F(Cli, EachWrongFieldHasALineOfItsOwn) {
+TEST_F(Cli, EachWrongFieldHasItsOwnLine) {
   start();
   const Outcome ended = client({"submit", "print-image", "--film-image", mesh(""), "--paper", "A9",
                                 "--bar-mm", "-1", "--formats", "pdf,svg"});
@@ -325,7 +325,7 @@ TEST_F(Cli, EachWrongFieldHasALineOfItsOwn) {
             "  print_image.formats: must be pdf, png or tiff, not \"svg\"\n");
 }
 
-TEST_F(Cli, HelpTellsRangesAndDefaults) {
+TEST_F(Cli, HelpShowsRangesAndDefaults) {
   const auto help = [&](const Arguments& command) { return client(command).out; };
   const std::string simulate = help({"submit", "simulate", "--help"});
   for (const char* words : {"from 20 to 2400 dots per inch; default 300", "default A4",
@@ -337,7 +337,7 @@ TEST_F(Cli, HelpTellsRangesAndDefaults) {
             std::string::npos);
 }
 
-TEST_F(Cli, SaysWhereNoDaemonAnswers) {
+TEST_F(Cli, NamesTheAddressWhereNoDaemonResponds) {
   expect_error({"--server", "nonsense", "status"}, 2, "nonsense");
   expect_error({"--server", "127.0.0.1:1", "list"}, 5, "127.0.0.1:1");
   expect_error({"--server", "127.0.0.1:1", "watch", "1"}, 5, "127.0.0.1:1");
@@ -345,7 +345,7 @@ TEST_F(Cli, SaysWhereNoDaemonAnswers) {
   EXPECT_EQ(json::parse(ended.out, nullptr, false).at("error").at("code"), "UNAVAILABLE");
 }
 
-TEST_F(Cli, FindsADaemonThatStartsAMomentLater) {
+TEST_F(Cli, ConnectsToADaemonThatStartsAMomentLater) {
   start();
   const std::string address = daemon_->address();
   EXPECT_EQ(daemon_->terminate(), 0);
@@ -373,7 +373,7 @@ TEST_F(Cli, CtrlCWhileWaitingLeavesTheJobRunning) {
   EXPECT_EQ(state_of(job), "RUNNING");
 }
 
-TEST_F(Cli, CtrlCCancelsTheJobIfAskedTo) {
+TEST_F(Cli, CtrlCCancelsTheJobOnRequest) {
   start();
   const std::string job = submit("sleep 30");
   Process watch(command({"watch", job, "--cancel-on-interrupt"}));
@@ -384,7 +384,7 @@ TEST_F(Cli, CtrlCCancelsTheJobIfAskedTo) {
   EXPECT_TRUE(becomes(job, "CANCELLED"));
 }
 
-TEST_F(Cli, WatchOfAJobThatIsCancelledEndsWith130) {
+TEST_F(Cli, WatchingACancelledJobExitsWith130) {
   start();
   const std::string job = submit("sleep 30");
   Process watch(command({"watch", job}));
@@ -427,20 +427,20 @@ class CliDownload : public Cli {
   std::filesystem::path part_;
 };
 
-TEST_F(CliDownload, ReplacesAFileWithOtherBytesAndLeavesNoPart) {
+TEST_F(CliDownload, ReplacesAFileWithOtherBytesAndLeavesNoPartFile) {
   std::ofstream(out() / "film.png") << "something else";
   EXPECT_EQ(download().status, 0);
   EXPECT_EQ(sha256_of_film(), sha256_);
   EXPECT_FALSE(std::filesystem::exists(part_));
 }
 
-TEST_F(CliDownload, GoesOnWhereItBroke) {
+TEST_F(CliDownload, ResumesWhereItStopped) {
   std::ofstream(part_) << "film o";
   EXPECT_EQ(download().status, 0);
   EXPECT_EQ(sha256_of_film(), sha256_);
 }
 
-TEST_F(CliDownload, NeverShowsAFileWithWrongBytes) {
+TEST_F(CliDownload, NeverCreatesAFileWithWrongBytes) {
   std::ofstream(part_) << "FILM";
   const Outcome ended = download();
   EXPECT_EQ(ended.status, 4) << "bytes that arrive damaged are no bad input";
@@ -450,11 +450,11 @@ TEST_F(CliDownload, NeverShowsAFileWithWrongBytes) {
   EXPECT_EQ(sha256_of_film(), sha256_);
 }
 
-TEST_F(CliDownload, NamesTheArtifactsThereAreWhenAskedForAnother) {
+TEST_F(CliDownload, ListsTheArtifactsIfTheNameIsUnknown) {
   expect_error({"download", job_, "nope.png"}, 3, "film.png");
 }
 
-TEST_F(CliDownload, NamesAFolderThatCannotBeMade) {
+TEST_F(CliDownload, NamesAFolderThatCannotBeCreated) {
   const std::string file = folder_.write("file", "").string();
   expect_error({"download", job_, "--out", file + "/below"}, 3, file);
 }
@@ -494,9 +494,9 @@ TEST_F(Cli, PythonExampleFetchesTheFilm) {
   EXPECT_NE(content_of(out() / "film.png").find("film of"), std::string::npos);
 }
 
-TEST_F(Cli, SampleRefusesAKindThatThereIsNot) { expect_error({"sample", "teapot"}, 2, "globe"); }
+TEST_F(Cli, SampleRefusesAnUnknownKind) { expect_error({"sample", "teapot"}, 2, "globe"); }
 
-TEST_F(Cli, GlobeGoesInAndPaperComesOut) {
+TEST_F(Cli, TheGlobeIsSimulatedAndPrinted) {
   const printer::IppPrinter there("exit 0");
   DaemonProcess::Options real;
   real.extra = "[printer]\naddress = \"" + there.address().uri + "\"\npatience_s = 300\n";
@@ -536,7 +536,7 @@ TEST_F(Cli, GlobeGoesInAndPaperComesOut) {
   EXPECT_EQ(json::parse(content_of(paper + "/record/report.json")).at("outcome"), "SUCCEEDED");
 }
 
-TEST_F(Cli, PreviewAnswersWithoutAJob) {
+TEST_F(Cli, PreviewRespondsWithoutAJob) {
   start();
   const json preview =
       client_json({"preview", "--mesh", mesh("a"), "--film", "A3", "--depth-mm", "12"});
@@ -580,7 +580,7 @@ class CalibrateCli : public Cli {
   std::string layout_;
 };
 
-TEST_F(CalibrateCli, CalibrateTellsWhatWasFoundAndSimulateGoesByIt) {
+TEST_F(CalibrateCli, CalibratePrintsItsResultAndSimulateUsesIt) {
   const Outcome ended = client(calibrate("sleep 0.1", {"--scale", "2", "--out", out()}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   for (const char* words :

@@ -49,7 +49,7 @@ class DipCli : public ::testing::Test {
   RigPrograms programs_;
 };
 
-TEST_F(DipCli, LeadsThroughEveryStep) {
+TEST_F(DipCli, GuidesThroughEveryStep) {
   Terminal dip_at(programs_.command(dip({})));
   const auto confirm = [&](const std::string& step) {
     ASSERT_TRUE(dip_at.shows(step + ":")) << dip_at.screen();
@@ -92,7 +92,7 @@ TEST_F(DipCli, EnterTypedAheadConfirmsNothing) {
   EXPECT_FALSE(dip_at.shows("LOAD_OBJECT:", 1s)) << dip_at.screen();
 }
 
-TEST_F(DipCli, CtrlCAbortsItAndSaysWhatToDo) {
+TEST_F(DipCli, CtrlCAbortsTheDipAndPrintsInstructions) {
   Terminal dip_at(programs_.command(dip({})));
   ASSERT_TRUE(dip_at.shows("PRINT_FILM:")) << dip_at.screen();
   dip_at.type("\n");
@@ -106,7 +106,7 @@ TEST_F(DipCli, CtrlCAbortsItAndSaysWhatToDo) {
   EXPECT_TRUE(dip_at.is_cooked());
 }
 
-TEST_F(DipCli, CtrlCInTheDescentStopsTheAxis) {
+TEST_F(DipCli, CtrlCDuringTheDescentStopsTheAxis) {
   Terminal dip_at(programs_.command(dip({"--yes-to-all"}, "100")));
   ASSERT_TRUE(dip_at.shows("DESCEND:")) << dip_at.screen();
   ASSERT_TRUE(programs_.moves());
@@ -116,7 +116,7 @@ TEST_F(DipCli, CtrlCInTheDescentStopsTheAxis) {
   EXPECT_LT(programs_.rig.position_mm(), 100);
 }
 
-TEST_F(DipCli, KilledItGoesOn) {
+TEST_F(DipCli, TheDipContinuesWhenTheClientIsKilled) {
   Terminal dip_at(programs_.command(dip({"--yes-to-all"})));
   ASSERT_TRUE(dip_at.shows("DESCEND:")) << dip_at.screen();
   ::kill(dip_at.pid(), SIGKILL);
@@ -133,7 +133,7 @@ TEST_F(DipCli, YesToAllNeedsNoTerminal) {
   EXPECT_TRUE(std::filesystem::exists(out() / "positions.csv"));
 }
 
-TEST_F(DipCli, WithoutATerminalItAsksForAnotherWay) {
+TEST_F(DipCli, WithoutATerminalItNamesTheAlternatives) {
   const auto ended = programs_.client(dip({}));
   EXPECT_EQ(ended.status, 3);
   EXPECT_NE(ended.err.find("--no-guide"), std::string::npos) << ended.err;
@@ -157,7 +157,7 @@ TEST_F(DipCli, StepsAreConfirmedOneByOne) {
   EXPECT_EQ(programs_.client({"cancel", job}).status, 0);
 }
 
-TEST_F(DipCli, WatchTellsTheStepsAndTheirInstructions) {
+TEST_F(DipCli, WatchPrintsTheStepsAndTheirInstructions) {
   const std::string job = create().at("name");
   hydroprint::testing::Process watch(programs_.command({"watch", job}));
   std::this_thread::sleep_for(500ms);
@@ -170,7 +170,7 @@ TEST_F(DipCli, WatchTellsTheStepsAndTheirInstructions) {
     EXPECT_NE(ended.out.find(step), std::string::npos) << ended.out;
 }
 
-TEST_F(DipCli, SomebodyElsesLeaseIsNamed) {
+TEST_F(DipCli, TheHolderOfTheLeaseIsNamed) {
   programs_.client({"rig", "lease", "release"});
   programs_.client({"rig", "lease", "acquire", "--purpose", "a vase"}, "alice");
   const auto ended = programs_.client(dip({"--yes-to-all"}));
@@ -179,7 +179,7 @@ TEST_F(DipCli, SomebodyElsesLeaseIsNamed) {
     EXPECT_NE(ended.err.find(word), std::string::npos) << ended.err;
 }
 
-TEST_F(DipCli, TheLeaseThatItTookIsGivenBack) {
+TEST_F(DipCli, TheAcquiredLeaseIsReleased) {
   programs_.client({"rig", "lease", "release"});
   EXPECT_EQ(programs_.client(dip({"--yes-to-all"})).status, 0);
   EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease"));

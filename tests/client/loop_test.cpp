@@ -38,7 +38,7 @@ const Body kBoard{"board", Eigen::Matrix3d::Identity(), false, {}};
 
 double largest(const CrossErrors& errors) { return quantile(lengths_mm(errors), 1); }
 
-TEST(Loop, ErrorsAreHowFarCrossPointsLandFromWhereTheyBelong) {
+TEST(Loop, ErrorsAreTheDisplacementsOfCrossPoints) {
   const SurfaceMap plan = flat({0, 0});
   const Truth well;
   EXPECT_EQ(cross_errors(kBoard, plan, plan, well).size(), 169U);
@@ -55,7 +55,7 @@ TEST(Loop, ErrorsAreHowFarCrossPointsLandFromWhereTheyBelong) {
       << "what is off twice the same way is right";
 }
 
-TEST(Loop, FilmStaysWhereItLandsFirst) {
+TEST(Loop, FilmStaysOnTheTriangleItReachesFirst) {
   SurfaceMap map;
   for (const double height_mm : {5.0, 0.0}) {
     for (const auto& at : {Eigen::Vector2d(0, 0), Eigen::Vector2d(9, 0), Eigen::Vector2d(0, 9)}) {
@@ -72,7 +72,7 @@ TEST(Loop, FilmStaysWhereItLandsFirst) {
   EXPECT_EQ(FilmLocator(map).at({2, 3})->z(), 5) << "where no film arrives, none is found";
 }
 
-TEST(Loop, DrawsAreWithinTheirBoundsAndTheSameEveryTime) {
+TEST(Loop, DrawsAreWithinTheirBoundsAndReproducible) {
   for (const char* name : {"board", "sphere80"}) {
     const Body body = make_body(name).value();
     const Pose nominal = nominal_pose(body);
@@ -98,7 +98,7 @@ TEST(Loop, DrawsAreWithinTheirBoundsAndTheSameEveryTime) {
   EXPECT_EQ(make_body("mug").error().code, Code::kInvalidArgument);
 }
 
-TEST(Loop, WhatIsNoSurfaceMapIsRefused) {
+TEST(Loop, InvalidSurfaceMapsAreRefused) {
   const testing::TemporaryFolder folder;
   const auto refused = [&](const std::string& text) {
     const auto map = read_surface_map(folder.write("map.ply", text));
@@ -117,7 +117,7 @@ TEST(Loop, WhatIsNoSurfaceMapIsRefused) {
   EXPECT_FALSE(refused(header + points + std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13)));
 }
 
-TEST(Loop, TheBoardIsHeldWholeBeforeTheCamera) {
+TEST(Loop, TheBoardIsFullyInViewOfTheCamera) {
   const std::string obj = board_obj();
   std::istringstream lines(obj);
   std::vector<Eigen::Vector3d> points;
@@ -142,7 +142,7 @@ TEST(Loop, TheBoardIsHeldWholeBeforeTheCamera) {
   EXPECT_FALSE(held_board(1, 3).isApprox(held_board(2, 3)));
 }
 
-TEST(Loop, TheReportSaysWhatWasReachedWhereItComesFromAndWhatItCannotShow) {
+TEST(Loop, TheReportShowsTheErrorItsSourcesAndItsLimits) {
   const auto errors = [](double x, double y) { return CrossErrors{{x, 0, 0}, {0, y, 0}}; };
   Round round;
   round.numerics = errors(0.1, 0.2);
@@ -167,7 +167,7 @@ TEST(Loop, TheReportSaysWhatWasReachedWhereItComesFromAndWhatItCannotShow) {
   EXPECT_NE(report_text(of).find("within 1.40 mm"), std::string::npos) << report_text(of);
 }
 
-TEST(Loop, WhatLandsNowhereIsCountedAndTakenFromNoShare) {
+TEST(Loop, LostCrossPointsAreCountedAndDoNotAffectShares) {
   Round round;
   round.numerics = round.calibration = round.motion = {{1, 0, 0}, {1, 0, 0}};
   round.placement = {{2, 0, 0}, Eigen::Vector3d::Constant(NAN)};

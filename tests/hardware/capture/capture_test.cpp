@@ -135,7 +135,7 @@ nlohmann::json frames_of(const fs::path& folder) {
   return nlohmann::json::parse(bytes_of(folder / "frames.json"));
 }
 
-TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
+TEST_F(Capture, LiveAndRecordedFramesMatchTheSceneBitForBit) {
   const auto recording = path("take.oni");
   const auto live = capture_live({"--seconds", "0.1", "--record", recording.string()});
   ASSERT_EQ(live.status, 0) << live.err;
@@ -187,7 +187,7 @@ TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
               1e-6);
 }
 
-TEST_F(Capture, CameraThatIsNotThereIsNamedWithARemedy) {
+TEST_F(Capture, MissingCameraIsNamedWithARemedy) {
   expect_failure(
       capture({"--device", "hydroprint:/nowhere", "--out", path("out").string(), "--json"}), 3,
       "CAMERA_NOT_FOUND");
@@ -195,7 +195,7 @@ TEST_F(Capture, CameraThatIsNotThereIsNamedWithARemedy) {
   expect_failure(capture_live({}), 3, "CAMERA_NOT_FOUND");
 }
 
-TEST_F(Capture, CameraThatIsUnpluggedIsGoneAndBackWhenItIsPluggedIn) {
+TEST_F(Capture, UnpluggedCameraFailsAndWorksAgainAfterReplugging) {
   const auto capture = long_capture();
   testing::talk(control(), "camera gone\n");
   expect_failure(capture->wait(), 4, "CAMERA_GONE");
@@ -204,13 +204,13 @@ TEST_F(Capture, CameraThatIsUnpluggedIsGoneAndBackWhenItIsPluggedIn) {
   EXPECT_EQ(again.status, 0) << again.err;
 }
 
-TEST_F(Capture, CameraWhoseRigDiesIsGone) {
+TEST_F(Capture, CameraIsGoneWhenItsRigDies) {
   const auto capture = long_capture();
   rig_->signal(SIGKILL);
   expect_failure(capture->wait(), 4, "CAMERA_GONE");
 }
 
-TEST_F(Capture, FrozenAndBlackCamerasAreNoticed) {
+TEST_F(Capture, FrozenAndBlackCamerasAreDetected) {
   for (const auto& [line, reason] :
        {std::pair{"camera frozen\n", "CAMERA_FROZEN"}, {"camera black\n", "CAMERA_BLACK"}}) {
     testing::talk(control(), "camera well\n");
@@ -221,25 +221,25 @@ TEST_F(Capture, FrozenAndBlackCamerasAreNoticed) {
   }
 }
 
-TEST_F(Capture, CameraThatSaysNothingIsNotWaitedForLong) {
+TEST_F(Capture, SilentCameraTimesOut) {
   const auto capture = long_capture("1");
   rig_->signal(SIGSTOP);
   expect_failure(capture->wait(), 4, "CAMERA_STALLED");
   rig_->signal(SIGCONT);
 }
 
-TEST_F(Capture, DriverThatHangsIsNotWaitedForLong) {
+TEST_F(Capture, HangingDriverTimesOut) {
   testing::talk(control(), "camera hung\n");
   expect_failure(capture_live({}, "1"), 4, "CAMERA_STALLED");
 }
 
-TEST_F(Capture, CancelLeavesNothing) {
+TEST_F(Capture, CancellingLeavesNoFiles) {
   const auto capture = long_capture();
   capture->signal(SIGTERM);
   expect_failure(capture->wait(), 130, "");
 }
 
-TEST_F(Capture, RecordingsThatAreNoneOrCutShortAreRefused) {
+TEST_F(Capture, InvalidOrTruncatedRecordingsAreRefused) {
   const auto recording = path("take.oni");
   const auto taken = capture_live({"--seconds", "0.15", "--record", recording.string()});
   ASSERT_EQ(taken.status, 0) << taken.err;
@@ -281,7 +281,7 @@ Told told_by(const std::string& bytes) {
   }
 }
 
-TEST_F(Capture, LivePicturesComeUntilASignalAndShowWhatIsNearAndFar) {
+TEST_F(Capture, LivePicturesShowNearAndFarUntilASignal) {
   testing::ProcessOptions options;
   options.files = {{1, path("live")}};
   std::vector<std::string> all = kCapture;
@@ -319,7 +319,7 @@ TEST_F(Capture, LivePicturesComeUntilASignalAndShowWhatIsNearAndFar) {
   EXPECT_NEAR(static_cast<double>(grey) / pixels, 1 - head["measured_share"].get<double>(), 0.1);
 }
 
-TEST_F(Capture, LiveCameraThatGoesIsTold) {
+TEST_F(Capture, LiveModeReportsALostCamera) {
   testing::talk(control(), "camera black\n");
   const auto ended = capture({"--live", "--device", uri(), "--patience-s", kLong, "--json"});
   EXPECT_EQ(ended.status, 4) << ended.err;

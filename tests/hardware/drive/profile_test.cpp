@@ -27,7 +27,7 @@ std::string changed(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
-TEST(DriveProfile, VirtualDriveIsReadAsWritten) {
+TEST(DriveProfile, VirtualDriveIsReadCorrectly) {
   const auto read = profile(virtual_profile());
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->name, "virtual drive");
@@ -50,7 +50,7 @@ TEST(DriveProfile, VirtualDriveIsReadAsWritten) {
   EXPECT_EQ(read->alarms.at(0x30).text.substr(0, 21), "communication timeout");
 }
 
-TEST(DriveProfile, StoppingDistanceIsThatOfTheNotes) {
+TEST(DriveProfile, StoppingDistanceMatchesTheNotes) {
   DriveProfile drive;
   drive.stopping_deceleration_mm_per_s2 = 200;
   // Daemon notes 3.6: 20 mm/s, 0.25 s + 0.5 s, 200 mm/s^2: 15 + 1 mm.
@@ -110,7 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"code = 0x20", "code = 0x10", "appears twice"},
         Wrong{"[motion]", "[motion", "Correct the TOML there"}));
 
-TEST(DriveProfile, TwoBlocksOfOneLengthAreRefused) {
+TEST(DriveProfile, BlocksOfEqualLengthAreRefused) {
   const auto read = profile(virtual_profile() +
                             "\n[[block]]\nspace = \"input\"\naddress = 0x0400\ncount = 9\n"
                             "mark = { address = 0x0400, value = 1 }\n");
@@ -118,7 +118,7 @@ TEST(DriveProfile, TwoBlocksOfOneLengthAreRefused) {
   EXPECT_NE(read.error().message.find("late replies could be confused"), std::string::npos);
 }
 
-TEST(DriveProfile, ARefusalIsOneLineWhateverTheFilesKeysHold) {
+TEST(DriveProfile, AnErrorIsOneLineForAnyContent) {
   for (const std::string& text :
        {"\"a\\nb\" = 1\n" + virtual_profile(), changed("[timing]", "[timing]\n\"x\\u001by\" = 1"),
         std::string("name = \"\\q\n")}) {
@@ -130,7 +130,7 @@ TEST(DriveProfile, ARefusalIsOneLineWhateverTheFilesKeysHold) {
   }
 }
 
-TEST(DriveProfile, LineIsThatOfTheKey) {
+TEST(DriveProfile, ErrorsNameTheLineOfTheKey) {
   const std::string text = changed("bit = 2 }", "bit = 16 }");
   const auto line =
       1 + std::count(text.begin(),
@@ -139,7 +139,7 @@ TEST(DriveProfile, LineIsThatOfTheKey) {
             std::string::npos);
 }
 
-TEST(DriveProfile, AllThatAreShippedAreReadAndSayWhetherTheyWereTried) {
+TEST(DriveProfile, ShippedProfilesAreValidAndSayWhetherTheyWereTried) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(HYDROPRINT_PROFILES)) {
     const auto read = read_drive_profile(entry.path());

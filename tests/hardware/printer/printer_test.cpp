@@ -67,7 +67,7 @@ class Listener {
   int port_ = 0;
 };
 
-TEST(Printer, TellsFormatsPaperAndMargins) {
+TEST(Printer, ReportsFormatsPaperAndMargins) {
   const IppPrinter there("exit 0");
   const auto attributes = Printer(there.address()).attributes();
   ASSERT_TRUE(attributes) << attributes.error().message;
@@ -84,7 +84,7 @@ TEST(Printer, TellsFormatsPaperAndMargins) {
   EXPECT_LT(attributes->margins_mm.maxCoeff(), 20);
 }
 
-TEST(Printer, PrintsTheVeryBytesOnThePaperUnscaledAndSeesTheEnd) {
+TEST(Printer, PrintsTheExactBytesUnscaledAndReportsCompletion) {
   // It prints until it was seen to.
   const IppPrinter there(std::string("env | grep ^IPP_ > \"$0.env\"\n") +
                          IppPrinter::kUntilFinished);
@@ -109,7 +109,7 @@ TEST(Printer, PrintsTheVeryBytesOnThePaperUnscaledAndSeesTheEnd) {
   EXPECT_NE(environment.find("IPP_JOB_NAME=mug 7"), std::string::npos) << environment;
 }
 
-TEST(Printer, SaysThatAJobWasAborted) {
+TEST(Printer, ReportsAnAbortedJob) {
   const IppPrinter there("exit 1");
   const Printer printer(there.address(), quick());
   const auto sent = printer.print({some_bytes(1000)});
@@ -120,7 +120,7 @@ TEST(Printer, SaysThatAJobWasAborted) {
   EXPECT_NE(ended.error().message.find("aborted"), std::string::npos);
 }
 
-TEST(Printer, CancelsAJobAndSeesItsEnd) {
+TEST(Printer, CancelsAJobAndReportsItsEnd) {
   // It prints on, cancelled or not, until it was seen to have been asked to stop.
   const IppPrinter there(IppPrinter::kUntilFinished);
   const Printer printer(there.address(), quick());
@@ -140,7 +140,7 @@ TEST(Printer, CancelsAJobAndSeesItsEnd) {
   EXPECT_FALSE(printer.cancel(sent->id));
 }
 
-TEST(Printer, IsLeftAloneWhereWhoeverAsksGivesUp) {
+TEST(Printer, EndsEveryCallWhenTheCallerGivesUp) {
   const Listener silent;
   std::atomic<bool> gives_up = false;
   const Printer printer(silent.address(), quick(), [&] { return gives_up.load(); });
@@ -152,7 +152,7 @@ TEST(Printer, IsLeftAloneWhereWhoeverAsksGivesUp) {
   EXPECT_EQ(printer.follow(1).error().reason, "PRINTER_LEFT");
 }
 
-TEST(Printer, NamesAFormatThatThePrinterDoesNotTake) {
+TEST(Printer, ReportsAnUnsupportedFormat) {
   const IppPrinter there("exit 0");
   const auto sent = Printer(there.address()).print({some_bytes(2'000'000), "image/tiff"});
   ASSERT_FALSE(sent);
@@ -160,12 +160,12 @@ TEST(Printer, NamesAFormatThatThePrinterDoesNotTake) {
   EXPECT_EQ(sent.error().reason, "FORMAT_NOT_SUPPORTED") << sent.error().message;
 }
 
-TEST(Printer, DoesNotKnowAJobThatIsNone) {
+TEST(Printer, ReportsAnUnknownJob) {
   const IppPrinter there("exit 0");
   EXPECT_EQ(Printer(there.address()).job(4711).error().code, Code::kNotFound);
 }
 
-TEST(Printer, NoticesThatAPrinterIsGoneInTheMiddleOfAJob) {
+TEST(Printer, DetectsAPrinterThatIsLostDuringAJob) {
   IppPrinter there(IppPrinter::kUntilFinished);
   const Printer printer(there.address(), quick());
   const auto sent = printer.print({some_bytes(1000)});
@@ -178,7 +178,7 @@ TEST(Printer, NoticesThatAPrinterIsGoneInTheMiddleOfAJob) {
   EXPECT_NE(ended.error().message.find("may or may not have been printed"), std::string::npos);
 }
 
-TEST(Printer, StopsWaitingForOneThatNeverAnswers) {
+TEST(Printer, TimesOutWhenThePrinterNeverResponds) {
   const Listener silent;
   Timing timing = quick();
   timing.connect = milliseconds(5000);
@@ -194,7 +194,7 @@ TEST(Printer, StopsWaitingForOneThatNeverAnswers) {
   EXPECT_NE(sent.error().message.find("The printer may have accepted the job"), std::string::npos);
 }
 
-TEST(Printer, StopsWaitingForOneThatAnswersByteByByte) {
+TEST(Printer, TimesOutWhenThePrinterRespondsByteByByte) {
   const Listener listener;
   std::atomic<bool> stop = false;
   std::thread dawdler([&] {
@@ -213,7 +213,7 @@ TEST(Printer, StopsWaitingForOneThatAnswersByteByByte) {
   dawdler.join();
 }
 
-TEST(Printer, NamesWhatIsNoPrinter) {
+TEST(Printer, ReportsServersThatAreNotPrinters) {
   const Listener listener;
   std::thread server([&] {
     const int file = listener.accept();

@@ -55,7 +55,7 @@ TEST_P(Fault, ALostLinkStopsTheAxisWithinItsStoppingDistance) {
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItAnswersAgain) {
+TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItRespondsAgain) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
@@ -69,7 +69,7 @@ TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItAnswersAgain) {
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, OneReplyThatIsNoneLetsADipGoOn) {
+TEST_P(Fault, OneInvalidReplyDoesNotEndADip) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const Answer dip = rig->dip({{12, 10, 0}}).get();
@@ -80,7 +80,7 @@ TEST_P(Fault, OneReplyThatIsNoneLetsADipGoOn) {
   EXPECT_EQ(rig.finish(*dip).outcome, Outcome::kDone);
 }
 
-TEST_P(Fault, ThreeRepliesThatAreNoneStopIt) {
+TEST_P(Fault, ThreeInvalidRepliesStopTheAxis) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
@@ -91,7 +91,7 @@ TEST_P(Fault, ThreeRepliesThatAreNoneStopIt) {
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, AStopGetsThroughWhileRepliesHang) {
+TEST_P(Fault, AStopWorksWhileRepliesHang) {
   WiredRig rig(GetParam());
   rig.make_ready();
   (void)rig.start_move(100, 10);
@@ -105,7 +105,7 @@ TEST_P(Fault, AStopGetsThroughWhileRepliesHang) {
   EXPECT_LT(rig.drive().rested_s() - asked_s, 0.25);
 }
 
-TEST_P(Fault, APowerCycleAtRestWantsResetArmingAndHoming) {
+TEST_P(Fault, APowerCycleAtRestRequiresResetArmingAndHoming) {
   WiredRig rig(GetParam());
   rig.make_ready();
   rig.drive().act("reboot 300ms");
@@ -113,7 +113,7 @@ TEST_P(Fault, APowerCycleAtRestWantsResetArmingAndHoming) {
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, APowerCycleInMotionStopsAndNothingGoesOnAfterwards) {
+TEST_P(Fault, APowerCycleInMotionStopsTheAxisForGood) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
@@ -149,7 +149,7 @@ TEST_P(Fault, TheStopButtonLatchesUntilReleasedResetArmedAndHomed) {
   EXPECT_TRUE(rig.becomes(State::kIdle, 30));
 }
 
-TEST_P(Fault, AnEndSwitchStopsIt) {
+TEST_P(Fault, ALimitSwitchStopsTheAxis) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
@@ -188,7 +188,7 @@ TEST_P(Fault, AFrozenPositionIsAFollowingError) {
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, ALateReplyIsNeverTakenForAnother) {
+TEST_P(Fault, ALateReplyIsNeverTakenForAnotherOne) {
   WiredRig rig(GetParam());
   rig.make_ready();
   for (int i = 0; i < 3; ++i) {
@@ -204,7 +204,7 @@ TEST_P(Fault, ALateReplyIsNeverTakenForAnother) {
   EXPECT_NE(rig.state(), State::kMoving);
 }
 
-TEST_P(Fault, AnotherDriveThanThePlannedOneIsNotArmedAndNotCommanded) {
+TEST_P(Fault, AnUnexpectedDriveIsNeitherArmedNorCommanded) {
   WiredDrive drive(GetParam());
   drive::DriveProfile other = drive.profile();
   other.identity.back().value = static_cast<std::uint16_t>(other.identity.back().value + 0x0100);
@@ -231,7 +231,7 @@ TEST_P(Fault, AWatchdogThatIsOffTooSlowOrDoesNotStopPreventsArming) {
   }
 }
 
-TEST(FaultOfOne, ADriveThatIsNotThereYetIsFoundLater) {
+TEST(FaultOfOne, AnAbsentDriveIsFoundLater) {
   WiredDrive drive("tcp");
   drive.act("unplug");
   const auto controller = Controller::make({}, drive.profile(), drive.endpoint());
@@ -246,7 +246,7 @@ TEST(FaultOfOne, ADriveThatIsNotThereYetIsFoundLater) {
   EXPECT_FALSE((*controller)->trouble());
 }
 
-TEST(FaultOfOne, MotionThatSomebodyElseCommandsIsStopped) {
+TEST(FaultOfOne, MotionCommandedByAnotherProgramIsStopped) {
   WiredRig rig("tcp");
   rig.make_ready();
   drive::Drive& intruder = rig.drive().drive();

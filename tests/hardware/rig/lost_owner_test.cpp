@@ -61,7 +61,7 @@ void expect_a_cold_start(WiredDrive& drive) {
   EXPECT_EQ(drive.position_mm(), rest_mm);
 }
 
-TEST_P(LostOwner, KilledAtAnyMomentTheDriveStopsByItself) {
+TEST_P(LostOwner, TheDriveStopsByItselfWhenTheOwnerIsKilled) {
   std::mt19937 random(testing::campaign_seed(1));
   std::uniform_int_distribution<int> moment_ms(0, 400);
   for (int i = 0; i < testing::campaign_rounds(4); ++i) {
@@ -76,7 +76,7 @@ TEST_P(LostOwner, KilledAtAnyMomentTheDriveStopsByItself) {
   }
 }
 
-TEST_P(LostOwner, HungTheDriveStopsByItselfAndNothingGoesOnWhenItWakes) {
+TEST_P(LostOwner, TheDriveStopsByItselfWhenTheOwnerHangs) {
   WiredDrive drive(GetParam());
   testing::Process owner = own(drive);
   ASSERT_TRUE(wait_for([&] { return is_dipping(drive); }, 20));
@@ -93,7 +93,7 @@ TEST_P(LostOwner, HungTheDriveStopsByItselfAndNothingGoesOnWhenItWakes) {
   expect_a_cold_start(drive);
 }
 
-TEST(StopChannel, StopsADriveWhoseOwnerDoesNotLookAnyMore) {
+TEST(StopChannel, StopsADriveThatIsNoLongerPolled) {
   // The drive's own watchdog is slow here, so it is the stop_channel that is seen to act.
   const testing::TemporaryFolder folder;
   simulated_drive::BenchOptions options;

@@ -22,7 +22,7 @@ TEST(Travel, IsATrapezoidOfSpeed) {
   EXPECT_NEAR(travel.position_mm(3), 25, 1e-12);
 }
 
-TEST(Travel, AShortOneNeverReachesItsSpeed) {
+TEST(Travel, AShortMoveNeverReachesItsSpeed) {
   const Travel travel(0, 0.25, 10, 100);  // up to 5 mm/s and down again
   EXPECT_NEAR(travel.speed_mm_per_s(), 5, 1e-12);
   EXPECT_NEAR(travel.duration_s(), 0.1, 1e-12);
@@ -30,7 +30,7 @@ TEST(Travel, AShortOneNeverReachesItsSpeed) {
   EXPECT_NEAR(travel.position_mm(0.05), 0.125, 1e-12);
 }
 
-TEST(Travel, NowhereToGoTakesNoTime) {
+TEST(Travel, AMoveOfZeroLengthTakesNoTime) {
   const Travel travel(7, 7, 10, 100);
   EXPECT_EQ(travel.duration_s(), 0);
   EXPECT_EQ(travel.position_mm(1), 7);

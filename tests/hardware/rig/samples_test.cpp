@@ -14,7 +14,7 @@ struct Heavy {
   std::array<std::uint64_t, 9> same{};
 };
 
-TEST(Seqlock, AReaderNeverSeesHalfOfAValue) {
+TEST(Seqlock, AReaderNeverSeesAPartialValue) {
   Seqlock<Heavy> lock;
   std::atomic<bool> end{false};
   std::thread writer([&] {
@@ -46,7 +46,7 @@ Sample at(double t_s, double position_mm, std::uint64_t motion = 1, bool cruisin
   return sample;
 }
 
-TEST(SampleRing, KeepsTheLatestInOrder) {
+TEST(SampleRing, KeepsTheLatestSamplesInOrder) {
   SampleRing ring;
   EXPECT_EQ(ring.newest(), 0U);
   EXPECT_TRUE(ring.copy(0, 10).empty());
@@ -60,7 +60,7 @@ TEST(SampleRing, KeepsTheLatestInOrder) {
   EXPECT_EQ(ring.copy(200, 202).size(), 3U);
 }
 
-TEST(SampleRing, WhatIsCopiedWhileItIsWrittenIsStillWhole) {
+TEST(SampleRing, CopiesDuringWritesAreConsistent) {
   SampleRing ring;
   std::atomic<bool> end{false};
   std::thread writer([&] {
@@ -76,7 +76,7 @@ TEST(SampleRing, WhatIsCopiedWhileItIsWrittenIsStillWhole) {
   writer.join();
 }
 
-TEST(ConstantSpeed, OfAStraightLineIsItsSlopeWithoutDeviation) {
+TEST(ConstantSpeed, OfAStraightLineIsItsSlopeWithZeroDeviation) {
   std::vector<Sample> samples;
   for (int i = 0; i < 100; ++i) samples.push_back(at(0.02 * i, 3 - 5 * 0.02 * i));
   const ConstantSpeed speed = constant_speed(samples, 1, 0);
@@ -101,7 +101,7 @@ TEST(ConstantSpeed, FindsASineOfKnownSize) {
   EXPECT_NEAR(speed.largest_share, 2 * amplitude_mm / (period_s / 2) / 5, 2e-3);
 }
 
-TEST(ConstantSpeed, ErrorsInTimeAreNoDeviation) {
+TEST(ConstantSpeed, TimeErrorsAreNotADeviation) {
   // A constant 5 mm/s whose samples have times that are wrong by anything up to what they state, a
   // few of them by a lot.
   std::mt19937_64 random(1);
@@ -119,7 +119,7 @@ TEST(ConstantSpeed, ErrorsInTimeAreNoDeviation) {
   EXPECT_NEAR(speed.way_uncertainty_mm, 5 * 0.02, 1e-4);
 }
 
-TEST(ConstantSpeed, ADeviationIsFoundAmongErrorsInTime) {
+TEST(ConstantSpeed, ADeviationIsFoundDespiteTimeErrors) {
   // The axis hangs back by 0.08 mm for a second in eight; all times are within 1 ms.
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> share(-1, 1);

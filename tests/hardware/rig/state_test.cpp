@@ -30,7 +30,7 @@ TEST(State, EveryStateCanBeReachedAndEveryReachableConditionMakesSense) {
   std::cout << reachable().size() << " conditions of " << sensible << " that make sense\n";
 }
 
-TEST(State, NoValueWhateverMakesAStepThatStartsWhatItMayNot) {
+TEST(State, NoConditionOrEventStartsForbiddenMotion) {
   // Even from conditions that cannot come about: what is sent to the drive is safe.
   const auto events = all_events();
   for (const Condition& c : all_conditions()) {
@@ -97,7 +97,7 @@ TEST(State, BeforeHomingOnlyHomingMoves) {
   });
 }
 
-TEST(State, WhatIsNotHomedBecomesSoOnlyByAHomingThatWasDone) {
+TEST(State, OnlyACompletedHomingSetsHomed) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (c.homed || !taken.next.homed) return;
     EXPECT_EQ(c.motion, Motion::kHome);
@@ -105,7 +105,7 @@ TEST(State, WhatIsNotHomedBecomesSoOnlyByAHomingThatWasDone) {
   });
 }
 
-TEST(State, AResetStartsNothingAndAsksForArmingAndHomingAgain) {
+TEST(State, AResetStartsNoMotionAndRequiresArmingAndHoming) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (event.kind != Kind::kReset || taken.refusal) return;
     EXPECT_FALSE(taken.actions.start || taken.actions.enable);
@@ -120,7 +120,7 @@ TEST(State, AResetStartsNothingAndAsksForArmingAndHomingAgain) {
   });
 }
 
-TEST(State, WhatOwesAResetCannotBeArmedWithoutOne) {
+TEST(State, ArmingRequiresAResetAfterAFault) {
   const auto owing = those(
       [](const Condition& c) { return c.cause != Cause::kNone && c.pending == Pending::kNone; });
   reach(owing, all_but(Kind::kReset), [](const Condition&, const Event&, const Step& taken) {
@@ -128,7 +128,7 @@ TEST(State, WhatOwesAResetCannotBeArmedWithoutOne) {
   });
 }
 
-TEST(State, ThePressedButtonLatchesWhateverElseHappens) {
+TEST(State, APressedButtonLatchesInEveryCase) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (!has_bits(event) || !event.bits.button) return;
     if (event.kind == Kind::kSample && c.link == Link::kNone) return;  // nobody was there to see
@@ -144,7 +144,7 @@ TEST(State, ThePressedButtonLatchesWhateverElseHappens) {
   }
 }
 
-TEST(State, AReleasedButtonAloneLeavesItLatched) {
+TEST(State, ReleasingTheButtonDoesNotUnlatchIt) {
   const auto latched = those([](const Condition& c) {
     return c.cause == Cause::kStopButton && c.pending == Pending::kNone;
   });
@@ -189,7 +189,7 @@ TEST(State, AMotionEndsByBeingDoneOrByAStop) {
   });
 }
 
-TEST(State, WhatGoesWrongInMotionStopsItAndIsKept) {
+TEST(State, AFaultInMotionStopsTheAxisAndIsKept) {
   const std::map<Kind, Cause> causes = {{Kind::kLost, Cause::kLinkLost},
                                         {Kind::kOutsideLimits, Cause::kGuard},
                                         {Kind::kFollowingError, Cause::kFollowingError}};
@@ -217,7 +217,7 @@ TEST(State, WhatGoesWrongInMotionStopsItAndIsKept) {
   });
 }
 
-TEST(State, AnAxisThatMovesUnbiddenIsStopped) {
+TEST(State, AnAxisThatMovesWithoutACommandIsStopped) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     const bool moves = has_bits(event) && event.bits.moving && event.bits.enabled;
     if (!moves || in_motion(c.state) || c.pending == Pending::kArm) return;
@@ -235,7 +235,7 @@ TEST(State, AfterOfflineFaultAndDisarmingItIsNotHomed) {
   }
 }
 
-TEST(State, FromEverywhereThereIsAWayBackToIdle) {
+TEST(State, IdleCanBeReachedFromEveryCondition) {
   // Backwards from IDLE along the steps of a drive that behaves.
   std::map<Condition, Conditions, ByFields> before;
   reach({Condition{}}, anything, [&](const Condition& c, const Event& event, const Step& taken) {

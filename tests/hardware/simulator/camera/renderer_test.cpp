@@ -57,7 +57,7 @@ Depths look(const Scenery& scenery, const Lens& lens, const Pose& X_FC, const Si
 
 Body ground() { return {"ground", simulated_scene::box({-2e3, -2e3, -10}, {2e3, 2e3, 0}), false}; }
 
-TEST(Renderer, PyramidOnAPlaneIsExactThroughAnyLens) {
+TEST(Renderer, APyramidOnAPlaneIsExactWithEveryLens) {
   Scenery scenery;
   scenery.bodies = {ground(), {"pyramid", simulated_scene::pyramid(60, 40), false}};
   const Lens lens = drawn_lens(11);
@@ -102,7 +102,7 @@ Mesh sphere(double radius_mm, int around) {
   return out;
 }
 
-TEST(Renderer, SphereInTheGripperIsWhereTheDriveHasIt) {
+TEST(Renderer, ASphereInTheGripperFollowsTheDrive) {
   constexpr double kRadius_mm = 40;
   Scenery scenery;
   scenery.bodies = {{"sphere", sphere(kRadius_mm, 800), true}};
@@ -129,7 +129,7 @@ TEST(Renderer, SphereInTheGripperIsWhereTheDriveHasIt) {
   }
 }
 
-TEST(Renderer, WhatTheProjectorDoesNotReachIsNotMeasured) {
+TEST(Renderer, SurfacesWithoutProjectorLightAreNotMeasured) {
   Scenery scenery;
   const double height_mm = 100;
   scenery.bodies = {ground(),
@@ -151,7 +151,7 @@ TEST(Renderer, WhatTheProjectorDoesNotReachIsNotMeasured) {
   EXPECT_EQ(right, 0);
 }
 
-TEST(Renderer, SurfacesSeenTooFlatAreNotMeasured) {
+TEST(Renderer, SurfacesAtGrazingAnglesAreNotMeasured) {
   Scenery scenery;
   scenery.bodies = {ground()};
   for (const double degrees : {9.0, 11.0}) {
@@ -164,7 +164,7 @@ TEST(Renderer, SurfacesSeenTooFlatAreNotMeasured) {
   }
 }
 
-TEST(Renderer, MarkersAreSeenWellHiddenAndKnockedOver) {
+TEST(Renderer, MarkersAreRenderedInEveryState) {
   Scenery scenery;
   scenery.markers = simulated_scene::nominal_markers({210, 297});
   const Pose X_FC = simulated_scene::camera_pose({}, 1, 0);
@@ -185,7 +185,7 @@ TEST(Renderer, MarkersAreSeenWellHiddenAndKnockedOver) {
   EXPECT_EQ(count({}), well) << "and stands again";
 }
 
-TEST(Renderer, SameSceneSeedAndTimeSameBits) {
+TEST(Renderer, TheSameSceneSeedAndTimeGiveTheSameBits) {
   Scenery scenery;
   scenery.bodies = simulated_scene::standing_bodies({210, 297});
   scenery.markers = simulated_scene::nominal_markers({210, 297});

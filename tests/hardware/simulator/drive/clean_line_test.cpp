@@ -20,7 +20,7 @@ HP_ON_BOTH_WIRES(CleanLine);
 
 // The hazard is real: with no silence after a timeout, the late word of one register is the answer
 // to the question for another. Without this, the next test would prove nothing.
-TEST(CleanLineSerial, WithoutSilenceALateReplyWouldPassForAnothers) {
+TEST(CleanLineSerial, WithoutSilenceALateReplyWouldBeTakenForAnotherOne) {
   BenchRig bench("rtu");
   const auto hasty = bench.other_link({milliseconds(500), milliseconds(100), milliseconds(0)});
   HP_ASSERT_OK(hasty->connect());
@@ -31,7 +31,7 @@ TEST(CleanLineSerial, WithoutSilenceALateReplyWouldPassForAnothers) {
   EXPECT_EQ((*words)[0], kMakerWord) << "the other register's";
 }
 
-TEST_P(CleanLine, WithItsSilenceALateReplyIsNeverTakenForAnothers) {
+TEST_P(CleanLine, WithSilenceALateReplyIsNeverTakenForAnotherOne) {
   BenchRig bench(GetParam());
   const auto link = bench.other_link({milliseconds(500), milliseconds(60), milliseconds(200)});
   HP_ASSERT_OK(link->connect());
@@ -46,7 +46,7 @@ TEST_P(CleanLine, WithItsSilenceALateReplyIsNeverTakenForAnothers) {
 }
 
 // The second line of defence, for a drive that is even slower than its profile says.
-TEST(CleanLineSerial, AStateIsNotMadeOfAnotherRequestsReply) {
+TEST(CleanLineSerial, AReplyToAnotherRequestIsNotDecodedAsState) {
   BenchRig bench("rtu");
   const auto link = std::make_shared<drive::Link>(
       bench.endpoint(), drive::LinkTiming{milliseconds(500), milliseconds(100), milliseconds(0)});
@@ -61,7 +61,7 @@ TEST(CleanLineSerial, AStateIsNotMadeOfAnotherRequestsReply) {
   EXPECT_EQ(drive.enable().error().reason, "RIG_OFFLINE");
 }
 
-TEST_P(CleanLine, AStateIsNotMadeOfWordsWithoutTheirMark) {
+TEST_P(CleanLine, WordsWithoutTheirMarkAreNotDecodedAsState) {
   BenchRig bench(GetParam());
   drive::DriveProfile profile = bench.profile();
   profile.blocks[0].mark.value = 0x1234;
@@ -74,7 +74,7 @@ TEST_P(CleanLine, AStateIsNotMadeOfWordsWithoutTheirMark) {
   EXPECT_EQ(drive.enable().error().reason, "RIG_OFFLINE");
 }
 
-TEST_P(CleanLine, EveryCallEndsWithinItsTime) {
+TEST_P(CleanLine, EveryCallEndsWithinItsTimeLimit) {
   BenchRig bench(GetParam());
   bench.make_ready();
   bench.act("silent");

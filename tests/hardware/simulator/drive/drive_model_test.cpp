@@ -33,7 +33,7 @@ struct Bench {
   }
 };
 
-TEST(DriveModel, HomesToTheSwitchesEdgeFromEitherSideOfIt) {
+TEST(DriveModel, HomesToTheEdgeOfTheSwitchFromEitherSide) {
   for (const double start_mm : {30.0, 0.2, -0.001, -4.0}) {
     Bench bench;
     bench.start(start_mm);
@@ -47,7 +47,7 @@ TEST(DriveModel, HomesToTheSwitchesEdgeFromEitherSideOfIt) {
   }
 }
 
-TEST(DriveModel, HomingWithoutASwitchEndsAtTheEndSwitch) {
+TEST(DriveModel, HomingWithoutASwitchEndsAtTheLimitSwitch) {
   Bench bench;
   bench.start(30);
   bench.inputs.negative_end = true;
@@ -62,7 +62,7 @@ TEST(DriveModel, HomingWithoutASwitchEndsAtTheEndSwitch) {
   EXPECT_EQ(bench.model.mode, Mode::kOff);
 }
 
-TEST(DriveModel, SilenceStopsItWithinWatchdogTimeAndStoppingDistance) {
+TEST(DriveModel, SilenceStopsTheAxisWithinWatchdogTimeAndStoppingDistance) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.order(Command::kMove, 100, 10));
@@ -77,7 +77,7 @@ TEST(DriveModel, SilenceStopsItWithinWatchdogTimeAndStoppingDistance) {
   EXPECT_GE(bench.model.actual.x_mm - x_mm, most_mm - 10 * 0.011);
 }
 
-TEST(DriveModel, WatchdogThatDoesNothingLetsItRunOn) {
+TEST(DriveModel, WatchdogWithoutActionDoesNotStopTheAxis) {
   Bench bench;
   bench.machine.watchdog_action = WatchdogAction::kNothing;
   bench.start();
@@ -102,7 +102,7 @@ TEST(DriveModel, JogEndsWhenItIsNotCommandedAgain) {
   EXPECT_EQ(bench.model.mode, Mode::kHold);
 }
 
-TEST(DriveModel, EndSwitchesStopItAndLetItGoBackOnly) {
+TEST(DriveModel, LimitSwitchesStopTheAxisAndOnlyAllowMotionAwayFromThem) {
   Bench bench;
   bench.start(290);
   ASSERT_TRUE(bench.order(Command::kMove, 100, 20));
@@ -121,7 +121,7 @@ TEST(DriveModel, EndSwitchesStopItAndLetItGoBackOnly) {
   EXPECT_EQ(bench.model.alarm, kNoAlarm);
 }
 
-TEST(DriveModel, StopButtonBrakesAndHoldsOff) {
+TEST(DriveModel, StopButtonBrakesAndDisables) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.order(Command::kMove, 100, 10));
@@ -151,7 +151,7 @@ TEST(DriveModel, StallIsAFollowingError) {
   EXPECT_EQ(bench.model.mode, Mode::kOff);
 }
 
-TEST(DriveModel, FrozenEncoderTellsNothingNewWhileTheCarriageMoves) {
+TEST(DriveModel, FrozenEncoderReportsAConstantPositionWhileTheCarriageMoves) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.order(Command::kMove, 100, 10));

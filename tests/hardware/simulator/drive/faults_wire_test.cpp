@@ -24,7 +24,7 @@ constexpr Outcome kOutcomes[] = {
 
 class LineFault : public ::testing::TestWithParam<std::tuple<const char*, Outcome>> {};
 
-TEST_P(LineFault, HasItsOutcomeAndIsGotOver) {
+TEST_P(LineFault, HasItsStatedOutcomeAndTheLinkRecovers) {
   const auto& [wire, outcome] = GetParam();
   BenchRig bench(wire);
   bench.make_ready();
@@ -75,7 +75,7 @@ TEST_P(MachineFault, SilentDriveIsOfflineAndStopsByItself) {
   EXPECT_EQ(bench.drive().poll()->alarm_code, kWatchdog);
 }
 
-TEST_P(MachineFault, WhenALostReplyHidesWhetherItObeyedNothingIsSentAgain) {
+TEST_P(MachineFault, NothingIsSentAgainAfterALostReply) {
   BenchRig bench(GetParam());
   bench.make_ready();
   const double requests = bench.truth("requests");
@@ -86,7 +86,7 @@ TEST_P(MachineFault, WhenALostReplyHidesWhetherItObeyedNothingIsSentAgain) {
   EXPECT_EQ(bench.truth("requests"), requests + 1);
 }
 
-TEST_P(MachineFault, UnplugIsToldAtOnceAndPluggingInIsGotOver) {
+TEST_P(MachineFault, UnpluggingIsReportedAtOnceAndTheLinkRecovers) {
   BenchRig bench(GetParam());
   bench.make_ready();
   bench.act("unplug");
@@ -108,7 +108,7 @@ TEST_P(MachineFault, UnplugIsToldAtOnceAndPluggingInIsGotOver) {
   HP_ASSERT_OK(bench.drive().poll());
 }
 
-TEST_P(MachineFault, RebootForgetsHomeAndEnabling) {
+TEST_P(MachineFault, RebootClearsHomeAndEnable) {
   BenchRig bench(GetParam(), {1.0});
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().home());
@@ -123,7 +123,7 @@ TEST_P(MachineFault, RebootForgetsHomeAndEnabling) {
   EXPECT_FALSE(state->homed || state->enabled || state->moving);
 }
 
-TEST_P(MachineFault, StopButtonIsSeenAndNothingMovesUntilItIsLetGo) {
+TEST_P(MachineFault, StopButtonIsReportedAndNothingMovesUntilItIsReleased) {
   BenchRig bench(GetParam());
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().move_to(30, 10));
@@ -140,7 +140,7 @@ TEST_P(MachineFault, StopButtonIsSeenAndNothingMovesUntilItIsLetGo) {
   HP_ASSERT_OK(bench.drive().enable());
 }
 
-TEST_P(MachineFault, EndSwitchStopsAndIsNamed) {
+TEST_P(MachineFault, LimitSwitchStopsTheAxisAndIsNamed) {
   BenchRig bench(GetParam());
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().move_to(30, 10));
@@ -160,7 +160,7 @@ TEST_P(MachineFault, StallIsAnAlarm) {
   EXPECT_EQ(state.alarm_code, kFollowingError);
 }
 
-TEST_P(MachineFault, FrozenPositionShowsAgainstTheDrivesOwnTrajectory) {
+TEST_P(MachineFault, FrozenPositionDivergesFromTheDrivesTrajectory) {
   BenchRig bench(GetParam());
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().move_to(30, 10));

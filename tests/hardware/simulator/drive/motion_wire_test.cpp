@@ -25,7 +25,7 @@ double seconds(Clock::duration time) { return std::chrono::duration<double>(time
 class Motion : public OnBothWires {};
 HP_ON_BOTH_WIRES(Motion);
 
-TEST_P(Motion, IsTheTrapezoidWithinTheTimeThatAMessageTakes) {
+TEST_P(Motion, IsATrapezoidWithinTheDurationOfAMessage) {
   BenchRig bench(GetParam());
   bench.make_ready();
   const auto before = Clock::now();
@@ -85,7 +85,7 @@ TEST_P(Motion, StopBrakesWithinItsDistanceAndKeepsTheDriveEnabled) {
   EXPECT_LE(bench.truth("position_mm") - x_mm, 10 * (sent_s + 0.002) + 10.0 * 10 / (2 * 200));
 }
 
-TEST_P(Motion, JogGoesOnWhileItIsCommandedAndEndsByItself) {
+TEST_P(Motion, JogContinuesWhileCommandedAndThenEndsByItself) {
   BenchRig bench(GetParam());
   bench.make_ready();
   for (int i = 0; i < 8; ++i) {
@@ -101,7 +101,7 @@ TEST_P(Motion, JogGoesOnWhileItIsCommandedAndEndsByItself) {
   EXPECT_TRUE(state.enabled);
 }
 
-TEST_P(Motion, SilenceOfTheClientStopsItWithinWatchdogTimeAndStoppingDistance) {
+TEST_P(Motion, SilenceOfTheClientStopsTheAxisWithinWatchdogTimeAndStoppingDistance) {
   BenchRig bench(GetParam());
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().move_to(100, 10));
@@ -126,7 +126,7 @@ TEST_P(Motion, SilenceOfTheClientStopsItWithinWatchdogTimeAndStoppingDistance) {
   EXPECT_FALSE(reset->alarm || reset->moving || reset->enabled);
 }
 
-TEST_P(Motion, WhatCannotBeDrivenIsRefusedBeforeAnythingIsSent) {
+TEST_P(Motion, ImpossibleMotionsAreRefusedBeforeAnythingIsSent) {
   BenchRig bench(GetParam());
   bench.make_ready();
   const double requests = bench.truth("requests");

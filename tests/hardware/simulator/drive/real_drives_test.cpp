@@ -36,7 +36,7 @@ class RealDrive : public ::testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(All, RealDrive, ::testing::Values("leadshine_em2rs", "oriental_az"),
                          [](const auto& value) { return std::string(value.param); });
 
-TEST_P(RealDrive, IsToldAndArmedOnlyIfItHasAWatchdog) {
+TEST_P(RealDrive, IsArmedOnlyIfItHasAWatchdog) {
   BenchRig bench("rtu", options(false));
   const auto found = bench.drive().connect();
   HP_ASSERT_OK(found);
@@ -46,7 +46,7 @@ TEST_P(RealDrive, IsToldAndArmedOnlyIfItHasAWatchdog) {
   EXPECT_FALSE(state->moving || state->alarm || state->homed || state->stop_input);
 }
 
-TEST_P(RealDrive, HomesMovesJogsAndStopsByItsOwnRegisters) {
+TEST_P(RealDrive, HomesMovesJogsAndStopsWithItsOwnRegisters) {
   BenchRig bench("rtu", options(true));
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().home());

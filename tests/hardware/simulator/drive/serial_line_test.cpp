@@ -34,17 +34,17 @@ double measured_s(int baud, double expected_s) {
   return least_s;
 }
 
-TEST(SerialLine, TakesTheTimeOfItsWireAt9600) {
+TEST(SerialLine, HasTheTimingOfALineAt9600Baud) {
   const double expected_s = arithmetic_s(9600, 3.5 * 11 / 9600.0);
   EXPECT_NEAR(measured_s(9600, expected_s), expected_s, 0.2 * expected_s);
 }
 
-TEST(SerialLine, TakesTheTimeOfItsWireAt115200) {
+TEST(SerialLine, HasTheTimingOfALineAt115200Baud) {
   const double expected_s = arithmetic_s(115200, 1.75e-3);
   EXPECT_NEAR(measured_s(115200, expected_s), expected_s, 0.2 * expected_s);
 }
 
-TEST(SerialLine, IsOnePrograms) {
+TEST(SerialLine, IsLockedByOneProgram) {
   BenchRig bench("rtu");
   HP_ASSERT_OK(bench.drive().connect());
   const auto other = bench.other_link({});
@@ -59,7 +59,7 @@ TEST(SerialLine, IsOnePrograms) {
   HP_ASSERT_OK(other->connect());
 }
 
-TEST(SerialLine, RefusalsSayWhatToDo) {
+TEST(SerialLine, ErrorsNameTheRemedy) {
   const testing::TemporaryFolder folder;
   const auto message = [](const std::string& device) {
     drive::Link link(*drive::parse_endpoint("rtu:" + device), {});
@@ -71,7 +71,7 @@ TEST(SerialLine, RefusalsSayWhatToDo) {
             std::string::npos);
 }
 
-TEST(Tcp, AConnectionThatIsNotThereIsToldAtOnce) {
+TEST(Tcp, AMissingConnectionIsReportedAtOnce) {
   drive::Link link(*drive::parse_endpoint("tcp:127.0.0.1:1"), {});
   const double took_s = seconds_of([&] { EXPECT_FALSE(link.connect()); });
   EXPECT_LT(took_s, 0.05);
@@ -81,7 +81,7 @@ TEST(Tcp, AConnectionThatIsNotThereIsToldAtOnce) {
 }
 
 // libmodbus's own client shares no line with ours but the wire.
-TEST(VirtualDrive, AnswersAnIndependentClientByTheMap) {
+TEST(VirtualDrive, RespondsToAnIndependentClient) {
   BenchRig bench("tcp");
   modbus_t* peer = modbus_new_tcp("127.0.0.1", bench.endpoint().port);
   ASSERT_EQ(modbus_connect(peer), 0);

@@ -22,7 +22,7 @@ double stop_while_stuck_s(BenchRig& bench, drive::StopLine& stop) {
   return out_s;
 }
 
-TEST(StopTcp, DoesNotWaitForTheStuckOne) {
+TEST(StopTcp, DoesNotWaitForABlockedThread) {
   BenchRig bench("tcp");
   bench.make_ready();
   drive::StopLine stop(bench.drive());
@@ -33,7 +33,7 @@ TEST(StopTcp, DoesNotWaitForTheStuckOne) {
   EXPECT_EQ(bench.mode(), "hold") << "stopped, not timed out";
 }
 
-TEST(StopSerial, GoesNextOnTheOneLineThereIs) {
+TEST(StopSerial, PrecedesOtherRequestsOnTheLine) {
   BenchRig bench("rtu");
   bench.make_ready();
   drive::StopLine stop(bench.drive());
@@ -44,7 +44,7 @@ TEST(StopSerial, GoesNextOnTheOneLineThereIs) {
   EXPECT_EQ(bench.mode(), "hold");
 }
 
-TEST_P(Stop, ConnectsByItselfAndSaysWhenItCannot) {
+TEST_P(Stop, ConnectsByItselfAndReportsFailure) {
   BenchRig bench(GetParam());
   bench.make_ready();
   drive::StopLine stop(bench.drive());
