@@ -1,4 +1,4 @@
-// `hydroprint admin` on the daemon's machine, against the real daemon and without one.
+// `hydroprint admin` on the daemon's machine, with and without a running daemon.
 #include <sys/mount.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ constexpr char kNewPassword[] = "battery staple";
 
 using Tree = std::map<std::string, std::string>;
 
-// What is in a folder: file by file, its content.
+// The content of a folder, file by file.
 Tree tree_of(const std::filesystem::path& folder) {
   Tree tree;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -51,7 +51,7 @@ class AdminCli : public PeopleCli {
     const std::string file = folder_.write("m.obj", mesh).string();
     return client_json({"submit", "simulate", "--mesh", file, "--wait"}).at("name");
   }
-  // In the place of the daemon's state folder.
+  // A folder to use instead of the daemon's state folder.
   [[nodiscard]] std::filesystem::path elsewhere() const { return other_.path() / "state"; }
   Outcome reset(const std::string& lines, const Arguments& more = {}) const {
     Arguments arguments{"admin", "reset-password", "--state-dir", daemon_.state().string(), "ann"};
@@ -70,8 +70,8 @@ TEST_F(AdminCli, ABackupOfARunningDaemonIsCompleteAndRestoresIt) {
   const auto file = backup();
   struct stat info {};
   ASSERT_EQ(::stat(file.c_str(), &info), 0);
-  EXPECT_EQ(info.st_mode & 0777, 0600U);  // it holds what everybody printed
-  simulate("later");                      // the daemon went on
+  EXPECT_EQ(info.st_mode & 0777, 0600U);  // it contains all users' data
+  simulate("later");                      // the daemon kept running
   const Outcome restored = admin({"restore", file}, elsewhere());
   ASSERT_EQ(restored.status, 0) << restored.err;
   EXPECT_NE(restored.out.find("restored 1 jobs and "), std::string::npos) << restored.out;
@@ -94,7 +94,7 @@ TEST_F(AdminCli, ABackupOfARunningDaemonIsCompleteAndRestoresIt) {
   EXPECT_FALSE(reader.jobs->GetJob(reader.context().get(), later, &none).ok());
   v1::ListSessionsResponse sessions;
   ASSERT_TRUE(reader.people->ListSessions(reader.context().get(), {}, &sessions).ok());
-  EXPECT_EQ(sessions.sessions_size(), 1);  // those of the backup do not come back
+  EXPECT_EQ(sessions.sessions_size(), 1);  // those of the backup are not restored
   EXPECT_EQ(reader.upload("mesh"), job.simulate().mesh().asset());
 }
 
@@ -155,7 +155,7 @@ TEST_F(AdminCli, ABackupNeverReplacesAFileAndLeavesNothingWhenItFails) {
   EXPECT_TRUE(std::filesystem::is_empty(other_.path()));
 }
 
-/// A disk of so many KiB, for as long as this lives.
+/// A file system of the given size in KiB, mounted while this object lives.
 class SmallDisk {
  public:
   SmallDisk(std::filesystem::path path, int kib) : path_(std::move(path)) {
@@ -175,7 +175,7 @@ class SmallDisk {
   std::filesystem::path path_;
 };
 
-// Whatever the moment at which there is no more room.
+// Tries many sizes, so that the space runs out at different moments.
 TEST_F(AdminCli, OnAFullDiskBackupAndRestoreAreCompleteOrAbsent) {
   const auto small = other_.path() / "small";
   if (!SmallDisk(small, 100).is_there) GTEST_SKIP() << "needs root, to mount a small disk";
@@ -193,7 +193,7 @@ TEST_F(AdminCli, OnAFullDiskBackupAndRestoreAreCompleteOrAbsent) {
     const Outcome ended = admin({"restore", good}, small / "state");
     const Tree left = tree_of(small / "state");
     EXPECT_EQ(left.contains("hydroprint.db"), ended.status == 0) << ended.err;
-    EXPECT_EQ(left.size() > 1, ended.status == 0) << ended.err;  // else the lock alone
+    EXPECT_EQ(left.size() > 1, ended.status == 0) << ended.err;  // otherwise only the lock
     ++(ended.status == 0 ? restores : refused);
   }
   EXPECT_GT(backups, 0);
@@ -207,7 +207,7 @@ TEST_F(AdminCli, ARestoreRefusesAFolderThatIsInUseOrNotEmpty) {
   const Outcome in_use = admin({"restore", file, "--replace"});
   EXPECT_EQ(in_use.status, 3);
   EXPECT_NE(in_use.err.find("uses this state folder"), std::string::npos) << in_use.err;
-  EXPECT_EQ(client({"show", name}).status, 0);  // the daemon never noticed
+  EXPECT_EQ(client({"show", name}).status, 0);  // the daemon is not affected
 
   std::filesystem::create_directories(elsewhere());
   std::ofstream(elsewhere() / "thesis.txt") << "mine";
@@ -297,7 +297,7 @@ TEST(Archive, NamesAndContentsAreRestored) {
       const auto done = out->add(name, bytes);
       ASSERT_TRUE(done) << done.error().message;
     }
-    EXPECT_FALSE(std::filesystem::exists(file));  // before it is whole
+    EXPECT_FALSE(std::filesystem::exists(file));  // before it is complete
     ASSERT_TRUE(out->finish());
   }
   std::map<std::string, std::string> read;
@@ -317,13 +317,14 @@ TEST_F(AdminCli, NoDaemonStartsAfterAnInterruptedRestoreUntilItIsRepeated) {
   simulate("mesh");
   const auto file = backup();
   daemon_.terminate();
-  std::ofstream(daemon_.state() / "unrestored") << "";  // as after a power cut at the last step
+  std::ofstream(daemon_.state() / "unrestored") << "";  // as after a power failure at the last step
   std::filesystem::remove(daemon_.state() / "hydroprint.db");
   const Ended refused = run_daemon({"--state-dir", daemon_.state(), "--grpc", "127.0.0.1:0"});
   EXPECT_EQ(refused.status, 4) << refused.words;
   EXPECT_NE(refused.words.find("do it again"), std::string::npos) << refused.words;
   EXPECT_FALSE(std::filesystem::exists(daemon_.state() / "hydroprint.db"));
-  ASSERT_EQ(admin({"restore", file}).status, 0);  // it may replace what a restore left
+  // it may replace the result of an incomplete restore
+  ASSERT_EQ(admin({"restore", file}).status, 0);
   daemon_.start();
   log_in("ann");
   EXPECT_EQ(client({"show", "1"}).status, 0);
@@ -351,7 +352,7 @@ TEST_F(AdminCli, ANewPasswordEndsSessionsAtOnceEvenWhileTheDaemonRuns) {
   EXPECT_EQ(entries[0].at("object"), "users/ann");
   EXPECT_EQ(entries[0].at("via"), "command line");
   daemon_.kill();
-  EXPECT_EQ(reset(std::string(kPassword) + "\n").status, 0);  // nor need it run
+  EXPECT_EQ(reset(std::string(kPassword) + "\n").status, 0);  // works without the daemon, too
   daemon_.start();
   log_in("ann");
 }
@@ -375,7 +376,7 @@ TEST_F(AdminCli, WrongPasswordsAndUsersAreRefused) {
   EXPECT_EQ(reset(std::string(1001, 'x') + "\n").status, 3);
   EXPECT_EQ(admin({"sign-in-link", "nobody"}).status, 3);
   EXPECT_EQ(client({"admin", "sign-in-link", "ann", "--state-dir", "/nowhere"}).status, 3);
-  log_in("ann");  // all is as it was
+  log_in("ann");  // nothing has changed
 }
 
 TEST_F(AdminCli, ALinkSignsInOnce) {
@@ -392,7 +393,7 @@ TEST_F(AdminCli, ALinkSignsInOnce) {
 }
 
 TEST_F(AdminCli, AnotherUsersFolderIsRefused) {
-  if (::geteuid() != 0) GTEST_SKIP() << "needs root, who can give a folder to another user";
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root, to change the owner of a folder";
   daemon_.terminate();
   ASSERT_EQ(::chown(daemon_.state().c_str(), 65534, 65534), 0);
   for (const Arguments& arguments :

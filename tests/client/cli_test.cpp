@@ -1,4 +1,4 @@
-// `hydroprint` as users run it, against the real daemon with a worker that does what its mesh says.
+// `hydroprint` as users run it, with the real daemon and a worker controlled by its mesh file.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -31,7 +31,7 @@ std::string content_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A text whose lines are broken anywhere, as one line.
+/// Joins the lines of a text.
 std::string flowing(const std::string& text) {
   std::istringstream words(text);
   std::string out;
@@ -56,7 +56,8 @@ class Cli : public ::testing::Test {
     return hydroprint::testing::run(command(arguments));
   }
 
-  /// What --json printed; fails the test unless the exit status is 0 and it is one JSON value.
+  /// Returns the output of --json; fails the test unless the exit status is 0 and it is one JSON
+  /// value.
   json client_json(Arguments arguments) const {
     arguments.emplace_back("--json");
     const Outcome ended = client(arguments);
@@ -66,7 +67,7 @@ class Cli : public ::testing::Test {
     return value;
   }
 
-  /// Queues a job whose worker does this; its name.
+  /// Queues a job whose worker does `work`; returns its name.
   std::string submit(const std::string& work) const {
     return client_json({"submit", "simulate", "--mesh", mesh(work)}).at("name");
   }
@@ -77,7 +78,7 @@ class Cli : public ::testing::Test {
     return client_json({"show", job}).at("state");
   }
 
-  /// What `watch` says of a job that it sees from before its start to its end.
+  /// The output of `watch` for a job from before its start to its end.
   Outcome watch_whole(const Arguments& flags) const {
     client({"queue", "pause"});
     Arguments arguments{"watch", submit("sleep 5")};
@@ -88,7 +89,7 @@ class Cli : public ::testing::Test {
     return watch.wait();
   }
 
-  /// Waits until the job is in that state, for at most ten seconds.
+  /// Waits up to ten seconds until the job has that state.
   bool becomes(const std::string& job, const std::string& state) const {
     for (int i = 0; i < 100; ++i) {
       if (state_of(job) == state) return true;
@@ -97,7 +98,7 @@ class Cli : public ::testing::Test {
     return false;
   }
 
-  /// The last line on stderr says what is wrong, in these words among others.
+  /// Expects an error whose last line on stderr contains these words.
   void expect_error(const Arguments& arguments, int status, const std::string& words) const {
     const Outcome ended = client(arguments);
     EXPECT_EQ(ended.status, status) << ended.err;
@@ -351,7 +352,8 @@ TEST_F(Cli, ConnectsToADaemonThatStartsAMomentLater) {
   EXPECT_EQ(daemon_->terminate(), 0);
   Process early({kClient, "--server", address, "status"});
   Process watch({kClient, "--server", address, "watch", "jobs/1"});
-  std::this_thread::sleep_for(std::chrono::milliseconds(150));  // it has been refused by then
+  // the first attempt has failed by then
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));
   Process daemon({HYDROPRINT_BIN_DIR "/hydroprintd", "--grpc", address, "--http", "127.0.0.1:0",
                   "--state-dir", (folder_.path() / "another").string()});
   const Outcome ended = early.wait();
@@ -443,10 +445,10 @@ TEST_F(CliDownload, ResumesWhereItStopped) {
 TEST_F(CliDownload, NeverCreatesAFileWithWrongBytes) {
   std::ofstream(part_) << "FILM";
   const Outcome ended = download();
-  EXPECT_EQ(ended.status, 4) << "bytes that arrive damaged are no bad input";
+  EXPECT_EQ(ended.status, 4) << "damaged bytes are not bad input";
   EXPECT_NE(ended.err.find("SHA-256"), std::string::npos) << ended.err;
   EXPECT_FALSE(std::filesystem::exists(out() / "film.png"));
-  EXPECT_EQ(download().status, 0) << "a second attempt starts afresh";
+  EXPECT_EQ(download().status, 0) << "a second attempt starts over";
   EXPECT_EQ(sha256_of_film(), sha256_);
 }
 
@@ -514,7 +516,7 @@ TEST_F(Cli, TheGlobeIsSimulatedAndPrinted) {
   EXPECT_EQ(printed.at("print_image").at("simulate_job"), "jobs/1");
   const std::string pdf = content_of(paper + "/print.pdf");
   EXPECT_TRUE(pdf.starts_with("%PDF"));
-  // A reprint, computed afresh; and from the file, by hand.
+  // A reprint, computed again; and from the file, by hand.
   ASSERT_EQ(client({"retry", "2"}).status, 0);
   ASSERT_EQ(client({"watch", "3"}).status, 0);
   ASSERT_EQ(client({"download", "3", "print.pdf", "--out", paper + "/again"}).status, 0);
@@ -528,7 +530,7 @@ TEST_F(Cli, TheGlobeIsSimulatedAndPrinted) {
       client({"submit", "template", "--simulate-job", "1", "--out", paper + "/where"});
   ASSERT_EQ(placed.status, 0) << placed.err;
   EXPECT_TRUE(content_of(paper + "/where/placement.pdf").starts_with("%PDF"));
-  // And on paper.
+  // Prints on paper.
   const Outcome sent = client({"print", "2", "--out", paper + "/record"});
   ASSERT_EQ(sent.status, 0) << sent.err;
   EXPECT_NE(sent.err.find("completed"), std::string::npos) << sent.err;
@@ -542,7 +544,7 @@ TEST_F(Cli, PreviewRespondsWithoutAJob) {
       client_json({"preview", "--mesh", mesh("a"), "--film", "A3", "--depth-mm", "12"});
   EXPECT_EQ(preview.at("coverage"), 0.5);
   EXPECT_EQ(preview.at("stretch_p95"), 2);
-  EXPECT_TRUE(preview.at("stretch_max").is_null()) << "not told";
+  EXPECT_TRUE(preview.at("stretch_max").is_null()) << "unknown";
   const Outcome shown = client({"preview", "--mesh", mesh("a")});
   EXPECT_NE(shown.out.find("film reaches 50 % of the surface"), std::string::npos) << shown.out;
   EXPECT_NE(shown.err.find("warning: m (w)"), std::string::npos) << shown.err;
@@ -561,7 +563,7 @@ TEST_F(Cli, PrintNeedsAPrinterAndPages) {
   expect_error({"submit", "template", "--simulate-job", "1", "--scale", "2"}, 2, "--scale");
 }
 
-/// Frames as hydroprint-capture leaves them, for the fake worker.
+/// Frames as written by hydroprint-capture, for the fake worker.
 class CalibrateCli : public Cli {
  protected:
   CalibrateCli() {

@@ -31,7 +31,7 @@ TEST(ConvertRig, EveryFieldOfADipIsConvertedBothWays) {
   EXPECT_TRUE(MessageDifferencer::Equals(to_proto(from_proto(message)), message));
   EXPECT_EQ(message.soak_s(), 8);
   EXPECT_TRUE(MessageDifferencer::Equals(to_proto(DipSpec()), v1::DipSpec()))
-      << "what is not set stays unset";
+      << "unset fields stay unset";
 }
 
 TEST(ConvertRig, NamesMatchTheApi) {

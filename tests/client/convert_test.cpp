@@ -11,7 +11,7 @@ using google::protobuf::util::MessageDifferencer;
 
 InputFile file(const std::string& name) { return {name, "assets/" + name}; }
 
-/// Every field that simulate and predict share.
+/// All fields shared by simulate and predict.
 Spec full_spec(Verb verb) {
   Spec spec;
   spec.verb = verb;
@@ -40,7 +40,7 @@ v1::Job message_of(const Spec& spec) {
   return job;
 }
 
-/// Fails unless all fields of the message are set, and the way through Spec loses none of them.
+/// Fails unless all fields of the message are set and the conversion through Spec keeps them.
 void expect_round_trip(const v1::Job& job, const google::protobuf::Message& message) {
   const auto& fields = *message.GetDescriptor();
   for (int i = 0; i < fields.field_count(); ++i) {
@@ -153,7 +153,7 @@ TEST(Convert, ACaptureHasADuration) {
   message.set_state(v1::Job::INTERRUPTED);
   const Job job = from_proto(message);
   EXPECT_EQ(job.capture_s, 2.5);
-  EXPECT_TRUE(is_finished(job)) << "it is of its moment";
+  EXPECT_TRUE(is_finished(job)) << "a capture cannot be repeated";
 }
 
 TEST(Convert, APrintHasItsPrintImageJob) {

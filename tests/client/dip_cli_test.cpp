@@ -1,4 +1,4 @@
-// `hydroprint dip` as users run it: against the real daemon and the virtual rig.
+// `hydroprint dip` as users run it, with the real daemon and the virtual rig.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -17,7 +17,7 @@ using hydroprint::testing::Terminal;
 using nlohmann::json;
 using Arguments = std::vector<std::string>;
 
-// Small and fast, with clocks that are seen to run.
+// Small and fast, with timers long enough to be seen.
 const Arguments kSmall{"--speed",        "10", "--hold-s",           "0", "--soak-s", "1",
                        "--clearance-mm", "3",  "--activator-wait-s", "1", "--out"};
 
@@ -64,7 +64,7 @@ TEST_F(DipCli, GuidesThroughEveryStep) {
   ASSERT_TRUE(programs_.rests());
   const double contact_mm = programs_.rig.position_mm();
   EXPECT_GT(contact_mm, 8.5);
-  // The daemon may still have to see that it rests.
+  // The daemon may not have seen the standstill yet.
   ASSERT_TRUE(wait_until([&] {
     dip_at.type("\n");
     return dip_at.shows("CLEAR:", 300ms);
@@ -149,9 +149,11 @@ TEST_F(DipCli, StepsAreConfirmedOneByOne) {
   EXPECT_EQ(right.status, 0) << right.err;
   EXPECT_NE(right.out.find("then: hydroprint confirm " + job + " LOAD_OBJECT"), std::string::npos)
       << right.out;
-  EXPECT_EQ(programs_.client({"confirm", job, "PRINT_FILM"}).status, 0) << "again is no error";
+  EXPECT_EQ(programs_.client({"confirm", job, "PRINT_FILM"}).status, 0)
+      << "repeating is not an error";
   EXPECT_EQ(step_of(job), "LOAD_OBJECT");
-  EXPECT_EQ(programs_.client({"confirm", job, "ACTIVATE"}).status, 2) << "not the operator's";
+  EXPECT_EQ(programs_.client({"confirm", job, "ACTIVATE"}).status, 2)
+      << "not confirmed by the operator";
   EXPECT_EQ(programs_.client({"list", "--state", "WAITING_FOR_OPERATOR"}).out.find(job),
             programs_.client({"list"}).out.find(job));
   EXPECT_EQ(programs_.client({"cancel", job}).status, 0);
@@ -185,7 +187,7 @@ TEST_F(DipCli, TheAcquiredLeaseIsReleased) {
   EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease"));
   create();
   EXPECT_EQ(programs_.client_json({"rig", "status"}).at("lease").at("holder"), "tester")
-      << "its steps want confirming";
+      << "its steps must be confirmed";
 }
 
 }  // namespace

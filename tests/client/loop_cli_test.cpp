@@ -1,4 +1,4 @@
-// The whole loop as users run it, with every program the real one.
+// The whole loop as users run it, with all real programs.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -65,7 +65,7 @@ TEST_F(LoopCli, RunsTheWholeLoopForOnePose) {
   const json report = json::parse(std::ifstream(out() / "report.json"));
   EXPECT_EQ(report["lost_cross_points"], 0);
   const json& errors = report["errors"];
-  EXPECT_LT(errors["numerics"]["p95_mm"], 0.1) << "the same dip twice";
+  EXPECT_LT(errors["numerics"]["p95_mm"], 0.1) << "both dips are the same";
   EXPECT_LT(errors["placement"]["p95_mm"], 2) << ended.out;
   EXPECT_GT(errors["placement"]["p95_mm"], errors["numerics"]["p95_mm"]);
   const json& round = report["rounds"][0];

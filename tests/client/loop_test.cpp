@@ -1,4 +1,4 @@
-// What `hydroprint loop` draws, and how it measures.
+// The random draws and the evaluation of `hydroprint loop`.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@
 namespace hydroprint::loop {
 namespace {
 
-/// A flat face whose film comes from right below it, but `off` to one side.
+/// A flat face whose film comes from directly below, shifted by `off`.
 SurfaceMap flat(const Eigen::Vector2d& off) {
   constexpr int kSide = 13;
   SurfaceMap out;
@@ -45,14 +45,14 @@ TEST(Loop, ErrorsAreTheDisplacementsOfCrossPoints) {
   EXPECT_NEAR(largest(cross_errors(kBoard, plan, plan, well)), 0, 1e-12);
   const CrossErrors aside = cross_errors(kBoard, plan, flat({0.3, -0.4}), well);
   EXPECT_NEAR(quantile(lengths_mm(aside), 0.5), 0.5, 1e-9);
-  EXPECT_EQ(lost(aside), 25) << "those of two edges land beside the face";
+  EXPECT_EQ(lost(aside), 25) << "those at two edges miss the face";
   Truth off;
   off.printer_scale = 0.999;
   EXPECT_NEAR(largest(cross_errors(kBoard, plan, plan, off)), 0.001 * std::hypot(60, 60), 1e-9);
   off = {};
   off.film_mm = {0.3, -0.4};
   EXPECT_NEAR(largest(cross_errors(kBoard, plan, flat({0.3, -0.4}), off)), 0, 1e-9)
-      << "what is off twice the same way is right";
+      << "equal errors cancel";
 }
 
 TEST(Loop, FilmStaysOnTheTriangleItReachesFirst) {
@@ -69,7 +69,7 @@ TEST(Loop, FilmStaysOnTheTriangleItReachesFirst) {
   EXPECT_NEAR((*locator.at({2, 3}) - Eigen::Vector3d(2, 3, 0)).norm(), 0, 1e-12);
   EXPECT_FALSE(locator.at({6, 6}));
   map.film_mm[3] = {NAN, NAN};
-  EXPECT_EQ(FilmLocator(map).at({2, 3})->z(), 5) << "where no film arrives, none is found";
+  EXPECT_EQ(FilmLocator(map).at({2, 3})->z(), 5) << "points without film are not found";
 }
 
 TEST(Loop, DrawsAreWithinTheirBoundsAndReproducible) {
@@ -84,7 +84,7 @@ TEST(Loop, DrawsAreWithinTheirBoundsAndReproducible) {
       EXPECT_LE(truth.film_mm.norm(), kMostFilm_mm + 1e-9);
       EXPECT_LE(std::abs(truth.printer_scale - 1), kMostScale);
       if (body.is_round) {
-        EXPECT_TRUE(off.isIdentity(1e-9)) << "no scan could tell its turn";
+        EXPECT_TRUE(off.isIdentity(1e-9)) << "a scan cannot measure its rotation";
       }
       EXPECT_NEAR(height_mm(body, truth, 300) - height_mm(body, truth, 200), 100, 1e-9);
       const Pose there = pose_at_contact(body, truth, 200);

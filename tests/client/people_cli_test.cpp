@@ -1,4 +1,4 @@
-// `hydroprint` as people use it who have accounts, against the real daemon.
+// `hydroprint` with user accounts, and the real daemon.
 #include "tests/client/people_cli.h"
 
 #include <sys/stat.h>
@@ -20,7 +20,8 @@ TEST_F(PeopleCli, LoginStoresAKeyThatEveryCommandUses) {
   EXPECT_EQ(content(credentials()).find(kPassword), std::string::npos);
   EXPECT_EQ(client_json({"whoami"}).at("role"), "ADMIN");
   EXPECT_EQ(client({"list"}).status, 0);
-  EXPECT_TRUE(client_json({"sessions", "list"}).at("sessions").empty());  // login left none behind
+  // login leaves no session behind
+  EXPECT_TRUE(client_json({"sessions", "list"}).at("sessions").empty());
 }
 
 TEST_F(PeopleCli, LogoutRevokesTheKey) {

@@ -1,4 +1,4 @@
-// `hydroprint rig` as users run it: against the real daemon and the virtual rig.
+// `hydroprint rig` as users run it, with the real daemon and the virtual rig.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -22,7 +22,7 @@ constexpr double kSettled_mm = 0.1;  // the rig's arrival_mm
 
 class RigCli : public ::testing::Test {
  protected:
-  /// One line on stderr, with these words in it.
+  /// Expects one line on stderr that contains these words.
   void expect_error(const std::vector<std::string>& arguments, int status,
                     const std::vector<std::string>& words,
                     const std::string& user = "tester") const {
@@ -39,7 +39,7 @@ class RigCli : public ::testing::Test {
     return {};
   }
 
-  /// Time until the axis rests, by its own clock; not above 0 if it does already.
+  /// Time until the axis is at rest, by its own clock; not above 0 if it already is.
   double seconds_to_rest() {
     const double begin_s = programs_.rig.now_s();
     return programs_.rig.rested_s() - begin_s;
@@ -99,7 +99,8 @@ TEST_F(RigCli, ArmsHomesAndMoves) {
   EXPECT_NEAR(rig.at("position_mm"), 12.5, kSettled_mm);
   EXPECT_NEAR(programs_.rig.position_mm(), 12.5, kSettled_mm);
   EXPECT_EQ(one({"rig", "disarm"}).at("state"), "DISARMED");
-  EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease")) << "each gave it back";
+  EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease"))
+      << "each command released it";
 }
 
 TEST_F(RigCli, RefusalsOfTheRigAreOneLine) {
@@ -183,7 +184,7 @@ TEST_F(RigCli, AJogForATimeCoversItsDistance) {
   const double begin_mm = programs_.rig.position_mm();
   EXPECT_EQ(programs_.client({"rig", "jog", "--speed", "5", "--for", "1s"}).status, 0);
   EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
-  // What it goes on after the last sign: an exchange with the drive, and its ramp.
+  // The axis continues for one message exchange with the drive, and for its ramp.
   EXPECT_NEAR(programs_.rig.position_mm() - begin_mm, 5, 1);
 }
 
@@ -204,7 +205,7 @@ TEST_F(RigCli, AJogEndsWithTheLease) {
   ASSERT_TRUE(programs_.moves());
   programs_.client({"rig", "lease", "break", "--reason", "a test"}, "alice");
   EXPECT_LT(seconds_to_rest(), 0.5);
-  // LEASE_REQUIRED, or MOTION_IN_PROGRESS for a call that was on its way when the stop came.
+  // LEASE_REQUIRED, or MOTION_IN_PROGRESS for a request that was on its way when the stop came.
   const int status = jog.wait().status;
   EXPECT_TRUE(status == 3 || status == 4) << status;
 }

@@ -1,4 +1,4 @@
-// `hydroprint` and the Python example with a daemon that speaks TLS.
+// `hydroprint` and the Python example with a daemon that uses TLS.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -33,7 +33,8 @@ class TlsCli : public ::testing::Test {
   [[nodiscard]] std::string at(const std::string& host) const {
     return host + daemon->address().substr(daemon->address().rfind(':'));
   }
-  /// In a home of the test's, with these variables ("NAME=VALUE") and lines on standard input.
+  /// Runs a command in the test's home folder with these variables ("NAME=VALUE") and standard
+  /// input.
   Outcome run(const Words& variables, const Words& command, const std::string& lines = "") const {
     Words all{"/bin/sh",
               "-c",
@@ -85,7 +86,7 @@ TEST_F(TlsCli, CertificatesFromMakeCertificateAreTrusted) {
   const std::string made = content(out + "/ca.pem");
   const Outcome again = make();
   ASSERT_EQ(again.status, 0) << again.err;
-  EXPECT_EQ(content(out + "/ca.pem"), made) << "it signs with the authority that is there";
+  EXPECT_EQ(content(out + "/ca.pem"), made) << "it signs with the existing authority";
   start({{"DNS:localhost"}}, {out + "/certificate.pem", out + "/key.pem"});
   EXPECT_EQ(client({"--server", at("localhost"), "--ca", out + "/ca.pem", "list"}).status, 0);
   EXPECT_EQ(run({}, {MAKE_CERTIFICATE, "--out", out, "rig local"}).status, 1);
@@ -155,7 +156,7 @@ TEST_F(TlsCli, ThePythonExampleUsesTheStoredKey) {
   const std::string password = std::string(kSecret) + "\n";
   ASSERT_EQ(
       client({"users", "add", "ann", "--role", "MAKER", "--password"}, there, password).status, 3)
-      << "nobody would be admin";
+      << "there would be no admin";
   ASSERT_EQ(
       client({"users", "add", "ann", "--role", "ADMIN", "--password"}, there, password).status, 0);
   const auto mesh = folder.write("mesh.obj", "");

@@ -18,7 +18,7 @@ class FindReferences : public ::testing::Test {
  protected:
   FindReferences() { std::filesystem::create_directory(folder_.path() / "sub"); }
 
-  // The names found, sorted; notes go to notes_.
+  // Returns the names found, sorted; stores notes in notes_.
   Names names(const std::string& model) {
     const auto found = find_references(folder_.path() / model);
     if (!found) return {"error: " + found.error().message};

@@ -1,4 +1,4 @@
-// hydroprint-capture and the camera of hydroprint-virtual-rig, with OpenNI2 between them.
+// Tests hydroprint-capture with the camera of hydroprint-virtual-rig, through OpenNI2.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -26,9 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_literals;
 
-/// The program and its first arguments. Under AddressSanitizer leaks are not looked for in it:
-/// OpenNI2 frees not all when it unloads its drivers, and what has been unloaded has no name that a
-/// suppression could give.
+/// The program and its first arguments. Leak detection of AddressSanitizer is off: OpenNI2 does not
+/// free everything when it unloads its drivers, and unloaded code has no name for a suppression.
 #ifdef __SANITIZE_ADDRESS__
 const std::vector<std::string> kCapture = {"/usr/bin/env", "ASAN_OPTIONS=detect_leaks=0",
                                            HYDROPRINT_BIN_DIR "/hydroprint-capture"};
@@ -37,7 +36,7 @@ const std::vector<std::string> kCapture = {HYDROPRINT_BIN_DIR "/hydroprint-captu
 #endif
 const std::string kRig = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
 
-/// Patience, in s, with what is slow on a busy machine but does not hang.
+/// Timeout, in s, for operations that are slow on a busy machine but do not hang.
 constexpr const char* kLong = "400";
 
 constexpr const char* kScene = R"(
@@ -87,7 +86,7 @@ class Capture : public ::testing::Test {
     return capture(all);
   }
 
-  /// A capture of a minute, once its first frames have come.
+  /// Starts a capture of a minute and waits for its first frames.
   std::unique_ptr<testing::Process> long_capture(const std::string& patience_s = kLong) {
     testing::ProcessOptions options;
     options.files = {{3, path("progress")}};
@@ -106,7 +105,7 @@ class Capture : public ::testing::Test {
     return out;
   }
 
-  /// Fails unless a capture failed like this, in one line, and left nothing.
+  /// Expects that a capture failed with this status and reason, in one line, and left no files.
   void expect_failure(const testing::Ended& ended, int status, const std::string& reason) {
     EXPECT_EQ(ended.status, status) << ended.err;
     EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
@@ -169,7 +168,7 @@ TEST_F(Capture, LiveAndRecordedFramesMatchTheSceneBitForBit) {
   ASSERT_EQ(again.status, 0) << again.err;
   const auto played = frames_of(path("again"));
   const std::string first = png_of(path("again"), played["frames"][0]);
-  // The recording began before the first was taken.
+  // The recording started before the first captured frame.
   const int latest = told["frames"][0]["index"].get<int>() + 1;
   int start = 1;
   while (start < latest && first != expected(start)) ++start;
@@ -179,7 +178,7 @@ TEST_F(Capture, LiveAndRecordedFramesMatchTheSceneBitForBit) {
     EXPECT_TRUE(png_of(path("again"), frame) == expected(index)) << index;
     recorded.insert(index);
   }
-  // That one may have come earlier still.
+  // That frame may have arrived even earlier.
   for (std::size_t i = 1; i < told["frames"].size(); ++i) {
     EXPECT_TRUE(recorded.contains(told["frames"][i]["index"].get<int>())) << i;
   }
@@ -244,7 +243,7 @@ TEST_F(Capture, InvalidOrTruncatedRecordingsAreRefused) {
   const auto taken = capture_live({"--seconds", "0.15", "--record", recording.string()});
   ASSERT_EQ(taken.status, 0) << taken.err;
   fs::remove_all(path("out"));
-  // Its second half is zeros that OpenNI2 leaves there; nothing is lost with them.
+  // The second half of the file is zeros written by OpenNI2; truncating them loses no data.
   std::string whole = bytes_of(recording);
   whole.resize(whole.find_last_not_of('\0') + 1);
   std::vector<std::string> files = {"", "junk", std::string(100000, 'x'), whole.substr(0, 100)};
@@ -261,7 +260,7 @@ TEST_F(Capture, InvalidOrTruncatedRecordingsAreRefused) {
       3, "");
 }
 
-/// What --live said: heads with their pictures, and what followed the last.
+/// The output of --live: heads with their pictures, and the remaining text.
 struct Told {
   std::vector<std::pair<nlohmann::json, std::string>> pictures;
   std::string rest;
@@ -306,7 +305,7 @@ TEST_F(Capture, LivePicturesShowNearAndFarUntilASignal) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->image.width, head["width"]);
   EXPECT_EQ(read->image.height, head["height"]);
-  // Viridis ends in yellow and in violet; grey is what was not measured.
+  // Viridis ranges from yellow to violet; grey means not measured.
   std::size_t near = 0, far = 0, grey = 0;
   for (const image::Texel& texel : read->image.texels) {
     if (texel.r == texel.g && texel.g == texel.b) ++grey;

@@ -19,7 +19,7 @@ Result<DriveProfile> profile(const std::string& toml) {
   return read_drive_profile(folder.write("drive.toml", toml));
 }
 
-/// The virtual drive's profile with `from` turned into `to`, which must stand there.
+/// The virtual drive's profile with `from`, which must occur, replaced by `to`.
 std::string changed(const std::string& from, const std::string& to) {
   std::string text = virtual_profile();
   const std::size_t at = text.find(from);
@@ -61,7 +61,7 @@ TEST(DriveProfile, StoppingDistanceMatchesTheNotes) {
 struct Wrong {
   const char* from;
   const char* to;
-  const char* what;  ///< what the message must say besides file and line
+  const char* what;  ///< required text of the message, besides file and line
 };
 
 class WrongProfile : public ::testing::TestWithParam<Wrong> {};

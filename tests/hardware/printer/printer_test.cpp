@@ -19,7 +19,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Quick to ask and to give up one that is gone, but patient with one that answers slowly.
+/// Short poll intervals and short patience with a lost printer, but a long timeout for slow
+/// replies.
 Timing quick() {
   Timing timing;
   timing.connect = timing.answer = milliseconds(60000);
@@ -40,7 +41,7 @@ std::string content(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A socket that takes connections; what happens on them is the test's.
+/// A socket that accepts connections; the test decides what happens on them.
 class Listener {
  public:
   Listener() : file_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -85,7 +86,7 @@ TEST(Printer, ReportsFormatsPaperAndMargins) {
 }
 
 TEST(Printer, PrintsTheExactBytesUnscaledAndReportsCompletion) {
-  // It prints until it was seen to.
+  // The job lasts until the test has seen it.
   const IppPrinter there(std::string("env | grep ^IPP_ > \"$0.env\"\n") +
                          IppPrinter::kUntilFinished);
   const auto bytes = some_bytes(3'000'001);
@@ -121,7 +122,7 @@ TEST(Printer, ReportsAnAbortedJob) {
 }
 
 TEST(Printer, CancelsAJobAndReportsItsEnd) {
-  // It prints on, cancelled or not, until it was seen to have been asked to stop.
+  // The job lasts, cancelled or not, until the test has seen the cancel request.
   const IppPrinter there(IppPrinter::kUntilFinished);
   const Printer printer(there.address(), quick());
   const auto sent = printer.print({some_bytes(1000)});
@@ -145,7 +146,7 @@ TEST(Printer, EndsEveryCallWhenTheCallerGivesUp) {
   std::atomic<bool> gives_up = false;
   const Printer printer(silent.address(), quick(), [&] { return gives_up.load(); });
   std::thread asked([&] { EXPECT_EQ(printer.attributes().error().reason, "PRINTER_LEFT"); });
-  (void)silent.accept();  // there is a connection, on which nothing comes
+  (void)silent.accept();  // connected, but no data arrives
   gives_up = true;
   asked.join();
   EXPECT_EQ(printer.print({some_bytes(1000)}).error().reason, "PRINTER_LEFT");
@@ -186,7 +187,7 @@ TEST(Printer, TimesOutWhenThePrinterNeverResponds) {
   timing.upload = milliseconds(700);
   const Printer printer(silent.address(), timing);
   EXPECT_EQ(printer.attributes().error().reason, "PRINTER_SILENT");
-  // Larger than what the system's buffers take for it.
+  // Larger than the system's socket buffers.
   const std::vector<unsigned char> large(40'000'000);
   const auto sent = printer.print({large});
   ASSERT_FALSE(sent);
@@ -221,7 +222,7 @@ TEST(Printer, ReportsServersThatAreNotPrinters) {
     (void)!::read(file, buffer, sizeof buffer);
     const std::string reply = "HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n";
     (void)!::write(file, reply.data(), reply.size());
-    // Closed with something unread, the connection would be reset and the reply with it.
+    // Closing a socket with unread data would reset the connection and lose the reply.
     while (::read(file, buffer, sizeof buffer) > 0) {
     }
     ::close(file);

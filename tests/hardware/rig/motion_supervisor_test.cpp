@@ -26,14 +26,14 @@ drive::DriveState axis(double t_s, double position_mm, bool moving) {
   return out;
 }
 
-/// When a supervisor ends, and how.
+/// When and how a supervisor ends.
 struct End {
   std::optional<Kind> event;
   double t_s = 0;
   int legs = 0;
 };
 
-/// Plays a supervisor on an axis whose position, some time after the leg's start, `where` tells.
+/// Runs a supervisor on an axis whose position, some time after the leg's start, `where` returns.
 End play(MotionSupervisor& supervisor, const std::function<double(const Travel&, double)>& where,
          double latest_s = 60) {
   End end;
@@ -84,7 +84,7 @@ TEST(MotionSupervisor, AStalledAxisIsDetectedWithinTheBand) {
   for (const double speed : {1.0, 5.0, 10.0}) {
     MotionSupervisor supervisor = move_supervisor(200, speed);
     const End end = play(supervisor, [](const Travel& t, double s) {
-      return t.position_mm(std::min(s, 1.0));  // held from 1 s on
+      return t.position_mm(std::min(s, 1.0));  // blocked from 1 s on
     });
     EXPECT_EQ(end.event, Kind::kFollowingError);
     const RigConfig config = test_config();
@@ -129,7 +129,7 @@ MotionSupervisor home_supervisor() {
 }
 
 drive::DriveState homing(double t_s, bool moving, bool homed) {
-  drive::DriveState out = axis(t_s, 500, moving);  // means nothing before homing
+  drive::DriveState out = axis(t_s, 500, moving);  // meaningless before homing
   out.homed = homed;
   return out;
 }

@@ -40,7 +40,8 @@ TEST_P(Wired, AMoveEndsAtItsTargetAndIsFullyRecorded) {
   ASSERT_GT(samples.size(), 20 * 1.2) << "20 Hz";
   for (const Sample& sample : samples) {
     EXPECT_EQ(sample.motion, done.number);
-    if (!std::isfinite(sample.expected_mm)) continue;  // the first, before the order was sent
+    // the first sample, before the command was sent
+    if (!std::isfinite(sample.expected_mm)) continue;
     EXPECT_NEAR(sample.position_mm, sample.expected_mm, following_band_mm(rig->config(), 10));
   }
 }

@@ -87,8 +87,8 @@ TEST(ConstantSpeed, OfAStraightLineIsItsSlopeWithZeroDeviation) {
 }
 
 TEST(ConstantSpeed, FindsASineOfKnownSize) {
-  // x = 5 t + A sin(w t), over many whole periods: the line keeps the slope 5, the deviation is A,
-  // and over a window of half a period the mean speed differs by 2 A / (T / 2).
+  // x = 5 t + A sin(w t), over many whole periods: the line keeps the slope 5 and the deviation is
+  // A. Over a window of half a period the mean speed differs by 2 A / (T / 2).
   const double amplitude_mm = 0.05, period_s = 0.4;
   std::vector<Sample> samples;
   for (int i = 0; i <= 4000; ++i) {
@@ -102,8 +102,8 @@ TEST(ConstantSpeed, FindsASineOfKnownSize) {
 }
 
 TEST(ConstantSpeed, TimeErrorsAreNotADeviation) {
-  // A constant 5 mm/s whose samples have times that are wrong by anything up to what they state, a
-  // few of them by a lot.
+  // A constant 5 mm/s; the times of the samples are wrong by up to their stated error, which is
+  // large for a few of them.
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> share(-1, 1);
   std::vector<Sample> samples;
@@ -120,7 +120,7 @@ TEST(ConstantSpeed, TimeErrorsAreNotADeviation) {
 }
 
 TEST(ConstantSpeed, ADeviationIsFoundDespiteTimeErrors) {
-  // The axis hangs back by 0.08 mm for a second in eight; all times are within 1 ms.
+  // The axis lags by 0.08 mm for one second in eight; all times are accurate within 1 ms.
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> share(-1, 1);
   std::vector<Sample> samples;
@@ -131,7 +131,7 @@ TEST(ConstantSpeed, ADeviationIsFoundDespiteTimeErrors) {
     samples.back().time_error_s = 0.001;
   }
   const ConstantSpeed speed = constant_speed(samples, 1, 0);
-  EXPECT_GT(speed.largest_way_mm, 0.06);  // the line gives way by an eighth, a time by 0.005 mm
+  EXPECT_GT(speed.largest_way_mm, 0.06);  // the fit absorbs an eighth, the time error 0.005 mm
   EXPECT_LT(speed.largest_way_mm, 0.08);
   EXPECT_GT(speed.largest_share, 0.06);  // 0.08 mm of the 1 mm in 0.2 s
 }

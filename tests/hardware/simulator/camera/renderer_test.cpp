@@ -1,4 +1,4 @@
-// What the camera sees, without noise, against closed forms.
+// Compares the rendered depths, without noise, with closed forms.
 #include "hardware/simulator/camera/renderer.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using simulated_scene::Scenery;
 using simulated_scene::Sight;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Rays are of single precision, 6e-5 mm at 800 mm.
+/// Rays have single precision, 6e-5 mm at 800 mm.
 constexpr double kExact_mm = 2e-3;
 
 /// A half-space n . x <= c.
@@ -62,7 +62,7 @@ TEST(Renderer, APyramidOnAPlaneIsExactWithEveryLens) {
   scenery.bodies = {ground(), {"pyramid", simulated_scene::pyramid(60, 40), false}};
   const Lens lens = drawn_lens(11);
   simulated_scene::CameraStand stand;
-  stand.at_mm = {0, -200, 770};  // so that no side is seen too flat
+  stand.at_mm = {0, -200, 770};  // so that no side is at a grazing angle
   const Pose X_FC = simulated_scene::camera_pose(stand, 1, 0);
   const Depths seen = look(scenery, lens, X_FC);
   int on_pyramid = 0, at_its_edge = 0;
@@ -79,7 +79,7 @@ TEST(Renderer, APyramidOnAPlaneIsExactWithEveryLens) {
   EXPECT_LE(at_its_edge, 2);
 }
 
-/// A sphere of triangles, every point on it.
+/// A sphere of triangles with all vertices on it.
 Mesh sphere(double radius_mm, int around) {
   Mesh out;
   const int down = around / 2;
@@ -120,7 +120,7 @@ TEST(Renderer, ASphereInTheGripperFollowsTheDrive) {
       const double b = from.dot(along);
       const double root = b * b - a * (from.squaredNorm() - kRadius_mm * kRadius_mm);
       const double facing = root > 0 ? std::sqrt(root / a) / kRadius_mm : 0;
-      if (facing < 0.3) continue;  // near the outline triangles and sphere part
+      if (facing < 0.3) continue;  // near the outline, triangles and sphere differ
       ++hits;
       // Triangles lie up to R (1 - cos(pi / 800)) = 0.3 um below the sphere.
       ASSERT_NEAR(seen[i], (-b - std::sqrt(root)) / a, 3 * kExact_mm);
@@ -143,7 +143,7 @@ TEST(Renderer, SurfacesWithoutProjectorLightAreNotMeasured) {
   for (int x = 0; x < kWidth_px; ++x) {
     if (row[x] == 0) ++(x < kWidth_px / 2 ? left : right);
   }
-  // The edge of the top at x = -50 hides the ground down to where the projector's ray over it
+  // The edge of the top at x = -50 shadows the ground up to where the projector's ray over the edge
   // lands.
   const double end_mm = 50 + (50 + kBaseline_mm) * height_mm / (800 - height_mm);
   const double start_mm = 50 * 800 / (800 - height_mm);
@@ -182,7 +182,7 @@ TEST(Renderer, MarkersAreRenderedInEveryState) {
     sight.markers[2] = state;
     EXPECT_NE(count(sight), well);
   }
-  EXPECT_EQ(count({}), well) << "and stands again";
+  EXPECT_EQ(count({}), well) << "the marker stands again";
 }
 
 TEST(Renderer, TheSameSceneSeedAndTimeGiveTheSameBits) {

@@ -1,4 +1,4 @@
-// The errors of the sensor, measured on flat planes and held against the formulas.
+// Measures the errors of the sensor on planes and compares them with the formulas.
 #include "hardware/simulator/camera/sensor.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr double kRoundingVariance = 1.0 / 12;  // of whole millimetres
 
 Depths plane(double depth_mm) { return Depths(kPixels, static_cast<float>(depth_mm)); }
 
-/// Mean and unbiased variance over time of every pixel.
+/// Mean and unbiased variance of every pixel over time.
 struct OverTime {
   std::vector<double> mean, variance;
 };
@@ -57,7 +57,7 @@ TEST(Sensor, SigmaMatchesTheFormulaAndHalfTheVarianceIsConstant) {
     const double passing = average(seen.variance);
     const double constant = spread(seen.mean) - passing / kFrames;
     EXPECT_NEAR(passing, variance / 2 + kRoundingVariance, 0.01 * variance) << z_mm;
-    // Of 19200 patches: 1 % is one standard deviation.
+    // With 19200 patches, one standard deviation is 1 %.
     EXPECT_NEAR(constant, variance / 2, 0.04 * variance / 2) << z_mm;
     EXPECT_NEAR(average(seen.mean), 0, 4 * std::sqrt(variance / 2 / 19200)) << z_mm;
   }

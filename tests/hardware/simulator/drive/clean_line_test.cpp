@@ -1,4 +1,4 @@
-// A reply that comes after its time is never taken for another request's.
+// A late reply is never taken for the reply to another request.
 #include <thread>
 
 #include "tests/hardware/simulator/drive/bench_rig.h"
@@ -9,7 +9,7 @@ namespace {
 using drive::Function;
 using drive::Request;
 
-// Two registers that hold different words, read with requests of one length.
+// Two registers with different contents, read by requests of the same length.
 const Request kMaker{1, Function::kReadHolding, 0x0000, 1, {}};
 const Request kWatchdogTime{1, Function::kReadHolding, 0x0200, 1, {}};
 constexpr std::uint16_t kMakerWord = 0x4850;
@@ -18,8 +18,8 @@ constexpr std::uint16_t kWatchdogWord = 250;
 class CleanLine : public OnBothWires {};
 HP_ON_BOTH_WIRES(CleanLine);
 
-// The hazard is real: with no silence after a timeout, the late word of one register is the answer
-// to the question for another. Without this, the next test would prove nothing.
+// Shows that the hazard exists: without silence after a timeout, the late word of one register is
+// taken for that of another. Without this, the next test would prove nothing.
 TEST(CleanLineSerial, WithoutSilenceALateReplyWouldBeTakenForAnotherOne) {
   BenchRig bench("rtu");
   const auto hasty = bench.other_link({milliseconds(500), milliseconds(100), milliseconds(0)});
@@ -45,7 +45,7 @@ TEST_P(CleanLine, WithSilenceALateReplyIsNeverTakenForAnotherOne) {
   }
 }
 
-// The second line of defence, for a drive that is even slower than its profile says.
+// The second line of defence, for a drive that is slower than its profile says.
 TEST(CleanLineSerial, AReplyToAnotherRequestIsNotDecodedAsState) {
   BenchRig bench("rtu");
   const auto link = std::make_shared<drive::Link>(
@@ -56,7 +56,7 @@ TEST(CleanLineSerial, AReplyToAnotherRequestIsNotDecodedAsState) {
   bench.act("fault late 180ms");
   ASSERT_FALSE(link->transact(kMaker));
   const auto state = drive.poll();
-  ASSERT_FALSE(state) << "made of another request's words";
+  ASSERT_FALSE(state) << "decoded from words of another request";
   EXPECT_EQ(state.error().reason, "REPLY_INVALID");
   EXPECT_EQ(drive.enable().error().reason, "RIG_OFFLINE");
 }
@@ -80,7 +80,7 @@ TEST_P(CleanLine, EveryCallEndsWithinItsTimeLimit) {
   bench.act("silent");
   const double first_s = seconds_of([&] { EXPECT_FALSE(bench.drive().poll()); });
   EXPECT_LT(first_s, 0.1 + 0.05);
-  // On a serial line, the silence that follows, and the time for the reply once more.
+  // On a serial line, also the silence that follows, and the time for another reply.
   const double second_s = seconds_of([&] { EXPECT_FALSE(bench.drive().poll()); });
   EXPECT_LT(second_s, 0.25 + 0.1 + 0.05);
 }

@@ -16,7 +16,7 @@ Goal move_to(double target_mm, double speed, double gain, double braking) {
   return {Goal::Kind::kPosition, target_mm, speed, gain, braking};
 }
 
-/// Distance from rest to rest after t, with equal ramps (pen and paper).
+/// Distance from rest after t, with equal ramps (computed by hand).
 double trapezoid(double distance, double speed, double ramp, double t) {
   const double top = std::min(speed, std::sqrt(distance * ramp));
   const double ramp_s = top / ramp;

@@ -1,4 +1,4 @@
-// Motion as the client sees it, through the wire.
+// Motion as the client sees it, over the wire.
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCount_mm = 1e-4;  // of the virtual drive
 
-/// From rest to rest, as pen and paper have it.
+/// Distance from rest, computed by hand.
 double trapezoid_mm(double distance, double speed, double ramp, double t) {
   const double ramp_s = speed / ramp;
   const double total_s = distance / speed + ramp_s;
@@ -93,7 +93,7 @@ TEST_P(Motion, JogContinuesWhileCommandedAndThenEndsByItself) {
     std::this_thread::sleep_for(milliseconds(50));
   }
   EXPECT_EQ(bench.drive().poll()->velocity_mm_per_s, -10);
-  // Polled all the while: it is the dead-man that ends it, not the watchdog.
+  // The drive is polled throughout, so the dead-man timer ends the jog, not the watchdog.
   const auto begin = Clock::now();
   const auto state = bench.poll_until([](const auto& s) { return !s.moving; });
   EXPECT_LT(seconds(Clock::now() - begin), bench.profile().jog_dead_man_s + 0.1);
@@ -114,7 +114,7 @@ TEST_P(Motion, SilenceOfTheClientStopsTheAxisWithinWatchdogTimeAndStoppingDistan
   EXPECT_EQ(bench.truth("alarm_code"), kWatchdog);
   const double allowed_mm = drive::stopping_distance_mm(bench.profile(), 10, watchdog_s);
   EXPECT_LE(bench.truth("position_mm") - x_mm, allowed_mm + 10 * 0.002);
-  // Back again: the alarm is told and explained, and a reset starts nothing.
+  // After reconnecting, the alarm is reported and explained, and a reset starts no motion.
   HP_ASSERT_OK(bench.drive().connect());
   const auto state = bench.drive().poll();
   HP_ASSERT_OK(state);

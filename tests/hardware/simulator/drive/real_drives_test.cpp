@@ -1,5 +1,5 @@
-// The profiles of real drives, played by the virtual rig: that they hang together, not that they
-// are true of the hardware.
+// Runs the profiles of real drives on the virtual rig. This checks their consistency, not that they
+// match the hardware.
 #include <cmath>
 
 #include "sim/base/input_file.h"
@@ -19,7 +19,7 @@ class RealDrive : public ::testing::TestWithParam<const char*> {
  protected:
   static std::string path() { return std::string(HYDROPRINT_PROFILES "/") + GetParam() + ".toml"; }
 
-  /// The profile as it is, or with a watchdog that its drive does not have: else it never moves.
+  /// The profile as shipped, or with a watchdog that its drive lacks, so that it can move.
   [[nodiscard]] BenchOptions options(bool with_watchdog) const {
     BenchOptions out;
     out.start_mm = 2;

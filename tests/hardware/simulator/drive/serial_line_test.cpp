@@ -1,4 +1,4 @@
-// The serial line: its time, who owns it, and an independent client.
+// The serial line: its timing, its lock, and an independent client.
 #include <modbus/modbus.h>
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace hydroprint::simulated_drive {
 namespace {
 
-/// Seconds that a poll of the virtual drive takes: request 8 bytes, reply 5 + 18, of 11 bits each
-/// (8E1), and a gap behind either.
+/// Duration of a poll of the virtual drive in seconds: request 8 bytes, reply 5 + 18, of 11 bits
+/// each (8E1), and a gap after each.
 double arithmetic_s(double baud, double gap_s) { return (8 + 23) * 11 / baud + 2 * gap_s; }
 
-/// The least of many polls, for the machine's own delays only add: until one is as fast as the
-/// wire lets it be, or 5 s are over.
+/// Minimum over many polls, since the machine only adds delays. Ends when a poll is as fast as the
+/// wire allows, or after 5 s.
 double measured_s(int baud, double expected_s) {
   BenchOptions options;
   options.baud = baud;
@@ -24,7 +24,7 @@ double measured_s(int baud, double expected_s) {
   const Clock::time_point begun = Clock::now();
   double least_s = 1;
   do {
-    // Two at a time, for the gap behind a frame is waited out before the next.
+    // Two polls at a time, because the gap after a frame delays the next one.
     const double two_s = seconds_of([&] {
       EXPECT_TRUE(bench.drive().poll());
       EXPECT_TRUE(bench.drive().poll());
@@ -80,7 +80,7 @@ TEST(Tcp, AMissingConnectionIsReportedAtOnce) {
   EXPECT_EQ(words.error().reason, "RIG_OFFLINE");
 }
 
-// libmodbus's own client shares no line with ours but the wire.
+// libmodbus's own client, which shares no code with ours.
 TEST(VirtualDrive, RespondsToAnIndependentClient) {
   BenchRig bench("tcp");
   modbus_t* peer = modbus_new_tcp("127.0.0.1", bench.endpoint().port);
@@ -91,7 +91,7 @@ TEST(VirtualDrive, RespondsToAnIndependentClient) {
   EXPECT_EQ(words[0], 0x4850);
   ASSERT_EQ(modbus_read_input_registers(peer, 0x0100, 9, words.data()), 9);
   EXPECT_EQ(words[0], 0xa55a);
-  EXPECT_EQ(words[1], 0x0080) << "nothing but the stop button, which is normally closed";
+  EXPECT_EQ(words[1], 0x0080) << "only the stop button, which is normally closed";
   ASSERT_EQ(modbus_write_register(peer, 0x0300, 1), 1);
   // To 1.5 mm at 20 mm/s with 200 mm/s^2.
   const std::array<std::uint16_t, 6> move = {4, 0, 15000, 0, 20000, 2000};

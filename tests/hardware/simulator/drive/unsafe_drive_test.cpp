@@ -1,4 +1,4 @@
-// Drives that must not be armed, and drives that are not the profile's.
+// Drives that must not be armed, and drives that do not match the profile.
 #include "sim/base/input_file.h"
 #include "tests/hardware/simulator/drive/bench_rig.h"
 
@@ -8,7 +8,7 @@ namespace {
 class UnsafeDrive : public OnBothWires {};
 HP_ON_BOTH_WIRES(UnsafeDrive);
 
-/// What connect() holds against the drive; it must be readable, but must not move.
+/// Returns connect()'s verdict on the drive; the drive must be readable but must not move.
 Error held_against(BenchRig& bench) {
   const auto found = bench.drive().connect();
   if (!found || !found->unsafe) {

@@ -49,7 +49,7 @@ TEST(Codec, OtherInputIsRefused) {
   }
   std::string state = to_json(Sight{});
   state.replace(state.find("\"well\""), 6, "\"cross-eyed\"");
-  EXPECT_FALSE(sight_of(state)) << "a state that there is not";
+  EXPECT_FALSE(sight_of(state)) << "an unknown state";
 }
 
 }  // namespace

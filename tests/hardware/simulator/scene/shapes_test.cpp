@@ -7,7 +7,7 @@
 namespace hydroprint::simulated_scene {
 namespace {
 
-/// The volume that a mesh encloses, positive if its faces turn outward.
+/// The enclosed volume of a mesh, positive if its faces point outward.
 double volume(const Mesh& mesh) {
   double out = 0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
