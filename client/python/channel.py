@@ -81,6 +81,6 @@ def explain(error):
     """Describes a failed call in one line."""
     text = f"{error.code().name}: {error.details()}"
     if error.code() == grpc.StatusCode.UNAVAILABLE:
-        text += ("; check the address, whether the server uses TLS (https://host:port), and whether its certificate is for "
-                 "this name and signed by an authority in HYDROPRINT_CA. `hydroprint status` names the cause")
+        text += ("; check the address, whether the server uses TLS (https://host:port), and whether its certificate is "
+                 "for this name and signed by an authority in HYDROPRINT_CA. `hydroprint status` names the cause")
     return text

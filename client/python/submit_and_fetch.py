@@ -6,8 +6,8 @@ The build generates the stubs (target hydroprint_python):
     PYTHONPATH=build/release/python client/python/submit_and_fetch.py \
         --mesh globe.obj --texture globe.png --out result
 
-HYDROPRINT_SERVER is the daemon's address ("https://host:port" for TLS). HYDROPRINT_CA is a file with the certificate of a
-private authority. HYDROPRINT_API_KEY (hydroprint keys add) replaces the key that `hydroprint login` stores.
+HYDROPRINT_SERVER is the daemon's address ("https://host:port" for TLS). HYDROPRINT_CA is a file with the certificate
+of a private authority. HYDROPRINT_API_KEY (hydroprint keys add) replaces the key that `hydroprint login` stores.
 """
 
 import argparse
@@ -94,7 +94,7 @@ def main():
     """Runs the example."""
     parser = argparse.ArgumentParser(description="Submit a simulation and fetch its film image.")
     parser.add_argument("--server", default=os.environ.get("HYDROPRINT_SERVER", "127.0.0.1:50051"))
-    parser.add_argument("--mesh", required=True, help="OBJ, STL, PLY, glTF or GLB file without references to other files")
+    parser.add_argument("--mesh", required=True, help="OBJ, STL, PLY, glTF or GLB, without other files")
     parser.add_argument("--texture", help="PNG, JPEG or TIFF")
     parser.add_argument("--dpi", type=float, help="resolution of the film image")
     parser.add_argument("--out", default=".", help="folder for film.png")
