@@ -30,7 +30,7 @@ Result<Eigen::Vector4d> read_rotation(const std::string& where, const nlohmann::
   const double length = wxyz.stableNorm();
   if (!(length >= kMinQuaternion)) {
     return fail(Code::kInvalidArgument,
-                where + ": too short to be a rotation. No rotation is [1, 0, 0, 0]");
+                where + ": too short to be a rotation. Use [1, 0, 0, 0] for no rotation");
   }
   return Eigen::Vector4d(wxyz / length);
 }
