@@ -81,7 +81,7 @@ TEST_F(CameraFile, APatternOfAnotherImageIsRefused) {
   json["height_px"] = 480;
   const auto found = read(json.dump());
   ASSERT_FALSE(found);
-  EXPECT_NE(found.error().message.find("not of its image's size. Calibrate the camera anew"),
+  EXPECT_NE(found.error().message.find("does not match the image size. Calibrate the camera again"),
             std::string::npos)
       << found.error().message;
   EXPECT_NE(refusal("patch_px", 8).find("pattern"), std::string::npos);
