@@ -19,7 +19,7 @@ struct Task {
   registration::CameraCalibration camera;
   RigLayout layout;
   mesh::Surface surface;  ///< of the object, frame O
-  /// Nullopt: model orientation, box centred on the film.
+  /// nullopt: model orientation, box centred on the film.
   std::optional<Pose> nominal_FO;
   std::optional<double> gripper_mm;          ///< height of its lower end above z = 0
   Eigen::Vector2d half_film_mm{105, 148.5};  ///< the region searched for water
