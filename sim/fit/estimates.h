@@ -22,7 +22,7 @@ struct Estimate {
   double start = 0, value = 0;
   double standard_error = 0;        ///< NaN for a drag length at its bound
   double low = 0, high = 0;         ///< of the interval
-  bool is_one_sided = false;        ///< the estimate and that end lie at a bound
+  bool is_one_sided = false;        ///< the estimate and one end lie at a bound
   double scaled = 0;                ///< the fitted value, see parameters.h
   double scaled_error = 0;          ///< its standard error
   double discretisation_error = 0;  ///< the part due to the computation itself, scaled

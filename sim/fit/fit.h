@@ -25,7 +25,7 @@ struct Options {
 /// The result for a measured point. Places on the film are printed ones, in F, mm.
 struct PointResult {
   Point point;
-  Eigen::Vector2d before_mm;  ///< landing there with the starting profile; NaN: none
+  Eigen::Vector2d before_mm;  ///< point landing there with the starting profile; NaN: none
   Eigen::Vector2d after_mm;   ///< with the fitted profile
   std::string left_out;       ///< why it does not count; empty: it counts
   bool is_outlier = false;    ///< its residual lies beyond 4 robust standard deviations

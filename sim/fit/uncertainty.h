@@ -31,7 +31,8 @@ struct Unknown {
   Eigen::Index parameter = 0;
   double moves_mm = 0;    ///< rms move of the points over its plausible range
   double half_width = 0;  ///< of its interval, scaled
-  /// The parameter it is confused with; -1 if the points alone say too little about it.
+  /// The parameter it is confused with; -1 if the points simply contain too little information on
+  /// it.
   Eigen::Index taken_for = -1;
 };
 

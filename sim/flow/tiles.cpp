@@ -293,7 +293,7 @@ class Tiler {
   std::vector<Tile> active_;
   std::vector<MappedTriangle> done_;
   EdgeTable<EdgeState> state_;
-  EdgeTable<int> middle_;  ///< of those divided
+  EdgeTable<int> middle_;  ///< of divided edges
 };
 
 }  // namespace

@@ -14,9 +14,9 @@ namespace {
 
 /// Chords of the film mesh cut off at most this much of the film; there is no film farther outside.
 constexpr double kReach_mm = 0.08;
-/// A step may overshoot the waterline, and a landing may be off the waterlines before and after it
-/// by their distance. Such points still need a velocity. (The start of each path decides whether
-/// its landing has film at all.)
+/// A step may overshoot the waterline, and a landing may be as far from its neighbouring waterlines
+/// as they are from each other. Such points still need a velocity. (The start of each path decides
+/// whether its landing has film at all.)
 constexpr double kFarReach_mm = velocity::Locator::kReach_mm;
 
 using Eigen::Vector2d;
@@ -32,7 +32,7 @@ constexpr std::size_t kChunk = 512;  ///< points followed together
 struct BackPath {
   Vector2d point_mm;  ///< NaN: lost
   double immersion_mm;
-  Vector2d velocity;                           ///< of the film there and then
+  Vector2d velocity;                           ///< of the film at that point and immersion
   std::size_t after;                           ///< number of waterlines still before it
   Vector2d later_velocity = Vector2d::Zero();  ///< one step later in the dip
   double later_span_mm = 0;

@@ -17,7 +17,7 @@ namespace hydroprint::flow {
 /// immersion alone, so immersion takes the place of time.
 struct DipField {
   film::Outline outline;                        ///< the film as it floats at rest
-  double depth_mm = 0;                          ///< where the dip ends
+  double depth_mm = 0;                          ///< immersion at the end of the dip
   std::vector<double> immersion_mm;             ///< increasing
   std::vector<velocity::VelocityField> fields;  ///< one per immersion
 };

@@ -76,7 +76,7 @@ class PrinterColours::LittleCms {
         (space != cmsSigCmykData && space != cmsSigRgbData)) {
       return fail(Code::kInvalidArgument, name +
                                               ": not the profile of a CMYK or RGB printer. "
-                                              "Name an ICC output profile whose colour space "
+                                              "Give an ICC output profile whose colour space "
                                               "is CMYK or RGB");
     }
     channels_ = space == cmsSigCmykData ? 4 : 3;

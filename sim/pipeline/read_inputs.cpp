@@ -33,8 +33,8 @@ Status check_materials(const mesh::Model& model) {
 }
 
 /// Loading the image libraries takes as long as reading most models. They are loaded before a large
-/// model, because they end the program if they find no memory, and always by the calling thread,
-/// because LeakSanitizer fails on libraries whose loading thread has ended.
+/// model, because they end the program if they find no memory. The calling thread always loads
+/// them, because LeakSanitizer fails on libraries whose loading thread has ended.
 Result<mesh::Model> read_model(const SimulateOptions& options, const Context& context) {
   const auto read = [&](const Context& reading) {
     return mesh::read_model(options.mesh, options.scale, reading);

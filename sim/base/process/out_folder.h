@@ -9,8 +9,8 @@ namespace hydroprint::worker {
 
 /// The artifact folder DIR while it is being written. Files go to DIR.partial-XXXXXX beside it,
 /// which is renamed to DIR as the last step. If the program ends before that, DIR is unchanged. The
-/// process holds a lock on the partial folder; the next process for the same DIR removes partial
-/// folders without a lock, which belonged to killed processes.
+/// process holds a lock on its partial folder. A partial folder without a lock was left by a killed
+/// process; the next process for the same DIR removes it.
 class OutFolder {
  public:
   /// Refuses a DIR whose parent folder is missing, that is not a folder, or that contains files

@@ -12,7 +12,7 @@
 
 namespace hydroprint::image {
 
-/// One texel in linear light, 16 bits a channel; `chart` is set by Texture (0 when read).
+/// One texel in linear light, 16 bits per channel; `chart` is set by Texture (0 when read).
 struct Texel {
   std::uint16_t r = 0, g = 0, b = 0, chart = 0;
 };
