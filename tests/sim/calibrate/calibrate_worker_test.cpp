@@ -1,4 +1,4 @@
-// calibrate through the program, from frames of the virtual camera.
+// The verb calibrate, with frames of the virtual camera.
 #include <algorithm>
 
 #include "sim/calibrate/camera_file.h"
@@ -22,14 +22,14 @@ TEST_F(Calibrate, NamesAMarkerThatIsHidden) {
       calibrate({"--camera", path("camera.json"), "--gripper-mm", std::to_string(rig.gripper_mm)});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json out = json::parse(ended.out);
-  ASSERT_EQ(out["warnings"].size(), 2U) << out["warnings"];  // the other: what the scan cannot tell
+  ASSERT_EQ(out["warnings"].size(), 2U) << out["warnings"];  // the other: an unconstrained pose
   EXPECT_EQ(out["warnings"][0]["code"], "marker_left_out");
   EXPECT_EQ(out["warnings"][0]["where"], "near");
 }
 
 TEST_F(Calibrate, SaysThatNobodyCalibratedTheCamera) {
   take_frames(4);
-  // The driver's lens may be so far off that the markers do not agree: that is said, too.
+  // With the driver's lens the markers may disagree; then the error says so.
   const Ended ended = calibrate({"--gripper-mm", std::to_string(rig.gripper_mm)});
   const json out = json::parse(ended.out);
   if (ended.status != 0) {

@@ -1,4 +1,4 @@
-// fuse through the program, from frames of a virtual camera that is swept by hand.
+// The verb fuse, with frames of a virtual camera that is swept by hand.
 #include <algorithm>
 #include <cmath>
 

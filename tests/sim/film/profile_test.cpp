@@ -31,7 +31,7 @@ void expect_equal(const Profile& a, const Profile& b) {
   EXPECT_EQ(a.activator_wait_s, b.activator_wait_s);
 }
 
-/// The keys that the refusal of an unknown one lists.
+/// The keys listed in the error for an unknown key.
 std::vector<std::string> known_keys() {
   const std::string message = profile("no_such_key = 1").error().message;
   std::istringstream list(message.substr(message.find("Use ") + 4));

@@ -1,4 +1,4 @@
-// `hydroprint-worker fit` as its users see it.
+// The verb `hydroprint-worker fit` from a user's point of view.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -64,8 +64,8 @@ film::Profile truth() {
   return profile;
 }
 
-/// Small enough that the program's usual settings take no time: a ball of 12 mm in a film of 60 mm
-/// by 70, dipped to its equator, half of it black.
+/// Inputs small enough to be fast at the program's usual settings: a ball of 12 mm in a film of 60
+/// x 70 mm, dipped to its equator, half of the film black.
 class FitWorker : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -84,7 +84,7 @@ class FitWorker : public ::testing::Test {
   }
   static void TearDownTestSuite() { delete inputs; }
 
-  /// Where a fit of the drag lies that was run once, by two threads, for whoever asks.
+  /// Output of a fit of the drag with two threads; run once and shared by the tests.
   static const fs::path& drag_fit() {
     static const fs::path out = inputs->path() / "drag";
     static const int status =
@@ -112,7 +112,7 @@ class FitWorker : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  /// The same with --out, unless there is one.
+  /// Same as command(), with --out added unless it is there.
   [[nodiscard]] Arguments fit(const Arguments& more = {}, bool with_points = true) const {
     Arguments all = command(more, with_points);
     const bool has_out = std::find(more.begin(), more.end(), "--out") != more.end();
@@ -173,7 +173,7 @@ TEST_F(FitWorker, MakesAProfileThatItReadsBackAndThatExplainsThePoints) {
     EXPECT_FALSE(named(fit_found.at("undetermined"), name).is_null()) << name;
   }
   EXPECT_EQ(json::parse(ended.out).at("estimates"), fit_found.at("estimates"));
-  // Given back as the start, it leaves nothing to do.
+  // A second fit that starts with the result changes nothing.
   ASSERT_EQ(testing::run(fit({"--free", "drag", "--ink-image", input("film.png"), "--profile",
                               out() + "/film_profile.toml", "--out", out("again")}))
                 .status,

@@ -29,7 +29,7 @@ TEST(Selection, FourPlacesAreEnoughAndManyPointsOnOneSpotAreNot) {
 
 TEST(Selection, OutliersAreThoseBeyondFourRobustSigmas) {
   std::mt19937 random(2);
-  // Within 0.24 mm, where four robust standard deviations are 0.5: none is an outlier by chance.
+  // All within 0.24 mm, while four robust standard deviations are 0.5: no outlier by chance.
   std::uniform_real_distribution<double> error(-0.17, 0.17);
   std::vector<PointResult> points;
   for (int i = 0; i < 300; ++i) {

@@ -1,5 +1,5 @@
-// Whether intervals are honest: fits of drawn noise in the linearised form, where nothing but the
-// statistics is at stake.
+// Coverage of the intervals: fits of random noise in the linearised form, where only the statistics
+// matter.
 #include "sim/fit/uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 constexpr int kDraws = 1000;
 
-/// As a print gives it: ink that moves few points, drag that moves far ones, and swelling.
+/// Typical of a print: ink that moves few points, drag that moves distant points, and swelling.
 MatrixXd jacobian_of(int points) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-60, 60);
@@ -37,8 +37,8 @@ MatrixXd jacobian_of(int points) {
   return jacobian;
 }
 
-/// What became of many fits: the errors over their standard errors, and how many 95 % intervals
-/// held the truth.
+/// Statistics of many fits: errors divided by their standard errors, and the number of 95 %
+/// intervals that contain the true value.
 struct Coverage {
   VectorXd normalised_rms, held;
 };
@@ -82,7 +82,7 @@ TEST(Uncertainty, IsHonestForEqualErrors) {
 }
 
 TEST(Uncertainty, IsHonestForErrorsThatDifferAndGoTogether) {
-  // Film that was gathered has larger errors, and in one direction; here those of the far points.
+  // Compressed film has larger errors, in one direction; here at the distant points.
   const MatrixXd jacobian = jacobian_of(150);
   expect_honest(cover(jacobian, [&](int i, double x, double y) -> Vector2d {
     const bool is_far = jacobian.block<2, 1>(2 * i, 1).norm() > 3;
@@ -121,7 +121,7 @@ TEST(Unknowns, AreNoneWhereAllIsKnown) {
 TEST(Unknowns, AreWhatMovesNothing) {
   MatrixXd jacobian = jacobian_of(80);
   jacobian.col(1) *= 1e-4;
-  for (const double sigma : {0.1, 0.0}) {  // without noise, too
+  for (const double sigma : {0.1, 0.0}) {  // also without noise
     const auto found = unknowns({noise(160, sigma), jacobian}, 0.003, 2);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].parameter, 1);
@@ -171,7 +171,7 @@ TEST(Estimates, LieInTheMiddleOfTheirScaledIntervals) {
   EXPECT_NEAR(all[0].high - all[0].value, t * all[0].standard_error, 1e-9);
   EXPECT_NEAR(all[0].value - all[0].low, t * all[0].standard_error, 1e-9);
   EXPECT_NEAR(all[2].value, 1.06, 1e-12);
-  // Drag is fitted as 1 / length^2: the ends change places, and the middle is not one.
+  // Drag is fitted as 1 / length^2, so the ends are swapped and the middle is not the middle.
   EXPECT_NEAR(1 / std::pow(all[1].low, 2) - 0.002, 0.002 - 1 / std::pow(all[1].high, 2), 1e-9);
   EXPECT_NEAR(all[1].value, std::sqrt(500), 1e-9);
   EXPECT_FALSE(all[1].is_one_sided);

@@ -22,7 +22,7 @@ FlowMap mapped(const SolvedDip& dip, MapOptions options = {}) {
   return make_flow_map(dip.surface, dip.body, dip.field, {}, options, {}).value();
 }
 
-/// Either all of a point's figures are numbers or none is.
+/// Expects that a point's figures are either all numbers or all NaN.
 void expect_numbers_or_nothing(const SurfaceMap& map) {
   for (std::size_t v = 0; v < map.film_mm.size(); ++v) {
     const bool reached = !std::isnan(map.film_mm[v].x());
@@ -147,7 +147,7 @@ TEST(FlowMap, OfASwollenFilmIsGivenOnTheFilmAsPrinted) {
 }
 
 TEST(FlowMap, GivesPointsThatAreOneOneFilmPoint) {
-  // As from an STL file: every face has corners of its own.
+  // As from an STL file: every face has its own corners.
   const mesh::Model sphere = sample::icosphere(15, 3);
   mesh::Model torn;
   torn.path = "torn";

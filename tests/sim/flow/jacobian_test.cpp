@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-/// Film to surface.
+/// The map from film to surface.
 using Jacobian = Eigen::Matrix<double, 3, 2>;
 
 const std::array<Vector2d, 3> kFilm = {Vector2d(1, 2), Vector2d(3, 2.5), Vector2d(0.5, 4)};
@@ -80,7 +80,7 @@ TEST(Gradient, OfASurfaceTriangleWithoutAreaIsZero) {
 
 TEST(PointGradients, LeaveOutWhatIsNotReachedAndWhatLiesTheWrongWayUp) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  // A square whose outside looks down: right turns on the film for left turns on the surface.
+  // A square that faces down, so its orientation on the film is reversed.
   const std::vector<Vector3d> surface = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
   const std::vector<Eigen::Vector3i> triangles = {{0, 1, 2}, {0, 2, 3}};
   const auto flat = [](const Vector3d& p) { return Vector2d(2 * p.head<2>()); };
@@ -94,7 +94,7 @@ TEST(PointGradients, LeaveOutWhatIsNotReachedAndWhatLiesTheWrongWayUp) {
   auto gradients = point_gradients(film, surface, triangles);
   EXPECT_TRUE(std::isnan(gradients[3](0, 0)));
   EXPECT_NEAR(stretch_of(gradients[0]).most, 0.5, 1e-12);
-  film[3] = Vector2d(-5, 9);  // over the other triangle
+  film[3] = Vector2d(-5, 9);  // on the side of the other triangle
   gradients = point_gradients(film, surface, triangles);
   EXPECT_TRUE(std::isnan(gradients[3](0, 0)));
 }

@@ -21,7 +21,7 @@ InkField field_of(const film::Outline& outline, const std::function<double(const
   return *InkField::from_function(ink_grid(outline, cell_mm), t);
 }
 
-/// Every cell its own: the hardest a field can be.
+/// Every cell is independent, which is the hardest kind of field.
 InkField noise(const film::Outline& outline, double cell_mm) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> amount(0, kMostInk);
@@ -159,7 +159,7 @@ TEST(InkField, TrianglesThatCoverTheFilmShareOutAllItsInk) {
     const InkField field = noise(outline, cell_mm);
     std::mt19937 random(3);
     for (int trial = 0; trial < 20; ++trial) {
-      // A fan from a point of the film round its edge, which random points divide.
+      // A fan around a random point of the film; random points divide the film's edge.
       std::uniform_real_distribution<double> share(0.05, 0.95);
       const Vector2d hub =
           outline.min_mm + outline.size_mm().cwiseProduct(Vector2d(share(random), share(random)));
@@ -207,7 +207,7 @@ TEST(InkField, MeanIsTheSameEitherWayRoundAndFromEveryCorner) {
 
 TEST(InkField, EdgesAlongTheGridLoseNothing) {
   const InkField field = noise(outline_of("10x10"), 0.5);
-  // From centre to centre, from edge to edge, and both ways across.
+  // From centre to centre, from edge to edge, and split along both diagonals.
   for (const double from : {-4.75, -5.0, 0.0}) {
     const Vector2d a(from, from), b(from + 4, from), c(from + 4, from + 4), d(from, from + 4);
     const double whole = field.mean(a, b, c) + field.mean(a, c, d);

@@ -91,13 +91,13 @@ TEST(InkOf, NoInkIsLostOrWonWhateverTheSizeOfTheImage) {
 }
 
 TEST(InkOf, ImagesOfWholeDotsPerInchLieAtTheirOwnPitch) {
-  // 10 dpi: 2.54 mm a pixel; 24 x 16 of them are 60.96 x 40.64 mm, a little more than the film.
+  // 10 dpi is 2.54 mm per pixel; 24 x 16 pixels are 60.96 x 40.64 mm, slightly more than the film.
   const image::RgbImage image = picture(24, 16, [](int x, int) {
     return x < 12 ? std::array<int, 3>{255, 0, 0} : std::array<int, 3>{255, 255, 255};
   });
   const InkField more = ink(image, outline_of("60x40"));
   EXPECT_NEAR(more.total_mm2(), 2 * 30 * 40, 1e-9) << "what hangs over the film is cut off";
-  // And a little less than this one.
+  // The image is slightly smaller than this film.
   const InkField less = ink(image, outline_of("62x41"));
   EXPECT_NEAR(less.total_mm2(), 2 * 12 * 2.54 * 16 * 2.54, 1e-9);
   EXPECT_NEAR(less.at({-15, 0}), 2, 1e-12);

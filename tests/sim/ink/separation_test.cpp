@@ -195,7 +195,7 @@ TEST(IccSeparation, HugeTablesThatAHeaderAnnouncesAreNotAllocated) {
     expect_refused(separation_from(lying), Code::kDataLoss, "grid points");
   }
   EXPECT_LT(peak_kib() - before, 64 * 1024);
-  for (const std::size_t at : {std::size_t{0}, std::size_t{128}}) {  // its size, how many tags
+  for (const std::size_t at : {std::size_t{0}, std::size_t{128}}) {  // its size, its number of tags
     std::string lying = whole;
     lying.replace(at, 4, 4, '\xFF');
     expect_refused(separation_from(lying), Code::kDataLoss, "sizes");

@@ -32,8 +32,8 @@ Layout laid(const std::string& film, const PageSettings& settings, double dpi = 
   return *layout;
 }
 
-/// Every stroke, at places 0.25 mm apart along it and with its pen's width, on paper that can be
-/// printed and a millimetre off the film.
+/// Checks every stroke with its pen's width, at points 0.25 mm apart: it must be within the
+/// printable area and a millimetre away from the film.
 void expect_marks_off_film(const Layout& layout, double margin_mm) {
   for (const Sheet& sheet : layout.sheets) {
     for (const Stroke& stroke : sheet.marks) {
@@ -132,7 +132,7 @@ TEST(Layout, SheetsCoverALargerFilmAndOverlapAsAsked) {
         EXPECT_EQ(own.x1 == grid.columns, sheet.column == layout.columns - 1);
         EXPECT_EQ(own.y0 == 0, sheet.row == 0);
         EXPECT_EQ(own.y1 == grid.rows, sheet.row == layout.rows - 1);
-        // All of it within the printer's reach.
+        // All of it is within the printable area.
         EXPECT_EQ(sheet.printable.width(), own.width());
         EXPECT_EQ(sheet.printable.height(), own.height());
         if (sheet.column > 0) {

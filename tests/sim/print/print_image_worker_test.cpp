@@ -1,4 +1,4 @@
-// print-image through the program; its files are read by other programs and measured.
+// The verb print-image; other programs read its files, and the test measures them.
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ class PrintImage : public ::testing::Test {
   testing::TemporaryFolder folder;
 };
 
-/// Middles of the dark lines that a row or column of grey values crosses, in pixels.
+/// Middles of the dark lines in a row or column of grey values, in pixels.
 std::vector<double> lines_in(const std::vector<int>& grey) {
   std::vector<double> out;
   double weight = 0, sum = 0;
@@ -112,10 +112,10 @@ TEST_F(PrintImage, ThePdfsScaleIsExactOverTheWholeFilm) {
   const auto across = lines_in(row), along = lines_in(column);
   ASSERT_EQ(along.size(), 2U);
   ASSERT_EQ(across.size(), 2U);
-  // Poppler draws an image from whole pixel to whole pixel of its own.
+  // Poppler aligns images to its own whole pixels.
   EXPECT_NEAR((along[1] - along[0]) * kMmPerPixel, (y1 - y0) * kPitch_mm, 0.05);
   EXPECT_NEAR((across[1] - across[0]) * kMmPerPixel, (x1 - x0) * kPitch_mm, 0.05);
-  // The film's middle is the paper's.
+  // The film's middle is at the paper's middle.
   EXPECT_NEAR(along[0] * kMmPerPixel, 148.5 + (y0 + 0.5 - 877) * kPitch_mm, 0.05);
   EXPECT_NEAR(across[0] * kMmPerPixel, 105 + (x0 + 0.5 - 620) * kPitch_mm, 0.05);
 }
@@ -129,7 +129,7 @@ TEST_F(PrintImage, TheImageOnThePageIsItsSizeToTheMicrometreAndSoIsTheRuler) {
   ASSERT_TRUE(std::regex_search(trace, match, placed)) << trace.substr(0, 2000);
   EXPECT_NEAR(std::abs(std::stod(match[1])) * 25.4 / 72, 787 * 0.254, 1e-3);
   EXPECT_NEAR(std::abs(std::stod(match[2])) * 25.4 / 72, 787 * 0.254, 1e-3);
-  // Lines of two points; the longest of them are the rulers'.
+  // Lines that have two points; the longest are those of the rulers.
   const std::regex line(
       "<moveto x=\"([^\"]+)\" y=\"([^\"]+)\"/>\\s*<lineto x=\"([^\"]+)\" y=\"([^\"]+)\"/>\\s*</");
   int rulers = 0;
@@ -243,7 +243,8 @@ TEST_F(PrintImage, AReprintIsTheSameFileBitForBit) {
   one.insert(one.end(), {"--threads", "1"});
   two.insert(two.end(), {"--threads", "3"});
   print(one, "one");
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // a date of now would differ
+  // The current time in a file would differ.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   print(two, "two");
   for (const std::string name : {"/print.pdf", "/print.png", "/print.tif"}) {
     EXPECT_TRUE(bytes_of(path("one") + name) == bytes_of(path("two") + name)) << name;
@@ -268,14 +269,14 @@ TEST_F(PrintImage, AnImageInThePrintersMarginIsCutOffWithAWarning) {
   image::RgbImage image = blank(827, 1169);  // A4 at 100 dpi
   fill(image, 400, 500, 500, 600, {0, 0, 255});
   film(image);
-  EXPECT_EQ(print({"--printer-margin-mm", "5"})["warnings"].size(), 1U);  // marks alone
+  EXPECT_EQ(print({"--printer-margin-mm", "5"})["warnings"].size(), 1U);  // for marks only
   fill(image, 0, 500, 400, 600, {0, 0, 255});
   film(image);
   const auto report = print({"--printer-margin-mm", "5", "--formats", "png"});
   ASSERT_EQ(report["warnings"].size(), 2U);
   EXPECT_EQ(report["warnings"][1]["code"], "image_in_printer_margin");
   EXPECT_EQ(report["warnings"][1]["where"], "sheet 1: left");
-  // 5 mm of a strip 25.4 mm high, to whole pixels.
+  // 5 mm of a strip 25.4 mm high, rounded to whole pixels.
   EXPECT_NEAR(report["print"]["cut_off_mm2"], 5 * 25.4, 0.254 * 25.4);
   const auto read = image::read_image(path("out/print.png"), {});
   std::vector<std::uint8_t> row(3U * 827);

@@ -18,10 +18,10 @@
 namespace hydroprint::sample {
 namespace {
 
-/// What write_sample leaves.
+/// The files written by write_sample().
 struct Written {
   hydroprint::testing::TemporaryFolder folder;
-  mesh::Model model;  ///< as read again
+  mesh::Model model;  ///< as read back
 };
 
 /// Each kind is written and read once for all tests of this program.

@@ -1,4 +1,4 @@
-// Smoothed frames, against the planes and steps that were drawn.
+// Smoothed frames, compared with the planes and steps in them.
 #include "sim/scan/smooth.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ DepthFrame drawn(const std::function<double(int u, int v)>& depth_mm) {
   return out;
 }
 
-/// A plane at 45 degrees, as a camera of 575.8 px sees it.
+/// A plane at 45 degrees, seen by a camera with a focal length of 575.8 px.
 double plane_mm(int u, int /*v*/) { return 800 / (1 - (u - kWidth_px / 2.0) / 575.8); }
 
 DepthFrame smoothed(const DepthFrame& frame) {
@@ -50,7 +50,7 @@ TEST(Smooth, LeavesAPlaneAndGapsAsTheyAre) {
     EXPECT_NEAR(out.depth_mm[i], frame.depth_mm[i], 0.001);
 }
 
-/// Of 25 patches of noise a fifth remains.
+/// A fifth of the noise of 25 patches remains.
 TEST(Smooth, TakesOutWhatPatchesAddToEveryFrame) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0, 1.1);

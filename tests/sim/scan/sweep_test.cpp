@@ -1,4 +1,4 @@
-// A camera swept over the rig, against where it was and what was there.
+// A camera swept over the rig, compared with its true path and the true scene.
 #include "sim/scan/sweep.h"
 
 #include <gtest/gtest.h>
@@ -40,14 +40,14 @@ Result<Sweep> fuse(const std::vector<DepthFrame>& frames, const Lens& lens,
   return fuse(frames, Camera{lens}, context);
 }
 
-/// What calibrate-camera would tell of a camera's constant noise at best.
+/// The best possible result of calibrate-camera for a camera's constant noise.
 FixedPattern pattern_of(std::uint64_t seed) {
   FixedPattern out{640, 480, 4, simulated_camera::constant_noise(seed)};
   out.sigma.assign(out.patches(), 0);
   return out;
 }
 
-/// How far the tracked camera is off, at worst.
+/// The largest position error of the tracked camera.
 double farthest_mm(const Sweep& sweep, const SweptCamera& camera) {
   double out = 0;
   for (std::size_t i = 0; i < sweep.path.X_WC.size(); ++i) {
@@ -58,7 +58,7 @@ double farthest_mm(const Sweep& sweep, const SweptCamera& camera) {
   return out;
 }
 
-/// How far the surface is off, of the share of its points that are nearest.
+/// The surface error, over the given share of its points with the smallest errors.
 double surface_mm(const Sweep& sweep, const SweptCamera& camera, double share) {
   const registration::Shape truth(camera.scene());
   const double sigma_mm = DepthNoise{}.sigma_mm(800);
@@ -128,10 +128,10 @@ TEST(Sweep, SaysWhichFrameLostItsPlace) {
       << lost.error().message;
 }
 
-/// What each frame after a jump is worth: it is lost, or where it was.
+/// After a jump, each frame is either lost or placed correctly.
 TEST(Sweep, LosesFramesAfterAJumpRatherThanMisplaceThem) {
   const SweptCamera camera(block());
-  for (const int jump : {9, 70}) {  // 50 mm, half a metre
+  for (const int jump : {9, 70}) {  // 50 mm and half a metre
     std::vector<DepthFrame> frames = camera.frames(4);
     for (int i = 0; i < 2; ++i) frames.push_back(camera.frame(3 + jump + i));
     const auto sweep = fuse(frames, camera.lens());
@@ -167,7 +167,7 @@ TEST(Sweep, RefusesWhatACameraInTroubleGives) {
   EXPECT_EQ(reason({flat, flat, flat}), "CAMERA_FROZEN");
   std::vector<DepthFrame> wall(12, flat);
   for (std::size_t i = 0; i < wall.size(); ++i) wall[i].depth_mm[i] = 810;
-  EXPECT_EQ(reason(wall), "CAMERA_LOST");  // a plane tells nothing of motion along it
+  EXPECT_EQ(reason(wall), "CAMERA_LOST");  // a plane does not determine motion along itself
   EXPECT_FALSE(fuse({}, lens));
   Lens other;
   other.width_px = 320;

@@ -1,4 +1,5 @@
-// `hydroprint-worker validate` as its users see it: the experiments, coarse, and their report.
+// The verb `hydroprint-worker validate` from a user's point of view: coarse experiments and their
+// report.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -41,7 +42,7 @@ std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// One quick run of everything, for all tests of its report.
+/// One quick run of all experiments, shared by all tests of its report.
 class QuickReport : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -58,7 +59,7 @@ class QuickReport : public ::testing::Test {
   static fs::path out() { return folder_->path() / "out"; }
   static json report() { return json::parse(content(out() / "report.json")); }
   static double value(const std::string& name) {
-    const json all = report();  // which the loop must not outlive
+    const json all = report();  // must outlive the loop
     for (const json& experiment : all.at("experiments")) {
       for (const json& figure : experiment.at("figures")) {
         if (figure.at("name") == name) return figure.at("value");
@@ -141,7 +142,7 @@ TEST_F(QuickReport, PageIsWellFormedAndItsLinksLeadSomewhere) {
     EXPECT_TRUE(link.starts_with("#") ? ids.contains(link.substr(1)) : fs::exists(out() / link))
         << link;
   }
-  const json all = report();  // which the loop must not outlive
+  const json all = report();  // must outlive the loop
   for (const json& experiment : all.at("experiments")) {
     EXPECT_NE(page.find("<h2>" + experiment.at("title").get<std::string>() + "</h2>"),
               std::string::npos);
@@ -150,7 +151,7 @@ TEST_F(QuickReport, PageIsWellFormedAndItsLinksLeadSomewhere) {
 
 TEST_F(QuickReport, CountsWhatPassed) {
   int passed = 0, failed = 0;
-  const json all = report();  // which the loop must not outlive
+  const json all = report();  // must outlive the loop
   for (const json& experiment : all.at("experiments")) {
     for (const json& figure : experiment.at("figures")) {
       if (!figure.contains("limit")) continue;
@@ -171,7 +172,7 @@ TEST_F(QuickReport, CountsWhatPassed) {
 }
 
 TEST_F(QuickReport, FilmLandsUnmovedWhereTheObjectFirstTouches) {
-  // Whatever the drawn errors are, the landing there strays as they do.
+  // The landing point there varies by the same amount as the drawn errors.
   EXPECT_NEAR(value("spread_at_contact_ratio"), 1, 0.01);
   EXPECT_NEAR(value("sphere_stretch_at_contact"), 1, 0.01);
   // Four standard deviations of 0.3 mm, 0.3 degrees at 60 mm and 0.5 mm, in two directions.
@@ -180,8 +181,8 @@ TEST_F(QuickReport, FilmLandsUnmovedWhereTheObjectFirstTouches) {
 }
 
 TEST_F(QuickReport, WhatPlaysTheExperimentIsNearerToTheExactSolution) {
-  // Second order: lengths 0.6 times as long leave 0.36 of the error, were it not for the mesh of
-  // triangles that stands for the sphere.
+  // Second order: 0.6 times the lengths leaves 0.36 of the error, plus the error of the mesh of
+  // triangles that represents the sphere.
   EXPECT_LT(value("exact_sphere_fine_max_mm"), 0.6 * value("exact_sphere_usual_max_mm"));
   EXPECT_LT(value("exact_sphere_fine_max_mm"), 0.2);
   EXPECT_GT(value("sphere_far_pole_max_mm"), value("sphere_to_equator_max_mm"));
@@ -246,7 +247,7 @@ TEST_F(QuickReport, IsReplacedByTheNextWhichRunsWhatItIsAskedFor) {
   }
   EXPECT_GT(wanted.size(), 2U);
   EXPECT_EQ(names_in(again), wanted);
-  // Bodies and films are shared, but no experiment changes what another one finds.
+  // Experiments share bodies and films, but none changes the input of another.
   const auto models_of = [](const fs::path& in) {
     const json all = json::parse(content(in / "report.json"));
     for (const json& e : all.at("experiments")) {

@@ -47,7 +47,7 @@ double least_angle_deg(const FilmMesh& mesh) {
   return least;
 }
 
-/// Film under solids that lie side by side: area, orientation, edges and velocities are in order.
+/// Checks the film around solids that lie side by side: area, orientation, edges and velocities.
 void expect_sound(const film::Outline& film, const std::vector<Curve>& solids,
                   double tolerance_mm = 0.011) {
   const waterline::Waterline line = testing::line_round(solids);
@@ -179,7 +179,7 @@ TEST(FilmMesh, TinyContoursSurvive) {
     const Curve solid = testing::circle({7, -11}, radius, 24);
     const waterline::Waterline line = testing::line_round({solid});
     const FilmMesh mesh = meshed(film, line);
-    // Chords of 0.1 mm (MeshOptions::least_mm) may cut off much of the smallest, but not all.
+    // Chords of 0.1 mm (MeshOptions::least_mm) may cut off much of the smallest solid, but not all.
     const double share = (8000 - total_area(mesh)) / waterline::signed_area(solid);
     EXPECT_GT(share, 0.5) << radius;
     EXPECT_LT(share, 1.0001) << radius;
@@ -189,7 +189,7 @@ TEST(FilmMesh, TinyContoursSurvive) {
 
 TEST(FilmMesh, ThinSolidsSurvive) {
   for (const double half : {0.5, 0.1, 0.03}) {
-    // The ends of the thinnest are below MeshOptions::least_mm and become points.
+    // The ends of the thinnest solids are below MeshOptions::least_mm and become points.
     expect_sound(outline_of("100x80"), {{{-20, -half}, {20, -half}, {20, half}, {-20, half}}},
                  half > 0.05 ? 0.011 : half);
   }
@@ -203,7 +203,7 @@ TEST(FilmMesh, SolidsThatTouchAtACornerAreMeshed) {
 }
 
 TEST(FilmMesh, LeavesOutWhatHoldsNoFilm) {
-  // A ring with an island in its hole, with film in the hole and without.
+  // A ring with an island in its hole, with and without film in the hole.
   const film::Outline film = outline_of("100x80");
   waterline::Waterline line = testing::line_round({testing::circle({0, 0}, 30, 600)});
   Curve hole = testing::circle({0, 0}, 20, 600);

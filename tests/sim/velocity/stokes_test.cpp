@@ -16,7 +16,7 @@ using testing::irregular_mesh;
 using testing::outline_of;
 using testing::prescribed;
 
-/// Largest error at any node when only the film's edges are given.
+/// Largest error at any node if only the velocities on the film's edges are given.
 double error_at_nodes(const FilmMesh& mesh, const Function& f) {
   const auto velocity = solve_stokes(mesh, prescribed(mesh, f));
   if (!velocity) return std::numeric_limits<double>::infinity();

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Outward normal of a surface met at contact angle `theta`, facing `azimuth`.
+/// Outward normal of a surface with contact angle `theta`, facing `azimuth`.
 Vector3d normal_at(double theta_rad, double azimuth_rad) {
   return {std::sin(theta_rad) * std::cos(azimuth_rad), std::sin(theta_rad) * std::sin(azimuth_rad),
           -std::cos(theta_rad)};

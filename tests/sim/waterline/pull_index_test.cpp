@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Pull of the nearest segment, tried one by one.
+/// Pull of the nearest segment, by brute force.
 Vector2d nearest_pull(const std::vector<Contour>& contours, const Vector2d& p) {
   double best = std::numeric_limits<double>::infinity();
   Vector2d pull = Vector2d::Zero();

@@ -41,7 +41,7 @@ TEST(Schedule, DividesASphereEvenlyInTheta) {
 }
 
 TEST(Schedule, IsCloserWhereTheSurfaceBendsSharply) {
-  // A drum whose rim is rounded: from flat to upright within a quarter circle.
+  // A drum with a rounded rim: from level to upright within a quarter circle.
   const double bend = 6, radius = 40;
   std::vector<Eigen::Vector2d> profile{{0, 0}};
   for (int i = 0; i <= 18; ++i) {
@@ -93,7 +93,7 @@ TEST(Schedule, TakesBothSidesOfAShelf) {
 }
 
 TEST(Schedule, TakesBothSidesOfALevelEdge) {
-  // A cone that goes over into a cylinder.
+  // A cone that continues as a cylinder.
   const Body body = testing::body_of(testing::turned({{0, 0}, {15, 15}, {15, 30}, {0, 30}}, 64));
   const ScheduleOptions options;
   const auto depths = schedule(body, body.height_mm, options);

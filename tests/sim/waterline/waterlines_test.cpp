@@ -27,7 +27,7 @@ Waterlines taken(const mesh::Model& model, const std::string& film = "A4",
   return *lines;
 }
 
-/// The last waterline taken before the given immersion.
+/// The last waterline before the given immersion.
 const Waterline& before(const Waterlines& waterlines, double immersion_mm) {
   const Waterline* found = &waterlines.lines.front();
   for (const Waterline& line : waterlines.lines) {
@@ -100,7 +100,7 @@ TEST(Waterlines, APostInACupMouthUpBoundsNone) {
 }
 
 TEST(Waterlines, AHollowAboveAClosedCeilingStaysDry) {
-  // Cells from below: open at the bottom, a floor, open at the top.
+  // Layers of cells from below: open at the bottom, a floor, open at the top.
   const Waterlines w =
       taken(testing::blocks({-20, -12, 12, 20}, {-20, -12, 12, 20}, {0, 10, 15, 25},
                             [](int i, int j, int k) { return k == 1 || i != 1 || j != 1; }));
@@ -130,7 +130,8 @@ TEST(Waterlines, ADryHollowStaysDryWhileItNarrowsAndWidens) {
 }
 
 TEST(Waterlines, AreTakenCloselyWhereContoursMerge) {
-  const double radius = 20, apart = 16;  // two spheres that overlap: one contour from some depth on
+  // Two overlapping spheres, which share one contour from some depth on.
+  const double radius = 20, apart = 16;
   const Waterlines w =
       taken(testing::together({testing::moved(sample::icosphere(radius, 5), {apart, 0, 0}),
                                testing::moved(sample::icosphere(radius, 5), {-apart, 0, 0})}));
@@ -139,7 +140,7 @@ TEST(Waterlines, AreTakenCloselyWhereContoursMerge) {
   bool found = false;
   for (std::size_t i = 1; i < w.lines.size(); ++i) {
     if (loops(w.lines[i - 1], false, true) == 2 && loops(w.lines[i], false, true) == 1) {
-      // No film fits between them once the gap is a slit (0.3 mm).
+      // No film fits between them when the gap is narrower than a slit (0.3 mm).
       EXPECT_LE(w.lines[i].immersion_mm, merge_mm + 0.02);
       EXPECT_GE(w.lines[i].immersion_mm, slit_mm - 0.02);
       EXPECT_LE(w.lines[i].immersion_mm - w.lines[i - 1].immersion_mm, 0.0101);
@@ -154,7 +155,7 @@ TEST(Waterlines, TheDipEndsWhereTheWaterlineReachesTheFilm) {
   // A ridge along y: its waterline is at x = +-immersion.
   const Waterlines w = taken(testing::wedge(slope, 60, 30), "80x120");
   EXPECT_TRUE(w.stopped_at_edge);
-  EXPECT_NEAR(w.depth_mm, 40, 0.06);  // the edge counts as reached a little before it is
+  EXPECT_NEAR(w.depth_mm, 40, 0.06);  // the edge counts as reached slightly early
   EXPECT_LT(w.depth_mm, 40 + 1e-9);
   ASSERT_FALSE(w.lines.empty());
   EXPECT_LE(w.lines.back().immersion_mm, w.depth_mm);

@@ -1,4 +1,4 @@
-// What the program makes: the artifact folder and what stands in its files.
+// The program's output: the artifact folder and the contents of its files.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ TEST_F(Worker, FilmImageHasTheFilmsSizeAndIsNotJustWhite) {
   const auto& texels = film->image.texels;
   const auto coloured = std::count_if(texels.begin(), texels.end(),
                                       [](const image::Texel& t) { return t.r != 65535; });
-  // The lower half of the sphere alone takes a disc of film of at least its own size.
+  // The lower half of the sphere alone needs a disc of film of at least its own size.
   EXPECT_GT(static_cast<double>(coloured), 3.1 * 120 * 120);
   EXPECT_EQ(texels.front().r, 65535);
 }
@@ -172,7 +172,7 @@ TEST_F(Worker, ThreadsDoNotChangeTheArtifacts) {
       if (threads == "1") first[name] = bytes;
       EXPECT_TRUE(first[name] == bytes) << name;
     }
-    // Files that tell when they were written would differ.
+    // Files that contain the time of writing would differ.
     if (threads == "1") std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   }
   EXPECT_GE(first.size(), 5U);

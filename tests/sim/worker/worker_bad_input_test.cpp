@@ -1,4 +1,4 @@
-// Small files, values and places that cannot be, and a disk that is full.
+// Small files, impossible values and paths, and a full disk.
 
 #include <gtest/gtest.h>
 #include <sys/mount.h>
@@ -35,7 +35,7 @@ TEST_F(Worker, ValuesOutOfRangeAreBadInput) {
     SCOPED_TRACE(flags[1]);
     expect_refusal(3, simulate(flags), {flags[0] + ": "});
   }
-  // Each in range, but not together.
+  // Each is in range, but the combination is not.
   expect_refusal(3, simulate({"--film", "2000x2000", "--dpi", "2400"}), {"dpi"});
 }
 

@@ -1,4 +1,4 @@
-// What print-image and template cannot put on paper.
+// Inputs that print-image and template cannot put on paper.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Progress, cancel and trouble on the way.
+// Progress, cancellation and failures during a run.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST_F(Worker, AClosedStdoutIsNoTrouble) {
   EXPECT_EQ(report["verb"], "simulate") << "the summary went into no artifact";
 }
 
-/// A run that takes long, started and seen at work.
+/// A long run that was started and has reported progress.
 class LongRun : public Worker {
  protected:
   void start() {

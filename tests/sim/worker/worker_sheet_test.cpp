@@ -78,7 +78,7 @@ class Inertia : public Worker {
   }
 };
 
-/// How far apart, at most, the film lies that two maps bring to a vertex.
+/// Largest distance on the film between the points that two maps bring to a vertex.
 double apart_mm(const Ply& a, const Ply& b) {
   EXPECT_EQ(a.vertices.size(), b.vertices.size());
   double most = 0;
@@ -99,10 +99,10 @@ TEST_F(Inertia, MakesTheQuasistaticMapWithVolumeKeptAndAnotherOneWithout) {
   const Ply inertial = map_of({"--inertia"});
   EXPECT_TRUE(nlohmann::json::parse(content(out() + "/report.json"))["parameters"]["inertia"]);
   // A step of 0.01 mm displaces film by at most the share 0.01 / 12 of the radius, down to the
-  // equator: its velocity is off by less than half of that, over 12 mm (sim/sheet/README.md).
+  // equator. The error of its velocity is less than half of that, over 12 mm (sim/sheet/README.md).
   const double bound_mm = 0.5 * 0.01 / 12 * 12;
   EXPECT_LT(apart_mm(inertial, quasistatic), bound_mm);
-  // The bound is narrow enough to tell other models apart, and the flags do arrive.
+  // The bound is narrow enough to distinguish other models, and to show that the flags take effect.
   EXPECT_GT(apart_mm(map_of({"--model", "stokes"}), quasistatic), bound_mm);
   folder.write("film.toml", "poisson_ratio = 0.3\n");
   EXPECT_GT(apart_mm(map_of({"--inertia", "--profile", path("film.toml")}), quasistatic), bound_mm);

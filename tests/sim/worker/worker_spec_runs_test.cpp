@@ -1,4 +1,4 @@
-// The same run by flags and by a spec.
+// The same run from flags and from a spec.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// report.json without times and memory. A spec holds its pose itself, so that there is no file of
-/// it.
+/// report.json without times and memory. A spec contains its pose, so there is no pose file.
 std::string comparable(const std::string& report) {
   Json json = Json::parse(report);
   for (const char* key : {"stage_seconds", "total_seconds", "peak_memory_bytes"}) json.erase(key);

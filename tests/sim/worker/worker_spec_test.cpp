@@ -11,7 +11,7 @@ namespace {
 
 class BadSpec : public Worker {
  protected:
-  /// A run of `verb` with spec.json, which gets this content.
+  /// Runs `verb` with a spec.json that has this content.
   [[nodiscard]] Arguments run_of(const std::string& verb, const std::string& json) const {
     folder.write("spec.json", json);
     return {

@@ -25,7 +25,7 @@ std::size_t entries(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
 }
 
-/// Plans, makes and commits DIR with a report of that text.
+/// Plans, creates and commits DIR with a report that contains this text.
 Status make(const fs::path& dir, const std::string& report) {
   HP_ASSIGN_OR_RETURN(OutFolder folder, OutFolder::plan(dir));
   HP_RETURN_IF_ERROR(folder.create());
@@ -71,7 +71,7 @@ TEST(OutFolder, AnEarlierRunIsReplacedAsAWhole) {
   EXPECT_EQ(entries(place.path()), 1u);
 }
 
-/// Has a process write half an artifact folder and die of SIGKILL.
+/// Lets a process write half an artifact folder and die of SIGKILL.
 void leave_half_of(const fs::path& dir) {
   const pid_t child = ::fork();
   if (child == 0) {

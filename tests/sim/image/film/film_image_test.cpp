@@ -94,7 +94,7 @@ TEST(FilmImage, AnIdentityMapGivesTheTextureBack) {
   for (std::size_t i = 0; i < image.rgb.size(); ++i) {
     worst = std::max(worst, std::abs(int{image.rgb[i]} - int{texture.rgb[i]}));
   }
-  // UVs are floats: a texel's neighbour may count by 1e-5.
+  // UVs are floats, so a neighbouring texel may contribute 1e-5.
   EXPECT_LE(worst, 1);
 }
 

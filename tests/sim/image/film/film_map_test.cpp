@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing;
 
-/// A plate at z = 7 that lands drawn out by 3 along x and by 2 along y.
+/// A plate at z = 7 whose film is stretched by 3 along x and by 2 along y.
 struct Scene {
   mesh::Surface surface;
   flow::FlowMap map;
@@ -78,7 +78,7 @@ TEST(FilmMap, TheEarliestContactCounts) {
   const auto map = film_map(scene.surface, scene.map, rectangle(40, 30), 1, {});
   ASSERT_TRUE(map);
   EXPECT_NEAR(map->time_s[15 * 40 + 20], 4.05, 1e-5);  // (0.5, -0.5): both
-  EXPECT_NEAR(map->time_s[15 * 40 + 9], 100, 1e-4);    // (-10.5, -0.5): only the late one
+  EXPECT_NEAR(map->time_s[15 * 40 + 9], 100, 1e-4);    // (-10.5, -0.5): only the later one
 }
 
 TEST(FilmMap, AnExrKeepsNamesAndValues) {

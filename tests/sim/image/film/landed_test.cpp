@@ -111,7 +111,7 @@ TEST(Landed, AModelWithoutUvsHasNoTextureToLayOut) {
 }
 
 TEST(FilmTexture, AnImageOfAnySizeIsFittedToTheFilm) {
-  // 37 x 23 pixels over 80 x 60 mm: no whole resolution, so the corners are the film's.
+  // 37 x 23 pixels over 80 x 60 mm: not a whole resolution, so the image is fitted to the film.
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "odd.png", smooth_texture(37, 23), 72));
   const auto film = FilmTexture::read(folder / "odd.png", rectangle(80, 60), {});

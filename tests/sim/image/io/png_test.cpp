@@ -34,7 +34,7 @@ RgbImage ramp(int width, int height) {
   });
 }
 
-/// Pixels of a PNG as OpenImageIO, and so libpng, reads them.
+/// Pixels of a PNG as read by OpenImageIO, which uses libpng.
 std::vector<std::uint8_t> decoded(const std::vector<unsigned char>& file, int& width, int& height) {
   OIIO::Filesystem::IOMemReader memory(file.data(), file.size());
   const auto input = OIIO::ImageInput::open("image.png", nullptr, &memory);

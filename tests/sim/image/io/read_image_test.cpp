@@ -16,7 +16,7 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// Writes an image through OpenImageIO itself, so that formats we never write can be read.
+/// Writes an image with OpenImageIO, to test reading formats that this project never writes.
 template <class Value>
 void write(const std::filesystem::path& path, ImageSpec spec, TypeDesc type,
            const std::vector<Value>& values) {
@@ -138,7 +138,7 @@ TEST(ReadImage, AlphaIsLaidOverWhiteInLinearLight) {
   EXPECT_EQ(srgb8(read->image.texels[3]), (std::array<int, 3>{50, 50, 50}));
 }
 
-/// A 2 x 2 PNG with palette {red, green, blue, white}, two bits a pixel, written by hand.
+/// A 2 x 2 PNG with palette {red, green, blue, white}, two bits per pixel, written by hand.
 const std::vector<unsigned char> kPalettePng = {
     0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52,
     0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02, 0x02, 0x03, 0x00, 0x00, 0x00, 0x0F, 0xD8, 0xE5,

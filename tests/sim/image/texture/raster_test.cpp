@@ -21,7 +21,7 @@ std::vector<int> visits(const std::vector<Corners>& triangles, const Window& win
 }
 
 TEST(Raster, TrianglesOfARandomMeshVisitEachSampleExactlyOnce) {
-  // A grid of jittered vertices, some of them exactly on samples, cut along either diagonal.
+  // A grid of jittered vertices, some of them exactly on samples, split along either diagonal.
   std::mt19937 random(7);
   std::uniform_real_distribution<double> jitter(-1.4, 1.4);
   constexpr int kCells = 24;

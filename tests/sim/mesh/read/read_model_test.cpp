@@ -273,7 +273,7 @@ TEST(ReadGltf, BrokenFilesAreRefused) {
   expect_refused(folder.write("b.gltf", "[1,2,3]"), "not valid glTF JSON");
 }
 
-/// Whatever the damage, an answer comes and no memory is touched that is not ours.
+/// Whatever the damage, reading ends with a result and touches no foreign memory.
 TEST(ReadModel, DamagedFilesAreReadOrRefusedButNeverCrash) {
   const Folder folder;
   const std::map<std::string, std::string> files = {
@@ -312,5 +312,5 @@ TEST(ReadModel, DamagedFilesAreReadOrRefusedButNeverCrash) {
 }  // namespace
 }  // namespace hydroprint::mesh
 
-/// assimp forgets its own parser (a kilobyte) when it refuses a PLY file.
+/// assimp leaks its own parser (a kilobyte) when it refuses a PLY file.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }

@@ -25,7 +25,7 @@ scan::Cloud cloud_of(const std::vector<scan::DepthFrame>& frames, const scan::Le
   return std::move(*cloud);
 }
 
-/// What a rig's configuration would say of a camera that someone bumped into.
+/// The configured pose of a camera that was bumped.
 Pose nominal(const Rig& rig) { return rig.X_CF() * crooked(12 * kDegree, 30, 5); }
 
 Result<FilmFrame> found(const Rig& rig) {
@@ -68,7 +68,7 @@ TEST(FilmFrame, NoiseStaysWithinTheStatedCovariance) {
   EXPECT_GE(within, kSeeds * 9 / 10);
 }
 
-/// Marker 1, "right", is not as it should be: what is said of it.
+/// The warning or error if marker 1, "right", is wrong.
 std::string left_out(const Rig& rig) {
   const auto frame = found(rig);
   if (!frame) return frame.error().message;
