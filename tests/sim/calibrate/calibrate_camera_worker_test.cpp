@@ -36,7 +36,7 @@ std::pair<Eigen::Vector3d, double> off(const json& pose, const Pose& truth) {
           Eigen::AngleAxisd(found.linear().transpose() * truth.linear()).angle()};
 }
 
-TEST_F(Calibrate, FindsTheObjectThroughACameraThatItCalibrated) {
+TEST_F(Calibrate, FindsTheObjectWithACalibratedCamera) {
   take_frames(8);
   Rig bench;
   bench.lens = rig.lens;

@@ -51,7 +51,7 @@ class CameraFile : public ::testing::Test {
   testing::TemporaryFolder folder;
 };
 
-TEST_F(CameraFile, ReadsBackAsTheVerySameCamera) {
+TEST_F(CameraFile, ReadsBackAsTheSameCamera) {
   const auto wrote = camera();
   const auto read_back = read(camera_json(wrote));
   ASSERT_TRUE(read_back) << read_back.error().message;
@@ -68,7 +68,7 @@ TEST_F(CameraFile, ReadsBackAsTheVerySameCamera) {
   EXPECT_EQ(read_back->pattern.shared, wrote.pattern.shared);
 }
 
-TEST_F(CameraFile, OneWithoutAPatternIsOneWhosePatternIsNotKnown) {
+TEST_F(CameraFile, WithoutAPatternThePatternIsUnknown) {
   const auto found = read(camera_summary_json(camera()));
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_FALSE(found->pattern.is_known());

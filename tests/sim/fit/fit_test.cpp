@@ -82,7 +82,7 @@ class Ball : public ::testing::Test {
 Scene* Ball::scene = nullptr;
 std::vector<Point>* Ball::points = nullptr;
 
-TEST_F(Ball, WhatMadeThePointsLiesWithinTheIntervals) {
+TEST_F(Ball, IntervalsContainTheTrueValues) {
   // A fit of all four settles only if dips are so fine that their scatter does not matter.
   const Scene fine = ball(1.6);
   const auto outcome = fitted({}, fine, measured(fine, truth(), 0.5, 0.1, 1));
@@ -112,7 +112,7 @@ TEST_F(Ball, WithoutInkTheInkRatioIsNotDetermined) {
   expect_within_intervals(*outcome, truth());
 }
 
-TEST_F(Ball, EvenInkSaysNothingOfTheInkRatioEither) {
+TEST_F(Ball, EvenInkDoesNotDetermineTheInkRatio) {
   Scene even = told({1, 1.02});
   even.dip.profile.ink_ratio_mm = film::Profile().ink_ratio_mm;
   even.dip.ink =
@@ -128,7 +128,7 @@ TEST_F(Ball, EvenInkSaysNothingOfTheInkRatioEither) {
   EXPECT_NEAR(outcome->profile.swelling.x(), 1.04, 0.002);
 }
 
-TEST_F(Ball, WhatIsNotFreeIsHeld) {
+TEST_F(Ball, ParametersThatAreNotFreeAreHeld) {
   const auto outcome = fitted({{Parameter::kSwellingX, Parameter::kSwellingY}}, told({1, 1}));
   ASSERT_TRUE(outcome) << outcome.error().message;
   ASSERT_EQ(outcome->estimates.size(), 2u);
@@ -198,7 +198,7 @@ TEST_F(Ball, TooFewPointsAndPointsOnOneSpotAreRefused) {
   EXPECT_EQ(exit_status(spot.error()), ExitStatus::kBadInput);
 }
 
-TEST_F(Ball, FourPointsCloseTogetherDoNotMakeUpADrag) {
+TEST_F(Ball, FourPointsCloseTogetherDoNotDetermineADrag) {
   std::vector<Point> close;
   for (const Point& p : *points) {
     if (p.film_mm.norm() < 6) close.push_back(p);
@@ -210,7 +210,7 @@ TEST_F(Ball, FourPointsCloseTogetherDoNotMakeUpADrag) {
   EXPECT_EQ(outcome->profile.drag_length_mm, 0);
 }
 
-TEST_F(Ball, CancelEndsIt) {
+TEST_F(Ball, CancelStopsTheFit) {
   Context context = testing::two_threads();
   int asked = 0;
   context.threads = 1;

@@ -145,7 +145,7 @@ json named(const json& list, const std::string& name) {
   return {};
 }
 
-TEST_F(FitWorker, MakesAProfileThatItReadsBackAndThatExplainsThePoints) {
+TEST_F(FitWorker, WritesAProfileThatReadsBackAndExplainsThePoints) {
   const Ended ended =
       testing::run(fit({"--free", "drag,swelling", "--ink-image", input("film.png"), "--json"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
@@ -184,7 +184,7 @@ TEST_F(FitWorker, MakesAProfileThatItReadsBackAndThatExplainsThePoints) {
   EXPECT_LT(again.at("rms_after_mm").get<double>(), fit_found.at("rms_before_mm").get<double>());
 }
 
-TEST_F(FitWorker, TellsOfEveryPointBeforeAndAfter) {
+TEST_F(FitWorker, ReportsEveryPointBeforeAndAfter) {
   const fs::path& made = drag_fit();
   std::istringstream lines(content(made / "residuals.csv"));
   std::string header;
@@ -218,7 +218,7 @@ TEST_F(FitWorker, TellsOfEveryPointBeforeAndAfter) {
   EXPECT_GT(picture->image.width, 1000);
 }
 
-TEST_F(FitWorker, WithoutAnInkImageItSaysWhyTheInkRatioIsHeld) {
+TEST_F(FitWorker, ExplainsWhyTheInkRatioIsHeldWithoutAnInkImage) {
   const Ended ended = testing::run(fit({"--free", "ink_ratio"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json ink = named(report().at("fit").at("undetermined"), "ink_ratio_mm");

@@ -27,7 +27,7 @@ TEST(Selection, FourPlacesAreEnoughAndManyPointsOnOneSpotAreNot) {
   EXPECT_FALSE(check_enough(std::vector<PointResult>(50, point({20, 10})), "measured.csv"));
 }
 
-TEST(Selection, OutliersAreThoseBeyondFourRobustSigmas) {
+TEST(Selection, OutliersAreBeyondFourRobustSigmas) {
   std::mt19937 random(2);
   // All within 0.24 mm, while four robust standard deviations are 0.5: no outlier by chance.
   std::uniform_real_distribution<double> error(-0.17, 0.17);

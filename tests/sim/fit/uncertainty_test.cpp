@@ -75,13 +75,13 @@ void expect_honest(const Coverage& coverage) {
   }
 }
 
-TEST(Uncertainty, IsHonestForEqualErrors) {
+TEST(Uncertainty, CoversEqualErrors) {
   expect_honest(cover(jacobian_of(80), [](int, double x, double y) -> Vector2d {
     return {0.1 * x, 0.1 * y};
   }));
 }
 
-TEST(Uncertainty, IsHonestForErrorsThatDifferAndGoTogether) {
+TEST(Uncertainty, CoversUnequalCorrelatedErrors) {
   // Compressed film has larger errors, in one direction; here at the distant points.
   const MatrixXd jacobian = jacobian_of(150);
   expect_honest(cover(jacobian, [&](int i, double x, double y) -> Vector2d {
@@ -90,7 +90,7 @@ TEST(Uncertainty, IsHonestForErrorsThatDifferAndGoTogether) {
   }));
 }
 
-TEST(Uncertainty, OfEqualErrorsIsThatOfTheTextbook) {
+TEST(Uncertainty, OfEqualErrorsMatchesTheTextbook) {
   const MatrixXd jacobian = jacobian_of(2000);
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0, 0.1);
@@ -101,7 +101,7 @@ TEST(Uncertainty, OfEqualErrorsIsThatOfTheTextbook) {
   for (Index j = 0; j < 4; ++j) EXPECT_NEAR(std::sqrt(ours(j, j) / textbook(j, j)), 1, 0.1) << j;
 }
 
-TEST(Uncertainty, QuantilesAreThoseOfTheTables) {
+TEST(Uncertainty, QuantilesMatchTheTables) {
   EXPECT_NEAR(student_t(0.975, 5), 2.5706, 1e-4);
   EXPECT_NEAR(student_t(0.95, 30), 1.6973, 1e-4);
   EXPECT_NEAR(student_t(0.975, 1e6), 1.95997, 1e-4);
@@ -113,12 +113,12 @@ VectorXd noise(Index rows, double sigma) {
   return VectorXd::NullaryExpr(rows, [&] { return normal(random); });
 }
 
-TEST(Unknowns, AreNoneWhereAllIsKnown) {
+TEST(Unknowns, AreEmptyIfAllIsKnown) {
   const MatrixXd jacobian = jacobian_of(80);
   EXPECT_TRUE(unknowns({noise(160, 0.1), jacobian}, 0.003, 2).empty());
 }
 
-TEST(Unknowns, AreWhatMovesNothing) {
+TEST(Unknowns, IncludeParametersThatMoveNothing) {
   MatrixXd jacobian = jacobian_of(80);
   jacobian.col(1) *= 1e-4;
   for (const double sigma : {0.1, 0.0}) {  // also without noise
@@ -130,14 +130,14 @@ TEST(Unknowns, AreWhatMovesNothing) {
   }
 }
 
-TEST(Unknowns, AreWhatIsLostInTheNoise) {
+TEST(Unknowns, IncludeParametersLostInTheNoise) {
   const MatrixXd jacobian = jacobian_of(80);
   const auto found = unknowns({noise(160, 8), jacobian}, 0.003, 2);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].parameter, 0) << "ink moves the points least";
 }
 
-TEST(Unknowns, OfTwoThatDoTheSameOneIsNamedWithTheOther) {
+TEST(Unknowns, OneOfTwoEquivalentParametersIsNamedWithTheOther) {
   MatrixXd jacobian = jacobian_of(80);
   jacobian.col(1) = 0.5 * jacobian.col(2) + 1e-5 * jacobian.col(1);
   for (const double sigma : {0.1, 0.0}) {
@@ -177,7 +177,7 @@ TEST(Estimates, LieInTheMiddleOfTheirScaledIntervals) {
   EXPECT_FALSE(all[1].is_one_sided);
 }
 
-TEST(Estimates, AtABoundHaveAnIntervalOnOneSide) {
+TEST(Estimates, AtABoundHaveAOneSidedInterval) {
   const auto at_bound = estimates(0, -0.05);
   EXPECT_TRUE(at_bound[1].is_one_sided);
   EXPECT_TRUE(std::isinf(at_bound[1].value));
@@ -188,7 +188,7 @@ TEST(Estimates, AtABoundHaveAnIntervalOnOneSide) {
   EXPECT_FALSE(at_bound[0].is_one_sided);
 }
 
-TEST(Estimates, AreWiderByTheComputationsOwnError) {
+TEST(Estimates, IncludeTheComputationsOwnError) {
   const MatrixXd jacobian = jacobian_of(80);
   const Domain domain{VectorXd::Zero(4), VectorXd::Constant(4, 3), VectorXd::Constant(4, 0.01)};
   const VectorXd u = VectorXd::Constant(4, 0.2);

@@ -37,7 +37,7 @@ void expect_numbers_or_nothing(const SurfaceMap& map) {
   }
 }
 
-TEST(FlowMap, IsNothingBeyondTheDepthOfTheDip) {
+TEST(FlowMap, IsEmptyBeyondTheDepthOfTheDip) {
   DipSetting setting;
   setting.film = testing::film_of("100x100");
   setting.depth_mm = 12;
@@ -50,7 +50,7 @@ TEST(FlowMap, IsNothingBeyondTheDepthOfTheDip) {
   }
 }
 
-TEST(FlowMap, IsNothingInACupMouthUp) {
+TEST(FlowMap, IsEmptyInACupMouthUp) {
   DipSetting setting;
   setting.film = testing::film_of("100x100");
   const SolvedDip dip = testing::solve_dip(testing::cup(12, 16, 25, 4, true, 48), setting);
@@ -72,7 +72,7 @@ TEST(FlowMap, IsNothingInACupMouthUp) {
   EXPECT_GT(walls, 500);
 }
 
-TEST(FlowMap, IsNothingInsideTheUnionOfTheParts) {
+TEST(FlowMap, IsEmptyInsideTheUnionOfTheParts) {
   DipSetting setting;
   setting.film = testing::film_of("100x100");
   setting.depth_mm = 14;
@@ -99,7 +99,7 @@ TEST(FlowMap, IsNothingInsideTheUnionOfTheParts) {
   EXPECT_GT(buried, 50);
 }
 
-TEST(FlowMap, IsNothingWhereFilmCannotFollow) {
+TEST(FlowMap, IsEmptyWhereFilmCannotFollow) {
   DipSetting setting;
   setting.film = testing::film_of("80x80");
   const SolvedDip dip = testing::solve_dip(sample::icosphere(15, 5), setting);
@@ -114,7 +114,7 @@ TEST(FlowMap, IsNothingWhereFilmCannotFollow) {
   EXPECT_GT(beyond, 10);
 }
 
-TEST(FlowMap, OfACupIsNothingInsideAWallOfATenthOfAMillimetre) {
+TEST(FlowMap, IsEmptyInACupWithAWallOfATenthOfAMillimetre) {
   DipSetting setting;
   setting.film = testing::film_of("80x80");
   const SolvedDip dip = testing::solve_dip(testing::cup(12, 12.1, 20, 4, true, 64), setting);
@@ -146,7 +146,7 @@ TEST(FlowMap, OfASwollenFilmIsGivenOnTheFilmAsPrinted) {
   }
 }
 
-TEST(FlowMap, GivesPointsThatAreOneOneFilmPoint) {
+TEST(FlowMap, CoincidentPointsHaveOneFilmPoint) {
   // As from an STL file: every face has its own corners.
   const mesh::Model sphere = sample::icosphere(15, 3);
   mesh::Model torn;
@@ -191,7 +191,7 @@ TEST(FlowMap, StopsWhenCancelled) {
   }
 }
 
-TEST(TraceBack, OfALandingOffTheFilmOrPastTheDipIsNothing) {
+TEST(TraceBack, OfALandingOffTheFilmOrPastTheDipIsEmpty) {
   DipSetting setting;
   setting.film = testing::film_of("80x80");
   setting.depth_mm = 10;

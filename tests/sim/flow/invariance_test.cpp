@@ -83,7 +83,7 @@ TEST(FlowMap, OfTheTurnedDipIsTheTurnedMap) {
   expect_same(film_of(turned, setting), expected, model.vertices.size());
 }
 
-TEST(FlowMap, OfADipDrivenAlongAConstantOffsetIsThatOfTheObjectMovedThere) {
+TEST(FlowMap, AConstantOffsetOfTheMotionEqualsAMovedObject) {
   const mesh::Model model = egg();
   testing::DipSetting setting;
   setting.film = testing::film_of("120x150");

@@ -53,7 +53,7 @@ TEST(Stretch, IsTheSingularValuesOfAnyJacobian) {
   }
 }
 
-TEST(Stretch, OfFilmDrawnOutToALineIsInfinite) {
+TEST(Stretch, OfFilmStretchedToALineIsInfinite) {
   const Gradient line = gradient_of({Vector2d(0, 0), Vector2d(1, 1), Vector2d(2, 2)},
                                     {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)});
   EXPECT_TRUE(std::isinf(stretch_of(line).most));
@@ -61,7 +61,7 @@ TEST(Stretch, OfFilmDrawnOutToALineIsInfinite) {
   EXPECT_TRUE(std::isinf(stretch_of(Gradient::Zero()).least));
 }
 
-TEST(Gradient, TakesStepsAlongTheSurfaceToStepsOnTheFilm) {
+TEST(Gradient, MapsStepsAlongTheSurfaceToStepsOnTheFilm) {
   Jacobian J;
   J << 1, 0.3, -0.2, 2, 0.5, 0.7;
   const auto surface = image(J);
@@ -78,7 +78,7 @@ TEST(Gradient, OfASurfaceTriangleWithoutAreaIsZero) {
             Gradient(Gradient::Zero()));
 }
 
-TEST(PointGradients, LeaveOutWhatIsNotReachedAndWhatLiesTheWrongWayUp) {
+TEST(PointGradients, IgnoreUnreachedAndInvertedTriangles) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   // A square that faces down, so its orientation on the film is reversed.
   const std::vector<Vector3d> surface = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};

@@ -146,7 +146,7 @@ void expect_sound(const SolvedDip& dip, const FlowMap& map, double overlap = 1e-
   EXPECT_NEAR(area / covered, 1, overlap + 1e-3);
 }
 
-TEST(Tiles, OfASphereCoverTheDiscThatItTakes) {
+TEST(Tiles, OfASphereCoverTheDiscThatLandsOnIt) {
   DipSetting setting;
   setting.film = testing::round_film(60, 90);
   setting.depth_mm = 25 * (1 - std::cos(2.1));
@@ -204,7 +204,7 @@ TEST(Tiles, OfASphereOnAStalkOverlapLittle) {
   expect_linear(dip, map, options, 0.02, 0.25);
 }
 
-TEST(Tiles, KeepToAFinerTolerance) {
+TEST(Tiles, RespectAFinerTolerance) {
   DipSetting setting;
   setting.film = testing::film_of("80x80");
   setting.depth_mm = 20;

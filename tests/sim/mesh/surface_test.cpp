@@ -206,7 +206,7 @@ TEST(MakeSurface, CornerNormalsOfABoxAreItsFaceNormals) {
   }
 }
 
-TEST(MakeSurface, InsideOutModelIsTurnedOverAndSaysSo) {
+TEST(MakeSurface, InsideOutModelIsTurnedOverWithAWarning) {
   const Surface surface = made(turned(sample::icosphere(10, 3)));
   EXPECT_GT(volume(surface), 0);
   EXPECT_TRUE(has_warning(surface, "inside_out"));
@@ -233,7 +233,7 @@ TEST(MakeSurface, OneShellInsideOutAmongTwoIsTurnedOver) {
   EXPECT_TRUE(has_warning(surface, "many_shells"));
 }
 
-TEST(MakeSurface, AHollowInsideAnotherShellStaysAHollow) {
+TEST(MakeSurface, ACavityInsideAnotherShellStaysACavity) {
   const Surface surface =
       made(join(box({0, 0, 0}, {20, 20, 20}), turned(box({5, 5, 5}, {15, 15, 15}))));
   EXPECT_NEAR(volume(surface), 8000 - 1000, 1e-6);
@@ -303,7 +303,7 @@ TEST(MakeSurface, AnEdgeLengthThatIsNotPositiveIsRefused) {
   }
 }
 
-TEST(MakeSurface, CancelEndsTheWork) {
+TEST(MakeSurface, StopsWhenCancelled) {
   Context context;
   context.cancelled = [] { return true; };
   const auto surface = make_surface(box({0, 0, 0}, {100, 100, 100}), kMaxEdgeMm, context);
@@ -335,7 +335,7 @@ TEST(MakeSurface, AStripWithOneSideIsReportedAndKept) {
   EXPECT_FALSE(surface.closed);
 }
 
-TEST(Icosphere, HasTheTrianglesOfItsLevelAndLooksOutward) {
+TEST(Icosphere, HasTheTrianglesOfItsLevelAndFacesOutward) {
   const Model model = sample::icosphere(40, 6);
   EXPECT_EQ(model.triangles.size(), 81920U);
   EXPECT_EQ(model.vertices.size(), 40962U);

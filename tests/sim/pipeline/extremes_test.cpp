@@ -60,7 +60,7 @@ Errors errors_of(const Dip& dip, double radius_mm, double vat_mm, double degrees
   return out;
 }
 
-TEST_P(Extremes, TinySpheresAreAsExactInMillimetresAsLargeOnes) {
+TEST_P(Extremes, TinySpheresAreAsAccurateInMillimetresAsLargeOnes) {
   for (const auto& [radius_mm, vat_mm] :
        {std::pair{5.0, 105.0}, {1.0, 105.0}, {1.0, 6.0}, {0.25, 6.0}}) {
     DipOptions options = options_for("circle:" + std::to_string(vat_mm), GetParam());
@@ -73,7 +73,7 @@ TEST_P(Extremes, TinySpheresAreAsExactInMillimetresAsLargeOnes) {
   }
 }
 
-TEST_P(Extremes, AlongALongThinFilmTheMapIsTheSameEverywhere) {
+TEST_P(Extremes, TheMapIsTheSameEverywhereAlongALongThinFilm) {
   // The distance from either end is at least twelve times the film's width.
   const mesh::Model sphere = sample::icosphere(4, 5);
   DipOptions options = options_for("600x12", GetParam());
@@ -97,7 +97,7 @@ TEST_P(Extremes, AlongALongThinFilmTheMapIsTheSameEverywhere) {
   EXPECT_GT(reached, 7000);
 }
 
-TEST_P(Extremes, ASphereNearTheEdgeIsDippedUntilItsWaterlineReachesIt) {
+TEST_P(Extremes, ASphereNearTheEdgeIsDippedUntilItsWaterlineReachesTheEdge) {
   constexpr double kRadius_mm = 10;
   for (const double gap_mm : {8.0, 4.0, 1.0}) {  // from its lowest point to the edge
     DipOptions options = options_for("60x80", GetParam());
@@ -118,7 +118,7 @@ TEST_P(Extremes, ASphereNearTheEdgeIsDippedUntilItsWaterlineReachesIt) {
   }
 }
 
-TEST_P(Extremes, ABoxBesideTheEdgeTakesWhatFilmThereIsBetween) {
+TEST_P(Extremes, ABoxNearTheEdgeTakesTheFilmBetween) {
   // The distances of its upright side from the film's edge at x = 30 are 0.4, 0.05 and 0 mm.
   for (const double gap_mm : {0.4, 0.05, 0.0}) {
     const mesh::Model box = bodies::box({10, -10, 0}, {30 - gap_mm, 10, 8});
@@ -138,7 +138,7 @@ TEST_P(Extremes, ABoxBesideTheEdgeTakesWhatFilmThereIsBetween) {
   }
 }
 
-TEST_P(Extremes, ANeedleThroughTheFilmMovesNoneOfItFarAway) {
+TEST_P(Extremes, ANeedleDoesNotMoveFilmFarAway) {
   // 0.4 mm wide and 30 mm long: every length is below those of the mesh.
   const mesh::Model needle = bodies::turned({{0, 0}, {0.2, 1}, {0.2, 30}, {0, 30}}, 16);
   DipOptions options = options_for("A4", GetParam());

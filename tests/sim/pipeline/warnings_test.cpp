@@ -70,7 +70,7 @@ TEST(Warnings, FilmWrinkledIsForLessThanTheProfilesStretch) {
   }
 }
 
-TEST(Warnings, FilmWrinkledComesWithAMapOfWhere) {
+TEST(Warnings, FilmWrinkledComesWithAPicture) {
   const hydroprint::testing::TemporaryFolder folder;
   std::ostringstream obj;
   const mesh::Model sphere = sample::icosphere(20, 3);
@@ -96,14 +96,14 @@ TEST(Warnings, FilmWrinkledComesWithAMapOfWhere) {
   }
 }
 
-TEST(Warnings, ThetaClampedIsForFacesThatLookUp) {
+TEST(Warnings, ThetaClampedIsForFacesThatFaceUp) {
   // The level top of a cone, and a spindle that is pointed at both ends.
   EXPECT_TRUE(warns(dipped(bodies::cone(0.8, 12, 48), options_on("90x90")), "theta_clamped"));
   const mesh::Model spindle = bodies::turned({{0, 0}, {12, 12}, {0, 24}}, 48);
   EXPECT_FALSE(warns(dipped(spindle, options_on("90x90")), "theta_clamped"));
 }
 
-TEST(Warnings, PartsNotReachedIsForWhatTheWaterDoesNotTouch) {
+TEST(Warnings, PartsNotReachedIsForPartsThatStayDry) {
   const mesh::Model spindle = bodies::turned({{0, 0}, {24, 24}, {0, 48}}, 48);
   DipOptions options = options_on("150x150");
   EXPECT_FALSE(warns(dipped(spindle, options), "parts_not_reached"));
@@ -224,7 +224,7 @@ TEST(Warnings, AirIsTrappedEvenIfTheDipEndsBelowTheCeiling) {
   EXPECT_FALSE(warns(ring, "air_trapped"));
 }
 
-TEST(Warnings, AHollowThatClosesAboveTheRimIsToldByItsImmersion) {
+TEST(Warnings, ACavityThatClosesAboveTheRimIsReportedByItsImmersion) {
   // Four legs of 10 mm under a square cup with its mouth down: the waterline closes at the rim.
   const Dip legs = dipped(bodies::blocks({-20, -14, 14, 20}, {-20, -14, 14, 20}, {0, 10, 16, 20},
                                          [](int i, int j, int k) {
@@ -246,7 +246,7 @@ TEST(Warnings, AHollowThatClosesAboveTheRimIsToldByItsImmersion) {
   EXPECT_FALSE(warns(table, "air_trapped"));
 }
 
-TEST(Warnings, AClosedCavityIsNoTrap) {
+TEST(Warnings, AClosedCavityIsNotATrap) {
   // The cavity is inside the solid, so neither film nor water reaches it.
   const Dip hollow =
       dipped(bodies::together({bodies::box({-15, -15, 0}, {15, 15, 20}),

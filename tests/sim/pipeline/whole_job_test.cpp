@@ -76,7 +76,7 @@ std::vector<std::optional<Vector2f>> point_uvs(const mesh::Model& model,
 
 class WholeJobOf : public ::testing::TestWithParam<Body> {};
 
-TEST_P(WholeJobOf, LandsEachColourWhereTheTextureWantsIt) {
+TEST_P(WholeJobOf, EachColourLandsWhereTheTextureHasIt) {
   const Body& body = GetParam();
   if (!body.mesh.empty() && !fs::exists(body.mesh)) GTEST_SKIP() << body.mesh << " is not here";
   const testing::TemporaryFolder folder;
@@ -144,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Body{"bottle", kModels / "bottle/WaterBottle.gltf", 400, kUpright, 0.6,
                            0.94}));
 
-TEST(WholeJob, OfAModelWithoutColourIsAWhiteFilm) {
+TEST(WholeJob, AModelWithoutColourGivesAWhiteFilm) {
   const fs::path cat = kModels / "cat/cat-low-resolution.obj";
   if (!fs::exists(cat)) GTEST_SKIP() << cat << " is not here";
   SimulateOptions options;

@@ -31,7 +31,7 @@ int total(const std::uint8_t* c) { return c[0] + c[1] + c[2] + c[3]; }
 
 ColourSettings plain_cmyk(double limit = 4) { return {true, {}, limit}; }
 
-TEST(PrinterColours, PlainCmykOfPureColoursIsWhatTheyAre) {
+TEST(PrinterColours, PlainCmykOfPureColoursIsExact) {
   const auto got = printer_coloured(
       row_of({{255, 255, 255}, {0, 0, 0}, {255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {128, 128, 128}}),
       plain_cmyk(), {});
@@ -43,7 +43,7 @@ TEST(PrinterColours, PlainCmykOfPureColoursIsWhatTheyAre) {
   EXPECT_EQ(got->limited_share, 0);
 }
 
-TEST(PrinterColours, RgbWithoutAProfileIsLeftAsItIs) {
+TEST(PrinterColours, RgbWithoutAProfileIsUnchanged) {
   const image::RgbImage image = noise(31, 17);
   const auto got = printer_coloured(image, {}, {});
   ASSERT_TRUE(got);
@@ -80,7 +80,7 @@ TEST(PrinterColours, NoPixelExceedsTheInkLimitAndBlackStays) {
   }
 }
 
-TEST(PrinterColours, AProfileLaysDownTheInkThatTheSimulationReckonsWith) {
+TEST(PrinterColours, AProfileUsesTheInkThatTheSimulationAssumes) {
   const testing::TemporaryFolder folder;
   const auto icc = folder.write("printer.icc", ink::testing::icc_profile({0.25, 0.75}));
   const image::RgbImage image = noise(40, 30);
@@ -96,7 +96,7 @@ TEST(PrinterColours, AProfileLaysDownTheInkThatTheSimulationReckonsWith) {
   }
 }
 
-TEST(PrinterColours, WhiteIsNoInkWhateverTheProfileSays) {
+TEST(PrinterColours, WhiteIsNoInkForAnyProfile) {
   const testing::TemporaryFolder folder;
   for (const std::string& bytes :
        {ink::testing::icc_profile({0.25, 0.75}), ink::testing::rgb_printer_profile()}) {
@@ -117,7 +117,7 @@ TEST(PrinterColours, AreTheSameForAnyNumberOfThreads) {
             printer_coloured(image, plain_cmyk(1.5), many)->image.samples);
 }
 
-TEST(PrinterColours, RefuseLimitsThatMeanNothing) {
+TEST(PrinterColours, RefuseInvalidInkLimits) {
   const image::RgbImage image = noise(2, 2);
   for (const double limit : {0.0, -1.0, 4.1, static_cast<double>(NAN)}) {
     EXPECT_EQ(printer_coloured(image, plain_cmyk(limit), {}).error().code, Code::kOutOfRange);

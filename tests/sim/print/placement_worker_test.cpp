@@ -59,7 +59,7 @@ Extent extent_of_strokes(const std::string& trace, double pen_mm) {
   return out;
 }
 
-TEST_F(Template, ShowsFirstContactWhereThePosePutsItAtExactScale) {
+TEST_F(Template, ShowsFirstContactAtThePoseAndAtExactScale) {
   const Ended ended = run({"--pose", path("pose.json")});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const auto report = nlohmann::json::parse(bytes_of(path("out/report.json")));
@@ -79,7 +79,7 @@ TEST_F(Template, ShowsFirstContactWhereThePosePutsItAtExactScale) {
   EXPECT_NE(info.out.find("Pages:           2"), std::string::npos) << info.out;
 }
 
-TEST_F(Template, IsTheSameFileEveryTime) {
+TEST_F(Template, IsByteIdenticalEveryTime) {
   ASSERT_EQ(run({"--date", "2025-03-14"}, "one").status, 0);
   ASSERT_EQ(run({"--date", "2025-03-14", "--threads", "1"}, "two").status, 0);
   EXPECT_TRUE(bytes_of(path("one/placement.pdf")) == bytes_of(path("two/placement.pdf")));

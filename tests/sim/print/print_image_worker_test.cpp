@@ -120,7 +120,7 @@ TEST_F(PrintImage, ThePdfsScaleIsExactOverTheWholeFilm) {
   EXPECT_NEAR(across[0] * kMmPerPixel, 105 + (x0 + 0.5 - 620) * kPitch_mm, 0.05);
 }
 
-TEST_F(PrintImage, TheImageOnThePageIsItsSizeToTheMicrometreAndSoIsTheRuler) {
+TEST_F(PrintImage, ImageAndRulerSizesAreExactToTheMicrometre) {
   film(scenery(787, 787));  // 200 mm at 100 dpi
   print({"--film", "200x200", "--paper", "A3", "--formats", "pdf"});
   const std::string trace = traced_by_mupdf(path("out/print.pdf"));
@@ -168,7 +168,7 @@ TEST_F(PrintImage, PngAndTiffHoldTheFilmImageUnchangedWithItsResolution) {
   EXPECT_EQ(tiff[262], 2);  // RGB
 }
 
-TEST_F(PrintImage, CmykReachesPdfAndTiffAsItIsAndKeepsToTheInkLimit) {
+TEST_F(PrintImage, CmykIsUnchangedInPdfAndTiffAndRespectsTheInkLimit) {
   image::RgbImage image = blank(400, 300);
   fill(image, 0, 0, 100, 300, {0, 0, 0});
   fill(image, 100, 0, 200, 300, {255, 0, 0});
@@ -202,7 +202,7 @@ TEST_F(PrintImage, CmykReachesPdfAndTiffAsItIsAndKeepsToTheInkLimit) {
   EXPECT_EQ(tiff[277], 4);
 }
 
-TEST_F(PrintImage, TilesJoinToTheVeryImage) {
+TEST_F(PrintImage, TilesJoinToTheOriginalImage) {
   const image::RgbImage image = scenery(1181, 827);  // 300 x 210 mm at 100 dpi
   film(image);
   const auto report = print(
@@ -234,7 +234,7 @@ TEST_F(PrintImage, TilesJoinToTheVeryImage) {
       << info.out;
 }
 
-TEST_F(PrintImage, AReprintIsTheSameFileBitForBit) {
+TEST_F(PrintImage, AReprintIsByteIdentical) {
   film(scenery(620, 877));
   const Arguments flags = {"--film",    "105x148.5",    "--paper",    "A4",
                            "--formats", "pdf,png,tiff", "--job-name", "mug 3",
@@ -285,7 +285,7 @@ TEST_F(PrintImage, AnImageInThePrintersMarginIsCutOffWithAWarning) {
   EXPECT_EQ(row[3 * 21], 0);
 }
 
-TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksAndSaysSo) {
+TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksWithAWarning) {
   film(blank(827, 1169));
   const Ended ended = testing::run(command({}));
   EXPECT_EQ(ended.status, 0);
@@ -295,7 +295,7 @@ TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksAndSaysSo) {
   EXPECT_EQ(nlohmann::json::parse(bytes_of(path("silent/report.json")))["warnings"].size(), 0U);
 }
 
-TEST_F(PrintImage, TheProfileGoesAlong) {
+TEST_F(PrintImage, TheProfileIsEmbedded) {
   film(blank(118, 118));
   const std::string icc = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
   print({"--film", "30x30", "--icc-profile", icc});

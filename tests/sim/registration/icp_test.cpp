@@ -21,7 +21,7 @@ std::vector<SurfacePoint> seen_face() {
   return out;
 }
 
-TEST(Icp, TurnsAFlatFaceOntoItsBody) {
+TEST(Icp, AlignsAFlatFaceWithItsBody) {
   const auto icp = make_icp(Shape(testing::box({-60, -60, 0}, {60, 60, 10})).samples(3000)).value();
   Pose off(Eigen::Translation3d(2, -1, 6));
   off.rotate(Eigen::AngleAxisd(8 * std::numbers::pi / 180, Eigen::Vector3d(1, 2, 0).normalized()));

@@ -31,7 +31,7 @@ std::vector<scan::ScanPoint> points_of_a_plate(double z_mm) {
 
 /// Motions that no point determines must not lead to an unbounded or NaN step, even if the weak
 /// directions are not limited.
-TEST(PoseFit, MakesNoStepAlongWhatNothingTells) {
+TEST(PoseFit, MakesNoStepAlongUndeterminedMotions) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   const auto points = points_of_a_plate(800);
   const Pose start(Eigen::Translation3d(3, -2, 802));  // its underside faces the camera
@@ -67,7 +67,7 @@ std::vector<scan::ScanPoint> points_of_two_faces(double z_mm) {
 
 /// The better a camera is known, the smaller the chance that a point is far off. Before a fit has
 /// converged, points are far off regardless of the noise.
-TEST(PoseFit, ANarrowSideIsReachedHoweverWellTheCameraIsKnown) {
+TEST(PoseFit, ConvergesOntoANarrowSideForAnyCameraAccuracy) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   const auto points = points_of_two_faces(800);
   const Pose truth(Eigen::Translation3d(-300, 0, 800));
@@ -82,7 +82,7 @@ TEST(PoseFit, ANarrowSideIsReachedHoweverWellTheCameraIsKnown) {
   EXPECT_NEAR(fit->X_CB.translation().x(), -300, 0.1);
 }
 
-TEST(PoseFit, RefusesAStartThatIsNoNumber) {
+TEST(PoseFit, RefusesANanStart) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   Pose start = Pose::Identity();
   start.translation().x() = std::numeric_limits<double>::quiet_NaN();

@@ -33,7 +33,7 @@ DepthFrame slope(double from_mm, double to_mm, std::uint32_t seed) {
   return out;
 }
 
-TEST(DepthSteps, AreFoundAndTheirRoundingIsTakenBack) {
+TEST(DepthSteps, AreFoundAndTheirRoundingIsCorrected) {
   const std::vector frames{slope(700, 950, 1)};
   const auto steps = find_depth_steps(frames);
   ASSERT_TRUE(steps);
@@ -42,7 +42,7 @@ TEST(DepthSteps, AreFoundAndTheirRoundingIsTakenBack) {
     EXPECT_NEAR(steps->before_rounding_mm(told), stepped(told), 0.05);
 }
 
-TEST(DepthSteps, AreNotFoundWhereThereAreNone) {
+TEST(DepthSteps, AreNotFoundInSmoothDepths) {
   DepthFrame smooth{kAcross, kDown, {}}, whole = smooth;
   for (int i = 0; i < kAcross * kDown; ++i) {
     smooth.depth_mm.push_back(700 + 0.01F * static_cast<float>(i));
@@ -77,7 +77,7 @@ TEST(DepthSteps, LeaveNoErrorThatAllPixelsOfADepthShare) {
 }
 
 /// Frames that only contain steps shorter than 1 mm do not reveal them.
-TEST(DepthSteps, OfFramesFartherAwayHelpThoseThatAreNear) {
+TEST(DepthSteps, OfFarFramesHelpNearFrames) {
   const std::vector near{slope(480, 590, 1)}, far{slope(700, 950, 1)};
   EXPECT_FALSE(find_depth_steps(near));
   DepthCounts counts;

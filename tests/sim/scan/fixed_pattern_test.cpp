@@ -51,7 +51,7 @@ FusedFrame wall_through(const FixedPattern& pattern) {
   return out;
 }
 
-TEST(FixedPattern, WhatIsKnownIsTakenOffAndTheRestIsLeft) {
+TEST(FixedPattern, KnownOffsetsAreSubtractedAndTheRestRemains) {
   const FixedPattern pattern = wavy_pattern();
   const auto cloud = make_cloud(wall_through(pattern), {lens_of_64(), {}, pattern}, {}, {});
   ASSERT_TRUE(cloud) << cloud.error().message;
@@ -66,7 +66,7 @@ TEST(FixedPattern, WhatIsKnownIsTakenOffAndTheRestIsLeft) {
   }
 }
 
-TEST(FixedPattern, WithoutOneDepthsAreTakenAsTheyAre) {
+TEST(FixedPattern, WithoutAPatternDepthsStayUnchanged) {
   const FusedFrame fused = wall_through(wavy_pattern());
   const auto cloud = make_cloud(fused, {lens_of_64()}, {}, {});
   ASSERT_TRUE(cloud) << cloud.error().message;
@@ -77,7 +77,7 @@ TEST(FixedPattern, WithoutOneDepthsAreTakenAsTheyAre) {
   }
 }
 
-TEST(FixedPattern, OfAnotherImageOrOtherSquaresIsRefused) {
+TEST(FixedPattern, OfAnotherImageOrSquareSizeIsRefused) {
   FixedPattern other = wavy_pattern();
   other.height_px = 2 * kPatternHeight;
   const FusedFrame fused = wall_through(wavy_pattern());
@@ -91,7 +91,7 @@ TEST(FixedPattern, OfAnotherImageOrOtherSquaresIsRefused) {
   EXPECT_FALSE(make_cloud(fused, {lens_of_64(), {}, wavy_pattern()}, noise, {}));
 }
 
-TEST(FixedPattern, WhatOffsetsShareIsKeptToTheStep) {
+TEST(FixedPattern, SharedErrorsAreStoredToWithinAStep) {
   Eigen::MatrixXd shared = Eigen::MatrixXd::Random(12, 192);
   shared.row(3).setZero();
   FixedPattern pattern = wavy_pattern();

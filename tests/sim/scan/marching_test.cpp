@@ -35,7 +35,7 @@ TriangleMesh ball() {
   return std::move(marching).mesh();
 }
 
-TEST(MarchingTetrahedra, BallIsClosedTurnedOutwardAndOfItsSize) {
+TEST(MarchingTetrahedra, BallIsClosedFacesOutwardAndHasItsSize) {
   const TriangleMesh mesh = ball();
   std::map<std::pair<int, int>, int> edges;
   double volume_mm3 = 0;

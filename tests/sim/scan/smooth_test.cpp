@@ -42,7 +42,7 @@ double rms_mm(const DepthFrame& frame, int margin_px) {
   return std::sqrt(squares / count);
 }
 
-TEST(Smooth, LeavesAPlaneAndGapsAsTheyAre) {
+TEST(Smooth, LeavesAPlaneAndGapsUnchanged) {
   DepthFrame frame = drawn(plane_mm);
   frame.depth_mm[frame.index(50, 40)] = 0;
   const DepthFrame out = smoothed(frame);
@@ -51,7 +51,7 @@ TEST(Smooth, LeavesAPlaneAndGapsAsTheyAre) {
 }
 
 /// A fifth of the noise of 25 patches remains.
-TEST(Smooth, TakesOutWhatPatchesAddToEveryFrame) {
+TEST(Smooth, RemovesTheNoiseOfPatchesInEveryFrame) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0, 1.1);
   std::vector<double> patches(static_cast<std::size_t>(kWidth_px * kHeight_px) / 16);
@@ -63,7 +63,7 @@ TEST(Smooth, TakesOutWhatPatchesAddToEveryFrame) {
   EXPECT_LT(rms_mm(smoothed(frame), 8), 0.3);
 }
 
-TEST(Smooth, LeavesAStepWhereItIs) {
+TEST(Smooth, LeavesAStepInPlace) {
   const DepthFrame frame = drawn([](int u, int) { return u < 60 ? 800 : 820; });
   const DepthFrame out = smoothed(frame);
   for (std::size_t i = 0; i < frame.depth_mm.size(); ++i)

@@ -72,7 +72,7 @@ double surface_mm(const Sweep& sweep, const SweptCamera& camera, double share) {
   return off[static_cast<std::size_t>(share * static_cast<double>(off.size() - 1))];
 }
 
-TEST(Sweep, FollowsACameraWithoutErrors) {
+TEST(Sweep, TracksACameraWithoutErrors) {
   const SweptCamera camera(block(), 4, false);
   const auto sweep = fuse(camera.frames(10), camera.lens());
   ASSERT_TRUE(sweep) << sweep.error().message;
@@ -80,7 +80,7 @@ TEST(Sweep, FollowsACameraWithoutErrors) {
   EXPECT_LT(farthest_mm(*sweep, camera), 0.3);
 }
 
-TEST(Sweep, FollowsACameraWithAllErrorsAndFindsTheSurface) {
+TEST(Sweep, TracksACameraWithAllErrorsAndFindsTheSurface) {
   const SweptCamera camera(block());
   const auto sweep = fuse(camera.frames(25), camera.lens());
   ASSERT_TRUE(sweep) << sweep.error().message;
@@ -89,7 +89,7 @@ TEST(Sweep, FollowsACameraWithAllErrorsAndFindsTheSurface) {
   EXPECT_LT(surface_mm(*sweep, camera, 0.5), 0.4);
 }
 
-TEST(Sweep, TakesTheCamerasFixedPatternOff) {
+TEST(Sweep, SubtractsTheCamerasFixedPattern) {
   constexpr std::uint64_t kSeed = 4;
   const SweptCamera camera(block(), kSeed);
   const auto frames = camera.frames(10);
@@ -106,7 +106,7 @@ TEST(Sweep, TakesTheCamerasFixedPatternOff) {
       << refused.error().message;
 }
 
-TEST(Sweep, IsTheSameWhateverTheNumberOfThreads) {
+TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
   const SweptCamera camera(block());
   const auto frames = camera.frames(7);
   const auto one = fuse(frames, camera.lens(), {});
@@ -117,7 +117,7 @@ TEST(Sweep, IsTheSameWhateverTheNumberOfThreads) {
   EXPECT_EQ(one->volume.surface().points_mm, two->volume.surface().points_mm);
 }
 
-TEST(Sweep, SaysWhichFrameLostItsPlace) {
+TEST(Sweep, NamesTheFrameThatWasLost) {
   const SweptCamera camera(block());
   std::vector<DepthFrame> frames = camera.frames(4);
   for (int i = 0; i < 12; ++i) frames.push_back(testing::wall_frame(600));  // turned away
@@ -145,7 +145,7 @@ TEST(Sweep, LosesFramesAfterAJumpRatherThanMisplaceThem) {
   }
 }
 
-TEST(Sweep, FindsItsPlaceAgainAfterFramesThatShowNothingOfIt) {
+TEST(Sweep, RelocalisesAfterFramesThatShowNothing) {
   const SweptCamera camera(block());
   std::vector<DepthFrame> frames = camera.frames(6);
   frames[4] = testing::wall_frame(600);
@@ -155,7 +155,7 @@ TEST(Sweep, FindsItsPlaceAgainAfterFramesThatShowNothingOfIt) {
   EXPECT_LT(farthest_mm(*sweep, camera), 0.6);
 }
 
-TEST(Sweep, RefusesWhatACameraInTroubleGives) {
+TEST(Sweep, RefusesFramesOfAFaultyCamera) {
   const Lens lens;
   const DepthFrame dark{640, 480, std::vector<float>(640 * 480)};
   const DepthFrame flat = testing::wall_frame(800);
@@ -176,7 +176,7 @@ TEST(Sweep, RefusesWhatACameraInTroubleGives) {
   EXPECT_FALSE(fuse_sweep({frames, std::vector<double>{0, 0}, {lens}, {}, {}}, {}));
 }
 
-TEST(Sweep, StopsWhenToldTo) {
+TEST(Sweep, StopsWhenCancelled) {
   const SweptCamera camera(block());
   Context context;
   context.cancelled = [] { return true; };

@@ -76,7 +76,7 @@ Volume fused(const Surface& surface, const Optics& optics) {
 
 /// The nearest pixel's depth counts, so a point's error is at most the plane's slope over half a
 /// pixel (4 mm from corner to middle). The errors cancel on average.
-TEST(Volume, HoldsAPlaneWithinItsPixels) {
+TEST(Volume, ReproducesAPlaneToWithinPixels) {
   const Volume volume = fused(plane, Optics(small_lens()));
   int asked = 0;
   double sum = 0;
@@ -96,7 +96,7 @@ TEST(Volume, HoldsAPlaneWithinItsPixels) {
 }
 
 /// Pixels are 5.6 mm wide here, and the surface within each is treated as flat.
-TEST(Volume, BallsSurfaceAndViewLieOnTheBall) {
+TEST(Volume, SurfaceAndViewOfABallAreOnTheBall) {
   const Optics optics(small_lens());
   const Volume volume = fused(meets_ball, optics);
   const TriangleMesh mesh = volume.surface();
@@ -132,7 +132,7 @@ std::optional<double> disc(const Vector3d& from, const Vector3d& along) {
 }
 
 /// There must be no surface between an edge and the background seen past it.
-TEST(Volume, GrowsNoSurfaceFromAnEdgeBackwards) {
+TEST(Volume, HasNoSurfaceBehindAnEdge) {
   const Optics optics(small_lens());
   Volume volume = around();
   ASSERT_TRUE(volume.add(seen(disc, optics, Pose::Identity()), optics, {}, Pose::Identity(), {}));
@@ -162,7 +162,7 @@ TEST(Volume, SlopesAwayFromAWallAlongTheRays) {
   EXPECT_FALSE(volume.slope(Vector3d::Zero(), 3));
 }
 
-TEST(Volume, ForgetsWhatItSeesThrough) {
+TEST(Volume, RemovesSurfacesThatItSeesThrough) {
   const Optics optics(small_lens());
   Volume volume = around();
   const DepthFrame with = seen(meets_ball, optics, Pose::Identity());
@@ -175,7 +175,7 @@ TEST(Volume, ForgetsWhatItSeesThrough) {
   EXPECT_GT(volume.distance_mm(front).value_or(0), 3);
 }
 
-TEST(Volume, RefusesWhatIsTooLargeAndALensOfAnotherSize) {
+TEST(Volume, RefusesTooManyVoxelsAndALensOfAnotherSize) {
   const Optics optics(small_lens());
   Volume::Options options;
   options.most_blocks = 20;

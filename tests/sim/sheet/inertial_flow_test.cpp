@@ -74,12 +74,12 @@ double largest(const velocity::VelocityField& field) {
   return most;
 }
 
-TEST(InertialFlow, AgreesWithTheQuasistaticSheetToTheFirstPowerOfItsStep) {
+TEST(InertialFlow, ConvergesToTheQuasistaticSheetLinearlyInItsStep) {
   const flow::DipField first = stokes();
   const flow::DipField slow = quasistatic(first);
   // A step displaces film by the share g dt of the sphere's radius, g = u / R. The error of its
-  // velocity is less than half that share (SheetStep.TendsToTheQuasistaticSheet...: a quarter). The
-  // error of the film's position is the sum of these over the dip.
+  // velocity is less than half that share (SheetStep.ConvergesToTheQuasistaticSheet...: a quarter).
+  // The error of the film's position is the sum of these over the dip.
   double bound_mm_per_s = 0;
   for (std::size_t k = 1; k < first.fields.size(); ++k) {
     const double u = largest(first.fields[k]);

@@ -246,7 +246,7 @@ TEST(SheetFlow, IsMirroredWithTheBodyAndItsInk) {
   for (std::size_t i = 0; i < right.size(); ++i) EXPECT_LT((right[i] - left[i]).norm(), 0.02);
 }
 
-TEST(SheetFlow, IsTheSameBitForBitWhateverTheNumberOfThreads) {
+TEST(SheetFlow, IsBitIdenticalForAnyNumberOfThreads) {
   pipeline::DipOptions options;
   options.outline = testing::film_of("90x80");
   options.depth_mm = 20;
@@ -267,7 +267,7 @@ TEST(SheetFlow, IsTheSameBitForBitWhateverTheNumberOfThreads) {
   }
 }
 
-TEST(SheetFlow, OfASwollenFilmIsThatOfALargerOne) {
+TEST(SheetFlow, OfASwollenFilmEqualsThatOfALargerFilm) {
   // Printed on a circle of 60 mm, floating as one of 72 mm: the exact map of the larger film,
   // scaled down for printing.
   pipeline::DipOptions options;

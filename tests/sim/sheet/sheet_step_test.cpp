@@ -97,7 +97,7 @@ Velocities heavy_step(const Scene& s, double step_s, double density_kg_per_m3) {
       .value();
 }
 
-TEST(SheetStep, TendsToTheQuasistaticSheetWithTheFirstPowerOfItsLengthAtFixedViscosity) {
+TEST(SheetStep, ConvergesToTheQuasistaticSheetLinearlyAtFixedViscosity) {
   const Scene s = scene();
   double coarse = difference(light_step(s, 0.08), s.quasistatic);
   for (const double step_s : {0.04, 0.02, 0.01, 0.005}) {
@@ -109,7 +109,7 @@ TEST(SheetStep, TendsToTheQuasistaticSheetWithTheFirstPowerOfItsLengthAtFixedVis
   EXPECT_GT(coarse, 1e-6 * largest(s.quasistatic));
 }
 
-TEST(SheetStep, StopsDifferingFromItAtTheFloorThatInertiaSets) {
+TEST(SheetStep, DiffersFromTheQuasistaticSheetByAFloorDueToInertia) {
   // The effect of the nonlinear strain vanishes with the step. The effect of the film's
   // acceleration remains, and is real: the velocity lags by its rate of change times the response
   // time of the mass. This lag does not depend on the step and is proportional to the density.
@@ -141,7 +141,7 @@ TEST(SheetStep, StopsDifferingFromItAtTheFloorThatInertiaSets) {
   EXPECT_NEAR(difference(u, s.quasistatic) / lag, 1, 0.3);
 }
 
-TEST(SheetStep, ForgetsWhereItBeganWithinMilliseconds) {
+TEST(SheetStep, ForgetsItsInitialVelocityWithinMilliseconds) {
   const Scene s = scene();
   const double step_s = 1e-4;
   const StepFilm film = film_of(kViscosity_mpa_s, step_s, kDensity_kg_per_m3);
@@ -158,7 +158,7 @@ TEST(SheetStep, ForgetsWhereItBeganWithinMilliseconds) {
   }
 }
 
-TEST(SheetStep, DependsOnTheRatioOfDensityToYoungsModulusAlone) {
+TEST(SheetStep, DependsOnlyOnTheRatioOfDensityToYoungsModulus) {
   const Scene s = scene();
   const Velocities rest(s.mesh.node_count(), Vector2d::Zero());
   const auto step = [&](double y_mpa, double density, double nu) {
@@ -178,7 +178,7 @@ TEST(SheetStep, DependsOnTheRatioOfDensityToYoungsModulusAlone) {
   EXPECT_GT(difference(light, step(1.82, 0, 0.3)), 1e-3 * speed);
 }
 
-TEST(SheetStep, FeelsTheWatersDragAsTheQuasistaticSheetDoes) {
+TEST(SheetStep, HasTheSameWaterDragAsTheQuasistaticSheet) {
   const Scene s = scene();
   const double drag_per_mm = 0.5 / (30 * 30);  // drag length 30 mm
   const Velocities quasistatic = Sheet(s.mesh, drag_per_mm, s.fixed).solve(s.thickness_mm).value();
@@ -200,7 +200,7 @@ ElementVector drawn(std::mt19937& random, double most) {
 
 constexpr Elasticity kElasticity = {1.82, 0.4};
 
-TEST(MembraneEnergy, HasItsForcesForGradientAndTheirsForHessian) {
+TEST(MembraneEnergy, ForcesAndHessianAreItsDerivatives) {
   const FilmMesh mesh = irregular_mesh();
   std::mt19937 random(7);
   for (std::size_t t = 0; t < 40; ++t) {
@@ -241,7 +241,7 @@ TEST(MembraneEnergy, OfALinearDisplacementIsEquationFour) {
   }
 }
 
-TEST(MembraneEnergy, DoesNotFeelRotationOfAnySize) {
+TEST(MembraneEnergy, IsInvariantUnderRotationOfAnySize) {
   const FilmMesh mesh = irregular_mesh();
   std::mt19937 random(3);
   const ElementVector d = drawn(random, 0.1);
@@ -259,7 +259,7 @@ TEST(MembraneEnergy, DoesNotFeelRotationOfAnySize) {
   }
 }
 
-TEST(MembraneEnergy, HasAPositiveHessianToFallBackOnWhereTheTrueOneIsNot) {
+TEST(MembraneEnergy, HasAPositiveHessianAsFallback) {
   const FilmMesh mesh = irregular_mesh();
   ElementVector pressed;  // compressed to half its size
   const auto node = nodes_of(mesh, 0);
@@ -299,7 +299,7 @@ TEST(SheetStep, PassesThePatchTestForStrainsOfAnySize) {
   }
 }
 
-TEST(SheetStep, TurnsTheFilmAsAWholeWhateverItsThickness) {
+TEST(SheetStep, RotatesTheFilmAsAWholeForAnyThickness) {
   const FilmMesh mesh = irregular_mesh();
   std::vector<double> thickness_mm;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -313,7 +313,7 @@ TEST(SheetStep, TurnsTheFilmAsAWholeWhateverItsThickness) {
   EXPECT_LT(difference(*u, exact), 1e-7 * largest(*u));
 }
 
-TEST(SheetStep, KeepsTheMomentumOfAFilmThatNothingHolds) {
+TEST(SheetStep, ConservesTheMomentumOfAFreeFilm) {
   const Scene s = scene();
   const StepFilm film = {{1.82, 0.5}, kDensity_kg_per_m3};
   const double step_s = 1e-3;  // long enough for the film to push, too short for it to come to rest
@@ -351,7 +351,7 @@ TEST(SheetStep, KeepsTheMomentumOfAFilmThatNothingHolds) {
   EXPECT_GT(difference(after, before), 0.1 * largest(before));
 }
 
-TEST(SheetStep, ConvergesForStepsFarLongerThanItsUsersTakeAndSaysSoWhenItDoesNot) {
+TEST(SheetStep, ConvergesForVeryLongStepsOrReportsAnError) {
   const Scene s = scene();
   const Velocities rest(s.mesh.node_count(), Vector2d::Zero());
   const auto step = [&](double step_s) {

@@ -37,7 +37,7 @@ TEST(Sheet, ReproducesLinearFields) {
             1e-10);
 }
 
-TEST(Sheet, TurnsAsAWholeWhateverItsThickness) {
+TEST(Sheet, RotatesAsAWholeForAnyThickness) {
   const FilmMesh mesh = irregular_mesh();
   std::vector<double> thickness;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -64,7 +64,7 @@ TEST(Sheet, ReproducesItsQuadraticSolutions) {
 }
 
 // A strip drawn along x; its sides get their natural velocities: 4 h u' = const.
-TEST(Sheet, IsDrawnWhereItIsThin) {
+TEST(Sheet, IsStretchedWhereItIsThin) {
   const FilmMesh mesh =
       mesh_film(film::parse_outline("80x20").value(), testing::line_round({}), {}).value();
   const auto thickness_at = [](double x) { return 1 + 0.5 * std::tanh(x / 10); };

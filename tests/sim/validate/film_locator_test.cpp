@@ -43,7 +43,7 @@ TEST(FilmLocator, FindsWhereEachPointOfTheFilmLands) {
   }
 }
 
-TEST(FilmLocator, FilmBesideTheTilesLandsNowhereUnlessItIsAsGoodAsOnThem) {
+TEST(FilmLocator, FilmBesideTheTilesLandsNowhereUnlessItIsVeryClose) {
   const mesh::Surface surface = upright_square();
   const std::vector tiles = {whole(surface, 0, 1), whole(surface, 1, 1)};
   const FilmLocator locator(surface, tiles);

@@ -7,7 +7,7 @@
 namespace hydroprint::validate {
 namespace {
 
-TEST(Summary, LeavesOutWhatIsNotFinite) {
+TEST(Summary, LeavesOutNonFiniteValues) {
   const Summary s = summarise({3, std::nan(""), 1, HUGE_VAL, 2});
   EXPECT_EQ(s.count, 3U);
   EXPECT_DOUBLE_EQ(s.mean, 2);

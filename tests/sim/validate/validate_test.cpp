@@ -76,7 +76,7 @@ class QuickReport : public ::testing::Test {
 testing::TemporaryFolder* QuickReport::folder_ = nullptr;
 Ended* QuickReport::ended_ = nullptr;
 
-TEST_F(QuickReport, HasEveryExperimentWithItsPicturesAndNothingElse) {
+TEST_F(QuickReport, HasExactlyTheExperimentsAndTheirPictures) {
   const json all = report();
   EXPECT_EQ(all.at("verb"), "validate");
   EXPECT_EQ(all.at("parameters").at("quick"), true);
@@ -149,7 +149,7 @@ TEST_F(QuickReport, PageIsWellFormedAndItsLinksLeadSomewhere) {
   }
 }
 
-TEST_F(QuickReport, CountsWhatPassed) {
+TEST_F(QuickReport, CountsPassedFigures) {
   int passed = 0, failed = 0;
   const json all = report();  // must outlive the loop
   for (const json& experiment : all.at("experiments")) {
@@ -171,7 +171,7 @@ TEST_F(QuickReport, CountsWhatPassed) {
   EXPECT_GT(passed, 10);
 }
 
-TEST_F(QuickReport, FilmLandsUnmovedWhereTheObjectFirstTouches) {
+TEST_F(QuickReport, FilmIsUndisplacedAtFirstContact) {
   // The landing point there varies by the same amount as the drawn errors.
   EXPECT_NEAR(value("spread_at_contact_ratio"), 1, 0.01);
   EXPECT_NEAR(value("sphere_stretch_at_contact"), 1, 0.01);
@@ -180,7 +180,7 @@ TEST_F(QuickReport, FilmLandsUnmovedWhereTheObjectFirstTouches) {
   EXPECT_LT(value("spread_at_contact_mm"), 2);
 }
 
-TEST_F(QuickReport, WhatPlaysTheExperimentIsNearerToTheExactSolution) {
+TEST_F(QuickReport, TheReferenceIsCloserToTheExactSolution) {
   // Second order: 0.6 times the lengths leaves 0.36 of the error, plus the error of the mesh of
   // triangles that represents the sphere.
   EXPECT_LT(value("exact_sphere_fine_max_mm"), 0.6 * value("exact_sphere_usual_max_mm"));
@@ -188,17 +188,17 @@ TEST_F(QuickReport, WhatPlaysTheExperimentIsNearerToTheExactSolution) {
   EXPECT_GT(value("sphere_far_pole_max_mm"), value("sphere_to_equator_max_mm"));
 }
 
-TEST_F(QuickReport, KnowingTheInkTakesItsErrorAway) {
+TEST_F(QuickReport, KnownInkReducesItsError) {
   EXPECT_GT(value("thickness_off_mean_mm"), 0.1);
   EXPECT_LT(value("thickness_on_to_off"), 0.25);
   EXPECT_LT(value("second_pass_to_first"), 0.5);
 }
 
-TEST_F(QuickReport, ModelsPartWhereTheFilmHasBeenDrawnOut) {
+TEST_F(QuickReport, FilmModelsDifferWhereTheFilmIsStretched) {
   EXPECT_GT(value("bend_to_legs_ratio"), 1);
 }
 
-TEST_F(QuickReport, BowlIsRecognisedAsOneThatCannotBePrinted) {
+TEST_F(QuickReport, BowlIsRecognisedAsUnprintable) {
   EXPECT_EQ(value("mouth_down_recognised"), 1);
   EXPECT_EQ(value("upright_recognised"), 1);
   EXPECT_GT(value("floor_stretch"), 3);
@@ -222,7 +222,7 @@ class Validate : public ::testing::Test {
   testing::TemporaryFolder folder;
 };
 
-TEST_F(Validate, RefusesWhatItDoesNotKnow) {
+TEST_F(Validate, RefusesBadFlags) {
   expect_refusal({"--out", out(), "--only", "acuracy"},
                  "--only: there is no experiment 'acuracy'. Choose from repeatability, accuracy");
   expect_refusal({"--out", out(), "--mesh", "ball.obj"}, "--mesh");
@@ -230,7 +230,7 @@ TEST_F(Validate, RefusesWhatItDoesNotKnow) {
   expect_refusal({"--quick"}, "--out");
 }
 
-TEST_F(QuickReport, IsReplacedByTheNextWhichRunsWhatItIsAskedFor) {
+TEST_F(QuickReport, IsReplacedByTheNextRunWithTheRequestedExperiments) {
   const testing::TemporaryFolder folder;
   const fs::path again = folder.path() / "out";
   fs::copy(out(), again);

@@ -110,7 +110,7 @@ TEST(FilmMesh, CoversTheFilmOutsideTheSolids) {
                {testing::circle({-40, 0}, 25, 400), testing::circle({40, 10}, 30, 400)});
 }
 
-TEST(FilmMesh, WithoutWaterlineIsTheWholeFilm) {
+TEST(FilmMesh, WithoutAWaterlineCoversTheWholeFilm) {
   const FilmMesh mesh = meshed(outline_of("100x80"), testing::line_round({}));
   EXPECT_NEAR(total_area(mesh), 8000, 1e-6);
   for (const EdgeKind kind : mesh.edge_kind) EXPECT_NE(kind, EdgeKind::kWaterline);
@@ -202,7 +202,7 @@ TEST(FilmMesh, SolidsThatTouchAtACornerAreMeshed) {
   EXPECT_NEAR(total_area(meshed(film, line)), 8000 - 800, 1e-6);
 }
 
-TEST(FilmMesh, LeavesOutWhatHoldsNoFilm) {
+TEST(FilmMesh, LeavesOutRegionsWithoutFilm) {
   // A ring with an island in its hole, with and without film in the hole.
   const film::Outline film = outline_of("100x80");
   waterline::Waterline line = testing::line_round({testing::circle({0, 0}, 30, 600)});
@@ -217,7 +217,7 @@ TEST(FilmMesh, LeavesOutWhatHoldsNoFilm) {
   EXPECT_NEAR(total_area(meshed(film, line)), 8000 - kPi * 900, 3);
 }
 
-TEST(FilmMesh, OfCurvesThatAllButTouchIsRefusedBeforeItGrowsWithoutBound) {
+TEST(FilmMesh, NearlyTouchingCurvesAreRefusedBeforeTheMeshGrowsTooLarge) {
   // The edges along a gap are divided until they are about as short as it is wide.
   const film::Outline film = outline_of("100x100");
   const auto solids = [](double gap_mm) {

@@ -161,7 +161,7 @@ TEST(BoundaryVelocities, AreThePullAtTheWaterlineAndZeroAtTheVat) {
   }
 }
 
-TEST(BoundaryVelocities, AtACornerAreTheMeanOfItsSides) {
+TEST(BoundaryVelocities, AtACornerAreTheMeanOfBothSides) {
   const testing::Curve square = {{-10, -10}, {10, -10}, {10, 10}, {-10, 10}};
   auto line = testing::line_round({square});
   waterline::Contour contour;
@@ -183,7 +183,7 @@ TEST(BoundaryVelocities, AtACornerAreTheMeanOfItsSides) {
   EXPECT_EQ(corners, 4);
 }
 
-TEST(BoundaryVelocities, WhereTwoSolidsTouchAreNoLargerThanElsewhere) {
+TEST(BoundaryVelocities, AreNotLargerWhereTwoSolidsTouch) {
   const waterline::Waterline line = testing::line_round(
       {{{-20, -20}, {0, -20}, {0, 0}, {-20, 0}}, {{0, 0}, {20, 0}, {20, 20}, {0, 20}}});
   const FilmMesh mesh = mesh_film(outline_of("100x80"), line, {}).value();

@@ -54,7 +54,7 @@ TEST(PullIndex, WithoutSegmentsGivesZero) {
   EXPECT_EQ(PullIndex(std::vector<Contour>()).at({1, 2}), Vector2d(0, 0));
 }
 
-TEST(PullIndex, TakesSegmentsWithoutLength) {
+TEST(PullIndex, AcceptsSegmentsWithoutLength) {
   const PullIndex index({{{{1, 1}, {1, 1}, {3, 4}, {3, 4}}}});
   EXPECT_EQ(index.at({50, 50}), Vector2d(3, 4));
 }

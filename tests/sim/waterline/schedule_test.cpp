@@ -72,7 +72,7 @@ TEST(Schedule, StartsJustAfterContactAndEndsJustBeforeTheTop) {
   EXPECT_NEAR(depths.back(), body.height_mm - options.event_gap_mm, 1e-9);
 }
 
-TEST(Schedule, EndsAtTheDepthAskedFor) {
+TEST(Schedule, EndsAtTheRequestedDepth) {
   const Body body = testing::body_of(sample::icosphere(40, 4));
   const auto depths = schedule(body, 23.5);
   expect_increasing_in(depths, 23.5);

@@ -124,7 +124,7 @@ TEST(Slicer, CutsOfIrregularBodiesAreClosedAtEveryLevel) {
   }
 }
 
-TEST(Slicer, FacesInsideOutAreTurnedRoundWithTheirPull) {
+TEST(Slicer, InvertedFacesAreTurnedOverWithTheirPull) {
   const Body body = testing::body_of(sample::icosphere(20, 4));
   Body spoilt = body;
   std::mt19937 random(3);
@@ -188,7 +188,7 @@ TEST(Slicer, AMissingFaceIsBridged) {
   }
 }
 
-TEST(Slicer, TakesABodyWithoutHeight) {
+TEST(Slicer, AcceptsABodyWithoutHeight) {
   mesh::Model model;
   model.path = "sheet";
   model.vertices = {{0, 0, 0}, {5, 0, 0}, {0, 5, 0}};
@@ -215,7 +215,7 @@ TEST(Unite, ABoxWithinABoxVanishes) {
   EXPECT_NEAR(area_of(section), 100, 1e-4);
 }
 
-TEST(Unite, AHollowIsAHole) {
+TEST(Unite, ACavityIsAHole) {
   const Body body = testing::body_of(
       testing::together({testing::box({0, 0, 0}, {10, 10, 5}),
                          testing::inside_out(testing::box({3, 3, 1}, {7, 7, 4}))}));

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_F(Worker, SimulateMakesTheArtifactsOfTheContract) {
+TEST_F(Worker, SimulateWritesTheArtifactsOfTheContract) {
   const Ended ended = testing::run(simulate({"--texture", path("texture.png")}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(names_in(out()),
@@ -48,7 +48,7 @@ TEST_F(Worker, FilmImageHasTheFilmsSizeAndIsNotJustWhite) {
   EXPECT_EQ(texels.front().r, 65535);
 }
 
-TEST_F(Worker, APictureThatLiesInTheModelIsPrintedAndIsNoInputOfItsOwn) {
+TEST_F(Worker, AnEmbeddedPictureIsPrintedAndIsNotASeparateInput) {
   folder.write("body.gltf", mesh::textured_gltf(content(path("texture.png"))));
   const Ended ended = testing::run(
       simulate({"--mesh", path("body.gltf"), "--scale", "20", "--model", "stokes"}, false));
@@ -64,7 +64,7 @@ TEST_F(Worker, APictureThatLiesInTheModelIsPrintedAndIsNoInputOfItsOwn) {
   })) << "the picture's colours";
 }
 
-TEST_F(Worker, MapOnlyMakesTheMapAndTheReport) {
+TEST_F(Worker, MapOnlyWritesTheMapAndTheReport) {
   const Ended ended = testing::run(simulate({"--artifacts", "map"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(names_in(out()), (std::set<std::string>{"report.json", "surface_map.ply"}));
@@ -112,7 +112,7 @@ TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
   }
 }
 
-TEST_F(Worker, ReportTellsInputsParametersAndFigures) {
+TEST_F(Worker, ReportHasInputsParametersAndFigures) {
   folder.write("pose.json", R"({"rotation_wxyz": [2, 0, 0, 0], "translation_mm": [3, -4, 99]})");
   folder.write("film.toml", "thickness_mm = 0.25\n");
   const Ended ended =
@@ -178,7 +178,7 @@ TEST_F(Worker, ThreadsDoNotChangeTheArtifacts) {
   EXPECT_GE(first.size(), 5U);
 }
 
-TEST_F(Worker, AnEarlierRunIsReplacedAndStrangersAreNot) {
+TEST_F(Worker, EarlierRunsAreReplacedAndForeignFilesAreNot) {
   ASSERT_EQ(testing::run(simulate()).status, 0);
   ASSERT_EQ(testing::run(simulate({"--artifacts", "map"})).status, 0);
   EXPECT_EQ(names_in(out()), (std::set<std::string>{"report.json", "surface_map.ply"}));

@@ -51,14 +51,14 @@ TEST_F(Worker, BadSmallFilesAreRefusedByNameAndPlace) {
                  {"no.json: no such file"});
 }
 
-TEST_F(Worker, AFileBeyondTheLimitIsToldOfAndNothingStays) {
+TEST_F(Worker, AFileBeyondTheLimitIsReportedAndNothingStays) {
   ProcessOptions limited;
   limited.limits = {{RLIMIT_FSIZE, 20000}};
   expect_refusal(3, simulate({"--texture", path("texture.png")}),
                  {"out", "beyond the limit on file sizes"}, limited);
 }
 
-TEST_F(Worker, AFullFileSystemIsToldOfAndNothingStays) {
+TEST_F(Worker, AFullFileSystemIsReportedAndNothingStays) {
   const fs::path disk = folder.path() / "disk";
   fs::create_directory(disk);
   if (::mount("none", disk.c_str(), "tmpfs", 0, "size=16k") != 0) GTEST_SKIP() << "needs root";
@@ -69,7 +69,7 @@ TEST_F(Worker, AFullFileSystemIsToldOfAndNothingStays) {
   ::umount2(disk.c_str(), MNT_DETACH);
 }
 
-TEST_F(Worker, AnOutFolderThatCannotBeMadeIsRefusedFirst) {
+TEST_F(Worker, AnOutFolderThatCannotBeCreatedIsRefusedFirst) {
   Arguments command = simulate();
   *std::next(std::find(command.begin(), command.end(), "--out")) = path("no/out");
   expect_refusal(3, command, {"no: no such folder", "--out"});

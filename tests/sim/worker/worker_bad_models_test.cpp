@@ -96,7 +96,7 @@ TEST_F(Worker, BadModelsAreRefusedInOneLine) {
   expect_refusal(3, simulate({"--mesh", folder.path()}, false), {"not a regular file"});
 }
 
-TEST_F(Worker, ModelsThatLieAboutTheirSizeTakeNoMemory) {
+TEST_F(Worker, ModelsWithFalseSizesTakeNoMemory) {
   if (!kAddressSpaceIsOurs) GTEST_SKIP() << "address space cannot be limited";
   ProcessOptions little;
   little.limits = {{RLIMIT_AS, rlim_t{1} << 30}};

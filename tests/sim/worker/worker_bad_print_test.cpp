@@ -35,7 +35,7 @@ class BadPrint : public Worker {
   }
 };
 
-TEST_F(BadPrint, PrintImageRefusesInOneLineWhatItCannotDo) {
+TEST_F(BadPrint, PrintImageErrorsAreOneLine) {
   expect_refusal(3, print_image({"--film", "A3"}),
                  {"film.png: 827 x 1169 pixels, but a film image of A3 at 71 dpi"});
   expect_refusal(3, print_image({"--dpi", "300"}), {"has 2480 x 3508"});
@@ -52,7 +52,7 @@ TEST_F(BadPrint, PrintImageRefusesInOneLineWhatItCannotDo) {
   expect_refusal(3, print_image({}), {"film.png: "});
 }
 
-TEST_F(BadPrint, TemplateRefusesInOneLineWhatItCannotShow) {
+TEST_F(BadPrint, TemplateErrorsAreOneLine) {
   expect_refusal(3, placement({"--pose", path("far.json")}), {"misses the film A4"});
   expect_refusal(3, placement({"--film", "A3"}), {"paper: smaller than the film A3"});
 }

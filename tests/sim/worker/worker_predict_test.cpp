@@ -29,7 +29,7 @@ image::RgbImage quarters(int width, int height) {
   return film;
 }
 
-TEST_F(Worker, PredictLandsEveryQuarterOfTheFilmOnItsSideOfTheSphere) {
+TEST_F(Worker, PredictedQuartersOfTheFilmLandOnTheirSideOfTheSphere) {
   ASSERT_TRUE(image::write_png(path("film.png"), quarters(240, 280), 100));
   const Ended ended = testing::run(predict({"--depth-mm", "12"}));
   ASSERT_EQ(ended.status, 0) << ended.err;

@@ -111,7 +111,7 @@ class Preview : public Worker {
   }
 };
 
-TEST_F(Preview, TellsTheModelFirstAndThenWhereFilmLandsOnIt) {
+TEST_F(Preview, SendsTheModelFirstAndThenItsLandingPoints) {
   Session session(preview());
   const Answer model = session.next();
   const std::size_t vertices = model.head.at("vertices");
@@ -154,7 +154,7 @@ TEST_F(Preview, TellsTheModelFirstAndThenWhereFilmLandsOnIt) {
   EXPECT_EQ(session.wait().status, 0);
 }
 
-TEST_F(Preview, IsAskedAgainWithAnotherPose) {
+TEST_F(Preview, AnswersASecondPose) {
   Session session(preview());
   const Answer model = session.next();
   const Answer upright = session.answer_to(turned(1, 0));
@@ -171,7 +171,7 @@ TEST_F(Preview, IsAskedAgainWithAnotherPose) {
   EXPECT_NEAR(first_to_touch(turned_over), 12, 1e-3);
 }
 
-TEST_F(Preview, ANewerRequestEndsTheOneBefore) {
+TEST_F(Preview, ANewerRequestCancelsThePreviousOne) {
   Session session(preview());
   ASSERT_GT(session.next().floats.size(), 0u);
   constexpr int kMany = 40;
@@ -194,7 +194,7 @@ TEST_F(Preview, ANewerRequestEndsTheOneBefore) {
   EXPECT_LT(done, kMany) << "not all were computed";
 }
 
-TEST_F(Preview, RefusesWhatIsNoRequestAndGoesOn) {
+TEST_F(Preview, RefusesInvalidRequestsAndContinues) {
   Session session(preview());
   ASSERT_GT(session.next().floats.size(), 0u);
   const auto refused = [&](const std::string& line, int id) {
@@ -221,7 +221,7 @@ TEST_F(Preview, RefusesWhatIsNoRequestAndGoesOn) {
   EXPECT_FALSE(session.answer_to(turned(8, 1)).head.contains("error"));
 }
 
-TEST_F(Preview, AnswersTheLastRequestThoughNothingFollows) {
+TEST_F(Preview, AnswersTheLastRequestAtEndOfInput) {
   Session session(preview());
   session.ask(turned(1, 0).dump() + "\n");
   session.hang_up();

@@ -12,7 +12,7 @@
 namespace hydroprint::worker {
 namespace {
 
-TEST_F(Worker, InkPassesAreReportedWithHowFarTheyMovedTheFilm) {
+TEST_F(Worker, InkPassesAreReportedWithTheFilmsMoves) {
   ASSERT_EQ(testing::run(
                 simulate({"--texture", path("texture.png"), "--ink-passes", "2", "--dpi", "600"}))
                 .status,
@@ -41,7 +41,7 @@ TEST_F(Worker, InkPassesEndWhenTheFilmMovesByLessThanAPixel) {
   }
 }
 
-TEST_F(Worker, InkGivenDirectlyTakesThePlaceOfPasses) {
+TEST_F(Worker, GivenInkReplacesPasses) {
   ASSERT_EQ(testing::run(simulate({"--ink-image", path("texture.png")})).status, 0);
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
   EXPECT_EQ(report["parameters"]["ink_passes"], 0);
@@ -51,7 +51,7 @@ TEST_F(Worker, InkGivenDirectlyTakesThePlaceOfPasses) {
                           [](const auto& input) { return input["role"] == "ink_image"; }));
 }
 
-TEST_F(Worker, StokesKnowsNoInkAndSaysThatItKnowsNoDrag) {
+TEST_F(Worker, StokesIgnoresInkAndWarnsThatItIgnoresDrag) {
   folder.write("film.toml", "drag_length_mm = 5\n");
   ASSERT_EQ(testing::run(simulate({"--model", "stokes", "--profile", path("film.toml")})).status,
             0);
@@ -94,7 +94,7 @@ double apart_mm(const Ply& a, const Ply& b) {
   return most;
 }
 
-TEST_F(Inertia, MakesTheQuasistaticMapWithVolumeKeptAndAnotherOneWithout) {
+TEST_F(Inertia, MatchesTheQuasistaticMapOnlyIfVolumeIsKept) {
   const Ply quasistatic = map_of({});
   const Ply inertial = map_of({"--inertia"});
   EXPECT_TRUE(nlohmann::json::parse(content(out() + "/report.json"))["parameters"]["inertia"]);

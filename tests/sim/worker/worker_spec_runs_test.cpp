@@ -171,7 +171,7 @@ TEST_F(SpecRun, OfTemplateMakesTheSameArtifactsAsFlags) {
                {"jobName", "mug 7"}});
 }
 
-TEST_F(SpecRun, TakesItsFilesFromTheInputsFolderAndThreadsFromTheFlag) {
+TEST_F(SpecRun, UsesTheInputsFolderAndTheThreadsFlag) {
   fs::create_directory(path("in"));
   fs::rename(path("sphere.obj"), path("in/sphere.obj"));
   folder.write(
@@ -184,7 +184,7 @@ TEST_F(SpecRun, TakesItsFilesFromTheInputsFolderAndThreadsFromTheFlag) {
   EXPECT_EQ(report["parameters"]["threads"], 1);
 }
 
-TEST_F(SpecRun, ComesFromStdinToo) {
+TEST_F(SpecRun, ReadsStdinToo) {
   folder.write("spec.json", R"({"mesh": {"name": "sphere.obj"}, "film": "60x70", "artifacts": 2})");
   ProcessOptions options;
   const int spec = ::open(path("spec.json").c_str(), O_RDONLY | O_CLOEXEC);

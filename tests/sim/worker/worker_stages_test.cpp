@@ -95,7 +95,7 @@ TEST_F(Stages, OfAPredictionComeAsListed) {
   }
 }
 
-TEST_F(Stages, ThatARunHasNoUseForAreLeftOut) {
+TEST_F(Stages, UnusedStagesAreLeftOut) {
   const Arguments colourless = simulate({"--artifacts", "map"});  // and therefore without ink
   const Arguments patient =
       simulate({"--artifacts", "map", "--texture", path("texture.png"), "--ink-passes", "20"});

@@ -42,7 +42,7 @@ Scene drawn_out() {
   return scene;
 }
 
-TEST(FilmMap, HoldsTheContactPointOfEachCellsCentreAndNotANumberElsewhere) {
+TEST(FilmMap, HoldsTheContactPointOfEachCellsCentreAndNanElsewhere) {
   const Scene scene = drawn_out();
   const auto map = film_map(scene.surface, scene.map, rectangle(40, 30), 1, {});
   ASSERT_TRUE(map);
@@ -117,7 +117,7 @@ TEST(FilmMap, RefusesCellsOutOfRange) {
   }
 }
 
-TEST(TileStretch, IsTheTilesOwnWhereTheSurfaceHasNone) {
+TEST(TileStretch, IsTheTilesOwnIfTheSurfaceHasNone) {
   Scene scene = drawn_out();
   EXPECT_NEAR(tile_stretch(scene.surface, scene.map.surface, scene.map.tiles[0])[1], 3, 1e-12);
   scene.map.surface.stretch.assign(scene.surface.points.size(), std::nan(""));

@@ -47,7 +47,7 @@ RgbImage red_triangle_on_blue(const Corners& uv, int size) {
   return image;
 }
 
-TEST(Paint, ARedChartOnBlueShowsNotATraceOfBlue) {
+TEST(Paint, ARedChartOnBlueShowsNoBlue) {
   // A chart with sharp corners, at an angle to the texels, from magnified to 30 times minified.
   const Corners uv = {Eigen::Vector2d(0.13, 0.17), Eigen::Vector2d(0.81, 0.23),
                       Eigen::Vector2d(0.66, 0.41)};
@@ -141,7 +141,7 @@ TEST(Paint, MirroredHalvesOnTheSameTexelsAreBothPainted) {
   }
 }
 
-TEST(Paint, WrapModesSayWhatLiesOutside) {
+TEST(Paint, WrapModesDefineTheTextureOutside) {
   // UVs from -1 to 2 in both directions over a texture that is dark on its left.
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "t.png",
@@ -171,7 +171,7 @@ TEST(Paint, WrapModesSayWhatLiesOutside) {
   EXPECT_EQ(dark(mesh::Wrap::kClamp), "dddrrr");
 }
 
-TEST(Paint, ATextureThatFillsItsTileDoesNotWrapRoundAtItsEdges) {
+TEST(Paint, ATextureThatFillsItsTileDoesNotWrapAroundAtItsEdges) {
   // Left edge red, right edge blue: repeat must not mix them at the border of the chart.
   const mesh::Model model = plate(-20, -20, 20, 20);
   const Paint paint =
@@ -264,7 +264,7 @@ TEST(Paint, ATextureForAModelWithoutUvsIsRefused) {
   }
 }
 
-TEST(Paint, SaysWhatItAssumed) {
+TEST(Paint, WarnsOfItsAssumptions) {
   const TemporaryFolder folder;
   std::vector<std::uint8_t> rgba(16, 100);
   ASSERT_TRUE(write_png_rgba(folder / "t.png", 2, 2, rgba));
@@ -276,7 +276,7 @@ TEST(Paint, SaysWhatItAssumed) {
   EXPECT_TRUE(has_warning(*paint, "uvs_missing_in_part"));
 }
 
-TEST(Texture, ShortcutsLeadWhereTheLongWayDoes) {
+TEST(Texture, ShortcutsMatchFullSampling) {
   std::mt19937 random(5);
   const auto number = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);

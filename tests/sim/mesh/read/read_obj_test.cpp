@@ -149,7 +149,7 @@ TEST(ReadObj, ContinuedLinesAndDosLineEndsAreRead) {
       1U);
 }
 
-TEST(ReadObj, CommentsBehindAnythingAreNoPartOfIt) {
+TEST(ReadObj, TrailingCommentsAreIgnored) {
   const Folder folder;
   const std::string plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
   const Model expected = read(folder.write("plain.obj", plain));

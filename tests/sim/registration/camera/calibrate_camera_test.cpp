@@ -125,7 +125,7 @@ PatternError error_of(const scan::FixedPattern& pattern) {
   return out;
 }
 
-TEST(CalibrateCamera, LearnsTheFixedPatternAsWellAsItSays) {
+TEST(CalibrateCamera, LearnsTheFixedPatternWithinItsStatedErrors) {
   const auto found = calibrated(good_holds(), true);
   ASSERT_TRUE(found) << found.error().message;
   const scan::FixedPattern& pattern = found->pattern;
@@ -141,7 +141,7 @@ TEST(CalibrateCamera, LearnsTheFixedPatternAsWellAsItSays) {
   EXPECT_LT(std::abs(error.mean_sigmas), 3.5);
 }
 
-TEST(CalibrateCamera, ManyViewsLeaveNoMoreToBeSharedThanTwelve) {
+TEST(CalibrateCamera, ManyViewsLeaveNoMoreSharedErrorThanTwelve) {
   const auto found = calibrated(good_holds(15), false);
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(found->pattern.shared.rows(), 9 + 72);
@@ -177,7 +177,7 @@ std::string lacking_in(const std::vector<Hold>& holds) {
   return lacking(out, truth());
 }
 
-TEST(CalibrateCamera, WhatViewsLackIsNamed) {
+TEST(CalibrateCamera, MissingCoverageOfViewsIsNamed) {
   const auto good = good_holds();
   EXPECT_EQ(lacking_in(good), "");
   auto flat = good, far = good, middle = good;

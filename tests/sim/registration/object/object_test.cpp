@@ -96,21 +96,21 @@ TEST(Object, ExactDepthsGiveTheExactPose) {
   EXPECT_LT(pose->misfit_mm, 0.1);
 }
 
-TEST(Object, IsFoundHoweverItHangs) {
+TEST(Object, IsFoundInAnyPose) {
   const Hanging hanging(tripod(), crooked(110 * kDegree, 5, 8));
   const auto pose = hanging.find();
   ASSERT_TRUE(pose) << pose.error().message;
   EXPECT_LT(turn_rad(pose->X_FO, hanging.X_FO), 0.2 * kDegree);
 }
 
-TEST(Object, BoardTurnedByAQuarterIsTakenForTheNominalOne) {
+TEST(Object, AmbiguousBoardPosesResolveToTheNominalOne) {
   const Hanging hanging(board());
   const auto pose = hanging.find();
   ASSERT_TRUE(pose) << pose.error().message;
   EXPECT_LT(turn_rad(pose->X_FO, hanging.X_FO), 0.3 * kDegree);
 }
 
-TEST(Object, SphereTellsNoTurnAndTheNominalOneIsTaken) {
+TEST(Object, SphereDeterminesNoRotationSoTheNominalOneIsUsed) {
   const Hanging hanging(testing::surface_of(sample::icosphere(50, 5)));
   const auto pose = hanging.find();
   ASSERT_TRUE(pose) << pose.error().message;
@@ -126,7 +126,7 @@ TEST(Object, SphereTellsNoTurnAndTheNominalOneIsTaken) {
   EXPECT_GT(error[1], 3);
 }
 
-TEST(Object, CylinderTellsAllButTheTurnAboutItsAxis) {
+TEST(Object, CylinderDeterminesAllButTheRotationAboutItsAxis) {
   const Hanging hanging(testing::cylinder(40, 0, 90, 180));
   const auto pose = hanging.find();
   ASSERT_TRUE(pose) << pose.error().message;
@@ -157,7 +157,7 @@ TEST(Object, MirroredMeshAndAnotherObjectAreRefused) {
   EXPECT_EQ(hanging.reason().substr(0, 15), "NOT_THIS_OBJECT");
 }
 
-TEST(Object, NoneOrTwoAreRefused) {
+TEST(Object, NoObjectOrTwoObjectsAreRefused) {
   Hanging hanging(tripod());
   const auto object = hanging.rig.more;
   hanging.rig.more.clear();
@@ -168,7 +168,7 @@ TEST(Object, NoneOrTwoAreRefused) {
   EXPECT_EQ(hanging.reason().substr(0, 11), "TWO_OBJECTS");
 }
 
-TEST(Object, HalfOutOfViewIsSaid) {
+TEST(Object, HalfOutOfViewIsReported) {
   Hanging hanging(tripod());
   hanging.window.u += 160;  // the camera looks past it
   const auto pose = hanging.find();
@@ -222,7 +222,7 @@ TEST(Object, RealModelsAreFound) {
   }
 }
 
-TEST(WaterLevel, IsThatOfTheWaterAndUncertainAsStated) {
+TEST(WaterLevel, MatchesTheWaterWithinItsStatedUncertainty) {
   Hanging hanging(tripod());
   const auto cloud = hanging.cloud(hanging.fused(hanging.rig.frames(12, 77)));
   FilmFrame frame = hanging.frame();
