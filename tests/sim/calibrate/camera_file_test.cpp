@@ -88,7 +88,7 @@ TEST_F(CameraFile, APatternOfAnotherImageIsRefused) {
 }
 
 TEST_F(CameraFile, ABrokenPatternIsRefused) {
-  const std::string broken = "camera.json: its pattern is broken";
+  const std::string broken = "camera.json: the fixed pattern is invalid";
   EXPECT_NE(refusal("offset", "!!!!").find(broken), std::string::npos);
   EXPECT_NE(refusal("offset", "AAAA").find(broken), std::string::npos);
   EXPECT_NE(refusal("sigma", "").find(broken), std::string::npos);
