@@ -38,8 +38,8 @@ struct Calibration {
 };
 
 /// From frames to the object's pose in the film frame (paper, section 5.2). The height of the
-/// nominal pose is ignored: the search starts with the object's top at the gripper's lower end. If
-/// the gripper's height is unknown, it starts with the lowest point 40 mm above the water.
+/// nominal pose is replaced: the object's top is put at the gripper's lower end. If the gripper's
+/// height is unknown, the object's lowest point is put 40 mm above the water.
 /// Fails as scan::fuse, scan::make_cloud, find_film_frame and find_object do.
 [[nodiscard]] Result<Calibration> calibrate(const Task& task, const Context& context);
 
