@@ -70,9 +70,9 @@ InkGrid ink_grid(const film::Outline& outline, double cell_mm) {
 
 Result<InkField> InkField::from_means(const InkGrid& grid, const std::vector<double>& means) {
   if (means.size() != grid.count()) {
-    return fail(Code::kInvalidArgument, "ink: " + std::to_string(means.size()) +
-                                            " amounts for a grid of " +
-                                            std::to_string(grid.count()) + " cells. Give one each");
+    return fail(Code::kInvalidArgument,
+                "ink: " + std::to_string(means.size()) + " amounts for a grid of " +
+                    std::to_string(grid.count()) + " cells. Give one per cell");
   }
   for (std::size_t cell = 0; cell < means.size(); ++cell) {
     if (!is_ink(means[cell])) return not_ink(grid, cell, means[cell]);

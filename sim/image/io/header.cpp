@@ -141,11 +141,12 @@ Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_siz
                   const std::string& name) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
   if (width < 1 || height < 1) {
-    return fail(Code::kDataLoss, name + ", header: " + size + ". Get the file again");
+    return fail(Code::kDataLoss,
+                name + ", header: impossible size, " + size + ". Get the file again");
   }
   if (width > kMaxImageSide_px || height > kMaxImageSide_px || width * height > kMaxImageArea_px) {
     return fail(Code::kOutOfRange, name + ", header: " + size + ", more than " +
-                                       std::to_string(kMaxImageSide_px) + " a side or " +
+                                       std::to_string(kMaxImageSide_px) + " per side or " +
                                        std::to_string(kMaxImageArea_px / 1'000'000) +
                                        " million in all. Scale the image down");
   }
