@@ -81,8 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
     All, WrongProfile,
     ::testing::Values(
         Wrong{"unit = 1 ", "unit = 0 ",
-              "unit is no whole number in range. Give a whole number from 1 to 247"},
-        Wrong{"unit = 1 ", "unit = \"1\" ", "unit is no whole number"},
+              "unit is not a whole number in range. Give a whole number from 1 to 247"},
+        Wrong{"unit = 1 ", "unit = \"1\" ", "unit is not a whole number"},
         Wrong{"unit = 1 ", "units = 1 ", "units is not a known key here. Use "},
         Wrong{"name = \"virtual drive\"", "", "name is missing. Add it"},
         Wrong{"max_speed_mm_per_s = 20.0", "max_speed_mm_per_s = 0", "motion.max_speed_mm_per_s"},

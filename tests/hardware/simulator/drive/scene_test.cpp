@@ -89,14 +89,14 @@ TEST_F(SceneFile, ErrorsNameFileLineAndRemedy) {
       {"[axis]\ntravel_mm = 5", "axis.travel_mm"},
       {"[axis]\nstart_mm = 301", "axis.start_mm"},
       {"[water]\nheight_mm = 5", "water.at_mm is missing"},
-      {"[film]\nsize_mm = [210]", "film.size_mm is no list of 2 numbers"},
+      {"[film]\nsize_mm = [210]", "film.size_mm is not a list of 2 numbers"},
       {"[[marker]]\nname = \"middle\"", "\"left\", \"right\", \"near\", \"far\""},
-      {"[camera]\nat_mm = [0, 0, nan]", "camera.at_mm is no list of 3 numbers"},
+      {"[camera]\nat_mm = [0, 0, nan]", "camera.at_mm is not a list of 3 numbers"},
       {"[camera]\nat_mm = [0, 0, 0]", "is the camera's own position"},
       {"[camera.sweep]\nvia_mm = [[0, 0, 500], [0, 0, 0]]", "is the camera's own position"},
       {"[camera]\nclock = \"mine\"", "camera.clock is not known"},
       {"[camera.sweep]\nperiod_s = 3", "camera.sweep.via_mm is missing"},
-      {"[camera.sweep]\nvia_mm = [3]", "camera.sweep.via_mm is no list"},
+      {"[camera.sweep]\nvia_mm = [3]", "camera.sweep.via_mm is not a list"},
       {"[camera]\nnoise = 1", "noise is not a known key"}};
   for (const auto& [toml, what] : cases) {
     const auto read = scene(toml);
