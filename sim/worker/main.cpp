@@ -1,4 +1,4 @@
-// hydroprint-worker: one computation, one process. Its verbs: registry.h.
+// hydroprint-worker: runs one computation per process. registry.h lists its verbs.
 
 #include <fcntl.h>
 #include <malloc.h>
@@ -21,8 +21,8 @@
 namespace hydroprint::worker {
 namespace {
 
-/// A file opened later must not take the number of a stream that the caller closed: what is said
-/// there would end up in it.
+/// Opens /dev/null for each standard stream that the caller closed. Otherwise a file opened later
+/// could get the stream's number and receive its output.
 void occupy_standard_streams() {
   for (int fd = ::open("/dev/null", O_RDWR); fd >= 0; fd = ::open("/dev/null", O_RDWR)) {
     if (fd > 2) {
@@ -32,8 +32,8 @@ void occupy_standard_streams() {
   }
 }
 
-/// What is freed is used again soon: memory that goes back to the system each time comes back page
-/// by page, which takes a twentieth of a dip's time.
+/// Keeps freed memory in the process, because it is soon used again. Returning it to the system
+/// costs a twentieth of a dip's time in page faults.
 void keep_freed_memory() {
   constexpr int kMany = 256 << 20;
   ::mallopt(M_MMAP_THRESHOLD, kMany);
@@ -54,7 +54,7 @@ void keep_freed_memory() {
   std::abort();
 }
 
-/// Runs the task, and turns exceptions of libraries into errors.
+/// Runs the task and turns exceptions of libraries into errors.
 Result<Finished> run(const CommandLine& command, Termination& termination, int stderr_fd) {
   const std::string subject = command.task->subject();
   try {

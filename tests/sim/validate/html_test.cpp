@@ -26,7 +26,7 @@ TEST(ReportHtml, EscapesItsInput) {
 
 TEST(ReportHtml, ExplainsTheReferenceAndItsLimits) {
   const std::string page = report_html({}, "1.0");
-  EXPECT_NE(page.find("a finer computation plays the physical experiment"), std::string::npos);
+  EXPECT_NE(page.find("A finer computation stands for the physical experiment"), std::string::npos);
   EXPECT_NE(page.find("It cannot show"), std::string::npos);
   for (const char* unknown : {"activator", "trapped air", "the person who lays the film"}) {
     EXPECT_NE(page.find(unknown), std::string::npos) << unknown;

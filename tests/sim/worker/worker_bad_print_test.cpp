@@ -44,7 +44,8 @@ TEST_F(BadPrint, PrintImageErrorsAreOneLine) {
   expect_refusal(3, print_image({"--printer-margin-mm", "200"}), {"printer margin"});
   expect_refusal(3, print_image({"--ink-limit", "3"}), {"ink limit: does not apply to RGB"});
   expect_refusal(3, print_image({"--colours", "cmyk", "--ink-limit", "7"}), {"ink limit: 7"});
-  expect_refusal(3, print_image({"--colours", "cmyk", "--formats", "png"}), {"PNG has no CMYK"});
+  expect_refusal(3, print_image({"--colours", "cmyk", "--formats", "png"}),
+                 {"PNG does not support CMYK"});
   expect_refusal(2, print_image({"--formats", "gif"}), {"'gif' is unknown"});
   expect_refusal(2, print_image({"--colours", "hsv"}), {"--colours"});
   expect_refusal(3, print_image({"--icc-profile", path("none.icc")}), {"none.icc: "});
