@@ -87,7 +87,7 @@ TEST_F(BadSpec, ValuesOutOfRangeAreBadInput) {
 }
 
 TEST_F(BadSpec, TextThatIsNotJsonIsRefused) {
-  for (const std::string& json : {"", "mesh", "[]", "{\"mesh\": ", "{\"film\": \"\xff\"}"}) {
+  for (const char* const json : {"", "mesh", "[]", "{\"mesh\": ", "{\"film\": \"\xff\"}"}) {
     expect_bad_spec("simulate", json, {"not a valid SimulateSpec"});
   }
   Arguments command = run_of("simulate", "{}");
