@@ -82,8 +82,8 @@ TEST(Query, WhatIsNoValueIsRefusedByName) {
       {"small_count=1&smallCount=1", "small_count: is given twice"},
       {"inner.text=a&inner.text=b", "inner.text: is given twice"},
       {"time=1970-01-01T00:00:00Z&time=1970-01-01T00:00:00Z", "time: is given twice"},
-      {"left=a&right=1", "right: excludes left, which is given, too"},
-      {"both.text=a&left=", "left: excludes both, which is given, too"},
+      {"left=a&right=1", "right: excludes left, which is also given"},
+      {"both.text=a&left=", "left: excludes both, which is also given"},
       {"name=x", "name: Everything has no such field"},
       {"Text=x", "Text: Everything has no such field"},
       {"=x", ": Everything has no such field"},
@@ -93,9 +93,9 @@ TEST(Query, WhatIsNoValueIsRefusedByName) {
       {"text.text=x", "text.text: text has no fields to name"},
       {"time.seconds=1", "time.seconds: time has no fields to name"},
       {"inners.text=1", "inners.text: inners has no fields to name"},
-      {"inner=x", "inner: is a message and has no place in a URL"},
-      {"inners=x", "inners: is a message and has no place in a URL"},
-      {"labels=x", "labels: is a map and has no place in a URL"},
+      {"inner=x", "inner: is a message and cannot be in a URL"},
+      {"inners=x", "inners: is a message and cannot be in a URL"},
+      {"labels=x", "labels: is a map and cannot be in a URL"},
       {"$alt=json", "$alt: Everything has no such field"},
   };
   for (const auto& [text, expected] : cases) {
@@ -119,10 +119,10 @@ TEST(Query, WhatPathOrBodyGiveIsRefused) {
   EXPECT_EQ(read("GET", "/r/single/a?text=a"), "PARAMETER_INVALID text: is given by the path");
   EXPECT_EQ(read("PUT", "/r/all/a/1?inner.text=a"),
             "PARAMETER_INVALID inner.text: is given by the path");
-  EXPECT_EQ(read("POST", "/r/all?text=a"), "PARAMETER_INVALID text: belongs into the body");
+  EXPECT_EQ(read("POST", "/r/all?text=a"), "PARAMETER_INVALID text: belongs in the body");
   EXPECT_EQ(read("PATCH", "/r/part/a?inner.text=a"),
-            "PARAMETER_INVALID inner.text: belongs into the body");
-  EXPECT_EQ(read("PATCH", "/r/part/a?inner=a"), "PARAMETER_INVALID inner: belongs into the body");
+            "PARAMETER_INVALID inner.text: belongs in the body");
+  EXPECT_EQ(read("PATCH", "/r/part/a?inner=a"), "PARAMETER_INVALID inner: belongs in the body");
   EXPECT_EQ(read("PATCH", "/r/part/a?both.text=b", "{}"),
             R"({"text":"a","inner":{},"both":{"text":"b"}})");
 }
