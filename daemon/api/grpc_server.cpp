@@ -15,15 +15,15 @@
 namespace hydroprint::daemon {
 namespace {
 
-// Every watch and every running transfer holds a thread.
+// Every watch and every running transfer occupies a thread.
 constexpr int kMostThreads = 512;
-// Of an answer, which has no limit but that of what it lists.
+// Maximum size of a response; only the page size limits lists.
 constexpr int kMostAnswer_bytes = 64 << 20;
 
 constexpr int kHandshake_ms = 10'000;
-constexpr int kIdle_ms = 600'000;  // without a call; clients come back by themselves
+constexpr int kIdle_ms = 600'000;  // without a call; clients reconnect automatically
 
-constexpr const char* kRigService = "hydroprint.v1.RigService";  // serves while the rig works
+constexpr const char* kRigService = "hydroprint.v1.RigService";  // serving while the rig works
 struct Made {
   const char* name;
   std::unique_ptr<grpc::Service> (*make)(const ServiceContext&);
@@ -40,8 +40,8 @@ constexpr Made kServices[] = {{"hydroprint.v1.JobService", make_job_service},
                               {"hydroprint.v1.EventService", make_event_service},
                               {kRigService, make_rig_service}};
 
-// gRPC's own words go where ours go. Whoever does not get through the handshake is no trouble of
-// the daemon's, and could fill the log.
+// Sends gRPC's log messages to the daemon's log. Failed TLS handshakes are not a fault of the
+// daemon and could fill the log, so they are only debug messages.
 void log_of_grpc(gpr_log_func_args* said) {
   const bool is_ours = said->severity == GPR_LOG_SEVERITY_ERROR &&
                        std::string_view(said->file).find("ssl_") == std::string_view::npos;
@@ -87,14 +87,14 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   }
 
   grpc::ServerBuilder builder;
-  // Without this a second daemon would silently share the port.
+  // Otherwise a second daemon would silently share the port.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> taps;
   taps.push_back(make_audit_tap(backend.access, backend.audit));
   builder.experimental().SetInterceptorCreators(std::move(taps));
   builder.SetResourceQuota(grpc::ResourceQuota("hydroprintd").SetMaxThreads(kMostThreads));
   for (const auto& service : impl.services) builder.RegisterService(service.get());
-  // Strangers that say nothing are let go.
+  // Closes connections of clients that send nothing.
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshake_ms);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdle_ms);
   if (identity) impl.credentials = tls_credentials(std::move(identity));
@@ -102,10 +102,10 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   builder.AddListeningPort(endpoint.text(), impl.credentials, &port);
   impl.server = builder.BuildAndStart();
   if (!impl.server || port == 0) {
-    return fail(Code::kUnavailable,
-                "cannot listen at " + endpoint.text() +
-                    ": something else does, perhaps another hydroprintd; stop that or give another "
-                    "port with --grpc");
+    return fail(Code::kUnavailable, "cannot listen at " + endpoint.text() +
+                                        ": the port is in use, perhaps by another hydroprintd; "
+                                        "stop that program or set another "
+                                        "port with --grpc");
   }
   impl.endpoint = {endpoint.host, port};
   impl.set_rig_serving(false);

@@ -14,12 +14,12 @@ class Channel;
 
 namespace hydroprint::daemon {
 
-/// The gRPC server: the services, health for each of them, reflection if wanted.
+/// The gRPC server: the services, a health service and optional reflection.
 class Server {
  public:
-  /// Listens; calls are answered from here on.
-  /// @param identity  what clients are shown; none: TLS is not spoken
-  /// @return kUnavailable if the address cannot be had, above all because something else has it
+  /// Starts listening and answering calls.
+  /// @param identity  TLS certificate and key; none: no TLS
+  /// @return kUnavailable if the address cannot be bound, usually because another program uses it
   [[nodiscard]] static Result<std::unique_ptr<Server>> start(const Endpoint& endpoint,
                                                              bool reflection,
                                                              const ServiceContext& backend,
@@ -28,14 +28,14 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// A way to the same services without a socket; may outlive this.
+  /// A channel to the same services without a socket; may outlive this object.
   [[nodiscard]] std::shared_ptr<grpc::Channel> in_process() const;
-  /// Where it listens, with the real port.
+  /// The address it listens on, with the actual port.
   [[nodiscard]] const Endpoint& endpoint() const;
-  /// What health says of the RigService; false at first.
+  /// Sets the health status of the RigService; initially false.
   void set_rig_serving(bool serving);
-  /// Reports "not serving", takes no more calls, and waits for those that run; after `patience`
-  /// they are broken off.
+  /// Reports "not serving", refuses new calls and waits for running ones; after `patience` they are
+  /// cancelled.
   void stop(std::chrono::milliseconds patience);
 
  private:

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view kBearer = "Bearer ";
 
-// Whoever they say they are, in a name that jobs can be owned by.
+// The owner name that the caller claims, or "anonymous".
 Result<std::string> claimed_name(const grpc::ServerContextBase& context) {
   const auto& metadata = context.client_metadata();
   if (metadata.find("hydroprint-owner") == metadata.end()) return std::string("anonymous");
@@ -23,12 +23,12 @@ Result<std::string> claimed_name(const grpc::ServerContextBase& context) {
   return owner;
 }
 
-// Calls over TCP have such an address and no other; those within the process have none.
+// TCP calls have such an address; calls within the process do not.
 bool is_over_network(const std::string& peer) {
   return peer.starts_with("ipv4:") || peer.starts_with("ipv6:");
 }
 
-// "ipv4:127.0.0.1:50051" or "ipv6:%5B::1%5D:50051" without family, port and brackets.
+// The host in "ipv4:127.0.0.1:50051" or "ipv6:%5B::1%5D:50051".
 std::string address_in(const std::string& peer) {
   std::string host = peer.substr(5, peer.rfind(':') - 5);
   for (const char* bracket : {"%5B", "%5D", "[", "]"}) {
@@ -74,7 +74,7 @@ Result<auth::Caller> Authenticator::caller(const grpc::ServerContextBase& contex
   const std::string session = metadata_of(context, "hydroprint-session");
   std::optional<auth::Caller> caller;
   if (!authorization.empty()) {
-    // A key that does not hold is not made up for by a session.
+    // If a key is given but not valid, a session does not replace it.
     if (authorization.starts_with(kBearer)) {
       caller = accounts_.by_key(std::string_view(authorization).substr(kBearer.size()), is_use);
     }
@@ -84,16 +84,16 @@ Result<auth::Caller> Authenticator::caller(const grpc::ServerContextBase& contex
   if (caller) return *caller;
   const bool has_some = !authorization.empty() || !session.empty();
   return fail(Code::kUnauthenticated,
-              has_some ? "the key or the session does not hold (any more); sign in again, or make "
+              has_some ? "the API key or session is no longer valid; sign in again, or create "
                          "another key"
-                       : "this needs a user; sign in (hydroprint login), or give an API key",
+                       : "sign-in required; sign in (hydroprint login), or give an API key",
               "SIGN_IN_NEEDED");
 }
 
 Status check_role(const auth::Caller& caller, auth::Role needed) {
   if (caller.role >= needed) return {};
   auto refused = fail(Code::kPermissionDenied,
-                      caller.name + " is " + auth::name_of(caller.role) + " here, and this needs " +
+                      caller.name + " is " + auth::name_of(caller.role) + ", but this needs " +
                           auth::name_of(needed) + "; ask an admin",
                       "ROLE_TOO_LOW");
   refused.value().metadata = {{"role", auth::name_of(caller.role)},

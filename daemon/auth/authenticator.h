@@ -10,26 +10,24 @@
 
 namespace hydroprint::daemon {
 
-/// Tells who makes a call, by its metadata (PeopleService says which). Never waits. Any thread may
-/// call.
+/// Identifies the caller from the metadata of a call (see PeopleService). Never waits. Thread-safe.
 class Authenticator {
  public:
-  /// @param open_on_loopback  whether, while there is no user, everybody on this machine is admin
+  /// @param open_on_loopback  while there are no users, callers on this machine are admin
   Authenticator(auth::Accounts& accounts, bool open_on_loopback)
       : accounts_(accounts), open_on_loopback_(open_on_loopback) {}
 
-  /// Who calls.
-  /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for a `hydroprint-owner` that is no
-  /// name,
-  ///   where that counts
+  /// The caller.
+  /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for an invalid `hydroprint-owner`,
+  /// where that is used
   [[nodiscard]] Result<auth::Caller> caller(const grpc::ServerContextBase& context) const {
     return caller(context, true);
   }
-  /// Whether whoever makes a call that goes on and on may still make it: streams ask this a few
-  /// times a second, and end with it. Being watched does not keep a session alive.
+  /// Checks that the caller of a running stream is still authenticated. Streams call this several
+  /// times a second and end if it fails. It does not keep a session alive.
   /// @return kUnauthenticated, SIGN_IN_NEEDED
   [[nodiscard]] Status check_still(const grpc::ServerContextBase& context) const;
-  /// Who calls, if their role is enough. As above; kPermissionDenied, ROLE_TOO_LOW.
+  /// The caller, if their role is sufficient. Errors as above; kPermissionDenied, ROLE_TOO_LOW.
   [[nodiscard]] Result<auth::Caller> admit(const grpc::ServerContextBase& context,
                                            auth::Role needed) const;
 
@@ -41,17 +39,17 @@ class Authenticator {
   bool open_on_loopback_;
 };
 
-/// Refuses (kPermissionDenied, ROLE_TOO_LOW) a caller with a lesser role.
+/// Refuses (kPermissionDenied, ROLE_TOO_LOW) a caller with a lower role.
 [[nodiscard]] Status check_role(const auth::Caller& caller, auth::Role needed);
 
-/// Address, without port, that a call came from: over HTTP what the metadata `hydroprint-peer`
-/// says, which only calls within this process can carry.
+/// Address, without port, from which a call came. For HTTP it is the metadata `hydroprint-peer`,
+/// which only calls within this process can carry.
 [[nodiscard]] std::string peer_address(const grpc::ServerContextBase& context);
 
-/// Whether that is an address of this machine's own; so is none at all, within this process.
+/// Whether the address belongs to this machine. An empty address means a call within this process.
 [[nodiscard]] bool is_loopback(const std::string& address);
 
-/// The value of a call's metadata; empty if it has none of that name.
+/// The value of a metadata key; empty if the call does not have it.
 [[nodiscard]] std::string metadata_of(const grpc::ServerContextBase& context, const char* name);
 
 }  // namespace hydroprint::daemon

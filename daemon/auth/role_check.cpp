@@ -22,7 +22,7 @@ using grpc::internal::MethodHandler;
 using grpc::internal::RpcMethod;
 using grpc::internal::RpcServiceMethod;
 
-// Gives access to what gRPC keeps for those who derive from its services.
+// Exposes a protected member of gRPC's service class.
 struct Opened : grpc::Service {
   static MethodHandler* handler_of(grpc::Service& service, int index) {
     return (service.*(&Opened::GetHandler))(index);
@@ -40,11 +40,11 @@ class GatedHandler final : public MethodHandler {
       inner_.RunHandler(call);
       return;
     }
-    // The request is in the call's memory, and only its handler would have ended it.
+    // The request lives in the call's memory, and only its handler would destroy it.
     if (call.request != nullptr) {
       static_cast<google::protobuf::MessageLite*>(call.request)->~MessageLite();
     }
-    // Of gRPC's handlers this one asks for no request before it answers.
+    // Unlike gRPC's other handlers, this one does not read a request before it answers.
     grpc::internal::ClientStreamingHandler<grpc::Service, Empty, Empty>(
         [&](auto&&...) { return to_grpc(caller.error()); }, nullptr)
         .RunHandler(call);
@@ -98,12 +98,12 @@ class Gate final : public grpc::Service {
     auto added =
         std::make_unique<RpcServiceMethod>(names_.back().c_str(), type_of(method), mine.release());
     if (checks_itself) added->SetServerApiType(RpcServiceMethod::ApiType::CALL_BACK);
-    AddMethod(added.release());  // which takes it
+    AddMethod(added.release());  // takes ownership
   }
 
  private:
   std::unique_ptr<grpc::Service> inner_;
-  std::deque<std::string> names_;  // gRPC keeps pointers to them
+  std::deque<std::string> names_;  // gRPC keeps pointers to these
 };
 
 }  // namespace
@@ -116,7 +116,7 @@ Result<Need> need_of(const MethodDescriptor& method) {
     return is_open ? Need() : Need(static_cast<auth::Role>(role));
   }
   return fail(Code::kInternal, method.full_name() +
-                                   ": does not state who may call it; give it either the option "
+                                   ": states no access rule; give it either the option "
                                    "role or without_sign_in (hydroprint/v1/access.proto)");
 }
 

@@ -15,17 +15,16 @@ class MethodDescriptor;
 
 namespace hydroprint::daemon {
 
-/// The least role that may call a method; none: whoever reaches the daemon.
+/// The role required to call a method; nullopt: no sign-in is needed.
 using Need = std::optional<auth::Role>;
 
-/// What a method states (access.proto).
-/// @return kInternal if it states nothing, or both
+/// Reads the requirement of a method (access.proto).
+/// @return kInternal if the method states none, or both options
 [[nodiscard]] Result<Need> need_of(const google::protobuf::MethodDescriptor& method);
 
-/// The same service behind a gate: each of its methods answers whoever may not call it before it
-/// looks at the request. This is the one place where roles are checked, and no method gets past it
-/// but those of `check_themselves`, which are answered by threads of their own (gRPC's callback
-/// API) and have to call Authenticator::admit.
+/// Wraps a service so that each method refuses unauthorized callers before it reads the request.
+/// Roles are checked only here. Methods in `check_themselves` are exempt: they use gRPC's callback
+/// API with their own threads, and must call Authenticator::admit.
 /// @param name  "hydroprint.v1.JobService"
 /// @return kInternal for a service with a method that states no role
 [[nodiscard]] Result<std::unique_ptr<grpc::Service>> guarded(
