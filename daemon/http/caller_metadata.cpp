@@ -1,4 +1,4 @@
-// What the services are told of who calls.
+// Metadata that identifies the caller to the services.
 #include "daemon/http/caller_metadata.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace hydroprint::http {
 namespace {
 
-// gRPC ends the program at other bytes.
+// gRPC aborts the program on other bytes.
 bool is_printable(char c) { return c >= ' ' && c < 0x7f; }
 
 bool is_printable(std::string_view text) {

@@ -11,18 +11,18 @@
 
 namespace hydroprint::http {
 
-/// What happens to a header field that is not printable ASCII, which gRPC cannot carry.
+/// How to handle a header field that is not printable ASCII, which gRPC cannot carry.
 enum class Unprintable {
   kRefuse,   ///< SPEC_INVALID
-  kReplace,  ///< each such byte becomes '?', so that a stop is never refused because of it
+  kReplace,  ///< replaces each such byte with '?', so that a stop is never refused
 };
 
-/// The metadata that tells the services who calls: authorization, hydroprint-owner,
+/// The metadata that identifies the caller to the services: authorization, hydroprint-owner,
 /// hydroprint-session, hydroprint-peer.
 [[nodiscard]] Result<InProcessChannel::Metadata> metadata_of(
     const Head& head, const std::string& peer, Unprintable unprintable = Unprintable::kRefuse);
 
-/// The value of a cookie; nullopt without it.
+/// The value of a cookie; nullopt if it is not sent.
 [[nodiscard]] std::optional<std::string_view> cookie(const HeaderFields& fields,
                                                      std::string_view name);
 

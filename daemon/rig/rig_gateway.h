@@ -34,7 +34,7 @@ class RigGateway {
   [[nodiscard]] Result<std::future<rig::Answer>> jog(const std::string& lease_id,
                                                      double speed_mm_per_s);
 
-  /// Keeps who asked for a stop, for the log, which someone else writes.
+  /// Remembers who asked for a stop; RigMonitor writes the log.
   void note_stop(const std::string& who);
   /// Callers that asked for stops since the last call; the oldest may be missing.
   [[nodiscard]] std::vector<std::string> take_stops();

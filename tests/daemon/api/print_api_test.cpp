@@ -193,7 +193,7 @@ TEST_F(PrintApi, PagesAreSentOnceAndFollowedToTheEnd) {
   EXPECT_EQ(ended.progress_fraction(), 1);
   EXPECT_EQ(content(there.spooled()), file(printed, "print.pdf"));
   const std::string words = told(job);
-  EXPECT_TRUE(has(words, "sends " + printed.name() + " to Test printer")) << words;
+  EXPECT_TRUE(has(words, "sending " + printed.name() + " to Test printer")) << words;
   EXPECT_TRUE(has(words, "processing: job-printing")) << words;
   EXPECT_TRUE(has(words, "completed")) << words;
   const json report = json::parse(file(ended, "report.json"));
