@@ -78,8 +78,8 @@ class AssetStore {
   /// exists. The file remains but becomes read-only.
   /// @return kResourceExhausted, DISK_FULL
   [[nodiscard]] Result<Asset> adopt(const std::filesystem::path& file, const Asset& as);
-  /// In the order of their hashes, those after `after`, with their owners; of `owner` alone unless
-  /// that is empty.
+  /// Assets with hashes after `after`, sorted by hash, with their owners. Lists those of one owner,
+  /// or all if `owner` is empty.
   [[nodiscard]] Result<std::vector<Asset>> list(const std::string& after, int limit,
                                                 const std::string& owner);
   /// Deletes an asset. An operator deletes it for everybody. Other users only stop owning it, which

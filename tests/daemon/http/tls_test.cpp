@@ -350,7 +350,7 @@ TEST_F(TlsIdentity, OfFilesThatAreNotThereIsRefused) {
   std::filesystem::remove(files.key);
   expect_refusal(files.key.string() + ": the TLS key cannot be read");
   std::filesystem::create_directory(files.key);
-  expect_refusal(files.key.string() + ": is no file");
+  expect_refusal(files.key.string() + ": not a regular file");
 }
 
 TEST_F(TlsIdentity, OfAKeyThatEverybodyMayReadIsRefused) {
