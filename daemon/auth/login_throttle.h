@@ -11,8 +11,8 @@
 namespace hydroprint::auth {
 
 /// Limits sign-in attempts. After a few failures each further attempt has to wait 1 s, 2 s, 4 s and
-/// so on. The longest wait is a minute for one name from one address, half a minute for one
-/// address, and 10 s for one name from anywhere.
+/// so on. The longest wait is 1 min for a name and address together, 30 s for an address, and 10 s
+/// for a name from anywhere.
 ///
 /// Nobody is locked out: if a name has signed in from an address before, only failures of that pair
 /// count for it. An hour without attempts resets everything. Kept in bounded memory. Thread-safe.

@@ -19,9 +19,9 @@ class DipExecutor final : public JobExecutor {
   /// Calls stop() if needed.
   ~DipExecutor() override;
 
-  /// Refuses a caller without the lease, and whatever plan_of() and go_by_calibration() refuse.
-  /// Also refuses if the rig cannot do it now: RIG_OFFLINE and other refusals of a move;
-  /// LIMIT_EXCEEDED; STATE_FORBIDS for Clocks::skip unless the drive is virtual.
+  /// Refuses a caller without the lease, and fails as plan_of() and go_by_calibration() do. Also
+  /// refuses if the rig cannot do it now: RIG_OFFLINE and other refusals of a move; LIMIT_EXCEEDED;
+  /// STATE_FORBIDS for Clocks::skip unless the drive is virtual.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
   /// See DipSession::confirm. After the end of a dip, only completed steps can be confirmed again.

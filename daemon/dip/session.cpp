@@ -277,7 +277,7 @@ void DipSession::look_at_motion() {
 void DipSession::look_at_rest() {
   if (!dip::has_the_rig(stand_.step) || stand_.ending != Ending::kNone) return;
   const rig::Condition condition = rig().snapshot().condition;
-  if (condition.homed) return;  // every fault of the rig makes homing required
+  if (condition.homed) return;  // every fault of the rig requires homing again
   const auto refusal = rig::step(condition, {rig::Event::Kind::kMove}).refusal;
   // The axis may have moved. A cause is more helpful than "homing required".
   fail_for(condition.cause != rig::Cause::kNone ? rig::failed(condition.cause)

@@ -97,8 +97,8 @@ struct Outcome {
 
 /// Computes the consequences of an event. Every event is valid in every state. Rules:
 /// - Steps follow one another in order; none is left out.
-/// - A step that waits for the operator ends only by confirmation (or Clocks::skip), a clock when
-///   its time is over, and a motion when it is done. Confirming an earlier step changes nothing.
+/// - A step that waits for the operator ends only by confirmation (or Clocks::skip). A clock ends
+///   when its time is over, a motion when it is done. Confirming an earlier step changes nothing.
 /// - Motion starts only after FIND_CONTACT and START_DIP are confirmed.
 /// - Once the ending is decided, the dip starts no motion and the ending does not change. The dip
 ///   is over when the axis is at rest.

@@ -18,8 +18,8 @@ Response event_stream() {
   return response;
 }
 
-/// One stream sent to one client. The next message is requested once the previous one was sent, so
-/// a client that does not read holds up at most one message and the kernel's buffer.
+/// One stream sent to one client. The next message is requested once the previous one was sent. A
+/// client that does not read therefore holds up at most one message and the kernel's buffer.
 class EventStream {
  public:
   EventStream(ServerContext& server, Exchange& exchange, rest::Call request,

@@ -13,9 +13,12 @@ enum class Keep {
   kSlash,    ///< "%2F" and "%2f" stay as they are
 };
 
-/// Percent-decodes part of a URL. Refuses (kInvalidArgument, URL_INVALID, with the place in `text`)
-/// "%" without two hex digits, characters that a URL cannot have, and decoded text that holds NUL
-/// or is not valid UTF-8 (overlong forms and surrogates are not valid).
+/// Percent-decodes part of a URL. Refuses (kInvalidArgument, URL_INVALID, with the place in
+/// `text`):
+/// - "%" without two hex digits;
+/// - characters that a URL cannot have;
+/// - decoded text that holds NUL or is not valid UTF-8 (overlong forms and surrogates are not
+///   valid).
 [[nodiscard]] Result<std::string> decode(std::string_view text, Keep keep = Keep::kNothing);
 
 /// Same as decode(), and "+" is a space, as in HTML forms.

@@ -46,8 +46,7 @@ struct Route {
 [[nodiscard]] std::string rpc_name(const google::protobuf::MethodDescriptor& method);
 
 /// Routes of these services, which must be linked in; methods without an annotation have none.
-/// Refuses (kInternal, since the rules are part of the program) whatever Transcoder::make()
-/// refuses.
+/// Fails as Transcoder::make() does (kInternal, since the rules are part of the program).
 [[nodiscard]] Result<std::vector<Route>> read_routes(const std::vector<std::string>& services);
 
 /// The field with this name or JSON name; null if there is none.

@@ -10,9 +10,9 @@
 
 namespace hydroprint::daemon {
 
-/// Monitors the rig ten times a second. Ends a jog whose lease expired, reports when the rig starts
-/// or stops working, and writes log entries for threads that must not wait for the log. Also lets
-/// RigReference notice homing.
+/// Monitors the rig ten times a second. Ends a jog whose lease expired, and reports when the rig
+/// starts or stops working. Writes log entries for threads that must not wait for the log, and
+/// makes RigReference check for homing.
 class RigMonitor {
  public:
   /// @param tell  called at the start and after every change; true: the rig works, as far as is

@@ -17,7 +17,8 @@ tl::unexpected<Error> asset_not_found(const std::string& sha256) {
               "ASSET_NOT_FOUND");
 }
 
-// An owner of a job that uses an asset keeps the asset; otherwise its bytes would count for nobody.
+// The owner of a job that uses an asset must stay its owner; otherwise the bytes would count for no
+// owner.
 Status check_is_not_used_by(Database& database, const std::string& sha256,
                             const std::string& owner) {
   HP_ASSIGN_OR_RETURN(

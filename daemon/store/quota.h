@@ -23,9 +23,9 @@ struct Usage {
 /// Reads an owner's usage. Errors as in Database::each().
 [[nodiscard]] Result<Usage> usage_of(Database& database, const std::string& owner);
 
-/// Refuses (kResourceExhausted, QUOTA_EXCEEDED with metadata `quota`, `used`, `allowed`) another
-/// job of an owner whose quota of queued jobs (if it `is_queued`) or bytes is used up. Call this
-/// within the transaction that then stores the job.
+/// Refuses another job of an owner whose quota of bytes, or of queued jobs (if it `is_queued`), is
+/// used up. The error is kResourceExhausted, QUOTA_EXCEEDED with metadata `quota`, `used`,
+/// `allowed`. Call this within the transaction that then stores the job.
 [[nodiscard]] Status check_job_quota(Database& database, const std::string& owner,
                                      const Quota& quota, bool is_queued);
 

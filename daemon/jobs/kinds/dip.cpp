@@ -39,7 +39,7 @@ class DipKind final : public KindOf<v1::DipSpec> {
     shown.set_calibration(calibration_name(found.id));
     if (!simulated.empty() && simulated != shown.calibration()) {
       return invalid_field("dip.calibration", "is not the one that " + shown.simulate_job() +
-                                                  " was made with (" + simulated +
+                                                  " was computed with (" + simulated +
                                                   "); leave it out, or simulate again");
     }
     resolved = shown;

@@ -41,8 +41,8 @@ void empty_log(sqlite3* db) {
   sqlite3_wal_checkpoint_v2(db, nullptr, SQLITE_CHECKPOINT_RESTART, nullptr, nullptr);
 }
 
-// Reserves empty pages in the file and space in its log, with which the end of a job can still be
-// stored when the disk is full. A failure does no harm.
+// Reserves empty pages in the file and space in its log. They are needed to store the end of a job
+// when the disk is full. A failure does no harm.
 void keep_room(sqlite3* db) {
   sqlite3_exec(db,
                "BEGIN IMMEDIATE; CREATE TABLE kept_room(bytes BLOB); "
