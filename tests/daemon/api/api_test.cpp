@@ -14,7 +14,7 @@ namespace {
 
 using grpc::StatusCode;
 
-// Expects a refusal with code and reason, whose message is one line.
+// Expects an error with this code and reason, and a message of one line.
 void expect_refused(const grpc::Status& status, StatusCode code, const std::string& reason) {
   EXPECT_EQ(status.error_code(), code) << status.error_message();
   const auto info = error_info(status);
@@ -382,7 +382,7 @@ TEST_F(Api, DownloadsBeyondTheEndOrOfDamagedFilesAreRefused) {
   expect_refused(end_of(), StatusCode::NOT_FOUND, "ARTIFACT_NOT_FOUND");
 }
 
-// Health and reflection have no generated code here: their messages are written by hand.
+// There is no generated code for health and reflection here, so their messages are written by hand.
 std::string call_raw(Client& client, const std::string& method, const std::string& message) {
   grpc::Slice slice(message);
   grpc::ByteBuffer request(&slice, 1), reply;

@@ -1,4 +1,4 @@
-// Captures of the virtual rig's camera by hydroprint-capture, and what becomes of calibrations; the
+// Captures with the virtual rig's camera and hydroprint-capture, and the life of calibrations. The
 // worker is the fake one.
 #include <signal.h>
 
@@ -35,16 +35,16 @@ class CalibrateApi : public CameraTest {
     start_daemon(DaemonProcess::fake(), kPatience_s);
   }
 
-  static constexpr int kPatience_s = 20;  ///< with what is slow on a busy machine but well
+  static constexpr int kPatience_s = 20;  ///< timeout for camera operations on a busy machine
 
-  /// The calibration of a job that is done.
+  /// Runs a calibrate job and returns its calibration.
   v1::Calibration calibrated(const v1::Job& capture, const std::string& mesh = kMesh) {
     const v1::Job job = done(create(calibrate_of(capture, mesh)));
     EXPECT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
     EXPECT_EQ(all().front().job(), job.name());
     return all().front();
   }
-  /// With the rig homed, where captures are made.
+  /// Same, with the rig homed and the axis at the capture position.
   v1::Calibration calibrated() {
     ann->make_ready();
     ann->go_to(kAxis_mm);

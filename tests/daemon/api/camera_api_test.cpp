@@ -1,4 +1,4 @@
-// What people see of the virtual rig's camera, through the real programs.
+// Live pictures of the virtual rig's camera, through the real programs.
 #include <signal.h>
 
 #include <atomic>
@@ -28,7 +28,7 @@ class CameraApi : public CameraTest {
                      ->GetDepthPicture(ann->context().get(), {}, &out.picture);
     return out;
   }
-  /// Looks again and again until it comes out like this: "" is a picture.
+  /// Requests pictures until the result has this reason; "" means a picture.
   [[nodiscard]] bool comes_to(const std::string& reason) {
     return wait_until(
         [&] {

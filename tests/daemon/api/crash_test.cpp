@@ -1,4 +1,4 @@
-// kill -9 and restart: what was acknowledged is there, and work goes on.
+// kill -9 and restart: acknowledged data is kept, and work continues.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 class Crash : public ::testing::Test {
  protected:
-  // As a power cut, as far as a process can tell.
+  // Simulates a power cut, as far as a process can.
   void kill_and_restart() {
     daemon.kill();
     daemon.start();
@@ -104,7 +104,8 @@ TEST_F(Crash, QueuedJobsPauseAndRequestIdsAreKept) {
   EXPECT_EQ(client->wait_for_end(second).state(), v1::Job::SUCCEEDED);
 }
 
-// Makes the store one of schema version 3, whose jobs had the worker's flags in place of a spec.
+// Turns the store into one of schema version 3, whose jobs had the worker's flags instead of a
+// spec.
 void downgrade_to_version_3(const std::filesystem::path& path) {
   const auto database = daemon::Database::open(path, "").value();
   for (const char* const statement :
@@ -164,8 +165,8 @@ TEST_F(Crash, UploadGoesOnWhereItWasAcknowledged) {
   EXPECT_EQ(send(100000, bytes.size()).asset().sha256(), hash_of(bytes));
 }
 
-// Uploads and creates jobs as fast as it can until the daemon is killed at a moment drawn at
-// random; whatever got an answer must be there afterwards, and every job must come to its end.
+// Uploads and creates jobs as fast as possible until the daemon is killed at a random moment.
+// Everything acknowledged must then exist, and every job must finish.
 TEST_F(Crash, NothingAcknowledgedIsLostAtAnyMoment) {
   std::mt19937 random(testing::campaign_seed(1));
   std::vector<std::string> assets, jobs;
@@ -193,7 +194,7 @@ TEST_F(Crash, NothingAcknowledgedIsLostAtAnyMoment) {
         jobs.push_back(job.name());
       }
     } catch (const std::runtime_error&) {
-      // the daemon is gone
+      // the daemon was killed
     }
     killer.join();
     kill_and_restart();

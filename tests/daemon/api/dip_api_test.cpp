@@ -1,4 +1,4 @@
-// The dip as operators go through it, with hydroprintd and hydroprint-virtual-rig.
+// The dip from the operator's view, with hydroprintd and hydroprint-virtual-rig.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sqlite3.h>
@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr double kContact_mm = 8;
-constexpr double kClearance_mm = 3;  // of short_dip()
+constexpr double kClearance_mm = 3;  // as in short_dip()
 
 class DipApi : public RigTest {
  protected:
@@ -25,7 +25,7 @@ class DipApi : public RigTest {
     ann.make_ready();
     ann.go_to(kContact_mm);
   }
-  /// A dip that is in the middle of its descent.
+  /// Starts a dip and returns in the middle of its descent.
   std::string descending(double depth_mm = 40, double speed_mm_per_s = 10) {
     v1::DipSpec spec = short_dip();
     spec.set_depth_mm(depth_mm);
@@ -53,7 +53,7 @@ class DipApi : public RigTest {
   }
 };
 
-/// Rows of positions.csv as numbers, without the name of the motion; those of "dip" alone.
+/// Rows of positions.csv as numbers, without the name of the motion; only the motion "dip".
 std::vector<std::vector<double>> positions(const std::string& csv) {
   std::vector<std::vector<double>> rows;
   std::istringstream lines(csv);
@@ -188,7 +188,7 @@ TEST_F(DipApi, FirstContactFromWhichTheDepthIsOutOfReachIsRefusedAndTheDipGoesOn
   EXPECT_EQ(reason_of(refused), "LIMIT_EXCEEDED");
   EXPECT_EQ(error_info(refused).metadata().at("max"), "298");
   EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::FIND_CONTACT);
-  ann.go_to(5.5);  // the object was hung lower
+  ann.go_to(5.5);  // as if the object hung lower
   EXPECT_TRUE(ann.confirm(name, v1::DipStatus::FIND_CONTACT).ok());
   ann.wait_for_step(name, v1::DipStatus::LAY_FILM);
 }
@@ -250,7 +250,7 @@ TEST_F(DipApi, CancelledAtAnyStepItSaysWhatToDoAndKeepsItsRecord) {
     if (ann.rig().state() != v1::Rig::IDLE) ann.make_ready();
     ann.go_to(kContact_mm);
     v1::DipSpec spec = short_dip();
-    // Where it is cancelled there has to be time for it.
+    // Lengthens the step in which the dip is cancelled.
     if (step == v1::DipStatus::SOAK) spec.set_soak_s(5);
     if (step == v1::DipStatus::ACTIVATE) spec.set_activator_wait_s(5);
     if (step == v1::DipStatus::HOLD) spec.set_hold_s(5);
@@ -329,7 +329,7 @@ TEST_P(DipFault, WhileTheFilmSoaksEndsItToo) {
   const std::string name = ann.dip(spec).name();
   ann.guide_to(name, v1::DipStatus::SOAK);
   rig.act(GetParam().line);
-  if (GetParam().name == std::string("Stall")) {  // nothing moves that it could hold
+  if (GetParam().name == std::string("Stall")) {  // no motion can be blocked in this step
     std::this_thread::sleep_for(milliseconds(500));
     EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::SOAK);
     return;
@@ -397,7 +397,7 @@ TEST_F(DipApi, ADaemonKilledInTheDescentLeavesItInterruptedAndTheRigAtRest) {
   EXPECT_EQ(again.wait_for_end(again.dip(spec).name()).state(), v1::Job::SUCCEEDED);
 }
 
-/// Holds the right to write to a daemon's store, so that it waits for its disk.
+/// Holds the write lock of a daemon's store, as if its disk hung.
 class HeldStore {
  public:
   explicit HeldStore(const std::filesystem::path& database) {
@@ -414,7 +414,7 @@ class HeldStore {
 };
 
 TEST_F(DipApi, AStoreThatHangsHoldsUpNeitherItsMotionNorAStop) {
-  // So slow that it goes on however long the store takes to be held.
+  // Slow enough to continue while the store is locked.
   const std::string name = descending(60, 2);
   {
     const HeldStore held(daemon.state() / "hydroprint.db");
@@ -433,7 +433,7 @@ TEST_F(DipApi, ADaemonThatHangsInTheDescentHasItStoppedByTheDriveAndGoesOnWithNo
   const std::string name = descending();
   ::kill(daemon.pid(), SIGSTOP);
   const double hung_s = rig.now_s(), hung_mm = rig.position_mm();
-  // The drive's watchdog time and its way, as in its profile.
+  // The drive's watchdog time and stopping distance, from its profile.
   EXPECT_LT(rig.rested_s() - hung_s, 0.25 + 10.0 / 200 + 0.1);
   const double rest_mm = rig.position_mm();
   EXPECT_LT(rest_mm - hung_mm, 10 * (0.25 + 0.1) + 10.0 * 10 / (2 * 200));
@@ -487,7 +487,7 @@ TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
   options.extra = rig.section();
   const DaemonProcess daemon(folder.path(), options);
   RigClient ann(daemon.address());
-  // A pyramid, point down.
+  // A pyramid, tip down.
   v1::CreateJobRequest request =
       simulate_request(ann.upload("v 0 0 -12\nv 9 0 0\nv 0 9 0\nv -9 0 0\nv 0 -9 0\n"
                                   "f 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4 5\n"),
@@ -535,7 +535,7 @@ TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
 
 TEST(DipOnARealDrive, IsNeverWithoutItsOperator) {
   const TemporaryFolder folder;
-  VirtualRigProcess rig;  // which says nothing of what the daemon's profile says
+  VirtualRigProcess rig;  // does not report the data in the daemon's profile
   auto options = DaemonProcess::fake();
   std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
   const std::string is_virtual = "virtual = true";

@@ -1,4 +1,4 @@
-// A state folder on a disk of a few MiB that runs full in the middle of something.
+// A state folder on a disk of a few MiB that becomes full during an operation.
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
@@ -36,14 +36,14 @@ class FullDisk : public ::testing::Test {
   [[nodiscard]] std::int64_t free_bytes() const {
     return static_cast<std::int64_t>(fs::space(disk).available);
   }
-  // What others write on the same disk until only so much is left.
+  // Fills the disk with other files until at most `bytes` remain free.
   void leave_free(std::int64_t bytes) const {
     std::ofstream(disk / "others", std::ios::app) << std::string(
         static_cast<std::size_t>(std::max<std::int64_t>(0, free_bytes() - bytes)), 'x');
     EXPECT_LE(free_bytes(), bytes);
   }
   void make_room() const { fs::remove(disk / "others"); }
-  // Plain files below a folder of the store.
+  // Regular files below a folder of the store.
   [[nodiscard]] int files_in(const char* name) const {
     int count = 0;
     for (const auto& entry : fs::recursive_directory_iterator(disk / name)) {
@@ -132,7 +132,7 @@ TEST_F(FullDisk, RealJobWhoseArtifactsDoNotFitFailsAndLeavesNothing) {
   EXPECT_EQ(client->wait_for_end(job.name()).state(), v1::Job::SUCCEEDED);
 }
 
-// The artifacts fit, the rows that name them do not: they are more than the room that is kept.
+// The artifacts fit, but their rows do not: they need more than the reserved space.
 TEST_F(FullDisk, ArtifactsThatLeaveNoRoomForTheirRowsAreGivenUp) {
   start();
   const std::string name = client->simulate("many\nfill").name();
@@ -157,7 +157,7 @@ TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonLivesOn) {
   const std::string asset = client->upload("#2");
   const std::string waiting = client->simulate("#3").name();
   leave_free(0);
-  // Each change takes room in the database's log until there is none.
+  // Each change uses space in the database's log until none is left.
   grpc::Status refused;
   v1::Queue queue;
   for (int i = 0; i < 2000 && refused.ok(); ++i) {

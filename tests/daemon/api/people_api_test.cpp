@@ -1,4 +1,4 @@
-// People and what is whose, through the real daemon.
+// Users and ownership, through the real daemon.
 #include "hydroprint/v1/lease_service.grpc.pb.h"
 #include "hydroprint/v1/rig_service.grpc.pb.h"
 #include "tests/daemon/api/people_support.h"
@@ -78,7 +78,7 @@ std::vector<v1::AuditEntry> audit(Client& client, const std::string& what) {
 }
 
 TEST_F(PeopleApi, JobsAreOwnedByWhoeverCallsWhateverTheyClaim) {
-  Client client(daemon.address(), "admin");  // as hydroprint-owner
+  Client client(daemon.address(), "admin");  // sent as hydroprint-owner
   client.key = keys["maker"];
   EXPECT_EQ(client.simulate("x").owner(), "maker");
 }
@@ -100,7 +100,7 @@ TEST_F(PeopleApi, AMakersResultsAreTheirsAndTheOperatorsUnlessShared) {
     expect_refusal(get_artifact(*client, film), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
     expect_refusal(download(*client, film), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
     const v1::Job seen = get(*client, name);
-    EXPECT_EQ(seen.owner(), "maker");  // the queue is everybody's to see
+    EXPECT_EQ(seen.owner(), "maker");  // everybody may see the queue
     EXPECT_TRUE(seen.has_simulate());
     EXPECT_FALSE(seen.simulate().has_mesh()) << seen.ShortDebugString();
   }
@@ -343,7 +343,7 @@ TEST_F(PeopleApi, WhoMovedWhatAndWhoWasNotLetTo) {
   v1::MoveToRequest move;
   move.set_position_mm(12.5);
   v1::Rig reply;
-  EXPECT_FALSE(rig->MoveTo(boss->context().get(), move, &reply).ok());  // there is no rig
+  EXPECT_FALSE(rig->MoveTo(boss->context().get(), move, &reply).ok());  // no rig is configured
   expect_refusal(rig->MoveTo(viewer->context().get(), move, &reply), StatusCode::PERMISSION_DENIED,
                  "ROLE_TOO_LOW");
   EXPECT_TRUE(rig->StopMotion(viewer->context().get(), {}, &reply).ok());

@@ -1,5 +1,5 @@
-// Every method of every service as every role, through the real daemon, against what the methods
-// state.
+// Calls every method of every service with every role through the real daemon, and compares with
+// the methods' access options.
 #include <google/protobuf/descriptor.h>
 #include <grpcpp/generic/generic_stub.h>
 
@@ -35,7 +35,7 @@ std::vector<const google::protobuf::ServiceDescriptor*> all_services() {
   return services;
 }
 
-// Calls the method with an empty request; a stream is left after its first message.
+// Calls the method with an empty request; cancels a stream after its first message.
 grpc::Status call_empty(Client& client, const MethodDescriptor& method) {
   grpc::GenericStub stub(client.channel);
   const auto context = client.context();

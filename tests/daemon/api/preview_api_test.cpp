@@ -1,4 +1,5 @@
-// Previews while an object is turned: with a worker that misbehaves on request, and the real one.
+// Previews while an object is rotated, with the real worker and with a fake one that misbehaves on
+// request.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,7 +25,7 @@ class Previews : public ::testing::Test {
     daemon = std::make_unique<DaemonProcess>(folder.path(), options);
     client = std::make_unique<Client>(daemon->address());
   }
-  /// The pid of the fake worker that answered comes as the depth.
+  /// The fake worker reports its pid as the depth.
   grpc::Status preview(const std::string& mesh, v1::Preview& out, bool with_mesh = false,
                        const std::string& owner = "") {
     Client caller(daemon->address(), owner);

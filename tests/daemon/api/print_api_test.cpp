@@ -1,5 +1,4 @@
-// From a simulation to paper: print-image and template of a simulate job, and print, against a real
-// IPP printer.
+// Printing a simulation: print-image, template and print jobs, with a real IPP printer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +46,7 @@ class PrintApi : public ::testing::Test {
   }
   v1::Job done(const v1::Job& job) { return client_->wait_for_end(job.name()); }
 
-  /// A simulation that is done.
+  /// A finished simulation.
   v1::Job simulated(const std::string& film = "") {
     auto wanted = simulate_request(client_->upload("body"), "body.obj").job();
     wanted.mutable_simulate()->set_dpi(200);
@@ -70,19 +69,19 @@ class PrintApi : public ::testing::Test {
     out.mutable_print()->set_print_image_job(pages.name());
     return out;
   }
-  /// Pages that are there to be printed.
+  /// A print-image job with pages to print.
   v1::Job pages() { return done(create(print_image_of(simulated()))); }
 
   std::string file(const v1::Job& job, const std::string& name) {
     return client_->download(job.name() + "/artifacts/" + name);
   }
-  /// All that happened to a job, in words.
+  /// All event messages of a job.
   std::string told(const v1::Job& job) {
     std::string out;
     for (const auto& event : client_->events(job.name())) out += event.message() + "\n";
     return out;
   }
-  /// Waits until a print has come to that phase.
+  /// Waits until a print reaches that phase.
   v1::Job at(const v1::Job& job, const std::string& phase) {
     return client_->wait(job.name(), [&](const v1::Job& now) { return now.phase() == phase; });
   }
@@ -226,7 +225,7 @@ TEST_F(PrintApi, CancelEndsThePrintAtThePrinter) {
   start(there);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");
   EXPECT_EQ(client_->cancel(job.name()).state(), v1::Job::CANCELLING);
-  // This printer ends a page that it has begun.
+  // This printer completes a page that it has begun.
   const printer::Printer asked(there.address());
   while (asked.job(1).value().reasons != std::vector<std::string>{"processing-to-stop-point"}) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -1,4 +1,4 @@
-// The rig and its lease as clients see them, through hydroprintd and hydroprint-virtual-rig.
+// The rig and its lease from a client's view, through hydroprintd and hydroprint-virtual-rig.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -272,11 +272,11 @@ TEST_F(RigApi, AJogGoesOnWhileItIsHeldAndRestsWithin500msOfTheLastCall) {
   }
   EXPECT_NEAR(rig.speed_mm_per_s(), 5, 0.01);
   const double last_s = rig.now_s();
-  ASSERT_TRUE(ann.jog(5).ok());  // and then the client is gone, as if killed
+  ASSERT_TRUE(ann.jog(5).ok());  // from here on the client is gone, as if killed
   EXPECT_LT(rig.rested_s() - last_s, 0.5);
 }
 
-/// Jogs until it is refused; why.
+/// Jogs until a call is refused, and returns the reason.
 std::string jog_until_refused(RigClient& client) {
   for (int i = 0; i < 200; ++i) {
     const std::string reason = reason_of(client.jog(5));
@@ -400,7 +400,7 @@ TEST_F(RigApi, NeitherWatchesNorUploadsKeepAStopFromGettingThrough) {
     EXPECT_EQ(reason_of(watches.back()->Finish()), "WATCHES_FULL");
   }
   EXPECT_EQ(refused, 8);
-  // Uploads that say nothing hold all the server's threads.
+  // Silent uploads occupy all threads of the server.
   RigClient crowd(daemon.address(), "crowd");
   std::vector<std::unique_ptr<v1::UploadChunkResponse>> replies;
   std::vector<std::unique_ptr<grpc::ClientWriter<v1::UploadChunkRequest>>> uploads;

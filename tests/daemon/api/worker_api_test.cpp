@@ -1,4 +1,4 @@
-// What becomes of jobs whose workers misbehave, and the main round trip with the real worker.
+// Jobs whose workers misbehave, and the main round trip with the real worker.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -83,7 +83,7 @@ TEST_F(Workers, GiveWayToTheDaemon) {
   start(DaemonProcess::fake());
   client->simulate("sleep 60");
   const pid_t worker = wait_for_worker();
-  // It is the daemon's child a moment before it is a worker.
+  // Before exec, the process is still a copy of the daemon.
   const int least = std::max(10, ::getpriority(PRIO_PROCESS, 0));
   for (int i = 0; i < 500 && ::getpriority(PRIO_PROCESS, worker) < least; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -121,7 +121,7 @@ TEST_F(Workers, QueuedJobIsCancelledAtOnce) {
   EXPECT_EQ(client->cancel(job.name()).state(), v1::Job::CANCELLED);
 }
 
-// Sanitizers reserve far more memory than any limit: not under them.
+// Sanitizers reserve far more memory than any limit, so the test is skipped with them.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST_F(Workers, MemoryLimitEndsTheJobAlone) {
   auto options = DaemonProcess::fake();

@@ -1,4 +1,4 @@
-// Users, keys, sessions and links, with a clock of the test's.
+// Users, keys, sessions and links, with an adjustable clock.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -97,7 +97,7 @@ TEST_F(Users, WhoeverIsDeletedLeavesNothingBehind) {
   const auto key = accounts->create_key({"mae", "k", Role::kMaker, 0}).value();
   const auto link = accounts->make_link("mae").value();
   ASSERT_TRUE(accounts->remove("mae"));
-  add("mae");  // another one of that name
+  add("mae");  // another user of that name
   for (int i = 0; i < 2; ++i, open()) {
     EXPECT_FALSE(accounts->by_session(session.token));
     EXPECT_FALSE(accounts->by_key(key.second));

@@ -1,4 +1,4 @@
-// What was done and by whom.
+// The audit log.
 #include "daemon/auth/audit_log.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TEST_F(Audit, AStoreThatHangsIsNotWaitedForLonger) {
   EXPECT_FALSE(
       log->wait_written(log->note(entry("ann", "RigService.Arm")), std::chrono::milliseconds(50)));
   ASSERT_TRUE(other->run("COMMIT"));
-  EXPECT_EQ(log->list({"", "", 0, 10})->size(), 1U);  // it came later
+  EXPECT_EQ(log->list({"", "", 0, 10})->size(), 1U);  // written later
 }
 
 TEST_F(Audit, AStoreThatFailsIsNotWaitedForAtAll) {
@@ -82,7 +82,7 @@ TEST_F(Audit, AStoreThatFailsIsNotWaitedForAtAll) {
   log->note(entry("ann", "RigService.Home"));
   const auto entries = log->list({"", "", 0, 10}).value();
   ASSERT_EQ(entries.size(), 2U);
-  EXPECT_EQ(entries[1].outcome, "DATA_LOSS");  // and is told of
+  EXPECT_EQ(entries[1].outcome, "DATA_LOSS");  // and is reported
 }
 
 TEST_F(Audit, EntriesAreKeptForAYear) {

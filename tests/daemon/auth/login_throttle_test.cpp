@@ -1,4 +1,4 @@
-// How often somebody may try to sign in, with a clock of the test's.
+// Throttling of sign-in attempts, with an adjustable clock.
 #include "daemon/auth/login_throttle.h"
 
 #include <gtest/gtest.h>
@@ -10,13 +10,13 @@ namespace {
 
 class TriedOften : public ::testing::Test {
  protected:
-  /// Fails until it has to wait; how often it could.
+  /// Fails until it has to wait; returns the number of attempts.
   int fail_at_once(const std::string& name, const std::string& peer) {
     int count = 0;
     while (attempts.begin(name, peer) == 0) ++count;
     return count;
   }
-  /// Fails that often, waiting as long as it has to; how long the last wait was.
+  /// Fails `times` times, waiting as long as required; returns the last wait.
   std::int64_t fail_patiently(const std::string& name, const std::string& peer, int times) {
     std::int64_t wait_ms = 0;
     for (int i = 0; i < times;) {

@@ -1,4 +1,4 @@
-// Who is let through to a service, over the network and within the process.
+// Access to services, over the network and within the process.
 #include "daemon/auth/role_check.h"
 
 #include <google/protobuf/descriptor.pb.h>
@@ -16,7 +16,7 @@ namespace {
 
 using auth::Role;
 
-// A service with one method of these options.
+// A service with one method that has these options.
 class Stated : public ::testing::Test {
  protected:
   Result<Need> need(const google::protobuf::MethodOptions& options) {
@@ -70,7 +70,7 @@ TEST_F(Stated, ARoleOrNobodysIsTaken) {
   EXPECT_FALSE(open->has_value());
 }
 
-// Says whom it saw.
+// A service that returns the caller.
 class Inner final : public v1::QueueService::Service {
  public:
   explicit Inner(const Authenticator& access) : access_(access) {}

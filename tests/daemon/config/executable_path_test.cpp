@@ -43,7 +43,7 @@ TEST_F(OwnProgram, IsBehindTheLinkThatItWasCalledBy) {
 }
 
 TEST_F(OwnProgram, IsTheFirstProgramOfThatNameInThePath) {
-  fs::create_directory(other / "hydroprintd");  // in the way, but no program
+  fs::create_directory(other / "hydroprintd");  // a folder with the program's name
   const std::string path = root.string() + "/none:" + other.string() + ":" + bin.string();
   EXPECT_EQ(own_program("hydroprintd", path, no_proc), program);
 }

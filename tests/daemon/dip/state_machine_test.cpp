@@ -1,4 +1,4 @@
-// The whole procedure, walked exhaustively: every event in every stand that can be reached.
+// Explores the whole procedure: every event in every reachable state.
 #include "daemon/dip/state_machine.h"
 
 #include <gtest/gtest.h>
@@ -11,11 +11,11 @@ namespace {
 
 using Is = Event::Kind;
 
-constexpr double kStep_s = 30;  // between two events: a clock may be over after it, or not
+constexpr double kStep_s = 30;  // time between two events, after which a clock may be over or not
 const Clocks kClocks{60, 20, 60, false};
 constexpr int kEvents = static_cast<int>(Is::kShutdown) + 1;
 
-/// Every event there is at this time, with every step to confirm.
+/// Every event at this time, with every step to confirm.
 std::vector<Event> all_events(double time_s) {
   std::vector<Event> out;
   for (int kind = 0; kind < kEvents; ++kind) {
@@ -27,7 +27,7 @@ std::vector<Event> all_events(double time_s) {
   return out;
 }
 
-/// What decides what may happen next; times apart.
+/// The part of the state that determines what may happen next, without times.
 bool alike(const Stand& a, const Stand& b) {
   return a.step == b.step && a.ending == b.ending && a.over == b.over && a.late == b.late &&
          a.loaded_mm == b.loaded_mm && a.contact_mm == b.contact_mm &&
@@ -40,7 +40,7 @@ struct Change {
   Outcome outcome;
 };
 
-/// All changes from all stands that can be reached, each at a moment before and after its clock.
+/// All transitions from all reachable states, each before and after the end of its clock.
 std::vector<Change> all_changes(const Clocks& clocks) {
   std::vector<Stand> known{{}};
   std::vector<Change> changes;
@@ -197,7 +197,7 @@ TEST_P(EveryChange, KnowsLoadContactAndSprayOnceTheyArePast) {
   }
 }
 
-/// A dip by hand: feeds events and returns what it did.
+/// A dip driven by hand: feeds events and returns the actions.
 class Walk {
  public:
   Action feed(Is is, double time_s, double position_mm = 0) {

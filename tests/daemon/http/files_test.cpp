@@ -1,4 +1,4 @@
-// Bytes in and out over HTTP, through the daemon.
+// Uploads and downloads over HTTP, through the daemon.
 #include "sim/base/sha256.h"
 #include "tests/daemon/http/http_support.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 class HttpFiles : public HttpTest {
  protected:
-  // Announces bytes; the path of the upload.
+  // Starts an upload; returns its path.
   std::string begin_upload(const std::string& bytes) {
     const nlohmann::json wanted = {{"sizeBytes", bytes.size()}, {"sha256", hash_of(bytes)}};
     return "/v1/" +
@@ -17,7 +17,7 @@ class HttpFiles : public HttpTest {
     return ask(daemon.http(), "PATCH", path, bytes,
                "Upload-Offset: " + std::to_string(offset) + "\r\n");
   }
-  // A job with an artifact of 64 MiB; its path.
+  // Runs a job with an artifact of 64 MiB; returns its path.
   std::string huge() {
     const std::string name = simulate("huge");
     EXPECT_EQ(client.wait_for_end(name).state(), v1::Job::SUCCEEDED);
@@ -51,12 +51,12 @@ TEST_F(HttpFiles, AnUploadGoesOnWhereItBrokeOff) {
   }
   EXPECT_EQ(state.field("upload-offset"), "150000");
   EXPECT_EQ(state.field("upload-length"), "300000");
-  HttpAnswer wrong;  // the broken one may still hold it
+  HttpAnswer wrong;  // the broken connection may still hold the upload
   for (int i = 0; i < 1000 && wrong.reason() != "OFFSET_MISMATCH"; ++i) {
     wrong = patch(path, 100'000, bytes.substr(100'000));
   }
   EXPECT_EQ(wrong.reason(), "OFFSET_MISMATCH");
-  HttpAnswer done;  // the broken one may still hold it
+  HttpAnswer done;  // the broken connection may still hold the upload
   for (int i = 0; i < 1000 && done.status != 200; ++i)
     done = patch(path, 150'000, bytes.substr(150'000));
   EXPECT_EQ(done.status, 200) << done.body;

@@ -1,5 +1,4 @@
-// What a client may have, and what becomes of who wants more: the HTTP server with short times and
-// small sizes, before a daemon.
+// Limits on clients: the HTTP server with short timeouts and small sizes, connected to a daemon.
 #include <chrono>
 #include <thread>
 
@@ -96,7 +95,7 @@ TEST_P(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
   stream.send(request_text("GET", "/v1/events:watch?topics=job"));
   stream.read_head();
   const HttpEvent begin = stream.read_event();
-  // Jobs that tell much of themselves, and are done at once, since one like them was.
+  // Jobs with long labels that finish at once, since their results are cached.
   nlohmann::json job = {{"simulate", {{"mesh", {{"name", "m.obj"}, {"asset", upload("")}}}}}};
   for (int i = 0; i < 32; ++i) job["labels"][std::to_string(i)] = std::string(200, 'x');
   HttpConnection other = connect();

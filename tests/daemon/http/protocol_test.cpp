@@ -6,7 +6,7 @@ namespace {
 
 class HttpProtocol : public HttpTest {
  protected:
-  // What comes to these bytes, until the server ends the connection.
+  // Everything the server sends for these bytes, until it closes the connection.
   std::string all_of(const std::string& bytes) {
     HttpConnection connection(daemon.http());
     connection.send(bytes);

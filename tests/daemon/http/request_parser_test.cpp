@@ -7,7 +7,7 @@ namespace {
 
 using Outcome = RequestParser::Outcome;
 
-// Feeds a request in pieces of this size; how it ended, and the body.
+// Parses a request in pieces of this size; returns the outcome and the body.
 std::pair<Outcome, std::string> parse(RequestParser& parser, std::string_view text,
                                       std::size_t piece) {
   std::string waiting, body;

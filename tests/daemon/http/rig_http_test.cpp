@@ -1,4 +1,4 @@
-// The rig over HTTP, with the virtual rig at the other end of the transport.
+// The rig over HTTP, with the virtual rig as the drive.
 #include <chrono>
 
 #include "tests/daemon/api/rig_support.h"
@@ -18,7 +18,7 @@ TEST_F(HttpRig, AStopNeedsNothingAndWaitsForNobody) {
   ann.make_ready();
   ASSERT_TRUE(ann.move_to(200, 5).ok());
   ASSERT_TRUE(rig.gets_to(5));
-  // Every stream that there may be, and calls that hang behind bodies that do not come.
+  // Opens the maximum number of streams, and calls that wait for missing bodies.
   std::vector<HttpConnection> busy;
   for (int i = 0; i < 300; ++i) {
     busy.emplace_back(daemon.http());
@@ -31,11 +31,11 @@ TEST_F(HttpRig, AStopNeedsNothingAndWaitsForNobody) {
   EXPECT_TRUE(rig.gets_to(0, 1));
 }
 
-// What follows the request line and Host of a stop.
+// The header fields and body of a stop, after the request line and Host.
 struct OddStop {
   const char* name;
   std::string query, rest;
-  bool is_answered = true;  // false: the client leaves at once
+  bool is_answered = true;  // false: the client disconnects at once
 };
 
 std::string with_body(const std::string& body, const std::string& fields = "") {
@@ -74,7 +74,7 @@ TEST_F(HttpRig, AStopIsCarriedOutWhateverItsBodyQueryAndHeaderSay) {
   ann.make_ready();
   for (const OddStop& odd : odd_stops()) {
     SCOPED_TRACE(odd.name);
-    // So far away that the axis would not rest by itself.
+    // Far enough that the axis does not come to rest by itself.
     ASSERT_TRUE(ann.move_to(290, 5).ok());
     ASSERT_TRUE(rig.gets_to(5));
     HttpConnection connection(daemon.http());
@@ -141,7 +141,7 @@ TEST_F(HttpRig, APageSeesTheRigMove) {
     const auto now = event.json().at("rig");
     is_there = now.at("state") == "IDLE" && now.at("positionMm").get<double>() > 11.9;
   }
-  EXPECT_GT(samples, 3);  // a second's way, at most ten a second
+  EXPECT_GT(samples, 3);  // one second of motion, at most ten messages a second
   EXPECT_LT(samples, 60);
   EXPECT_NE(
       ask(daemon.http(), "GET", "/metrics").body.find("hydroprint_rig_state{state=\"IDLE\"} 1\n"),

@@ -1,4 +1,4 @@
-// What the API answers over HTTP, through the daemon.
+// The API over HTTP, through the daemon.
 #include "tests/daemon/http/http_support.h"
 
 namespace hydroprint::tests {
@@ -159,7 +159,7 @@ TEST_F(HttpTest, MetricsTellOfJobsRigAndTheServerItself) {
   const auto has = [&](const std::string& line) {
     return text.find("\n" + line) != std::string::npos;
   };
-  const auto has_come = [&] {  // and the connections before have gone
+  const auto has_come = [&] {  // earlier connections are closed
     return has("hydroprint_jobs_finished_total{") && has("hydroprint_http_connections 1\n");
   };
   for (int i = 0; i < 1000 && !has_come(); ++i) text = get("/metrics").body;

@@ -1,5 +1,4 @@
-// People who are signed in with a browser: the cookie, what has to come along with it, and what
-// scripts bring instead.
+// Sign-in with a browser: the cookie, the token that must accompany it, and API keys for scripts.
 #include <gtest/gtest.h>
 
 #include "tests/daemon/api/people_support.h"
@@ -17,7 +16,7 @@ class HttpSession : public PeopleApi {
   HttpAnswer get(const std::string& target, const std::string& fields = "") {
     return HttpConnection(daemon.http()).ask("GET", target, "", fields);
   }
-  /// The header Cookie of somebody who signed in, and what their page knows.
+  /// The Cookie header of a signed-in browser, and the token that its page knows.
   struct Browser {
     std::string cookie, csrf;
     [[nodiscard]] std::string both() const {

@@ -20,7 +20,7 @@ class HttpEvents : public HttpTest {
     return connection;
   }
 
-  // Events up to and with the first of this kind.
+  // Reads events up to and including the first of this kind.
   static std::vector<HttpEvent> until(HttpConnection& connection, const std::string& kind) {
     std::vector<HttpEvent> events;
     do {
@@ -55,7 +55,7 @@ TEST_F(HttpEvents, AStreamGoesOnBehindTheLastEventThatWasSeen) {
   ASSERT_GT(all.size(), 3U);
   HttpConnection rest = watch(target, "Last-Event-ID: " + all[1].id + "\r\n");
   const auto events = until(rest, "end");
-  EXPECT_EQ(events.size(), all.size() - 1);  // the job as it stands, then what followed
+  EXPECT_EQ(events.size(), all.size() - 1);  // the current state of the job, then later events
   EXPECT_EQ(events[1].id, all[2].id);
   const HttpAnswer never = get(target, "Last-Event-ID: 999999\r\n");
   EXPECT_EQ(never.status, 400);
@@ -109,7 +109,7 @@ TEST_F(HttpEvents, AllJobsAreInOneStreamAndNoneIsMissing) {
     seen.push_back(event.id);
     if (job.at("event").at("state") == "SUCCEEDED") ++ended;
     seq = event.id;
-    if (i % 3 == 2) {  // the page comes back with what it saw last
+    if (i % 3 == 2) {  // the page reconnects with the last id that it received
       stream = watch("/v1/events:watch?topics=job", "Last-Event-ID: " + seq + "\r\n");
       EXPECT_EQ(stream.read_event().kind, "begin");
     }
@@ -154,13 +154,13 @@ TEST_F(HttpEvents, WhoLeavesFreesItsPlace) {
     }
     EXPECT_EQ(get("/v1/queue").status, 200);
     streams.clear();
-    // 128 may watch: the next hundred needs the places of this one.
+    // The limit is 128, so the next hundred streams need the slots of these.
     std::string metrics;
     for (int i = 0;
          i < 1000 && metrics.find("hydroprint_http_connections 1\n") == std::string::npos; ++i) {
       metrics = get("/metrics").body;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // its threads look twice a second
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // its threads poll twice a second
   }
 }
 

@@ -1,4 +1,4 @@
-// TLS at both doors, by the daemon as it is, and what its limits are before anything was said.
+// TLS on both servers, with the daemon's default settings, and limits during the handshake.
 #include <sys/socket.h>
 
 #include <chrono>
@@ -18,9 +18,9 @@ using std::chrono::milliseconds;
 
 constexpr const char* kPassword = "correct horse";
 constexpr std::string_view kBeginOfHandshake("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
-constexpr int kMostLooks = 400;  // 20 s; the daemon looks every two
+constexpr int kMostLooks = 400;  // 20 s; the daemon checks every two seconds
 
-// A daemon with a certificate, and an admin who signs in by the first link.
+// A daemon with a certificate, and an admin who signs in with the first link.
 class Tls : public ::testing::Test {
  protected:
   DaemonProcess::Options options() {
@@ -40,7 +40,7 @@ class Tls : public ::testing::Test {
   [[nodiscard]] std::string grpc_address() const {
     return "localhost" + daemon.address().substr(daemon.address().rfind(':'));
   }
-  /// The header with which a browser named the server.
+  /// The Host header of a browser.
   static std::string named(const std::string& host) { return "Host: " + host + "\r\n"; }
   HttpAnswer get_as(const std::string& host, const std::string& target = "/healthz") {
     HttpConnection connection = connect();
@@ -53,7 +53,7 @@ class Tls : public ::testing::Test {
     const nlohmann::json link = {{"linkToken", words.substr(from, words.find('\n', from) - from)}};
     return connect().ask("POST", "/v1/session:signIn", link.dump());
   }
-  /// Whether new connections, over both doors, show what this authority signed.
+  /// Whether new connections to both servers show a certificate of this authority.
   [[nodiscard]] bool shows(const Authority& one) const {
     try {
       HttpConnection(daemon.http(), 0, one.pem());
@@ -86,7 +86,7 @@ TEST_F(Tls, IsSpokenAtBothDoorsOnceThereIsACertificate) {
 }
 
 TEST_F(Tls, WhoeverComesFromWhereverNeedsAUserOnceOthersCanReachIt) {
-  // people.accounts is "loopback-open", and this comes from loopback.
+  // people.accounts is "loopback-open", and this call comes from loopback.
   EXPECT_EQ(connect().ask("GET", "/v1/jobs").reason(), "SIGN_IN_NEEDED");
 }
 
@@ -249,7 +249,7 @@ TEST_F(Tls, IdleConnectionsCostLittle) {
   EXPECT_EQ(daemon.terminate(), 0) << "and none keeps the daemon from ending";
 }
 
-// The server alone, with little patience.
+// The HTTP server in this process, with short timeouts.
 using TlsLimits = HttpLimits;
 INSTANTIATE_TEST_SUITE_P(Over, TlsLimits, ::testing::Values(true));
 
@@ -272,7 +272,7 @@ TEST_P(TlsLimits, WhoHangsInTheHandshakeCountsAsAConnection) {
   HttpConnection one(address());
   HttpConnection two(address());
   HttpAnswer answer;
-  for (int i = 0; i < 1000 && answer.status != 503; ++i) {  // until both were taken
+  for (int i = 0; i < 1000 && answer.status != 503; ++i) {  // until both were accepted
     answer = connect().ask("GET", "/v1/queue");
   }
   EXPECT_EQ(answer.reason(), "CONNECTIONS_FULL");
@@ -293,14 +293,14 @@ TEST_P(TlsLimits, TheServerEndsWhileHandshakesHang) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
-// Refusals of the pair itself, one by one.
+// Errors of certificate and key, one by one.
 class TlsIdentity : public ::testing::Test {
  protected:
   std::string refusal() const {
     const auto read = tls::Identity::read(files.certificate, files.key);
     return read ? "accepted" : read.error().message;
   }
-  /// The same by the daemon, in one line.
+  /// Expects the same error of the daemon, on one line.
   void expect_refusal(const std::string& part) const {
     EXPECT_NE(refusal().find(part), std::string::npos) << refusal();
     const Ended ended = run_daemon({"--tls-certificate", files.certificate.string(), "--tls-key",

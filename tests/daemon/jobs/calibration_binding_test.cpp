@@ -13,7 +13,7 @@ TEST(Staleness, IsOfAxisHomeAndDips) {
   const RigPlace then{true, true, 20, 1, 0};
   RigPlace now = then;
   EXPECT_EQ(staleness(then, now), Why{});
-  now.axis_mm = 20.1;  // as a move back there ends
+  now.axis_mm = 20.1;  // residual error of a move back to the same position
   EXPECT_EQ(staleness(then, now), Why{});
   now.axis_mm = 20.5;
   EXPECT_EQ(staleness(then, now), Why{v1::Calibration::MOVED});

@@ -35,7 +35,7 @@ std::string refused_field(const v1::Job& job) {
   return metadata.contains("field") ? metadata.at("field") : made.error().reason;
 }
 
-/// The spec that the worker is given.
+/// The spec that the worker receives.
 template <class SpecOfAKind>
 SpecOfAKind given(const NewJob& made) {
   SpecOfAKind out;
@@ -43,7 +43,7 @@ SpecOfAKind given(const NewJob& made) {
   return out;
 }
 
-/// Expects the worker to be given exactly this spec, apart from the threads, which the pool
+/// Expects that the worker receives exactly this spec, apart from the threads, which the pool
 /// chooses.
 template <class SpecOfAKind>
 void expect_given(const NewJob& made, SpecOfAKind wanted) {

@@ -1,4 +1,4 @@
-// What systemd hears of the daemon, over the socket that it would give it.
+// Messages to systemd, over the socket that it would provide.
 #include "daemon/platform/systemd_notify.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 
 using hydroprint::testing::TemporaryFolder;
 
-/// Stands in for systemd: the socket of NOTIFY_SOCKET, and a watchdog of 80 ms.
+/// Replaces systemd: the socket of NOTIFY_SOCKET, and a watchdog of 80 ms.
 class ServiceManager : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -42,7 +42,7 @@ class ServiceManager : public ::testing::Test {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
     ::close(socket_);
   }
-  /// The next message; empty if none comes for two seconds.
+  /// The next message; empty after two seconds without one.
   std::string heard(int flags = 0) {
     std::array<char, 512> bytes{};
     const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), flags);

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// What a reply says of wrong fields.
+// The wrong fields in a reply.
 json field_violations(const Error& error) {
   const json answer = json::parse(error_answer(error).json);
   for (const json& detail : answer["error"]["details"]) {

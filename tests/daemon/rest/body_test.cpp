@@ -1,5 +1,4 @@
-// What the body of a request says, by the rules of google/api/http.proto and the proto3 JSON
-// mapping.
+// Request bodies, by the rules of google/api/http.proto and the proto3 JSON mapping.
 #include <gtest/gtest.h>
 
 #include <map>

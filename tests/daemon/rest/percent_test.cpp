@@ -27,7 +27,8 @@ TEST(Percent, OfAllCodePointsOnlySurrogatesAreNoUtf8) {
   }
 }
 
-// How many bytes the character there has; 0: it is none. It is one if encoding it gives the same.
+// Number of bytes of the character at that place; 0 if it is not valid UTF-8. A character is valid
+// if encoding its code point gives the same bytes.
 std::size_t length_at(const std::string& bytes, std::size_t at) {
   for (std::size_t length = 1; length <= 4 && at + length <= bytes.size(); ++length) {
     const std::string part = bytes.substr(at, length);

@@ -1,4 +1,4 @@
-// What path and query of a request say, by the rules of google/api/http.proto.
+// Paths and queries of requests, by the rules of google/api/http.proto.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,4 +1,4 @@
-// Messages that were drawn, sent as a client would, arrive as they were; answers can be read back.
+// Random messages arrive unchanged when sent as by a client; answers can be read back.
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Which services have routes, and what of a rule is refused at start.
+// The routes of the services, and the rules that are refused at start.
 #include "daemon/rest/routes.h"
 
 #include <google/protobuf/descriptor.h>
@@ -98,7 +98,7 @@ TEST(Routes, OfTheApiEachIsReachedByItsOwnMethodAndNoOther) {
   }
 }
 
-// What a browser fetches on its own account must not change anything.
+// Requests that a browser sends on its own must not change anything.
 TEST(Routes, OfTheApiOnlyWhatReadsIsGet) {
   const auto routes = read_routes(api_services());
   ASSERT_TRUE(routes);

@@ -1,4 +1,4 @@
-// Streams that go on where they broke off.
+// Resuming streams.
 #include <gtest/gtest.h>
 
 #include "tests/daemon/rest/rules/rules.pb.h"

@@ -25,7 +25,7 @@ class AssetStoreTest : public StoreTest {
   Asset put(const std::string& bytes, const std::string& owner = "ann") {
     return std::get<Asset>(send(begin(bytes, {}, owner).id, 0, bytes, owner).value());
   }
-  /// A job of these files.
+  /// A job with these files.
   Job made_of(const Asset& asset, const std::string& owner) {
     NewJob made;
     made.owner = owner;
@@ -84,7 +84,8 @@ TEST_F(AssetStoreTest, WhatASharedJobWasMadeOfIsEverybodysAsLongAsItIsShared) {
   EXPECT_FALSE(may("bob", asset));
   ASSERT_TRUE(jobs->share(job.id, true));
   EXPECT_TRUE(may("bob", asset));
-  EXPECT_EQ(assets->remove(asset.sha256, bob).error().reason, "ASSET_NOT_FOUND");  // not bob's
+  EXPECT_EQ(assets->remove(asset.sha256, bob).error().reason,
+            "ASSET_NOT_FOUND");  // not counted for bob
   ASSERT_TRUE(jobs->share(job.id, false));
   EXPECT_FALSE(may("bob", asset));
 }
@@ -99,12 +100,12 @@ TEST_F(AssetStoreTest, ItGoesWithItsLastOwnerUnlessAJobWasMadeOfIt) {
   EXPECT_TRUE(may("ann", asset));
   const Job job = made_of(asset, "ann"), others = made_of(asset, "bob");
   EXPECT_EQ(assets->remove(asset.sha256, ann).error().reason, "STATE_FORBIDS");
-  EXPECT_EQ(stored("ann"), 4);  // nothing that is kept counts for nobody
+  EXPECT_EQ(stored("ann"), 4);  // stored bytes always count for an owner
   ASSERT_TRUE(jobs->cancel(job.id));
   ASSERT_TRUE(jobs->remove(job.id));
   ASSERT_TRUE(assets->remove(asset.sha256, ann));
   EXPECT_FALSE(may("ann", asset));
-  EXPECT_TRUE(may("bob", asset));  // by the job
+  EXPECT_TRUE(may("bob", asset));  // through his job
   EXPECT_TRUE(std::filesystem::exists(layout.asset(asset.sha256)));
   const Asset other = put("other");
   ASSERT_TRUE(assets->remove(other.sha256, ann));
@@ -113,7 +114,7 @@ TEST_F(AssetStoreTest, ItGoesWithItsLastOwnerUnlessAJobWasMadeOfIt) {
 
 TEST_F(AssetStoreTest, ARestartGivesNobodyWhatTheyDidNotSend) {
   const Asset asset = put("mesh");
-  const Upload upload = begin("mesh", {}, "bob");  // and nothing was sent
+  const Upload upload = begin("mesh", {}, "bob");  // without sending any bytes
   open();
   EXPECT_FALSE(may("bob", asset));
   EXPECT_EQ(assets->upload(upload.id, "bob")->received_bytes, 0);
@@ -137,11 +138,11 @@ TEST_F(AssetStoreTest, BytesBeyondTheQuotaAreRefusedWhenAnnouncedAndWhenThere) {
   EXPECT_EQ(refused.error().metadata.at("quota"), "bytes");
   EXPECT_EQ(refused.error().metadata.at("used"), "5");
   EXPECT_EQ(refused.error().metadata.at("allowed"), "10");
-  EXPECT_TRUE(ask("123456", bob));  // of each
-  // What is on its way counts, so that many at once come to no more.
+  EXPECT_TRUE(ask("123456", bob));  // quota of each owner
+  // Open uploads count, so that several at once cannot exceed the quota.
   const Upload upload = begin("abcde");
   EXPECT_FALSE(ask("x", ann));
-  // A job's artifacts came meanwhile.
+  // Artifacts of a job were added meanwhile.
   const Job job = add();
   complete(job.id);
   const auto late = send(upload.id, 0, "abcde");
@@ -162,7 +163,7 @@ TEST_F(AssetStoreTest, WhatNoJobNeedsIsDeletedWhenItsTimeIsUp) {
   now_ms += 999;
   ASSERT_TRUE(assets->purge());
   EXPECT_TRUE(may("ann", unused));
-  EXPECT_TRUE(ask("asked", ann));  // counts anew
+  EXPECT_TRUE(ask("asked", ann));  // retention starts again
   now_ms += 1;
   ASSERT_TRUE(assets->purge());
   EXPECT_FALSE(assets->asset(unused.sha256));
@@ -283,7 +284,7 @@ TEST_F(AssetStoreTest, StartAfterACrashSetsUnknownFilesAsideAndAdoptsVerifiedOne
   std::filesystem::create_directories(layout.asset(sha256("junk")).parent_path());
   std::ofstream(layout.asset(sha256("junk"))) << "junk";
   std::ofstream(layout.upload("0123")) << "nobody's";
-  // Killed between the rename and the row: the bytes were verified and must not be lost.
+  // The daemon was killed between the rename and the row: the verified bytes must not be lost.
   const Upload upload = begin("renamed");
   std::filesystem::create_directories(layout.asset(upload.sha256).parent_path());
   std::ofstream(layout.asset(upload.sha256)) << "renamed";

@@ -19,7 +19,7 @@ class CalibrationStoreTest : public StoreTest {
   Calibration enter(CalibrationKind kind = CalibrationKind::kObject, const std::string& id = "") {
     return store->create({kind, "ann", 0, 0, "body"}, {"CreateCalibration", id, "d"}).value();
   }
-  /// A job that is at its worker.
+  /// A running job.
   std::int64_t running(const std::string& verb = "calibrate") {
     NewJob made;
     made.work.verb = verb;

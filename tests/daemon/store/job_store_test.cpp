@@ -101,17 +101,17 @@ TEST_F(JobStoreTest, ShutdownsAndLossesWhileItWaitsDoNotCountAgainstAJob) {
   EXPECT_EQ(jobs->get(id)->state, JobState::kQueued);
 }
 
-// SQLite's own limit on a file stands in for the disk.
+// SQLite's own limit on the file size replaces a full disk.
 TEST_F(JobStoreTest, FullDatabaseRefusesWithoutAnyTraceAndWorksOnAfterwards) {
   job_options.max_queued = 1000000;
   open();
   const std::int64_t first = complete(add("same").id).id;
-  ASSERT_TRUE(database->run("PRAGMA max_page_count=1"));  // no more than there are
+  ASSERT_TRUE(database->run("PRAGMA max_page_count=1"));  // raised to the present number of pages
   NewJob made;
   made.owner = "ann";
   made.work.verb = "simulate";
   made.digest = "same";
-  made.body = std::string(1000000, 'x');  // more than the room that is kept
+  made.body = std::string(1000000, 'x');  // more than the reserved space
   const auto refused = jobs->create(made, {"CreateJob", "id", "x"});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::kResourceExhausted);
@@ -267,7 +267,7 @@ TEST_F(JobStoreTest, OldFinishedJobsArePurgedOthersNot) {
 TEST_F(JobStoreTest, FoldersThatNoFinishedJobOwnsAreSetAsideAtTheStart) {
   complete(add("1").id);
   ASSERT_TRUE(jobs->start(add("2").id));
-  std::filesystem::create_directories(layout.artifacts(2));  // renamed, then killed
+  std::filesystem::create_directories(layout.artifacts(2));  // killed after the rename
   std::ofstream(layout.artifacts(2) / "film.png") << "not committed";
   std::filesystem::create_directories(layout.run(2) / "in");
   std::filesystem::create_directories(layout.artifacts() / "junk");

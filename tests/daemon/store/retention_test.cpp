@@ -1,11 +1,11 @@
-// How much owners may have, and how long what they have is kept.
+// Quotas and retention of jobs and assets.
 #include "daemon/store/calibration_store.h"
 #include "tests/daemon/store/store_fixture.h"
 
 namespace hydroprint::daemon {
 namespace {
 
-constexpr std::int64_t kKeep_ms = 1000;  // the fixture's
+constexpr std::int64_t kKeep_ms = 1000;  // options of the fixture
 
 class Retention : public StoreTest {
  protected:
@@ -118,7 +118,7 @@ TEST_F(Retention, NothingIsDeletedWhileSomethingIsPrinted) {
   made.traits = {false, true, ""};
   const Job print = jobs->create(made, {}).value();
   wait(kKeep_ms);
-  EXPECT_TRUE(is_there(old));  // it may be what is printed
+  EXPECT_TRUE(is_there(old));  // it may be the job that is being printed
   ASSERT_TRUE(jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
   wait(0);
   EXPECT_FALSE(is_there(old));
@@ -176,7 +176,7 @@ TEST_F(Retention, OneDayAtATimeCounts) {
 TEST_F(Retention, TheOldestGoFirst) {
   const Job first = add("1"), second = done("2");
   now_ms += 10;
-  complete(first.id);  // which ended last
+  complete(first.id);  // the one that ended last
   ASSERT_TRUE(database->run("CREATE TABLE gone(job INTEGER)"));
   ASSERT_TRUE(database->run(
       "CREATE TRIGGER note AFTER DELETE ON jobs BEGIN INSERT INTO gone VALUES (old.id); END"));
@@ -203,7 +203,7 @@ TEST_F(Retention, AnOwnersQueueIsLimitedAndNotThatOfOthers) {
   EXPECT_EQ(refused.error().metadata.at("used"), "2");
   EXPECT_EQ(refused.error().metadata.at("allowed"), "2");
   add("3", "bob");
-  ASSERT_TRUE(jobs->start(second.id));  // runs, and waits no longer
+  ASSERT_TRUE(jobs->start(second.id));  // running, so no longer queued
   EXPECT_TRUE(jobs->create(made, {}));
 }
 
