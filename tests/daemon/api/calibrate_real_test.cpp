@@ -108,7 +108,7 @@ class CalibrateReal : public CameraTest {
   double lowest_mm = 1e9;
 };
 
-TEST_F(CalibrateReal, TheObjectIsFoundWhereItHangs) {
+TEST_F(CalibrateReal, PoseOfTheObjectIsFound) {
   ann->make_ready();
   ann->go_to(kAxis_mm);
   // Takes both captures first, since on a busy machine the rig may lose its reference later.
@@ -130,7 +130,7 @@ TEST_F(CalibrateReal, TheObjectIsFoundWhereItHangs) {
     EXPECT_EQ(marker.used(), marker.name() != "left") << marker.name() << ": " << marker.why_not();
 }
 
-TEST_F(CalibrateReal, ScansThatDoNotFitAreRefusedWithTheReason) {
+TEST_F(CalibrateReal, ScansThatDoNotFitAreRefusedWithAReason) {
   const v1::Job capture = ended(create(capture_of(0.2)));
   const v1::Job metres = calibrate(capture, 0.001);
   EXPECT_EQ(metres.state(), v1::Job::FAILED);

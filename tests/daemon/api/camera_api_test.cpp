@@ -39,7 +39,7 @@ class CameraApi : public CameraTest {
   }
 };
 
-TEST_F(CameraApi, WhoLooksSeesWhatTheCameraSeesNow) {
+TEST_F(CameraApi, PictureShowsThePresentView) {
   serve();
   ASSERT_TRUE(comes_to(""));
   const v1::DepthPicture first = look().picture;
@@ -60,7 +60,7 @@ TEST_F(CameraApi, WhoLooksSeesWhatTheCameraSeesNow) {
   })) << "pictures go on";
 }
 
-TEST_F(CameraApi, OneProcessHasTheCameraAndNoneWhenNobodyLooks) {
+TEST_F(CameraApi, OneProcessServesAllViewersAndEndsWithoutThem) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   serve();
   EXPECT_TRUE(daemon->workers().empty());
@@ -74,7 +74,7 @@ TEST_F(CameraApi, OneProcessHasTheCameraAndNoneWhenNobodyLooks) {
   EXPECT_TRUE(comes_to("")) << "and again";
 }
 
-TEST_F(CameraApi, ACaptureHasTheCameraToItselfAndGivesItBack) {
+TEST_F(CameraApi, CaptureBorrowsTheCamera) {
   serve();
   ASSERT_TRUE(comes_to(""));
   const v1::Job job = create(capture_of(15));
@@ -92,7 +92,7 @@ TEST_F(CameraApi, ACaptureHasTheCameraToItselfAndGivesItBack) {
   EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "and taken again";
 }
 
-TEST_F(CameraApi, WhatIsWrongWithItIsToldUntilItIsWell) {
+TEST_F(CameraApi, CameraFaultIsReportedUntilItIsCleared) {
   serve();
   for (const auto& [fault, reason] : {std::pair("camera gone", "CAMERA_NOT_FOUND"),
                                       {"camera frozen", "CAMERA_FROZEN"},
@@ -107,7 +107,7 @@ TEST_F(CameraApi, WhatIsWrongWithItIsToldUntilItIsWell) {
   }
 }
 
-TEST_F(CameraApi, ACameraThatHangsHoldsUpNobody) {
+TEST_F(CameraApi, HangingCameraBlocksOnlyItsViewers) {
   serve(1);
   rig->act("camera hung");
   std::thread watcher([&] { EXPECT_TRUE(comes_to("CAMERA_STALLED")); });
@@ -121,7 +121,7 @@ TEST_F(CameraApi, ACameraThatHangsHoldsUpNobody) {
   EXPECT_TRUE(comes_to(""));
 }
 
-TEST_F(CameraApi, AProcessThatIsKilledIsReplacedAndOneThatIsHeldUpIsKilled) {
+TEST_F(CameraApi, DeadProcessIsReplacedAndHungProcessIsKilled) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   serve(1);
   ASSERT_TRUE(comes_to(""));

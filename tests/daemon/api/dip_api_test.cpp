@@ -72,7 +72,7 @@ std::vector<std::vector<double>> positions(const std::string& csv) {
   return rows;
 }
 
-TEST_F(DipApi, GuidesAnOperatorThroughAWholeDipAndKeepsItsRecord) {
+TEST_F(DipApi, GuidesAnOperatorThroughAWholeDip) {
   v1::DipSpec spec = short_dip();
   spec.set_depth_mm(12);
   spec.set_soak_s(1);
@@ -133,7 +133,7 @@ TEST_F(DipApi, GuidesAnOperatorThroughAWholeDipAndKeepsItsRecord) {
   EXPECT_LT(longest_s, 0.1) << "between two samples";
 }
 
-TEST_F(DipApi, WithoutConfirmationsAndClocksOnTheVirtualRig) {
+TEST_F(DipApi, SkipsConfirmationsAndClocksOnTheVirtualRig) {
   v1::DipSpec spec = short_dip();
   spec.set_soak_s(600);
   spec.set_yes_to_all(true);
@@ -145,7 +145,7 @@ TEST_F(DipApi, WithoutConfirmationsAndClocksOnTheVirtualRig) {
   EXPECT_NEAR(ann.report(name).at("depth_reached_mm"), 5, 0.1);
 }
 
-TEST_F(DipApi, WhatCannotBeDippedIsRefusedBeforeAnythingMoves) {
+TEST_F(DipApi, ImpossibleDipIsRefusedBeforeAnyMotion) {
   const double rest_mm = rig.position_mm();
   v1::Job job;
   v1::DipSpec spec = short_dip();
@@ -178,7 +178,7 @@ TEST_F(DipApi, WhatCannotBeDippedIsRefusedBeforeAnythingMoves) {
   EXPECT_EQ(rig.position_mm(), rest_mm);
 }
 
-TEST_F(DipApi, FirstContactFromWhichTheDepthIsOutOfReachIsRefusedAndTheDipGoesOnWaiting) {
+TEST_F(DipApi, FirstContactOutOfReachIsRefusedAndTheDipWaits) {
   v1::DipSpec spec = short_dip();
   spec.set_depth_mm(292);
   const std::string name = ann.dip(spec).name();
@@ -193,7 +193,7 @@ TEST_F(DipApi, FirstContactFromWhichTheDepthIsOutOfReachIsRefusedAndTheDipGoesOn
   ann.wait_for_step(name, v1::DipStatus::LAY_FILM);
 }
 
-TEST_F(DipApi, AConfirmationCountsForItsStepAlone) {
+TEST_F(DipApi, ConfirmationCountsForOneStepOnly) {
   const std::string name = ann.dip(short_dip()).name();
   EXPECT_EQ(reason_of(ann.confirm(name, v1::DipStatus::LOAD_OBJECT)), "STATE_FORBIDS");
   EXPECT_EQ(reason_of(ann.confirm(name, v1::DipStatus::SOAK)), "STATE_FORBIDS");
@@ -205,7 +205,7 @@ TEST_F(DipApi, AConfirmationCountsForItsStepAlone) {
   EXPECT_EQ(reason_of(bob.confirm(name, v1::DipStatus::LOAD_OBJECT)), "LEASE_REQUIRED");
 }
 
-TEST_F(DipApi, TheOperatorJogsToFirstContactAndNobodyMovesTheRigFromThenOn) {
+TEST_F(DipApi, OnlyTheDipMovesTheRigAfterFirstContact) {
   const std::string name = ann.dip(short_dip()).name();
   ann.guide_to(name, v1::DipStatus::FIND_CONTACT);
   while (rig.position_mm() < kContact_mm + 1.5) {
@@ -229,7 +229,7 @@ TEST_F(DipApi, TheOperatorJogsToFirstContactAndNobodyMovesTheRigFromThenOn) {
   EXPECT_TRUE(ann.jog(-5).ok());
 }
 
-TEST_F(DipApi, AFilmPastItsWindowIsWarnedOfAndDippedAllTheSame) {
+TEST_F(DipApi, LateFilmIsDippedWithAWarning) {
   v1::DipSpec spec = short_dip();
   spec.set_activation_window_s(1);
   const std::string name = ann.dip(spec).name();
@@ -243,7 +243,7 @@ TEST_F(DipApi, AFilmPastItsWindowIsWarnedOfAndDippedAllTheSame) {
   EXPECT_EQ(ann.report(name).at("warnings").at(0).at("code"), "film_late");
 }
 
-TEST_F(DipApi, CancelledAtAnyStepItSaysWhatToDoAndKeepsItsRecord) {
+TEST_F(DipApi, CancelAtAnyStepGivesAdviceAndKeepsTheRecord) {
   for (int i = v1::DipStatus::PRINT_FILM; i <= v1::DipStatus::RETRACT; ++i) {
     const auto step = static_cast<v1::DipStatus::Step>(i);
     SCOPED_TRACE(v1::DipStatus::Step_Name(step));
@@ -272,7 +272,7 @@ TEST_F(DipApi, CancelledAtAnyStepItSaysWhatToDoAndKeepsItsRecord) {
   }
 }
 
-TEST_F(DipApi, AStopBySomebodyElseEndsItsMotion) {
+TEST_F(DipApi, StopByAnotherClientEndsTheMotion) {
   const std::string name = descending();
   RigClient bob(daemon.address(), "bob");
   ASSERT_TRUE(bob.stop().ok());
@@ -281,7 +281,7 @@ TEST_F(DipApi, AStopBySomebodyElseEndsItsMotion) {
   EXPECT_EQ(ann.rig().state(), v1::Rig::IDLE);
 }
 
-TEST_F(DipApi, AStopWhileNothingMovesDoesItNoHarm) {
+TEST_F(DipApi, StopAtRestDoesNotEndTheDip) {
   const std::string name = ann.dip(short_dip()).name();
   ann.guide_to(name, v1::DipStatus::START_DIP);
   ASSERT_TRUE(ann.stop().ok());
@@ -289,7 +289,7 @@ TEST_F(DipApi, AStopWhileNothingMovesDoesItNoHarm) {
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(DipApi, ItGoesOnWhenItsOperatorAndTheLeaseAreGone) {
+TEST_F(DipApi, DipContinuesWithoutOperatorAndLease) {
   const std::string name = descending(12);
   RigClient bob(daemon.address(), "bob");
   ASSERT_TRUE(bob.break_lease("the operator is gone").ok());
@@ -305,7 +305,7 @@ struct Fault {
 
 class DipFault : public DipApi, public ::testing::WithParamInterface<Fault> {};
 
-TEST_P(DipFault, InTheDescentFailsItWithTheReasonAndKeepsTheRecord) {
+TEST_P(DipFault, DuringTheDescentFailsTheDipWithAReason) {
   const std::string name = descending();
   rig.act(GetParam().line);
   const v1::Job ended = ann.wait_for_end(name);
@@ -323,7 +323,7 @@ TEST_P(DipFault, InTheDescentFailsItWithTheReasonAndKeepsTheRecord) {
   EXPECT_EQ(ann.rig().dip(), "");
 }
 
-TEST_P(DipFault, WhileTheFilmSoaksEndsItToo) {
+TEST_P(DipFault, WhileTheFilmSoaksFailsTheDipToo) {
   v1::DipSpec spec = short_dip();
   spec.set_soak_s(60);
   const std::string name = ann.dip(spec).name();
@@ -346,7 +346,7 @@ INSTANTIATE_TEST_SUITE_P(All, DipFault,
                                            Fault{"Stall", "stall", "RIG_FAULTED"}),
                          [](const auto& fault) { return fault.param.name; });
 
-TEST_F(DipApi, BeforeFirstContactTheRigMayBeHomedAgain) {
+TEST_F(DipApi, RigMayBeHomedBeforeFirstContact) {
   const std::string name = ann.dip(short_dip()).name();
   ann.guide_to(name, v1::DipStatus::FIND_CONTACT);
   rig.act("press stop");
@@ -360,7 +360,7 @@ TEST_F(DipApi, BeforeFirstContactTheRigMayBeHomedAgain) {
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(DipApi, ADaemonKilledInTheDescentLeavesItInterruptedAndTheRigAtRest) {
+TEST_F(DipApi, KillDuringTheDescentStopsTheRigAndInterruptsTheDip) {
   const std::string name = descending();
   daemon.kill();
   ASSERT_TRUE(rig.gets_to(0, 2));
@@ -413,7 +413,7 @@ class HeldStore {
   sqlite3* store_ = nullptr;
 };
 
-TEST_F(DipApi, AStoreThatHangsHoldsUpNeitherItsMotionNorAStop) {
+TEST_F(DipApi, HangingStoreDelaysNeitherMotionNorStop) {
   // Slow enough to continue while the store is locked.
   const std::string name = descending(60, 2);
   {
@@ -429,7 +429,7 @@ TEST_F(DipApi, AStoreThatHangsHoldsUpNeitherItsMotionNorAStop) {
   EXPECT_GT(ann.report(name).at("depth_reached_mm"), 4);
 }
 
-TEST_F(DipApi, ADaemonThatHangsInTheDescentHasItStoppedByTheDriveAndGoesOnWithNothing) {
+TEST_F(DipApi, DriveStopsTheDescentOfAHangingDaemon) {
   const std::string name = descending();
   ::kill(daemon.pid(), SIGSTOP);
   const double hung_s = rig.now_s(), hung_mm = rig.position_mm();
@@ -448,7 +448,7 @@ TEST_F(DipApi, ADaemonThatHangsInTheDescentHasItStoppedByTheDriveAndGoesOnWithNo
   EXPECT_EQ(rig.position_mm(), rest_mm);
 }
 
-TEST_F(DipApi, ADaemonShutDownInTheDescentBringsTheAxisToRestFirst) {
+TEST_F(DipApi, ShutdownDuringTheDescentStopsTheAxisFirst) {
   const std::string name = descending();
   EXPECT_EQ(daemon.terminate(), 0);
   EXPECT_EQ(rig.speed_mm_per_s(), 0);
@@ -459,7 +459,7 @@ TEST_F(DipApi, ADaemonShutDownInTheDescentBringsTheAxisToRestFirst) {
   EXPECT_EQ(again.report(name).at("outcome"), "INTERRUPTED");
 }
 
-TEST_F(DipApi, TheSameRequestMakesOneDip) {
+TEST_F(DipApi, RepeatedRequestCreatesOneDip) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_dip() = short_dip();
   request.set_lease_id(ann.lease_id);
@@ -470,7 +470,7 @@ TEST_F(DipApi, TheSameRequestMakesOneDip) {
   EXPECT_EQ(first.name(), second.name());
 }
 
-TEST_F(DipApi, AQueueThatRunsAndPausesHasNothingToDoWithIt) {
+TEST_F(DipApi, PausedQueueDoesNotAffectADip) {
   ann.pause();
   const std::string name = ann.dip(short_dip()).name();
   EXPECT_EQ(ann.queue().queued_count(), 0);
@@ -479,7 +479,7 @@ TEST_F(DipApi, AQueueThatRunsAndPausesHasNothingToDoWithIt) {
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::SUCCEEDED);
 }
 
-TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
+TEST(DipOfASimulation, UsesDepthSpeedAndFilmOfItsReport) {
   if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
   const TemporaryFolder folder;
   VirtualRigProcess rig;
@@ -533,7 +533,7 @@ TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
   EXPECT_EQ(report.at("parameters").at("activator_wait_s"), 0.3);
 }
 
-TEST(DipOnARealDrive, IsNeverWithoutItsOperator) {
+TEST(DipOnARealDrive, AlwaysNeedsAnOperator) {
   const TemporaryFolder folder;
   VirtualRigProcess rig;  // does not report the data in the daemon's profile
   auto options = DaemonProcess::fake();

@@ -66,7 +66,7 @@ class FullDisk : public ::testing::Test {
   std::unique_ptr<Client> client;
 };
 
-TEST_F(FullDisk, UploadThatFillsItIsRefusedAndLeavesNothing) {
+TEST_F(FullDisk, UploadThatFillsTheDiskIsRefusedAndDeleted) {
   start();
   const std::string bytes(4 * kMiB, 'x');
   v1::StartUploadRequest begin;
@@ -106,7 +106,7 @@ TEST_F(FullDisk, UploadThatFillsItIsRefusedAndLeavesNothing) {
   EXPECT_EQ(client->upload(bytes), "assets/" + hash_of(bytes));
 }
 
-TEST_F(FullDisk, RealJobWhoseArtifactsDoNotFitFailsAndLeavesNothing) {
+TEST_F(FullDisk, RealJobFailsIfItsArtifactsDoNotFit) {
   if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
   DaemonProcess::Options real = DaemonProcess::fake();
   real.worker.clear();
@@ -133,14 +133,14 @@ TEST_F(FullDisk, RealJobWhoseArtifactsDoNotFitFailsAndLeavesNothing) {
 }
 
 // The artifacts fit, but their rows do not: they need more than the reserved space.
-TEST_F(FullDisk, ArtifactsThatLeaveNoRoomForTheirRowsAreGivenUp) {
+TEST_F(FullDisk, ArtifactsWithoutSpaceForTheirRowsAreDeleted) {
   start();
   const std::string name = client->simulate("many\nfill").name();
   expect_no_room_for(client->wait_for_end(name));
   EXPECT_EQ(client->wait_for_end(client->simulate("").name()).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(FullDisk, JobThatFilledItCanBeCancelled) {
+TEST_F(FullDisk, JobThatFilledTheDiskCanBeCancelled) {
   start();
   const std::string name = client->simulate("fill\nsleep 60").name();
   client->wait(name, [&](const v1::Job&) { return free_bytes() == 0; });
@@ -149,7 +149,7 @@ TEST_F(FullDisk, JobThatFilledItCanBeCancelled) {
   EXPECT_EQ(files_in("runs"), 0);
 }
 
-TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonLivesOn) {
+TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonKeepsRunning) {
   start();
   const std::string done = client->simulate("#1").name();
   client->wait_for_end(done);
@@ -176,7 +176,7 @@ TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonLivesOn) {
   EXPECT_EQ(client->wait_for_end(waiting).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(FullDisk, DaemonThatIsLostWithAJobThatFilledItStartsAgain) {
+TEST_F(FullDisk, DaemonStartsAgainAfterAJobFilledTheDisk) {
   start();
   const std::string name = client->simulate("fill\nsleep 60").name();
   client->wait(name, [&](const v1::Job&) { return free_bytes() == 0; });

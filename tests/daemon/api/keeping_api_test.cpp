@@ -100,7 +100,7 @@ class KeepingApi : public PeopleApi {
   std::map<std::string, Asking> asking;
 };
 
-TEST_F(KeepingApi, AHashAloneGivesNobodyAFile) {
+TEST_F(KeepingApi, HashAloneGivesNoAccessToAFile) {
   const std::string asset = as("maker")->upload("mesh");
   Asking& other = (*this)["other"];
   v1::Asset seen;
@@ -126,7 +126,7 @@ TEST_F(KeepingApi, AHashAloneGivesNobodyAFile) {
   EXPECT_EQ((*this)["operator"].list("viewer").size(), 0U);
 }
 
-TEST_F(KeepingApi, WhatASharedJobWasMadeOfCanBeUsedByAll) {
+TEST_F(KeepingApi, InputsOfASharedJobCanBeUsedByAll) {
   as("operator")->pause();  // artifacts would count for their owners
   const auto maker = as("maker");
   const v1::Job job = maker->simulate("mesh");
@@ -138,7 +138,7 @@ TEST_F(KeepingApi, WhatASharedJobWasMadeOfCanBeUsedByAll) {
   EXPECT_EQ((*this)["other"].usage().stored_bytes(), 0);  // it counts for the maker
 }
 
-TEST_F(KeepingApi, OneGivesUpOnesOwnAndAnOperatorDeletesAnybodys) {
+TEST_F(KeepingApi, OwnersGiveUpTheirAssetsAndOperatorsDeleteAny) {
   const std::string asset = as("maker")->upload("mesh");
   as("other")->upload("mesh");
   v1::Asset seen;
@@ -149,7 +149,7 @@ TEST_F(KeepingApi, OneGivesUpOnesOwnAndAnOperatorDeletesAnybodys) {
   expect_refused((*this)["maker"].get(asset, seen), StatusCode::NOT_FOUND, "ASSET_NOT_FOUND");
 }
 
-TEST_F(KeepingApi, BytesBeyondTheQuotaAreRefusedAndUsageSaysWhatThereIs) {
+TEST_F(KeepingApi, BytesBeyondTheQuotaAreRefusedAndUsageIsReported) {
   const std::string large(3 << 20, 'a'), larger(3 << 20, 'b');
   const std::string asset = as("maker")->upload(large);
   Asking& maker = (*this)["maker"];
@@ -173,7 +173,7 @@ TEST_F(KeepingApi, BytesBeyondTheQuotaAreRefusedAndUsageSaysWhatThereIs) {
   EXPECT_TRUE(maker.start_upload(larger, started).ok());
 }
 
-TEST_F(KeepingApi, AnOwnersQueueIsLimited) {
+TEST_F(KeepingApi, QueuedJobsPerOwnerAreLimited) {
   as("operator")->pause();
   const std::string asset = as("maker")->upload("mesh");
   v1::Job job;
@@ -187,7 +187,7 @@ TEST_F(KeepingApi, AnOwnersQueueIsLimited) {
   EXPECT_TRUE((*this)["maker"].create(asset, job).ok());
 }
 
-TEST_F(KeepingApi, OldJobsAndFilesGoAndPinnedOnesStay) {
+TEST_F(KeepingApi, OldJobsAndFilesAreDeletedUnlessPinned) {
   const auto maker = as("maker");
   const std::string unused = maker->upload("unused");
   const v1::Job old = maker->wait_for_end(maker->simulate("old").name());
@@ -218,7 +218,7 @@ TEST_F(KeepingApi, OldJobsAndFilesGoAndPinnedOnesStay) {
   EXPECT_NE(PeopleApi::daemon.log().find("event=asset_deleted"), std::string::npos);
 }
 
-TEST_F(KeepingApi, WhatWasAnsweredIsInTheAuditLogEvenIfTheDaemonIsKilledThen) {
+TEST_F(KeepingApi, AuditLogSurvivesAKillAfterTheAnswer) {
   constexpr int kChanges = 10;
   {
     const auto admin = as("admin");
@@ -240,7 +240,7 @@ TEST_F(KeepingApi, WhatWasAnsweredIsInTheAuditLogEvenIfTheDaemonIsKilledThen) {
   EXPECT_EQ(reply.entries_size(), kChanges);
 }
 
-TEST_F(KeepingApi, ADeletedUsersNameIsNotGivenToSomebodyElse) {
+TEST_F(KeepingApi, NameOfADeletedUserIsReserved) {
   const auto admin = as("admin");
   const std::string name = as("maker")->simulate("mesh").name();
   v1::DeleteUserRequest leaves;

@@ -405,7 +405,7 @@ nlohmann::ordered_json Campaign::summary() const {
           {"longest_start_s", longest_start_s_}};
 }
 
-TEST(Killed, AtAnyMomentTheDriveStopsTheStoreIsWholeAndTheRigWantsHoming) {
+TEST(Killed, AtAnyMomentTheDriveStopsAndTheStoreIsIntact) {
   Campaign campaign;
   campaign.run();
   std::cout << campaign.summary().dump() << std::endl;

@@ -91,7 +91,7 @@ void expect_as_stated(const MethodDescriptor& method, const std::string& user,
   }
 }
 
-TEST_F(PeopleApi, EveryMethodLetsInWhomItStatesAndNobodyElse) {
+TEST_F(PeopleApi, EveryMethodAdmitsExactlyTheStatedRoles) {
   int methods = 0;
   for (const auto* const service : all_services()) {
     for (int i = 0; i < service->method_count(); ++i, ++methods) {
@@ -105,7 +105,7 @@ TEST_F(PeopleApi, EveryMethodLetsInWhomItStatesAndNobodyElse) {
   EXPECT_GE(methods, 58);
 }
 
-TEST_F(PeopleApi, AllServicesAreAmongThose) {
+TEST_F(PeopleApi, AllServicesAreCovered) {
   std::set<std::string> known, there;
   for (const auto* const service : all_services()) known.insert(service->name());
   for (const auto& entry : std::filesystem::directory_iterator(HYDROPRINT_PROTO_DIR)) {

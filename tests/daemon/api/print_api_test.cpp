@@ -95,7 +95,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_F(PrintApi, PrintImageTakesFilmImageFilmAndResolutionOfItsSimulation) {
+TEST_F(PrintApi, PrintImageUsesFilmAndResolutionOfItsSimulation) {
   start();
   const v1::Job simulation = simulated("[[0,0],[9,0],[0,9]]");
   const v1::Job job = done(create(print_image_of(simulation)));
@@ -110,7 +110,7 @@ TEST_F(PrintApi, PrintImageTakesFilmImageFilmAndResolutionOfItsSimulation) {
   EXPECT_EQ(file(job, "print.pdf"), "%PDF of " + file(simulation, "film.png"));
 }
 
-TEST_F(PrintApi, AReprintIsTheSameFileEvenWhenTheSimulationIsGone) {
+TEST_F(PrintApi, ReprintIsIdenticalAfterTheSimulationIsDeleted) {
   start();
   const v1::Job simulation = simulated();
   const v1::Job first = done(create(print_image_of(simulation)));
@@ -130,7 +130,7 @@ TEST_F(PrintApi, AReprintIsTheSameFileEvenWhenTheSimulationIsGone) {
   EXPECT_EQ(file(retried, "print.pdf"), file(first, "print.pdf"));
 }
 
-TEST_F(PrintApi, TemplateTakesTheObjectOfItsSimulation) {
+TEST_F(PrintApi, TemplateUsesTheObjectOfItsSimulation) {
   start();
   const v1::Job simulation = simulated("[[0,0],[9,0],[0,9]]");
   v1::Job wanted;
@@ -146,7 +146,7 @@ TEST_F(PrintApi, TemplateTakesTheObjectOfItsSimulation) {
   EXPECT_EQ(spec["film"], "polygon:film.json");
 }
 
-TEST_F(PrintApi, WhatIsTakenFromASimulationIsNotGivenAsWell) {
+TEST_F(PrintApi, FieldsTakenFromASimulationMustNotBeSet) {
   start();
   const v1::Job simulation = simulated();
   v1::Job twice = print_image_of(simulation);
@@ -164,7 +164,7 @@ TEST_F(PrintApi, WhatIsTakenFromASimulationIsNotGivenAsWell) {
   EXPECT_EQ(refusal(placed), "SPEC_INVALID");
 }
 
-TEST_F(PrintApi, OnlyASimulationThatSucceededIsTakenFrom) {
+TEST_F(PrintApi, SimulationMustHaveSucceeded) {
   start();
   v1::Job nobody;
   nobody.set_name("jobs/99");
@@ -207,7 +207,7 @@ TEST_F(PrintApi, PagesAreSentOnceAndFollowedToTheEnd) {
   EXPECT_EQ(error_info(status).reason(), "STATE_FORBIDS") << "nothing is printed by chance";
 }
 
-TEST_F(PrintApi, APrinterThatIsOutOfPaperSaysSo) {
+TEST_F(PrintApi, PrinterOutOfPaperIsReported) {
   const IppPrinter there(std::string("echo 'STATE: +media-empty' >&2\n") +
                          IppPrinter::kUntilFinished);
   start(there);
@@ -220,7 +220,7 @@ TEST_F(PrintApi, APrinterThatIsOutOfPaperSaysSo) {
   EXPECT_EQ(done(job).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(PrintApi, CancelEndsThePrintAtThePrinter) {
+TEST_F(PrintApi, CancelEndsThePrintOnThePrinter) {
   const IppPrinter there(IppPrinter::kUntilFinished);
   start(there);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");
@@ -236,7 +236,7 @@ TEST_F(PrintApi, CancelEndsThePrintAtThePrinter) {
   EXPECT_EQ(json::parse(file(ended, "report.json"))["states"].back()["state"], "canceled");
 }
 
-TEST_F(PrintApi, WhatThePrinterGivesUpFailsWithItsWords) {
+TEST_F(PrintApi, AbortedPrintFailsWithThePrintersMessage) {
   const IppPrinter there("exit 1");
   start(there);
   const v1::Job ended = done(create(print_of(pages())));
@@ -246,7 +246,7 @@ TEST_F(PrintApi, WhatThePrinterGivesUpFailsWithItsWords) {
   EXPECT_EQ(json::parse(file(ended, "report.json"))["reason"], "PRINT_ABORTED");
 }
 
-TEST_F(PrintApi, NoPrinterAndOneThatIsOffAreNamed) {
+TEST_F(PrintApi, MissingOrUnreachablePrinterIsReported) {
   start();
   EXPECT_EQ(refusal(print_of(pages())), "PRINTER_MISSING");
   daemon_.reset();
@@ -256,7 +256,7 @@ TEST_F(PrintApi, NoPrinterAndOneThatIsOffAreNamed) {
   EXPECT_EQ(ended.error().reason(), "PRINTER_UNREACHABLE") << ended.error().message();
 }
 
-TEST_F(PrintApi, APrinterThatGoesInTheMiddleIsLost) {
+TEST_F(PrintApi, PrinterLostDuringAPrintFailsTheJob) {
   IppPrinter there(IppPrinter::kUntilFinished);
   start(there, 5);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");
@@ -267,7 +267,7 @@ TEST_F(PrintApi, APrinterThatGoesInTheMiddleIsLost) {
   EXPECT_TRUE(has(ended.error().message(), "may have been printed or not"));
 }
 
-TEST_F(PrintApi, ADaemonThatIsKilledLeavesThePrintInterruptedAndSendsNothingAgain) {
+TEST_F(PrintApi, KillInterruptsThePrintAndNothingIsSentAgain) {
   const IppPrinter there(IppPrinter::kUntilFinished);
   start(there);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");
@@ -280,7 +280,7 @@ TEST_F(PrintApi, ADaemonThatIsKilledLeavesThePrintInterruptedAndSendsNothingAgai
   EXPECT_TRUE(std::filesystem::exists(there.spooled())) << "and only that";
 }
 
-TEST_F(PrintApi, ADaemonThatIsShutDownLeavesThePrintToThePrinter) {
+TEST_F(PrintApi, ShutdownLeavesThePrintToThePrinter) {
   const IppPrinter there(IppPrinter::kUntilFinished);
   start(there);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");

@@ -158,7 +158,7 @@ class Migration : public ::testing::Test {
   Layout layout{folder.path()};
 };
 
-TEST_F(Migration, AStoreOfVersion1KeepsWhatItHasAndTakesPeople) {
+TEST_F(Migration, Version1KeepsItsDataAndAcceptsUsers) {
   make_version_1();
   for (int i = 0; i < 2; ++i) {  // after the migration it opens without changes
     const auto database = open_store(layout.database());
@@ -180,7 +180,7 @@ TEST_F(Migration, AStoreOfVersion1KeepsWhatItHasAndTakesPeople) {
   }
 }
 
-TEST_F(Migration, AStoreOfVersion2KeepsAllItHasAndItsAssetsGetTheOwnersOfTheirJobs) {
+TEST_F(Migration, Version2KeepsItsDataAndAssetsGetOwners) {
   make_version_2();
   for (int i = 0; i < 2; ++i) {
     const auto database = open_store(layout.database()).value();
@@ -218,7 +218,7 @@ TEST_F(Migration, AStoreOfVersion2KeepsAllItHasAndItsAssetsGetTheOwnersOfTheirJo
   }
 }
 
-TEST_F(Migration, JobsOfVersion3KeepTheirFlagsAndThePropertiesOfTheirKinds) {
+TEST_F(Migration, JobsOfVersion3KeepFlagsAndTraits) {
   make_version_2();
   {
     const auto database = Database::open(layout.database(), "").value();
@@ -251,11 +251,11 @@ TEST_F(Migration, JobsOfVersion3KeepTheirFlagsAndThePropertiesOfTheirKinds) {
   EXPECT_EQ(work.pose_json, "{}");
 }
 
-TEST_F(Migration, ANewStoreIsOfTheLatestVersion) {
+TEST_F(Migration, NewStoreHasTheLatestVersion) {
   EXPECT_EQ(version_of(**open_store(layout.database())), kLatest);
 }
 
-TEST_F(Migration, AStoreOfALaterVersionIsRefusedAndLeftAsItIs) {
+TEST_F(Migration, LaterVersionIsRefusedAndUnchanged) {
   {
     const auto database = open_store(layout.database()).value();
     ASSERT_TRUE(database->run("UPDATE settings SET value='5' WHERE name='schema'"));
@@ -267,7 +267,7 @@ TEST_F(Migration, AStoreOfALaterVersionIsRefusedAndLeftAsItIs) {
   EXPECT_EQ(version_of(*Database::open(layout.database(), "").value()), "5");
 }
 
-TEST_F(Migration, OneThatFailsLeavesTheStoreAsItWas) {
+TEST_F(Migration, FailedMigrationChangesNothing) {
   make_version_1();
   {
     const auto database = Database::open(layout.database(), "").value();

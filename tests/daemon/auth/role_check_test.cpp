@@ -17,7 +17,7 @@ namespace {
 using auth::Role;
 
 // A service with one method that has these options.
-class Stated : public ::testing::Test {
+class AccessOptions : public ::testing::Test {
  protected:
   Result<Need> need(const google::protobuf::MethodOptions& options) {
     google::protobuf::FileDescriptorProto file;
@@ -41,26 +41,26 @@ class Stated : public ::testing::Test {
   int count_ = 0;
 };
 
-TEST_F(Stated, AMethodThatSaysNothingIsRefused) {
+TEST_F(AccessOptions, MethodWithoutAnAccessOptionIsRefused) {
   const auto refused = need({});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("MadeService.Do"), std::string::npos);
 }
 
-TEST_F(Stated, AMethodThatSaysBothOrAnUnknownRoleIsRefused) {
+TEST_F(AccessOptions, MethodWithBothOptionsOrAnUnknownRoleIsRefused) {
   google::protobuf::MethodOptions options;
   options.SetExtension(v1::role, v1::MAKER);
   options.SetExtension(v1::without_sign_in, true);
   EXPECT_FALSE(need(options));
 }
 
-TEST_F(Stated, AnUnspecifiedRoleIsNone) {
+TEST_F(AccessOptions, UnspecifiedRoleCountsAsMissing) {
   google::protobuf::MethodOptions options;
   options.SetExtension(v1::role, v1::ROLE_UNSPECIFIED);
   EXPECT_FALSE(need(options));
 }
 
-TEST_F(Stated, ARoleOrNobodysIsTaken) {
+TEST_F(AccessOptions, RoleOrWithoutSignInIsAccepted) {
   google::protobuf::MethodOptions role, none;
   role.SetExtension(v1::role, v1::MAKER);
   EXPECT_EQ(need(role).value(), Role::kMaker);
@@ -93,9 +93,9 @@ class Inner final : public v1::QueueService::Service {
   const Authenticator& access_;
 };
 
-class Gate : public auth::PeopleTest {
+class RoleCheck : public auth::PeopleTest {
  protected:
-  Gate() {
+  RoleCheck() {
     Inner::calls = 0;
     gate_ = guarded("hydroprint.v1.QueueService", std::make_unique<Inner>(access_), access_, {})
                 .value();
@@ -136,7 +136,7 @@ class Gate : public auth::PeopleTest {
   std::unique_ptr<grpc::Server> server_;
 };
 
-TEST_F(Gate, WithoutUsersThisMachineIsAdminUnderTheNameItGives) {
+TEST_F(RoleCheck, WithoutUsersLoopbackIsAdminWithTheClaimedName) {
   EXPECT_TRUE(get(*over_network, {{"hydroprint-owner", "ann"}}).ok());
   EXPECT_EQ(seen, "ann loopback 127.0.0.1");
   EXPECT_TRUE(pause(*over_network, {}).ok());
@@ -145,18 +145,18 @@ TEST_F(Gate, WithoutUsersThisMachineIsAdminUnderTheNameItGives) {
   EXPECT_TRUE(get(*within, {{"hydroprint-peer", "::1"}}).ok());
 }
 
-TEST_F(Gate, WithoutUsersOtherMachinesAreNobody) {
+TEST_F(RoleCheck, WithoutUsersOtherMachinesAreRefused) {
   const auto status = get(*within, {{"hydroprint-peer", "192.0.2.7"}});
   EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
   EXPECT_EQ(Inner::calls.load(), 0);
 }
 
-TEST_F(Gate, APeerIsBelievedWithinTheProcessAlone) {
+TEST_F(RoleCheck, PeerMetadataIsTrustedOnlyWithinTheProcess) {
   EXPECT_TRUE(get(*over_network, {{"hydroprint-peer", "192.0.2.7"}}).ok());
   EXPECT_EQ(seen, "anonymous loopback 127.0.0.1");
 }
 
-TEST_F(Gate, WithAUserCredentialsAreNeededEverywhere) {
+TEST_F(RoleCheck, WithUsersCredentialsAreRequiredEverywhere) {
   add("ann", Role::kAdmin);
   for (auto* const stub : {over_network.get(), within.get()}) {
     for (const Metadata& metadata :
@@ -169,7 +169,7 @@ TEST_F(Gate, WithAUserCredentialsAreNeededEverywhere) {
   EXPECT_EQ(Inner::calls.load(), 0);
 }
 
-TEST_F(Gate, KeysAndSessionsTellWhoCalls) {
+TEST_F(RoleCheck, KeysAndSessionsIdentifyTheCaller) {
   add("ann", Role::kAdmin);
   const auto key = accounts->create_key({"ann", "", Role::kViewer, 0}).value();
   const auto session = accounts->sign_in("ann", kPassword, "p").value();
@@ -182,7 +182,7 @@ TEST_F(Gate, KeysAndSessionsTellWhoCalls) {
   }
 }
 
-TEST_F(Gate, AKeyThatDoesNotHoldIsNotMadeUpForByASession) {
+TEST_F(RoleCheck, SessionDoesNotReplaceAnInvalidKey) {
   add("ann", Role::kAdmin);
   const auto session = accounts->sign_in("ann", kPassword, "p").value();
   const auto status = get(
@@ -190,7 +190,7 @@ TEST_F(Gate, AKeyThatDoesNotHoldIsNotMadeUpForByASession) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
 }
 
-TEST_F(Gate, WhoeverMayNotIsTurnedAwayBeforeTheServiceSeesIt) {
+TEST_F(RoleCheck, UnauthorizedCallsNeverReachTheService) {
   add("ann", Role::kAdmin);
   const auto viewer = accounts->create_key({"ann", "", Role::kViewer, 0})->second;
   const auto admin = accounts->create_key({"ann", "", Role::kOperator, 0})->second;

@@ -15,7 +15,7 @@ constexpr milliseconds kShort{200};
 INSTANTIATE_TEST_SUITE_P(Over, HttpLimits, ::testing::Bool(),
                          [](const auto& test) { return test.param ? "Tls" : "Tcp"; });
 
-TEST_P(HttpLimits, WhoSaysNothingIsLetGo) {
+TEST_P(HttpLimits, SilentClientIsDisconnected) {
   Limits limits;
   limits.header_time = kShort;
   limits.idle_time = kShort;
@@ -26,7 +26,7 @@ TEST_P(HttpLimits, WhoSaysNothingIsLetGo) {
   EXPECT_TRUE(idle.is_ended());
 }
 
-TEST_P(HttpLimits, AHeaderThatDoesNotComeToItsEndIsTimedOut) {
+TEST_P(HttpLimits, IncompleteHeaderTimesOut) {
   Limits limits;
   limits.header_time = kShort;
   serve(limits);
@@ -38,7 +38,7 @@ TEST_P(HttpLimits, AHeaderThatDoesNotComeToItsEndIsTimedOut) {
   EXPECT_TRUE(slow.is_ended());
 }
 
-TEST_P(HttpLimits, ABodyThatDoesNotComeIsTimedOut) {
+TEST_P(HttpLimits, MissingBodyTimesOut) {
   Limits limits;
   limits.body_time = kShort;
   serve(limits);
@@ -48,7 +48,7 @@ TEST_P(HttpLimits, ABodyThatDoesNotComeIsTimedOut) {
   EXPECT_TRUE(slow.is_ended());
 }
 
-TEST_P(HttpLimits, ThereAreOnlySoManyConnections) {
+TEST_P(HttpLimits, ConnectionsAreLimited) {
   Limits limits;
   limits.connections = 3;
   serve(limits);
@@ -75,7 +75,7 @@ TEST_P(HttpLimits, ThereAreOnlySoManyConnections) {
   EXPECT_EQ(status, 200);
 }
 
-TEST_P(HttpLimits, AStreamThatIsQuietShowsThatItLives) {
+TEST_P(HttpLimits, QuietStreamSendsPings) {
   Limits limits;
   limits.ping_time = milliseconds(50);
   serve(limits);
@@ -86,7 +86,7 @@ TEST_P(HttpLimits, AStreamThatIsQuietShowsThatItLives) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(stream.read_event().kind, "");
 }
 
-TEST_P(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
+TEST_P(HttpLimits, ClientThatDoesNotReadIsDisconnectedAndMayReturn) {
   Limits limits;
   limits.write_time = milliseconds(500);
   serve(limits);
@@ -113,7 +113,7 @@ TEST_P(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
   EXPECT_EQ(back.read_event().kind, "job");
 }
 
-TEST_P(HttpLimits, WhoLeavesCancelsItsCall) {
+TEST_P(HttpLimits, DisconnectCancelsTheCall) {
   serve({});
   const std::string name = simulate("sleep 30");
   {
@@ -130,7 +130,7 @@ TEST_P(HttpLimits, WhoLeavesCancelsItsCall) {
   EXPECT_NE(metrics.find("http_connections 1\n"), std::string::npos) << metrics;
 }
 
-TEST_P(HttpLimits, TheServerEndsWithStreamsUploadsAndIdleOnesOpen) {
+TEST_P(HttpLimits, ServerStopsWithOpenConnections) {
   serve({});
   std::vector<HttpConnection> open;
   for (int i = 0; i < 30; ++i) open.push_back(connect());
@@ -144,7 +144,7 @@ TEST_P(HttpLimits, TheServerEndsWithStreamsUploadsAndIdleOnesOpen) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
-TEST_P(HttpLimits, AServerWithoutAServiceSaysSo) {
+TEST_P(HttpLimits, MissingServiceIsReported) {
   serve({});
   HttpConnection connection = connect();
   EXPECT_EQ(connection.ask("GET", "/v1/queue").status, 200);

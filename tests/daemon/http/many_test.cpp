@@ -13,7 +13,7 @@ constexpr int kCallsOfEach = 100;
 constexpr int kCallsOfEach = 500;
 #endif
 
-TEST_F(HttpTest, EachOfThousandsOfCallsIsAnsweredWithItsOwnAnswer) {
+TEST_F(HttpTest, ThousandsOfCallsGetTheirOwnAnswers) {
   constexpr int kClients = 16;
   std::vector<std::string> jobs;
   for (int i = 0; i < 4; ++i) jobs.push_back(simulate("# " + std::to_string(i)));

@@ -14,7 +14,7 @@ class HttpRig : public RigTest {
   }
 };
 
-TEST_F(HttpRig, AStopNeedsNothingAndWaitsForNobody) {
+TEST_F(HttpRig, StopNeedsNoLeaseAndDoesNotWait) {
   ann.make_ready();
   ASSERT_TRUE(ann.move_to(200, 5).ok());
   ASSERT_TRUE(rig.gets_to(5));
@@ -70,7 +70,7 @@ std::vector<OddStop> odd_stops() {
   };
 }
 
-TEST_F(HttpRig, AStopIsCarriedOutWhateverItsBodyQueryAndHeaderSay) {
+TEST_F(HttpRig, StopIgnoresBodyQueryAndHeader) {
   ann.make_ready();
   for (const OddStop& odd : odd_stops()) {
     SCOPED_TRACE(odd.name);
@@ -91,14 +91,14 @@ TEST_F(HttpRig, AStopIsCarriedOutWhateverItsBodyQueryAndHeaderSay) {
   }
 }
 
-TEST_F(HttpRig, ABodyThatAStopIgnoresIsNotTakenForTheNextRequest) {
+TEST_F(HttpRig, IgnoredBodyOfAStopIsNotTheNextRequest) {
   HttpConnection connection(daemon.http());
   const std::string evil = request_text("POST", "/v1/queue:pause", "{}");
   EXPECT_EQ(connection.ask("POST", "/v1/rig:stop", evil).status, 200);
   EXPECT_EQ(connection.ask("GET", "/v1/queue").json().at("paused"), false);
 }
 
-TEST_F(HttpRig, APageOfAnotherSiteCannotStopTheRig) {
+TEST_F(HttpRig, OtherSitesCannotStopTheRig) {
   ann.make_ready();
   ASSERT_TRUE(ann.move_to(290, 5).ok());
   ASSERT_TRUE(rig.gets_to(5));
@@ -110,7 +110,7 @@ TEST_F(HttpRig, APageOfAnotherSiteCannotStopTheRig) {
   EXPECT_EQ(ann.rig().state(), v1::Rig::MOVING);
 }
 
-TEST_F(HttpRig, ADipIsCancelledWhateverTheBodyAndQuerySay) {
+TEST_F(HttpRig, CancellingADipIgnoresBodyAndQuery) {
   ann.make_ready();
   ann.go_to(8);
   v1::DipSpec spec = short_dip();
@@ -126,7 +126,7 @@ TEST_F(HttpRig, ADipIsCancelledWhateverTheBodyAndQuerySay) {
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::CANCELLED);
 }
 
-TEST_F(HttpRig, APageSeesTheRigMove) {
+TEST_F(HttpRig, StreamShowsTheRigMoving) {
   ann.make_ready();
   HttpConnection stream(daemon.http());
   stream.send(request_text("GET", "/v1/events:watch?topics=rig"));
@@ -148,7 +148,7 @@ TEST_F(HttpRig, APageSeesTheRigMove) {
       std::string::npos);
 }
 
-TEST_F(HttpRig, ThousandsOfConnectionsDoNotTouchTheRigsThread) {
+TEST_F(HttpRig, ThousandsOfConnectionsDoNotDelayTheRig) {
   ann.make_ready();
   const auto skipped = ann.rig().link_quality().skipped_polls();
   const auto missed = ann.rig().link_quality().missed_polls();

@@ -33,7 +33,7 @@ class HttpSession : public PeopleApi {
   }
 };
 
-TEST_F(HttpSession, IsACookieThatNoScriptReads) {
+TEST_F(HttpSession, CookieIsHiddenFromScripts) {
   const Browser maker = sign_in_there("maker");
   const HttpAnswer who = get("/v1/session", maker.cookie);
   EXPECT_EQ(who.status, 200) << who.body;
@@ -43,7 +43,7 @@ TEST_F(HttpSession, IsACookieThatNoScriptReads) {
   EXPECT_EQ(get("/v1/jobs", maker.cookie).status, 200);
 }
 
-TEST_F(HttpSession, WhatChangesSomethingNeedsWhatOnlyThePageKnows) {
+TEST_F(HttpSession, ChangesRequireTheCsrfToken) {
   const Browser admin = sign_in_there("admin");
   const auto pause = [&](const std::string& fields) {
     return post("/v1/queue:pause", {{"reason", "new film"}}, fields);
@@ -58,7 +58,7 @@ TEST_F(HttpSession, WhatChangesSomethingNeedsWhatOnlyThePageKnows) {
   EXPECT_EQ(pause(admin.both()).status, 200);
 }
 
-TEST_F(HttpSession, OfAnotherBrowserOpensNothing) {
+TEST_F(HttpSession, CsrfTokenOfAnotherSessionIsRefused) {
   const Browser viewer = sign_in_there("viewer");
   const Browser admin = sign_in_there("admin");
   const auto pause = [&](const std::string& fields) {
@@ -78,7 +78,7 @@ TEST_F(HttpSession, EndsWithSignOut) {
   EXPECT_EQ(get("/v1/jobs", maker.cookie).reason(), "SIGN_IN_NEEDED");
 }
 
-TEST_F(HttpSession, AScriptBringsAKeyAndNothingElse) {
+TEST_F(HttpSession, ApiKeyNeedsNoCsrfToken) {
   const std::string key = "Authorization: Bearer " + keys.at("operator") + "\r\n";
   EXPECT_EQ(post("/v1/queue:pause", {{"reason", "x"}}, key).status, 200);
   EXPECT_EQ(
@@ -87,7 +87,7 @@ TEST_F(HttpSession, AScriptBringsAKeyAndNothingElse) {
       401);
 }
 
-TEST_F(HttpSession, WrongPasswordsAreCountedAndSlowedDown) {
+TEST_F(HttpSession, WrongPasswordsAreCountedAndThrottled) {
   const auto attempt = [&] {
     return post("/v1/session:signIn", {{"user", "maker"}, {"password", "wrong"}});
   };
@@ -98,7 +98,7 @@ TEST_F(HttpSession, WrongPasswordsAreCountedAndSlowedDown) {
   EXPECT_EQ(get("/metrics").body.find("hydroprint_rejected_logins_total 0\n"), std::string::npos);
 }
 
-TEST_F(HttpSession, AStreamOfEventsEndsWithIt) {
+TEST_F(HttpSession, EventStreamEndsWithTheSession) {
   const Browser maker = sign_in_there("maker");
   HttpConnection stream(daemon.http());
   stream.send("GET /v1/events:watch?topics=queue HTTP/1.1\r\nHost: localhost\r\n" + maker.cookie +

@@ -30,7 +30,7 @@ class HttpEvents : public HttpTest {
   }
 };
 
-TEST_F(HttpEvents, AJobIsFollowedToItsEnd) {
+TEST_F(HttpEvents, JobIsFollowedToItsEnd) {
   const std::string name = simulate("sleep 0.5");
   HttpConnection stream = watch("/v1/" + name + ":watch?afterSeq=0");
   const auto events = until(stream, "end");
@@ -46,7 +46,7 @@ TEST_F(HttpEvents, AJobIsFollowedToItsEnd) {
   EXPECT_EQ(stream.ask("GET", "/v1/queue").status, 200);
 }
 
-TEST_F(HttpEvents, AStreamGoesOnBehindTheLastEventThatWasSeen) {
+TEST_F(HttpEvents, StreamResumesAfterTheLastEvent) {
   const std::string name = simulate("sleep 0.3");
   client.wait_for_end(name);
   const auto target = "/v1/" + name + ":watch?afterSeq=0";
@@ -63,7 +63,7 @@ TEST_F(HttpEvents, AStreamGoesOnBehindTheLastEventThatWasSeen) {
   EXPECT_EQ(get(target, "Last-Event-ID: x\r\n").reason(), "PARAMETER_INVALID");
 }
 
-TEST_F(HttpEvents, WhatIsRefusedBeforeTheFirstEventIsAnAnswer) {
+TEST_F(HttpEvents, ErrorBeforeTheFirstEventIsANormalResponse) {
   EXPECT_EQ(get("/v1/jobs/77:watch").status, 404);
   const HttpAnswer topic = get("/v1/events:watch?topics=weather");
   EXPECT_EQ(topic.status, 400);
@@ -71,7 +71,7 @@ TEST_F(HttpEvents, WhatIsRefusedBeforeTheFirstEventIsAnAnswer) {
   EXPECT_EQ(get("/v1/events:watch?afterSeq=99999").reason(), "EVENTS_GONE");
 }
 
-TEST_F(HttpEvents, OneStreamHasAllThatAPageShows) {
+TEST_F(HttpEvents, OneStreamHasAllTopics) {
   HttpConnection stream = watch("/v1/events:watch");
   const HttpEvent begin = stream.read_event();
   EXPECT_EQ(begin.kind, "begin");
@@ -96,7 +96,7 @@ TEST_F(HttpEvents, OneStreamHasAllThatAPageShows) {
   EXPECT_EQ(created.at("job").at("event").at("state"), "QUEUED");
 }
 
-TEST_F(HttpEvents, AllJobsAreInOneStreamAndNoneIsMissing) {
+TEST_F(HttpEvents, AllJobsAppearInOneStream) {
   HttpConnection stream = watch("/v1/events:watch?topics=job");
   std::string seq = stream.read_event().id;
   std::vector<std::string> names;
@@ -125,7 +125,7 @@ TEST_F(HttpEvents, AllJobsAreInOneStreamAndNoneIsMissing) {
   }
 }
 
-TEST_F(HttpEvents, ADaemonThatGoesDownSaysSoAndTheNextOneGoesOn) {
+TEST_F(HttpEvents, ShutdownEndsTheStreamAndTheNextDaemonResumesIt) {
   const std::string name = simulate("sleep 30");
   client.wait_for(name, v1::Job::RUNNING);
   HttpConnection stream = watch("/v1/events:watch?topics=job&afterSeq=0");
@@ -145,7 +145,7 @@ TEST_F(HttpEvents, ADaemonThatGoesDownSaysSoAndTheNextOneGoesOn) {
   EXPECT_EQ(again.read_event().json().at("job").at("event").at("job"), name);
 }
 
-TEST_F(HttpEvents, WhoLeavesFreesItsPlace) {
+TEST_F(HttpEvents, DisconnectFreesTheSlot) {
   for (int round = 0; round < 3; ++round) {
     std::vector<HttpConnection> streams;
     for (int i = 0; i < 100; ++i) {
@@ -164,7 +164,7 @@ TEST_F(HttpEvents, WhoLeavesFreesItsPlace) {
   }
 }
 
-TEST_F(HttpEvents, TheHundredAndTwentyNinthIsToldThatThereAreTooMany) {
+TEST_F(HttpEvents, The129thStreamIsRefused) {
   std::vector<HttpConnection> streams;
   for (int i = 0; i < 128; ++i) streams.push_back(watch("/v1/events:watch?topics=job"));
   const HttpAnswer more = get("/v1/events:watch");

@@ -54,25 +54,25 @@ class ServiceManager : public ::testing::Test {
   int socket_ = -1;
 };
 
-TEST_F(ServiceManager, HearsThatItIsReadyAndThatItStops) {
+TEST_F(ServiceManager, IsNotifiedOfReadyAndStopping) {
   notify_ready("serving 127.0.0.1:50051");
   EXPECT_EQ(heard(), "READY=1\nSTATUS=serving 127.0.0.1:50051");
   notify_stopping();
   EXPECT_TRUE(heard().starts_with("STOPPING=1"));
 }
 
-TEST_F(ServiceManager, FeedsWhileTheLoopGoesRound) {
+TEST_F(ServiceManager, WatchdogIsFedWhileTheLoopRuns) {
   std::atomic<std::uint64_t> rounds = 0;
   const WatchdogFeeder feeder([&] { return std::optional(++rounds); });
   for (int i = 0; i < 5; ++i) EXPECT_EQ(heard(), "WATCHDOG=1");
 }
 
-TEST_F(ServiceManager, FeedsWhereThereIsNoDrive) {
+TEST_F(ServiceManager, WatchdogIsFedWithoutADrive) {
   const WatchdogFeeder feeder([] { return std::nullopt; });
   for (int i = 0; i < 5; ++i) EXPECT_EQ(heard(), "WATCHDOG=1");
 }
 
-TEST_F(ServiceManager, StarvesALoopThatStandsStill) {
+TEST_F(ServiceManager, WatchdogIsNotFedWhenTheLoopHangs) {
   std::atomic<int> looks = 0;
   const WatchdogFeeder feeder([&] {
     ++looks;
@@ -83,7 +83,7 @@ TEST_F(ServiceManager, StarvesALoopThatStandsStill) {
   EXPECT_EQ(heard(MSG_DONTWAIT), "");
 }
 
-TEST_F(ServiceManager, IsNotFedWithoutAWatchdog) {
+TEST_F(ServiceManager, NothingIsSentWithoutAWatchdog) {
   ::unsetenv("WATCHDOG_USEC");
   std::atomic<int> looks = 0;
   {

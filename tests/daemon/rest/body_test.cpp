@@ -10,7 +10,7 @@ namespace {
 
 std::string body(const std::string& text) { return read("POST", "/r/all", text); }
 
-TEST(Body, AllFieldsOrOneOrNone) {
+TEST(Body, HoldsAllFieldsOneFieldOrNone) {
   EXPECT_EQ(body(R"({"text":"a","small_count":3})"), R"({"text":"a","smallCount":3})");
   EXPECT_EQ(body(R"({"text":null,"texts":null,"inner":null,"time":null,"left":null,"right":1})"),
             R"({"right":1})");
@@ -26,7 +26,7 @@ TEST(Body, AllFieldsOrOneOrNone) {
   EXPECT_EQ(read("GET", "/r/query?text=a", " { } "), R"({"text":"a"})");
 }
 
-TEST(Body, WherePathOrQuerySpeakItIsRefused) {
+TEST(Body, FieldsOfPathOrQueryAreRefused) {
   EXPECT_EQ(read("PUT", "/r/all/x/5", R"({"inner":{"text":"x"}})"),
             "JSON_INVALID inner.text: is given by the path");
   EXPECT_EQ(read("PUT", "/r/all/x/5", R"({"small":6})"),
@@ -38,7 +38,7 @@ TEST(Body, WherePathOrQuerySpeakItIsRefused) {
   }
 }
 
-TEST(Body, WhatIsNoJsonIsRefusedWithThePlace) {
+TEST(Body, InvalidJsonIsRefusedWithItsPlace) {
   const std::map<std::string, std::string> cases = {
       {"{", "line 1, column 2"},
       {"{\"text\": \"a\",\n \"small\": 1,}", "line 2, column 13"},
@@ -72,7 +72,7 @@ TEST(Body, WhatIsNoJsonIsRefusedWithThePlace) {
   }
 }
 
-TEST(Body, WhatIsNotOfTheRequestIsRefusedWithTheField) {
+TEST(Body, UnknownFieldsAreRefusedByName) {
   const std::map<std::string, std::string> cases = {
       {"[]", "request body: must be an object, { }"},
       {"null", "request body: must be an object, { }"},
@@ -161,7 +161,7 @@ TEST(Body, ValuesOfAnotherTypeAreRefused) {
   }
 }
 
-TEST(Body, ThirtyTwoLevelsAreReadAndNoMore) {
+TEST(Body, NestingIsLimitedTo32Levels) {
   const auto nested = [](std::size_t levels) {
     std::string text;
     for (std::size_t i = 1; i < levels; ++i) text += i == 1 ? R"({"inner":)" : R"({"deeper":)";

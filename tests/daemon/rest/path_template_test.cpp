@@ -23,7 +23,7 @@ std::optional<Values> values_of(const std::string& path_template, const std::str
   return match(*parsed, **parts);
 }
 
-TEST(PathTemplate, IsReadByTheGrammar) {
+TEST(PathTemplate, FollowsTheGrammar) {
   const auto parsed = parse_template("/v1/{a.b_c=jobs/*/x}/*/{d}:do-it");
   ASSERT_TRUE(parsed) << parsed.error().message;
   EXPECT_EQ(parsed->segments.size(), 6U);
@@ -35,7 +35,7 @@ TEST(PathTemplate, IsReadByTheGrammar) {
   EXPECT_EQ(parsed->variables[1].field_path, "d");
 }
 
-TEST(PathTemplate, WhatTheGrammarDoesNotHaveIsRefused) {
+TEST(PathTemplate, OtherTextIsRefused) {
   for (const char* text :
        {"",      "v1",       "/",     "/v1/",    "//v1",  "/v1:",      "/v1:a:b",   "/v1:a/b",
         "/{}",   "/{a",      "/{a=}", "/{a=b/}", "/{=b}", "/{a..b}",   "/{.a}",     "/{a.}",
@@ -46,7 +46,7 @@ TEST(PathTemplate, WhatTheGrammarDoesNotHaveIsRefused) {
   }
 }
 
-TEST(PathTemplate, AVerbIsNoPartOfTheLastVariable) {
+TEST(PathTemplate, VerbIsNotPartOfTheLastVariable) {
   EXPECT_EQ(values_of("/v1/{name=jobs/*}:cancel", "/v1/jobs/7:cancel"), Values{"jobs/7"});
   EXPECT_EQ(values_of("/v1/{name=jobs/*}", "/v1/jobs/7:cancel"), std::nullopt);
   EXPECT_EQ(values_of("/v1/{name=jobs/*}:cancel", "/v1/jobs/7"), std::nullopt);
@@ -59,7 +59,7 @@ TEST(PathTemplate, AVerbIsNoPartOfTheLastVariable) {
   EXPECT_EQ(values_of("/v1/{name}:cancel", "/v1/7:c%61ncel"), Values{"7"});
 }
 
-TEST(PathTemplate, OneSegmentIsDecodedOfSeveralASlashStays) {
+TEST(PathTemplate, SlashStaysEncodedInMultiSegmentVariables) {
   EXPECT_EQ(values_of("/{a}", "/x%2Fy%2fz%20%C3%A9%25"), Values{"x/y/z é%"});
   EXPECT_EQ(values_of("/{a=*}", "/x%2Fy"), Values{"x/y"});
   EXPECT_EQ(values_of("/{a=b/*}", "/b/x%2Fy%2fz%20%C3%A9"), Values{"b/x%2Fy%2fz é"});
@@ -81,7 +81,7 @@ TEST(PathTemplate, EmptySegmentsAndTrailingSlashesMatchNothing) {
   EXPECT_EQ(values_of("/a/{b=**}", "/a"), Values{""});
 }
 
-TEST(PathTemplate, WhatIsNoUrlIsRefused) {
+TEST(PathTemplate, InvalidUrlsAreRefused) {
   for (const char* path : {"/%", "/%4", "/%4/a", "/%zz", "/a%00", "/%c0%af", "/%e0%80%af",
                            "/%ed%a0%80", "/%f4%90%80%80", "/%ff", "/%c3", "/%c3/%a9", "/a b",
                            "/a\tb", "/a#b", "/\xc3\xa9", "/a\x7f", "a%", "//%"}) {
@@ -189,7 +189,7 @@ class Drawn {
   std::vector<std::size_t> groups_;  // group of each variable
 };
 
-TEST(PathTemplate, MatchesWhatARegularExpressionDoes) {
+TEST(PathTemplate, MatchesLikeARegularExpression) {
   Drawn drawn;
   std::size_t matched = 0;
   for (int i = 0; i < 400; ++i) {

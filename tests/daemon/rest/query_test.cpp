@@ -54,7 +54,7 @@ TEST(Query, EachTypeIsReadAsInJson) {
   EXPECT_EQ(read("GET", "/r/query?"), "{}");
 }
 
-TEST(Query, WhatIsNoValueIsRefusedByName) {
+TEST(Query, InvalidValuesAreRefusedByName) {
   const std::map<std::string, std::string> cases = {
       {"truth=1", R"(truth: "1" is not "true" or "false")"},
       {"truth=True", R"(truth: "True" is not "true" or "false")"},
@@ -108,14 +108,14 @@ TEST(Query, WhatIsNoValueIsRefusedByName) {
   EXPECT_EQ(call.error().metadata.at("field"), "inner.seq");
 }
 
-TEST(Query, WhatIsNoUrlIsRefused) {
+TEST(Query, InvalidUrlsAreRefused) {
   for (const char* text : {"text=%", "text=%4", "text=%zz", "text=%00", "text=%c0%80", "t%65xt=%ff",
                            "%00=x", "text=a b", "text=\xc3\xa9", "text=a#b", "text=%ed%a0%80"}) {
     EXPECT_EQ(query(text).substr(0, 11), "URL_INVALID") << text;
   }
 }
 
-TEST(Query, WhatPathOrBodyGiveIsRefused) {
+TEST(Query, FieldsOfPathOrBodyAreRefused) {
   EXPECT_EQ(read("GET", "/r/single/a?text=a"), "PARAMETER_INVALID text: is given by the path");
   EXPECT_EQ(read("PUT", "/r/all/a/1?inner.text=a"),
             "PARAMETER_INVALID inner.text: is given by the path");
@@ -127,7 +127,7 @@ TEST(Query, WhatPathOrBodyGiveIsRefused) {
             R"({"text":"a","inner":{},"both":{"text":"b"}})");
 }
 
-TEST(Path, ItsVariablesAreFieldsOfAnyType) {
+TEST(Path, VariablesMayHaveAnyFieldType) {
   EXPECT_EQ(read("GET", "/r/typed/true/-7/0.5/RED/AA=="),
             R"({"truth":true,"large":"-7","real":0.5,"raw":"AA==","colour":"RED"})");
   EXPECT_EQ(read("GET", "/r/typed/yes/-7/0.5/RED/AA=="),

@@ -25,7 +25,7 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(Routes, ARuleThatCannotBeMeantIsRefusedAtStart) {
+TEST(Routes, InvalidRulesAreRefusedAtStart) {
   const std::map<std::string, std::string> words = {
       {"SamePath", "a path matches hydroprint.rest.test.SamePath.One"},
       {"SamePathTwice", "a path matches"},
@@ -66,7 +66,7 @@ TEST(Routes, OnePathMayServeDifferentMethods) {
   EXPECT_TRUE(made->methods_at("/x/%").empty());
 }
 
-TEST(Routes, OfTheApiAllServicesAreThere) {
+TEST(Routes, ApiHasAllServices) {
   EXPECT_GE(api_services().size(), 7U);
   ASSERT_TRUE(Transcoder::make()) << Transcoder::make().error().message;
   for (const std::string& name : api_services()) {
@@ -75,7 +75,7 @@ TEST(Routes, OfTheApiAllServicesAreThere) {
   }
 }
 
-TEST(Routes, OfTheApiEachIsReachedByItsOwnMethodAndNoOther) {
+TEST(Routes, EachApiRouteHasOnlyItsOwnMethods) {
   const auto transcoder = Transcoder::make();
   const auto routes = read_routes(api_services());
   ASSERT_TRUE(transcoder && routes);
@@ -99,7 +99,7 @@ TEST(Routes, OfTheApiEachIsReachedByItsOwnMethodAndNoOther) {
 }
 
 // Requests that a browser sends on its own must not change anything.
-TEST(Routes, OfTheApiOnlyWhatReadsIsGet) {
+TEST(Routes, OnlyReadingMethodsOfTheApiUseGet) {
   const auto routes = read_routes(api_services());
   ASSERT_TRUE(routes);
   for (const Route& route : *routes) {
@@ -114,7 +114,7 @@ TEST(Routes, OfTheApiOnlyWhatReadsIsGet) {
   }
 }
 
-TEST(Routes, TheCallsOfTheApiThatStopMotionAreKnown) {
+TEST(Routes, StopsMotionIsSetOnTheStopCalls) {
   const auto routes = read_routes(api_services());
   ASSERT_TRUE(routes);
   std::set<std::string> stops;
@@ -125,7 +125,7 @@ TEST(Routes, TheCallsOfTheApiThatStopMotionAreKnown) {
                                           "hydroprint.v1.RigService.StopMotion"}));
 }
 
-TEST(Routes, AStopIsTheSameCallWhateverItsBodyAndQuerySay) {
+TEST(Routes, StopIgnoresBodyAndQuery) {
   const auto transcoder = Transcoder::make();
   ASSERT_TRUE(transcoder);
   for (const std::string path : {"/v1/rig:stop", "/v1/jobs/7:cancel"}) {
@@ -153,7 +153,7 @@ TEST(Routes, AStopIsTheSameCallWhateverItsBodyAndQuerySay) {
   EXPECT_FALSE(transcoder->stops_motion("POST", "/v1/nothing:stop"));
 }
 
-TEST(Routes, WhatIsWrittenByHandIsNoRouteOfTheApi) {
+TEST(Routes, HandWrittenRoutesAreNotInTheApi) {
   const auto transcoder = Transcoder::make();
   ASSERT_TRUE(transcoder);
   for (const OtherRoute& route : other_routes()) {
@@ -162,7 +162,7 @@ TEST(Routes, WhatIsWrittenByHandIsNoRouteOfTheApi) {
   }
 }
 
-TEST(Routes, AtNoPathOfTheApiThereIsNothing) {
+TEST(Routes, UnknownPathsAreNotFound) {
   const auto transcoder = Transcoder::make();
   ASSERT_TRUE(transcoder);
   for (const char* path : {"",
