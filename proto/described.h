@@ -4,8 +4,8 @@
 
 namespace hydroprint {
 
-/// All .proto files of the API and those they import, with their comments, which generated code
-/// does not keep: a google.protobuf.FileDescriptorSet, serialised.
+/// The API's .proto files and their imports as a serialised google.protobuf.FileDescriptorSet. It
+/// includes their comments, which generated code does not contain.
 [[nodiscard]] std::string_view described_protos();
 
 }  // namespace hydroprint

@@ -1,4 +1,4 @@
-// Writes what the OpenAPI document declares of fields that are sent (ranges, lengths, units, defaults) as a module.
+// Writes a module with the rules of request fields (ranges, lengths, units, defaults) from the OpenAPI document.
 // Usage: node rules.mjs openapi.json rules.ts
 import { readFileSync, writeFileSync } from 'node:fs';
 
@@ -20,7 +20,7 @@ const ruleOf = (property) =>
       .map(([name, keyword]) => [name, property[keyword]]),
   );
 
-// What goes both ways is declared as it is sent ("JobInput") and as it is answered ("Job").
+// Messages that are both sent and received have two schemas, such as "JobInput" (sent) and "Job" (received).
 const isSent = (name) => !(`${name}Input` in schemas);
 
 let module = "// Written by rules.mjs from the daemon's OpenAPI document.\n";

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <grpcpp/server_context.h>
-
 #include <string>
 
 #include "daemon/auth/account.h"
@@ -10,46 +8,39 @@
 
 namespace hydroprint::daemon {
 
-/// Identifies the caller from the metadata of a call (see PeopleService). Never waits. Thread-safe.
+/// Establishes the caller of a request from its credentials. Never waits. Any thread may call.
 class Authenticator {
  public:
-  /// @param open_on_loopback  while there are no users, callers on this machine are admin
+  /// @param open_on_loopback  whether everyone on this machine is admin while there are no users
   Authenticator(auth::Accounts& accounts, bool open_on_loopback)
       : accounts_(accounts), open_on_loopback_(open_on_loopback) {}
 
-  /// The caller.
-  /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for an invalid `hydroprint-owner`,
-  /// where that is used
-  [[nodiscard]] Result<auth::Caller> caller(const grpc::ServerContextBase& context) const {
-    return caller(context, true);
+  /// The caller; marks the session or key as used.
+  /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for a malformed `hydroprint-owner`
+  ///   where that name counts
+  [[nodiscard]] Result<auth::Caller> caller(const auth::Credentials& credentials) const {
+    return caller(credentials, true);
   }
-  /// Checks that the caller of a running stream is still authenticated. Streams call this several
-  /// times a second and end if it fails. It does not keep a session alive.
+  /// Whether the credentials of an established caller still hold. Streams ask this a few times a
+  /// second and end if not. Does not mark the session as used.
   /// @return kUnauthenticated, SIGN_IN_NEEDED
-  [[nodiscard]] Status check_still(const grpc::ServerContextBase& context) const;
-  /// The caller, if their role is sufficient. Errors as above; kPermissionDenied, ROLE_TOO_LOW.
-  [[nodiscard]] Result<auth::Caller> admit(const grpc::ServerContextBase& context,
-                                           auth::Role needed) const;
+  [[nodiscard]] Status check_still(const auth::Caller& caller) const;
 
  private:
-  [[nodiscard]] Result<auth::Caller> caller(const grpc::ServerContextBase& context,
+  [[nodiscard]] Result<auth::Caller> caller(const auth::Credentials& credentials,
                                             bool is_use) const;
 
   auth::Accounts& accounts_;
   bool open_on_loopback_;
 };
 
-/// Refuses (kPermissionDenied, ROLE_TOO_LOW) a caller with a lower role.
+/// Refuses (kPermissionDenied, ROLE_TOO_LOW) a caller with a lesser role.
 [[nodiscard]] Status check_role(const auth::Caller& caller, auth::Role needed);
 
-/// Address, without port, from which a call came. For HTTP it is the metadata `hydroprint-peer`,
-/// which only calls within this process can carry.
-[[nodiscard]] std::string peer_address(const grpc::ServerContextBase& context);
-
-/// Whether the address belongs to this machine. An empty address means a call within this process.
+/// Whether that is an address of this machine itself. An empty address is within this process.
 [[nodiscard]] bool is_loopback(const std::string& address);
 
-/// The value of a metadata key; empty if the call does not have it.
-[[nodiscard]] std::string metadata_of(const grpc::ServerContextBase& context, const char* name);
+/// The refusal (kUnauthenticated, SIGN_IN_NEEDED) of a request without a known caller.
+[[nodiscard]] tl::unexpected<Error> sign_in_needed(const auth::Credentials& credentials);
 
 }  // namespace hydroprint::daemon

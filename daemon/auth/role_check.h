@@ -1,11 +1,11 @@
 #pragma once
 
-#include <grpcpp/impl/service_type.h>
-
-#include <memory>
+#include <functional>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "daemon/auth/authenticator.h"
 
@@ -15,20 +15,40 @@ class MethodDescriptor;
 
 namespace hydroprint::daemon {
 
-/// The role required to call a method; nullopt: no sign-in is needed.
+/// The least role that may call a method; nullopt: no sign-in is needed.
 using Need = std::optional<auth::Role>;
 
-/// Reads the requirement of a method (access.proto).
-/// @return kInternal if the method states none, or both options
+/// The role that a method states in its options (access.proto).
+/// @return kInternal if it states none, or both a role and `without_sign_in`
 [[nodiscard]] Result<Need> need_of(const google::protobuf::MethodDescriptor& method);
 
-/// Wraps a service so that each method refuses unauthorized callers before it reads the request.
-/// Roles are checked only here. Methods in `check_themselves` are exempt: they use gRPC's callback
-/// API with their own threads, and must call Authenticator::admit.
-/// @param name  "hydroprint.v1.JobService"
-/// @return kInternal for a service with a method that states no role
-[[nodiscard]] Result<std::unique_ptr<grpc::Service>> guarded(
-    const std::string& name, std::unique_ptr<grpc::Service> inner, const Authenticator& access,
-    const std::set<std::string>& check_themselves);
+/// Admits requests, from their headers alone: the one place where roles are checked. Both endpoints
+/// ask it before they read a message or a body. Any thread may call.
+class RoleCheck {
+ public:
+  /// @param services  full names: "hydroprint.v1.JobService"
+  /// @return kInternal for a service that does not exist or a method that states no role
+  [[nodiscard]] static Result<RoleCheck> make(const Authenticator& authenticator,
+                                              const std::vector<std::string>& services);
+
+  /// Establishes the caller and checks the role. nullopt: the method needs no sign-in and the
+  /// caller is not known. A stop is never refused because of the name in `hydroprint-owner`.
+  /// @param method  "/hydroprint.v1.JobService/GetJob"
+  /// @return kUnauthenticated, SIGN_IN_NEEDED; kPermissionDenied, ROLE_TOO_LOW; kUnimplemented for
+  ///   an unknown method; as Authenticator::caller()
+  [[nodiscard]] Result<std::optional<auth::Caller>> admit(
+      std::string_view method, const auth::Credentials& credentials) const;
+
+ private:
+  explicit RoleCheck(const Authenticator& authenticator) : authenticator_(&authenticator) {}
+
+  struct Rule {
+    Need need;
+    bool stops_motion = false;
+  };
+
+  const Authenticator* authenticator_;
+  std::map<std::string, Rule, std::less<>> rules_;  // by method
+};
 
 }  // namespace hydroprint::daemon

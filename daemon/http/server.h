@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "daemon/auth/account.h"
 #include "daemon/http/protocol/limits.h"
 #include "daemon/tls/identity.h"
 #include "sim/base/result.h"
@@ -34,8 +37,13 @@ struct Health {
   std::string json;
 };
 
-/// Callbacks into the daemon. They may block: a separate thread calls them.
+/// Establishes the caller of an API method and checks its role (RoleCheck::admit). Never waits.
+using Admit = std::function<Result<std::optional<auth::Caller>>(std::string_view method,
+                                                                const auth::Credentials&)>;
+
+/// Callbacks into the daemon. health and metrics may block: a separate thread calls them.
 struct Sources {
+  Admit admit;
   std::function<Health()> health;
   std::function<std::string()> metrics;  ///< Prometheus text
 };

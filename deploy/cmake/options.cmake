@@ -1,20 +1,20 @@
-# What every target of the project is compiled with. Optimization and hardening are the packager's or the preset's
-# choice (CMAKE_BUILD_TYPE, CMAKE_CXX_FLAGS); nothing here changes their variables.
+# Compile options of all targets. Optimization and hardening are chosen by the packager or the preset
+# (CMAKE_BUILD_TYPE, CMAKE_CXX_FLAGS); nothing here changes these variables.
 
 option(HYDROPRINT_TESTS "Build the tests" ON)
 option(HYDROPRINT_BENCH "Build the benchmarks" ON)
 option(HYDROPRINT_DAEMON "Build the daemon and the client (needs gRPC)" ON)
-option(HYDROPRINT_FUZZ "Build the fuzzers in place of the tests (needs clang)" OFF)
+option(HYDROPRINT_FUZZ "Build the fuzzers instead of the tests (needs clang)" OFF)
 option(HYDROPRINT_WERROR "Treat warnings as errors" OFF)
 option(HYDROPRINT_ASSERTS "Keep the assertions of the libraries' headers (leave NDEBUG undefined)" OFF)
-option(HYDROPRINT_GROUP_FILES "Compile files of targets declared GROUPED several at once" OFF)
+option(HYDROPRINT_GROUP_FILES "Compile several files at once in targets declared GROUPED" OFF)
 set(HYDROPRINT_SANITIZE "" CACHE STRING "Sanitizers for the project's own code: address;undefined, or thread")
 
 add_library(hydroprint_options INTERFACE)
 target_include_directories(hydroprint_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_options(hydroprint_options INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
-  # The same numbers on every machine.
+  # Gives identical results on every machine.
   -ffp-contract=off
   # GCC 12 reports overlaps in std::string's operator+ that do not exist (its bug 105651).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
@@ -34,7 +34,7 @@ if(HYDROPRINT_SANITIZE)
   target_compile_options(hydroprint_options INTERFACE
     -fsanitize=${sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   if("undefined" IN_LIST HYDROPRINT_SANITIZE)
-    # AddressSanitizer catches what these look for, and they make up a third of the compile time.
+    # AddressSanitizer finds the same errors as these checks, which take a third of the compile time.
     target_compile_options(hydroprint_options INTERFACE -fno-sanitize=null,object-size,vptr)
   endif()
   target_link_options(hydroprint_options INTERFACE -fsanitize=${sanitizers})

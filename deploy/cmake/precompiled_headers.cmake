@@ -1,9 +1,9 @@
-# Sets of precompiled headers, which targets name with PRECOMPILED. They halve the time of a build. Every file still
-# includes what it needs: CMAKE_DISABLE_PRECOMPILE_HEADERS (preset `dev`) and tests/tidy compile without them.
+# Sets of precompiled headers, which targets select with PRECOMPILED. They halve the build time. Every file still includes
+# the headers that it needs: CMAKE_DISABLE_PRECOMPILE_HEADERS (preset `dev`) and tests/tidy compile without them.
 
 # hydroprint_precompiled_headers(SET HEADERS header... [LIBS target...])
-# Declares four variants: plain and OPTIMIZED, each also with GoogleTest. GCC optimizes a file that uses a precompiled
-# header as the header was optimized, whatever the command line says, so each way to optimize has its own.
+# Declares four variants: plain and OPTIMIZED, each also with GoogleTest. GCC ignores the optimization level on the
+# command line and uses that of the precompiled header, so every level needs its own header.
 function(hydroprint_precompiled_headers set)
   cmake_parse_arguments(arg "" "" "HEADERS;LIBS" ${ARGN})
   hydroprint_precompiled_variant(${set} "" ${ARGN})

@@ -1,16 +1,16 @@
-# How targets are declared. What a target needs is said where it is declared, and nowhere else:
+# Functions that declare targets. All properties of a target are in its declaration:
 #
 #   hydroprint_library(NAME SOURCES file... [PUBLIC lib...] [PRIVATE lib...] [DEFINES X=Y...]
 #                      [PRECOMPILED set] [OPTIMIZED] [GROUPED [ALONE file...]] [POSITION_INDEPENDENT])
-#   hydroprint_program(NAME ...)   the same
+#   hydroprint_program(NAME ...)   takes the same arguments
 #
-# PRECOMPILED: the set of precompiled headers (precompiled_headers.cmake); none without.
-# OPTIMIZED: -O3, for code that computes for seconds; other code gets the optimization of the build type.
-# GROUPED: the target's files may be compiled eight at once (HYDROPRINT_GROUP_FILES).
-# ALONE: files that are left out of the groups, because their private names collide with those of others.
-# POSITION_INDEPENDENT: for libraries that are linked into modules; these use no precompiled headers.
+# PRECOMPILED: the set of precompiled headers (precompiled_headers.cmake); default: none.
+# OPTIMIZED: -O3, for code that computes for seconds; other code uses the optimization of the build type.
+# GROUPED: files of the target may be compiled in groups of eight (HYDROPRINT_GROUP_FILES).
+# ALONE: files excluded from the groups because their private names collide with those of other files.
+# POSITION_INDEPENDENT: for libraries linked into modules; these use no precompiled headers.
 
-# What OPTIMIZED adds. Sanitizers are not for speed, and debuggers want the code as it was written.
+# Flags for OPTIMIZED. Not used in sanitizer builds, where speed does not matter, or in Debug builds.
 set(HYDROPRINT_OPTIMIZED $<$<NOT:$<CONFIG:Debug>>:-O3>)
 if(HYDROPRINT_SANITIZE)
   set(HYDROPRINT_OPTIMIZED "")
@@ -54,7 +54,7 @@ macro(hydroprint_target_properties name variant)
   if(arg_GROUPED AND HYDROPRINT_GROUP_FILES)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON)
     set_source_files_properties(${arg_ALONE} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    # A class may well hold what the anonymous namespace of its own file has.
+    # In grouped files, a class may legitimately have members of types from its file's anonymous namespace.
     target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
 endmacro()

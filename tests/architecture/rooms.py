@@ -1,4 +1,4 @@
-"""The rules of docs/architecture.md, as functions of file names and texts."""
+"""Checks the rules of docs/architecture.md on file names and texts."""
 
 import fnmatch
 import posixpath
@@ -7,24 +7,24 @@ import re
 LARGEST_ROOM = 35
 CODE = ('.h', '.cpp')
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
-# These keep the axis safe; their threads must not throw.
+# These folders keep the axis safe, and their threads must not throw.
 WITHOUT_CHECKS = ('hardware/rig', 'hardware/drive')
 ROW = re.compile(r'^\| `([^`]+)` \|([^|]*)\|', re.MULTILINE)
 
 
 def room_of(path):
-    """The folder of a file or of an included name; generated code of the API counts as `proto`."""
+    """Returns the folder of a file or an included name; generated API code counts as `proto`."""
     folder = posixpath.dirname(path)
     return 'proto' if folder.startswith(('hydroprint/v1', 'google/')) else folder
 
 
 def section(document, title):
-    """The text under a heading of the second level; empty without it."""
+    """Returns the text under a second-level heading; empty if the heading is missing."""
     return (document + f'\n## {title}\n').split(f'\n## {title}\n')[1].split('\n## ')[0]
 
 
 def allowed_arrows(document):
-    """{room: rooms that it may include}, from the table of the document."""
+    """Returns {room: rooms that it may include} from the table in the document."""
     table = {}
     for room, targets in ROW.findall(section(document, 'Allowed arrows')):
         if room in table:
@@ -34,12 +34,12 @@ def allowed_arrows(document):
 
 
 def headerless_files(document):
-    """Sources (names or patterns) that the document excuses from having a header of their own name."""
+    """Returns the sources (names or patterns) that need no header of the same name, according to the document."""
     return set(re.findall(r'`([^`\s]+\.cpp)`', section(document, 'Sources without a header')))
 
 
 def arrows(files):
-    """{(room, included room): [(file, included name)]} of {path: text}, without arrows within a room."""
+    """Returns {(room, included room): [(file, included name)]} for {path: text}, without includes within a room."""
     found = {}
     for path, text in files.items():
         if path.endswith(CODE):
@@ -50,7 +50,7 @@ def arrows(files):
 
 
 def cycle_in(table):
-    """The rooms of one cycle of arrows, or an empty list."""
+    """Returns the rooms of one include cycle, or an empty list."""
     state = {}
 
     def visit(room, path):
@@ -74,7 +74,7 @@ def cycle_in(table):
 
 
 def violations(files, document):
-    """What breaks the rules, one line each.
+    """Returns the violations of the rules, one line each.
 
     files: {path: text} of production code, paths from the root of the project.
     document: text of docs/architecture.md.
@@ -96,7 +96,7 @@ def _arrow_violations(files, document):
     for room, targets in sorted(table.items()):
         for target in sorted(targets):
             if (room, target) not in found:
-                yield f'docs/architecture.md allows {room} to include {target}, which nothing does'
+                yield f'docs/architecture.md allows {room} to include {target}, but no file does'
     for (room, _), places in sorted(found.items()):
         for path, name in places:
             if name == 'sim/base/check.h' and room in WITHOUT_CHECKS:
@@ -112,7 +112,7 @@ def _size_violations(files):
         sizes[posixpath.dirname(path)] = sizes.get(posixpath.dirname(path), 0) + 1
     for folder, size in sorted(sizes.items()):
         if size > LARGEST_ROOM:
-            yield f'{folder} holds {size} files; {LARGEST_ROOM} at most'
+            yield f'{folder} has {size} files; at most {LARGEST_ROOM} are allowed'
 
 
 def _header_violations(files, document):
@@ -121,7 +121,7 @@ def _header_violations(files, document):
         if not path.endswith('.cpp') or path[:-4] + '.h' in files or posixpath.basename(path) == 'main.cpp':
             continue
         if not any(fnmatch.fnmatchcase(path, pattern) for pattern in excused):
-            yield f'{path} has no header of its own name'
+            yield f'{path} has no header of the same name'
     for pattern in sorted(excused):
         if not fnmatch.filter(files, pattern):
             yield f'docs/architecture.md excuses {pattern}, which does not exist'

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""That check_rooms.py refuses what docs/architecture.md forbids, in small trees made up for it."""
+"""Tests that check_rooms.py reports violations of docs/architecture.md in small example trees."""
 
 import unittest
 
@@ -42,13 +42,13 @@ class Rooms(unittest.TestCase):
             ['sim/mesh/weld.h includes sim/flow/trace.h: no arrow from sim/mesh to sim/flow in docs/architecture.md'],
             found({'sim/mesh/weld.h': '#include "sim/flow/trace.h"\n'}))
 
-    def test_a_room_that_the_table_lacks_is_refused(self):
+    def test_a_room_missing_in_the_table_is_refused(self):
         self.assertEqual(['sim/new is not in the table of docs/architecture.md'],
                          found({'sim/new/thing.h': '#include "sim/mesh/surface.h"\n'}))
 
-    def test_an_arrow_that_nothing_uses_is_refused(self):
+    def test_an_unused_arrow_is_refused(self):
         document = DOCUMENT.replace('| `sim/mesh` | |', '| `sim/mesh` | `sim/film` |')
-        self.assertEqual(['docs/architecture.md allows sim/mesh to include sim/film, which nothing does'],
+        self.assertEqual(['docs/architecture.md allows sim/mesh to include sim/film, but no file does'],
                          found({}, document))
 
     def test_a_cycle_in_the_table_is_refused(self):
@@ -69,13 +69,13 @@ class Rooms(unittest.TestCase):
 
     def test_a_folder_of_36_files_is_refused(self):
         files = {f'sim/mesh/part{i}.h': '' for i in range(35)}
-        self.assertEqual(['sim/mesh holds 36 files; 35 at most'], found(files))
+        self.assertEqual(['sim/mesh has 36 files; at most 35 are allowed'], found(files))
 
     def test_a_source_without_its_header_is_refused(self):
-        self.assertEqual(['sim/mesh/weld.cpp has no header of its own name'],
+        self.assertEqual(['sim/mesh/weld.cpp has no header of the same name'],
                          found({'sim/mesh/weld.cpp': '#include "sim/mesh/surface.h"\n'}))
 
-    def test_an_excuse_for_a_file_that_is_gone_is_refused(self):
+    def test_an_exception_for_a_missing_file_is_refused(self):
         files = dict(KEPT)
         del files['sim/flow/reader.cpp']
         self.assertEqual(['docs/architecture.md excuses sim/flow/reader.cpp, which does not exist'],

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks every link, anchor and picture of the documents. Usage: check_links.py ROOT"""
+"""Checks all links, anchors and pictures in the documents. Usage: check_links.py ROOT"""
 
 import pathlib
 import sys

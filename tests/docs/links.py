@@ -1,4 +1,4 @@
-"""What the documents promise of themselves: links that lead somewhere, and a README of 60 to 80 lines."""
+"""Rules for the documents: every link has a target, and README.md has 60 to 80 lines."""
 
 import posixpath
 import re
@@ -11,7 +11,7 @@ HEADING = re.compile(r'^#+ +(.*?) *#*$', re.MULTILINE)
 
 
 def anchor_of(heading):
-    """The anchor that a heading gets: lower case, blanks as dashes, without punctuation."""
+    """Returns the anchor of a heading: lower case, spaces replaced by dashes, without punctuation."""
     text = re.sub(r'\[([^\]]*)\]\([^)]*\)', r'\1', heading).lower()
     return re.sub(r'[^\w\- ]', '', text).replace(' ', '-')
 
@@ -21,15 +21,15 @@ def anchors(text):
 
 
 def links(text):
-    """Targets of a document's links and pictures, without those in code."""
+    """Returns the targets of a document's links and pictures, except those in code."""
     return LINK.findall(CODE.sub('', FENCE.sub('', text)))
 
 
 def violations(documents, exists):
-    """What is wrong, one line each.
+    """Returns the violations of the rules, one line each.
 
     documents: {path: text} of all Markdown files, paths from the root of the project.
-    exists: tells whether a path, from the root, is there.
+    exists: returns True if a path, relative to the root, exists.
     """
     found = []
     for path, text in sorted(documents.items()):
@@ -37,7 +37,7 @@ def violations(documents, exists):
             found += _wrong_link(path, target, documents, exists)
     lines = len(documents.get('README.md', '').splitlines())
     if lines not in README_LINES:
-        found.append(f'README.md has {lines} lines; 60 to 80 are wanted')
+        found.append(f'README.md has {lines} lines, but must have 60 to 80')
     return found
 
 
@@ -47,7 +47,7 @@ def _wrong_link(path, target, documents, exists):
     name, _, anchor = target.partition('#')
     place = posixpath.normpath(posixpath.join(posixpath.dirname(path), name)) if name else path
     if place.startswith('..') or not exists(place):
-        return [f'{path}: {target} leads nowhere']
+        return [f'{path}: {target} does not exist']
     if anchor and anchor not in anchors(documents.get(place, '')):
-        return [f'{path}: {target}: {place} has no such heading']
+        return [f'{path}: {target}: {place} does not have this heading']
     return []

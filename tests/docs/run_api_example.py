@@ -17,7 +17,7 @@ ADDRESS = 'http://127.0.0.1:8080'  # in the example
 def main(root, folder_of_programs):
     example = re.search(r'```python\n(.*?)```', (root / 'docs/api.md').read_text(encoding='utf-8'), re.DOTALL)[1]
     if ADDRESS not in example:
-        raise SystemExit(f'the example of docs/api.md does not ask {ADDRESS}')
+        raise SystemExit(f'the example in docs/api.md does not use {ADDRESS}')
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         subprocess.run([folder_of_programs / 'hydroprint', 'sample', 'globe', '--out', folder / 's'], check=True)

@@ -1,4 +1,4 @@
-/** One of every role, so that each test is done by whoever would do it. */
+/** Accounts of every role, so that each test runs as a suitable user. */
 import type { Browser, Page } from 'playwright-core';
 import { visit, type Person } from './browser';
 
@@ -7,7 +7,7 @@ export const kPassword = 'correct horse battery';
 const kPeople = { otto: 'OPERATOR', mia: 'MAKER', max: 'MAKER', vera: 'VIEWER' } as const;
 export type Name = keyof typeof kPeople | 'root';
 
-/** Makes the admin root, and with their rights the others; all have the same password. */
+/** Creates the admin `root` and, signed in as root, the other users. All have the same password. */
 export async function addPeople(address: string): Promise<void> {
   const send = async (path: string, json: unknown, headers = {}) => {
     const response = await fetch(`${address}/v1/${path}`, {
@@ -23,13 +23,13 @@ export async function addPeople(address: string): Promise<void> {
   await add('root', 'ADMIN');
   const session = await send('session:signIn', { user: 'root', password: kPassword });
   const { csrfToken } = (await session.json()) as { csrfToken: string };
-  // The daemon sets one cookie; getSetCookie(), for several, is missing from Debian 12's Node.
+  // The daemon sets one cookie. getSetCookie(), which handles several, is missing in Debian 12's Node.
   const Cookie = session.headers.get('Set-Cookie')!.split(';')[0]!;
   for (const [name, role] of Object.entries(kPeople))
     await add(name as Name, role, { Cookie, 'X-Hydroprint-Csrf': csrfToken });
 }
 
-/** Signs in on the page that is open. */
+/** Signs in on the open page. */
 export async function signIn(page: Page, name: Name): Promise<void> {
   await page.getByLabel('Name').fill(name);
   await page.getByLabel('Password').fill(kPassword);
@@ -42,7 +42,7 @@ export interface Place {
   address: string;
 }
 
-/** Somebody who is signed in, at a screen. */
+/** Opens a screen as a signed-in user. */
 export async function come(
   { browser, address }: Place,
   name: Name,

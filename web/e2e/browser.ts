@@ -1,4 +1,4 @@
-/** Debian's Chromium, and people at it. */
+/** Debian's Chromium, and users of it. */
 import { chromium, type Browser, type BrowserContext, type Page } from 'playwright-core';
 
 export const launch = (): Promise<Browser> =>
@@ -17,7 +17,7 @@ export const launch = (): Promise<Browser> =>
     ],
   });
 
-/** Somebody at a browser of their own. `complaints` is what the page's console had to say. */
+/** A user with a browser context of their own. `complaints` are the errors in the page's console. */
 export interface Person {
   page: Page;
   context: BrowserContext;
@@ -34,7 +34,7 @@ export async function visit(browser: Browser, address: string, width = 1280): Pr
   const complaints: string[] = [];
   page.on('pageerror', (error) => complaints.push(String(error)));
   page.on('console', (message) => {
-    // What the daemon refuses is shown on the page; the browser's own line of it tells nothing new.
+    // The page shows refused requests itself, so the browser's own message about them is ignored.
     const isRefusal = /Failed to load resource|ERR_CONNECTION|ERR_INCOMPLETE/.test(message.text());
     if (message.type() === 'error' && !isRefusal) complaints.push(message.text());
   });
@@ -42,7 +42,7 @@ export async function visit(browser: Browser, address: string, width = 1280): Pr
   return { page, context, complaints };
 }
 
-/** Opens a screen by its address behind the "#". */
+/** Opens a screen by its path after the "#". */
 export async function open({ page }: Person, path: string): Promise<void> {
   await page.evaluate((to) => (location.hash = to), path);
 }

@@ -1,4 +1,4 @@
-/** What every screen is held against. */
+/** Checks that apply to every screen. */
 import { mkdirSync, readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
 import { join } from 'node:path';
@@ -10,13 +10,13 @@ const kScreens = join(root, 'build/tests/screens');
 const kWidths = [390, 1280];
 const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-/** Keeps a picture of the screen at both widths; by itself of what passes too soon for `look`. */
+/** Saves a screenshot at both widths. Called directly for states that pass too quickly for `look`. */
 export async function picture({ page }: Person, name: string): Promise<void> {
   mkdirSync(kScreens, { recursive: true });
   const before = page.viewportSize()!;
   for (const width of kWidths) {
     await page.setViewportSize({ width, height: width < 600 ? 844 : 860 });
-    // For what follows the window's size.
+    // Wait for elements that follow the size of the window.
     await page.evaluate(
       () => new Promise((done) => setTimeout(() => requestAnimationFrame(done), 80)),
     );
@@ -28,13 +28,13 @@ export async function picture({ page }: Person, name: string): Promise<void> {
         .filter((element) => element.getBoundingClientRect().right > clientWidth)
         .map((element) => element.outerHTML.slice(0, 120));
     });
-    expect(wide, `${name} at ${width} px is wider than its window`).toEqual([]);
-    expect(await page.evaluate(covered), `${name} at ${width} px: below the bar`).toBe('');
+    expect(wide, `${name} at ${width} px is wider than the window`).toEqual([]);
+    expect(await page.evaluate(covered), `${name} at ${width} px: covered by the bar`).toBe('');
   }
   await page.setViewportSize(before);
 }
 
-/** The last control of the screen, if the bar covers it even when all is scrolled up; runs in the page. */
+/** Returns the last control of the screen if the bar covers it even when scrolled to the end. Runs in the page. */
 function covered(): string {
   const before = window.scrollY;
   window.scrollTo(0, document.body.scrollHeight);
@@ -48,9 +48,9 @@ function covered(): string {
   return isCovered ? last.outerHTML.slice(0, 120) : '';
 }
 
-/** Nothing that axe calls serious or critical, in light and in dark. */
+/** Expects no serious or critical violations from axe, in light and dark colours. */
 async function isAccessible({ page }: Person, name: string): Promise<void> {
-  // By the debugger: the page's own policy lets no script in.
+  // Injected through the debugger, because the page's Content-Security-Policy allows no other scripts.
   await page.evaluate(axe);
   for (const colorScheme of ['light', 'dark'] as const) {
     await page.emulateMedia({ colorScheme });
@@ -62,11 +62,11 @@ async function isAccessible({ page }: Person, name: string): Promise<void> {
         .filter(({ impact }) => impact === 'serious' || impact === 'critical')
         .map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html).join(' | ')}`);
     });
-    expect(found, `${name}, ${colorScheme}: what axe finds serious`).toEqual([]);
+    expect(found, `${name}, ${colorScheme}: serious violations found by axe`).toEqual([]);
   }
 }
 
-/** Both, of a screen: pictures at both widths, and nothing serious in light and dark. */
+/** Takes screenshots at both widths and checks accessibility in light and dark colours. */
 export async function look(person: Person, name: string): Promise<void> {
   await picture(person, name);
   await isAccessible(person, name);

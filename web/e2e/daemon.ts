@@ -1,4 +1,4 @@
-/** The real programs, as a user starts them: hydroprintd with a virtual rig, a store of its own, any free ports. */
+/** Starts the real programs as a user would: hydroprintd with a virtual rig, its own state folder and free ports. */
 import { spawn, type ChildProcess } from 'node:child_process';
 import { mkdtempSync, openSync, rmSync, writeFileSync } from 'node:fs';
 import { connect } from 'node:net';
@@ -10,9 +10,9 @@ import { fileURLToPath } from 'node:url';
 export const root = resolve(fileURLToPath(new URL('.', import.meta.url)), '../..');
 export const bin = join(root, 'build/release/bin');
 
-const kWater_mm = 240; // axis position at which the gripper is level with the water
+const kWater_mm = 240; // axis position at which the gripper is at the water level
 
-/** Starts a program that says when it is ready, and what it then says: "http=127.0.0.1:8080" by its key. */
+/** Starts a program and waits for its ready line. `ready` holds its values by key, such as "http=127.0.0.1:8080". */
 async function start(
   name: string,
   args: string[],
@@ -55,7 +55,7 @@ export class Daemon {
     return made;
   }
 
-  /** Ends the daemon; `kill` leaves it no time. It comes back at the same address. */
+  /** Stops the daemon; `kill` stops it without cleanup. startDaemon() starts it at the same address. */
   async stopDaemon(how: 'ask' | 'kill' = 'ask'): Promise<void> {
     await end(this.daemon, how === 'kill' ? 'SIGKILL' : 'SIGTERM');
   }
@@ -83,12 +83,12 @@ export class Daemon {
     rmSync(this.folder, { recursive: true, force: true });
   }
 
-  /** Does to the virtual rig what a line to its control socket says: "camera gone", "clear". */
+  /** Sends a command to the virtual rig's control socket, such as "camera gone" or "clear". */
   async act(line: string): Promise<void> {
     const socket = connect(this.control);
     socket.end(`${line}\n`);
     const said = (await socket.toArray()).join('');
-    if (!said.startsWith('ok')) throw new Error(`the rig was told "${line}" and said "${said}"`);
+    if (!said.startsWith('ok')) throw new Error(`the rig answered "${said}" to "${line}"`);
   }
 
   private get control(): string {

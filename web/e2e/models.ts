@@ -2,7 +2,7 @@ import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { deflateSync } from 'node:zlib';
 
-/** A ball of radius 1 in units of its own, with a striped picture: ball.obj, ball.mtl, ball.png. */
+/** Writes a ball of radius 1 (in units of the file) with a striped texture: ball.obj, ball.mtl, ball.png. */
 export function makeBall(folder: string): { obj: string; mtl: string; png: string } {
   const [around, down] = [24, 12];
   const lines = ['mtllib ball.mtl', 'usemtl paint'];
@@ -27,7 +27,7 @@ export function makeBall(folder: string): { obj: string; mtl: string; png: strin
   return { obj: obj!, mtl: mtl!, png: png! };
 }
 
-/** The same ball, of 60 mm, as one file with all in it. */
+/** The same ball with a diameter of 60 mm, as a GLB with embedded texture. */
 export function ballGlb(): Buffer {
   const [around, down] = [24, 12];
   const positions: number[] = [];
@@ -95,7 +95,7 @@ function glb(json: string, bytes: Buffer): Buffer {
   ]);
 }
 
-/** A picture of so many pixels each way, in stripes. */
+/** A striped PNG of `size` by `size` pixels. */
 function stripes(size: number): Buffer {
   const rows = Array.from({ length: size }, (_, y) => [
     0,

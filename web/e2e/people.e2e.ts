@@ -1,4 +1,4 @@
-/** Accounts, from the first admin on: who may do what, and a viewer who may stop and nothing else. */
+/** Accounts and permissions: the first admin, other users, and a viewer who can only stop the rig. */
 import type { Browser, Page } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
 import { launch, open, visit } from './browser';
@@ -19,7 +19,7 @@ afterAll(async () => {
 const press = (page: Page, name: string | RegExp) =>
   page.getByRole('button', { name, exact: typeof name === 'string' }).click();
 
-/** What the daemon says to a request of this page's, with all that the page itself would send. */
+/** Sends a request from the page with the page's credentials; returns the HTTP status. */
 const ask = (page: Page, method: string, path: string, body: unknown): Promise<number> =>
   page.evaluate(
     async ([how, where, json]) => {
@@ -37,11 +37,11 @@ const ask = (page: Page, method: string, path: string, body: unknown): Promise<n
 const kHeads = {
   Keys: 'API keys',
   Sessions: 'Sessions',
-  Lease: 'Lease of the rig',
-  Audit: 'Audit',
+  Lease: 'Rig lease',
+  Audit: 'Audit log',
 } as const;
 
-// What is everybody's own: to stop, to come and go, and keys, sessions and password of theirs.
+// Allowed for every role: stop, sign in and out, and manage one's own keys, sessions and password.
 const kOwn = [
   'POST /v1/rig:stop',
   'POST /v1/session:signIn',
@@ -52,7 +52,7 @@ const kOwn = [
   'POST /v1/users/1:setPassword',
 ];
 
-/** All routes that change something, but those; by the daemon's own list of its routes. */
+/** All routes in the daemon's OpenAPI document that change something, except those in kOwn. */
 const changingRoutes = (page: Page): Promise<[string, string][]> =>
   page.evaluate(async (own) => {
     const { paths } = (await (await fetch('/openapi.json')).json()) as {
@@ -71,13 +71,13 @@ const changingRoutes = (page: Page): Promise<[string, string][]> =>
       );
   }, kOwn);
 
-test('the first screen is small, there within a second, and says what to do', async () => {
+test('the first screen is small and shows the first step', async () => {
   const person = await visit(browser, 'about:blank');
   const sizes: number[] = [];
   person.page.on('requestfinished', (request) => {
     request.sizes().then(
       ({ responseBodySize }) => sizes.push(responseBodySize),
-      () => {}, // of the stream, which ends with the page
+      () => {}, // the event stream, which ends with the page
     );
   });
   const begun = Date.now();
@@ -93,11 +93,11 @@ test('the first screen is small, there within a second, and says what to do', as
   await person.context.close();
 });
 
-test('all of it goes by keyboard, and one sees where one is', async () => {
+test('every control can be reached by keyboard, with a visible focus', async () => {
   const person = await visit(browser, daemon.address);
   const { page } = person;
   await page.getByRole('button', { name: 'Mug' }).waitFor();
-  // What has the focus, and whether that is to be seen.
+  // The focused element, and whether the focus is visible.
   const focused = () =>
     page.evaluate(() => {
       const element = document.activeElement as HTMLElement;
@@ -107,7 +107,7 @@ test('all of it goes by keyboard, and one sees where one is', async () => {
       const label = (element as HTMLInputElement).labels?.[0]?.innerText;
       return {
         name: (label ?? name).trim().split('\n')[0],
-        // Behind the last comes the browser itself.
+        // After the last control, the focus leaves the page.
         isSeen:
           element === document.body || (outlineStyle !== 'none' && parseFloat(outlineWidth) >= 2),
       };
@@ -119,11 +119,11 @@ test('all of it goes by keyboard, and one sees where one is', async () => {
       expect(at.isSeen, `the focus on "${at.name}"`).toBe(true);
       if (at.name === name) return;
     }
-    throw new Error(`Tab never comes to "${name}"`);
+    throw new Error(`"${name}" is not reached with Tab`);
   };
 
   await page.keyboard.press('Tab');
-  expect((await focused()).name).toBe('Skip to the content');
+  expect((await focused()).name).toBe('Skip to content');
   await page.keyboard.press('Enter');
   expect(await page.evaluate(() => document.activeElement?.id)).toBe('main');
   await tabTo('Choose files');
@@ -140,14 +140,14 @@ test('all of it goes by keyboard, and one sees where one is', async () => {
   await tabTo('More settings');
   await page.keyboard.press('Enter');
   await page.getByLabel('Dip speed').waitFor();
-  await tabTo('Compute the film image');
+  await tabTo('Simulate');
   await tabTo('Start over');
   await page.keyboard.press('Enter');
   await page.getByRole('button', { name: 'Choose files' }).waitFor();
 
-  // What asks once more keeps the focus, and Escape takes it back.
+  // A button that asks for confirmation keeps the focus, and Escape cancels.
   await open(person, '/rig');
-  await page.getByLabel('What for').focus();
+  await page.getByLabel('Purpose').focus();
   await tabTo('Take the rig');
   await page.keyboard.press('Enter');
   await page.getByRole('button', { name: 'Arm' }).waitFor();
@@ -158,18 +158,18 @@ test('all of it goes by keyboard, and one sees where one is', async () => {
   await page.locator('#main').focus();
   await tabTo('Disarm');
   await page.keyboard.press('Enter');
-  expect((await focused()).name).toBe('Disarm: the axis may sink');
+  expect((await focused()).name).toBe('Confirm disarm; the axis may sink');
   await page.keyboard.press('Escape');
   expect((await focused()).name).toBe('Disarm');
   await page.keyboard.press('Enter');
   await page.keyboard.press('Enter');
   await page.locator('.big', { hasText: 'Disarmed' }).waitFor({ timeout: 30_000 });
-  await page.getByRole('button', { name: 'Give it back' }).click();
+  await page.getByRole('button', { name: 'Release the rig' }).click();
   expect(person.complaints).toEqual([]);
   await person.context.close();
 });
 
-test('people from the first admin to a viewer, who may stop and nothing else', async () => {
+test('the first admin adds users; a viewer can stop the rig and change nothing else', async () => {
   const admin = await visit(browser, `${daemon.address}/#/people`);
   const { page } = admin;
   await page.getByText('There are no users yet').waitFor();
@@ -211,9 +211,9 @@ test('people from the first admin to a viewer, who may stop and nothing else', a
 
   const viewer = await visit(browser, daemon.address, 390);
   await signIn(viewer.page, 'vera');
-  await viewer.page.getByText('You may look, but not submit').waitFor();
+  await viewer.page.getByText('You can view this page but not submit').waitFor();
   await open(viewer, '/rig');
-  await viewer.page.getByText('You may look, and stop').waitFor();
+  await viewer.page.getByText('You can view the rig and stop it').waitFor();
   expect(await viewer.page.getByRole('button', { name: 'Take the rig' }).count()).toBe(0);
   await look(viewer, 'rig-viewer');
   await press(viewer.page, 'Stop');

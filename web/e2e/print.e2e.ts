@@ -1,4 +1,4 @@
-/** From a model to its film image, as somebody does it who is here for the first time. */
+/** From a model to its film image, as a first-time user does it. */
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -25,7 +25,7 @@ afterAll(async () => {
 
 const files = () => makeBall(mkdtempSync(join(daemon.folder, 'model-')));
 
-test('a maker signs in, drops a model, turns it, submits, watches; the film image is the worker’s own', async () => {
+test('a maker drops a model, turns it and submits; the film image equals the worker’s own', async () => {
   const person = await come(there, 'mia');
   const { page } = person;
   const { obj, mtl, png } = files();
@@ -36,25 +36,25 @@ test('a maker signs in, drops a model, turns it, submits, watches; the film imag
   await page.getByLabel('Longest side').fill('30');
   await page.getByRole('button', { name: '+90° x' }).click();
   await page.getByLabel('Turn about z').fill('30');
-  await page.getByLabel('To the right').fill('12,5');
+  await page.getByLabel('Offset to the right').fill('12,5');
   await page.getByLabel('Resolution').selectOption('150 dpi');
   await look(person, 'new-print');
 
-  // A reload loses nothing.
+  // A reload keeps everything.
   await page.reload();
   await page.locator('.stage canvas').waitFor();
   expect(await page.getByLabel('Longest side').inputValue()).toBe('30');
   expect(await page.getByLabel('Turn about z').inputValue()).toBe('30');
-  expect(await page.getByLabel('To the right').inputValue()).toBe('12.5');
+  expect(await page.getByLabel('Offset to the right').inputValue()).toBe('12.5');
 
-  await page.getByRole('button', { name: 'Compute the film image' }).click();
+  await page.getByRole('button', { name: 'Simulate' }).click();
   await page.waitForURL(/#\/jobs\/\d+$/);
   const name = page.url().split('#/')[1]!;
   await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
   await look(person, 'job-film');
 
   await page.getByRole('button', { name: /Compare with/ }).click();
-  await page.getByLabel(/Where the film image ends/).waitFor();
+  await page.getByLabel(/Position of the divider/).waitFor();
   await look(person, 'job-compare');
   await page.getByRole('radio', { name: 'Object' }).check();
   await page.locator('.stage canvas').waitFor();
@@ -62,7 +62,7 @@ test('a maker signs in, drops a model, turns it, submits, watches; the film imag
   await page.locator('.warnings button').first().click();
   await look(person, 'job-stretch');
   await page.getByRole('radio', { name: 'Contact time' }).check();
-  await page.getByLabel('Time of the dip').fill('3');
+  await page.getByLabel('Time since first contact').fill('3');
   await look(person, 'job-contact');
 
   await page.getByRole('radio', { name: 'Files' }).check();
@@ -82,7 +82,7 @@ test('a maker signs in, drops a model, turns it, submits, watches; the film imag
   await person.context.close();
 });
 
-/** The worker's own film image of the same. */
+/** Runs the worker directly with the same input and returns its film image. */
 function runWorker(
   obj: string,
   { scale, pose }: { scale: number; pose: { rotationWxyz: number[]; translationMm: number[] } },
@@ -101,7 +101,7 @@ function runWorker(
   return join(result, 'film.png');
 }
 
-test('while it is turned, a preview shows reach, stretch and what to heed', async () => {
+test('while the object is turned, a preview shows coverage, stretch and warnings', async () => {
   const person = await come(there, 'mia');
   const { page } = person;
   await page
@@ -112,15 +112,15 @@ test('while it is turned, a preview shows reach, stretch and what to heed', asyn
   const { obj, mtl, png } = files();
   await page.locator('input[type=file]').first().setInputFiles([obj, mtl, png]);
   await page.getByLabel('Longest side').fill('40');
-  const panel = page.getByRole('region', { name: 'As it hangs now' });
+  const panel = page.getByRole('region', { name: 'Preview' });
   const reached = async (): Promise<number> =>
-    Number(/reached\s*([\d.]+) %/.exec(await panel.innerText())?.[1]);
+    Number(/Coverage\s*([\d.]+) %/.exec(await panel.innerText())?.[1]);
   await panel.waitFor({ timeout: 60_000 });
-  // A ball that dips as deep as it can: all but what hangs in its own shadow.
+  // The ball is dipped fully; the film reaches all of it except the part that its own shape shields.
   expect(await reached()).toBeGreaterThan(60);
   await expect.poll(() => panel.locator('.problems li').count()).toBeGreaterThan(0);
   await page.getByRole('radio', { name: 'Stretch' }).check();
-  await page.getByText('Stretch of the film, estimated [times]').waitFor();
+  await page.getByText('Stretch of the film (estimate) [times]').waitFor();
   await look(person, 'new-print-preview');
 
   const before = await panel.innerText();
@@ -130,8 +130,8 @@ test('while it is turned, a preview shows reach, stretch and what to heed', asyn
   await asked;
   await expect.poll(() => panel.innerText()).not.toBe(before);
   expect(await reached()).toBeLessThan(60);
-  // Beside the film nothing is reached, and the page says so.
-  await page.getByLabel('To the right').fill('400');
+  // Beside the film, the page reports that the film does not reach the object.
+  await page.getByLabel('Offset to the right').fill('400');
   await panel.waitFor({ state: 'hidden' });
   await page
     .getByText(/beside the film|misses the film|does not meet/)
@@ -141,7 +141,7 @@ test('while it is turned, a preview shows reach, stretch and what to heed', asyn
   await person.context.close();
 });
 
-test('a GLB is shown in metres with the picture in it, and the worker takes it as it is shown', async () => {
+test('a GLB is read in metres with its embedded texture, on the page and by the worker', async () => {
   const person = await come(there, 'mia');
   const { page } = person;
   await page
@@ -150,19 +150,19 @@ test('a GLB is shown in metres with the picture in it, and the worker takes it a
   await page.locator('.stage canvas').waitFor();
   expect(await page.getByLabel('Longest side').inputValue()).toBe('60');
   expect(await page.getByLabel('One unit is').inputValue()).toBe('1000');
-  await page.getByRole('region', { name: 'As it hangs now' }).waitFor({ timeout: 60_000 });
+  await page.getByRole('region', { name: 'Preview' }).waitFor({ timeout: 60_000 });
   await look(person, 'new-print-glb');
   await page.getByLabel('Resolution').selectOption('150 dpi');
   await page.getByText('More settings').click();
   await page.getByLabel('Depth').fill('6');
-  await page.getByLabel('Computation').selectOption('MODEL_STOKES');
-  await page.getByRole('button', { name: 'Compute the film image' }).click();
+  await page.getByLabel('Simulation model').selectOption('MODEL_STOKES');
+  await page.getByRole('button', { name: 'Simulate' }).click();
   await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
   expect(person.complaints).toEqual([]);
   await person.context.close();
 });
 
-test('run again with changes begins with what the job was made of', async () => {
+test('running again with changes starts from the settings of the job', async () => {
   const person = await come(there, 'mia', 'jobs/1');
   const { page } = person;
   await page.getByRole('link', { name: 'Run again with changes' }).click();
@@ -170,43 +170,43 @@ test('run again with changes begins with what the job was made of', async () => 
   expect(await page.getByLabel('Longest side').inputValue()).toBe('30');
   expect(await page.getByLabel('Turn about z').inputValue()).toBe('30');
   await page.getByLabel('Resolution').selectOption('300 dpi');
-  await page.getByRole('button', { name: 'Compute the film image' }).click();
+  await page.getByRole('button', { name: 'Simulate' }).click();
   await page.waitForURL(/#\/jobs\/\d+$/);
   await page.locator('.film-viewer canvas').waitFor({ timeout: 240_000 });
-  await page.getByRole('button', { name: 'Make the PDF to print' }).click();
+  await page.getByRole('button', { name: 'Create PDF' }).click();
   await page.waitForURL(/#\/jobs\/\d+$/);
   await page.getByRole('link', { name: 'print.pdf' }).waitFor({ timeout: 60_000 });
   await look(person, 'job-pages');
   await page.context().close();
 });
 
-test('a job says how far it is; what is cancelled says so, and is tried again', async () => {
+test('a job shows its progress; a cancelled job says so and can be retried', async () => {
   const person = await come(there, 'mia', 'jobs');
   const { page } = person;
-  // The last one once more, finer: that takes its time.
+  // The first job again at a higher resolution, which takes longer.
   await page.locator('.jobs').getByRole('link', { name: 'ball' }).first().waitFor();
   await open(person, '/?from=jobs/1');
   await page.locator('.stage canvas').waitFor();
   await page.getByLabel('Resolution').selectOption('600 dpi');
-  await page.getByRole('button', { name: 'Compute the film image' }).click();
+  await page.getByRole('button', { name: 'Simulate' }).click();
   await page.getByRole('progressbar').waitFor({ timeout: 60_000 });
   await look(person, 'job-underway');
   await page.getByRole('button', { name: 'Cancel' }).click();
-  await page.getByRole('button', { name: 'Cancel it' }).click();
+  await page.getByRole('button', { name: 'Confirm cancel' }).click();
   await page.locator('h1', { hasText: 'cancelled' }).waitFor({ timeout: 30_000 });
   await look(person, 'job-cancelled');
   const cancelled = page.url();
-  await page.getByRole('button', { name: 'Try again' }).click();
+  await page.getByRole('button', { name: 'Retry' }).click();
   await expect.poll(() => page.url()).not.toBe(cancelled);
-  await page.getByText(/another try of/).waitFor();
+  await page.getByText(/retry of/).waitFor();
   await page.getByRole('button', { name: 'Cancel' }).click();
-  await page.getByRole('button', { name: 'Cancel it' }).click();
+  await page.getByRole('button', { name: 'Confirm cancel' }).click();
   await page.locator('h1', { hasText: 'cancelled' }).waitFor({ timeout: 30_000 });
   expect(person.complaints).toEqual([]);
   await person.context.close();
 });
 
-test('wrong files are refused, each with its reason and what to do', async () => {
+test('unusable files are refused, each with a reason and a remedy', async () => {
   const person = await come(there, 'mia');
   const { page } = person;
   const made = (name: string, text: string) => ({
@@ -235,19 +235,19 @@ test('wrong files are refused, each with its reason and what to do', async () =>
   await page.locator('input[type=file]').setInputFiles([made('short.obj', 'v 0 0 0\nf 1 2 3\n')]);
   await problems.getByText(/line 2/).waitFor();
   await look(person, 'new-print-refused');
-  expect(await page.getByRole('button', { name: 'Compute the film image' }).count()).toBe(0);
+  expect(await page.getByRole('button', { name: 'Simulate' }).count()).toBe(0);
   expect(person.complaints).toEqual([]);
   await page.context().close();
 });
 
-test('two people see each other’s jobs; a page heals when the daemon comes back', async () => {
+test('two users see each other’s jobs; a page recovers when the daemon returns', async () => {
   const [mia, max] = [await come(there, 'mia'), await come(there, 'max', 'jobs', 390)];
   await max.page.getByRole('link', { name: 'ball' }).first().waitFor();
   const before = await max.page.locator('.jobs tbody tr').count();
   const { obj, mtl, png } = files();
   await mia.page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
   await mia.page.getByLabel('Longest side').fill('25');
-  await mia.page.getByRole('button', { name: 'Compute the film image' }).click();
+  await mia.page.getByRole('button', { name: 'Simulate' }).click();
   await mia.page.waitForURL(/#\/jobs\/\d+$/);
   await expect
     .poll(() => max.page.locator('.jobs tbody tr').count(), { timeout: 15_000 })

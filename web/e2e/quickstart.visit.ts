@@ -1,6 +1,6 @@
 /**
- * A first visit by the one-time link that deploy/quickstart --keep ends with (HYDROPRINT_LINK), and the jobs of its loop,
- * which are of kinds that the page does not begin itself.
+ * A first visit through the one-time link that deploy/quickstart --keep prints (HYDROPRINT_LINK). It views jobs of the
+ * loop whose kinds cannot be started on the pages.
  */
 import type { Browser } from 'playwright-core';
 import { afterAll, beforeAll, expect, test } from 'vitest';
@@ -16,7 +16,7 @@ beforeAll(async () => {
 });
 afterAll(() => browser.close());
 
-/** Opens the newest job of that kind that is done. */
+/** Opens the newest successful job of that kind. */
 async function openJob(kind: string): Promise<void> {
   const name = await admin.page.evaluate(async (wanted) => {
     const { jobs } = (await (await fetch('/v1/jobs?pageSize=1000')).json()) as {
@@ -28,7 +28,7 @@ async function openJob(kind: string): Promise<void> {
   await admin.page.locator('h1', { hasText: 'done' }).waitFor();
 }
 
-test('the link signs the first admin in, and nobody a second time', async () => {
+test('the link signs the first admin in, and works only once', async () => {
   const { page } = admin;
   await page.getByRole('button', { name: 'Sign out' }).waitFor();
   expect(page.url()).not.toContain('sign-in');
@@ -39,7 +39,7 @@ test('the link signs the first admin in, and nobody a second time', async () => 
   expect(again.complaints).toEqual([]);
 });
 
-test('what the camera saw is shown frame by frame, with a scale', async () => {
+test('a capture is shown frame by frame, with a scale', async () => {
   const { page } = admin;
   await openJob('capture');
   const frame = page.getByRole('img', { name: /^Frame 1 of \d+/ });
@@ -48,15 +48,15 @@ test('what the camera saw is shown frame by frame, with a scale', async () => {
   await look(admin, 'job-capture');
 });
 
-test('a calibration says where the object hangs and how well that is known', async () => {
+test('a calibration shows the pose and its error', async () => {
   const { page } = admin;
   await openJob('calibrate');
   await page.getByRole('heading', { name: /^Calibration \d+/ }).waitFor();
-  await page.getByText(/Error, 95 % below/).waitFor();
-  await page.getByRole('img', { name: 'The scan over the object' }).waitFor();
+  await page.getByText('Error (95th percentile)').waitFor();
+  await page.getByRole('img', { name: 'The scan aligned with the object' }).waitFor();
   await look(admin, 'job-calibrate');
   await openJob('calibrateCamera');
-  await page.getByText('Board fits to').waitFor();
+  await page.getByText('Residual on the board (rms)').waitFor();
   await look(admin, 'job-calibrate-camera');
 });
 
@@ -76,16 +76,14 @@ test('a new print takes its pose from the calibration', async () => {
   });
   await open(admin, `/?from=${found.job}`);
   await page.locator('.stage canvas').waitFor();
-  await page.getByLabel('Pose').selectOption(found.calibration.name);
-  await page.getByText(/The calibration gives pose, film and scale/).waitFor();
-  // The rig of the loop has dipped and moved since.
-  await page.getByText(/It does not hold any more/).waitFor();
-  expect(await page.getByRole('button', { name: 'Compute the film image' }).isDisabled()).toBe(
-    true,
-  );
-  await page.getByRole('heading', { name: 'As it hangs now' }).waitFor();
+  await page.getByLabel('Source of the pose').selectOption(found.calibration.name);
+  await page.getByText(/Pose, film and scale come from the calibration/).waitFor();
+  // The rig of the loop has moved and dipped since the calibration.
+  await page.getByText(/This calibration is no longer valid/).waitFor();
+  expect(await page.getByRole('button', { name: 'Simulate' }).isDisabled()).toBe(true);
+  await page.getByRole('heading', { name: 'Preview' }).waitFor();
   await look(admin, 'new-print-measured');
-  await page.getByLabel('Pose').selectOption('');
+  await page.getByLabel('Source of the pose').selectOption('');
   await page.getByLabel('Turn about z').waitFor();
   expect(admin.complaints).toEqual([]);
 });

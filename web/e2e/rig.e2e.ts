@@ -1,4 +1,4 @@
-/** Commanding the rig, and a dip from its first step to its last. */
+/** Control of the rig, and a complete dip. */
 import { mkdtempSync } from 'node:fs';
 import { join } from 'node:path';
 import type { Browser, Page } from 'playwright-core';
@@ -31,7 +31,7 @@ async function becomesReady(page: Page): Promise<void> {
   await page.locator('.big', { hasText: 'Ready' }).waitFor({ timeout: 60_000 });
 }
 
-/** Takes the rig and gets it ready, however the person before left it. */
+/** Takes the rig, and arms and homes it if needed. */
 async function takeReady(page: Page): Promise<void> {
   await press(page, 'Take the rig');
   await page.locator('.big', { hasText: /Ready|Disarmed/ }).waitFor();
@@ -42,7 +42,7 @@ async function takeReady(page: Page): Promise<void> {
   await becomesReady(page);
 }
 
-/** Types key by key into a field, and leaves it: "30" is in range on the way to "300". */
+/** Types into a field key by key and leaves it, because "30" on the way to "300" is in range. */
 async function type(page: Page, label: string, text: string): Promise<void> {
   const field = page.getByLabel(label);
   await field.fill('');
@@ -50,19 +50,19 @@ async function type(page: Page, label: string, text: string): Promise<void> {
   await field.blur();
 }
 
-test('the rig is taken, armed, homed, moved, jogged, and stopped from every screen', async () => {
+test('the rig is taken, armed, homed, moved and jogged, and stopped from another screen', async () => {
   const operator = await come(there, 'otto', 'rig');
   const { page } = operator;
   await page.getByText('Disarmed').waitFor();
   await look(operator, 'rig-free');
 
   const other = await come(there, 'mia', 'rig', 390);
-  await page.getByLabel('What for').fill('<b>the mug</b>');
+  await page.getByLabel('Purpose').fill('<b>the mug</b>');
   await press(page, 'Take the rig');
   await press(page, 'Arm');
   await press(page, 'Home');
   await becomesReady(page);
-  // Names from strangers are text.
+  // Untrusted text is not interpreted as HTML.
   await other.page.getByText('<b>the mug</b>').waitFor();
   expect(await other.page.getByRole('button', { name: 'Move', exact: true }).count()).toBe(0);
   await look(other, 'rig-taken');
@@ -70,7 +70,7 @@ test('the rig is taken, armed, homed, moved, jogged, and stopped from every scre
   await page.getByLabel('Move to').fill('120');
   await press(page, 'Move');
   await page.locator('.big', { hasText: 'Moving' }).waitFor();
-  // Stop, from another screen and without the lease.
+  // Stop from another screen, without the lease.
   await open(other, '/');
   await press(other.page, 'Stop');
   await becomesReady(page);
@@ -88,22 +88,22 @@ test('the rig is taken, armed, homed, moved, jogged, and stopped from every scre
   expect(await position_mm(page)).toBeCloseTo(rest, 1);
   await look(operator, 'rig-commands');
 
-  // A reload loses nothing: the rig is still theirs.
+  // A reload keeps the lease.
   await page.reload();
-  await page.getByText('The rig is yours').waitFor();
+  await page.getByText('You control the rig').waitFor();
   await page.getByLabel('Move to').fill('20');
   await press(page, 'Move');
   await page.locator('.big', { hasText: 'Moving' }).waitFor();
   await page.keyboard.press('Escape');
   await becomesReady(page);
-  await press(page, 'Give it back');
+  await press(page, 'Release the rig');
   await page.getByRole('heading', { name: 'Take the rig' }).waitFor();
   expect(operator.complaints.concat(other.complaints)).toEqual([]);
   await other.context.close();
   await operator.context.close();
 });
 
-test('a number that the rig cannot take stays as it was typed, and nothing moves', async () => {
+test('a number out of range stays as typed, and nothing moves', async () => {
   const person = await come(there, 'otto', 'rig');
   const { page } = person;
   const target = page.getByLabel('Move to');
@@ -126,7 +126,7 @@ test('a number that the rig cannot take stays as it was typed, and nothing moves
   }
   expect(await position_mm(page)).toBeCloseTo(rest, 2);
 
-  // Nor does it become another value while something else goes on.
+  // The typed number also stays unchanged while the axis is jogged.
   await type(page, 'Move to', '300');
   const down = page.getByRole('button', { name: 'Down' });
   await down.focus();
@@ -146,19 +146,19 @@ test('a number that the rig cannot take stays as it was typed, and nothing moves
   await press(page, 'Move');
   await expect.poll(() => position_mm(page), { timeout: 30_000 }).toBe(30.25);
   await becomesReady(page);
-  await press(page, 'Give it back');
+  await press(page, 'Release the rig');
   expect(person.complaints).toEqual([]);
   await person.context.close();
 });
 
-test('the depth camera is shown live, to everybody, and says when it is not', async () => {
+test('the depth camera is shown live to every user, and a missing picture is reported', async () => {
   const person = await come(there, 'vera', 'rig');
   const { page } = person;
   let asked = 0;
   page.on('request', (request) => (asked += request.url().includes('depthPicture') ? 1 : 0));
   const shown = page.getByRole('img', { name: /^Depth over the vat at .* mm from the camera/ });
   await shown.waitFor({ timeout: 60_000 });
-  // Viridis from end to end: something violet, something yellow.
+  // The picture uses both ends of viridis: violet and yellow.
   const colours = await shown.evaluate((canvas: HTMLCanvasElement) => {
     const { data } = canvas.getContext('2d')!.getImageData(0, 0, canvas.width, canvas.height);
     const found = { violet: 0, yellow: 0 };
@@ -185,12 +185,12 @@ test('the depth camera is shown live, to everybody, and says when it is not', as
   await page.getByRole('heading', { name: 'Jobs' }).waitFor();
   const before = asked;
   await page.waitForTimeout(2500);
-  expect(asked, 'nobody looks any more').toBe(before);
+  expect(asked, 'requests after leaving the screen').toBe(before);
   expect(person.complaints).toEqual([]);
   await person.context.close();
 });
 
-test('a dip, one large button a step', async () => {
+test('a dip is guided step by step with one large button', async () => {
   const person = await come(there, 'otto');
   const { page } = person;
   const { obj, mtl, png } = makeBall(mkdtempSync(join(daemon.folder, 'model-')));
@@ -200,32 +200,32 @@ test('a dip, one large button a step', async () => {
   await type(page, 'Depth', '4000');
   await page.getByText('Out of range. Enter 0.1 to 2000 mm.').waitFor();
   await page.getByText('Correct “Depth” first').waitFor();
-  const compute = page.getByRole('button', { name: 'Compute the film image' });
+  const compute = page.getByRole('button', { name: 'Simulate' });
   expect(await compute.isDisabled()).toBe(true);
   expect(await page.getByLabel('Depth').inputValue()).toBe('4000');
   await look(person, 'new-print-out-of-range');
   await page.getByLabel('Depth').fill('4');
-  await page.getByLabel('Computation').selectOption('MODEL_STOKES');
+  await page.getByLabel('Simulation model').selectOption('MODEL_STOKES');
   await page.getByLabel('Resolution').selectOption('150 dpi');
-  await press(page, 'Compute the film image');
-  await page.getByRole('link', { name: 'Dip it' }).click({ timeout: 240_000 });
+  await press(page, 'Simulate');
+  await page.getByRole('link', { name: 'Dip', exact: true }).click({ timeout: 240_000 });
 
   await takeReady(page);
-  await page.getByText('Settings of the dip').click();
-  const begin = page.getByRole('button', { name: 'Begin the dip' });
-  await type(page, 'Film soaks', '36000');
+  await page.getByText('Dip settings').click();
+  const begin = page.getByRole('button', { name: 'Start the dip' });
+  await type(page, 'Soak time', '36000');
   await page.getByText('Out of range. Enter 0 to 3600 s.').waitFor();
-  await page.getByText('Correct “Film soaks” first.').waitFor();
+  await page.getByText('Correct “Soak time” first.').waitFor();
   expect(await begin.isDisabled()).toBe(true);
-  expect(await page.getByLabel('Film soaks').inputValue()).toBe('36000');
+  expect(await page.getByLabel('Soak time').inputValue()).toBe('36000');
   await look(person, 'rig-dip-out-of-range');
-  await page.getByLabel('Film soaks').fill('3');
-  await page.getByLabel('Activator works').fill('2');
-  await page.getByLabel('Hold at the depth').fill('1');
+  await page.getByLabel('Soak time').fill('3');
+  await page.getByLabel('Activation time').fill('2');
+  await page.getByLabel('Hold time at depth').fill('1');
   await look(person, 'rig-dip-begin');
-  await press(page, 'Begin the dip');
+  await press(page, 'Start the dip');
   await press(page, 'The film is printed');
-  await press(page, 'The object hangs');
+  await press(page, 'The object is mounted');
   await page.getByText(/step 3 of 12/).waitFor();
   const down = page.getByRole('button', { name: 'Down' });
   await page.getByRole('radio', { name: '10 mm/s' }).check();
@@ -235,18 +235,18 @@ test('a dip, one large button a step', async () => {
   await page.keyboard.up('Space');
   await becomesReady(page);
   await look(person, 'rig-dip-contact');
-  await press(page, 'It all but touches the water');
+  await press(page, 'The object almost touches the water');
   await press(page, 'The film floats between the bars');
   await page.getByRole('timer').first().waitFor();
   await picture(person, 'rig-dip-soak');
   await press(page, 'The activator is sprayed');
-  await page.getByText(/The film is good for/).waitFor();
-  await press(page, 'Hands are off: dip now');
+  await page.getByText(/The film can be used for/).waitFor();
+  await press(page, 'Hands are clear, dip now');
   await page.locator('.big', { hasText: 'Dipping' }).waitFor();
   await picture(person, 'rig-dipping');
   await page.getByText('The dip has ended').waitFor({ timeout: 60_000 });
   await look(person, 'rig-dip-end');
-  await page.getByRole('link', { name: 'Record of this dip' }).click();
+  await page.getByRole('link', { name: 'Dip record' }).click();
   await page.locator('h1', { hasText: 'done' }).waitFor();
   await page.getByRole('link', { name: 'positions.csv' }).waitFor();
   await look(person, 'job-dip');

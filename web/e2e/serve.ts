@@ -1,7 +1,7 @@
-/** Daemon and virtual rig to try the page by hand, until Ctrl-C; the store is gone with them. */
+/** Runs a daemon and a virtual rig for manual tests until Ctrl-C, then deletes their state folder. */
 import { Daemon } from './daemon';
 
 const daemon = await Daemon.start();
-console.log(`${daemon.address}   (logs in ${daemon.folder}; Ctrl-C ends it)`);
+console.log(`${daemon.address}   (logs in ${daemon.folder}; Ctrl-C to stop)`);
 for (const signal of ['SIGINT', 'SIGTERM'] as const)
   process.once(signal, () => void daemon.stop().then(() => process.exit(0)));

@@ -1,6 +1,6 @@
 import { defineConfig } from 'vitest/config';
 
-// Through a real browser, daemon and (virtual) rig: one after the other, and with patience on a busy machine.
+// Uses a real browser, daemon and virtual rig. The tests run one after another, with long timeouts for busy machines.
 export default defineConfig({
   test: {
     include: ['e2e/*.e2e.ts'],

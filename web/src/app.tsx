@@ -28,7 +28,7 @@ export function App() {
         <SignIn />
       </Frame>
     );
-  return <Frame>{who.value ? <Screen /> : <p class="quiet">Asking the daemon…</p>}</Frame>;
+  return <Frame>{who.value ? <Screen /> : <p class="quiet">Loading…</p>}</Frame>;
 }
 
 function Screen() {
@@ -45,7 +45,7 @@ function Frame({ children }: { children: ComponentChildren }) {
   return (
     <>
       <a class="skip" href="#main" onClick={toMain}>
-        Skip to the content
+        Skip to content
       </a>
       <header class="bar">
         <span class="brand">Hydroprint</span>
@@ -62,7 +62,7 @@ function Frame({ children }: { children: ComponentChildren }) {
   );
 }
 
-// The hash is the route's: the browser's own jump would leave it.
+// The hash holds the route; the browser's default action would replace it.
 function toMain(event: Event): void {
   event.preventDefault();
   document.getElementById('main')?.focus();
@@ -111,14 +111,14 @@ function Account() {
 
 const kStopText = { ready: 'Stop', sending: 'Stopping…', stopped: 'Stopped', failed: 'Stop again' };
 
-/** Always in reach, for everyone who is signed in; needs no lease and does no harm. */
+/** Shown on every screen to everyone who is signed in. A stop needs no lease and is always safe. */
 function StopButton() {
   return (
     <button
       type="button"
       class={`stop ${isMoving.value ? 'moving' : ''}`}
       onClick={() => void stop()}
-      title="Stops the rig (Escape, while it moves)"
+      title="Stops the rig. While it moves, Escape does the same."
     >
       {kStopText[stopState.value]}
     </button>
@@ -139,8 +139,8 @@ function ConnectionBanner() {
   if (!who.value || link.value !== 'lost') return null;
   return (
     <p class="banner" role="status">
-      The connection to the daemon is lost; trying again. What you see may be old. Stop is still
-      tried: if it fails, press the stop button on the rig.
+      The connection to the daemon is lost; trying again. This page may be out of date. Stop is
+      still sent, but if it fails, press the stop button on the rig.
     </p>
   );
 }

@@ -1,22 +1,22 @@
 /**
- * What happens at the daemon, as it happens: one stream for the page. A connection that breaks is made again, and
- * what was missed meanwhile is asked for, so that the page is right without a reload.
+ * The daemon's event stream, one for the whole page. A broken connection is opened again and the missed state is
+ * fetched, so the page stays correct without a reload.
  */
 import { signal } from '@preact/signals';
 import { address } from './api/call';
 
 export type Link = 'connecting' | 'live' | 'lost';
 
-/** How the connection to the daemon is. */
+/** State of the connection to the daemon. */
 export const link = signal<Link>('connecting');
 
-/** Counts how often the stream began: whoever shows something asks for it anew then. */
+/** Number of times that the stream was opened. Views fetch their data again when it changes. */
 export const beginnings = signal(0);
 
 type Listener = (data: unknown) => void;
 const listeners = new Map<string, Set<Listener>>();
 
-/** Calls `listener` with each event of that topic ("job", "rig", "queue"); returns how to end that. */
+/** Calls `listener` with each event of the topic ("job", "rig", "queue"); returns a function that unsubscribes. */
 export function on(topic: string, listener: Listener): () => void {
   const all = listeners.get(topic) ?? new Set();
   listeners.set(topic, all);
@@ -27,7 +27,7 @@ export function on(topic: string, listener: Listener): () => void {
 const kTopics = ['job', 'rig', 'queue'];
 const kFirstWait_ms = 500;
 const kLongestWait_ms = 10_000;
-// The rig is told of every 2 s at least; so long without a word, and the connection is dead.
+// The daemon sends the rig's state at least every 2 s. After this much silence, the connection is dead.
 const kSilence_ms = 12_000;
 
 let source: EventSource | undefined;
@@ -35,7 +35,7 @@ let wait_ms = kFirstWait_ms;
 let timer: number | undefined;
 let heard = 0;
 
-/** Opens the stream, and keeps it open. */
+/** Opens the stream and keeps it open. */
 export function connect(): void {
   window.clearTimeout(timer);
   source?.close();
@@ -48,7 +48,7 @@ export function connect(): void {
     link.value = 'live';
     beginnings.value += 1;
   };
-  // While CONNECTING the browser tries by itself, from the last id on; CLOSED it gave up.
+  // In state CONNECTING the browser retries from the last event id. In state CLOSED it has stopped retrying.
   opened.onerror = () => {
     link.value = 'lost';
     if (opened.readyState === EventSource.CLOSED) again();
@@ -56,7 +56,7 @@ export function connect(): void {
   for (const topic of kTopics) opened.addEventListener(topic, (event) => take(topic, event));
 }
 
-/** Ends the stream, as when somebody signs out. */
+/** Closes the stream, for example when the user signs out. */
 export function disconnect(): void {
   window.clearTimeout(timer);
   source?.close();
@@ -90,7 +90,7 @@ function checkSilence(): void {
 
 if (typeof window !== 'undefined') {
   window.setInterval(checkSilence, 3000);
-  // A phone that was asleep, or a network that came back: at once, not when the wait is over.
+  // When a phone wakes up or the network returns, reconnect at once instead of waiting for the timer.
   window.addEventListener('online', () => source && connect());
   document.addEventListener('visibilitychange', () => source && link.value === 'lost' && connect());
 }

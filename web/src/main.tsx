@@ -5,7 +5,7 @@ import { complain } from './state/notices';
 import './theme';
 import './style.css';
 
-/** A one-time link is "/sign-in#TOKEN"; the token leaves the address bar at once. */
+/** A one-time link is "/sign-in#TOKEN". The token is removed from the address bar at once. */
 async function start(): Promise<void> {
   const token = location.pathname === '/sign-in' ? location.hash.slice(1) : '';
   if (location.pathname !== '/') history.replaceState(null, '', '/');
@@ -15,7 +15,7 @@ async function start(): Promise<void> {
   mustSignIn.value = true;
   complain({
     ...answer.failure,
-    remedy: 'A link works once, for 15 minutes: ask for a new one, or sign in with your password',
+    remedy: 'A link works once, for 15 minutes. Ask for a new one, or sign in with your password',
   });
 }
 

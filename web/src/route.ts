@@ -1,4 +1,4 @@
-/** Where in the page we are: "#/jobs/7". */
+/** The current route of the page, such as "#/jobs/7". */
 import { computed, signal } from '@preact/signals';
 
 const read = (): string => location.hash.replace(/^#/, '') || '/';
@@ -10,7 +10,7 @@ if (typeof window !== 'undefined')
     window.scrollTo(0, 0);
   });
 
-/** The parts of the path, and the query. */
+/** The segments of the path, and the query. */
 export const route = computed(() => {
   const [path = '', query = ''] = hash.value.split('?');
   return { parts: path.split('/').filter(Boolean), query: new URLSearchParams(query) };
@@ -20,5 +20,5 @@ export const go = (path: string): void => {
   location.hash = path;
 };
 
-/** Address of a job's screen. */
+/** The URL of a job's screen. */
 export const jobPath = (name: string): string => `#/${name}`;

@@ -1,4 +1,4 @@
-/** Light or dark: the system's choice, or this person's. */
+/** Light or dark colours: the system's setting or the user's own choice. */
 import { effect, signal } from '@preact/signals';
 
 export type Theme = 'system' | 'light' | 'dark';

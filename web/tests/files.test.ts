@@ -5,14 +5,14 @@ const file = (name: string) => ({ name });
 const bytes = (text: string) => new TextEncoder().encode(text);
 
 describe('files', () => {
-  test('are told apart by their endings, whatever the case', () => {
+  test('are classified by their extension, ignoring case', () => {
     expect(roleOf('a.OBJ')).toBe('mesh');
     expect(roleOf('a.b.jpeg')).toBe('image');
     expect(roleOf('film.toml')).toBe('profile');
   });
 
   test.each(['part.step', 'scene.bin', 'all.zip', 'x.webp', 'noending', 'evil.html'])(
-    '%s is refused with what to do',
+    '%s is refused with a remedy',
     (name) => {
       const role = roleOf(name);
       expect(typeof role).toBe('object');
@@ -20,7 +20,7 @@ describe('files', () => {
     },
   );
 
-  test('whose first bytes are something else are refused', () => {
+  test('are refused if their first bytes contradict their name', () => {
     expect(contradiction('image', 'a.png', bytes('<svg/>'))).toBeDefined();
     expect(
       contradiction('image', 'a.png', new Uint8Array([0x89, 0x50, 0x4e, 0x47])),
@@ -31,7 +31,7 @@ describe('files', () => {
     expect(contradiction('mesh', 'a.stl', bytes(''))).toBeDefined();
   });
 
-  test('a picture that a material names comes under that name; another is the texture of the whole', () => {
+  test('an image referenced by a material keeps the referenced name; another image is the texture', () => {
     const skin = file('Skin.PNG');
     const other = file('logo.png');
     const mtl = { file: file('a.mtl'), text: 'newmtl m\nmap_Kd textures\\skin.png\n' };
@@ -42,16 +42,16 @@ describe('files', () => {
     expect(arranged.materials.get('m')?.file).toBe(skin);
   });
 
-  test('what is named and missing is told', () => {
+  test('that are referenced but missing are reported', () => {
     const { missing } = arrange(
       ['b.mtl'],
       [{ file: file('a.mtl'), text: 'newmtl m\nmap_Kd x.png' }],
       [],
     );
-    expect(missing).toEqual(['the material file "b.mtl"', 'the picture "x.png" of material "m"']);
+    expect(missing).toEqual(['the material file "b.mtl"', 'the image "x.png" of material "m"']);
   });
 
-  test('names that are no plain names are not passed on', () => {
+  test('with names that the API refuses are renamed', () => {
     for (const name of ['../x', '/x', 'a//b', 'a/./b', '-rf', 'a\nb', '', 'x'.repeat(256)])
       expect(isPlain(name)).toBe(false);
     expect(isPlain('textures/skin 1.png')).toBe(true);

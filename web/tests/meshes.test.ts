@@ -11,7 +11,7 @@ import { placesOf, readSurfaceMap } from '../src/model/surface_map';
 const bytesOf = (text: string): ArrayBuffer => new TextEncoder().encode(text).buffer as ArrayBuffer;
 
 describe('OBJ', () => {
-  test('a square is two triangles, a corner with two texture places two vertices', () => {
+  test('a quad becomes two triangles, a corner with two texture coordinates two vertices', () => {
     const mesh = readObj(
       'mtllib a b.mtl\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nvt 0 0\nvt 1 1\n' +
         'usemtl red\nf 1/1 2/1 3/1 4/1\nusemtl blue\nf -4/2 -3/2 -2/2\n',
@@ -33,17 +33,17 @@ describe('OBJ', () => {
     ['v 0 0 0\nf 1 1\n', 'line 2'],
     ['v 0 0 0\nf 1 1 0\n', 'line 2'],
     ['v 0 0 0\nf 1 1 -2\n', 'line 2'],
-  ])('%j is refused with its line', (text, line) => {
+  ])('%j is refused with the line number', (text, line) => {
     const result = attempt(() => readObj(text));
     expect(result.ok).toBe(false);
     if (!result.ok) expect(result.failure.what).toContain(line);
   });
 
-  test('without faces is refused', () => {
+  test('a file without faces is refused', () => {
     expect(() => boxOf(readObj('v 0 0 0\n'))).toThrow(Refusal);
   });
 
-  test("materials' pictures may have options and blanks", () => {
+  test('image names of materials may have options and spaces', () => {
     const materials = readMtl(
       'newmtl a b\nKd 1 0 0.5\nmap_Kd -s 1 1 1 -clamp on my skin.png\nnewmtl c\n',
     );
@@ -62,25 +62,25 @@ describe('STL', () => {
     return view.buffer;
   };
 
-  test('binary is read, even if it begins with "solid"', () => {
+  test('a binary file is read, even if it begins with "solid"', () => {
     for (const head of ['', 'solid x'])
       expect([...readStl(binary(head)).positions]).toEqual(triangle.slice(3));
   });
 
-  test('text is read', () => {
+  test('a text file is read', () => {
     const mesh = readStl(
       bytesOf('solid\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e0 0\nendloop'),
     );
     expect([...mesh.positions]).toEqual(triangle.slice(3));
   });
 
-  test('that is shorter than it says is refused', () => {
+  test('a file shorter than its header says is refused', () => {
     expect(() => readStl(binary('', 1000))).toThrow(/1000 triangles/);
     expect(() => readStl(bytesOf('solid nothing'))).toThrow(Refusal);
   });
 });
 
-/** One triangle as a binary surface map; `nan` of its corners without film. */
+/** One triangle as a binary surface map, with the stretch of each vertex; NaN means that the film does not reach it. */
 function surfaceMap(stretch: number[]): ArrayBuffer {
   const head =
     'ply\nformat binary_little_endian 1.0\nelement vertex 3\n' +
@@ -113,7 +113,7 @@ describe('PLY', () => {
     'property list uchar int vertex_index\nend_header\n' +
     '0 0 0 255 0 0\n1 0 0 0 255 0\n1 1 0 0 0 255\n0 1 0 9 9 9\n4 0 1 2 3\n';
 
-  test('text with colours and a square is read', () => {
+  test('a text file with colours and a quad is read', () => {
     const mesh = readPlyMesh(bytesOf(text));
     expect([...mesh.indices]).toEqual([0, 1, 2, 0, 2, 3]);
     expect([...mesh.colours!.slice(0, 6)]).toEqual([255, 0, 0, 0, 255, 0]);
@@ -122,16 +122,16 @@ describe('PLY', () => {
   test.each([
     ['no header', 'hello'],
     ['more rows than bytes', text.replace('vertex 4', 'vertex 400000000')],
-    ['a count that is none', text.replace('vertex 4', 'vertex -4')],
+    ['a negative count', text.replace('vertex 4', 'vertex -4')],
     ['an unknown type', text.replace('float x', 'quad x')],
-    ['an end that is too early', text.slice(0, -8)],
+    ['missing data at the end', text.slice(0, -8)],
     ['no faces', text.replace('vertex_index', 'neighbours')],
-  ])('%s is refused', (_, broken) => {
+  ])('a file with %s is refused', (_, broken) => {
     const result = attempt(() => readPlyMesh(bytesOf(broken)));
     expect(result.ok).toBe(false);
   });
 
-  test('a surface map has its film places, times and stretch', () => {
+  test('a surface map has film positions, times and stretch', () => {
     const map = readSurfaceMap(surfaceMap([1, 1.5, 4]));
     expect([...map.film_mm]).toEqual([0, 0, 20, 0, 0, 20]);
     expect([...map.stretch]).toEqual([1, 1.5, 4]);
@@ -139,7 +139,7 @@ describe('PLY', () => {
     expect(map.box.max).toEqual([10, 10, 0]);
   });
 
-  test('warnings are about the triangles they speak of', () => {
+  test('warnings select the triangles that they are about', () => {
     const torn = readSurfaceMap(surfaceMap([1, 1.5, 4]));
     const bare = readSurfaceMap(surfaceMap([1, NaN, 1]));
     const flat = (v: readonly [number, number, number]) => v[2];
@@ -152,7 +152,7 @@ describe('PLY', () => {
     expect(placesOf('face_uvs_ignored', torn, { tear: 3 }, flat)).toEqual([]);
   });
 
-  test('a map that is cut off or another PLY is refused', () => {
+  test('an incomplete map and any other PLY are refused', () => {
     expect(() => readSurfaceMap(surfaceMap([1, 1, 1]).slice(0, -1))).toThrow(Refusal);
     expect(() => readSurfaceMap(bytesOf(text))).toThrow(Refusal);
   });
@@ -188,7 +188,7 @@ describe('glTF', () => {
     ]).arrayBuffer();
   };
 
-  test('a GLB gives its shape, where it stands, and the picture that lies in it', async () => {
+  test('a GLB is read with its position and its embedded image', async () => {
     const mesh = readGltf(await glb(json({ nodes: [{ mesh: 0, translation: [5, 0, 0] }] })));
     expect(boxOf(mesh)).toEqual({ min: [5, 0, 0], max: [6, 1, 0] });
     expect([...mesh.indices]).toEqual([0, 1, 2]);
@@ -200,7 +200,7 @@ describe('glTF', () => {
     });
   });
 
-  test('children stand where their parents put them; a mirrored one keeps its outside', async () => {
+  test('children are placed relative to their parents; mirroring keeps the outside', async () => {
     const half = Math.SQRT1_2;
     const nodes = [
       { children: [1], rotation: [0, 0, half, half], scale: [2, 2, 2] },
@@ -213,7 +213,7 @@ describe('glTF', () => {
     expect([...mesh.indices]).toEqual([0, 2, 1]);
   });
 
-  test('strips and fans are triangles; points are none', async () => {
+  test('strips and fans become triangles; points are skipped', async () => {
     const four = Uint8Array.from([...kNumbers.slice(0, 36), ...kNumbers.slice(0, 12)]);
     const of = async (mode: number) => {
       const content = json({
@@ -229,20 +229,24 @@ describe('glTF', () => {
   });
 
   test.each([
-    ['numbers elsewhere', json({ buffers: [{ uri: 'far.bin', byteLength: 38 }] }), 'another file'],
-    ['too many', json({ accessors: [{ ...json().accessors![0]!, count: 4 }] }), 'outside the file'],
-    ['compressed', json({ extensionsRequired: ['KHR_draco_mesh_compression'] }), 'draco'],
-    ['turning in circles', json({ nodes: [{ children: [0] }] }), 'contains itself'],
-    ['of no shape', { meshes: 3, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }] }, 'mesh 0'],
-    ['of no sense', { scenes: [{ nodes: 7 }] }, 'no valid glTF'],
-  ])('%s is refused', async (_, content, why) => {
+    ['external data', json({ buffers: [{ uri: 'far.bin', byteLength: 38 }] }), 'another file'],
+    [
+      'too large a count',
+      json({ accessors: [{ ...json().accessors![0]!, count: 4 }] }),
+      'outside the file',
+    ],
+    ['compression', json({ extensionsRequired: ['KHR_draco_mesh_compression'] }), 'draco'],
+    ['a node in itself', json({ nodes: [{ children: [0] }] }), 'contains itself'],
+    ['a missing mesh', { meshes: 3, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }] }, 'mesh 0'],
+    ['a value of the wrong type', { scenes: [{ nodes: 7 }] }, 'not valid glTF'],
+  ])('a file with %s is refused', async (_, content, why) => {
     const whole = await glb(content);
     const result = attempt(() => readGltf(whole));
     expect(result.ok).toBe(false);
     if (!result.ok) expect(result.failure.what).toContain(why);
   });
 
-  test('cut short is refused', async () => {
+  test('a truncated file is refused', async () => {
     const whole = await glb(json());
     for (let length = 0; length < whole.byteLength; length += 7)
       expect(attempt(() => readGltf(whole.slice(0, length))).ok, String(length)).toBe(false);

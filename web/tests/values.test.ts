@@ -16,7 +16,7 @@ import {
 } from '../src/model/units';
 
 describe('figures', () => {
-  test('have the unit that suits them', () => {
+  test('are formatted with a suitable unit', () => {
     expect([0.25, 59.4, 125, 7300, 200_000, -5].map(formatSeconds)).toEqual([
       '250 ms',
       '59 s',
@@ -35,7 +35,7 @@ describe('figures', () => {
     expect(secondsOf('3.5')).toBeNaN();
   });
 
-  test('times are as exact as they are near', () => {
+  test('of times are more precise the nearer the time is', () => {
     const now = new Date(2026, 10, 22, 12, 0);
     const at = (...when: [number, number, number]) => formatTime(new Date(...when, 9, 5), now);
     expect(at(2026, 10, 22)).toBe('09:05');
@@ -44,14 +44,14 @@ describe('figures', () => {
     expect(at(2027, 10, 22)).toBe('22 Nov 2027');
   });
 
-  test('are read with a comma, too, and nothing else is', () => {
+  test('are parsed with a decimal point or comma; other text is refused', () => {
     expect(parseNumber(' 1,5 ')).toBe(1.5);
     expect(parseNumber('-2e1')).toBe(-20);
     for (const text of ['', '.', 'x', '1.2.3', 'Infinity', '1e999', '1 mm', '0x10', '1e', '--1'])
       expect(parseNumber(text)).toBeUndefined();
   });
 
-  test('with a comma that may separate thousands are not guessed', () => {
+  test('with a comma that may separate thousands are refused', () => {
     expect(parseNumber('1,000')).toBeUndefined();
     expect(parseNumber('-12,500')).toBeUndefined();
     expect(['0,125', '1,25', '1,0000', '1000,5'].map(parseNumber)).toEqual([
@@ -59,7 +59,7 @@ describe('figures', () => {
     ]);
   });
 
-  test('are taken only if they are in range, and the range is said', () => {
+  test('out of range are refused with the range', () => {
     const range = { min: 2, max: 298, unit: 'mm' };
     const read = (text: string) => {
       const number = readNumber(text, range);
@@ -69,7 +69,7 @@ describe('figures', () => {
     for (const text of ['300', '298.001', '1.999', '-5', '1e3'])
       expect(read(text)).toBe('Out of range. Enter 2 to 298 mm.');
     expect(read('3O')).toBe('Not a number. Enter 2 to 298 mm.');
-    expect(read(' ')).toBe('A number is missing. Enter 2 to 298 mm.');
+    expect(read(' ')).toBe('Number missing. Enter 2 to 298 mm.');
   });
 });
 
@@ -84,7 +84,7 @@ describe('rules of the API', () => {
     expect(limitsOf({ unit: 'mm' })).toEqual({ unit: 'mm', min: -Infinity, max: Infinity });
   });
 
-  test('limit texts by bytes and cut no character in two', () => {
+  test('limit texts by bytes without splitting a character', () => {
     expect(cutToBytes('mug', 3)).toBe('mug');
     expect(cutToBytes('mugs', 3)).toBe('mug');
     expect(cutToBytes('aää', 4)).toBe('aä');
@@ -93,7 +93,7 @@ describe('rules of the API', () => {
 });
 
 describe('films', () => {
-  test('are known by name and by size', () => {
+  test('are recognized by name and by size', () => {
     expect(filmOf('A4')).toMatchObject({ width_mm: 210, height_mm: 297 });
     expect(filmOf('100x50.5')).toMatchObject({ width_mm: 100, height_mm: 50.5 });
     expect(filmOf('circle:105')).toMatchObject({ width_mm: 210, radius_mm: 105 });
@@ -103,7 +103,7 @@ describe('films', () => {
 });
 
 describe('colour maps', () => {
-  test('rise in lightness from end to end, so that no hue is needed to read them', () => {
+  test('increase in lightness from end to end, so they can be read without seeing hue', () => {
     for (const map of ['viridis', 'cividis'] as const) {
       let before = -1;
       for (let i = 0; i <= 100; i += 1) {
@@ -116,13 +116,13 @@ describe('colour maps', () => {
     }
   });
 
-  test('clamp, and have a colour of its own for what has no value', () => {
+  test('clamp values and have a separate colour for missing values', () => {
     expect(colourOf('viridis', -1)).toEqual(colourOf('viridis', 0));
     expect(colourOf('viridis', 7)).toEqual(colourOf('viridis', 1));
     expect(colourOf('viridis', NaN)).toEqual(kNoValue);
   });
 
-  test('by ratios put the root of the ends in the middle', () => {
+  test('with a logarithmic scale have the geometric mean of the ends in the middle', () => {
     const scale = { map: 'viridis', min: 1, max: 4, log: true } as const;
     expect(place(scale, 2)).toBeCloseTo(0.5);
     expect(ticks({ map: 'viridis', min: 0, max: 23.9 })).toEqual([0, 5, 10, 15, 20]);
@@ -134,32 +134,32 @@ describe('a picture in its window', () => {
   const picture = { width: 1000, height: 2000 };
   const window = { width: 500, height: 500 };
 
-  test('is all in sight at first', () => {
+  test('is fully visible at first', () => {
     expect(fit(picture, window)).toEqual({ zoom: 0.25, x: 125, y: 0 });
   });
 
-  test('keeps the pixel under the pointer when it comes nearer', () => {
+  test('keeps the pixel under the pointer when zooming', () => {
     const view = fit(picture, window);
     const nearer = zoomAt(view, 10, 200, 300, 0.1);
     expect(pixelAt(nearer, 200, 300, picture)).toEqual(pixelAt(view, 200, 300, picture));
     expect(pixelAt(view, 10, 10, picture)).toBeUndefined();
   });
 
-  test('cannot be lost', () => {
+  test('cannot be moved out of the window', () => {
     const away = pan(fit(picture, window), 1e6, -1e6, picture, window);
     expect(away.x).toBeLessThan(window.width);
     expect(away.y + away.zoom * picture.height).toBeGreaterThan(0);
   });
 });
 
-describe('what the daemon wrote', () => {
-  test('a warning that names a place points there', () => {
+describe('files and messages of the daemon', () => {
+  test('the point in a warning is parsed', () => {
     expect(placeOf('12.30 mm immersion, at (-4.00, 17.50) mm')).toEqual([-4, 17.5, 12.3]);
     expect(placeOf('surface')).toBeUndefined();
     expect(placeOf('12.30 mm immersion')).toBeUndefined();
   });
 
-  test('positions are read up to where the record breaks off', () => {
+  test('positions are read up to the end of an incomplete record', () => {
     const text = 't_s,depth_mm,position_mm\n0.0,-20.0,100.5\n0.1,-19.5,101.0\n0.2,-1';
     expect(readPositions(text)).toEqual([
       { t_s: 0, position_mm: 100.5 },
@@ -168,7 +168,7 @@ describe('what the daemon wrote', () => {
     expect(readPositions('nothing')).toEqual([]);
   });
 
-  test('a 16-bit picture keeps its sixteen bits', async () => {
+  test('a 16-bit PNG is read at full depth', async () => {
     const values = [0, 1, 255, 256, 1000, 65535];
     const png = await grey16Png(3, 2, values);
     const picture = await readGrey16(png);
@@ -178,7 +178,7 @@ describe('what the daemon wrote', () => {
   });
 });
 
-/** A PNG whose second row is told by differences from the first. */
+/** A PNG whose second row is encoded as differences from the first. */
 async function grey16Png(width: number, height: number, values: number[]): Promise<ArrayBuffer> {
   const bytes = values.flatMap((value) => [value >> 8, value & 255]);
   const rows = Array.from({ length: height }, (_, y) => {

@@ -1,14 +1,14 @@
-/** One door to the daemon: every request goes through `call`, and what it refuses comes back as a value. */
+/** Sends requests to the daemon. Every request goes through this file, and errors are returned as values. */
 import { signal } from '@preact/signals';
 import { done, refused, type Failure, type Result } from '../model/result';
 
-/** What a session must show on anything that changes; set when somebody signs in. */
+/** The session's CSRF token, sent with every request that changes something; set at sign-in. */
 export const csrf = signal('');
 
-/** By how much the daemon's clock is ahead of ours, s; its Date header has whole seconds. */
+/** How far the daemon's clock is ahead of the browser's, s; its Date header has whole seconds. */
 export const ahead_s = signal(0);
 
-/** Now, by the daemon's clock. */
+/** The current time by the daemon's clock. */
 export const daemonNow = (): Date => new Date(Date.now() + 1000 * ahead_s.value);
 
 export type Method = 'GET' | 'HEAD' | 'POST' | 'PATCH' | 'DELETE';
@@ -16,16 +16,16 @@ export type Method = 'GET' | 'HEAD' | 'POST' | 'PATCH' | 'DELETE';
 export interface Options {
   /** Sent as JSON. */
   json?: unknown;
-  /** Sent as it is. */
+  /** Sent unchanged. */
   bytes?: Blob;
   headers?: Record<string, string>;
   query?: Record<string, string | number | boolean | readonly string[] | undefined>;
   signal?: AbortSignal;
-  /** Goes on even if the page is left. */
+  /** The request is completed even if the page is closed. */
   keepalive?: boolean;
 }
 
-/** The address of a resource, as in "jobs/7" or "rig:stop". */
+/** The URL of a resource, such as "jobs/7" or "rig:stop". */
 export function address(path: string, query: Options['query'] = {}): string {
   const parts = new URLSearchParams();
   for (const [key, value] of Object.entries(query)) {
@@ -33,12 +33,12 @@ export function address(path: string, query: Options['query'] = {}): string {
     for (const one of Array.isArray(value) ? value : [value]) parts.append(key, String(one));
   }
   const text = parts.toString();
-  // Names from strangers may hold anything; ":" and "/" are the API's own.
+  // Names are untrusted and may contain any character. The API itself uses ":" and "/".
   const plain = path.split('/').map(encodeURIComponent).join('/').replaceAll('%3A', ':');
   return `/v1/${plain}${text ? `?${text}` : ''}`;
 }
 
-/** Asks the daemon; T is what it then answers. */
+/** Sends a request to the daemon; T is the type of its response. */
 export async function call<T>(
   method: Method,
   path: string,
@@ -54,7 +54,7 @@ export async function call<T>(
     try {
       return done((text === '' ? {} : JSON.parse(text)) as T);
     } catch {
-      return refused('the daemon answered what nobody understands', 'Reload the page', {
+      return refused('the response of the daemon cannot be read', 'Reload the page', {
         status: 0,
       });
     }
@@ -62,7 +62,7 @@ export async function call<T>(
   return { ok: false, failure: await failureOf(response) };
 }
 
-/** The same for bytes. */
+/** Gets bytes, such as an artifact, from the daemon. */
 export async function fetchBytes(path: string, signal?: AbortSignal): Promise<Result<ArrayBuffer>> {
   const answer = await send('GET', path, signal ? { signal } : {});
   if (!answer.ok) return answer;
@@ -90,13 +90,13 @@ async function send(method: Method, path: string, options: Options): Promise<Res
     readClock(response);
     return done(response);
   } catch {
-    if (options.signal?.aborted) return refused('given up', undefined, { reason: 'ABORTED_HERE' });
+    if (options.signal?.aborted) return refused('cancelled', undefined, { reason: 'ABORTED_HERE' });
     return lost();
   }
 }
 
 const lost = () =>
-  refused('the daemon does not answer', 'Check the network; the page tries again by itself', {
+  refused('the daemon does not answer', 'Check the network. The page tries again automatically', {
     status: 0,
   });
 
@@ -104,7 +104,7 @@ function readClock(response: Response): void {
   const date = Date.parse(response.headers.get('Date') ?? '');
   if (Number.isNaN(date)) return;
   const ahead = (date - Date.now()) / 1000;
-  // Below what whole seconds and the way here make of it, the clocks agree.
+  // Smaller differences come from the whole seconds of the header and from network latency.
   ahead_s.value =
     Math.abs(ahead) < 2 ? 0 : Math.abs(ahead - ahead_s.value) < 2 ? ahead_s.value : ahead;
 }
@@ -122,7 +122,7 @@ async function failureOf(response: Response): Promise<Failure> {
   const body = (await response.json().catch(() => ({}))) as Status;
   const info = body.error?.details?.find((detail) => detail.reason);
   return {
-    what: body.error?.message || `the daemon refused this (HTTP ${status})`,
+    what: body.error?.message || `the daemon refused the request (HTTP ${status})`,
     status,
     reason: info?.reason ?? body.error?.status ?? '',
     ...remedyOf(status),
@@ -130,9 +130,10 @@ async function failureOf(response: Response): Promise<Failure> {
   };
 }
 
-// The daemon's own line has the remedy, but for what only the page knows.
+// Most messages of the daemon contain the remedy. For these statuses, only the page knows it.
 function remedyOf(status: number): { remedy?: string } {
   if (status === 401) return { remedy: 'Sign in' };
-  if (status === 503) return { remedy: 'The daemon is starting or ending: try again in a moment' };
+  if (status === 503)
+    return { remedy: 'The daemon is starting or stopping. Try again in a moment' };
   return {};
 }

@@ -1,4 +1,4 @@
-/** The API's methods that the page uses; what each may refuse stands in proto/hydroprint/v1. */
+/** The API methods that the page uses. The .proto files in proto/hydroprint/v1 document their errors. */
 import type { Result } from '../model/result';
 import { address, call } from './call';
 import type {
@@ -23,7 +23,7 @@ import type {
 type None = Record<string, never>;
 type Page<K extends string, T> = Record<K, T[]> & { nextPageToken: string };
 
-/** For requests that must not be done twice (request_id). */
+/** Creates a request_id, which makes a repeated request safe. */
 export const newRequestId = (): string => crypto.randomUUID();
 
 export const jobs = {
@@ -46,11 +46,11 @@ export const jobs = {
     call<Page<'artifacts', Artifact>>('GET', `${name}/artifacts`, { query: { pageSize: 1000 } }),
 };
 
-/** Path of an artifact's bytes, for `fetchBytes`. */
+/** The path of an artifact's bytes, for `fetchBytes`. */
 export const artifactPath = (job: string, file: string): string =>
   `${job}/artifacts/${file}:download`;
 
-/** Address of an artifact's bytes, for a link or a picture. */
+/** The URL of an artifact's bytes, for a link or an image. */
 export const artifactAddress = (job: string, file: string, isInline = false): string =>
   address(artifactPath(job, file), isInline ? { inline: 1 } : {});
 
@@ -66,7 +66,7 @@ export const calibrations = {
 
 export const rig = {
   get: () => call<Rig>('GET', 'rig'),
-  /** Needs nothing and is never refused; goes on even if the page is left. */
+  /** Needs no lease and is never refused. The request is completed even if the page is closed. */
   stop: () => call<Rig>('POST', 'rig:stop', { json: {}, keepalive: true }),
   arm: (leaseId: string) => call<Rig>('POST', 'rig:arm', { json: { leaseId } }),
   disarm: (leaseId: string) => call<Rig>('POST', 'rig:disarm', { json: { leaseId } }),
@@ -120,7 +120,7 @@ export const people = {
   sessions: () => call<Page<'sessions', Session>>('GET', 'sessions', { query: { pageSize: 1000 } }),
   audit: (query: { who?: string; what?: string; pageToken?: string }) =>
     call<Page<'entries', AuditEntry>>('GET', 'audit', { query: { ...query, pageSize: 50 } }),
-  /** Of a key or a session. */
+  /** Deletes an API key or ends a session. */
   end: (name: string) => call<None>('DELETE', name),
 };
 

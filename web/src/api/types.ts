@@ -1,6 +1,6 @@
 /**
- * The API's messages, as generated from its OpenAPI document (schema.d.ts): as they are answered, and, as `...Input`,
- * as they are sent.
+ * The API's messages, generated from its OpenAPI document (schema.d.ts). Types named `...Input` are sent; the others are
+ * received.
  */
 import type { components } from './schema';
 

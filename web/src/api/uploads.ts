@@ -1,4 +1,4 @@
-/** Uploads that go on where they broke off, after a lost connection and after a reload alike. */
+/** Resumable uploads: they continue after a lost connection and after a reload of the page. */
 import { done, refused, type Result } from '../model/result';
 import { call } from './call';
 import type { Asset, Upload } from './types';
@@ -8,7 +8,7 @@ const kWaits_s = [0.5, 1, 2, 4, 8, 15];
 
 type Answer = { asset?: Asset; upload?: Upload };
 
-/** Lower-case hex. */
+/** Returns the SHA-256 in lower-case hexadecimal. */
 export async function sha256(bytes: ArrayBuffer): Promise<string> {
   const digest = new Uint8Array(await crypto.subtle.digest('SHA-256', bytes));
   return [...digest].map((byte) => byte.toString(16).padStart(2, '0')).join('');
@@ -17,8 +17,8 @@ export async function sha256(bytes: ArrayBuffer): Promise<string> {
 const wait = (seconds: number) => new Promise((resolve) => setTimeout(resolve, 1000 * seconds));
 
 /**
- * Brings a file to the daemon, unless it is there already, and returns its asset ("assets/...").
- * @param tell  called with the share that is there, and with true while the connection is lost
+ * Uploads a file unless the daemon already has it, and returns the name of its asset ("assets/...").
+ * @param tell  called with the uploaded fraction, and with true while the connection is lost
  */
 export async function upload(
   file: Blob,
@@ -26,8 +26,7 @@ export async function upload(
   signal: AbortSignal,
 ): Promise<Result<string>> {
   const bytes = await file.arrayBuffer().catch(() => undefined);
-  if (!bytes)
-    return refused('the file can no longer be read', 'It was moved or changed: choose it again');
+  if (!bytes) return refused('the file was moved or changed and cannot be read', 'Choose it again');
   const hash = await sha256(bytes);
   const begun = new Begun(hash);
   let share = 0;
@@ -46,7 +45,7 @@ export async function upload(
     }
     const { failure } = answer;
     if (signal.aborted || !passes(failure.status, failure.reason)) return answer;
-    // The daemon gave this one up, or has it elsewhere: from the start, or from where it is.
+    // If the daemon has discarded the upload, start again; otherwise continue from its offset.
     if (failure.reason === 'UPLOAD_NOT_FOUND') begun.forget();
     tell(share, failure.status === 0);
     await wait(kWaits_s[Math.min(lost, kWaits_s.length - 1)]!);
@@ -59,7 +58,7 @@ const passes = (status: number | undefined, reason: string | undefined): boolean
   status === 503 ||
   ['UPLOAD_NOT_FOUND', 'UPLOAD_BUSY', 'OFFSET_MISMATCH', 'UPLOADS_FULL'].includes(reason ?? '');
 
-/** Asks how far it is, or sends the next piece; whatever happens, asking again is right. */
+/** Creates the upload, or gets its offset and sends the next chunk. Safe to repeat after any failure. */
 async function step(
   file: Blob,
   hash: string,
@@ -83,13 +82,13 @@ async function step(
     signal,
   });
   if (!sent.ok) return sent;
-  // With the last byte comes the asset; before, nothing.
+  // Only the response to the last chunk contains the asset.
   if (sent.value.name) return done({ asset: sent.value as Asset });
   const receivedBytes = String(Math.min(offset + kChunk, file.size));
   return done({ upload: { ...known.value, receivedBytes } });
 }
 
-/** Which upload was begun for these bytes, kept over reloads. */
+/** Remembers, across reloads, the upload that was started for these bytes. */
 class Begun {
   name: string | undefined;
   private readonly key: string;

@@ -1,4 +1,4 @@
-/** Bytes as the API's JSON has them. */
+/** Decodes bytes from the API's JSON, which encodes them as base64. */
 export function bytesOf(base64: string): ArrayBuffer {
   const text = atob(base64);
   const out = new Uint8Array(text.length);

@@ -1,6 +1,6 @@
-/** Colour maps that colour-blind people can read: rising lightness, no red against green. */
+/** Colour maps that colour-blind people can read: lightness increases, and red is not set against green. */
 
-// Viridis and cividis at even steps; between them straight lines, which nobody can tell from the curve.
+// Viridis and cividis at even steps. Linear interpolation between them is visually indistinguishable from the curves.
 const kViridis = '440154 482475 414487 355f8d 2a788e 21918c 22a884 44bf70 7ad151 bddf26 fde725';
 const kCividis = '00224e 123570 3b496c 575d6d 707173 8a8678 a59c74 c3b369 e1cc55 fee838';
 
@@ -15,10 +15,10 @@ const parse = (stops: string): Rgb[] =>
 
 const kMaps: Record<ColourMapName, Rgb[]> = { viridis: parse(kViridis), cividis: parse(kCividis) };
 
-/** What has no value: where no film arrives. */
+/** Colour of points without a value, where the film does not reach. */
 export const kNoValue: Rgb = [150, 150, 150];
 
-/** Colour, each part in [0, 255], of `t`, which is clamped to [0, 1]; not a number: kNoValue. */
+/** Returns the colour of `t`, clamped to [0, 1], with components in [0, 255]; kNoValue if `t` is NaN. */
 export function colourOf(map: ColourMapName, t: number): Rgb {
   if (Number.isNaN(t)) return kNoValue;
   const stops = kMaps[map];
@@ -30,18 +30,18 @@ export function colourOf(map: ColourMapName, t: number): Rgb {
   return [mix(0), mix(1), mix(2)];
 }
 
-/** A range of values on a colour map. */
+/** Maps a range of values to a colour map. */
 export interface Scale {
   map: ColourMapName;
   min: number;
   max: number;
-  /** By ratios instead of differences. */
+  /** Logarithmic instead of linear. */
   log?: boolean;
-  /** The largest value stands where the map begins: the less, the brighter. */
+  /** Reversed: the largest value has the darkest colour. */
   falls?: boolean;
 }
 
-/** Depths as all pictures of the camera have them, the daemon's too: the nearer the brighter. */
+/** The scale of all depth pictures, including the daemon's: nearer points are brighter. */
 export const depthScale = (nearest_mm: number, farthest_mm: number): Scale => ({
   map: 'viridis',
   min: nearest_mm,
@@ -49,7 +49,7 @@ export const depthScale = (nearest_mm: number, farthest_mm: number): Scale => ({
   falls: true,
 });
 
-/** Where on the map a value is; below 0 and above 1 beyond the scale. */
+/** Position of a value on the map: 0 to 1 within the scale, outside this range beyond it. */
 export function place(scale: Scale, value: number): number {
   const share = scale.log
     ? Math.log(value / scale.min) / Math.log(scale.max / scale.min)
@@ -57,7 +57,7 @@ export function place(scale: Scale, value: number): number {
   return scale.falls ? 1 - share : share;
 }
 
-/** Round values to write beside the scale, at most about `wanted` of them. */
+/** Round values for the tick labels, about `wanted` of them at most. */
 export function ticks(scale: Scale, wanted = 6): number[] {
   if (!(scale.max > scale.min)) return [scale.min];
   const rough = (scale.max - scale.min) / wanted;

@@ -1,6 +1,5 @@
 /**
- * Which of the dropped files is what. Files that are no use are refused, each with the reason and what to do;
- * nothing is left out silently.
+ * Classifies dropped files. Every unusable file is refused with a reason and a remedy; none is ignored silently.
  */
 import type { Worn } from './mesh';
 import { readMtl } from './obj';
@@ -11,17 +10,17 @@ export interface Named {
 
 export type Role = 'mesh' | 'material' | 'image' | 'profile';
 
-/** What is known of a file by its name; or why it is no use. */
+/** The role of a file by its name, or the reason why the file cannot be used. */
 export function roleOf(name: string): Role | { why: string } {
   const ending = name.toLowerCase().split('.').at(-1) ?? '';
   const role = kRoles[ending];
   if (role) return role;
   const why = kRefusals[ending];
-  return { why: why ?? `what a ".${ending}" is, is not known here. ${kWanted}` };
+  return { why: why ?? `files of type ".${ending}" are not supported. ${kWanted}` };
 }
 
 const kWanted =
-  'Drop a model (OBJ, PLY, STL or glTF), its MTL and its pictures (PNG, JPEG or TIFF), or a film profile (TOML)';
+  'Drop a model (OBJ, PLY, STL or glTF), its MTL and images (PNG, JPEG or TIFF), or a film profile (TOML)';
 
 const kRoles: Record<string, Role> = {
   obj: 'mesh', ply: 'mesh', stl: 'mesh', glb: 'mesh', gltf: 'mesh',
@@ -30,9 +29,9 @@ const kRoles: Record<string, Role> = {
   toml: 'profile',
 }; // prettier-ignore
 
-const kCad = 'this is a CAD file without a surface. Export it as STL, PLY or OBJ';
+const kCad = 'this is a CAD file without a surface mesh. Export it as STL, PLY or OBJ';
 const kRefusals: Record<string, string> = {
-  bin: 'this is a part of a glTF model. Export that as GLB, which has all in one',
+  bin: 'this is a part of a glTF model. Export the model as GLB, which is a single file',
   zip: 'this is an archive. Unpack it and drop the files in it',
   rar: 'this is an archive. Unpack it and drop the files in it',
   step: kCad,
@@ -40,16 +39,16 @@ const kRefusals: Record<string, string> = {
   f3d: kCad,
   blend: 'Blender files cannot be read. Export the model as OBJ from Blender',
   '3mf': '3MF cannot be read. Export the model as OBJ, PLY or STL',
-  gcode: 'this is a path of a printer, not a model. Drop the OBJ, PLY or STL it was made from',
-  webp: 'WebP cannot be read. Save the picture as PNG or JPEG',
-  heic: 'HEIC cannot be read. Save the picture as PNG or JPEG',
-  gif: 'GIF cannot be read. Save the picture as PNG or JPEG',
-  svg: 'SVG cannot be read. Save the picture as PNG',
-  bmp: 'BMP cannot be read. Save the picture as PNG',
-  pdf: 'PDF cannot be read. Save the picture as PNG',
+  gcode: 'this is a tool path, not a model. Drop the OBJ, PLY or STL from which it was made',
+  webp: 'WebP cannot be read. Save the image as PNG or JPEG',
+  heic: 'HEIC cannot be read. Save the image as PNG or JPEG',
+  gif: 'GIF cannot be read. Save the image as PNG or JPEG',
+  svg: 'SVG cannot be read. Save the image as PNG',
+  bmp: 'BMP cannot be read. Save the image as PNG',
+  pdf: 'PDF cannot be read. Save the image as PNG',
 };
 
-/** Why the first bytes of a file are not what its name says; undefined if they may well be. */
+/** Checks the first bytes of a file against its name. Returns the reason if they differ, undefined if they agree. */
 export function contradiction(role: Role, name: string, head: Uint8Array): string | undefined {
   if (head.length === 0) return 'the file is empty. Copy or export it again';
   const begins = (...bytes: number[]) => bytes.every((byte, i) => head[i] === byte);
@@ -59,27 +58,29 @@ export function contradiction(role: Role, name: string, head: Uint8Array): strin
       begins(0xff, 0xd8, 0xff) ||
       begins(0x49, 0x49, 0x2a, 0) ||
       begins(0x4d, 0x4d, 0, 0x2a);
-    return isImage ? undefined : 'it is not a picture, whatever its name. Save it as PNG or JPEG';
+    return isImage
+      ? undefined
+      : 'the file is not a PNG, JPEG or TIFF. Save the image as PNG or JPEG';
   }
   const text = new TextDecoder('latin1').decode(head);
   if (/\.ply$/i.test(name) && !text.startsWith('ply'))
-    return 'it does not begin like a PLY file. Export it again as PLY';
+    return 'the file is not a PLY file. Export the model again as PLY';
   if (/\.glb$/i.test(name) && !text.startsWith('glTF'))
-    return 'it does not begin like a GLB file. Export it again as GLB';
+    return 'the file is not a GLB file. Export the model again as GLB';
   if (/\.gltf$/i.test(name) && !/^\s*\{/.test(text) && !text.startsWith('glTF'))
-    return 'it does not begin like a glTF file. Export it again as GLB';
+    return 'the file is not a glTF file. Export the model again as GLB';
   if (
     /\.obj$/i.test(name) &&
     (head.includes(0) || !/^\s*(#|v|o|g|f|mtllib|usemtl|s)\b/m.test(text))
   )
-    return 'it does not read like an OBJ file. Export it again as OBJ';
+    return 'the file is not an OBJ file. Export the model again as OBJ';
   return undefined;
 }
 
 const baseOf = (path: string): string =>
   path.replaceAll('\\', '/').split('/').at(-1)!.toLowerCase();
 
-/** True for a name that the API takes for a job's file (InputFile.name). */
+/** True if the API accepts the name for a job's input file (InputFile.name). */
 export const isPlain = (name: string): boolean =>
   name.length > 0 &&
   new TextEncoder().encode(name).length <= 255 &&
@@ -88,7 +89,7 @@ export const isPlain = (name: string): boolean =>
     .split('/')
     .every((part) => part !== '' && part !== '.' && part !== '..' && !part.startsWith('-'));
 
-/** The name under which a job sees a file: the one by which others refer to it, if that is plain. */
+/** The name of a file in a job: the name that other files use for it, if the API accepts that name. */
 export function nameFor(file: Named, references: readonly string[]): string {
   const reference = references.find((path) => baseOf(path) === baseOf(file.name));
   const wanted = reference?.replaceAll('\\', '/');
@@ -97,21 +98,21 @@ export function nameFor(file: Named, references: readonly string[]): string {
   return own === '' || own === '.' || own === '..' ? 'file' : own;
 }
 
-/** What the files are to each other. */
+/** How the files refer to each other. */
 export interface Arrangement<F extends Named> {
-  /** MTL files and the pictures they name, under the names by which they are named. */
+  /** MTL files and the images that they reference, under the referenced names. */
   extra: { name: string; file: F }[];
-  /** A picture that nothing names: the texture of the whole. */
+  /** An image that no material references; it becomes the texture of the whole object. */
   texture?: F;
-  /** Files that were named and are not there, in words. */
+  /** Descriptions of the referenced files that are missing. */
   missing: string[];
-  /** What each material looks like, with the picture of it that is there. */
+  /** The appearance of each material, with its image if present. */
   materials: Map<string, Worn & { file?: F }>;
 }
 
 /**
- * `libraries` are those that the mesh names; `mtl` is the text of each material file; `own` the materials that the mesh
- * brings itself.
+ * `libraries` are the material files that the mesh references, `mtl` is the text of each material file, and `own` are
+ * the materials in the mesh's own file.
  */
 export function arrange<F extends Named>(
   libraries: readonly string[],
@@ -125,7 +126,7 @@ export function arrange<F extends Named>(
   const named = new Set<F>();
   const add = (name: string, material: Worn) => {
     const image = images.find((i) => material.map && baseOf(i.name) === baseOf(material.map));
-    if (material.map && !image) missing.push(`the picture "${material.map}" of material "${name}"`);
+    if (material.map && !image) missing.push(`the image "${material.map}" of material "${name}"`);
     if (material.map && image && !named.has(image)) {
       named.add(image);
       extra.push({ name: nameFor(image, [material.map]), file: image });

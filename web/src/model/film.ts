@@ -1,10 +1,10 @@
-/** Films as the API names them. */
+/** A film, named as in the API. */
 export interface Film {
   /** "A4", "A3", "letter", "WxH" in mm or "circle:RADIUS" in mm. */
   name: string;
   width_mm: number;
   height_mm: number;
-  /** Set of a round film. */
+  /** Set for a round film only. */
   radius_mm?: number;
 }
 
@@ -14,7 +14,7 @@ const kSheets: Record<string, readonly [number, number]> = {
   letter: [215.9, 279.4],
 };
 
-/** The film of that name; undefined if there is none (a polygon, which is a file's business, too). */
+/** Returns the film of that name; undefined if the name is unknown or a polygon, which also needs a file. */
 export function filmOf(name: string): Film | undefined {
   const sheet = kSheets[name];
   if (sheet) return { name, width_mm: sheet[0], height_mm: sheet[1] };

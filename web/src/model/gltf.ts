@@ -1,15 +1,15 @@
-/** Reads a glTF 2.0 model, as GLB or with all of it in its JSON: the shape as its nodes have it, and what it wears. */
+/** Reads a glTF 2.0 model from one file (GLB, or JSON with embedded data): its geometry in world space and materials. */
 import { damaged, GltfFile, type Primitive } from './gltf_file';
 import type { Mesh, Worn } from './mesh';
 
-/** Column by column, as glTF has them: three axes and the place. */
+/** Column-major, as in glTF: three axes and the translation. */
 type Matrix = readonly number[];
 const kIdentity: Matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
 const kDeepest = 256;
 const kMostNodes = 100_000;
 const kMostCorners = 30_000_000;
-// In glTF lengths are metres.
+// glTF lengths are in metres.
 const kUnit_mm = 1000;
 
 export function readGltf(bytes: ArrayBuffer): Mesh {
@@ -18,8 +18,8 @@ export function readGltf(bytes: ArrayBuffer): Mesh {
     for (const root of reader.roots()) reader.visit(root, kIdentity, 0);
     return reader.finish();
   } catch (error) {
-    // Something stands where something else belongs.
-    if (error instanceof TypeError) throw damaged('this is no valid glTF');
+    // A value in the JSON has the wrong type.
+    if (error instanceof TypeError) throw damaged('the file is not valid glTF');
     throw error;
   }
 }
@@ -37,7 +37,7 @@ class GltfReader {
 
   constructor(private readonly file: GltfFile) {}
 
-  /** Of the default scene, else the first, else every node that is no child. */
+  /** Root nodes of the default scene, else of the first scene, else all nodes that are not children. */
   roots(): number[] {
     const { scene, scenes, nodes = [] } = this.file.json;
     const chosen = scenes?.[scene ?? 0]?.nodes;
@@ -77,7 +77,7 @@ class GltfReader {
     const mode = primitive.mode ?? 4;
     if (mode < 4) return; // points and lines
     const { values, width } = this.numbers(primitive, 'POSITION', 'positions');
-    if (width !== 3) throw damaged('its positions are no places');
+    if (width !== 3) throw damaged('its positions do not have three coordinates');
     const first = this.positions.length / 3;
     const count = values.length / 3;
     const order =
@@ -92,7 +92,8 @@ class GltfReader {
     const begin = this.indices.length;
     const isMirrored = determinant(transform) < 0;
     for (const [a, b, c] of triangles(order, mode)) {
-      if (Math.max(a, b, c) >= count) throw damaged('a face names a corner that is not there');
+      if (Math.max(a, b, c) >= count)
+        throw damaged('a face refers to a vertex that does not exist');
       this.indices.push(first + a, first + (isMirrored ? c : b), first + (isMirrored ? b : c));
     }
     const material = this.materialOf(primitive.material);
@@ -107,10 +108,11 @@ class GltfReader {
     const { materials } = this.file.json;
     const texture = materials?.[primitive.material ?? -1]?.pbrMetallicRoughness?.baseColorTexture;
     const place = `TEXCOORD_${texture?.texCoord ?? 0}`;
-    const uvs = place in primitive.attributes && this.numbers(primitive, place, 'texture places');
+    const uvs =
+      place in primitive.attributes && this.numbers(primitive, place, 'texture coordinates');
     const tint = 'COLOR_0' in primitive.attributes && this.numbers(primitive, 'COLOR_0', 'colours');
     for (let i = 0; i < count; i += 1) {
-      // v is downwards there.
+      // In glTF, v points downwards.
       if (uvs) this.uvs.push(uvs.values[uvs.width * i]!, 1 - uvs.values[uvs.width * i + 1]!);
       else this.uvs.push(0, 0);
       for (let k = 0; k < 3; k += 1)
@@ -120,7 +122,7 @@ class GltfReader {
     this.hasColours ||= tint !== false;
   }
 
-  /** Name of a material, which is read when it is first met; numbered, for names need not differ. */
+  /** Returns the name of a material and reads it on first use. A number makes the name unique. */
   private materialOf(index: number | undefined): string {
     const source = this.file.json.materials?.[index ?? -1];
     const name = source ? `${index} ${source.name ?? ''}` : '';
@@ -139,7 +141,7 @@ class GltfReader {
 }
 
 function* triangles(order: Float64Array, mode: number): Generator<[number, number, number]> {
-  if (mode === 4 && order.length % 3 !== 0) throw damaged('its indices are not whole triangles');
+  if (mode === 4 && order.length % 3 !== 0) throw damaged('its last triangle is incomplete');
   for (let i = 0; i + 2 < order.length; i += mode === 4 ? 3 : 1) {
     const [a, b, c] = [order[i]!, order[i + 1]!, order[i + 2]!];
     if (mode === 6) yield [order[0]!, b, c];
@@ -148,7 +150,7 @@ function* triangles(order: Float64Array, mode: number): Generator<[number, numbe
   }
 }
 
-// Linear light to sRGB, both in [0, 1].
+// Converts linear light to sRGB, both in [0, 1].
 function coded(linear: number): number {
   const c = Math.max(0, Math.min(1, linear));
   return c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055;

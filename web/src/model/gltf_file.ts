@@ -1,4 +1,4 @@
-/** A glTF file's parts: its JSON, and numbers out of its buffers. */
+/** Reads the parts of a glTF file: its JSON, and numbers from its buffers. */
 import { Refusal } from './result';
 
 export interface Primitive {
@@ -11,7 +11,7 @@ interface TextureRef {
   index?: number;
   texCoord?: number;
 }
-/** What is read of it; a stranger's file may hold anything else in these places. */
+/** The parts of the JSON that are read. The file is untrusted: any value may have another type. */
 export interface GltfJson {
   scene?: number;
   scenes?: { nodes?: number[] }[];
@@ -47,7 +47,7 @@ export interface GltfJson {
 const kJson = 0x4e4f534a;
 const kMagic = 0x46546c67;
 const kWidths: Record<string, number> = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 };
-// Size of a component, how it is read, and what is 1 if it is normalized.
+// Size of a component in bytes, the function that reads it, and the value that means 1 if normalized.
 const kComponents: Record<number, [number, (view: DataView, at: number) => number, number]> = {
   5120: [1, (view, at) => view.getInt8(at), 127],
   5121: [1, (view, at) => view.getUint8(at), 255],
@@ -70,24 +70,28 @@ export class GltfFile {
     try {
       this.json = JSON.parse(text) as GltfJson;
     } catch {
-      throw damaged('this is no valid glTF');
+      throw damaged('the file is not valid glTF');
     }
     const strange = (this.json.extensionsRequired ?? []).find((name) => !kKnown.test(name));
     if (strange)
-      throw new Refusal(`it needs ${strange}, which cannot be read`, 'Export without compression');
+      throw new Refusal(
+        `the glTF extension ${strange} is not supported`,
+        'Export without compression',
+      );
     this.buffers = (this.json.buffers ?? []).map((buffer, i) =>
       buffer.uri === undefined && i === 0 && chunk ? chunk : embedded(buffer.uri),
     );
   }
 
-  /** The numbers of an accessor, one element after the other, and how many each has. */
+  /** Returns the numbers of an accessor, element by element, and the count of numbers per element. */
   numbers(index: number, name: string): { values: Float64Array; width: number } {
     const accessor = this.json.accessors?.[index];
     const view = this.view(accessor?.bufferView, name);
     const component = kComponents[accessor?.componentType ?? 0];
     const width = kWidths[accessor?.type ?? ''];
-    if (!accessor || !component || !width) throw damaged(`its ${name} are of no kind of glTF`);
-    if (accessor.sparse) throw new Refusal(`its ${name} are sparse`, 'Export without compression');
+    if (!accessor || !component || !width) throw damaged(`its ${name} have an unknown type`);
+    if (accessor.sparse)
+      throw new Refusal(`its ${name} use sparse storage`, 'Export without compression');
     const [size, read, one] = component;
     const stride = view.stride ?? size * width;
     const first = accessor.byteOffset ?? 0;
@@ -104,7 +108,7 @@ export class GltfFile {
     return { values, width };
   }
 
-  /** A picture that lies in the file; undefined if it is another file. */
+  /** Returns an image embedded in the file, or the URI of an external image; undefined if there is none. */
   picture(
     index: number | undefined,
   ): { bytes: Uint8Array; type: string } | { uri: string } | undefined {
@@ -112,7 +116,7 @@ export class GltfFile {
     if (!image) return undefined;
     const type = image.mimeType ?? /^data:([^;,]+)/.exec(image.uri ?? '')?.[1] ?? 'image/png';
     if (image.bufferView !== undefined)
-      return { bytes: this.view(image.bufferView, 'pictures').bytes, type };
+      return { bytes: this.view(image.bufferView, 'images').bytes, type };
     if (image.uri?.startsWith('data:')) return { bytes: embedded(image.uri), type };
     return image.uri === undefined ? undefined : { uri: unescaped(image.uri) };
   }
@@ -131,7 +135,7 @@ export class GltfFile {
   }
 }
 
-/** The JSON, and a GLB's own bytes. */
+/** Splits a file into its JSON and, for a GLB, its binary chunk. */
 function split(bytes: ArrayBuffer): { text: string; chunk?: Uint8Array } {
   const view = new DataView(bytes);
   const decode = (part: Uint8Array) => new TextDecoder().decode(part);
@@ -139,23 +143,23 @@ function split(bytes: ArrayBuffer): { text: string; chunk?: Uint8Array } {
     return { text: decode(new Uint8Array(bytes)) };
   const length = view.getUint32(12, true);
   if (view.getUint32(16, true) !== kJson || length > bytes.byteLength - 20)
-    throw damaged('the file is cut short');
+    throw damaged('the file is incomplete');
   const text = decode(new Uint8Array(bytes, 20, length));
   const next = 20 + length;
   if (next + 8 > bytes.byteLength) return { text };
   const size = view.getUint32(next, true);
-  if (size > bytes.byteLength - next - 8) throw damaged('the file is cut short');
+  if (size > bytes.byteLength - next - 8) throw damaged('the file is incomplete');
   return { text, chunk: new Uint8Array(bytes, next + 8, size) };
 }
 
 function embedded(uri: string | undefined): Uint8Array {
   const data = /^data:[^,]*;base64,(.*)$/s.exec(uri ?? '');
   if (!data)
-    throw new Refusal('its numbers are in another file', 'Export it as GLB, which has all in one');
+    throw new Refusal('its data are in another file', 'Export it as GLB, which is a single file');
   try {
     return Uint8Array.from(atob(data[1]!), (letter) => letter.charCodeAt(0));
   } catch {
-    throw damaged('what lies in it is no base64');
+    throw damaged('its embedded data are not valid base64');
   }
 }
 

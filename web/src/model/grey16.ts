@@ -1,16 +1,16 @@
 import { Refusal } from './result';
 
-/** A depth picture: mm, 0 where nothing was measured. */
+/** A depth picture; values in mm, 0 where nothing was measured. */
 export interface Grey16 {
   width: number;
   height: number;
   values: Uint16Array;
 }
 
-/** Reads a 16-bit grey PNG, which browsers show with 8 bits alone. */
+/** Reads a 16-bit grey PNG. Browsers themselves decode only 8 bits of it. */
 export async function readGrey16(bytes: ArrayBuffer): Promise<Grey16> {
   const view = new DataView(bytes);
-  const damaged = new Refusal('this is no 16-bit grey PNG', 'Download it instead');
+  const damaged = new Refusal('the file is not a 16-bit grey PNG', 'Download it instead');
   if (bytes.byteLength < 45 || view.getUint32(0) !== 0x89504e47) throw damaged;
   const [width, height] = [view.getUint32(16), view.getUint32(20)];
   const [bits, colour, interlaced] = [view.getUint8(24), view.getUint8(25), view.getUint8(28)];
@@ -46,7 +46,7 @@ function unfilter(rows: Uint8Array, width: number, height: number): Uint16Array 
   return values;
 }
 
-// PNG's fourth filter: whichever of the three is next to left + up - corner.
+// PNG's filter type 4 (Paeth): returns the neighbour closest to left + up - corner.
 function nearest(left: number, up: number, corner: number): number {
   const p = left + up - corner;
   const [a, b, c] = [Math.abs(p - left), Math.abs(p - up), Math.abs(p - corner)];

@@ -1,4 +1,4 @@
-/** What the API's rules (api/rules.ts) mean for a form's fields. */
+/** Applies the API's field rules (api/rules.ts) to form fields. */
 
 export interface NumberRule {
   readonly min?: number;
@@ -7,13 +7,13 @@ export interface NumberRule {
   readonly usual?: number;
 }
 
-/** As people on the pages write them, where that is shorter. */
+/** Short forms of the API's units, for the pages. */
 const kUnits: Readonly<Record<string, string>> = {
   'degrees Celsius': '°C',
   'dots per inch': 'dpi',
 };
 
-/** For a NumberField: its unit, its range, and its default as the placeholder. */
+/** Properties of a NumberField: unit, range, and the default value as its placeholder. */
 export function limitsOf(rule: NumberRule) {
   const unit = rule.unit ?? '';
   return {
@@ -24,7 +24,7 @@ export function limitsOf(rule: NumberRule) {
   };
 }
 
-/** The beginning of a text that takes at most so many bytes of UTF-8; no character is cut in two. */
+/** Truncates a text to at most `maxBytes` bytes of UTF-8 without splitting a character. */
 export function cutToBytes(text: string, maxBytes: number): string {
   const encoder = new TextEncoder();
   let out = '';

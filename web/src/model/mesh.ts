@@ -1,30 +1,30 @@
 import { Refusal } from './result';
 import type { Vec3 } from './pose';
 
-/** What of a material is shown: its colour, and its picture, by name or as it lies in the model's own file. */
+/** The displayed part of a material: its colour, and its image, either by name or embedded in the model's file. */
 export interface Worn {
   colour: [number, number, number];
   map?: string;
   picture?: { bytes: Uint8Array; type: string };
 }
 
-/** A model as it stands in its file: triangles, in the file's own units and axes. */
+/** A triangle mesh in the units and axes of its file. */
 export interface Mesh {
   /** x, y, z of each vertex. */
   positions: Float32Array;
-  /** Three vertices each triangle, counter-clockwise from outside. */
+  /** Three vertices per triangle, counter-clockwise when seen from outside. */
   indices: Uint32Array;
-  /** u, v of each vertex, v upwards; absent if the file has none. */
+  /** u, v of each vertex, with v pointing up; absent if the file has no texture coordinates. */
   uvs?: Float32Array;
-  /** Red, green, blue of each vertex, 0 to 255; absent if the file has none. */
+  /** Red, green, blue of each vertex, 0 to 255; absent if the file has no vertex colours. */
   colours?: Uint8Array;
-  /** Runs of triangles that share a material; `first` and `count` in indices. */
+  /** Ranges of triangles that share a material; `first` and `count` refer to `indices`. */
   parts: { material: string; first: number; count: number }[];
-  /** The material libraries that an OBJ names. */
+  /** The material libraries that an OBJ references. */
   libraries: string[];
-  /** Materials that the model's own file describes. */
+  /** Materials defined in the model's own file. */
   materials?: Map<string, Worn>;
-  /** What one of its units is, where its format says so. */
+  /** Length of one unit, if the file format defines it. */
   unit_mm?: number;
 }
 
@@ -33,7 +33,7 @@ export interface Box {
   max: Vec3;
 }
 
-/** The mesh's box; refuses one without triangles, or with a corner that is no number. */
+/** Returns the bounding box. Throws a Refusal if there are no triangles or if a vertex is missing or not finite. */
 export function boxOf(mesh: Mesh): Box {
   if (mesh.indices.length === 0)
     throw new Refusal('the model has no faces', 'Export the surface, not points or curves');
@@ -43,7 +43,10 @@ export function boxOf(mesh: Mesh): Box {
     for (let axis = 0; axis < 3; axis += 1) {
       const value = mesh.positions[3 * index + axis];
       if (value === undefined || !Number.isFinite(value))
-        throw new Refusal('a face names a corner that is not there', 'Export the model again');
+        throw new Refusal(
+          'a face refers to a vertex that does not exist',
+          'Export the model again',
+        );
       if (value < min[axis]!) min[axis] = value;
       if (value > max[axis]!) max[axis] = value;
     }

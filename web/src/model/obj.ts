@@ -1,7 +1,7 @@
 import { Refusal } from './result';
 import type { Mesh, Worn } from './mesh';
 
-/** Reads a Wavefront OBJ: corners, texture coordinates, faces of any number of corners, materials' names. */
+/** Reads a Wavefront OBJ: vertices, texture coordinates, polygons, and material names. */
 export function readObj(text: string): Mesh {
   const reader = new ObjReader();
   let line = 1;
@@ -20,7 +20,7 @@ class ObjReader {
   private readonly colours: number[] = [];
   private readonly libraries: string[] = [];
   private readonly parts: Mesh['parts'] = [];
-  // A corner is a position with a texture coordinate; each pair becomes one vertex.
+  // Each distinct pair of position and texture coordinate becomes one vertex.
   private readonly corners = new Map<number, number>();
   private readonly positions: number[] = [];
   private readonly uvs: number[] = [];
@@ -55,14 +55,17 @@ class ObjReader {
   private takeVertex(words: string[], line: number): void {
     const numbers = words.map(Number);
     if (numbers.length < 3 || numbers.slice(0, 3).some((n) => !Number.isFinite(n)))
-      throw new Refusal(`line ${line}: a corner needs three numbers`, 'Export the model again');
+      throw new Refusal(`line ${line}: a vertex needs three numbers`, 'Export the model again');
     this.v.push(numbers[0]!, numbers[1]!, numbers[2]!);
     if (numbers.length >= 6) this.colours.push(...numbers.slice(3, 6).map((c) => c * 255));
   }
 
   private takeFace(words: string[], line: number): void {
     if (words.length < 3)
-      throw new Refusal(`line ${line}: a face needs three corners`, 'Export the model again');
+      throw new Refusal(
+        `line ${line}: a face needs at least three vertices`,
+        'Export the model again',
+      );
     const fan = words.map((word) => this.cornerOf(word, line));
     for (let i = 2; i < fan.length; i += 1) this.indices.push(fan[0]!, fan[i - 1]!, fan[i]!);
   }
@@ -90,20 +93,20 @@ class ObjReader {
     return made;
   }
 
-  /** Counts from 1, or, if negative, back from the last. */
+  /** Converts an OBJ index, which counts from 1 or, if negative, back from the last element. */
   private place(word: string | undefined, count: number, line: number): number {
     const n = Number(word);
     const at = n > 0 ? n - 1 : count + n;
     if (!Number.isInteger(at) || at < 0 || at >= count)
       throw new Refusal(
-        `line ${line}: a face names corner ${word}, which is not there`,
+        `line ${line}: a face refers to vertex ${word}, which does not exist`,
         'Export the model again',
       );
     return at;
   }
 }
 
-/** Reads an MTL: material name to what is shown of it. */
+/** Reads an MTL: maps each material's name to its displayed properties. */
 export function readMtl(text: string): Map<string, Worn> {
   const materials = new Map<string, Worn>();
   let current: Worn | undefined;
@@ -117,7 +120,7 @@ export function readMtl(text: string): Map<string, Worn> {
       const [r, g, b] = words.map(Number);
       if ([r, g, b].every((c) => Number.isFinite(c))) current.colour = [r!, g!, b!];
     } else if (keyword === 'map_Kd' && current) {
-      // Options come before the name, which may have blanks.
+      // Options come before the name, which may contain spaces.
       current.map = line
         .slice(6)
         .trim()

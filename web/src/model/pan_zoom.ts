@@ -1,6 +1,6 @@
-/** A picture in a window: how large, and where its upper left corner is. */
+/** Zoom and position of a picture in a window; x and y are its upper left corner. */
 export interface View {
-  /** Pixels of the screen for one of the picture. */
+  /** Screen pixels per pixel of the picture. */
   zoom: number;
   x: number;
   y: number;
@@ -13,7 +13,7 @@ export interface Size {
 
 export const kMostZoom = 64;
 
-/** All of the picture, in the middle. */
+/** Shows the whole picture, centred. */
 export function fit(picture: Size, window: Size): View {
   const zoom = Math.min(window.width / picture.width, window.height / picture.height);
   return {
@@ -23,14 +23,14 @@ export function fit(picture: Size, window: Size): View {
   };
 }
 
-/** Nearer or farther, the place under (x, y) staying where it is. */
+/** Zooms about the point (x, y), which stays fixed. */
 export function zoomAt(view: View, factor: number, x: number, y: number, least: number): View {
   const zoom = Math.max(least, Math.min(kMostZoom, view.zoom * factor));
   const share = zoom / view.zoom;
   return { zoom, x: x - share * (x - view.x), y: y - share * (y - view.y) };
 }
 
-/** Moved, with at least a part of the picture still in the window. */
+/** Moves the picture, but keeps a part of it in the window. */
 export function pan(view: View, dx: number, dy: number, picture: Size, window: Size): View {
   const keep = (at: number, size: number, room: number) =>
     Math.max(Math.min(at, 0.8 * room), 0.2 * room - size);
@@ -41,7 +41,7 @@ export function pan(view: View, dx: number, dy: number, picture: Size, window: S
   };
 }
 
-/** The pixel of the picture under a place of the window; undefined beside the picture. */
+/** Returns the picture's pixel at a point of the window; undefined outside the picture. */
 export function pixelAt(
   view: View,
   x: number,

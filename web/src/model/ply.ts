@@ -1,7 +1,7 @@
 import { Refusal } from './result';
 import type { Mesh } from './mesh';
 
-/** An element of a PLY file: its scalar properties by name, and its lists, one after the other. */
+/** An element of a PLY file: its scalar properties and its list properties, by name. */
 export interface PlyElement {
   count: number;
   columns: Map<string, Float64Array>;
@@ -12,7 +12,7 @@ type Kind = 'i1' | 'u1' | 'i2' | 'u2' | 'i4' | 'u4' | 'f4' | 'f8';
 interface Property {
   name: string;
   kind: Kind;
-  /** Of a list: how its length is written. */
+  /** For a list: the type of its length. */
   length?: Kind;
 }
 interface Header {
@@ -39,9 +39,12 @@ export function readPly(bytes: ArrayBuffer): Map<string, PlyElement> {
       : new Binary(bytes, header.size, header.format === 'binary_little_endian');
   const elements = new Map<string, PlyElement>();
   for (const { name, count, properties } of header.elements) {
-    // Each row takes at least a byte: what a header claims is not believed.
+    // The header is untrusted. Each row takes at least a byte, so a larger count cannot be right.
     if (count > bytes.byteLength)
-      throw new Refusal(`the file says ${count} of "${name}", more than it has bytes`, kAgain);
+      throw new Refusal(
+        `its header claims ${count} of "${name}", more than the file can hold`,
+        kAgain,
+      );
     elements.set(name, readElement(source, count, properties));
   }
   return elements;
@@ -52,7 +55,7 @@ function readHeader(bytes: ArrayBuffer): Header {
     new Uint8Array(bytes, 0, Math.min(bytes.byteLength, 65536)),
   );
   const end = /^ply\r?\n[\s\S]*?\nend_header\r?\n/.exec(text);
-  if (!end) throw new Refusal('this is no PLY file: it has no header', kAgain);
+  if (!end) throw new Refusal('the file is not a PLY file: it has no header', kAgain);
   const header: Header = { format: '', elements: [], size: end[0].length };
   for (const line of end[0].split(/\r?\n/)) {
     const words = line.trim().split(/\s+/);
@@ -64,7 +67,7 @@ function readHeader(bytes: ArrayBuffer): Header {
   if (!['ascii', 'binary_little_endian', 'binary_big_endian'].includes(header.format))
     throw new Refusal(`its format "${header.format}" is unknown`, kAgain);
   if (header.elements.some(({ count }) => !Number.isInteger(count) || count < 0))
-    throw new Refusal('its header does not say how much there is', kAgain);
+    throw new Refusal('a count in its header is not a whole number', kAgain);
   return header;
 }
 
@@ -106,7 +109,7 @@ class Words {
   }
   next(_kind: Kind): number {
     const { value, done } = this.words.next();
-    if (done) throw new Refusal('the file ends too early', kAgain);
+    if (done) throw new Refusal('the file is incomplete', kAgain);
     return Number(value[0]);
   }
 }
@@ -123,7 +126,7 @@ class Binary {
   next(kind: Kind): number {
     const begin = this.at;
     this.at += Number(kind[1]);
-    if (this.at > this.view.byteLength) throw new Refusal('the file ends too early', kAgain);
+    if (this.at > this.view.byteLength) throw new Refusal('the file is incomplete', kAgain);
     switch (kind) {
       case 'i1':
         return this.view.getInt8(begin);
@@ -145,7 +148,7 @@ class Binary {
   }
 }
 
-/** The corners of all faces as triangles. */
+/** Returns the vertex indices of all faces, split into triangles. */
 export function trianglesOf(elements: Map<string, PlyElement>): Uint32Array {
   const face = elements.get('face');
   const list = face?.lists.get('vertex_indices') ?? face?.lists.get('vertex_index');
@@ -160,7 +163,7 @@ export function trianglesOf(elements: Map<string, PlyElement>): Uint32Array {
   return Uint32Array.from(out);
 }
 
-/** The columns of that name, interleaved, one row for each vertex; undefined if one is missing. */
+/** Returns the named columns, interleaved row by row; undefined if one is missing. */
 export function columnsOf(element: PlyElement, names: string[]): Float32Array | undefined {
   const columns = names.map((name) => element.columns.get(name));
   if (columns.some((column) => !column)) return undefined;

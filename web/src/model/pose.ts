@@ -1,14 +1,15 @@
 /**
- * Where the object hangs: how it is turned, and where over the film the centre of its box is. The API's X_FO
- * follows from that (toApi): its translation moves the box's centre there; z is the water's business.
+ * The pose of the object on the page: its rotation, and the position of its bounding box's centre over the film. toApi
+ * converts it to the API's X_FO, whose translation moves the box's centre to that position. The page does not choose z:
+ * the object starts with its lowest point on the water.
  */
 export type Vec3 = readonly [number, number, number];
-/** w, x, y, z; of length 1. */
+/** w, x, y, z; a unit quaternion. */
 export type Quaternion = readonly [number, number, number, number];
 
 export interface Pose {
   rotation: Quaternion;
-  /** Where the centre of the object's box is over the film, mm: x to the right, y up. */
+  /** Position of the centre of the object's bounding box over the film, mm; x to the right, y up. */
   centre_mm: readonly [number, number];
 }
 
@@ -20,7 +21,7 @@ export function normalized(q: Quaternion): Quaternion {
   return [q[0] / length, q[1] / length, q[2] / length, q[3] / length];
 }
 
-/** First b, then a. */
+/** Applies b first, then a. */
 export function product(a: Quaternion, b: Quaternion): Quaternion {
   const [aw, ax, ay, az] = a;
   const [bw, bx, by, bz] = b;
@@ -42,25 +43,25 @@ export function rotate(q: Quaternion, v: Vec3): Vec3 {
   ];
 }
 
-/** A turn about one of the film's axes, degrees. */
+/** A rotation about one of the film's axes, in degrees. */
 export function turn(axis: 'x' | 'y' | 'z', degrees: number): Quaternion {
   const half = (degrees * Math.PI) / 360;
   const s = Math.sin(half);
   return [Math.cos(half), axis === 'x' ? s : 0, axis === 'y' ? s : 0, axis === 'z' ? s : 0];
 }
 
-/** Turns about the film's x, then y, then z axis, degrees, as a person types them. */
+/** Rotations about the film's x, then y, then z axis, in degrees, as typed by the user. */
 export function fromAngles([x, y, z]: Vec3): Quaternion {
   return product(turn('z', z), product(turn('y', y), turn('x', x)));
 }
 
-/** The angles of fromAngles; y within ±90, x and z within ±180. */
+/** Inverse of fromAngles; y within ±90, x and z within ±180. */
 export function toAngles(q: Quaternion): Vec3 {
   const [w, x, y, z] = normalized(q);
   const degrees = (rad: number) => (rad * 180) / Math.PI;
   const sinY = Math.max(-1, Math.min(1, 2 * (w * y - z * x)));
   if (Math.abs(sinY) > 1 - 1e-12) {
-    // Level with the pole: x and z turn about the same axis, so all of it is given to x.
+    // Gimbal lock: x and z rotate about the same axis, so the whole angle is assigned to x.
     return [degrees(2 * Math.atan2(x, w)), degrees(Math.asin(sinY)), 0];
   }
   return [
@@ -70,7 +71,7 @@ export function toAngles(q: Quaternion): Vec3 {
   ];
 }
 
-/** As the API has it. `box_mm` is the centre of the object's box in its own frame, after the scale. */
+/** Converts to the API's pose. `box_mm` is the centre of the scaled object's bounding box in its own frame. */
 export function toApi(
   pose: Pose,
   box_mm: Vec3,
@@ -83,7 +84,7 @@ export function toApi(
   };
 }
 
-/** The other way round; undefined for what is no pose. */
+/** Inverse of toApi; undefined if the pose is incomplete. */
 export function fromApi(
   pose: { rotationWxyz?: number[]; translationMm?: number[] } | undefined,
   box_mm: Vec3,

@@ -1,10 +1,10 @@
-/** One look at the axis, of a dip's positions.csv. */
+/** One sample of the axis position from a dip's positions.csv. */
 export interface Sample {
   t_s: number;
   position_mm: number;
 }
 
-/** Reads positions.csv; lines that are not whole (of a dip that was cut off) are left out. */
+/** Reads positions.csv and skips incomplete lines, which an interrupted dip can leave. */
 export function readPositions(text: string): Sample[] {
   const [head = '', ...lines] = text.split('\n');
   const names = head.trim().split(',');

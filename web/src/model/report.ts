@@ -1,4 +1,4 @@
-/** What the page reads of a worker's report.json; every part may be missing. */
+/** The parts of a worker's report.json that the page reads. Any of them may be missing. */
 
 export interface Warning {
   code: string;
@@ -17,9 +17,9 @@ export interface Report {
     dpi?: number;
     film_image_px?: number[];
     model?: string;
-    /** Of a dip: how deep, as it was planned. A simulation may say "full". */
+    /** The planned depth of a dip. In a simulation it may be "full". */
     depth_mm?: number | string;
-    /** Of a dip. */
+    /** For a dip only. */
     speed_mm_per_s?: number;
   };
   depth_mm?: number;
@@ -31,7 +31,7 @@ export interface Report {
 
 export const warningsOf = (report: Report | undefined): Warning[] => report?.warnings ?? [];
 
-/** "12.30 mm immersion, at (-4.00, 17.50) mm": a place in the film frame at first contact, mm. */
+/** Parses "12.30 mm immersion, at (-4.00, 17.50) mm" as a point in the film frame at first contact, mm. */
 export function placeOf(where: string): readonly [number, number, number] | undefined {
   const number = '(-?\\d+(?:\\.\\d+)?)';
   const found = new RegExp(`^${number} mm immersion, at \\(${number}, ${number}\\) mm$`).exec(

@@ -1,16 +1,16 @@
-/** What went wrong, in words for people: what happened, and what to do. */
+/** An error for people to read: what happened, and how to fix it. */
 export interface Failure {
   what: string;
   remedy?: string;
-  /** Stable word of the API (ErrorReason), or of this page; programs may look at it. */
+  /** A stable reason code of the API (ErrorReason) or of this page, for use by code. */
   reason?: string;
   /** HTTP status; 0 if the daemon did not answer. */
   status?: number;
-  /** What the API says besides (google.rpc.ErrorInfo.metadata). */
+  /** Further details from the API (google.rpc.ErrorInfo.metadata). */
   metadata?: Record<string, string>;
 }
 
-/** A value, or why there is none. */
+/** A value or a failure. */
 export type Result<T> = { ok: true; value: T } | { ok: false; failure: Failure };
 
 export const done = <T>(value: T): Result<T> => ({ ok: true, value });
@@ -24,7 +24,7 @@ export const refused = (
   failure: { what, ...(remedy ? { remedy } : {}), ...more },
 });
 
-/** Thrown inside a parser alone; `attempt` turns it into a Result at its door. */
+/** Thrown only inside parsers. `attempt` converts it to a Result. */
 export class Refusal extends Error {
   constructor(
     readonly what: string,
@@ -34,7 +34,7 @@ export class Refusal extends Error {
   }
 }
 
-/** The value of `work`, or the failure that a Refusal in it told. */
+/** Returns the value of `work`, or the failure if it throws a Refusal. */
 export function attempt<T>(work: () => T): Result<T> {
   try {
     return done(work());

@@ -1,12 +1,12 @@
 import { Refusal } from './result';
 import type { Mesh } from './mesh';
 
-/** Reads an STL, binary or text; every triangle has corners of its own. */
+/** Reads a binary or text STL. Triangles do not share vertices. */
 export function readStl(bytes: ArrayBuffer): Mesh {
   return isBinary(bytes) ? readBinary(bytes) : readText(new TextDecoder().decode(bytes));
 }
 
-// "solid" stands at the head of many a binary file, too; its length is what tells.
+// Many binary files also begin with "solid", so the length of the file decides.
 function isBinary(bytes: ArrayBuffer): boolean {
   if (bytes.byteLength < 84) return false;
   const count = new DataView(bytes).getUint32(80, true);
@@ -14,8 +14,8 @@ function isBinary(bytes: ArrayBuffer): boolean {
   const head = new TextDecoder().decode(new Uint8Array(bytes, 0, 5));
   if (head.toLowerCase() === 'solid') return false;
   throw new Refusal(
-    `the file says ${count} triangles but is ${bytes.byteLength} bytes long`,
-    'It is cut off or damaged: copy or export it again',
+    `the header says ${count} triangles, but the file has ${bytes.byteLength} bytes`,
+    'It is incomplete or damaged. Copy or export it again',
   );
 }
 
@@ -35,11 +35,11 @@ function readText(text: string): Mesh {
   for (let m = vertex.exec(text); m; m = vertex.exec(text)) {
     const corner = [Number(m[1]), Number(m[2]), Number(m[3])];
     if (corner.some((n) => !Number.isFinite(n)))
-      throw new Refusal(`corner ${numbers.length / 3 + 1} is no place`, 'Export the model again');
+      throw new Refusal(`vertex ${numbers.length / 3 + 1} is not valid`, 'Export the model again');
     numbers.push(...corner);
   }
   if (numbers.length === 0 || numbers.length % 9 !== 0)
-    throw new Refusal('this is no complete STL', 'Copy or export the file again');
+    throw new Refusal('the STL file is incomplete', 'Copy or export the file again');
   return meshOf(Float32Array.from(numbers));
 }
 

@@ -2,17 +2,17 @@ import { boxOf } from './mesh';
 import { columnsOf, readPly, trianglesOf } from './ply';
 import { Refusal } from './result';
 
-/** Where each point of the object takes its film from (surface_map.ply): frame O, mm, after the scale. */
+/** Maps each point of the object to its point on the film (surface_map.ply). Frame O, mm, after scaling. */
 export interface SurfaceMap {
   positions: Float32Array;
   indices: Uint32Array;
-  /** x, y on the film at rest, mm; not a number where no film arrives. */
+  /** x, y on the film at rest, mm; NaN where the film does not reach. */
   film_mm: Float32Array;
-  /** When the water reaches it, s. */
+  /** Time at which the water reaches the point, s. */
   contact_s: Float32Array;
-  /** Largest stretch, 1 at rest. */
+  /** Largest principal stretch; 1 at rest. */
   stretch: Float32Array;
-  /** Centre of the box, mm. */
+  /** Bounding box, mm. */
   box: { min: readonly [number, number, number]; max: readonly [number, number, number] };
   contactMax_s: number;
 }
@@ -25,7 +25,7 @@ export function readSurfaceMap(bytes: ArrayBuffer): SurfaceMap {
   const contact_s = vertex && columnsOf(vertex, ['contact_time']);
   const stretch = vertex && columnsOf(vertex, ['stretch']);
   if (!positions || !film_mm || !contact_s || !stretch)
-    throw new Refusal('this is no map of a surface: it lacks film_x, contact_time or stretch');
+    throw new Refusal('the file is not a surface map: film_x, contact_time or stretch is missing');
   const indices = trianglesOf(elements);
   const box = boxOf({ positions, indices, parts: [], libraries: [] });
   let contactMax_s = 0;
@@ -33,7 +33,7 @@ export function readSurfaceMap(bytes: ArrayBuffer): SurfaceMap {
   return { positions, indices, film_mm, contact_s, stretch, box, contactMax_s };
 }
 
-/** Triangles (their numbers) that a warning is about; none if it is not about places on the surface. */
+/** Returns the indices of the triangles that a warning is about; empty if it is not about parts of the surface. */
 export function placesOf(
   code: string,
   map: SurfaceMap,
@@ -47,7 +47,7 @@ export function placesOf(
   return out;
 }
 
-/** The z part of a direction of frame O once the object is turned: 1 is straight up. */
+/** Returns the z component of a direction of frame O after the object's rotation; 1 is straight up. */
 export type UpOf = (direction: readonly [number, number, number]) => number;
 
 function testOf(

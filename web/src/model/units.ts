@@ -1,4 +1,4 @@
-/** Numbers with their units, as people read them; never a number without one. */
+/** Formats numbers for people, always with a unit. */
 import { done, refused, type Result } from './result';
 
 export const formatMm = (value: number, digits = 1): string => `${value.toFixed(digits)} mm`;
@@ -32,7 +32,7 @@ export function formatBytes(bytes: number): string {
   return `${unit === 0 ? value : value.toFixed(1)} ${units[unit]}`;
 }
 
-/** "14:05", "Mon 14:05", "3 Nov 14:05" or "3 Nov 2027", by how far off it is. */
+/** "14:05", "Mon 14:05", "3 Nov 14:05" or "3 Nov 2027", depending on the distance from now. */
 export function formatTime(time: Date, now: Date): string {
   const clock = time.toLocaleTimeString([], { hour: '2-digit', minute: '2-digit', hour12: false });
   if (time.toDateString() === now.toDateString()) return clock;
@@ -44,13 +44,13 @@ export function formatTime(time: Date, now: Date): string {
   return `${time.toLocaleDateString('en-GB', day)} ${clock}`;
 }
 
-/** Seconds of a proto3 JSON Duration ("3.5s"); NaN if it is none. */
+/** Converts a proto3 JSON Duration ("3.5s") to seconds; NaN if it is malformed. */
 export const secondsOf = (duration: string | undefined): number =>
   duration?.endsWith('s') ? Number(duration.slice(0, -1)) : NaN;
 
 /**
- * A number as a person types it, with a point or a comma before the decimals; undefined if the text is not one.
- * "1,000" is not: some read a thousand, others one.
+ * Parses a number with a decimal point or comma; undefined if malformed. "1,000" counts as malformed because it may mean
+ * one or one thousand.
  */
 export function parseNumber(text: string): number | undefined {
   const plain = text.trim();
@@ -60,17 +60,17 @@ export function parseNumber(text: string): number | undefined {
   return Number.isFinite(value) ? value : undefined;
 }
 
-/** What a number field takes. */
+/** The range and unit of a number field. */
 export interface NumberRange {
   min: number;
   max: number;
   unit: string;
 }
 
-/** The number that was typed; refused unless it is one, and in range. */
+/** Parses typed text; fails if it is not a number or is out of range. */
 export function readNumber(text: string, { min, max, unit }: NumberRange): Result<number> {
   const remedy = `Enter ${min} to ${max} ${unit}`;
-  if (text.trim() === '') return refused('A number is missing', remedy);
+  if (text.trim() === '') return refused('Number missing', remedy);
   const value = parseNumber(text);
   if (value === undefined) return refused('Not a number', remedy);
   return value < min || value > max ? refused('Out of range', remedy) : done(value);

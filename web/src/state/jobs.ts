@@ -1,4 +1,4 @@
-/** The jobs that the page has seen, kept up to date by events. */
+/** Jobs known to the page, kept up to date by events. */
 import { effect, signal } from '@preact/signals';
 import { jobs as api, queue as queueApi } from '../api/services';
 import type { Job, JobEvent, Queue } from '../api/types';
@@ -6,10 +6,10 @@ import { beginnings, on } from '../events';
 
 export const known = signal<ReadonlyMap<string, Job>>(new Map());
 export const queue = signal<Queue | undefined>(undefined);
-/** Counts events of jobs that the page had not seen: lists ask anew. */
+/** Number of events for unknown jobs. Lists fetch their jobs again when it changes. */
 export const arrivals = signal(0);
 
-// An answer that was on its way while an event came must not undo it.
+// A response must not overwrite a newer event that arrived before it.
 const isOlder = (job: Job, than: Job | undefined): boolean =>
   than !== undefined && Date.parse(job.updateTime ?? '') < Date.parse(than.updateTime ?? '');
 
@@ -27,7 +27,7 @@ export function forget(name: string): void {
 
 const asked = new Set<string>();
 
-/** Fetches a job; several wishes at once are one request. */
+/** Fetches a job. Concurrent calls for the same job share one request. */
 export async function refresh(name: string): Promise<void> {
   if (asked.has(name)) return;
   asked.add(name);
@@ -46,7 +46,7 @@ on('job', (data) => {
   if (event?.job) take(event);
 });
 
-// An event tells less than the job: it is filled in, and the job asked for if its state changed.
+// An event has fewer fields than the job. Its fields are merged, and the job is fetched if its state changed.
 function take(event: JobEvent): void {
   const job = known.value.get(event.job ?? '');
   if (!job) {
@@ -86,9 +86,9 @@ export const kOpen: readonly Job['state'][] = [
   'RUNNING',
   'CANCELLING',
 ];
-/** INTERRUPTED is the end of what is of its moment alone; the daemon queues a computation again. */
+/** INTERRUPTED is final for dips, prints and captures. The daemon queues other interrupted jobs again. */
 export const isFinished = (job: Job): boolean => kFinished.includes(job.state);
 
-/** Whether it can be done again as it was: what is of its moment cannot. */
+/** True if the job can be repeated unchanged. Dips, prints and captures cannot. */
 export const canRetry = (job: Job): boolean =>
   isFinished(job) && job.state !== 'SUCCEEDED' && !job.dip && !job.print && !job.capture;

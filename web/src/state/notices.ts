@@ -1,4 +1,4 @@
-/** What the page has to say: what failed, with what to do, and what was done. */
+/** Short notices on the page: failures with their remedy, and confirmations. */
 import { signal } from '@preact/signals';
 import type { Failure, Result } from '../model/result';
 
@@ -29,7 +29,7 @@ export const say = (what: string): void => add({ kind: 'done', what });
 export const complain = ({ what, remedy }: Failure): void =>
   add({ kind: 'failure', what, ...(remedy ? { remedy } : {}) });
 
-/** The value; a failure is said and becomes undefined. */
+/** Returns the value. A failure is shown as a notice, and undefined is returned. */
 export function orComplain<T>(result: Result<T>): T | undefined {
   if (result.ok) return result.value;
   complain(result.failure);

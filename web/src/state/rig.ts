@@ -1,4 +1,4 @@
-/** The rig as it was last told, and our right to command it. */
+/** The last known state of the rig, and this page's lease. */
 import { computed, effect, signal } from '@preact/signals';
 import { daemonNow } from '../api/call';
 import { lease as leaseApi, rig as api } from '../api/services';
@@ -8,19 +8,19 @@ import { complain, say } from './notices';
 
 export const rig = signal<Rig | undefined>(undefined);
 
-/** What became of the last Stop. */
+/** Result of the last stop request. */
 export const stopState = signal<'ready' | 'sending' | 'stopped' | 'failed'>('ready');
 
 export const isMoving = computed(() =>
   ['MOVING', 'DIPPING', 'STOPPING'].includes(rig.value?.state ?? ''),
 );
 
-// Kept over reloads: the lease is the daemon's, this is only its key.
+// Kept across reloads. The daemon owns the lease; the page stores only its id.
 const kKey = 'lease';
 export const leaseId = signal(localStorage.getItem(kKey) ?? '');
 export const kLease_s = 600;
 
-/** True if the rig is ours to command. */
+/** True if this page holds the lease. */
 export const isOurs = computed(() => leaseId.value !== '' && rig.value?.lease != null);
 
 function keep(id: string): void {
@@ -44,7 +44,7 @@ effect(() => {
 
 const kTries = 5;
 
-/** Stops any motion, and tries again at once if that does not get through. */
+/** Stops any motion. Retries at once if the request fails. */
 export async function stop(): Promise<void> {
   stopState.value = 'sending';
   for (let i = 0; i < kTries; i += 1) {
@@ -59,7 +59,7 @@ export async function stop(): Promise<void> {
   }
   stopState.value = 'failed';
   complain({
-    what: 'Stop did not get through to the daemon',
+    what: 'The stop request did not reach the daemon',
     remedy: 'Press the stop button on the rig itself',
   });
 }
@@ -80,7 +80,7 @@ export async function releaseLease(): Promise<void> {
   if (!answer.ok) return complain(answer.failure);
   keep('');
   await refreshRig();
-  say('The rig is free for others');
+  say('The rig was released');
 }
 
 export async function breakLease(reason: string): Promise<void> {
@@ -89,7 +89,7 @@ export async function breakLease(reason: string): Promise<void> {
   await refreshRig();
 }
 
-/** Renews the lease while the page is open; notices when it was lost. */
+/** Renews the lease while the page is open and reports its loss. */
 async function renew(): Promise<void> {
   const lease = rig.value?.lease;
   if (!leaseId.value || !lease) return;
@@ -98,12 +98,12 @@ async function renew(): Promise<void> {
   const answer = await leaseApi.renew(leaseId.value, kLease_s);
   if (answer.ok || answer.failure.status === 0) return;
   keep('');
-  complain({ what: 'The lease of the rig ended', remedy: 'Take the rig again' });
+  complain({ what: 'Your lease of the rig has ended', remedy: 'Take the rig again' });
 }
 
 window.setInterval(() => void renew(), 20_000);
 
-/** What a command of ours answered: a lost lease is noticed, a refusal said. */
+/** Sends a command to the rig, shows a failure as a notice, and detects a lost lease. Returns true on success. */
 export async function command(
   work: (leaseId: string) => ReturnType<typeof api.arm>,
 ): Promise<boolean> {

@@ -1,4 +1,4 @@
-/** Who uses this page, and what they may do. */
+/** The user of this page and their permissions. */
 import { computed, signal } from '@preact/signals';
 import { csrf } from '../api/call';
 import { session as api } from '../api/services';
@@ -7,25 +7,25 @@ import { connect, disconnect } from '../events';
 import { complain } from './notices';
 import type { Result } from '../model/result';
 
-/** Undefined until the daemon told. */
+/** Undefined until the daemon has responded. */
 export const who = signal<WhoAmI | undefined>(undefined);
-/** True once it is known that somebody has to sign in. */
+/** True once it is known that signing in is required. */
 export const mustSignIn = signal(false);
 
 const kRoles: Role[] = ['VIEWER', 'MAKER', 'OPERATOR', 'ADMIN'];
 
-/** Whether whoever uses the page may do what that role may. */
+/** True if the user has at least the permissions of the role. */
 export const may = (role: Role): boolean =>
   who.value !== undefined && kRoles.indexOf(who.value.role) >= kRoles.indexOf(role);
 
-/** The name that jobs are owned by. */
+/** The user's name, as in the owner of a job. */
 export const me = computed(() => who.value?.user ?? '');
 
-/** Whether a job of that owner is theirs to change. */
+/** True if the user may change jobs of that owner. */
 export const mayChange = (owner: string): boolean =>
   may('OPERATOR') || (may('MAKER') && owner === me.value);
 
-/** Asks who we are; with that, events begin. */
+/** Fetches the session and then opens the event stream. */
 export async function begin(): Promise<void> {
   const answer = await api.who();
   if (answer.ok) {
@@ -36,7 +36,7 @@ export async function begin(): Promise<void> {
   } else if (answer.failure.status === 401) {
     end();
   } else {
-    // The daemon is away or just starting: the page waits for it.
+    // The daemon is not running or is just starting: try again later.
     window.setTimeout(() => void begin(), 1500);
     if (answer.failure.status !== 0) complain(answer.failure);
   }

@@ -1,4 +1,4 @@
-/** Values that outlive the page, files too: one table of the browser's own database. */
+/** Persistent values, including files, in one table of the browser's IndexedDB. */
 const kTable = 'values';
 let opened: Promise<IDBDatabase> | undefined;
 
@@ -12,7 +12,7 @@ function database(): Promise<IDBDatabase> {
   return opened;
 }
 
-/** What was kept under that name; undefined if nothing was, or the browser keeps nothing. */
+/** Returns the value stored under the key; undefined if there is none or the browser has no storage. */
 export async function load<T>(key: string): Promise<T | undefined> {
   try {
     const table = (await database()).transaction(kTable).objectStore(kTable);
@@ -26,7 +26,7 @@ export async function load<T>(key: string): Promise<T | undefined> {
   }
 }
 
-/** Keeps a value; in a private window it is gone with the page, which is no failure. */
+/** Stores a value. Errors are ignored: a private window, for example, may not allow storage. */
 export async function save(key: string, value: unknown): Promise<void> {
   try {
     const transaction = (await database()).transaction(kTable, 'readwrite');

@@ -1,4 +1,4 @@
-/** The few controls that all screens share. */
+/** Controls shared by all screens. */
 import type { ComponentChildren, JSX } from 'preact';
 import { useEffect, useId, useRef, useState } from 'preact/hooks';
 import { cutToBytes } from '../model/limits';
@@ -6,7 +6,7 @@ import { done, type Result } from '../model/result';
 import { parseNumber, readNumber } from '../model/units';
 import { useReportError } from './field_errors';
 
-/** A button that shows that it is at work, and takes no second press meanwhile. */
+/** A button that is marked busy and ignores further presses while its action runs. */
 export function Button(props: {
   children: ComponentChildren;
   onPress: () => unknown;
@@ -22,7 +22,7 @@ export function Button(props: {
     await props.onPress();
     setBusy(false);
   };
-  // Not `disabled` while it is at work: the keyboard would lose its place.
+  // A busy button is not `disabled`, because it would lose keyboard focus.
   return (
     <button
       type="button"
@@ -38,7 +38,7 @@ export function Button(props: {
   );
 }
 
-/** A button that asks once more before it does what cannot be undone; Escape, or a while, and it does not. */
+/** A button for actions that cannot be undone: it asks for a second press. Escape or 6 s without a press cancels. */
 export function Careful(props: {
   children: ComponentChildren;
   sure: string;
@@ -71,15 +71,15 @@ export function Careful(props: {
 }
 
 /**
- * A number with its unit. What is typed stays as it was typed. A number in range becomes the value; any other text is
- * marked, leaves the value as it was before it was edited, and holds up the action of the form (`field_errors`).
+ * A number with its unit. The typed text is never changed. A number in range becomes the value. Any other text is marked
+ * as an error, restores the value from before the edit, and blocks the form's action (`field_errors`).
  */
 export function NumberField(props: {
   label: string;
   unit: string;
   value: number | undefined;
   onValue: (value: number) => void;
-  /** Called when the field is emptied; without it that is an error. */
+  /** Called when the field is cleared; if absent, an empty field is an error. */
   onEmpty?: () => void;
   min: number;
   max: number;
@@ -89,7 +89,7 @@ export function NumberField(props: {
   disabled?: boolean;
 }) {
   const id = useId();
-  // Undefined: the field shows the value.
+  // If undefined, the field shows the value.
   const [typed, setTyped] = useState<string>();
   const told = useRef(props.value);
   const valueBefore = useRef(props.value);
@@ -115,7 +115,7 @@ export function NumberField(props: {
     const number = read(content);
     tell(number.ok ? number.value : valueBefore.current);
   };
-  // A value that comes from elsewhere replaces what was typed, but not while somebody types.
+  // A value set from outside replaces the typed text, but not during typing.
   const follow = () => {
     if (isFocused.current && typed !== undefined) return;
     if (isSame(props.value, told.current)) return;
@@ -168,7 +168,7 @@ export function NumberField(props: {
 
 const failureOf = (result: Result<unknown>) => (result.ok ? undefined : result.failure);
 
-/** Equal but for the rounding of what is computed from a value and back. */
+/** True if equal up to rounding, which occurs when a value is converted and converted back. */
 const isSame = (a: number | undefined, b: number | undefined): boolean =>
   a === b ||
   (a !== undefined && b !== undefined && Math.abs(a - b) <= 1e-6 * Math.max(1, Math.abs(b)));
@@ -180,7 +180,7 @@ export function TextField(props: {
   placeholder?: string;
   type?: string;
   autocomplete?: JSX.InputHTMLAttributes<HTMLInputElement>['autocomplete'];
-  /** More than so many bytes of UTF-8 cannot be typed. */
+  /** Longest text that can be typed, in bytes of UTF-8. */
   maxBytes?: number;
 }) {
   const id = useId();
@@ -231,7 +231,7 @@ export function Choice<T extends string>(props: {
   );
 }
 
-/** One of a few, all of them in sight. */
+/** A choice with all options visible. */
 export function Switch<T extends string>(props: {
   label: string;
   value: T;
@@ -270,7 +270,7 @@ export function Check(props: { label: string; value: boolean; onValue: (value: b
   );
 }
 
-/** Figures with their names. */
+/** A list of labelled figures. */
 export const Figures = ({
   rows,
 }: {

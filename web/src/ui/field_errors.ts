@@ -1,26 +1,26 @@
-/** The fields of a form whose text cannot be used. The form's action waits until there are none. */
+/** The invalid fields of a form. The form's action is blocked until there are none. */
 import { useSignal, type Signal } from '@preact/signals';
 import { createContext } from 'preact';
 import { useContext, useId, useLayoutEffect } from 'preact/hooks';
 
-/** Labels of the fields, by an id of each. */
+/** Labels of the invalid fields, by field id. */
 export type FieldErrors = Signal<ReadonlyMap<string, string>>;
 
 const Context = createContext<FieldErrors | undefined>(undefined);
 
-/** Surrounds the fields of one form. */
+/** Wraps the fields of one form. */
 export const FieldErrorsOf = Context.Provider;
 
 export const useFieldErrors = (): FieldErrors => useSignal<ReadonlyMap<string, string>>(new Map());
 
-/** Those of the form around this component. */
+/** The invalid fields of the form that contains this component. */
 export const useFormErrors = (): FieldErrors | undefined => useContext(Context);
 
-/** Tells the form around a field whether the field's text can be used. */
+/** Reports to the enclosing form whether the field is invalid. */
 export function useReportError(label: string, hasError: boolean): void {
   const id = useId();
   const errors = useFormErrors();
-  // Before anybody can press a button.
+  // A layout effect runs before a button can be pressed.
   useLayoutEffect(() => {
     if (!errors || !hasError) return undefined;
     errors.value = new Map(errors.value).set(id, label);
@@ -30,7 +30,7 @@ export function useReportError(label: string, hasError: boolean): void {
   }, [errors, hasError, id, label]);
 }
 
-/** What to do before the form's action; undefined if nothing holds it up. */
+/** Returns a remedy for the first invalid field; undefined if all fields are valid. */
 export function remedyOf(errors: FieldErrors | undefined): string | undefined {
   const [label] = errors?.value.values() ?? [];
   return label === undefined ? undefined : `Correct “${label}” first`;

@@ -1,4 +1,4 @@
-/** Line drawings on a 16 × 16 grid, in the text's colour. */
+/** Line icons on a 16 × 16 grid, in the text colour. */
 const kPaths = {
   new: 'M3 13h10M8 2v8M4 6h8',
   jobs: 'M2 4h12M2 8h12M2 12h8',

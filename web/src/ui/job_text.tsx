@@ -1,4 +1,4 @@
-/** Jobs in words, the same on every screen. */
+/** Texts that describe jobs, the same on every screen. */
 import type { Job, JobState } from '../api/types';
 import { formatSeconds, formatTime } from '../model/units';
 import { now, secondsUntil } from './clock';
@@ -7,9 +7,9 @@ import { Progress } from './controls';
 const kStates: Record<JobState, string> = {
   STATE_UNSPECIFIED: 'unknown',
   QUEUED: 'queued',
-  WAITING_FOR_OPERATOR: 'waits for you',
+  WAITING_FOR_OPERATOR: 'waiting for operator',
   RUNNING: 'running',
-  CANCELLING: 'being cancelled',
+  CANCELLING: 'cancelling',
   SUCCEEDED: 'done',
   FAILED: 'failed',
   CANCELLED: 'cancelled',
@@ -23,7 +23,7 @@ const kKinds = {
   validate: 'validation',
   dip: 'dip',
   printImage: 'pages to print',
-  template: 'placement page',
+  template: 'placement template',
   print: 'print',
   capture: 'camera frames',
   calibrateCamera: 'camera calibration',
@@ -32,7 +32,7 @@ const kKinds = {
 
 export type Kind = keyof typeof kKinds;
 
-/** What a job does, by the spec that it has. */
+/** The kind of a job, given by the spec that is set. */
 export const kindOf = (job: Job): Kind | undefined =>
   (Object.keys(kKinds) as Kind[]).find((kind) => job[kind as keyof Job] != null);
 
@@ -47,9 +47,9 @@ export const State = ({ state }: { state: JobState }) => (
   <span class={`state ${state.toLowerCase()}`}>{kStates[state] ?? state.toLowerCase()}</span>
 );
 
-/** How far it is, and how long it will take. */
+/** Progress and remaining time of a job. */
 export function HowFar({ job }: { job: Job }) {
-  if (job.state === 'QUEUED') return <span class="quiet">waits for its turn</span>;
+  if (job.state === 'QUEUED') return <span class="quiet">waiting in the queue</span>;
   const left = secondsUntil(job.etaTime);
   return (
     <span class="how-far">

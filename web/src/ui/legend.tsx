@@ -1,14 +1,14 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { colourOf, place, ticks, type Scale } from '../model/colour_map';
 
-/** A colour map with its numbers. */
+/** A colour map with tick labels. */
 export function Legend(props: {
   title: string;
   unit: string;
   scale: Scale;
   values?: number[];
   beyond?: string;
-  /** What has no colour. */
+  /** Meaning of grey. */
   grey?: string;
 }) {
   const { scale } = props;
@@ -37,14 +37,14 @@ export function Legend(props: {
         ))}
       </div>
       <p class="quiet">
-        Grey: {props.grey ?? 'no film arrives'}.
+        Grey: {props.grey ?? 'not reached by the film'}.
         {props.beyond && ` ≥ ${marks.at(-1)}: ${props.beyond}.`}
       </p>
     </figure>
   );
 }
 
-/** The same of a depth picture. */
+/** The legend of a depth picture. */
 export const DepthLegend = ({ scale }: { scale: Scale }) => (
   <Legend title="Distance from the camera" unit="mm" scale={scale} grey="not measured" />
 );

@@ -1,4 +1,4 @@
-/** The object over the film, to be turned and moved by hand. */
+/** 3D view of the object over the film. The user can rotate and move the object. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -18,7 +18,7 @@ import { centreOf, type Box, type Mesh } from '../model/mesh';
 import { rotate, type Pose, type Vec3 } from '../model/pose';
 import { Stage, disposeOf, type Side } from './stage';
 
-/** What a part of the mesh looks like; `picture` has its first row at the top. */
+/** Appearance of a part of the mesh; the first row of `picture` is at the top. */
 export interface Look {
   colour: readonly [number, number, number];
   picture?: ImageBitmap;
@@ -28,7 +28,7 @@ export type Gizmo = 'none' | 'rotate' | 'translate';
 
 export class PoseView {
   private readonly stage: Stage;
-  // At the centre of the object's box; turns about it.
+  // Located at the centre of the object's bounding box; rotates about it.
   private readonly holder = new Group();
   private readonly gizmo: TransformControls;
   private object: Mesh3 | undefined;
@@ -37,7 +37,7 @@ export class PoseView {
   private positions = new Float32Array();
   private scale = 1;
 
-  /** @param onPose  called while the object is turned or moved by hand */
+  /** @param onPose  called while the user rotates or moves the object */
   constructor(
     host: HTMLElement,
     private readonly onPose: (pose: Pose) => void,
@@ -59,7 +59,7 @@ export class PoseView {
     this.stage.setFilm(film);
   }
 
-  /** `lookOf` says what a material looks like. */
+  /** Shows a mesh; `lookOf` returns the appearance of a material. */
   setMesh(mesh: Mesh, box: Box, scale: number, lookOf: (material: string) => Look): void {
     disposeOf(this.holder);
     this.holder.clear();
@@ -78,7 +78,7 @@ export class PoseView {
     this.stage.draw();
   }
 
-  /** Shows colours in place of the pictures: of a mesh in the object's frame, mm; or the pictures again. */
+  /** Shows a coloured mesh (object's frame, mm) instead of the textured object, or the textured object again. */
   setHeat(heat?: { positions: Float32Array; corners: Uint32Array; colours: Uint8Array }): void {
     this.holder.remove(this.heat);
     disposeOf(this.heat);
@@ -123,7 +123,7 @@ export class PoseView {
     this.stage.draw();
   }
 
-  /** All of the object and the film, from that side. */
+  /** Shows the whole object and film from that side. */
   look(side: Side, film: Film): void {
     const size = new Vector3(
       this.box.max[0] - this.box.min[0],
@@ -149,15 +149,15 @@ export class PoseView {
     this.onPose(pose);
   }
 
-  /** How high the box's centre is while the lowest point touches the water. */
+  /** Height of the box's centre over the water when the lowest point touches the water. */
   private heightFor(pose: Pose): number {
     return -lowest(this.positions, centreOf(this.box), pose) * this.scale;
   }
 }
 
-/** z of the lowest point from `centre` once it is turned. */
+/** z of the lowest point relative to `centre` after the rotation. */
 function lowest(positions: Float32Array, centre: Vec3, pose: Pose): number {
-  // The third row of the rotation: how each axis of the object counts upwards.
+  // The third row of the rotation matrix: the upward component of each of the object's axes.
   const ups = (
     [
       [1, 0, 0],
@@ -202,10 +202,10 @@ function materialOf(look: Look, hasColours: boolean): MeshStandardMaterial {
   return material;
 }
 
-/** For v upwards, as models have it. */
+/** Creates a texture with v pointing up, as in models. */
 export function textureOf(picture: ImageBitmap): Texture {
   const texture = new Texture(picture);
-  // The browser flips no ImageBitmap for WebGL: the texture's own transform does.
+  // Browsers do not flip an ImageBitmap for WebGL, so the texture's transform flips it.
   texture.flipY = false;
   texture.matrixAutoUpdate = false;
   texture.matrix.set(1, 0, 0, 0, -1, 1, 0, 0, 1);

@@ -1,4 +1,4 @@
-/** A dipped object: as it will look, how far the film is stretched, and when the water gets where. */
+/** 3D view of the result of a dip: predicted appearance, stretch of the film, or contact time. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -23,7 +23,7 @@ import { Stage, type Side } from './stage';
 
 export type Mode = 'predicted' | 'stretch' | 'contact';
 
-/** Where the object hangs at first contact: the API's X_FO, z so that it touches the water. */
+/** Pose of the object at first contact: the API's X_FO, with z such that the object touches the water. */
 export interface Start {
   rotation: Quaternion;
   translation_mm: Vec3;
@@ -100,7 +100,7 @@ export class ResultView {
     this.look('corner');
   }
 
-  /** The film image, which the object then wears. */
+  /** Sets the film image, which becomes the texture of the object. */
   setPicture(picture: ImageBitmap): void {
     this.painted.map = textureOf(picture);
     this.painted.needsUpdate = true;
@@ -112,13 +112,13 @@ export class ResultView {
     this.sink(0);
   }
 
-  /** One colour a point; not a number: none. */
+  /** Colours each vertex by its value; NaN means no value. */
   showValues(values: Float32Array, scale: Scale): void {
     this.colour((i) => colourOf(scale.map, place(scale, values[i]!)));
     this.sink(0);
   }
 
-  /** The object as far under as it is at `time_s`, coloured by when the water reached it. */
+  /** Shows the object immersed as at `time_s`, coloured by contact time. */
   showContact(time_s: number, scale: Scale): void {
     const { contact_s } = this.map;
     this.colour((i) =>
@@ -127,7 +127,7 @@ export class ResultView {
     this.sink(time_s);
   }
 
-  /** Marks triangles, or a place in the film frame at first contact; nothing with neither. */
+  /** Marks triangles, or a point in the film frame at first contact; without either, removes the mark. */
   point(triangles: readonly number[], place_mm?: Vec3): void {
     this.mark.visible = triangles.length > 0;
     if (this.mark.visible) this.mark.geometry = this.partOf(triangles);
@@ -143,7 +143,7 @@ export class ResultView {
   }
 
   /**
-   * What a printer that knew nothing of the film would print: the object's colours straight down onto the film.
+   * Renders the film image without compensation: the object's colours projected straight down onto the film.
    * `pitch_mm` is the size of a pixel; the picture covers the film.
    */
   async straightDown(film: Film, pitch_mm: number): Promise<ImageBitmap> {
@@ -156,7 +156,7 @@ export class ResultView {
     const copy = new Mesh3(this.geometry, [material, white]);
     copy.applyMatrix4(this.object.matrixWorld);
     scene.add(copy);
-    // From below, since that is what touches the film, but with x to the right, as the film is seen from above.
+    // Seen from below, because the lower side touches the film, but with x to the right as in the view from above.
     const [x, y] = [film.width_mm / 2, film.height_mm / 2];
     const camera = new OrthographicCamera(x, -x, y, -y, 0.1, 4000);
     camera.up.set(0, 1, 0);
@@ -229,7 +229,7 @@ export class ResultView {
     return middle.applyMatrix4(this.object.matrixWorld);
   }
 
-  /** From where `target`, on the far side, too, is seen best. */
+  /** Moves the camera to a position with a good view of `target`, also if `target` is on the far side. */
   private lookAt(target: Vector3): void {
     const from = target.clone().sub(this.centre);
     if (from.length() < 0.02 * this.reach_mm) return;
@@ -242,7 +242,7 @@ export class ResultView {
   }
 }
 
-/** Where each point is on the film image, from its lower left corner. */
+/** Texture coordinates of each vertex in the film image, from its lower left corner. */
 function filmUvs(map: SurfaceMap, film: Film): Float32Array {
   const uvs = new Float32Array(map.film_mm.length);
   for (let i = 0; i < uvs.length; i += 2) {
@@ -253,7 +253,7 @@ function filmUvs(map: SurfaceMap, film: Film): Float32Array {
   return uvs;
 }
 
-/** Corners of the triangles that wear film, and of those that do not, or across which it tore. */
+/** Vertex indices of the triangles with film (`wet`), and of those without film or with torn film (`bare`). */
 function split(map: SurfaceMap): { wet: number[]; bare: number[] } {
   const wet: number[] = [];
   const bare: number[] = [];
@@ -265,7 +265,7 @@ function split(map: SurfaceMap): { wet: number[]; bare: number[] } {
   return { wet, bare };
 }
 
-// Film that is gathered to a quarter comes from four times as far; farther apart, it tore between them.
+// Film gathered to a quarter of its length comes from four times as far. At larger distances it is torn in between.
 function areNeighbours(map: SurfaceMap, a: number, b: number): boolean {
   const apart = (of: Float32Array, size: number) => {
     let sum = 0;

@@ -1,6 +1,6 @@
 /**
- * What both 3D views stand on: camera, light, the film at true size in z = 0 and the water it floats on; mm, z up.
- * Draws when something changed, not all the time. Nothing here knows the page.
+ * The common part of both 3D views: camera, light, the film at true size in z = 0 and the water below it; mm, z up.
+ * Renders only when something changes. Independent of the rest of the page.
  */
 import {
   AmbientLight,
@@ -66,7 +66,7 @@ export class Stage {
     this.resize();
   }
 
-  /** Shows this film, and the water around it. */
+  /** Shows the film and the water around it. */
   setFilm(film: Film): void {
     disposeOf(this.film);
     this.film.clear();
@@ -74,7 +74,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Looks from that side so that all within `reach_mm` of `centre` is seen. */
+  /** Looks from that side so that everything within `reach_mm` of `centre` is visible. */
   look(side: Side, reach_mm = this.reach_mm, centre = new Vector3()): void {
     this.reach_mm = reach_mm;
     const [x, y, z] = kFrom[side];
@@ -86,7 +86,7 @@ export class Stage {
     this.draw();
   }
 
-  /** Draws once, with the next frame. */
+  /** Renders once, in the next frame. */
   draw(): void {
     if (this.isAsked) return;
     this.isAsked = true;
@@ -114,7 +114,7 @@ export class Stage {
   }
 }
 
-/** Frees what the graphics card holds of all that hangs below. */
+/** Frees the GPU resources of all objects below `root`. */
 export function disposeOf(root: Object3D): void {
   root.traverse((child) => {
     const { geometry, material } = child as Partial<Mesh>;
@@ -172,7 +172,7 @@ function outlineOf(film: Film): Object3D {
   return new LineLoop(lineGeometry(points), new LineBasicMaterial({ color: 0x0b6e99 }));
 }
 
-/** A line each 10 mm. */
+/** A grid with one line every 10 mm. */
 function linesOn(film: Film): Object3D {
   const points: number[] = [];
   const halfAt = (at: number, half: number) =>
@@ -190,7 +190,7 @@ function linesOn(film: Film): Object3D {
   return new LineSegments(lineGeometry(points), material);
 }
 
-/** An arrow beyond the film's top edge, so that it is not laid the wrong way round. */
+/** An arrow beyond the film's top edge, which shows the film's orientation. */
 function topOf(film: Film): Object3D {
   const y = film.height_mm / 2 + 4;
   const shape = new Shape();

@@ -1,4 +1,4 @@
-/** Reads models and maps off the page's thread, so that the page goes on answering. */
+/** Reads models and surface maps in a separate thread, so that the page stays responsive. */
 import { readGltf } from '../model/gltf';
 import { boxOf, type Mesh } from '../model/mesh';
 import { readObj } from '../model/obj';

@@ -1,4 +1,4 @@
-/** The page's side of mesh_worker. */
+/** The page's interface to mesh_worker. */
 import type { Box, Mesh } from '../model/mesh';
 import { refused, type Result } from '../model/result';
 import type { SurfaceMap } from '../model/surface_map';
@@ -20,7 +20,7 @@ function start(): Worker {
     waiting.get(data.id)?.(data.answer);
     waiting.delete(data.id);
   };
-  // Out of memory, most likely: the next question gets a new worker.
+  // Most likely out of memory. The next request starts a new worker.
   made.onerror = () => {
     for (const give of waiting.values()) give(undefined);
     waiting.clear();
@@ -42,10 +42,10 @@ function ask(question: Question): Promise<Answer | undefined> {
 
 const kTooMuch = refused(
   'this browser could not read the file',
-  'It may be too large for it: try a desktop computer, or a model with fewer faces',
+  'It may be too large. Try a desktop computer, or a model with fewer faces',
 );
 
-/** Reads an OBJ, PLY, STL or glTF, told apart by the name's ending. */
+/** Reads an OBJ, PLY, STL or glTF file, chosen by its extension. */
 export async function readMesh(file: File): Promise<Result<{ mesh: Mesh; box: Box }>> {
   const answer = await ask({ what: 'mesh', name: file.name, bytes: await file.arrayBuffer() });
   return answer?.what === 'mesh' ? answer.result : kTooMuch;

@@ -9,7 +9,7 @@ import { numberOf } from '../../ui/job_text';
 import { Files, Pictures } from './files';
 import type { Results } from './results';
 
-/** What a calibrate job found: where the object hangs, and how well that is known. */
+/** Results of a calibration job: the measured pose and its error, or the camera calibration. */
 export function CalibrateView({ job, results }: { job: Job; results: Results }) {
   const [found, setFound] = useState<Calibration>();
   useEffect(() => {
@@ -44,29 +44,29 @@ function Found({ calibration }: { calibration: Calibration }) {
       <h2>
         Calibration {numberOf(calibration.name)} {calibration.active ? '(active)' : ''}
       </h2>
-      {why && <p class="warning">It does not hold any more: {why}. Measure again.</p>}
+      {why && <p class="warning">This calibration is no longer valid: {why}. Calibrate again.</p>}
       {calibration.kind === 'CAMERA' ? (
         <Figures
           rows={[
             ['Views', String(calibration.views ?? 0)],
-            ['Board fits to', orDash(calibration.rmsMm)],
+            ['Residual on the board (rms)', orDash(calibration.rmsMm)],
           ]}
         />
       ) : (
         <Figures
           rows={[
-            ['Error on the surface, median', orDash(calibration.errorP50Mm)],
-            ['Error, 95 % below', orDash(calibration.errorP95Mm)],
-            ['Error, largest', orDash(calibration.errorMaxMm)],
-            ['Height over the water', orDash(calibration.heightMm)],
-            ['First contact, axis at', orDash(calibration.contactMm)],
+            ['Error on the surface (median)', orDash(calibration.errorP50Mm)],
+            ['Error (95th percentile)', orDash(calibration.errorP95Mm)],
+            ['Error (maximum)', orDash(calibration.errorMaxMm)],
+            ['Height above the water', orDash(calibration.heightMm)],
+            ['Axis position at first contact', orDash(calibration.contactMm)],
             ['Water level', orDash(calibration.waterZMm)],
           ]}
         />
       )}
       {(calibration.fromNominalPose ?? []).map((text) => (
         <p class="quiet" key={text}>
-          Not seen by the scan, taken from the nominal pose: {text}
+          Not visible in the scan, taken from the nominal pose: {text}
         </p>
       ))}
       {(calibration.markers ?? []).length > 0 && <Markers markers={calibration.markers!} />}
@@ -79,8 +79,8 @@ const Markers = ({ markers }: { markers: NonNullable<Calibration['markers']> }) 
     <thead>
       <tr>
         <th scope="col">Marker</th>
-        <th scope="col">Fits to</th>
-        <th scope="col">Off</th>
+        <th scope="col">Fit (rms)</th>
+        <th scope="col">Residual</th>
       </tr>
     </thead>
     <tbody>
@@ -93,7 +93,7 @@ const Markers = ({ markers }: { markers: NonNullable<Calibration['markers']> }) 
               <td>{orDash(marker.residualMm)}</td>
             </>
           ) : (
-            <td colSpan={2}>left out: {marker.whyNot}</td>
+            <td colSpan={2}>not used: {marker.whyNot}</td>
           )}
         </tr>
       ))}

@@ -7,7 +7,7 @@ import { DepthLegend } from '../../ui/legend';
 import { Files } from './files';
 import { fileOf, type Results } from './results';
 
-/** What the depth camera saw: one frame at a time, by depth. */
+/** Frames of the depth camera, one at a time, coloured by depth. */
 export function CaptureView({ results }: { results: Results }) {
   const frames = (results.artifacts.value ?? [])
     .map(fileOf)
@@ -56,7 +56,7 @@ export function CaptureView({ results }: { results: Results }) {
   );
 }
 
-/** Between the nearest and farthest hundredth, so that a stray point does not flatten all else. */
+/** Depth range from the 1st to the 99th percentile, so that outliers do not compress the colour scale. */
 function rangeOf({ values }: Grey16): Scale {
   const seen = values.filter((value) => value > 0).sort();
   const min = seen[Math.floor(0.01 * seen.length)] ?? 0;

@@ -10,7 +10,7 @@ import { Figures } from '../../ui/controls';
 import { Files } from './files';
 import type { Results } from './results';
 
-/** A dip: how it went, or where to go on. */
+/** A dip: its record, or a link to the rig while it runs. */
 export function DipView({ job, results }: { job: Job; results: Results }) {
   const [samples, setSamples] = useState<Sample[]>([]);
   const hasRecord = results.has('positions.csv');
@@ -34,7 +34,7 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
       {!isFinished(job) && (
         <p>
           <a class="button primary" href="#/rig">
-            Go on at the rig
+            Continue on the Rig page
           </a>
         </p>
       )}
@@ -57,10 +57,10 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
           ['Depth', `${planned?.depth_mm ?? job.dip?.depthMm ?? '–'} mm`],
           ['Speed', `${planned?.speed_mm_per_s ?? job.dip?.speedMmPerS ?? '–'} mm/s`],
           status?.contactMm !== undefined && [
-            'First contact at',
+            'Axis position at first contact',
             `${status.contactMm.toFixed(2)} mm`,
           ],
-          last !== undefined && ['Recorded', formatSeconds(last.t_s)],
+          last !== undefined && ['Duration of the record', formatSeconds(last.t_s)],
         ]}
       />
       {samples.length > 1 && <Chart samples={samples} />}
@@ -69,7 +69,7 @@ export function DipView({ job, results }: { job: Job; results: Results }) {
   );
 }
 
-/** Where the axis was, over time; down is down. */
+/** Axis position over time; lower positions are drawn lower. */
 function Chart({ samples }: { samples: Sample[] }) {
   const t = samples.map((sample) => sample.t_s);
   const at = samples.map((sample) => sample.position_mm);

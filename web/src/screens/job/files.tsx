@@ -4,32 +4,32 @@ import { formatBytes } from '../../model/units';
 import { fileOf, type Results } from './results';
 
 const kWhat: Record<string, string> = {
-  'film.png': 'The image to print, at its own size',
-  'film_map.exr': 'Where each point of the film lands',
-  'surface_map.ply': 'Where each point of the object takes its film from',
-  'stretch.png': 'The stretch on the object',
-  'wrinkles.png': 'How far the film is gathered',
-  'predicted.png': 'The object as it will look',
-  'report.json': 'Figures, warnings, inputs',
+  'film.png': 'Film image, to print at its own size',
+  'film_map.exr': 'Map from the film to the object',
+  'surface_map.ply': 'Map from the object to the film',
+  'stretch.png': 'Stretch of the film on the object',
+  'wrinkles.png': 'Wrinkles of the film',
+  'predicted.png': 'Predicted appearance of the object',
+  'report.json': 'Options, figures and warnings',
   'report.html': 'Report with pictures',
-  'print.pdf': 'The pages to print, at exact scale',
-  'print.png': 'The pages as a picture',
-  'print.tif': 'The pages as a picture, CMYK',
-  'placement.pdf': 'Where the object belongs',
-  'positions.csv': 'Where the axis was, over time',
-  'pose.json': 'Where the object hangs',
-  'calibration.json': 'The calibration, with its covariance',
-  'camera.json': "The camera's lens and depth scale",
-  'alignment.png': 'The scan over the object',
-  'error.png': 'How far off the surface may be',
-  'film_profile.toml': 'The film profile that was found',
+  'print.pdf': 'Pages to print, at exact scale',
+  'print.png': 'Pages as an image',
+  'print.tif': 'Pages as a CMYK image',
+  'placement.pdf': 'Template for placing the object',
+  'positions.csv': 'Axis position over time',
+  'pose.json': 'Pose of the object',
+  'calibration.json': 'Calibration with its covariance',
+  'camera.json': 'Lens and depth scale of the camera',
+  'alignment.png': 'The scan aligned with the object',
+  'error.png': 'Estimated error on the surface',
+  'film_profile.toml': 'The fitted film profile',
 };
 
-/** Everything the job left, to download. */
+/** All artifacts of the job, to download. */
 export function Files({ results }: { results: Results }) {
   const artifacts = results.artifacts.value;
-  if (!artifacts) return <p class="quiet">Asking…</p>;
-  if (artifacts.length === 0) return <p class="quiet">This job left no files.</p>;
+  if (!artifacts) return <p class="quiet">Loading…</p>;
+  if (artifacts.length === 0) return <p class="quiet">This job has no files.</p>;
   return (
     <ul class="files">
       {artifacts.map((artifact) => (
@@ -54,7 +54,7 @@ function File({ job, artifact }: { job: string; artifact: Artifact }) {
   );
 }
 
-/** The pictures that a browser shows by itself. */
+/** Artifacts that are images which browsers can display. */
 export function Pictures({ results, only }: { results: Results; only?: readonly string[] }) {
   const pictures = (results.artifacts.value ?? []).filter(
     (artifact) =>

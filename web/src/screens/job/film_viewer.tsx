@@ -5,12 +5,12 @@ import type { FilmImage } from './results';
 
 interface Props {
   film: FilmImage;
-  /** The same without compensation, to compare with; undefined until it was asked for. */
+  /** The film image without compensation, for comparison; undefined until it is requested. */
   straight: ImageBitmap | undefined;
   askStraight: () => Promise<void>;
 }
 
-/** The film image, down to single pixels. */
+/** A viewer for the film image that can zoom to single pixels. */
 export function FilmViewer({ film, straight, askStraight }: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const { picture } = film;
@@ -47,7 +47,7 @@ export function FilmViewer({ film, straight, askStraight }: Props) {
         ref={canvas}
         tabIndex={0}
         role="img"
-        aria-label="The film image. Plus and minus zoom, arrows move, 1 shows single pixels, 0 all of it."
+        aria-label="The film image. Plus and minus zoom, arrow keys move, 1 shows actual pixels, 0 shows everything."
         {...hands}
         onPointerMove={(event) => {
           hands.onPointerMove(event);
@@ -58,10 +58,10 @@ export function FilmViewer({ film, straight, askStraight }: Props) {
       />
       <div class="tools">
         <span class="group" role="group" aria-label="Zoom">
-          <button type="button" class="plain" aria-label="Nearer" onClick={() => zoomBy(1.5)}>
+          <button type="button" class="plain" aria-label="Zoom in" onClick={() => zoomBy(1.5)}>
             +
           </button>
-          <button type="button" class="plain" aria-label="Farther" onClick={() => zoomBy(1 / 1.5)}>
+          <button type="button" class="plain" aria-label="Zoom out" onClick={() => zoomBy(1 / 1.5)}>
             −
           </button>
           <button
@@ -69,7 +69,7 @@ export function FilmViewer({ film, straight, askStraight }: Props) {
             class="plain"
             onClick={() => setView(fit(picture, canvas.current!))}
           >
-            All
+            Fit
           </button>
           <button type="button" class="plain" onClick={() => zoomBy(1 / view!.zoom)}>
             1 : 1
@@ -81,13 +81,13 @@ export function FilmViewer({ film, straight, askStraight }: Props) {
       </div>
       {straight ? (
         <label class="compare">
-          <span>film image</span>
+          <span>with compensation</span>
           <input
             type="range"
             min={0}
             max={100}
             value={split}
-            aria-label="Where the film image ends and the one without compensation begins, from the left"
+            aria-label="Position of the divider: the film image is on its left, the image without compensation on its right"
             onInput={(event) => setSplit(Number(event.currentTarget.value))}
           />
           <span>without compensation</span>
@@ -100,7 +100,7 @@ export function FilmViewer({ film, straight, askStraight }: Props) {
             setSplit(50);
           }}
         >
-          Compare with the undistorted picture
+          Compare with the image without compensation
         </Button>
       )}
     </div>
@@ -113,7 +113,7 @@ const placeIn = (event: PointerEvent | WheelEvent): [number, number] => {
   return [(event.clientX - box.left) * ratio, (event.clientY - box.top) * ratio];
 };
 
-/** "pixel 812, 1403 · x -36.2 mm, y 29.7 mm on the film". */
+/** "pixel 812, 1403 · x -36.2 mm, y 29.7 mm", on the film. */
 function inWords([i, j]: [number, number], { picture, pitch_mm }: FilmImage): string {
   const x = (i + 0.5 - picture.width / 2) * pitch_mm;
   const y = (picture.height / 2 - j - 0.5) * pitch_mm;
@@ -131,7 +131,7 @@ function draw(
   const { width, height } = film.picture;
   context.setTransform(1, 0, 0, 1, 0, 0);
   context.clearRect(0, 0, canvas.width, canvas.height);
-  // Single pixels are shown as what they are.
+  // Enlarged pixels are not smoothed.
   context.imageSmoothingEnabled = view.zoom < 1;
   context.imageSmoothingQuality = 'high';
   context.setTransform(view.zoom, 0, 0, view.zoom, view.x, view.y);
@@ -154,7 +154,7 @@ function draw(
   context.fillRect(cut - 1 / view.zoom, 0, 2 / view.zoom, height);
 }
 
-/** Dragging, pinching, wheel and keys. */
+/** Handles dragging, pinching, the mouse wheel and keys. */
 function useHands(
   canvas: { current: HTMLCanvasElement | null },
   { picture }: FilmImage,

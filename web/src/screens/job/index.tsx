@@ -25,8 +25,7 @@ export function JobScreen({ name }: { name: string }) {
       <>
         <h1>Job {numberOf(name)}</h1>
         <p class="quiet">
-          Asking for it… If it was deleted, or never was, <a href="#/jobs">the list</a> has those
-          that there are.
+          Loading… If this job does not exist, see <a href="#/jobs">the list of jobs</a>.
         </p>
       </>
     );
@@ -45,17 +44,17 @@ function Head({ job }: { job: Job }) {
         {job.displayName || job.name} <State state={job.state} />
       </h1>
       <p class="quiet">
-        Job {numberOf(job.name)}, {kindText(job)}, by {job.owner}, begun{' '}
+        Job {numberOf(job.name)}, {kindText(job)}, by {job.owner}, created{' '}
         <When time={job.createTime} />
         {job.endTime && (
           <>
             , ended <When time={job.endTime} />
           </>
         )}
-        {job.cacheHit && ', the same as an earlier one'}
+        {job.cacheHit && ', result of an earlier identical job'}
         {job.retryOf && (
           <>
-            , another try of <a href={`#/${job.retryOf}`}>{numberOf(job.retryOf)}</a>
+            , retry of <a href={`#/${job.retryOf}`}>{numberOf(job.retryOf)}</a>
           </>
         )}
       </p>
@@ -78,22 +77,22 @@ function Actions({ job }: { job: Job }) {
     <div class="row actions">
       {kind === 'simulate' && isDone && may('MAKER') && (
         <Button kind="primary" onPress={() => begin({ printImage: pagesOf(job) })}>
-          Make the PDF to print
+          Create PDF
         </Button>
       )}
       {kind === 'simulate' && isDone && may('OPERATOR') && (
         <a class="button" href={`#/rig?job=${numberOf(job.name)}`}>
-          Dip it
+          Dip
         </a>
       )}
       {kind === 'printImage' && isDone && may('MAKER') && (
         <Button onPress={() => begin({ print: { printImageJob: job.name } })}>
-          Print on the daemon's printer
+          Send to the printer
         </Button>
       )}
       {kind === 'simulate' && isDone && may('MAKER') && (
         <Button onPress={() => begin({ template: { simulateJob: job.name } })}>
-          Placement page
+          Placement template
         </Button>
       )}
       {kind === 'simulate' && isFinished(job) && may('MAKER') && (
@@ -103,7 +102,7 @@ function Actions({ job }: { job: Job }) {
       )}
       {mine && !isFinished(job) && job.state !== 'CANCELLING' && (
         <Careful
-          sure="Cancel it"
+          sure="Confirm cancel"
           onPress={async () => {
             const cancelled = orComplain(await api.cancel(job.name));
             if (cancelled) remember(cancelled);
@@ -121,7 +120,7 @@ function Actions({ job }: { job: Job }) {
             go(`/${again.name}`);
           }}
         >
-          Try again
+          Retry
         </Button>
       )}
       {mine && isFinished(job) && <Keeping job={job} />}
@@ -129,7 +128,7 @@ function Actions({ job }: { job: Job }) {
   );
 }
 
-/** Who else may see it, and whether it is kept. */
+/** Sharing and deletion of a finished job. */
 function Keeping({ job }: { job: Job }) {
   return (
     <>
@@ -145,7 +144,7 @@ function Keeping({ job }: { job: Job }) {
       />
       <Careful
         kind="plain"
-        sure="Delete it with its files"
+        sure="Delete job and files"
         onPress={async () => {
           if (!orComplain(await api.remove(job.name))) return;
           forget(job.name);
@@ -159,7 +158,7 @@ function Keeping({ job }: { job: Job }) {
   );
 }
 
-/** The pages as the printer was chosen when the print was begun. */
+/** The print-image spec with the paper and colours that were chosen on the New print page. */
 function pagesOf(job: Job): PrintImageSpecInput {
   const { paper, colours } = job.labels;
   return {
@@ -183,13 +182,13 @@ function Underway({ job }: { job: Job }) {
         </p>
       )}
       <p class="quiet">
-        You may leave this page: the job goes on, and this is where its result will be.
+        You can leave this page. The job continues, and its result will appear here.
       </p>
     </section>
   );
 }
 
-/** What the job left. */
+/** Results of the job. */
 function Left({ job }: { job: Job }) {
   const results = useMemo(() => new Results(job.name), [job.name]);
   useEffect(() => results.loadReport(), [results, beginnings.value]);
@@ -204,13 +203,13 @@ function Left({ job }: { job: Job }) {
       )}
       {job.state === 'CANCELLED' && !job.dip && (
         <p class="quiet">
-          It was cancelled, and left nothing.{' '}
-          {mayChange(job.owner) && canRetry(job) && 'It can be tried again as it was.'}
+          The job was cancelled and has no results.{' '}
+          {mayChange(job.owner) && canRetry(job) && 'You can retry it.'}
         </p>
       )}
       {job.state === 'INTERRUPTED' && (
         <p class="warning">
-          The daemon or the power was lost while this ran, and it is not begun again by itself.
+          The daemon stopped while this job ran. The job does not start again automatically.
         </p>
       )}
       {failure && (

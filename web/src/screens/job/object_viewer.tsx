@@ -12,13 +12,13 @@ import type { Results } from './results';
 
 interface Props {
   results: Results;
-  /** The warning that is pointed at. */
+  /** The selected warning. */
   pointed: Warning | undefined;
-  /** Given the view once it is there, for what else it can draw. */
+  /** Called with the view once it is ready and has the film image. */
   onView?: (view: ResultView) => void;
 }
 
-/** How the object hangs at first contact, its lowest point on the water. */
+/** Pose of the object at first contact, when its lowest point is on the water. */
 export function startOf(results: Results): Start | undefined {
   const pose = results.report.value?.parameters?.pose;
   const map = results.map.value;
@@ -43,7 +43,7 @@ export function startOf(results: Results): Start | undefined {
   return { rotation, translation_mm: [tx, ty, -lowest] };
 }
 
-/** The largest stretch on the scale: where the film tears. */
+/** The stretch at which the film tears; the upper end of the scale. */
 const tearOf = (results: Results): number =>
   results.report.value?.parameters?.profile?.tear_stretch ?? 3;
 
@@ -74,7 +74,7 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
         made = new View(host.current, map, start, shape, speed);
       } catch {
         setTrouble(
-          'This browser shows no 3D (WebGL is off or missing); see the pictures under Files.',
+          'This browser cannot show 3D because WebGL is off or missing. See the images under Files.',
         );
         return;
       }
@@ -120,23 +120,23 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
       {trouble && <p class="trouble">{trouble}</p>}
       <div class="tools">
         <Switch<Mode>
-          label="What is shown"
+          label="Colouring"
           value={mode}
           onValue={(next) => {
             setMode(next);
-            // The waterline is seen from the side, and no mark hides it.
+            // The waterline is best visible from the corner and without marks.
             if (next === 'contact') {
               view?.point([]);
               view?.look('corner');
             }
           }}
           choices={[
-            { value: 'predicted', label: 'As predicted' },
+            { value: 'predicted', label: 'Predicted' },
             { value: 'stretch', label: 'Stretch' },
             { value: 'contact', label: 'Contact time' },
           ]}
         />
-        <span class="group" role="group" aria-label="Look from">
+        <span class="group" role="group" aria-label="View from">
           {(['corner', 'front', 'right', 'top', 'below'] as const).map((side: Side) => (
             <button type="button" class="plain" key={side} onClick={() => view?.look(side)}>
               {side[0]!.toUpperCase() + side.slice(1)}
@@ -156,23 +156,23 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
       {mode === 'contact' && map && (
         <>
           <Player end_s={end_s} time_s={shown_s} onTime={setTime} />
-          <Legend title="When the water gets there" unit="s" scale={contact} />
+          <Legend title="Contact time" unit="s" scale={contact} />
         </>
       )}
       {pointed && mode !== 'contact' && (
-        <p class="quiet">Pink: what the chosen warning is about.</p>
+        <p class="quiet">Pink: the place of the selected warning.</p>
       )}
     </div>
   );
 }
 
 const kWords: Record<Mode, string> = {
-  predicted: 'as it will look after the dip',
-  stretch: 'coloured by how far the film is stretched',
-  contact: 'coloured by when the water gets there',
+  predicted: 'as predicted after the dip',
+  stretch: 'coloured by the stretch of the film',
+  contact: 'coloured by contact time',
 };
 
-/** Lets the waterline rise. */
+/** Animates the rising waterline. */
 function Player(props: { end_s: number; time_s: number; onTime: (time_s: number) => void }) {
   const { end_s, time_s, onTime } = props;
   const [isPlaying, setPlaying] = useState(false);
@@ -207,7 +207,7 @@ function Player(props: { end_s: number; time_s: number; onTime: (time_s: number)
         max={Math.ceil(10 * end_s) / 10}
         step={0.1}
         value={time_s}
-        aria-label="Time of the dip"
+        aria-label="Time since first contact"
         aria-valuetext={`${time_s.toFixed(1)} s`}
         onInput={(event) => onTime(Number(event.currentTarget.value))}
       />

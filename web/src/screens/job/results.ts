@@ -1,4 +1,4 @@
-/** What a finished job left, fetched when it is first looked at. */
+/** Results of a finished job, fetched on first use. */
 import { signal } from '@preact/signals';
 import { fetchBytes } from '../../api/call';
 import { artifactPath, jobs as api } from '../../api/services';
@@ -11,7 +11,7 @@ import { readMap } from '../../worker/reader';
 
 export const fileOf = (artifact: Artifact): string => artifact.name.split('/').at(-1)!;
 
-/** A film image as a picture, with its size on the film. */
+/** A film image with the size of its pixels. */
 export interface FilmImage {
   picture: ImageBitmap;
   pitch_mm: number;
@@ -69,7 +69,7 @@ export class Results {
     });
   }
 
-  /** The film, by the report: of a polygon its box. */
+  /** The film named in the report; for a polygon, its bounding box. */
   filmShape(): Film | undefined {
     const film = this.report.value?.parameters?.film;
     if (!film) return undefined;
@@ -84,7 +84,7 @@ export class Results {
     void load().then((result) => {
       if (result.ok) return;
       this.failure.value = result.failure;
-      // So that it is tried again when it is looked at again.
+      // After a lost connection, the next use tries again.
       if (result.failure.status === 0) this.begun.delete(what);
     });
   }

@@ -11,7 +11,7 @@ import type { Results } from './results';
 
 type Tab = 'film' | 'object' | 'files';
 
-/** A finished simulation: the image to print, the object as predicted, what to heed. */
+/** A finished simulation: film image, predicted object, warnings and figures. */
 export function SimulateView({ results }: { results: Results }) {
   const [tab, setTab] = useState<Tab>('film');
   const [pointed, setPointed] = useState<Warning>();
@@ -48,18 +48,18 @@ export function SimulateView({ results }: { results: Results }) {
             <h2>Figures</h2>
             <Figures
               rows={[
-                report.coverage !== undefined && ['Surface reached', formatShare(report.coverage)],
+                report.coverage !== undefined && ['Coverage', formatShare(report.coverage)],
                 report.depth_mm !== undefined && ['Depth', formatMm(report.depth_mm)],
                 report.stretch !== undefined && [
-                  'Stretch, median',
+                  'Stretch (median)',
                   formatFactor(report.stretch.p50),
                 ],
                 report.stretch !== undefined && [
-                  'Stretch, 95 % below',
+                  'Stretch (95th percentile)',
                   formatFactor(report.stretch.p95),
                 ],
                 report.stretch !== undefined && [
-                  'Stretch, largest',
+                  'Stretch (maximum)',
                   formatFactor(report.stretch.max),
                 ],
                 ['Dip speed', `${report.parameters?.dip_speed_mm_per_s ?? '–'} mm/s`],
@@ -68,7 +68,7 @@ export function SimulateView({ results }: { results: Results }) {
                   'Film image',
                   `${report.parameters?.film_image_px?.join(' × ') ?? '–'} px, ${report.parameters?.dpi ?? '–'} dpi`,
                 ],
-                ['Computed in', formatSeconds(report.total_seconds ?? NaN)],
+                ['Computing time', formatSeconds(report.total_seconds ?? NaN)],
               ]}
             />
           </section>
@@ -88,7 +88,7 @@ function FilmTab({ results }: { results: Results }) {
   const shape = results.filmShape();
   const draw = async (view: ResultView) => {
     if (straight || !shape) return;
-    // As fine as can be seen, and no finer than a graphics card takes.
+    // As fine as the film image, but within the size that graphics cards support.
     const pitch = Math.max(film.pitch_mm, Math.max(shape.width_mm, shape.height_mm) / 4096);
     setStraight(await view.straightDown(shape, pitch));
     setWanted(false);
@@ -124,7 +124,7 @@ function Warnings(props: {
   return (
     <section aria-labelledby="warnings-title">
       <h2 id="warnings-title">Warnings</h2>
-      {warnings.length === 0 && <p>None: the print should come out as predicted.</p>}
+      {warnings.length === 0 && <p>None. The print should look as predicted.</p>}
       <ul class="warnings">
         {warnings.map((warning) => (
           <li key={warning.code + warning.where}>
@@ -132,7 +132,7 @@ function Warnings(props: {
               type="button"
               class="plain"
               aria-pressed={warning === pointed}
-              title="Show the place"
+              title="Show on the object"
               onClick={() => point(warning === pointed ? undefined : warning)}
             >
               <Icon name="warning" />

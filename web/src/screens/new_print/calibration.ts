@@ -1,4 +1,4 @@
-/** Where the object hangs as a calibration measured it. */
+/** Poses measured by calibrations. */
 import { computed, signal } from '@preact/signals';
 import { calibrations as api } from '../../api/services';
 import type { Calibration } from '../../api/types';
@@ -6,7 +6,7 @@ import { fromApi, type Pose } from '../../model/pose';
 import { orComplain } from '../../state/notices';
 import { centre_mm, draft } from './draft';
 
-/** Those of objects, newest first. */
+/** Calibrations of objects (not of cameras), newest first. */
 export const calibrations = signal<Calibration[]>([]);
 
 export async function refreshCalibrations(): Promise<void> {
@@ -14,7 +14,7 @@ export async function refreshCalibrations(): Promise<void> {
   if (page) calibrations.value = page.calibrations.filter(({ kind }) => kind === 'OBJECT');
 }
 
-/** The one that was chosen, with the pose it found. */
+/** The selected calibration and its pose. */
 export const calibrated = computed<{ calibration: Calibration; pose: Pose } | undefined>(() => {
   const name = draft.value.calibration;
   const calibration = calibrations.value.find((one) => one.name === name);
@@ -23,11 +23,11 @@ export const calibrated = computed<{ calibration: Calibration; pose: Pose } | un
 });
 
 const kStale: Record<string, string> = {
-  MOVED: 'the axis is not where it was when it was measured',
-  HOMED: 'the rig was homed since',
-  DIPPED: 'something was dipped since',
+  MOVED: 'the axis has moved since the calibration',
+  HOMED: 'the rig was homed since the calibration',
+  DIPPED: 'something was dipped since the calibration',
 };
 
-/** Why it does not hold any more, in words; empty if it does. */
+/** Describes why the calibration is no longer valid; empty if it is valid. */
 export const staleness = (calibration: Calibration): string =>
   (calibration.stale ?? []).map((why) => kStale[why] ?? why).join('; ');

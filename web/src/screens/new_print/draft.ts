@@ -1,4 +1,4 @@
-/** What somebody is about to print: kept with its files over a reload, until it is submitted. */
+/** The draft of a new print. It is kept with its files across reloads until it is submitted. */
 import { batch, computed, effect, signal } from '@preact/signals';
 import * as rules from '../../api/rules';
 import { jobs as jobsApi } from '../../api/services';
@@ -9,26 +9,26 @@ import { fromApi, kUpright, toApi, type Pose, type Vec3 } from '../../model/pose
 import { done, refused, type Result } from '../../model/result';
 import { load, save } from '../../state/store';
 
-/** What is chosen; plain values and files, as the browser's database takes them. */
+/** The user's choices, as plain values and files that IndexedDB can store. */
 export interface Draft {
-  /** Dropped here; none if the job's own are taken. */
+  /** Dropped files; empty if the files of job `from` are used. */
   files: File[];
-  /** The job that is run again with changes, and what it was made of. */
+  /** The job that is run again with changes, and its spec. */
   from?: { job: string; spec: SimulateSpec };
   name: string;
   scale: number;
   pose: Pose;
-  /** "calibrations/7": hangs as was measured, instead of `pose`. */
+  /** The calibration ("calibrations/7") whose pose is used instead of `pose`; empty for none. */
   calibration: string;
   film: string;
   dpi: number;
   paper: string;
   colours: 'COLOURS_RGB' | 'COLOURS_CMYK';
   model: 'MODEL_SHEET' | 'MODEL_STOKES';
-  /** Not set: all of it. */
+  /** If not set, the whole object is dipped. */
   depth_mm?: number;
   speed_mm_per_s: number;
-  /** The same request twice makes one job; a new one with every change. */
+  /** Makes a repeated request create only one job. Every change of the draft sets a new one. */
   requestId: string;
 }
 
@@ -47,7 +47,7 @@ export const kEmpty: Draft = {
   requestId: '',
 };
 
-/** The model as it was read, in its own units. */
+/** The model in the units of its file. */
 export interface Shape {
   mesh: Mesh;
   box: Box;
@@ -62,21 +62,21 @@ export const change = (part: Partial<Draft>): void => {
 
 export const film = computed<Film>(() => filmOf(draft.value.film) ?? filmOf('A4')!);
 
-/** Centre of the object's box in its own frame, mm. */
+/** Centre of the object's bounding box in its own frame, mm. */
 export const centre_mm = computed<Vec3>(() => {
   const { scale } = draft.value;
   const [x, y, z] = shape.value ? centreOf(shape.value.box) : [0, 0, 0];
   return [x * scale, y * scale, z * scale];
 });
 
-/** Longest side of the object's box, mm. */
+/** Longest side of the object's bounding box, mm. */
 export const longest_mm = computed(() =>
   shape.value ? longestOf(shape.value.box) * draft.value.scale : 0,
 );
 
 const kDraftKey = 'new-print';
 
-/** Brings back what was begun; then keeps every change. */
+/** Restores the stored draft, then stores every change. */
 export async function restore(): Promise<void> {
   const kept = await load<Draft>(kDraftKey);
   if (kept) draft.value = { ...kEmpty, ...kept };
@@ -88,7 +88,7 @@ export async function restore(): Promise<void> {
   });
 }
 
-/** A first size: as its format or the file has it, if that can be dipped, else 100 mm. */
+/** Initial scale: the unit of the file format (default: mm) if the size is plausible, else such that the object is 100 mm. */
 export function firstScale({ mesh, box }: Shape): number {
   const unit_mm = mesh.unit_mm ?? 1;
   const longest = longestOf(box) * unit_mm;
@@ -103,12 +103,16 @@ export function clear(): void {
   });
 }
 
-/** Begins with what a job was made of. Its model's shape is brought by whoever shows it. */
+/** Fills the draft from a job's spec. The caller must load the shape of the model. */
 export async function startFrom(name: string): Promise<Result<Job>> {
   const answer = await jobsApi.get(name);
   if (!answer.ok) return answer;
   const { simulate: spec, labels } = answer.value;
-  if (!spec) return refused(`${name} is no simulation`, 'Run one again from its own page');
+  if (!spec)
+    return refused(
+      `${name} is not a simulation`,
+      'Open a simulation and run it again from its page',
+    );
   batch(() => {
     shape.value = undefined;
     draft.value = {
@@ -129,14 +133,14 @@ export async function startFrom(name: string): Promise<Result<Job>> {
   return done(answer.value);
 }
 
-/** Takes over where the job's object hung, once its shape is known. */
+/** Uses the pose of the job. The shape must be loaded first. */
 export function takePoseOfJob(): void {
   const { from } = draft.value;
   const pose = fromApi(from?.spec.pose, centre_mm.value);
   if (pose) change({ pose });
 }
 
-/** What of the job's files is used as it is, and what was uploaded in its place. */
+/** The input files of the new job: uploaded files, and files of job `from`. */
 export interface Inputs {
   mesh: InputFile;
   texture?: InputFile;
@@ -144,7 +148,7 @@ export interface Inputs {
   profile?: InputFile;
 }
 
-/** The job that is asked for. */
+/** Builds the request that creates the job. */
 export function jobOf(
   value: Draft,
   inputs: Inputs,

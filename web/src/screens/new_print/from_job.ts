@@ -1,4 +1,4 @@
-/** The shape of a job's object, from its own surface map: for that no file has to be at hand. */
+/** Loads the shape of a job's object from its surface map, so that the model's file is not needed. */
 import { batch } from '@preact/signals';
 import { fetchBytes } from '../../api/call';
 import { artifactPath } from '../../api/services';
@@ -12,7 +12,7 @@ export async function shapeOfJob(job: string): Promise<Result<void>> {
   if (!bytes.ok) return bytes;
   const map = await readMap(bytes.value);
   if (!map.ok) return map;
-  // The map is in mm; the draft's scale counts from the model's own units.
+  // The map is in mm, but the draft's scale refers to the units of the model's file.
   const scale = draft.value.from?.spec.scale ?? 1;
   const unscaled = map.value.positions.map((value) => value / scale);
   const shrink = (v: readonly [number, number, number]) =>

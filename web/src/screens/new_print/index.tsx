@@ -16,7 +16,7 @@ import { Submit } from './submit_panel';
 
 let isRestored = false;
 
-/** Brings back what was begun, or begins with the job that the address names. */
+/** Restores the draft, or starts from the job in the URL. */
 async function prepare(from: string | null): Promise<void> {
   if (!isRestored) await restore();
   isRestored = true;
@@ -47,7 +47,7 @@ export function NewPrint() {
       <div class="panel">
         {!may('MAKER') && (
           <p class="note">
-            You may look, but not submit: ask whoever looks after this machine to make you a maker.
+            You can view this page but not submit. Ask an admin for the role Maker.
           </p>
         )}
         <FieldErrorsOf value={errors}>
@@ -68,15 +68,17 @@ export function NewPrint() {
   );
 }
 
-/** For whoever is here for the first time. */
+/** Instructions for first-time users. */
 const HowItGoes = () => (
   <section>
-    <h2>How it goes</h2>
+    <h2>How it works</h2>
     <ol>
-      <li>Drop a model, see it above the film, and turn it the way it will hang.</li>
-      <li>The film image is computed: distorted so that it fits once the film has stretched.</li>
-      <li>Print it on film, and dip: the rig leads you through, one step at a time.</li>
+      <li>Drop a model and turn it to the pose in which it will be dipped.</li>
+      <li>
+        Simulate the dip. The film image is distorted so that it fits once the film has stretched.
+      </li>
+      <li>Print the image on film and dip the object. The Rig page guides you step by step.</li>
     </ol>
-    <p class="quiet">Nothing is printed and nothing moves before you say so.</p>
+    <p class="quiet">Nothing is printed and nothing moves until you confirm it.</p>
   </section>
 );

@@ -1,4 +1,4 @@
-/** Takes the files that are dropped: sorts them, reads the model, and says of each that is refused why. */
+/** Handles dropped files: classifies them, reads the model, and reports refused files with the reason. */
 import { batch, signal } from '@preact/signals';
 import {
   arrange,
@@ -12,7 +12,7 @@ import { refused, type Result } from '../../model/result';
 import { readMesh } from '../../worker/reader';
 import { change, draft, firstScale, shape } from './draft';
 
-/** What was not taken, and what is missing; in words. */
+/** Refused and missing files, with the reason. */
 export const problems = signal<{ name: string; why: string }[]>([]);
 export const arrangement = signal<Arrangement<File>>(arrange([], [], []));
 export const isReading = signal(false);
@@ -20,12 +20,12 @@ export const isReading = signal(false);
 const withRole = (files: readonly File[], role: Role) =>
   files.filter((file) => roleOf(file.name) === role);
 
-/** The model among the files. */
+/** Returns the model among the files. */
 export const meshOf = (files: readonly File[]): File | undefined => withRole(files, 'mesh')[0];
 export const profileOf = (files: readonly File[]): File | undefined =>
   withRole(files, 'profile')[0];
 
-/** Adds files to the draft. A model takes the place of the one before, with all that belonged to it. */
+/** Adds files to the draft. A new model replaces the old one and all files that belong to it. */
 export async function take(dropped: readonly File[]): Promise<void> {
   const good: File[] = [];
   const bad: { name: string; why: string }[] = [];
@@ -36,13 +36,16 @@ export async function take(dropped: readonly File[]): Promise<void> {
   }
   const meshes = withRole(good, 'mesh');
   for (const extra of meshes.slice(1))
-    bad.push({ name: extra.name, why: 'one object is dipped at a time. Drop it alone' });
+    bad.push({
+      name: extra.name,
+      why: 'only one object can be dipped at a time. Drop one model only',
+    });
   problems.value = bad;
   const usable = good.filter((file) => !meshes.slice(1).includes(file));
   if (usable.length === 0) return;
   const { files } = draft.value;
   const kept = meshes.length > 0 ? withRole(files, 'profile') : files;
-  // A picture that is dropped by itself is the new texture: the older ones that nothing names go.
+  // A newly dropped image replaces the old texture, unless a material references the old one.
   const images = withRole(usable, 'image');
   const stale = images.length > 0 && arrangement.value.texture;
   const merged = [
@@ -52,7 +55,7 @@ export async function take(dropped: readonly File[]): Promise<void> {
   await readAll(merged, meshes.length > 0, bad);
 }
 
-/** Reads again what a reload brought back. */
+/** Reads the files of a restored draft again. */
 export const reread = (): Promise<void> => readAll(draft.value.files, false, []);
 
 async function whyNot(file: File): Promise<string | undefined> {
@@ -62,7 +65,7 @@ async function whyNot(file: File): Promise<string | undefined> {
     .slice(0, 4096)
     .arrayBuffer()
     .catch(() => undefined);
-  if (!head) return 'it cannot be read. If it is a folder, drop the files in it';
+  if (!head) return 'the file cannot be read. If it is a folder, drop the files inside it';
   return contradiction(role, file.name, new Uint8Array(head));
 }
 
@@ -92,7 +95,7 @@ async function readAll(
       ...bad,
       ...(read ? arrangement.value.missing : []).map((name) => ({
         name,
-        why: 'it is named, but not here. Drop it too, or drop a picture to take in its place',
+        why: 'it is referenced but missing. Drop it too, or drop an image to use instead',
       })),
     ];
     if (read?.ok) shape.value = read.value;
@@ -106,12 +109,12 @@ async function readAll(
   });
 }
 
-/** The pictures that lie in the model's own file, as files to show; they are not sent again. */
+/** Adds the images embedded in the model as files for display. They are not uploaded separately. */
 function withPictures(found: Arrangement<File>): Arrangement<File> {
   const materials = new Map(found.materials);
   for (const [name, { picture, ...material }] of found.materials) {
     if (!picture || material.file) continue;
-    // A copy: the bytes are a part of the whole model's.
+    // Copied, because the bytes are part of the model's buffer.
     const file = new File([picture.bytes.slice()], name, { type: picture.type });
     materials.set(name, { ...material, file });
   }
@@ -128,20 +131,20 @@ export async function samples(): Promise<Sample[]> {
   return response?.ok ? ((await response.json()) as Sample[]) : [];
 }
 
-/** Fetches a sample and takes it like dropped files. */
+/** Fetches a sample and handles it like dropped files. */
 export async function takeSample(name: string): Promise<Result<void>> {
   const files: File[] = [];
   for (const ending of ['obj', 'mtl', 'png']) {
     const response = await fetch(`/samples/${name}.${ending}`).catch(() => undefined);
     if (!response?.ok)
-      return refused('the sample cannot be fetched', 'Try again, or drop a model of your own');
+      return refused('the sample cannot be downloaded', 'Try again, or drop a model of your own');
     files.push(new File([await response.blob()], `${name}.${ending}`));
   }
   await take(files);
   return { ok: true, value: undefined };
 }
 
-/** The draft's files with the names that the job sees, and what each is there. */
+/** The draft's files with their names and roles in the job. */
 export function inputsOf(
   files: readonly File[],
 ): { role: 'mesh' | 'texture' | 'extra' | 'profile'; name: string; file: File }[] {

@@ -34,7 +34,7 @@ function Browse({ label }: { label: string }) {
   );
 }
 
-/** Files may be dropped anywhere on the page. */
+/** Accepts files dropped anywhere on the page; true while files are dragged over it. */
 export function useDrop(): boolean {
   const [isOver, setOver] = useState(false);
   useEffect(() => {
@@ -64,7 +64,7 @@ export function useDrop(): boolean {
   return isOver;
 }
 
-/** The first thing there is to do. */
+/** The start of a new print: drop or choose a model. */
 export function Intake({ isBusy }: { isBusy: boolean }) {
   const [ready, setReady] = useState<{ name: string; label: string }[]>([]);
   useEffect(() => void samples().then(setReady), []);
@@ -72,8 +72,8 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
     <div class="intake">
       <h2>{isBusy ? 'Reading…' : 'Drop a model here'}</h2>
       <p>
-        The object to print on, as OBJ, PLY, STL or glTF, with its picture (PNG or JPEG; for an OBJ
-        its MTL, too; a GLB has all in one).
+        Supported models: OBJ (with its MTL), PLY, STL, glTF and GLB. Add the texture image (PNG or
+        JPEG) unless it is part of the model.
       </p>
       <Browse label="Choose files" />
       {ready.length > 0 && (
@@ -90,7 +90,7 @@ export function Intake({ isBusy }: { isBusy: boolean }) {
   );
 }
 
-/** What was taken, how large it is, and what was refused. */
+/** The accepted files, the size of the object, and the refused files. */
 export function Taken() {
   const { files, from, scale } = draft.value;
   const hasAny = files.length > 0 || from;
@@ -98,7 +98,7 @@ export function Taken() {
   return (
     <section aria-labelledby="object-title">
       <h2 id="object-title">1 Object</h2>
-      {from && files.length === 0 && <p>As in {from.job.replace('jobs/', 'job ')}</p>}
+      {from && files.length === 0 && <p>Same as in {from.job.replace('jobs/', 'job ')}</p>}
       {files.length > 0 && (
         <ul class="files">
           {files.map((file) => (
@@ -143,7 +143,7 @@ export function Taken() {
       )}
       {shape.value && scale !== unit_mm && files.length > 0 && !calibrated.value && (
         <p class="quiet">
-          In its own units the model would be {formatMm((longest_mm.value / scale) * unit_mm)} long.
+          Without scaling, the model would be {formatMm((longest_mm.value / scale) * unit_mm)} long.
           Check its size.
         </p>
       )}

@@ -1,4 +1,4 @@
-/** The object over the film in 3D; that part of the program is fetched when there is something to show. */
+/** The object over the film in 3D. The code for 3D is loaded only when it is needed. */
 import { computed, effect, signal } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { PoseView, Gizmo, Look } from '../../view3d/pose_view';
@@ -14,11 +14,11 @@ import { shown, type Shown } from './preview';
 const gizmo = signal<Gizmo>('rotate');
 const coat = signal<'picture' | 'stretch'>('picture');
 const kStretch: Scale = { map: 'viridis', min: 1, max: 3, log: true };
-// Apart from the rest of the draft, so that the mesh is not built anew while it is turned.
+// Separate from the draft, so that rotating the object does not rebuild its mesh.
 const scale = computed(() => draft.value.scale);
 const pose = computed(() => calibrated.value?.pose ?? draft.value.pose);
 
-/** Pictures by file; what this browser cannot show (TIFF) is left out. */
+/** Decoded images by file. Formats that the browser cannot display (TIFF) are skipped. */
 async function pictures(): Promise<Map<File, ImageBitmap>> {
   const { materials, texture } = arrangement.value;
   const out = new Map<File, ImageBitmap>();
@@ -54,7 +54,7 @@ export function ObjectView() {
         view.current = new View(host.current, (turned) => change({ pose: turned }));
       } catch {
         setTrouble(
-          'This browser shows no 3D (WebGL is off or missing). Turn the object by numbers; all else works.',
+          'This browser cannot show 3D because WebGL is off or missing. Enter the rotation as numbers; everything else works.',
         );
         return;
       }
@@ -75,32 +75,32 @@ export function ObjectView() {
         class="stage"
         ref={host}
         role="img"
-        aria-label="The object above the film, in 3D. Turn and move it with the fields beside it."
+        aria-label="3D view of the object above the film. The fields beside it turn and move the object."
       />
       {trouble && <p class="trouble">{trouble}</p>}
       <div class="tools">
         <Switch<Gizmo>
-          label="What dragging does"
+          label="Effect of dragging"
           value={gizmo.value}
           onValue={(value) => (gizmo.value = value)}
           choices={[
             { value: 'rotate', label: 'Turn' },
             { value: 'translate', label: 'Move' },
-            { value: 'none', label: 'Look' },
+            { value: 'none', label: 'View' },
           ]}
         />
         {shown.value && (
           <Switch<'picture' | 'stretch'>
-            label="What the object wears"
+            label="Texture"
             value={coat.value}
             onValue={(value) => (coat.value = value)}
             choices={[
-              { value: 'picture', label: 'Picture' },
+              { value: 'picture', label: 'Image' },
               { value: 'stretch', label: 'Stretch' },
             ]}
           />
         )}
-        <span class="group" role="group" aria-label="Look from">
+        <span class="group" role="group" aria-label="View from">
           {(['corner', 'front', 'right', 'top', 'below'] as const).map((side) => (
             <button type="button" class="plain" key={side} onClick={() => look(side)}>
               {side[0]!.toUpperCase() + side.slice(1)}
@@ -110,7 +110,7 @@ export function ObjectView() {
       </div>
       {shown.value && coat.value === 'stretch' && (
         <Legend
-          title="Stretch of the film, estimated"
+          title="Stretch of the film (estimate)"
           unit="times"
           scale={kStretch}
           values={[1, 1.3, 1.6, 2, 2.5, 3]}
@@ -121,7 +121,7 @@ export function ObjectView() {
   );
 }
 
-/** The preview's heat map. */
+/** Builds the mesh for the preview's stretch colours. */
 function heatOf({ positions, corners, stretch }: Shown) {
   const colours = new Uint8Array(positions.length);
   for (let i = 0; i < stretch.length; i += 1)
@@ -129,7 +129,7 @@ function heatOf({ positions, corners, stretch }: Shown) {
   return { positions, corners, colours };
 }
 
-/** Shows what is chosen, as it changes. */
+/** Keeps the view up to date with the draft and the preview. */
 function follow(view: PoseView): () => void {
   let count = 0;
   const ends = [
@@ -159,7 +159,7 @@ function follow(view: PoseView): () => void {
     effect(() => {
       view.setHeat(shown.value && coat.value === 'stretch' ? heatOf(shown.value) : undefined);
     }),
-    // Again from afar when there is another object or film, not while it is turned.
+    // Resets the camera when the object, its scale or the film changes, but not while the object is rotated.
     effect(() => {
       void shape.value;
       void scale.value;

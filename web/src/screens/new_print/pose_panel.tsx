@@ -6,12 +6,12 @@ import { change, draft, shape } from './draft';
 
 const kAxes = ['x', 'y', 'z'] as const;
 
-/** How the object hangs: by numbers, by quarter turns, or as a calibration measured it. */
+/** The pose of the object: entered as numbers, in steps of 90°, or taken from a calibration. */
 export function PosePanel() {
   if (!shape.value) return null;
   return (
     <section aria-labelledby="pose-title">
-      <h2 id="pose-title">2 How it hangs</h2>
+      <h2 id="pose-title">2 Pose</h2>
       <From />
       {calibrated.value ? <Measured /> : <ByHand />}
     </section>
@@ -22,11 +22,11 @@ function From() {
   if (calibrations.value.length === 0) return null;
   return (
     <Choice
-      label="Pose"
+      label="Source of the pose"
       value={draft.value.calibration}
       onValue={(calibration) => change({ calibration })}
       choices={[
-        { value: '', label: 'By hand' },
+        { value: '', label: 'Manual' },
         ...calibrations.value.map((one) => ({
           value: one.name,
           label: `Measured: ${one.displayName || one.name}${one.active ? ' (active)' : ''}`,
@@ -42,14 +42,14 @@ function Measured() {
   return (
     <>
       <p>
-        The calibration gives pose, film and scale
+        Pose, film and scale come from the calibration
         {calibration.errorP95Mm !== undefined &&
-          `; it is good to ${formatMm(calibration.errorP95Mm, 2)} for 95 % of the surface`}
+          `. For 95 % of the surface, its error is at most ${formatMm(calibration.errorP95Mm, 2)}`}
         .
       </p>
       {why && (
         <p class="warning">
-          It does not hold any more: {why}. Measure again ("hydroprint calibrate"), or turn by hand.
+          This calibration is no longer valid: {why}. Calibrate again, or enter the pose manually.
         </p>
       )}
     </>
@@ -97,7 +97,7 @@ function ByHand() {
       </div>
       <div class="row">
         <NumberField
-          label="To the right"
+          label="Offset to the right"
           unit="mm"
           value={pose.centre_mm[0]}
           min={-1000}
@@ -105,7 +105,7 @@ function ByHand() {
           onValue={(mm) => move(0, mm)}
         />
         <NumberField
-          label="To the top"
+          label="Offset to the top"
           unit="mm"
           value={pose.centre_mm[1]}
           min={-1000}
@@ -113,7 +113,7 @@ function ByHand() {
           onValue={(mm) => move(1, mm)}
         />
         <button type="button" onClick={() => change({ pose: kUpright })}>
-          As in the file
+          Reset pose
         </button>
       </div>
     </>

@@ -1,7 +1,7 @@
 /**
- * The quick simulation while an object is turned: how far the film reaches and stretches, and what to heed, well
- * under a second after the last change. All that the page knows of it is here. Until a preview came, nothing of it
- * is shown; that none comes is no failure.
+ * The preview: a quick simulation, repeated while the object is rotated. It shows coverage, stretch and warnings well
+ * under a second after the last change. All code for previews is in this file. Before the first preview nothing is
+ * shown, and a missing preview is not an error.
  */
 import { computed, effect, signal } from '@preact/signals';
 import { call } from '../../api/call';
@@ -15,12 +15,12 @@ import { calibrated } from './calibration';
 import { centre_mm, draft, jobOf, shape, type Inputs } from './draft';
 import { inputsOf } from './intake';
 
-/** What is shown of the last preview. */
+/** The displayed values of the last preview. */
 export interface Shown {
   /** Frame O, mm. */
   positions: Float32Array;
   corners: Uint32Array;
-  /** For each vertex; not a number where no film arrives. */
+  /** Stretch of each vertex; NaN where the film does not reach. */
   stretch: Float32Array;
   coverage: number;
   stretchP95: number;
@@ -29,7 +29,7 @@ export interface Shown {
 }
 
 export const shown = signal<Shown | undefined>(undefined);
-/** Why there is none, where the object is to blame (it hangs beside the film). */
+/** Why there is no preview, if the input is the reason (for example, the object is beside the film). */
 export const refusal = signal('');
 export const isComputing = signal(false);
 
@@ -62,11 +62,11 @@ class Asker {
   private bringing = new AbortController();
   private asking = new AbortController();
   private timer = 0;
-  /** What the mesh that is known belongs to: its asset and scale. */
+  /** The last received mesh; `key` names its asset, and its calibration or scale. */
   private known: { key: string; positions: Float32Array; corners: Uint32Array } | undefined;
   private isOff = false;
 
-  /** Uploads what a preview reads, which submitting needs anyway. */
+  /** Uploads the files that a preview needs. Submitting needs them too. */
   async bring(inputs: ReturnType<typeof inputsOf>): Promise<void> {
     const wanted = inputs.filter(
       ({ role, name }) => role === 'mesh' || role === 'profile' || /\.mtl$/i.test(name),
@@ -165,7 +165,7 @@ const compute = (
 ): Promise<Result<Preview>> =>
   call<Preview>('POST', 'previews:compute', { json: { simulate, withMesh }, signal: goOn });
 
-/** What counts of a job for its preview. */
+/** The part of a simulation's spec that affects its preview. */
 function partOf(simulate: SimulateSpecInput, inputs: Inputs): SimulateSpecInput {
   const calibration = calibrated.value?.calibration;
   const measured = calibration

@@ -4,7 +4,7 @@ import { Figures } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
 import { followPreview, refusal, shown } from './preview';
 
-/** What the print would be like as the object hangs now. */
+/** Preview of the print in the current pose. */
 export function PreviewPanel() {
   useEffect(followPreview, []);
   if (refusal.value) return <p class="warning">{refusal.value}</p>;
@@ -12,12 +12,12 @@ export function PreviewPanel() {
   if (!now) return null;
   return (
     <section aria-labelledby="preview-title" aria-live="polite">
-      <h2 id="preview-title">As it hangs now</h2>
+      <h2 id="preview-title">Preview</h2>
       <Figures
         rows={[
-          ['Surface reached', formatShare(now.coverage)],
-          ['Stretch, 95 % below', formatFactor(now.stretchP95)],
-          ['Estimated in', formatSeconds(now.seconds)],
+          ['Coverage', formatShare(now.coverage)],
+          ['Stretch (95th percentile)', formatFactor(now.stretchP95)],
+          ['Computing time', formatSeconds(now.seconds)],
         ]}
       />
       <ul class="problems">

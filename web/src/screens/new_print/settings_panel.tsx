@@ -7,7 +7,7 @@ import { change, draft, film, shape } from './draft';
 
 const kOwn = 'own';
 
-/** Film and printer. */
+/** Settings of the film and the printer. */
 export function FilmPanel() {
   if (!shape.value) return null;
   const { dpi, paper, colours } = draft.value;
@@ -63,7 +63,7 @@ function FilmChoice() {
         }
         choices={[
           ...kFilmChoices.map((one) => ({ value: one.name, label: one.label })),
-          { value: kOwn, label: 'Another size' },
+          { value: kOwn, label: 'Custom size' },
         ]}
       />
       {!isListed && (
@@ -90,7 +90,7 @@ function FilmChoice() {
   );
 }
 
-/** What has good defaults. */
+/** Settings whose defaults are usually right. */
 export function MorePanel() {
   if (!shape.value) return null;
   const { model, speed_mm_per_s, depth_mm, name } = draft.value;
@@ -98,7 +98,7 @@ export function MorePanel() {
     <details>
       <summary>More settings</summary>
       <TextField
-        label="Name of the job"
+        label="Job name"
         value={name}
         maxBytes={rules.Job.displayName.maxBytes}
         onValue={(value) => change({ name: value })}
@@ -107,7 +107,7 @@ export function MorePanel() {
         <NumberField
           label="Depth"
           {...limitsOf(rules.SimulateSpec.depthMm)}
-          placeholder="all of it"
+          placeholder="whole object"
           value={depth_mm}
           digits={3}
           onValue={(value) => change({ depth_mm: value })}
@@ -126,15 +126,15 @@ export function MorePanel() {
         />
       </div>
       <Choice
-        label="Computation"
+        label="Simulation model"
         value={model}
         onValue={(value) => change({ model: value })}
         choices={[
-          { value: 'MODEL_SHEET', label: 'Exact: viscous sheet with its ink' },
-          { value: 'MODEL_STOKES', label: 'Fast: Stokes flow, for stretch below 1.3' },
+          { value: 'MODEL_SHEET', label: 'Viscous sheet with ink (exact)' },
+          { value: 'MODEL_STOKES', label: 'Stokes flow (fast; for stretch below 1.3×)' },
         ]}
       />
-      <p class="quiet">A film profile (TOML) is dropped like the other files.</p>
+      <p class="quiet">To use a film profile, drop its TOML file on this page.</p>
     </details>
   );
 }

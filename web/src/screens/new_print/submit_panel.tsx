@@ -22,7 +22,7 @@ const sending = signal<Sending | undefined>(undefined);
 const failure = signal<Failure | undefined>(undefined);
 let giveUp: AbortController | undefined;
 
-/** Brings all files to the daemon and creates the job. */
+/** Uploads all files and creates the job. */
 async function submit(): Promise<void> {
   giveUp = new AbortController();
   failure.value = undefined;
@@ -68,7 +68,7 @@ async function bring(signal: AbortSignal): Promise<Result<Inputs>> {
   }
   const spec = brought.mesh ? undefined : from?.spec;
   const mesh = brought.mesh ?? (spec?.mesh as Inputs['mesh'] | undefined);
-  if (!mesh) return refused('there is no model', 'Drop one, or pick a sample');
+  if (!mesh) return refused('no model', 'Drop a model, or choose a sample');
   const texture = brought.texture ?? (spec?.texture as Inputs['texture']);
   const profile = brought.profile ?? (spec?.profile as Inputs['profile']);
   const kept = (spec?.extraFiles ?? []) as Inputs['extraFiles'];
@@ -81,15 +81,15 @@ async function bring(signal: AbortSignal): Promise<Result<Inputs>> {
   });
 }
 
-/** What speaks against submitting; undefined: nothing. */
+/** Returns the reason why the draft cannot be submitted; undefined if it can. */
 function obstacle(): string | undefined {
-  if (!shape.value) return 'Drop a model, or pick a sample';
+  if (!shape.value) return 'Drop a model, or choose a sample';
   const [x, y] = (calibrated.value?.pose ?? draft.value.pose).centre_mm;
   const { width_mm, height_mm } = film.value;
   if (Math.abs(x) > width_mm / 2 || Math.abs(y) > height_mm / 2)
-    return 'The object hangs beside the film: move it over it';
+    return 'The object is beside the film. Move it over the film';
   const calibration = calibrated.value?.calibration;
-  if (calibration && staleness(calibration)) return 'The calibration does not hold any more';
+  if (calibration && staleness(calibration)) return 'The calibration is no longer valid';
   return undefined;
 }
 
@@ -112,10 +112,10 @@ export function Submit() {
         aria-describedby="submit-why"
         onClick={() => void submit()}
       >
-        Compute the film image
+        Simulate
       </button>
       <p class="quiet" id="submit-why">
-        {why ?? 'Takes seconds to minutes. Nothing is printed and nothing moves yet.'}
+        {why ?? 'Computes the film image in seconds to minutes. Nothing is printed or moved yet.'}
       </p>
     </div>
   );
@@ -125,12 +125,12 @@ function Underway({ name, share, isLost }: Sending) {
   return (
     <div class="submit" role="status">
       <p>
-        {isLost ? `The connection is lost; ${name} goes on by itself` : `Sending ${name}`} (
+        {isLost ? `Connection lost; the upload of ${name} will resume` : `Uploading ${name}`} (
         {Math.round(100 * share)} %)
       </p>
-      <Progress share={share} label={`Sending ${name}`} />
+      <Progress share={share} label={`Uploading ${name}`} />
       <button type="button" onClick={() => giveUp?.abort()}>
-        Give up
+        Cancel
       </button>
     </div>
   );

@@ -14,7 +14,7 @@ const kWhat = [
   { value: 'PeopleService.', label: 'People' },
 ];
 
-/** What was done and by whom, newest first. */
+/** The audit log, newest entry first. */
 export function Audit() {
   const [entries, setEntries] = useState<AuditEntry[]>();
   const [next, setNext] = useState('');
@@ -34,16 +34,16 @@ export function Audit() {
   }, [name, what]);
   return (
     <section aria-labelledby="audit-title">
-      <h2 id="audit-title">Audit</h2>
+      <h2 id="audit-title">Audit log</h2>
       <div class="row">
-        <TextField label="Who" value={name} onValue={setName} />
-        <Choice label="What" value={what} choices={kWhat} onValue={setWhat} />
+        <TextField label="User" value={name} onValue={setName} />
+        <Choice label="Action" value={what} choices={kWhat} onValue={setWhat} />
       </div>
       <List
-        heads={['When', 'Who', 'What', 'Outcome']}
+        heads={['Time', 'User', 'Action', 'Outcome']}
         failure={failure}
         count={entries?.length}
-        empty="Nothing of that kind."
+        empty="No matching entries."
       >
         {(entries ?? []).map((entry) => (
           <tr key={entry.seq}>
@@ -51,7 +51,7 @@ export function Audit() {
               <When time={entry.time} />
             </td>
             <th scope="row">
-              {entry.who || 'nobody known'}
+              {entry.who || 'unknown'}
               <span class="quiet">
                 {entry.via} {entry.peer}
               </span>

@@ -10,18 +10,18 @@ import { Users } from './users';
 
 type Tab = 'users' | 'keys' | 'sessions' | 'lease' | 'audit';
 
-/** Admins see everybody's; the others their own keys and sessions. */
+/** Admins see everyone's keys and sessions; other users see their own. */
 export function People() {
   const isAdmin = may('ADMIN');
   const [tab, setTab] = useState<Tab>(isAdmin ? 'users' : 'keys');
   const tabs: { value: Tab; label: string }[] = [
     ...(isAdmin ? [{ value: 'users' as const, label: 'Users' }] : []),
-    { value: 'keys', label: 'Keys' },
+    { value: 'keys', label: 'API keys' },
     { value: 'sessions', label: 'Sessions' },
     ...(isAdmin
       ? [
           { value: 'lease' as const, label: 'Lease' },
-          { value: 'audit' as const, label: 'Audit' },
+          { value: 'audit' as const, label: 'Audit log' },
         ]
       : []),
   ];
@@ -30,8 +30,8 @@ export function People() {
       <h1>People</h1>
       {!who.value?.accounts && (
         <p class="note">
-          There are no users yet: everybody on this machine may do everything. Add an admin, and
-          from then on people sign in.
+          There are no users yet, so everyone on this machine has full access. Once you add an
+          admin, everyone has to sign in.
         </p>
       )}
       <Switch<Tab> label="Show" value={tab} onValue={setTab} choices={tabs} />

@@ -12,11 +12,11 @@ import { kRoles } from './users';
 const kDay_s = 86_400;
 const kTimes = [
   { value: String(30 * kDay_s), label: '30 days' },
-  { value: String(365 * kDay_s), label: 'a year' },
-  { value: '', label: 'until it is deleted' },
+  { value: String(365 * kDay_s), label: '1 year' },
+  { value: '', label: 'no expiry' },
 ];
 
-/** Keys that stand for somebody in scripts. */
+/** API keys, with which scripts act for their owner. */
 export function Keys() {
   const { value, failure, again } = useAsked(api.keys);
   const [secret, setSecret] = useState('');
@@ -24,14 +24,12 @@ export function Keys() {
   return (
     <section aria-labelledby="keys-title">
       <h2 id="keys-title">API keys</h2>
-      {secret && (
-        <Once title="The key, shown this once: export HYDROPRINT_API_KEY=" secret={secret} />
-      )}
+      {secret && <Once title="Copy the key now; it is not shown again:" secret={secret} />}
       <List
-        heads={['Key', 'User', 'Role', 'Last used', 'Ends', '']}
+        heads={['Key', 'User', 'Role', 'Last used', 'Expires', '']}
         failure={failure}
         count={value?.apiKeys.length}
-        empty="No keys yet. With one, scripts and the program hydroprint may do what you may."
+        empty="No API keys yet. An API key lets scripts act with your permissions."
       >
         {keys.map((key) => (
           <tr key={key.name}>
@@ -39,11 +37,13 @@ export function Keys() {
             <td data-label="User">{plainName(key.user)}</td>
             <td data-label="Role">{key.role?.toLowerCase()}</td>
             <td data-label="Last used">{key.useTime ? <When time={key.useTime} /> : 'never'}</td>
-            <td data-label="Ends">{key.expireTime ? <When time={key.expireTime} /> : 'never'}</td>
+            <td data-label="Expires">
+              {key.expireTime ? <When time={key.expireTime} /> : 'never'}
+            </td>
             <td class="actions">
               <Careful
                 kind="plain"
-                sure="Delete the key"
+                sure="Confirm deletion"
                 onPress={async () => {
                   orComplain(await api.end(key.name));
                   await again();
@@ -77,23 +77,23 @@ function NewKey({ made }: { made: (key: string) => Promise<void> }) {
   };
   return (
     <div class="new">
-      <h3>Make a key</h3>
+      <h3>New API key</h3>
       <div class="row">
         <TextField
-          label="What for"
+          label="Description"
           value={name}
           onValue={setName}
           maxBytes={rules.CreateApiKeyRequest.displayName.maxBytes}
         />
         <Choice
-          label="May do"
+          label="Role"
           value={role}
           choices={kRoles.filter(({ value }) => may(value))}
           onValue={setRole}
         />
-        <Choice label="Holds" value={time} choices={kTimes} onValue={setTime} />
+        <Choice label="Valid for" value={time} choices={kTimes} onValue={setTime} />
         <Button kind="primary" disabled={name === ''} onPress={create}>
-          Make
+          Create
         </Button>
       </div>
     </div>

@@ -3,7 +3,7 @@ import { useEffect, useState } from 'preact/hooks';
 import type { Asked } from '../../api/services';
 import type { Failure } from '../../model/result';
 
-/** What the daemon has of something, and how to ask again. */
+/** Fetches a list from the daemon; `again` fetches it once more. */
 export function useAsked<T>(ask: () => Asked<T>): {
   value: T | undefined;
   failure: Failure | undefined;
@@ -23,7 +23,7 @@ export function useAsked<T>(ask: () => Asked<T>): {
 export function List(props: {
   heads: readonly string[];
   failure: Failure | undefined;
-  /** Undefined until the daemon told. */
+  /** Undefined until the list has been fetched. */
   count: number | undefined;
   empty: string;
   children: ComponentChildren;
@@ -34,7 +34,7 @@ export function List(props: {
         {props.failure.what}
       </p>
     );
-  if (props.count === undefined) return <p class="quiet">Asking…</p>;
+  if (props.count === undefined) return <p class="quiet">Loading…</p>;
   if (props.count === 0) return <p class="quiet">{props.empty}</p>;
   return (
     <table>
@@ -52,11 +52,11 @@ export function List(props: {
   );
 }
 
-/** What is shown this once: a key, a link. */
+/** A secret that is shown only once: a key or a link. */
 export function Once({ title, secret }: { title: string; secret: string }) {
   const [isCopied, setCopied] = useState(false);
   const copy = async () => {
-    // Only where the page came over TLS or from this machine.
+    // The clipboard exists only if the page was loaded over TLS or from this machine.
     await navigator.clipboard?.writeText(secret).then(
       () => setCopied(true),
       () => setCopied(false),
@@ -73,5 +73,5 @@ export function Once({ title, secret }: { title: string; secret: string }) {
   );
 }
 
-/** "users/ann" as people say it. */
+/** "ann" for "users/ann". */
 export const plainName = (name: string): string => name.replace(/^\w+\//, '');

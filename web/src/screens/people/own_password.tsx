@@ -11,7 +11,7 @@ export function OwnPassword() {
     if (!orComplain(await api.setPassword(`users/${me.value}`, after, before || undefined))) return;
     setBefore('');
     setAfter('');
-    say('The password was changed; your other sessions ended');
+    say('Password changed. Your other sessions have ended');
     await begin();
   };
   return (
@@ -20,7 +20,7 @@ export function OwnPassword() {
       <div class="row">
         {who.value?.hasPassword && (
           <TextField
-            label="The old one"
+            label="Old password"
             type="password"
             autocomplete="current-password"
             value={before}
@@ -28,14 +28,14 @@ export function OwnPassword() {
           />
         )}
         <TextField
-          label="The new one (10 characters or more)"
+          label="New password (at least 10 characters)"
           type="password"
           autocomplete="new-password"
           value={after}
           onValue={setAfter}
         />
         <Button disabled={after.length < 10} onPress={set}>
-          Set it
+          Save password
         </Button>
       </div>
     </details>

@@ -4,7 +4,7 @@ import { Button } from '../../ui/controls';
 import { When } from '../../ui/job_text';
 import { List, plainName, useAsked } from './list';
 
-/** Who is signed in, where. */
+/** All open sessions. */
 export function Sessions() {
   const { value, failure, again } = useAsked(api.sessions);
   const sessions = value?.sessions ?? [];
@@ -12,7 +12,7 @@ export function Sessions() {
     <section aria-labelledby="sessions-title">
       <h2 id="sessions-title">Sessions</h2>
       <List
-        heads={['User', 'From', 'Begun', 'Last used', 'Ends', '']}
+        heads={['User', 'Address', 'Started', 'Last used', 'Expires', '']}
         failure={failure}
         count={value?.sessions.length}
         empty="Nobody is signed in."
@@ -21,16 +21,16 @@ export function Sessions() {
           <tr key={session.name}>
             <th scope="row">
               {plainName(session.user)}
-              {session.current && <span class="quiet">this one</span>}
+              {session.current && <span class="quiet">this session</span>}
             </th>
-            <td data-label="From">{session.peer}</td>
-            <td data-label="Begun">
+            <td data-label="Address">{session.peer}</td>
+            <td data-label="Started">
               <When time={session.createTime} />
             </td>
             <td data-label="Last used">
               <When time={session.useTime} />
             </td>
-            <td data-label="Ends">
+            <td data-label="Expires">
               <When time={session.expireTime} />
             </td>
             <td class="actions">
@@ -42,7 +42,7 @@ export function Sessions() {
                     await again();
                   }}
                 >
-                  End it
+                  End
                 </Button>
               )}
             </td>

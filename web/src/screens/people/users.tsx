@@ -8,10 +8,10 @@ import { When } from '../../ui/job_text';
 import { List, Once, plainName, useAsked } from './list';
 
 export const kRoles: readonly { value: Role; label: string }[] = [
-  { value: 'VIEWER', label: 'Viewer: looks, and stops the rig' },
-  { value: 'MAKER', label: 'Maker: has jobs of their own' },
-  { value: 'OPERATOR', label: 'Operator: commands rig and queue' },
-  { value: 'ADMIN', label: 'Admin: everything' },
+  { value: 'VIEWER', label: 'Viewer: can view jobs and the rig, and stop the rig' },
+  { value: 'MAKER', label: 'Maker: can also submit jobs' },
+  { value: 'OPERATOR', label: 'Operator: can also control the rig and the queue' },
+  { value: 'ADMIN', label: 'Admin: can also manage users' },
 ];
 
 export function Users() {
@@ -27,10 +27,13 @@ export function Users() {
     <section aria-labelledby="users-title">
       <h2 id="users-title">Users</h2>
       {link && (
-        <Once title={`Signs ${link.user} in once, within 15 minutes:`} secret={link.address} />
+        <Once
+          title={`Sign-in link for ${link.user}; works once, for 15 minutes:`}
+          secret={link.address}
+        />
       )}
       <List
-        heads={['Name', 'Role', 'Since', '']}
+        heads={['Name', 'Role', 'Created', '']}
         failure={failure}
         count={value?.users.length}
         empty="No users yet."
@@ -55,7 +58,7 @@ function Row(props: { user: User; again: () => Promise<void>; makeLink: () => Pr
       <th scope="row">
         {plainName(user.name)}
         {plainName(user.name) === me.value && <span class="quiet">you</span>}
-        {user.disabled && <span class="quiet">barred</span>}
+        {user.disabled && <span class="quiet">disabled</span>}
         {!user.hasPassword && <span class="quiet">no password yet</span>}
       </th>
       <td>
@@ -74,7 +77,7 @@ function Row(props: { user: User; again: () => Promise<void>; makeLink: () => Pr
           Sign-in link
         </Button>
         <Button kind="plain" onPress={() => change({ disabled: !user.disabled })}>
-          {user.disabled ? 'Admit' : 'Bar'}
+          {user.disabled ? 'Enable' : 'Disable'}
         </Button>
         <Careful
           kind="plain"
@@ -103,7 +106,7 @@ function NewUser({ isFirst, again }: { isFirst: boolean; again: () => Promise<vo
     say(`${name} was added`);
     setName('');
     setPassword('');
-    // The first user ends the time without accounts.
+    // From the first user on, signing in is required.
     if (isFirst) await begin();
     if (may('ADMIN')) await again();
   };
@@ -115,7 +118,9 @@ function NewUser({ isFirst, again }: { isFirst: boolean; again: () => Promise<vo
         {!isFirst && <Choice label="Role" value={role} choices={kRoles} onValue={setRole} />}
         <TextField
           label={
-            isFirst ? 'Password (10 characters or more)' : 'Password (or leave it, and make a link)'
+            isFirst
+              ? 'Password (at least 10 characters)'
+              : 'Password (or leave empty and create a link)'
           }
           type="password"
           autocomplete="new-password"

@@ -22,7 +22,7 @@ import { HowFar, kindText, numberOf, State, When } from '../../ui/job_text';
 type Whose = 'mine' | 'all';
 type Which = 'all' | 'open' | 'finished';
 
-/** Pages of jobs, newest first, asked again whenever something arrives. */
+/** Pages of jobs, newest first, fetched again when jobs arrive. */
 function usePages(whose: Whose, which: Which) {
   const [names, setNames] = useState<string[]>();
   const [next, setNext] = useState('');
@@ -56,7 +56,7 @@ export function QueueScreen() {
       <h1>Jobs</h1>
       <div class="row">
         <Switch<Whose>
-          label="Whose"
+          label="Owner"
           value={whose}
           onValue={setWhose}
           choices={[
@@ -65,7 +65,7 @@ export function QueueScreen() {
           ]}
         />
         <Switch<Which>
-          label="Which"
+          label="State"
           value={which}
           onValue={setWhich}
           choices={[
@@ -76,10 +76,10 @@ export function QueueScreen() {
         />
       </div>
       <Line />
-      {names === undefined && <p class="quiet">Asking…</p>}
+      {names === undefined && <p class="quiet">Loading…</p>}
       {names && rows.length === 0 && (
         <p class="quiet">
-          No jobs here yet. <a href="#/">Begin a new print</a>.
+          No jobs yet. <a href="#/">Start a new print</a>.
         </p>
       )}
       {rows.length > 0 && <Table rows={rows} />}
@@ -88,7 +88,7 @@ export function QueueScreen() {
   );
 }
 
-/** What stands in line, and whether it moves. */
+/** State of the queue, with a button to pause or resume it. */
 function Line() {
   const [reason, setReason] = useState('');
   const line = queue.value;
@@ -101,8 +101,8 @@ function Line() {
         {line.paused && (
           <strong>
             {' '}
-            The queue is paused{line.pauseReason ? `: ${line.pauseReason}` : ''}. What runs goes on;
-            nothing new begins.
+            The queue is paused{line.pauseReason ? `: ${line.pauseReason}` : ''}. Running jobs
+            continue; no new jobs start.
           </strong>
         )}
       </p>
@@ -119,7 +119,7 @@ function Line() {
           <details>
             <summary>Pause the queue</summary>
             <TextField
-              label="Why"
+              label="Reason"
               value={reason}
               onValue={setReason}
               placeholder="new film"
@@ -145,7 +145,7 @@ const Table = ({ rows }: { rows: Job[] }) => (
         <th scope="col">Job</th>
         <th scope="col">State</th>
         <th scope="col">Owner</th>
-        <th scope="col">Begun</th>
+        <th scope="col">Created</th>
         <th scope="col">
           <span class="hidden">Actions</span>
         </th>
@@ -172,7 +172,7 @@ function Row({ job }: { job: Job }) {
       <td>
         <State state={job.state} />
         {(job.state === 'RUNNING' || job.state === 'CANCELLING') && <HowFar job={job} />}
-        {place >= 0 && <span class="quiet">place {place + 1}</span>}
+        {place >= 0 && <span class="quiet">position {place + 1}</span>}
         {job.state === 'FAILED' && <span class="why">{job.error?.message}</span>}
       </td>
       <td>{job.owner}</td>
@@ -195,13 +195,13 @@ function Actions({ job, place }: { job: Job; place: number }) {
       {place > 0 && first && first !== job.name && (
         <Button
           kind="plain"
-          label={`Do ${id} first`}
+          label={`Move ${id} to the front`}
           onPress={async () => {
             const moved = orComplain(await api.moveToFront(job.name, first));
             if (moved) remember(moved);
           }}
         >
-          First
+          Move to front
         </Button>
       )}
       {!isFinished(job) && job.state !== 'CANCELLING' && (
@@ -219,12 +219,12 @@ function Actions({ job, place }: { job: Job; place: number }) {
       {canRetry(job) && (
         <Button
           kind="plain"
-          label={`Try ${id} again`}
+          label={`Retry ${id}`}
           onPress={async () => {
             const again = orComplain(await api.retry(job.name, newRequestId()));
             if (!again) return;
             remember(again);
-            say(`${job.displayName} is tried again`);
+            say(`${job.displayName} was submitted again`);
             go(`/${again.name}`);
           }}
         >

@@ -5,7 +5,7 @@ import { secondsUntil } from '../../ui/clock';
 import { DepthLegend } from '../../ui/legend';
 import { kOld_s, look, seen, trouble, type LiveDepth } from './live_depth';
 
-/** The live picture of the depth camera; for everybody, and nobody needs the lease for it. */
+/** The live picture of the depth camera. Every user can see it without the lease. */
 export function DepthPicture() {
   useEffect(() => look(), []);
   const why = trouble.value;
@@ -13,7 +13,7 @@ export function DepthPicture() {
     return (
       <section aria-labelledby="depth-title">
         <h2 id="depth-title">Depth camera</h2>
-        <p class="quiet">None is configured (camera.device in the daemon’s configuration).</p>
+        <p class="quiet">No camera is configured.</p>
       </section>
     );
   return (
@@ -24,7 +24,7 @@ export function DepthPicture() {
       {why && (
         <p class="warning" role="status">
           {seen.value ? `No picture since ${clockOf(seen.value.time)}` : 'No picture'}: {why.what}.
-          It is tried again while this page is open.
+          Trying again while this page is open.
         </p>
       )}
     </section>
@@ -48,7 +48,7 @@ function Picture({ shown }: { shown: LiveDepth }) {
       <canvas
         ref={canvas}
         role="img"
-        aria-label={`Depth over the vat at ${clockOf(shown.time)}: from ${range} from the camera, ${formatShare(shown.measuredShare)} measured`}
+        aria-label={`Depth over the vat at ${clockOf(shown.time)}: ${range} from the camera, ${formatShare(shown.measuredShare)} measured`}
       />
       <DepthLegend scale={depthScale(shown.nearest_mm, shown.farthest_mm)} />
       <figcaption class="quiet">

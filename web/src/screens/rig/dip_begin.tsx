@@ -11,7 +11,7 @@ import { Button, NumberField } from '../../ui/controls';
 import { FieldErrorsOf, remedyOf, useFieldErrors } from '../../ui/field_errors';
 import { numberOf } from '../../ui/job_text';
 
-/** Begins the guided dip of a film image. */
+/** Starts the guided dip for a film image. */
 export function BeginDip({ simulateJob }: { simulateJob: string }) {
   const [requestId] = useState(newRequestId);
   const [spec, setSpec] = useState<DipSpecInput>({});
@@ -47,29 +47,29 @@ export function BeginDip({ simulateJob }: { simulateJob: string }) {
       <h2 id="begin-title">Dip</h2>
       <p>
         The film image of <a href={jobPath(simulateJob)}>{simulated?.displayName || simulateJob}</a>{' '}
-        ({numberOf(simulateJob)}), step by step: printing, hanging, laying the film, activator,
-        descent.
+        ({numberOf(simulateJob)}), step by step: print the film, mount the object, lay the film,
+        spray the activator, dip.
       </p>
       <details>
-        <summary>Settings of the dip</summary>
+        <summary>Dip settings</summary>
         <FieldErrorsOf value={errors}>
           <div class="row">
-            {field('soakS', 'Film soaks')}
-            {field('activatorWaitS', 'Activator works')}
-            {field('holdS', 'Hold at the depth')}
-            {field('clearanceMm', 'Room for the film')}
-            {field('waterTemperatureC', 'Water', 'for the record')}
+            {field('soakS', 'Soak time')}
+            {field('activatorWaitS', 'Activation time')}
+            {field('holdS', 'Hold time at depth')}
+            {field('clearanceMm', 'Clearance for the film')}
+            {field('waterTemperatureC', 'Water temperature', 'for the record')}
           </div>
         </FieldErrorsOf>
       </details>
       <Button kind="primary" disabled={!isReady || remedy !== undefined} onPress={begin}>
-        Begin the dip
+        Start the dip
       </Button>
       {remedy && <p class="error">{remedy}.</p>}
       {!isReady && (
         <p class="quiet">
-          {isOurs.value ? 'Arm and home the rig first.' : 'Take the rig first.'} Nothing moves
-          before you confirm its steps.
+          {isOurs.value ? 'Arm and home the rig first.' : 'Take the rig first.'} Nothing moves until
+          you confirm each step.
         </p>
       )}
     </section>

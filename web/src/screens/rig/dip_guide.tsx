@@ -11,27 +11,31 @@ import { Button, Careful } from '../../ui/controls';
 import { State } from '../../ui/job_text';
 import { Jog } from './jog';
 
-/** The steps of a dip in their order; those that wait for the operator have the words of their button. */
+/** The steps of a dip in order; `confirm` is the button text of steps that wait for the operator. */
 const kSteps: { step: string; title: string; confirm?: string }[] = [
   { step: 'PRINT_FILM', title: 'Print the film', confirm: 'The film is printed' },
-  { step: 'LOAD_OBJECT', title: 'Hang the object', confirm: 'The object hangs' },
-  { step: 'FIND_CONTACT', title: 'Find first contact', confirm: 'It all but touches the water' },
-  { step: 'CLEAR', title: 'Rise to make room' },
+  { step: 'LOAD_OBJECT', title: 'Mount the object', confirm: 'The object is mounted' },
+  {
+    step: 'FIND_CONTACT',
+    title: 'Find first contact',
+    confirm: 'The object almost touches the water',
+  },
+  { step: 'CLEAR', title: 'Raise the object' },
   { step: 'LAY_FILM', title: 'Lay the film', confirm: 'The film floats between the bars' },
   { step: 'SOAK', title: 'Soak' },
   { step: 'SPRAY_ACTIVATOR', title: 'Spray the activator', confirm: 'The activator is sprayed' },
-  { step: 'ACTIVATE', title: 'Activator works' },
-  { step: 'START_DIP', title: 'Start the dip', confirm: 'Hands are off: dip now' },
-  { step: 'DESCEND', title: 'Descend' },
+  { step: 'ACTIVATE', title: 'Wait for the activator' },
+  { step: 'START_DIP', title: 'Start the dip', confirm: 'Hands are clear, dip now' },
+  { step: 'DESCEND', title: 'Lower the object' },
   { step: 'HOLD', title: 'Hold' },
-  { step: 'RETRACT', title: 'Rise again' },
+  { step: 'RETRACT', title: 'Raise the object again' },
 ];
 
-/** The dip that is open: what to do now, its clock, and one large button. */
+/** The running dip: instruction, remaining time, and one large button. */
 export function DipGuide({ name }: { name: string }) {
   useEffect(() => void refresh(name), [name]);
   const job = known.value.get(name);
-  if (!job?.dipStatus) return <p class="quiet">Asking for the dip…</p>;
+  if (!job?.dipStatus) return <p class="quiet">Loading the dip…</p>;
   const { dipStatus: status } = job;
   const at = kSteps.findIndex(({ step }) => step === status.step);
   const here = kSteps[at];
@@ -48,14 +52,14 @@ export function DipGuide({ name }: { name: string }) {
       {left !== undefined && (
         <p class="clock" role="timer">
           {formatSeconds(Math.max(0, Math.ceil(left)))}
-          <span class="quiet"> left of this step</span>
+          <span class="quiet"> left in this step</span>
         </p>
       )}
       {film !== undefined && (
         <p class={film > 0 ? '' : 'warning'} role="timer">
           {film > 0
-            ? `The film is good for ${formatSeconds(Math.ceil(film))}`
-            : `The film is too old since ${formatSeconds(-Math.floor(film))}: the print may suffer`}
+            ? `The film can be used for ${formatSeconds(Math.ceil(film))}`
+            : `The film has been too old for ${formatSeconds(-Math.floor(film))}; the print may be poor`}
         </p>
       )}
       {(status.warnings ?? []).map((warning) => (
@@ -69,9 +73,13 @@ export function DipGuide({ name }: { name: string }) {
       <Confirm job={job} words={here?.confirm} />
       <Steps at={at} />
       <p class="row">
-        <a href={jobPath(name)}>Record of this dip</a>
+        <a href={jobPath(name)}>Dip record</a>
         {isOurs.value && (
-          <Careful sure="Abort: the film is lost" kind="plain" onPress={() => abort(name)}>
+          <Careful
+            sure="Confirm abort; the film will be lost"
+            kind="plain"
+            onPress={() => abort(name)}
+          >
             Abort the dip
           </Careful>
         )}
@@ -80,7 +88,7 @@ export function DipGuide({ name }: { name: string }) {
   );
 }
 
-/** How a dip ended, and what is to be done now. */
+/** Shown after a dip: its outcome and the next instruction. */
 export function DipEnd({ name, again }: { name: string; again: () => void }) {
   useEffect(() => void refresh(name), [name]);
   const job = known.value.get(name);
@@ -91,7 +99,7 @@ export function DipEnd({ name, again }: { name: string; again: () => void }) {
       {job?.error && <p class="warning">{job.error.message}</p>}
       <p class="row">
         <a class="button" href={jobPath(name)}>
-          Record of this dip
+          Dip record
         </a>
         <button type="button" class="plain" onClick={again}>
           Close
@@ -109,7 +117,9 @@ async function abort(name: string): Promise<void> {
 function Confirm({ job, words }: { job: Job; words: string | undefined }) {
   if (!words || job.state !== 'WAITING_FOR_OPERATOR') return null;
   if (!isOurs.value)
-    return <p class="quiet">Whoever has the rig goes on here; take the rig to do so yourself.</p>;
+    return (
+      <p class="quiet">Only the holder of the lease can continue. To continue, take the rig.</p>
+    );
   return (
     <Button
       kind="primary"

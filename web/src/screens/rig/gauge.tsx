@@ -1,6 +1,6 @@
 import type { Rig } from '../../api/types';
 
-/** The axis from home (top) to the lowest place it may reach, and where it is. */
+/** Draws the axis from home (top) to its lower soft limit, with the current position. */
 export function Gauge({ now }: { now: Rig }) {
   const { minMm = 0, maxMm = 1 } = now.axis ?? {};
   const at = now.positionMm;
@@ -13,7 +13,7 @@ export function Gauge({ now }: { now: Rig }) {
       class="gauge"
       viewBox="0 0 110 200"
       role="img"
-      aria-label={at === undefined ? 'Position not known' : `Position ${at.toFixed(1)} mm`}
+      aria-label={at === undefined ? 'Position unknown' : `Position ${at.toFixed(1)} mm`}
     >
       <line x1="40" x2="40" y1="8" y2="192" class="axis" />
       {marks.map((mm) => (

@@ -40,7 +40,7 @@ const kStates: Record<string, string> = {
 export function RigScreen() {
   useEffect(() => void refreshRig(), []);
   const now = rig.value;
-  if (!now) return <p class="quiet">Asking the daemon…</p>;
+  if (!now) return <p class="quiet">Loading…</p>;
   return (
     <div class="rig">
       <h1>Rig</h1>
@@ -59,7 +59,7 @@ export function RigScreen() {
   );
 }
 
-/** The dip that is open, how the last one ended, or how to begin one. */
+/** The running dip, the outcome of the last dip, or a form to start one. */
 function Dipping({ dip }: { dip: string }) {
   const from = route.value.query.get('job');
   const [last, setLast] = useState(dip);
@@ -82,16 +82,16 @@ function Standing({ now }: { now: Rig }) {
       </p>
       {now.trouble && <p class="warning">{now.trouble}</p>}
       {now.state === 'DISARMED' && (
-        <p class="quiet">The drive holds no torque: arm, then home it.</p>
+        <p class="quiet">The drive has no torque. Arm it, then home the axis.</p>
       )}
-      {now.state === 'UNHOMED' && <p class="quiet">Where the axis is, is not known: home it.</p>}
+      {now.state === 'UNHOMED' && <p class="quiet">Position unknown. Home the axis.</p>}
       {now.axis && <Gauge now={now} />}
       <Figures
         rows={[
           ['Position', now.positionMm === undefined ? '–' : `${now.positionMm.toFixed(2)} mm`],
           ['Speed', `${(now.velocityMmPerS ?? 0).toFixed(1)} mm/s`],
           now.axis !== undefined && [
-            'Reach',
+            'Range',
             `${now.axis.minMm} to ${now.axis.maxMm} mm, at most ${now.axis.maxSpeedMmPerS} mm/s`,
           ],
           now.axis !== undefined && [
@@ -104,7 +104,7 @@ function Standing({ now }: { now: Rig }) {
   );
 }
 
-/** Who may command. */
+/** The lease: its holder, and buttons to take, release or break it. */
 function LeasePanel({ now }: { now: Rig }) {
   const [purpose, setPurpose] = useState('');
   const [reason, setReason] = useState('');
@@ -113,9 +113,11 @@ function LeasePanel({ now }: { now: Rig }) {
   if (!may('OPERATOR'))
     return (
       <section>
-        <h2>Who commands</h2>
+        <h2>Control</h2>
         <p>{lease ? `${lease.holder}: ${lease.purpose}` : 'Nobody.'}</p>
-        <p class="quiet">You may look, and stop. Commands are for operators.</p>
+        <p class="quiet">
+          You can view the rig and stop it. Other commands need the role Operator.
+        </p>
       </section>
     );
   if (!lease)
@@ -123,10 +125,10 @@ function LeasePanel({ now }: { now: Rig }) {
       <section>
         <h2>Take the rig</h2>
         <p class="quiet">
-          One person at a time commands it. It stays yours while this page is open.
+          One person at a time can control the rig. You keep control while this page is open.
         </p>
         <TextField
-          label="What for"
+          label="Purpose"
           value={purpose}
           onValue={setPurpose}
           placeholder="the mug"
@@ -139,34 +141,34 @@ function LeasePanel({ now }: { now: Rig }) {
     );
   return (
     <section>
-      <h2>{leaseId.value ? 'The rig is yours' : `${lease.holder} has the rig`}</h2>
+      <h2>{leaseId.value ? 'You control the rig' : `${lease.holder} controls the rig`}</h2>
       <p>
         {lease.purpose}
         {left !== undefined && (
           <span class="quiet">
-            {left > 0 ? `, for ${formatSeconds(left)} more` : ', just ended'}
-            {leaseId.value ? ' (renewed by itself)' : ''}
+            {left > 0 ? `, ${formatSeconds(left)} left` : ', just expired'}
+            {leaseId.value ? ' (renewed automatically)' : ''}
           </span>
         )}
       </p>
       {leaseId.value ? (
-        <Button onPress={releaseLease}>Give it back</Button>
+        <Button onPress={releaseLease}>Release the rig</Button>
       ) : (
         <>
           {lease.holder === me.value && (
-            <p class="quiet">It was taken in another browser or program of yours.</p>
+            <p class="quiet">You took the rig in another browser or program.</p>
           )}
           {may('ADMIN') && (
             <details>
-              <summary>Take it away from {lease.holder}</summary>
+              <summary>Take the rig from {lease.holder}</summary>
               <TextField
-                label="Why; it is logged"
+                label="Reason (for the audit log)"
                 value={reason}
                 onValue={setReason}
                 maxBytes={rules.BreakLeaseRequest.reason.maxBytes}
               />
               <Careful
-                sure="Take it away"
+                sure={`Take the rig from ${lease.holder}`}
                 kind="danger"
                 onPress={() => breakLease(reason.trim() || 'no reason given')}
               >
@@ -180,7 +182,7 @@ function LeasePanel({ now }: { now: Rig }) {
   );
 }
 
-/** What may be asked of the rig now; what it would refuse is not offered. */
+/** The commands that the rig accepts in its current state. */
 function Commands({ now }: { now: Rig }) {
   const [target, setTarget] = useState<number>();
   const errors = useFieldErrors();
@@ -208,7 +210,7 @@ function Commands({ now }: { now: Rig }) {
         )}
         {now.enabled && !isMoving.value && (
           <Careful
-            sure="Disarm: the axis may sink"
+            sure="Confirm disarm; the axis may sink"
             kind="plain"
             onPress={() => command(api.disarm)}
           >
@@ -216,7 +218,7 @@ function Commands({ now }: { now: Rig }) {
           </Careful>
         )}
       </div>
-      {/* Hidden, not removed: what is typed stays while the axis moves. */}
+      {/* Hidden, not removed, so that the typed number is kept while the axis moves. */}
       <div class="row" hidden={!isIdle}>
         <FieldErrorsOf value={errors}>
           <NumberField

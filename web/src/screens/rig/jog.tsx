@@ -5,11 +5,11 @@ import { leaseId, rig } from '../../state/rig';
 import { Switch } from '../../ui/controls';
 import { Icon } from '../../ui/icon';
 
-// The daemon stops a jog that it is not told of for 250 ms.
+// The daemon stops a jog if no request arrives for 250 ms.
 const kEvery_ms = 100;
 const kSpeeds = ['0.5', '2', '5', '10'];
 
-/** Moves for as long as a button or key is held; letting go stops. */
+/** Moves the axis while a button or key is held; releasing it stops the axis. */
 export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
   const [speed, setSpeed] = useState('2');
   const speedNow = useRef(speed);
@@ -42,7 +42,7 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
 
   useEffect(() => {
     const timer = window.setInterval(() => void tell(), kEvery_ms);
-    // Whatever takes the page away lets go.
+    // Losing the window's focus or the pointer also ends the jog.
     window.addEventListener('blur', letGo);
     window.addEventListener('pointerup', letGo);
     window.addEventListener('pointercancel', letGo);
@@ -53,7 +53,7 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
       window.removeEventListener('pointercancel', letGo);
       letGo();
     };
-    // Once: what is drawn anew while the rig moves must not let go.
+    // Runs once only: rendering again while the rig moves must not end the jog.
   }, []);
 
   const button = (direction: 1 | -1, label: string) => (
@@ -80,7 +80,9 @@ export function Jog({ fastest_mm_per_s }: { fastest_mm_per_s: number }) {
   );
   return (
     <div class="jog">
-      <p class="quiet">Moves while you hold the button (or Space on it).</p>
+      <p class="quiet">
+        The axis moves while you hold a button, or Space when a button is focused.
+      </p>
       <div class="row">
         {button(-1, 'Up')}
         {button(1, 'Down')}

@@ -1,4 +1,4 @@
-/** What the depth camera sees now: asked for about once a second, while somebody sees it. */
+/** Live picture of the depth camera, fetched about once a second while it is visible. */
 import { signal } from '@preact/signals';
 import { daemonNow } from '../../api/call';
 import { camera } from '../../api/services';
@@ -11,19 +11,19 @@ export interface LiveDepth {
   farthest_mm: number;
   measuredShare: number;
   camera: string;
-  /** By the daemon's clock. */
+  /** Time of the picture by the daemon's clock. */
   time: Date;
 }
 
-/** The latest there was; it stays while there is no newer one. */
+/** The latest picture; kept until a newer one arrives. */
 export const seen = signal<LiveDepth | undefined>(undefined);
-/** Why there is no newer one. */
+/** The reason why the last request failed. */
 export const trouble = signal<Failure | undefined>(undefined);
 
 const kEvery_ms = 1000;
 const kAfterTrouble_ms = 2000;
 
-/** Older than this it is no live picture any more. */
+/** A picture older than this is not shown as live. */
 export const kOld_s = 5;
 
 async function ask(given: AbortSignal): Promise<void> {
@@ -49,7 +49,7 @@ async function ask(given: AbortSignal): Promise<void> {
   };
 }
 
-/** Looks until what it returns is called; not while the page is hidden. */
+/** Fetches pictures while the page is visible, until the returned function is called. */
 export function look(): () => void {
   const end = new AbortController();
   let timer = 0;
@@ -61,7 +61,7 @@ export function look(): () => void {
     await ask(end.signal);
     isAsking = false;
     if (end.signal.aborted) return;
-    // A daemon without a camera gets none while it runs.
+    // A running daemon cannot gain a camera, so do not try again.
     if (trouble.value?.reason === 'CAMERA_MISSING') return;
     timer = window.setTimeout(() => void again(), trouble.value ? kAfterTrouble_ms : kEvery_ms);
   };

@@ -39,10 +39,7 @@ export function SignIn() {
       >
         Sign in
       </button>
-      <p class="quiet">
-        No account, or the password forgotten? Whoever looks after this machine can make you a link
-        that signs you in once.
-      </p>
+      <p class="quiet">No account or forgotten password? Ask an admin for a sign-in link.</p>
     </form>
   );
 }

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "daemon/auth/audit_log.h"
-#include "daemon/auth/authenticator.h"
 
 namespace hydroprint::daemon {
 
@@ -15,7 +14,7 @@ namespace hydroprint::daemon {
 ///
 /// A call is answered once its entry is on disk, or after two seconds. Calls that stop the rig or
 /// keep it in motion (StopMotion, Jog, RenewLease) never wait.
-[[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_audit_tap(
-    const Authenticator& access, auth::AuditLog& audit);
+[[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>
+make_audit_interceptor(auth::AuditLog& audit);
 
 }  // namespace hydroprint::daemon
