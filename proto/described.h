@@ -4,8 +4,8 @@
 
 namespace hydroprint {
 
-/// All .proto files of the API and those they import, with their comments, which generated code
-/// does not keep: a google.protobuf.FileDescriptorSet, serialised.
+/// A serialised google.protobuf.FileDescriptorSet of all .proto files of the API and their imports.
+/// It includes the comments, which generated code does not keep.
 [[nodiscard]] std::string_view described_protos();
 
 }  // namespace hydroprint

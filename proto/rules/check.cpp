@@ -23,7 +23,7 @@ const std::string kDefaultReason = "SPEC_INVALID";
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }
 
-// A value that a client sent, shortened and without control characters.
+// Quotes a value that a client sent, shortened and without control characters.
 std::string quoted(const std::string& text) {
   std::string out = text.substr(0, kLongestQuote);
   std::replace_if(out.begin(), out.end(), is_control, '?');
@@ -124,7 +124,7 @@ class Checker {
     }
   }
 
-  // `at` is the place in a repeated field; -1 for one that is not repeated.
+  // `at` is the index in a repeated field; -1 for a field that is not repeated.
   void check_value(const pb::Message& message, const pb::FieldDescriptor& field,
                    const v1::FieldRules& rules, int at, const std::string& path) {
     if (field.is_map()) {
@@ -143,7 +143,7 @@ class Checker {
     }
   }
 
-  // The rules of a map are about its keys and values.
+  // The rules of a map apply to its keys and to its values.
   void check_map_entry(const pb::Message& message, const pb::FieldDescriptor& field,
                        const v1::FieldRules& rules, int at, const std::string& path) {
     const pb::Message& entry = message.GetReflection()->GetRepeatedMessage(message, &field, at);
@@ -214,7 +214,7 @@ class Checker {
     const auto values = message.GetReflection()->GetRepeatedFieldRef<double>(message, &field);
     double square = 0;
     for (const double value : values) square += value * value;
-    // Not so for NaN.
+    // The comparison is false for NaN.
     return std::abs(std::sqrt(square) - 1) <= kUnitLengthTolerance ? "" : "must have length 1";
   }
 

@@ -13,7 +13,7 @@ namespace hydroprint::rules {
 
 /// A field that breaks its rules.
 struct Violation {
-  std::string field;    ///< its path: "simulate.dpi", "simulate.extra_files[1].name"
+  std::string field;    ///< path of the field: "simulate.dpi", "simulate.extra_files[1].name"
   std::string problem;  ///< "must be from 20 to 2400 dots per inch"
   std::string reason;   ///< name of an ErrorReason
 
@@ -24,8 +24,8 @@ struct Violation {
 /// an empty string. A notation without a check is not checked.
 using FormatChecks = std::map<std::string, std::function<std::string(const std::string& text)>>;
 
-/// Checks a message and the messages in it. Fields that only the daemon sets are not looked at.
-/// @param path  where the message itself is, for Violation::field; empty: at the root
+/// Checks a message and the messages in it. Read-only fields are ignored.
+/// @param path  path of the message itself, for Violation::field; empty: the root
 /// @return all violations, in the order of the fields' declarations; one for each field
 [[nodiscard]] std::vector<Violation> check(const google::protobuf::Message& message,
                                            const FormatChecks& formats = {},

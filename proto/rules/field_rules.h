@@ -20,15 +20,15 @@ namespace hydroprint::rules {
 /// "from 20 to 2400 dots per inch", "above 0 and at most 4"; empty if there is no range.
 [[nodiscard]] std::string range_text(const google::protobuf::FieldDescriptor& field);
 
-/// The values that a text or enum may have, as people write them: "sheet", "stokes". Empty if there
-/// is no such list.
+/// The allowed values of a text or enum, as people write them: "sheet", "stokes". Empty if they are
+/// not restricted.
 [[nodiscard]] std::vector<std::string> choices(const google::protobuf::FieldDescriptor& field);
 
 /// The default, as people write it: "300", "sheet"; empty if none is declared.
 [[nodiscard]] std::string default_text(const google::protobuf::FieldDescriptor& field);
 
 /// Range, choices and default for help texts: "from 20 to 2400 dots per inch; default 300". Empty
-/// if there is nothing to say.
+/// if the field has none of them.
 [[nodiscard]] std::string help_text(const google::protobuf::FieldDescriptor& field);
 
 /// Name of the field's command-line flag, without dashes before it: "dip-speed-mm-per-s".
