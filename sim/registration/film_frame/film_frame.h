@@ -11,7 +11,7 @@ namespace hydroprint::registration {
 struct MarkerReport {
   std::string name;
   bool used = false;
-  double rms_mm = 0;       ///< of its points from its surface, placed by the fit of all markers
+  double rms_mm = 0;  ///< rms distance of its points from its surface, in the fit of all markers
   double residual_mm = 0;  ///< distance of its own fit from its place in the fit of all markers
   std::string why_not;     ///< if not used: hidden, moved or not its shape
 };
