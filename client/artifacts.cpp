@@ -22,7 +22,7 @@ tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int error_
                   "); choose another folder with --out or make room");
 }
 
-// The file that grows until it is complete.
+// Appends bytes to the hidden file that holds an incomplete download.
 class PartFile {
  public:
   explicit PartFile(std::filesystem::path path)
@@ -65,7 +65,7 @@ class PartFile {
   int descriptor_;
 };
 
-// Fetches the bytes of one artifact into a part file, over as many calls as it takes.
+// Fetches one artifact into a part file and reconnects when a call breaks.
 class Downloader {
  public:
   Downloader(Connection& connection, const Artifact& artifact, PartFile& file,
@@ -107,8 +107,8 @@ class Downloader {
     const auto size = static_cast<std::int64_t>(piece.data().size());
     if (piece.offset() != done_ || done_ + size > artifact_.size_bytes)
       return fail(Code::kDataLoss, artifact_.name + ": byte " + std::to_string(piece.offset()) +
-                                       " came where " + std::to_string(done_) +
-                                       " was due; download it again");
+                                       " arrived, but byte " + std::to_string(done_) +
+                                       " was expected; download it again");
     HP_RETURN_IF_ERROR(file_.append(piece.data()));
     done_ += size;
     if (progress_) progress_(done_, artifact_.size_bytes);
@@ -120,7 +120,7 @@ class Downloader {
   PartFile& file_;
   const ByteProgress& progress_;
   std::int64_t done_ = 0;
-  Error last_{Code::kDataLoss, "the daemon sends no bytes", {}};
+  Error last_{Code::kDataLoss, "the daemon sent no bytes; try again", {}};
 };
 
 bool has_digest(const std::filesystem::path& path, const std::string& sha256,
@@ -129,7 +129,7 @@ bool has_digest(const std::filesystem::path& path, const std::string& sha256,
   return digest && digest->sha256 == sha256;
 }
 
-// Two jobs may have an artifact of the same name: the part file is named after the bytes too.
+// Artifacts of two jobs may share a name, so the name of the part file includes the digest.
 std::filesystem::path part_path(const std::filesystem::path& folder, const Artifact& artifact) {
   std::string name = artifact.file_name();
   name.insert(0, 1, '.').append(".").append(artifact.sha256, 0, 16).append(".part");
@@ -183,7 +183,7 @@ Result<std::filesystem::path> download(Connection& connection, const Artifact& a
     if (stop.stop_requested()) return fail(Code::kCancelled, "interrupted");
     std::filesystem::remove(part, error);
     return fail(Code::kDataLoss,
-                artifact.name + ": the bytes received do not have its SHA-256; download it again");
+                artifact.name + ": SHA-256 does not match the bytes received; download it again");
   }
   HP_RETURN_IF_ERROR(file.rename_to(path));
   return path;

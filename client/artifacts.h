@@ -10,7 +10,7 @@
 
 namespace hydroprint::client {
 
-/// A file that a job made.
+/// A file that a job produced.
 struct Artifact {
   std::string name;  ///< "jobs/7/artifacts/film.png"
   std::int64_t size_bytes = 0;
@@ -20,14 +20,14 @@ struct Artifact {
   [[nodiscard]] std::string file_name() const;  ///< "film.png"
 };
 
-/// Every artifact of a job, by name; none before it succeeded.
+/// Returns all artifacts of a job, sorted by name; empty until the job has succeeded.
 [[nodiscard]] Result<std::vector<Artifact>> list_artifacts(Connection& connection,
                                                            const std::string& job);
 
-/// Downloads an artifact into `folder` (made if it does not exist) under its file name. The file
-/// appears at once, complete and with the right SHA-256; until then its bytes are in a hidden file
-/// beside it, from which another attempt goes on. A file that is there with the right bytes stays
-/// as it is, one with other bytes is replaced.
+/// Downloads an artifact into `folder` (created if missing) under its file name. The bytes go into
+/// a hidden file beside it, from which a later attempt resumes. The final file appears only when it
+/// is complete and its SHA-256 matches. An existing file with the same bytes is kept; one with
+/// other bytes is replaced.
 /// @return the file's path; kDataLoss if the bytes are not what the daemon announced
 [[nodiscard]] Result<std::filesystem::path> download(Connection& connection,
                                                      const Artifact& artifact,

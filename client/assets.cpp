@@ -24,7 +24,7 @@ std::string media_type(const std::filesystem::path& path) {
   return "application/octet-stream";
 }
 
-// Sends one file, over as many calls as it takes.
+// Sends one file and reconnects when a call breaks.
 class Uploader {
  public:
   Uploader(Connection& connection, const std::filesystem::path& path, const FileDigest& digest,
@@ -40,8 +40,9 @@ class Uploader {
       if (sent && *sent) return Uploaded{std::move(**sent), false};
       if (!sent && sent.error().code != Code::kUnavailable && sent.error().code != Code::kAborted)
         return tl::unexpected(sent.error());
-      last_ = sent ? Error{Code::kAborted, "the file became shorter while it was sent", {}}
-                   : sent.error();
+      last_ =
+          sent ? Error{Code::kAborted, "the file shrank while it was uploaded; upload it again", {}}
+               : sent.error();
       if (received_ > before) attempt = 0;
       pause(connection_, kTryAgainAfter);
       HP_ASSIGN_OR_RETURN(auto complete, find_out());
@@ -51,7 +52,7 @@ class Uploader {
   }
 
  private:
-  // The asset if the daemon has the bytes; otherwise opens an upload.
+  // Returns the asset if the daemon already has the bytes; otherwise opens an upload.
   Result<std::optional<Asset>> start() {
     v1::StartUploadRequest request;
     request.set_size_bytes(digest_.size_bytes);
@@ -66,7 +67,7 @@ class Uploader {
     return std::optional<Asset>();
   }
 
-  // After a break: where to go on, or that all had arrived.
+  // After a lost connection: reads the resume offset, or returns the asset if the upload completed.
   Result<std::optional<Asset>> find_out() {
     v1::GetUploadRequest request;
     request.set_name(upload_);
@@ -80,7 +81,7 @@ class Uploader {
     return tl::unexpected(upload.error());
   }
 
-  // One call; the asset if that was all of it.
+  // Makes one call; returns the asset if it completed the upload.
   Result<std::optional<Asset>> send() {
     Call call(connection_);
     v1::UploadChunkResponse answer;

@@ -9,9 +9,9 @@
 
 namespace hydroprint::client {
 
-/// What the daemon's depth camera sees; the fields are those of the API's DepthPicture.
+/// A depth picture from the daemon's camera; the fields are those of the API's DepthPicture.
 struct DepthPicture {
-  std::string png;  ///< a PNG file: the nearer the brighter, grey where nothing was measured
+  std::string png;  ///< PNG file: nearer is brighter, grey where nothing was measured
   double nearest_mm = 0, farthest_mm = 0;
   double measured_share = 0;
   std::optional<Time> time;
@@ -19,8 +19,8 @@ struct DepthPicture {
   std::string camera;  ///< maker and model
 };
 
-/// What it sees now; waits some seconds while it starts. Errors: as CameraService.GetDepthPicture
-/// describes them.
+/// Returns the current picture; waits some seconds while the camera starts. Errors: as
+/// CameraService.GetDepthPicture describes them.
 [[nodiscard]] Result<DepthPicture> depth_picture(Connection& connection);
 
 }  // namespace hydroprint::client

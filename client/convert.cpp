@@ -64,7 +64,7 @@ std::optional<std::string> from_proto(v1::Colours colours) {
   return std::nullopt;
 }
 
-// The fields that all specs share but ValidateSpec.
+// Fields shared by all specs except ValidateSpec.
 template <class Message>
 Spec film_from_proto(const Message& message) {
   Spec spec;
@@ -74,7 +74,7 @@ Spec film_from_proto(const Message& message) {
   return spec;
 }
 
-// Those that are about an object.
+// Fields of the specs that describe an object.
 template <class Message>
 Spec object_from_proto(const Message& message) {
   Spec spec = film_from_proto(message);
@@ -84,7 +84,7 @@ Spec object_from_proto(const Message& message) {
   return spec;
 }
 
-// Those that SimulateSpec, PredictSpec and FitSpec share.
+// Fields shared by SimulateSpec, PredictSpec and FitSpec.
 template <class Message>
 Spec dip_from_proto(const Message& message) {
   Spec spec = object_from_proto(message);
@@ -95,7 +95,7 @@ Spec dip_from_proto(const Message& message) {
   return spec;
 }
 
-// Those that SimulateSpec and PredictSpec share.
+// Fields shared by SimulateSpec and PredictSpec.
 template <class Message>
 Spec common_from_proto(const Message& message) {
   Spec spec = dip_from_proto(message);
@@ -107,7 +107,7 @@ Spec common_from_proto(const Message& message) {
   return spec;
 }
 
-// Those that PrintImageSpec and TemplateSpec share.
+// Fields shared by PrintImageSpec and TemplateSpec.
 template <class Message>
 PageSpec page_from_proto(const Message& message) {
   PageSpec page;
@@ -202,7 +202,7 @@ std::optional<Spec> spec_from_proto(const v1::Job& job) {
   return std::nullopt;
 }
 
-// Names of google.rpc.Code, by number.
+// Names of google.rpc.Code, indexed by number.
 constexpr std::array<std::string_view, 17> kCodeNames{
     "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
     "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
@@ -224,11 +224,13 @@ Status names_to_proto(const Spec& spec, Message& message) {
   if (spec.model == "sheet") message.set_model(v1::MODEL_SHEET);
   if (spec.model == "stokes") message.set_model(v1::MODEL_STOKES);
   if (spec.model && message.model() == v1::MODEL_UNSPECIFIED)
-    return fail(Code::kInvalidArgument, "model '" + *spec.model + "': give sheet or stokes");
+    return fail(Code::kInvalidArgument,
+                "model '" + *spec.model + "' is unknown; use sheet or stokes");
   if (spec.artifacts == "all") message.set_artifacts(v1::ARTIFACT_SET_ALL);
   if (spec.artifacts == "map") message.set_artifacts(v1::ARTIFACT_SET_MAP);
   if (spec.artifacts && message.artifacts() == v1::ARTIFACT_SET_UNSPECIFIED)
-    return fail(Code::kInvalidArgument, "artifacts '" + *spec.artifacts + "': give all or map");
+    return fail(Code::kInvalidArgument,
+                "artifacts '" + *spec.artifacts + "' is unknown; use all or map");
   return {};
 }
 
@@ -304,7 +306,8 @@ Status print_image_to_proto(const Spec& spec, v1::PrintImageSpec& message) {
   if (page.colours == "rgb") message.set_colours(v1::COLOURS_RGB);
   if (page.colours == "cmyk") message.set_colours(v1::COLOURS_CMYK);
   if (page.colours && message.colours() == v1::COLOURS_UNSPECIFIED)
-    return fail(Code::kInvalidArgument, "colours '" + *page.colours + "': give rgb or cmyk");
+    return fail(Code::kInvalidArgument,
+                "colours '" + *page.colours + "' is unknown; use rgb or cmyk");
   if (page.icc_profile) to_proto(*page.icc_profile, message.mutable_icc_profile());
   if (page.ink_limit) message.set_ink_limit(*page.ink_limit);
   for (const std::string& name : page.formats) message.add_formats(name);

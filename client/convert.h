@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to this library: between the API's messages and its own values.
+// Private to this library: converts between the API's messages and the library's own types.
 
 #include <optional>
 
@@ -18,7 +18,7 @@
 
 namespace hydroprint::client {
 
-/// An optional field as a value.
+/// Converts an optional field to std::optional.
 template <class T>
 [[nodiscard]] std::optional<T> given(bool is_set, const T& value) {
   return is_set ? std::optional<T>(value) : std::nullopt;
@@ -35,11 +35,11 @@ template <class T>
 [[nodiscard]] Lease from_proto(const ::hydroprint::v1::Lease& message);
 [[nodiscard]] Rig from_proto(const ::hydroprint::v1::Rig& message);
 
-/// A time that is set, in the clock's resolution; nothing for one that is not.
+/// Converts a timestamp to the clock's resolution; nullopt if it is not set.
 [[nodiscard]] std::optional<Time> from_proto(bool is_set,
                                              const ::google::protobuf::Timestamp& time);
 
-/// Sets the job's spec. @return kInvalidArgument for a model or artifact set that has no such name
+/// Sets the job's spec. @return kInvalidArgument for an unknown model or artifact set
 [[nodiscard]] Status to_proto(const Spec& spec, ::hydroprint::v1::Job& job);
 
 [[nodiscard]] ::hydroprint::v1::Job::State to_proto(JobState state);

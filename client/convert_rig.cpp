@@ -1,4 +1,4 @@
-// The rig's, the lease's and the dip's messages.
+// Conversions of rig, lease and dip messages.
 #include <string>
 
 #include "client/convert.h"
@@ -18,7 +18,7 @@ MotionOutcome from_proto(v1::Motion::Outcome outcome) {
   return static_cast<MotionOutcome>(number);
 }
 
-// The names are the API's, in its order; convert_test.cpp claims so.
+// The enumerators match the API's names and order; convert_test.cpp checks this.
 static_assert(static_cast<int>(RigState::kEstopped) == v1::Rig::ESTOPPED);
 static_assert(static_cast<int>(MotionOutcome::kFailed) == v1::Motion::FAILED);
 static_assert(static_cast<int>(DipStep::kRetract) == v1::DipStatus::RETRACT);

@@ -13,7 +13,7 @@
 
 namespace hydroprint::client {
 
-/// The kinds of computation, as the worker's verbs.
+/// The kinds of computation, named after the worker's verbs.
 enum class Verb {
   kSimulate,
   kPredict,
@@ -25,22 +25,23 @@ enum class Verb {
   kCalibrateCamera
 };
 
-/// "simulate", "print-image", ... as the worker has them; the API's Job has "_" for "-".
+/// "simulate", "print-image", ... as in the worker; the API's Job has "_" in place of "-".
 [[nodiscard]] std::string_view name_of(Verb verb);
 
-/// Uploaded bytes and the name by which the computation sees them.
+/// Uploaded bytes and the file name under which the computation sees them.
 struct InputFile {
   std::string name;   ///< plain file name or relative path
   std::string asset;  ///< "assets/{sha256}"
 };
 
-/// Rigid transform X_FO at the start of the dip; keys of the worker's `--pose` file.
+/// Rigid transform X_FO at the start of the dip; the fields are the keys of the worker's `--pose`
+/// file.
 struct PoseSpec {
   std::array<double, 4> rotation_wxyz = {1, 0, 0, 0};
   std::array<double, 3> translation_mm = {0, 0, 0};
 };
 
-/// The paper, and what stands on it: print-image, and template as far as `date`.
+/// The page layout. Used by print-image; template uses the fields up to `date`.
 struct PageSpec {
   std::optional<std::string> paper;
   std::optional<double> printer_margin_mm;
@@ -53,31 +54,32 @@ struct PageSpec {
   std::optional<std::string> colours;  ///< "rgb" or "cmyk"
   std::optional<InputFile> icc_profile;
   std::optional<double> ink_limit;
-  std::vector<std::string> formats;  ///< "pdf", "png", "tiff"; none: the worker's
+  std::vector<std::string> formats;  ///< "pdf", "png", "tiff"; empty: the worker's default
 };
 
-/// What calibrate and calibrate-camera are computed from.
+/// Input of calibrate and calibrate-camera.
 struct ScanSpec {
-  std::vector<std::string> capture_jobs;  ///< "jobs/5"; of calibrate one
-  std::vector<InputFile> frames;          ///< in their place: "view1/frames.json", ...
-  std::optional<InputFile> layout;        ///< calibrate only; none: the daemon's
+  std::vector<std::string> capture_jobs;  ///< "jobs/5"; calibrate takes exactly one
+  std::vector<InputFile> frames;          ///< instead of capture jobs: "view1/frames.json", ...
+  std::optional<InputFile> layout;        ///< calibrate only; nullopt: the daemon's
   std::string camera_calibration;   ///< calibrate only: "calibrations/2"; empty: the active one
-  std::optional<InputFile> camera;  ///< in its place
+  std::optional<InputFile> camera;  ///< instead of `camera_calibration`
   std::optional<double> gripper_mm;
 };
 
-/// What a job computes: the worker's flags (contract). What is not set is left to the worker.
+/// The specification of a computation: the worker's flags (contract). Unset fields keep the
+/// worker's defaults.
 struct Spec {
   Verb verb = Verb::kSimulate;
-  /// Print-image and template only: "jobs/7", whose film image, or object, is taken, in place of
-  /// the files, `scale`, `pose`, `film` and `dpi` here; empty: none.
+  /// Print-image and template only: "jobs/7". Its film image or object replaces the files, `scale`,
+  /// `pose`, `film` and `dpi` here. Empty: not used.
   std::string simulate_job;
-  InputFile mesh;                       ///< all but validate, print-image and calibrate-camera
+  InputFile mesh;                       ///< not in validate, print-image, calibrate-camera
   std::vector<InputFile> extra_files;   ///< files that others refer to by name
   std::optional<InputFile> texture;     ///< simulate only
-  std::optional<InputFile> film_image;  ///< predict and print-image only, and needed there
+  std::optional<InputFile> film_image;  ///< required by predict and print-image; not used otherwise
   std::optional<InputFile> motion;      ///< predict only
-  std::optional<InputFile> points;      ///< fit only, and needed there
+  std::optional<InputFile> points;      ///< required by fit; not used otherwise
   std::optional<InputFile> profile;
   std::optional<InputFile> ink_image;
   std::optional<double> scale;
@@ -85,19 +87,19 @@ struct Spec {
   std::optional<std::string> film;
   std::optional<double> dpi;
   std::optional<std::string> model;  ///< "sheet" or "stokes"
-  bool inertia = false;              ///< of the sheet alone
+  bool inertia = false;              ///< sheet model only
   std::optional<int> ink_passes;
   std::optional<double> depth_mm;
   std::optional<double> dip_speed_mm_per_s;
   std::optional<int> threads;
   std::optional<std::string> artifacts;  ///< "all" or "map"
-  std::vector<std::string> only;         ///< validate only: names of experiments; none: all
+  std::vector<std::string> only;         ///< validate only: names of experiments; empty: all
   bool quick = false;                    ///< validate only
-  std::vector<std::string> free;         ///< fit only: what to fit; none: all that can be
+  std::vector<std::string> free;         ///< fit only: parameters to fit; empty: all
   bool drop_outliers = false;            ///< fit only
   PageSpec page;                         ///< print-image and template only
   ScanSpec scan;                         ///< calibrate and calibrate-camera only
-  /// Simulate only: "calibrations/3", whose pose, film and scale are taken; empty: none.
+  /// Simulate only: "calibrations/3", which supplies pose, film and scale; empty: none.
   std::string calibration;
   bool allow_stale_calibration = false;  ///< simulate only
 };
@@ -114,14 +116,14 @@ enum class JobState {
   kInterrupted
 };
 
-/// "QUEUED", "RUNNING", ... as in the API; "UNKNOWN" for what this client does not know.
+/// "QUEUED", "RUNNING", ... as in the API; "UNKNOWN" for values that this client does not know.
 [[nodiscard]] std::string_view name_of(JobState state);
 
-/// Why a job failed.
+/// The reason why a job failed.
 struct JobError {
-  std::string code;     ///< gRPC's name, "INVALID_ARGUMENT" when the input is at fault
-  std::string reason;   ///< stable word
-  std::string message;  ///< one line: what, where, and what to do
+  std::string code;     ///< gRPC's name, for example "INVALID_ARGUMENT" for bad input
+  std::string reason;   ///< stable identifier
+  std::string message;  ///< one line: the fault, its place and the remedy
   std::optional<int> exit_status;
   std::optional<int> signal;
 };
@@ -145,24 +147,23 @@ struct Job {
   std::string retry_of;
   std::string input_digest;
   bool cache_hit = false;
-  bool shared = false;             ///< whether all who may look see its artifacts and files
-  bool pinned = false;             ///< whether it is kept beyond its time
-  std::optional<Time> purge_time;  ///< when it will be deleted, if it is finished and not kept
-  std::optional<Spec> spec;  ///< of a computation; none if of a kind that this client does not know
+  bool shared = false;  ///< whether every user with read access sees its artifacts and files
+  bool pinned = false;  ///< exempt from retention
+  std::optional<Time> purge_time;  ///< when retention deletes it, if it is finished and not pinned
+  std::optional<Spec> spec;  ///< of a computation; nullopt for kinds that this client does not know
   std::optional<DipSpec> dip;                  ///< of a dip
-  std::optional<DipStatus> dip_status;         ///< of an open dip
+  std::optional<DipStatus> dip_status;         ///< of an unfinished dip
   std::optional<std::string> print_image_job;  ///< of a print: "jobs/7", whose pages are printed
-  std::optional<double> capture_s;             ///< of a capture: how long; 0: the daemon's default
+  std::optional<double> capture_s;             ///< of a capture; 0: the default
 };
 
-/// Whether the job's state will not change any more.
+/// Whether the job's state can no longer change.
 [[nodiscard]] bool is_finished(const Job& job);
 
-/// Whether this is so of every job in that state: INTERRUPTED is the end of dips, prints
-/// and captures alone.
+/// Whether every job in that state is finished. INTERRUPTED ends only dips, prints and captures.
 [[nodiscard]] bool is_finished(JobState state);
 
-/// Something that happened to a job.
+/// One event in a job's history.
 struct JobEvent {
   std::int64_t seq = 0;
   std::optional<Time> time;

@@ -35,7 +35,7 @@ v1::CreateJobRequest creation(const JobOptions& options) {
   return request;
 }
 
-// Follows one job over as many streams as it takes.
+// Follows one job and opens a new stream when one ends.
 class Watcher {
  public:
   Watcher(Connection& connection, const std::string& name,
@@ -49,9 +49,10 @@ class Watcher {
     for (;;) {
       const grpc::Status status = follow();
       if (is_finished(last_)) return last_;
-      // The daemon may end a stream in good order, when it shuts down.
-      const Error error = status.ok() ? Error{Code::kUnavailable, "the daemon ended the stream", {}}
-                                      : to_error(connection_, status);
+      // A daemon that shuts down ends the stream with OK.
+      const Error error = status.ok()
+                              ? Error{Code::kUnavailable, "the daemon closed the stream", {}}
+                              : to_error(connection_, status);
       if (error.reason == "EVENTS_GONE" && request_.has_after_seq()) {
         request_.clear_after_seq();
         continue;
@@ -67,7 +68,7 @@ class Watcher {
   }
 
  private:
-  // One stream, to its end.
+  // Reads one stream to its end.
   grpc::Status follow() {
     Call call(connection_);
     auto stream = connection_.impl().jobs->WatchJob(call.context(), request_);

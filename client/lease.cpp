@@ -15,7 +15,7 @@ Result<Lease> to_lease(Result<v1::Lease> answer) {
   return std::move(answer).map([](const v1::Lease& lease) { return from_proto(lease); });
 }
 
-// All of these may be sent twice: acquiring carries a request_id.
+// All of these requests may be sent twice: acquiring carries a request_id.
 template <class Request, class Response>
 Result<Response> ask(Connection& connection,
                      grpc::Status (LeaseStub::*method)(grpc::ClientContext*, const Request&,

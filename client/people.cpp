@@ -17,8 +17,8 @@ std::string role_text(v1::Role role) { return v1::Role_Name(role); }
 Result<v1::Role> role_of(const std::string& text) {
   v1::Role role{};
   if (v1::Role_Parse(text, &role)) return role;
-  return fail(Code::kInvalidArgument,
-              text + ": is no role; there are VIEWER, MAKER, OPERATOR, ADMIN", "SPEC_INVALID");
+  return fail(Code::kInvalidArgument, text + ": unknown role; use VIEWER, MAKER, OPERATOR or ADMIN",
+              "SPEC_INVALID");
 }
 
 User to_user(const v1::User& user) {
@@ -59,7 +59,7 @@ AuditEntry to_entry(const v1::AuditEntry& entry) {
 
 PeopleStub& stub(Connection& connection) { return *connection.impl().people; }
 
-// Calls until there are no more pages, or `limit` items; `take` puts those of a page away.
+// Requests pages until `take` returns false or no page is left.
 template <class Request, class Response, class Take>
 Status all_pages(Connection& connection,
                  grpc::Status (PeopleStub::*method)(grpc::ClientContext*, const Request&,
@@ -73,9 +73,9 @@ Status all_pages(Connection& connection,
   }
 }
 
-// Calls are named in full: protobuf has a call_once, too, which its messages bring along.
+// client:: is required: protobuf has a call_once too, found through its message arguments.
 
-// An answer without content to a request that names one thing.
+// Sends a request that holds only a name and expects an empty response.
 template <class Request>
 Status by_name(Connection& connection, const std::string& name,
                grpc::Status (PeopleStub::*method)(grpc::ClientContext*, const Request&,

@@ -7,7 +7,7 @@
 
 namespace hydroprint::client {
 
-/// Reads the worker's `--pose` file as the worker does; refuses what it would refuse.
+/// Reads a `--pose` file by the same rules as the worker.
 [[nodiscard]] Result<PoseSpec> read_pose_file(const std::filesystem::path& path);
 
 }  // namespace hydroprint::client

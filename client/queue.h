@@ -9,11 +9,11 @@
 
 namespace hydroprint::client {
 
-/// The queue and its workers.
+/// The state of the queue and its workers.
 struct Queue {
   bool paused = false;
   std::string pause_reason;
-  std::vector<std::string> queued_jobs;  ///< the first 1000, in the order of their start
+  std::vector<std::string> queued_jobs;  ///< the first 1000, in starting order
   int queued_count = 0;
   std::vector<std::string> running_jobs;
   int worker_slots = 0;
@@ -22,12 +22,13 @@ struct Queue {
 
 [[nodiscard]] Result<Queue> get_queue(Connection& connection);
 
-/// Starts no further job until resumed; what runs goes on.
+/// Pauses the queue: no further job starts until it is resumed; running jobs continue.
 [[nodiscard]] Result<Queue> pause_queue(Connection& connection, const std::string& reason);
 
 [[nodiscard]] Result<Queue> resume_queue(Connection& connection);
 
-/// Puts a queued job in front of another one of the same owner; `before` empty: behind them all.
+/// Moves a queued job in front of another one of the same owner; if `before` is empty, behind all
+/// of them.
 [[nodiscard]] Result<Job> move_job(Connection& connection, const std::string& name,
                                    const std::string& before);
 

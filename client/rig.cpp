@@ -13,7 +13,7 @@ namespace {
 
 using RigStub = v1::RigService::Stub;
 
-// The next one follows in 100 ms, so one that hangs must not be obeyed late.
+// The next jog command follows in 100 ms, so one that hangs must not take effect late.
 constexpr std::chrono::milliseconds kJogAnswerLimit{250};
 
 Result<Rig> to_rig(Result<v1::Rig> answer) {
@@ -70,7 +70,7 @@ Status watch_rig(Connection& connection, double max_rate_hz,
   }
   const grpc::Status status = stream->Finish();
   if (!status.ok()) return tl::unexpected(to_error(connection, status));
-  return fail(Code::kUnavailable, "the daemon ended the stream");
+  return fail(Code::kUnavailable, "the daemon closed the stream");
 }
 
 Result<Rig> arm_rig(Connection& connection, const std::string& lease_id) {

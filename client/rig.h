@@ -13,7 +13,7 @@
 
 namespace hydroprint::client {
 
-/// What the rig is doing; hardware/rig/README.md draws how one follows another.
+/// The state of the rig; hardware/rig/README.md draws the transitions.
 enum class RigState {
   kUnknown,
   kOffline,
@@ -27,10 +27,10 @@ enum class RigState {
   kEstopped
 };
 
-/// "OFFLINE", "DISARMED", ... as in the API; "UNKNOWN" for what this client does not know.
+/// "OFFLINE", "DISARMED", ... as in the API; "UNKNOWN" for values that this client does not know.
 [[nodiscard]] std::string_view name_of(RigState state);
 
-/// What became of a motion.
+/// The outcome of a motion.
 enum class MotionOutcome { kUnknown, kRunning, kDone, kStopped, kFailed };
 
 /// "RUNNING", "DONE", ... as in the API.
@@ -42,12 +42,12 @@ struct Motion {
   std::string kind;          ///< "HOME", "MOVE", "JOG", "DIP"
   MotionOutcome outcome = MotionOutcome::kUnknown;
   std::string cause;     ///< why it failed
-  bool at_rest = false;  ///< the axis was seen at rest since it ended
+  bool at_rest = false;  ///< the axis has been seen at standstill since the motion ended
   double begin_mm = 0;
   double end_mm = 0;
 };
 
-/// What the configuration says of the axis.
+/// The configuration of the axis.
 struct Axis {
   std::string drive;
   bool is_virtual = false;
@@ -58,7 +58,7 @@ struct Axis {
   double watchdog_s = 0;  ///< 0: not read yet
 };
 
-/// How well the drive answers, since the daemon started.
+/// Quality of the link to the drive, since the daemon started.
 struct LinkQuality {
   std::uint64_t missed_polls = 0;
   std::uint64_t connects = 0;
@@ -72,8 +72,8 @@ struct LinkQuality {
 /// drive's: 0 at home, positive is down.
 struct Rig {
   RigState state = RigState::kUnknown;
-  std::string cause;    ///< why it wants a reset; empty: nothing is wrong
-  std::string trouble;  ///< one line: what is wrong and what to do; empty if nothing is
+  std::string cause;    ///< why a reset is required; empty: no fault
+  std::string trouble;  ///< one line: fault and remedy; empty: no fault
   bool homed = false;
   bool stop_button = false;
   bool enabled = false;
@@ -83,44 +83,44 @@ struct Rig {
   std::string alarm_text;
   std::optional<Time> sample_time;
   std::optional<Motion> motion;  ///< the latest
-  std::optional<Axis> axis;      ///< none if no drive is configured
+  std::optional<Axis> axis;      ///< nullopt if no drive is configured
   LinkQuality link_quality;
-  std::optional<Lease> lease;  ///< none: nobody has it
-  std::string dip;             ///< the dip that is not finished, "jobs/7"; empty: none
+  std::optional<Lease> lease;  ///< nullopt: nobody holds it
+  std::string dip;             ///< the unfinished dip, "jobs/7"; empty: none
 };
 
 [[nodiscard]] Result<Rig> get_rig(Connection& connection);
 
-/// Tells the rig as it stands, then whenever it changes, until `update` returns false.
+/// Reports the rig's state at once and after every change, until `update` returns false.
 /// @param max_rate_hz  0.1 to 10
-/// @return kUnavailable when the stream breaks; call it again to go on
+/// @return kUnavailable when the stream breaks; call it again to continue
 [[nodiscard]] Status watch_rig(Connection& connection, double max_rate_hz,
                                const std::function<bool(const Rig&)>& update);
 
-// What follows commands the rig, each with the lease's id, and is sent once: if the answer is lost
-// (kUnavailable) the command may have been obeyed. Refusals are RigService's, by their reasons.
+// The functions below command the rig with the lease's id. Each request is sent once: if the answer
+// is lost (kUnavailable), the command may have taken effect. Errors have RigService's reasons.
 
-/// Gives the drive torque.
+/// Enables the drive's torque.
 [[nodiscard]] Result<Rig> arm_rig(Connection& connection, const std::string& lease_id);
 
-/// Takes the torque away; where the axis is, is not known afterwards.
+/// Disables the torque. The position of the axis is unknown afterwards.
 [[nodiscard]] Result<Rig> disarm_rig(Connection& connection, const std::string& lease_id);
 
-/// Starts to look for the home switch. @return once it began; Rig.motion is this motion
+/// Starts homing. @return as soon as it has begun; Rig.motion is this motion
 [[nodiscard]] Result<Rig> home_rig(Connection& connection, const std::string& lease_id);
 
-/// Starts to go to a place. @return once it began; Rig.motion is this motion
+/// Starts a move. @return as soon as it has begun; Rig.motion is this motion
 [[nodiscard]] Result<Rig> move_rig(Connection& connection, const std::string& lease_id,
                                    double position_mm, std::optional<double> speed_mm_per_s);
 
-/// Moves for as long as it is called again at least every 250 ms; positive is down.
+/// Jogs the axis as long as it is called again within 250 ms; positive is down.
 [[nodiscard]] Result<Rig> jog_rig(Connection& connection, const std::string& lease_id,
                                   double speed_mm_per_s);
 
-/// After FAULT or ESTOPPED: clears the drive's alarm. Starts nothing.
+/// Clears the drive's alarm after FAULT or ESTOPPED. Does not start a motion.
 [[nodiscard]] Result<Rig> reset_rig(Connection& connection, const std::string& lease_id);
 
-/// Stops any motion; needs no lease, does no harm when nothing moves, and is sent again if it must.
+/// Stops any motion. Needs no lease, is harmless when nothing moves, and is retried if necessary.
 [[nodiscard]] Result<Rig> stop_rig(Connection& connection);
 
 }  // namespace hydroprint::client

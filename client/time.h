@@ -4,7 +4,7 @@
 
 namespace hydroprint::client {
 
-/// A point in time as the daemon tells it.
+/// A point in time on the daemon's clock.
 using Time = std::chrono::system_clock::time_point;
 
 }  // namespace hydroprint::client

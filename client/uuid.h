@@ -4,7 +4,7 @@
 
 namespace hydroprint::client {
 
-/// A random UUID (version 4) in its usual spelling, for request_id.
+/// Returns a random UUID (version 4) in the usual notation, for request_id.
 [[nodiscard]] std::string make_uuid();
 
 }  // namespace hydroprint::client

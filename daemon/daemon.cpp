@@ -239,6 +239,10 @@ Status Daemon::start_http(const Config& config, const ServiceContext& backend) {
   std::istringstream names(config.server_host_names);
   for (std::string name; names >> name;) options.host_names.push_back(name);
   http::Sources sources;
+  sources.admit = [&roles = server_->roles()](std::string_view method,
+                                              const auth::Credentials& credentials) {
+    return roles.admit(method, credentials);
+  };
   sources.health = [backend] {
     HealthReport report = health_report(backend);
     return http::Health{report.is_good, std::move(report.json)};

@@ -25,15 +25,15 @@ constexpr char kFooter[] = R"(Examples:
   hydroprint rig status
   hydroprint dip --simulate-job 7 --out result
 
-Exit status: 0 done; 2 wrong usage; 3 bad input, or refused by the daemon; 4 failed,
-or bytes arrived damaged; 5 no daemon answers; 130 cancelled.)";
+Exit status: 0 success; 2 wrong usage; 3 bad input, or refused by the daemon;
+4 failed, or data was damaged in transit; 5 no daemon responds; 130 cancelled.)";
 
-// "hydroprint submit simulate"
+// Returns for example "hydroprint submit simulate".
 std::string full_name(const CLI::App& app) {
   return (app.get_parent() != nullptr ? full_name(*app.get_parent()) + " " : "") + app.get_name();
 }
 
-// CLI11 leaves the commands above out.
+// Adds the parent commands to the usage line, which CLI11 omits.
 class Help : public CLI::Formatter {
  public:
   std::string make_usage(const CLI::App* app, std::string) const override {
@@ -119,7 +119,8 @@ int run(int argc, char** argv) {
     return exit_code(status.error());
   }
   if (std::cout.flush()) return 0;
-  std::cerr << "hydroprint: standard output cannot be written; is its disk full?" << std::endl;
+  std::cerr << "hydroprint: standard output cannot be written; check the free disk space"
+            << std::endl;
   return static_cast<int>(ExitStatus::kFailed);
 }
 
@@ -127,7 +128,7 @@ int run(int argc, char** argv) {
 }  // namespace hydroprint::cli
 
 int main(int argc, char** argv) {
-  ::setenv("GRPC_VERBOSITY", "NONE", 0);  // what goes wrong is said once, in our words
+  ::setenv("GRPC_VERBOSITY", "NONE", 0);  // errors are reported once, in our own words
   try {
     return hydroprint::cli::run(argc, argv);
   } catch (const std::exception& error) {

@@ -10,7 +10,7 @@ namespace {
 
 grpc::ChannelArguments channel_arguments() {
   grpc::ChannelArguments arguments;
-  // The daemon is near, where a proxy from the environment is never right.
+  // The daemon is on this machine or the local network, so a proxy from the environment is ignored.
   arguments.SetInt(GRPC_ARG_ENABLE_HTTP_PROXY, 0);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 2000);  // also the limit for connecting
@@ -35,8 +35,8 @@ Status check_secrets_may_go(const ConnectionOptions& options) {
   return fail(
       Code::kFailedPrecondition,
       options.server +
-          " is another machine, and without TLS anybody in between could read a password or "
-          "key; write --server https://" +
+          " is another machine, and without TLS a password or key could be read on the way; "
+          "use --server https://" +
           options.server + ", or forward a port of this machine with ssh -L");
 }
 

@@ -13,7 +13,7 @@ grpc::Status check(Connection& connection, grpc::ByteBuffer& answer) {
   Call call(connection, kAnswerLimit);
   grpc::GenericStub stub(connection.impl().channel);
   grpc::CompletionQueue queue;
-  grpc::ByteBuffer request(nullptr, 0);  // an empty HealthCheckRequest: the server as a whole
+  grpc::ByteBuffer request(nullptr, 0);  // empty HealthCheckRequest: the server as a whole
   grpc::Status status;
   auto reader = stub.PrepareUnaryCall(call.context(), kMethod, request, &queue);
   reader->StartCall();
@@ -26,8 +26,8 @@ grpc::Status check(Connection& connection, grpc::ByteBuffer& answer) {
 
 }  // namespace
 
-// Debian has no generated grpc.health.v1 for clients, and HealthCheckResponse is one enum: field 1,
-// varint, 0 UNKNOWN, 1 SERVING, 2 NOT_SERVING.
+// Debian has no generated client code for grpc.health.v1, so the reply is parsed here.
+// HealthCheckResponse has one field: enum, field 1, varint, 0 UNKNOWN, 1 SERVING, 2 NOT_SERVING.
 Result<std::string> check_health(Connection& connection) {
   grpc::ByteBuffer answer;
   const grpc::Status status = with_retries(connection, [&] { return check(connection, answer); });

@@ -7,7 +7,7 @@
 
 namespace hydroprint::client {
 
-/// What grpc.health.v1.Health says of the daemon as a whole: "SERVING", "NOT_SERVING" or "UNKNOWN".
+/// Returns the daemon's status in grpc.health.v1.Health: "SERVING", "NOT_SERVING" or "UNKNOWN".
 [[nodiscard]] Result<std::string> check_health(Connection& connection);
 
 }  // namespace hydroprint::client

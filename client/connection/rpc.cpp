@@ -102,11 +102,11 @@ Error to_error(const Connection& connection, const grpc::Status& status) {
     if (const std::string trouble = tls_trouble(options); !trouble.empty()) {
       return {Code::kFailedPrecondition, options.server + ": " + trouble, {}};
     }
-    // The usual case, nobody listens, needs no more words; gRPC has many, of varying sense.
+    // If nothing listens, gRPC's own message adds nothing useful and varies between versions.
     const bool usual = error.message.find("failed to connect") != std::string::npos;
     error.message = options.server + ": no hydroprintd answers there" +
                     (usual ? "" : " (" + error.message + ")") +
-                    "; start it, or give the right address as host:port";
+                    "; start it, or correct the address (--server host:port)";
   }
   return error;
 }

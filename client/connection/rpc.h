@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to this library: how one call is made. Included by .cpp files only.
+// Private to this library: the mechanics of one call. Included by .cpp files only.
 
 #include <grpcpp/grpcpp.h>
 
@@ -45,11 +45,11 @@ struct Connection::Impl {
   std::unique_ptr<v1::RigService::Stub> rig;
 };
 
-/// What every call carries: who makes it, a time limit, and an end when the connection is to stop.
+/// The context of a call: the caller's identity, a time limit, and cancellation by the stop token.
 class Call {
  public:
   explicit Call(Connection& connection);
-  /// As above, and ends after `limit`.
+  /// Same, with a deadline `limit` from now.
   Call(Connection& connection, std::chrono::milliseconds limit);
 
   [[nodiscard]] grpc::ClientContext* context() { return &context_; }
@@ -59,32 +59,33 @@ class Call {
   std::stop_callback<std::function<void()>> on_stop_;
 };
 
-/// Time within which a call that does not stream must be answered.
+/// Time limit of a call that does not stream.
 inline constexpr std::chrono::seconds kAnswerLimit{30};
-/// Time within which there must be a connection for a call or a stream that is not repeated.
+/// Time limit for connecting, for a call or stream that is not repeated.
 inline constexpr std::chrono::seconds kConnectLimit{1};
-/// Between attempts at a stream that broke off.
+/// Pause between attempts to resume a broken stream.
 inline constexpr std::chrono::milliseconds kTryAgainAfter{500};
-/// After which a transfer in which nothing arrives is given up.
+/// Number of attempts without progress after which a transfer fails.
 inline constexpr int kAttemptsWithoutProgress = 5;
-/// What a list is asked for at once.
+/// Page size of list requests.
 inline constexpr int kPageSize = 1000;
 
-/// The error that a failed call means, with the reason from its google.rpc.ErrorInfo.
+/// Converts a failed call's status to an error, with the reason from its google.rpc.ErrorInfo.
 [[nodiscard]] Error to_error(const Connection& connection, const grpc::Status& status);
 
-/// Runs `attempt` until it answers anything but UNAVAILABLE, a few times with growing pauses.
+/// Runs `attempt` until it returns a status other than UNAVAILABLE; a few times, with growing
+/// pauses.
 [[nodiscard]] grpc::Status with_retries(Connection& connection,
                                         const std::function<grpc::Status()>& attempt);
 
-/// Waits until there is a connection, or that long. (gRPC goes on with a connection that it has
-/// begun only while somebody waits for it; calls alone, which fail at once, never get to see it.)
+/// Waits until there is a connection, or for `time`. Calls fail at once without a connection, and
+/// gRPC finishes connecting only while somebody waits.
 void wait_for_connection(Connection& connection, std::chrono::milliseconds time);
 
-/// Waits that long, or until the connection is to stop.
+/// Waits for `time`, or until the connection is asked to stop.
 void pause(const Connection& connection, std::chrono::milliseconds time);
 
-/// One call that may safely be repeated.
+/// Makes a call that is safe to repeat.
 template <class Stub, class Request, class Response>
 [[nodiscard]] Result<Response> call(Connection& connection, Stub& stub,
                                     grpc::Status (Stub::*method)(grpc::ClientContext*,
@@ -100,7 +101,8 @@ template <class Stub, class Request, class Response>
   return response;
 }
 
-/// One call that is never repeated: whoever moves the rig has to see first what became of it.
+/// Makes a call that is never repeated. A command to the rig must not be sent again before its
+/// result is known.
 template <class Stub, class Request, class Response>
 [[nodiscard]] Result<Response> call_once(Connection& connection, Stub& stub,
                                          grpc::Status (Stub::*method)(grpc::ClientContext*,

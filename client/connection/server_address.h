@@ -7,7 +7,7 @@
 
 namespace hydroprint::client {
 
-/// Where a daemon is, and whether TLS is spoken there.
+/// The address of a daemon, and whether it speaks TLS.
 struct ServerAddress {
   std::string host;  ///< "rig.example.org", "127.0.0.1", "::1"
   int port = 50051;
@@ -15,12 +15,12 @@ struct ServerAddress {
 
   /// "rig.example.org:50051", "[::1]:50051".
   [[nodiscard]] std::string text() const;
-  /// Whether that is this machine, by a name that nobody else gives out.
+  /// Whether the host is this machine, by a name that cannot be redirected elsewhere.
   [[nodiscard]] bool is_loopback() const;
 };
 
-/// Reads "127.0.0.1:50051", "rig.example.org:50051", or "https://rig.example.org:50051" (TLS; the
-/// port may be left out).
+/// Parses "127.0.0.1:50051", "rig.example.org:50051", or "https://rig.example.org:50051" (TLS; the
+/// port may be omitted).
 /// @return kInvalidArgument for anything else
 [[nodiscard]] Result<ServerAddress> parse_server(std::string_view text);
 

@@ -44,7 +44,7 @@ class Descriptor {
   int number_;
 };
 
-// A socket to there; -1: nothing listens.
+// Returns a connected socket; -1 if nothing listens.
 int connect_to(const ServerAddress& address) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;
@@ -55,7 +55,7 @@ int connect_to(const ServerAddress& address) {
   for (const addrinfo* one = found; one != nullptr; one = one->ai_next) {
     const int made = ::socket(one->ai_family, one->ai_socktype | SOCK_CLOEXEC, one->ai_protocol);
     if (made < 0) continue;
-    const timeval patience{kPatience_s, 0};  // holds for connecting, too
+    const timeval patience{kPatience_s, 0};  // applies to connecting as well
     ::setsockopt(made, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
     ::setsockopt(made, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
     if (::connect(made, one->ai_addr, one->ai_addrlen) == 0) return made;
@@ -90,22 +90,22 @@ std::string words_for(long verdict, const X509& certificate, const ServerAddress
       return {};
     case X509_V_ERR_CERT_HAS_EXPIRED:
       return "its TLS certificate expired on " + expiry_of(certificate) +
-             "; whoever runs it has to renew it";
+             "; ask its operator to renew it";
     case X509_V_ERR_CERT_NOT_YET_VALID:
-      return "its TLS certificate does not hold yet; look whether the clocks are right, there and "
-             "here";
+      return "its TLS certificate is not valid yet; check the clocks of both machines";
     case X509_V_ERR_HOSTNAME_MISMATCH:
     case X509_V_ERR_IP_ADDRESS_MISMATCH:
       return "its TLS certificate is not for the name " + address.host +
-             "; give --server by a name that it is for, or have one made for this name";
+             "; use a name in the certificate for --server, or get a certificate for this name";
     default:
-      return "its TLS certificate is signed by nobody whom you trust (" +
+      return "its TLS certificate is not signed by a trusted authority (" +
              std::string(X509_verify_cert_error_string(verdict)) +
-             "); give the certificate of its authority with --ca FILE (HYDROPRINT_CA)";
+             "); give that authority's certificate with --ca FILE (HYDROPRINT_CA)";
   }
 }
 
-// OpenSSL writes to sockets in a way that ends the program by a signal where the other end is gone.
+// OpenSSL writes to sockets without MSG_NOSIGNAL, so SIGPIPE would end the program when the peer is
+// gone.
 class WithoutSigpipe {
  public:
   WithoutSigpipe() {
@@ -128,7 +128,7 @@ class WithoutSigpipe {
 
 enum class Spoken { kByTls, kOtherwise, kNotKnown };
 
-// Agrees on TLS whatever the certificate is worth.
+// Performs the TLS handshake; the certificate is not judged here.
 Spoken shake_hands(SSL& ssl, const ServerAddress& address, int socket) {
   X509_VERIFY_PARAM* const asked = SSL_get0_param(&ssl);
   X509_VERIFY_PARAM_set_flags(asked, X509_V_FLAG_PARTIAL_CHAIN);
@@ -165,13 +165,12 @@ std::string tls_trouble(const ConnectionOptions& options) {
   ERR_clear_error();
   if (!options.is_tls) {
     if (spoken != Spoken::kByTls) return {};
-    return "TLS is spoken there; write --server https://" + options.server +
-           ", and --ca FILE if its authority is one of your own";
+    return "the server requires TLS; use --server https://" + options.server +
+           ", with --ca FILE for a private authority";
   }
   if (spoken == Spoken::kOtherwise) {
-    return "something answers there, but not by TLS; look whether the address is right, or write "
-           "--server " +
-           options.server + " without https:// and without --ca";
+    return "the server does not speak TLS; check the address, or use --server " + options.server +
+           " without https:// and without --ca";
   }
   const Owned<X509> certificate(SSL_get1_peer_certificate(ssl.get()));
   return certificate ? words_for(SSL_get_verify_result(ssl.get()), *certificate, *address) : "";

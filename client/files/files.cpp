@@ -53,8 +53,7 @@ Result<std::string> read_text(const std::filesystem::path& path, std::int64_t ma
   }));
   if (std::ssize(text) > max_bytes)
     return fail(Code::kInvalidArgument, path.string() + ": longer than " +
-                                            std::to_string(max_bytes) +
-                                            " bytes; this cannot be the right file");
+                                            std::to_string(max_bytes) + " bytes; check the name");
   return text;
 }
 

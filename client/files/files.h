@@ -12,20 +12,20 @@
 
 namespace hydroprint::client {
 
-/// Told how many of how many bytes of a file are done.
+/// Called with the number of bytes done and the total.
 using ByteProgress = std::function<void(std::int64_t done_bytes, std::int64_t total_bytes)>;
 
-/// Reads a regular file from byte `offset` on, in pieces of at most 64 KiB, until its end or until
+/// Reads a regular file from byte `offset` on, in pieces of at most 64 KiB, until the end or until
 /// `take` returns false.
 /// @return kNotFound, kPermissionDenied or kInvalidArgument (not a regular file) naming the file
 [[nodiscard]] Status read_file(const std::filesystem::path& path, std::int64_t offset,
                                const std::function<bool(std::string_view bytes)>& take);
 
-/// Hashes a file; errors as open_input_file's, kCancelled when stopped.
+/// Hashes a file; same errors as open_input_file(), and kCancelled when stopped.
 [[nodiscard]] Result<FileDigest> digest_file(const std::filesystem::path& path,
                                              const std::stop_token& stop);
 
-/// A whole text file; kInvalidArgument if it is longer than `max_bytes`.
+/// Reads a whole text file; kInvalidArgument if it is longer than `max_bytes`.
 [[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path,
                                             std::int64_t max_bytes);
 

@@ -50,7 +50,7 @@ std::pair<std::string_view, std::string_view> word(std::string_view text) {
   return {text.substr(0, end), trim(text.substr(end))};
 }
 
-// The files found so far, and how to add one.
+// Collects referenced files.
 class Collector {
  public:
   explicit Collector(const std::filesystem::path& model)
@@ -60,8 +60,8 @@ class Collector {
     return folder_ / name;
   }
 
-  /// The file beside `from` that a reader would take for `name`: the name with any kind of slash,
-  /// or else its last part alone. Never one outside of the model's folder.
+  /// Returns the file beside `from` that a reader would open for `name`: the name with either kind
+  /// of slash, or only its last part. Never a file outside the model's folder.
   [[nodiscard]] std::optional<std::string> resolve(std::string_view name,
                                                    const std::string& from) const {
     const std::filesystem::path base = std::filesystem::path(from).parent_path();
@@ -81,7 +81,7 @@ class Collector {
     if (!seen_.insert(found.value_or(std::string(name))).second) return;
     if (!found)
       result_.notes.push_back(from + " refers to '" + std::string(name) +
-                              "', which is not in its folder: not sent");
+                              "', which is not in its folder; it is not sent");
     else if (*found != model_name_)
       result_.files.push_back({*found, path_of(*found)});
   }
@@ -101,7 +101,8 @@ class Collector {
   References result_;
 };
 
-// The options that may stand between `map_Kd` and the file's name, and how many words follow each.
+// The options allowed between `map_Kd` and the file name, with the minimum and maximum number of
+// words after each.
 std::string_view skip_map_options(std::string_view rest) {
   static const std::map<std::string_view, std::pair<int, int>> kWords{
       {"-blendu", {1, 1}}, {"-blendv", {1, 1}}, {"-boost", {1, 1}},   {"-mm", {2, 2}},
@@ -124,10 +125,10 @@ std::string_view skip_map_options(std::string_view rest) {
   }
 }
 
-/// @param name  of a material library that is there, relative to the model's folder
+/// @param name  of an existing material library, relative to the model's folder
 void follow_mtl(const std::string& name, Collector& collector) {
   const auto text = read_text(collector.path_of(name), kMaxMtlBytes);
-  if (!text) return;  // the worker says what is wrong with it
+  if (!text) return;  // the worker reports the error
   std::istringstream lines(*text);
   for (std::string line; std::getline(lines, line);) {
     const auto [key, rest] = word(line);
@@ -142,14 +143,15 @@ void follow_mtllib(std::string_view names, const std::string& model, Collector& 
     collector.add(name, model);
     if (const auto found = collector.resolve(name, model)) follow_mtl(*found, collector);
   };
-  // The line may be one name with blanks, or several names.
+  // The line may be one name with spaces, or several names.
   if (collector.resolve(unquote(names), model)) return follow(unquote(names));
   for (auto [name, rest] = word(names); !name.empty(); std::tie(name, rest) = word(rest))
     follow(name);
 }
 
 Status follow_obj(const std::filesystem::path& path, Collector& collector) {
-  // Line by line over pieces: an OBJ may be large, its lines of interest are short.
+  // The file is read in pieces and split into lines: an OBJ may be large, but its relevant lines
+  // are short.
   std::string line;
   const std::string model = path.filename().string();
   const auto take_line = [&] {
@@ -207,7 +209,7 @@ Status follow_gltf(const std::filesystem::path& path, Collector& collector) {
   return {};
 }
 
-// A GLB begins with "glTF", version, length; then its JSON chunk: length, "JSON", bytes.
+// A GLB starts with "glTF", version, length; then comes its JSON chunk: length, "JSON", bytes.
 Status follow_glb(const std::filesystem::path& path, Collector& collector) {
   constexpr std::size_t kJsonStart = 20;
   std::string head;

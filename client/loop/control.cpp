@@ -48,11 +48,11 @@ Result<std::string> talk(const std::filesystem::path& control, const std::string
   }
   if (reply.empty()) {
     return fail(Code::kUnavailable, control.string() +
-                                        ": no virtual rig answers there; give the path that was "
-                                        "its --control");
+                                        ": no virtual rig answers there; give the path that "
+                                        "hydroprint-virtual-rig has as --control");
   }
   if (!reply.starts_with("error: ")) return reply;
-  return fail(Code::kInvalidArgument, "the virtual rig: " + reply.substr(7));
+  return fail(Code::kInvalidArgument, "virtual rig: " + reply.substr(7));
 }
 
 }  // namespace hydroprint::loop

@@ -7,12 +7,12 @@
 
 namespace hydroprint::loop {
 
-/// Says one line to a virtual rig's control socket. @return its reply, of one line; kUnavailable if
-/// nobody answers there, kInvalidArgument if the rig refuses
+/// Sends one line to a virtual rig's control socket. @return its reply, one line; kUnavailable if
+/// the rig does not answer, kInvalidArgument if it refuses
 [[nodiscard]] Result<std::string> talk(const std::filesystem::path& control,
                                        const std::string& line);
 
-/// A path as the rig reads it, blanks and all.
+/// Quotes a path for the rig's control language, including spaces.
 [[nodiscard]] std::string quoted(const std::filesystem::path& path);
 
 }  // namespace hydroprint::loop

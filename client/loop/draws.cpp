@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kHeldTilt_deg = 30;  // of the paper's board
 
-/// Numbers in [-1, 1), the same everywhere: without the library's distributions, which differ from
-/// one to the next.
+/// Numbers in [-1, 1), identical on every platform: the distributions of the standard library
+/// differ between implementations.
 class Draws {
  public:
   Draws(std::uint32_t seed, int index, std::uint32_t purpose) {
@@ -31,7 +31,7 @@ class Draws {
   std::mt19937 random_;
 };
 
-/// In the gripper: turned, its box centred below it, its top at the gripper's lower end.
+/// Pose in the gripper: turned, box centred below the gripper, top at the gripper's lower end.
 Pose hung(const Body& body, const Eigen::Matrix3d& turn) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : body.points) box.extend(turn * p);
@@ -52,11 +52,11 @@ double lowest_mm(const Body& body, const Pose& X_AO) {
 Result<Body> make_body(const std::string& name) {
   Body out{name, Eigen::Matrix3d::Identity(), name == "sphere80", {}};
   if (name != "board" && name != "sphere80") {
-    return fail(Code::kInvalidArgument, "no loop goes with '" + name + "'; give board or sphere80");
+    return fail(Code::kInvalidArgument, "unknown sample '" + name + "'; give board or sphere80");
   }
   if (name == "board") {
-    // Turned so that the camera, which stands at the near side, sees two of its upright faces: of
-    // the upper one alone it could not tell how the board lies along it.
+    // Turned so that the camera, at the near side, sees two upright faces. From the upper face
+    // alone, the position of the board along that face cannot be measured.
     const Eigen::AngleAxisd tilt(-kHeldTilt_deg * kDegree, Eigen::Vector3d::UnitX());
     const Eigen::AngleAxisd about(std::numbers::pi / 4, Eigen::Vector3d::UnitZ());
     out.nominal_turn = (tilt * about).matrix();

@@ -9,53 +9,51 @@
 
 namespace hydroprint::loop {
 
-/// By how much cross-points land off where they belong, O; always the same cross-points in the same
-/// order, NaN for one whose film lands nowhere.
+/// Displacements of the cross-points from their intended places, O. The cross-points and their
+/// order are always the same; NaN if the film point lands nowhere.
 using CrossErrors = std::vector<Eigen::Vector3d>;
 
-/// How far the picture's cross-points land from where they belong (section 7.1): on the board's
-/// lower face the lines 10 mm apart, on the sphere to its equator the meridians and parallels 15
-/// degrees apart.
-/// @param plan   by which the film image was made
-/// @param truth  by which it was dipped
-/// @param as     where what belongs to a film point really lies on the film: film placement and
-///               printer scale
+/// Computes the displacement of each cross-point (section 7.1). Board: lines 10 mm apart on the
+/// lower face. Sphere: meridians and parallels 15 degrees apart, down to the equator.
+/// @param plan   from which the film image was made
+/// @param truth  of the actual dip
+/// @param as     film placement and printer scale, which shift points on the film
 [[nodiscard]] CrossErrors cross_errors(const Body& body, const SurfaceMap& plan,
                                        const SurfaceMap& truth, const Truth& as);
 
-/// Lengths of those that land, mm.
+/// Lengths, mm, of the displacements that are not NaN.
 [[nodiscard]] std::vector<double> lengths_mm(const CrossErrors& errors);
 
-/// How many land nowhere.
+/// Number of cross-points that land nowhere.
 [[nodiscard]] int lost(const CrossErrors& errors);
 
-/// So that a share of `share` is not above it; 0 of none.
+/// The value that a share `share` of the values does not exceed; 0 if there are no values.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
-/// What one pose came to. Each of the errors holds what the one before it holds, and more.
+/// The result for one pose. Each error includes the sources of the one before it.
 struct Round {
   Truth truth;
-  double turn_off_deg = 0;    ///< of the calibrated pose
-  double shift_off_mm = 0;    ///< of the middle of the object, sideways
-  double contact_off_mm = 0;  ///< of first contact
-  double stated_p95_mm = 0;   ///< of the registration error, by the calibration itself
+  double turn_off_deg = 0;    ///< error of the calibrated orientation
+  double shift_off_mm = 0;    ///< horizontal error of the object's centre
+  double contact_off_mm = 0;  ///< error of first contact
+  double stated_p95_mm = 0;   ///< registration error, as the calibration states it
   CrossErrors numerics;       ///< dipped as calibrated, printed as planned
-  CrossErrors calibration;    ///< and at the true pose
-  CrossErrors motion;         ///< and along the axis as driven
-  CrossErrors placement;      ///< and with the film and the printer's scale off: all there is
+  CrossErrors calibration;    ///< also with the true pose
+  CrossErrors motion;         ///< also with the actual motion of the axis
+  CrossErrors placement;      ///< also with film placement and printer scale: the total
   std::vector<std::string> jobs;
   std::vector<std::string> pictures;  ///< files beside the report
 };
 
-/// What the 95th percentile over poses and cross-points may be at most, mm.
+/// Limit for the 95th percentile over poses and cross-points, mm.
 [[nodiscard]] double bound_mm(const Body& body);
 
-/// All errors of all rounds, one after the other.
+/// Concatenates the errors of all rounds.
 [[nodiscard]] CrossErrors pooled(const std::vector<Round>& rounds, CrossErrors Round::*stage);
 
-/// The part of the squared error that comes with a stage: the sum, over cross-points, of the step
-/// that it adds along the whole error, over that of the whole errors squared. The stages' sum to 1;
-/// one that works against the others is negative.
+/// A stage's share of the squared error. The numerator is the sum, over cross-points, of the step
+/// that the stage adds, projected on the whole error. The denominator is the sum of the squared
+/// whole errors. The shares sum to 1; a stage that offsets others has a negative share.
 [[nodiscard]] double share(const std::vector<Round>& rounds, CrossErrors Round::*before,
                            CrossErrors Round::*stage);
 

@@ -19,19 +19,18 @@ struct Stage {
 
 constexpr std::array<Stage, 4> kStages{{
     {&Round::numerics, nullptr, "numerics", "dipped as calibrated, printed as planned"},
-    {&Round::calibration, &Round::numerics, "calibration", "and at the true pose"},
-    {&Round::motion, &Round::calibration, "motion", "and along the axis as driven"},
+    {&Round::calibration, &Round::numerics, "calibration", "also at the true pose"},
+    {&Round::motion, &Round::calibration, "motion", "also with the axis's actual motion"},
     {&Round::placement, &Round::motion, "placement",
-     "and with film and printer's scale off: all there is"},
+     "also with film placement and printer scale: the total"},
 }};
 
 constexpr const char* kLimits =
-    "What this cannot show: water that moves, film that wrinkles, tears or slips, activator that "
-    "is uneven, ink that bleeds, a film that swells otherwise than its profile says, bars and "
-    "markers that are not where the rig's layout has them, a camera whose errors are not those of "
-    "a first-generation Kinect, and whatever else the computation that plays the dip does not "
-    "know: it is the one that made the film image, so that \"numerics\" is no more than how far it "
-    "agrees with itself.";
+    "Not covered: moving water; film that wrinkles, tears or slips; uneven activator; ink that "
+    "bleeds; a film that swells differently from its profile; bars and markers that are not where "
+    "the rig's layout has them; a camera with other errors than a first-generation Kinect. The dip "
+    "is computed by the same program that made the film image, so \"numerics\" shows only how far "
+    "that program agrees with itself.";
 
 Json figures(const CrossErrors& errors) {
   const std::vector<double> mm = lengths_mm(errors);
@@ -87,7 +86,7 @@ std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
 std::string stage_table(const std::vector<Round>& rounds) {
   std::string out =
       "<table>\n" +
-      row({"", "", "95th percentile, mm", "largest, mm", "its share of the squared error"}, "th");
+      row({"", "", "95th percentile, mm", "largest, mm", "share of the squared error"}, "th");
   for (const Stage& stage : kStages) {
     const auto mm = lengths_mm(pooled(rounds, stage.errors));
     out += row({stage.name, stage.text, text(quantile(mm, 0.95)), text(quantile(mm, 1)),
@@ -97,10 +96,10 @@ std::string stage_table(const std::vector<Round>& rounds) {
 }
 
 std::string round_table(const std::vector<Round>& rounds) {
-  std::string out =
-      "<table>\n" + row({"pose", "turn off, deg", "place off, mm", "first contact off, mm",
-                         "stated (95 %), mm", "numerics", "calibration", "motion", "placement"},
-                        "th");
+  std::string out = "<table>\n" + row({"pose", "orientation error, deg", "position error, mm",
+                                       "first-contact error, mm", "stated (95 %), mm", "numerics",
+                                       "calibration", "motion", "placement"},
+                                      "th");
   for (std::size_t i = 0; i < rounds.size(); ++i) {
     const Round& round = rounds[i];
     std::vector<std::string> cells{std::to_string(i + 1), text(round.turn_off_deg),
@@ -159,14 +158,14 @@ std::string report_html(const Report& report) {
   const CrossErrors all = all_of(report);
   return kHead + ("<h1>The whole loop, in silico: " + report.object) + "</h1>\n<p>" +
          poses_of(report) + ", seed " + std::to_string(report.seed) + ", camera " + report.camera +
-         ": calibrated through the camera, simulated, put on paper, dipped on the virtual rig, and "
-         "that film image dipped in the computation at the true pose, as the axis was driven. 95 % "
-         "of the " +
+         ": calibrated with the camera, simulated, laid out for printing and dipped on the virtual "
+         "rig. A computation then dips that film image at the true pose with the actual motion. "
+         "95 % of the " +
          std::to_string(all.size()) + " cross-points land within <b>" + text(reached_mm(report)) +
-         " mm</b> of where they belong (at most " + text(report.bound_mm) + " mm is asked for); " +
+         " mm</b> of their intended places (limit: " + text(report.bound_mm) + " mm); " +
          std::to_string(lost(all)) + " land nowhere.</p>\n<p>" + kLimits +
-         "</p>\n<h2>Where it comes from</h2>\n" + stage_table(report.rounds) +
-         "<h2>Pose by pose</h2>\n<p>95th percentiles, mm.</p>\n" + round_table(report.rounds) +
+         "</p>\n<h2>Sources of error</h2>\n" + stage_table(report.rounds) +
+         "<h2>Errors by pose</h2>\n<p>95th percentiles, mm.</p>\n" + round_table(report.rounds) +
          "<h2>Pictures</h2>\n" + pictures(report.rounds) + "</body></html>\n";
 }
 
@@ -174,10 +173,10 @@ std::string report_text(const Report& report) {
   const CrossErrors all = all_of(report);
   std::string out = poses_of(report) + " of the " + report.object + ": 95 % of " +
                     std::to_string(all.size()) + " cross-points land within " +
-                    text(reached_mm(report)) + " mm (asked for: " + text(report.bound_mm) +
-                    " mm), " + std::to_string(lost(all)) + " nowhere; of the squared error";
+                    text(reached_mm(report)) + " mm (limit: " + text(report.bound_mm) + " mm), " +
+                    std::to_string(lost(all)) + " land nowhere; shares of the squared error:";
   for (const Stage& stage : kStages)
-    out += std::string(&stage == kStages.begin() ? " " : ", ") + stage.name + " has " +
+    out += std::string(&stage == kStages.begin() ? " " : ", ") + stage.name + " " +
            percent(share(report.rounds, stage.before, stage.errors));
   return out + "\n";
 }

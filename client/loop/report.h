@@ -8,22 +8,22 @@
 
 namespace hydroprint::loop {
 
-/// All that a report tells.
+/// The contents of a report.
 struct Report {
-  std::string object;  ///< the sample
+  std::string object;  ///< name of the sample
   double bound_mm = 0;
   std::uint32_t seed = 0;
-  std::string camera;  ///< the calibration of its lens, or the file
+  std::string camera;  ///< calibration of its lens, or a file
   std::vector<Round> rounds;
 };
 
-/// report.json.
+/// Contents of report.json.
 [[nodiscard]] std::string report_json(const Report& report);
 
-/// report.html: the same for people, with the rounds' pictures.
+/// Contents of report.html: the same for people, with the rounds' pictures.
 [[nodiscard]] std::string report_html(const Report& report);
 
-/// The few lines that a terminal gets.
+/// The summary for the terminal.
 [[nodiscard]] std::string report_text(const Report& report);
 
 }  // namespace hydroprint::loop

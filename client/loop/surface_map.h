@@ -9,8 +9,8 @@
 
 namespace hydroprint::loop {
 
-/// What surface_map.ply holds, as far as it is needed here: the object's points (O), where on the
-/// film each comes from (NaN: nowhere) and when, and the triangles between them.
+/// The parts of surface_map.ply that are needed here: the object's points (O), their film points
+/// (NaN: none) and times, and the triangles between them.
 struct SurfaceMap {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector2d> film_mm;
@@ -18,17 +18,17 @@ struct SurfaceMap {
   std::vector<Eigen::Vector3i> triangles;
 };
 
-/// Refuses a file that is not such a one (kInvalidArgument).
+/// Reads a surface map; kInvalidArgument if the file is malformed.
 [[nodiscard]] Result<SurfaceMap> read_surface_map(const std::filesystem::path& path);
 
-/// Where on the object a point of the film lands: on the triangle that takes it first, evenly
-/// between its corners.
+/// Finds where on the object a point of the film lands: on the triangle that takes it first,
+/// interpolated between its corners.
 class FilmLocator {
  public:
-  /// @param map  outlives it
+  /// @param map  must outlive this object
   explicit FilmLocator(const SurfaceMap& map);
 
-  /// None: nowhere.
+  /// Returns nullopt if the point lands nowhere.
   [[nodiscard]] std::optional<Eigen::Vector3d> at(const Eigen::Vector2d& film_mm) const;
 
  private:

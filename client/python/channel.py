@@ -1,4 +1,4 @@
-"""The way to hydroprintd that the examples share."""
+"""Opens the connection to hydroprintd; shared by the examples."""
 
 import os
 import stat
@@ -16,7 +16,7 @@ class _Bearer(
     grpc.UnaryStreamClientInterceptor,
     grpc.StreamUnaryClientInterceptor,
 ):
-    """Gives every call an API key."""
+    """Adds an API key to every call."""
 
     def __init__(self, key):
         self._metadata = ("authorization", f"Bearer {key}")
@@ -31,18 +31,18 @@ class _Bearer(
 
 
 def _kept_key(address):
-    """The key that `hydroprint login` keeps for host:port; None if there is none."""
+    """Returns the key that `hydroprint login` stored for host:port; None if there is none."""
     folder = os.environ.get("XDG_CONFIG_HOME") or os.path.join(os.path.expanduser("~"), ".config")
     path = os.path.join(folder, "hydroprint", "credentials.toml")
     try:
         with open(path, "rb") as file:
             if stat.S_IMODE(os.fstat(file.fileno()).st_mode) & 0o077:
-                sys.exit(f"{path}: others may read the keys in it; chmod 600 it, and make new keys")
+                sys.exit(f"{path}: other users can read the keys in it; chmod 600 it, and create new keys")
             return tomllib.load(file).get(address, {}).get("api_key")
     except FileNotFoundError:
         return None
     except tomllib.TOMLDecodeError as error:
-        sys.exit(f"{path}: is not valid TOML ({error}); mend or delete it")
+        sys.exit(f"{path}: is not valid TOML ({error}); correct or delete it")
 
 
 def _is_loopback(address):
@@ -51,8 +51,11 @@ def _is_loopback(address):
 
 
 def open_channel(server):
-    """A channel to "host:port", or "https://host:port" for TLS, which HYDROPRINT_CA (a PEM file of the authorities to
-    trust) implies; with the API key that HYDROPRINT_API_KEY has or `hydroprint login` kept, if there is one."""
+    """Opens a channel to "host:port", or "https://host:port" for TLS.
+
+    HYDROPRINT_CA (a PEM file of trusted authorities) implies TLS. Uses the API key from HYDROPRINT_API_KEY or from
+    `hydroprint login`, if there is one.
+    """
     ca_file = os.environ.get("HYDROPRINT_CA")
     is_tls = server.startswith(_TLS) or bool(ca_file)
     address = server.removeprefix(_TLS).rstrip("/")
@@ -60,8 +63,8 @@ def open_channel(server):
         address += _PORT
     key = os.environ.get("HYDROPRINT_API_KEY") or _kept_key(address)
     if key and not is_tls and not _is_loopback(address):
-        sys.exit(f"{address} is another machine, and without TLS anybody in between could read the key; "
-                 f"say {_TLS}{address}")
+        sys.exit(f"{address} is another machine, and without TLS the key could be read on the way; "
+                 f"use {_TLS}{address}")
     options = [("grpc.enable_http_proxy", 0)]
     if is_tls:
         authorities = None
@@ -75,9 +78,9 @@ def open_channel(server):
 
 
 def explain(error):
-    """What went wrong with a call, in one line."""
+    """Describes a failed call in one line."""
     text = f"{error.code().name}: {error.details()}"
     if error.code() == grpc.StatusCode.UNAVAILABLE:
-        text += ("; is it there, does it speak TLS (https://host:port), and is its certificate for this name and by "
-                 "an authority that HYDROPRINT_CA has? `hydroprint status` tells")
+        text += ("; check the address, whether the server uses TLS (https://host:port), and whether its certificate is "
+                 "for this name and signed by an authority in HYDROPRINT_CA. `hydroprint status` names the cause")
     return text

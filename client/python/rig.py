@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
-"""Says how the rig is; with --stop, stops it first (which needs no lease).
+"""Prints the state of the rig; with --stop, stops it first (which needs no lease).
 
-The stubs are made by the build (target hydroprint_python):
+The build generates the stubs (target hydroprint_python):
 
     PYTHONPATH=build/release/python client/python/rig.py --stop
 
-HYDROPRINT_SERVER says where the daemon is ("https://host:port": over TLS), HYDROPRINT_CA which authority signed its
-certificate if that is one of your own, and HYDROPRINT_API_KEY (hydroprint keys add) who asks, in place of the key that
-`hydroprint login` keeps.
+HYDROPRINT_SERVER is the daemon's address ("https://host:port" for TLS). HYDROPRINT_CA is a file with the certificate
+of a private authority. HYDROPRINT_API_KEY (hydroprint keys add) replaces the key that `hydroprint login` stores.
 """
 
 import argparse
@@ -25,7 +24,7 @@ except ImportError as error:
 
 
 def describe(rig):
-    """One line: state, position, speed, who has the lease, what is wrong."""
+    """Returns one line: state, position, speed, lease holder, fault."""
     parts = [rig_pb2.Rig.State.Name(rig.state)]
     if rig.HasField("position_mm"):
         parts.append(f"{rig.position_mm:.2f} mm  {rig.velocity_mm_per_s:.2f} mm/s")
@@ -36,7 +35,7 @@ def describe(rig):
 
 def main():
     """Runs the example."""
-    parser = argparse.ArgumentParser(description="Says how the rig is, or stops it.")
+    parser = argparse.ArgumentParser(description="Print the state of the rig, or stop it.")
     parser.add_argument("--server", default=os.environ.get("HYDROPRINT_SERVER", "127.0.0.1:50051"))
     parser.add_argument("--stop", action="store_true", help="stop any motion first")
     arguments = parser.parse_args()

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
 """Submits a simulation to hydroprintd and fetches its film image.
 
-The stubs are made by the build (target hydroprint_python):
+The build generates the stubs (target hydroprint_python):
 
     PYTHONPATH=build/release/python client/python/submit_and_fetch.py \
         --mesh globe.obj --texture globe.png --out result
 
-HYDROPRINT_SERVER says where the daemon is ("https://host:port": over TLS), HYDROPRINT_CA which authority signed its
-certificate if that is one of your own, and HYDROPRINT_API_KEY (hydroprint keys add) who asks, in place of the key that
-`hydroprint login` keeps.
+HYDROPRINT_SERVER is the daemon's address ("https://host:port" for TLS). HYDROPRINT_CA is a file with the certificate
+of a private authority. HYDROPRINT_API_KEY (hydroprint keys add) replaces the key that `hydroprint login` stores.
 """
 
 import argparse
@@ -32,7 +31,7 @@ CHUNK_BYTES = 64 * 1024
 
 
 def upload(channel, path):
-    """Uploads a file, unless its bytes are there already; returns it as an input of a job."""
+    """Uploads a file unless the daemon has its bytes; returns it as a job input."""
     assets = asset_service_pb2_grpc.AssetServiceStub(channel)
     with open(path, "rb") as file:
         content = file.read()
@@ -49,7 +48,7 @@ def upload(channel, path):
 
 
 def chunks(upload_, content):
-    """The messages that send what is missing of `content`."""
+    """Yields the messages that send the missing part of `content`."""
     for offset in range(upload_.received_bytes, max(len(content), 1), CHUNK_BYTES):
         yield asset_service_pb2.UploadChunkRequest(
             upload=upload_.name, offset=offset, data=content[offset : offset + CHUNK_BYTES]
@@ -66,7 +65,7 @@ def submit(channel, spec):
 
 
 def wait(channel, name):
-    """Prints what happens to a job until it is finished; returns it."""
+    """Prints a job's progress until it is finished; returns the job."""
     jobs = job_service_pb2_grpc.JobServiceStub(channel)
     for message in jobs.WatchJob(job_service_pb2.WatchJobRequest(name=name)):
         if message.HasField("event"):
@@ -76,13 +75,13 @@ def wait(channel, name):
 
 
 def fetch(channel, name, folder):
-    """Downloads one artifact, checks it, and puts it into `folder`; returns its path."""
+    """Downloads one artifact into `folder` and checks it; returns its path."""
     artifacts = artifact_service_pb2_grpc.ArtifactServiceStub(channel)
     artifact = artifacts.GetArtifact(artifact_service_pb2.GetArtifactRequest(name=name))
     pieces = artifacts.DownloadArtifact(artifact_service_pb2.DownloadArtifactRequest(name=name))
     content = b"".join(piece.data for piece in pieces)
     if hashlib.sha256(content).hexdigest() != artifact.sha256:
-        sys.exit(f"{name}: the bytes received do not have its SHA-256; run this again")
+        sys.exit(f"{name}: SHA-256 does not match the bytes received; run this again")
     os.makedirs(folder, exist_ok=True)
     path = os.path.join(folder, name.rsplit("/", 1)[1])
     with open(path + ".part", "wb") as file:
@@ -93,11 +92,11 @@ def fetch(channel, name, folder):
 
 def main():
     """Runs the example."""
-    parser = argparse.ArgumentParser(description="Submits a simulation and fetches its film image.")
+    parser = argparse.ArgumentParser(description="Submit a simulation and fetch its film image.")
     parser.add_argument("--server", default=os.environ.get("HYDROPRINT_SERVER", "127.0.0.1:50051"))
     parser.add_argument("--mesh", required=True, help="OBJ, STL, PLY, glTF or GLB, without other files")
     parser.add_argument("--texture", help="PNG, JPEG or TIFF")
-    parser.add_argument("--dpi", type=float, help="of the film image")
+    parser.add_argument("--dpi", type=float, help="resolution of the film image")
     parser.add_argument("--out", default=".", help="folder for film.png")
     arguments = parser.parse_args()
 

@@ -7,6 +7,7 @@
 #include "daemon/api/services.h"
 #include "daemon/auth/visibility.h"
 #include "daemon/platform/resource_names.h"
+#include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "daemon/store/to_proto.h"
 #include "hydroprint/v1/artifact_service.grpc.pb.h"
@@ -38,7 +39,7 @@ class ArtifactService final : public v1::ArtifactService::Service {
 
  private:
   Status check_sight(const grpc::ServerContext& context, std::int64_t id) {
-    HP_ASSIGN_OR_RETURN(const auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const Job job, backend_.jobs.get(id));
     return check_may_see(caller, job);
   }

@@ -3,6 +3,7 @@
 #include "daemon/jobs/field_check.h"
 #include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
+#include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "daemon/store/to_proto.h"
 #include "hydroprint/v1/asset_service.grpc.pb.h"
@@ -78,7 +79,7 @@ class AssetService final : public v1::AssetService::Service {
   }
 
   Result<AssetUser> user_of(const grpc::ServerContext& context) const {
-    HP_ASSIGN_OR_RETURN(const auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     return asset_user(caller);
   }
 

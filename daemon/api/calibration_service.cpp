@@ -5,6 +5,7 @@
 #include "daemon/jobs/field_check.h"
 #include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
+#include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "daemon/store/to_proto.h"
 #include "hydroprint/v1/calibration_service.grpc.pb.h"
@@ -48,7 +49,7 @@ class CalibrationService final : public v1::CalibrationService::Service {
  private:
   grpc::Status answer(const grpc::ServerContext& context, const Result<Calibration>& calibration,
                       v1::Calibration* reply) {
-    const auto caller = backend_.access.caller(context);
+    const auto caller = caller_of(context);
     if (!caller) return to_grpc(caller.error());
     if (!calibration) return to_grpc(calibration.error());
     *reply = to_message(*calibration, backend_.places.place());
@@ -58,7 +59,7 @@ class CalibrationService final : public v1::CalibrationService::Service {
 
   Status list(const grpc::ServerContext& context, const v1::ListCalibrationsRequest& request,
               v1::ListCalibrationsResponse& reply) {
-    HP_ASSIGN_OR_RETURN(const auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     HP_ASSIGN_OR_RETURN(const std::int64_t before, number_token(request.page_token()));
     HP_ASSIGN_OR_RETURN(auto found, backend_.calibrations.list(before, size + 1));

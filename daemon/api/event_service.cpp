@@ -6,6 +6,7 @@
 #include "daemon/platform/cached.h"
 #include "daemon/platform/resource_names.h"
 #include "daemon/rig/to_proto_rig.h"
+#include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "daemon/store/to_proto.h"
 #include "hydroprint/v1/event_service.grpc.pb.h"
@@ -76,7 +77,7 @@ class EventWatch {
       HP_RETURN_IF_ERROR(send_lease());
       HP_RETURN_IF_ERROR(send_queue());
       HP_RETURN_IF_ERROR(check_serving(backend_));
-      HP_RETURN_IF_ERROR(backend_.access.check_still(context));
+      HP_RETURN_IF_ERROR(backend_.access.check_still(caller_));
       if (context.IsCancelled()) return fail(Code::kCancelled, "the client left");
       if (is_all) backend_.jobs.notifier().wait(rings, topics_.rig ? kRigPeriod : kEventNap);
     }
@@ -174,7 +175,7 @@ class EventService final : public v1::EventService::Service {
   Status watch(const grpc::ServerContext& context, const v1::WatchEventsRequest& request,
                grpc::ServerWriter<v1::WatchEventsResponse>& writer) {
     HP_ASSIGN_OR_RETURN(const Topics topics, topics_of(request));
-    HP_ASSIGN_OR_RETURN(auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(auth::Caller caller, caller_of(context));
     const auto after = request.has_after_seq() ? std::optional(request.after_seq()) : std::nullopt;
     return EventWatch(backend_, shared_, topics, std::move(caller), writer).run(context, after);
   }

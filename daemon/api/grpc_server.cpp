@@ -6,9 +6,9 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
 
+#include "daemon/api/audit_interceptor.h"
+#include "daemon/api/call_forwarder.h"
 #include "daemon/api/services.h"
-#include "daemon/auth/audit_interceptor.h"
-#include "daemon/auth/role_check.h"
 #include "daemon/platform/log.h"
 #include "daemon/tls/grpc_credentials.h"
 
@@ -24,100 +24,126 @@ constexpr int kHandshake_ms = 10'000;
 constexpr int kIdle_ms = 600'000;  // without a call; clients come back by themselves
 
 constexpr const char* kRigService = "hydroprint.v1.RigService";  // serves while the rig works
-struct Made {
+struct NamedService {
   const char* name;
   std::unique_ptr<grpc::Service> (*make)(const ServiceContext&);
 };
-constexpr Made kServices[] = {{"hydroprint.v1.JobService", make_job_service},
-                              {"hydroprint.v1.QueueService", make_queue_service},
-                              {"hydroprint.v1.AssetService", make_asset_service},
-                              {"hydroprint.v1.ArtifactService", make_artifact_service},
-                              {"hydroprint.v1.CalibrationService", make_calibration_service},
-                              {"hydroprint.v1.PreviewService", make_preview_service},
-                              {"hydroprint.v1.CameraService", make_camera_service},
-                              {"hydroprint.v1.LeaseService", make_lease_service},
-                              {"hydroprint.v1.PeopleService", make_people_service},
-                              {"hydroprint.v1.EventService", make_event_service},
-                              {kRigService, make_rig_service}};
+constexpr NamedService kServices[] = {
+    {"hydroprint.v1.JobService", make_job_service},
+    {"hydroprint.v1.QueueService", make_queue_service},
+    {"hydroprint.v1.AssetService", make_asset_service},
+    {"hydroprint.v1.ArtifactService", make_artifact_service},
+    {"hydroprint.v1.CalibrationService", make_calibration_service},
+    {"hydroprint.v1.PreviewService", make_preview_service},
+    {"hydroprint.v1.CameraService", make_camera_service},
+    {"hydroprint.v1.LeaseService", make_lease_service},
+    {"hydroprint.v1.PeopleService", make_people_service},
+    {"hydroprint.v1.EventService", make_event_service},
+    {kRigService, make_rig_service}};
 
-// gRPC's own words go where ours go. Whoever does not get through the handshake is no trouble of
-// the daemon's, and could fill the log.
-void log_of_grpc(gpr_log_func_args* said) {
-  const bool is_ours = said->severity == GPR_LOG_SEVERITY_ERROR &&
-                       std::string_view(said->file).find("ssl_") == std::string_view::npos;
-  log(is_ours ? LogLevel::kWarning : LogLevel::kDebug, "grpc", {{"message", said->message}});
+// gRPC logs to the daemon's log. Failed handshakes are the client's problem and could fill the log,
+// so they are debug messages.
+void log_of_grpc(gpr_log_func_args* entry) {
+  const bool is_ours = entry->severity == GPR_LOG_SEVERITY_ERROR &&
+                       std::string_view(entry->file).find("ssl_") == std::string_view::npos;
+  log(is_ours ? LogLevel::kWarning : LogLevel::kDebug, "grpc", {{"message", entry->message}});
 }
 
 }  // namespace
 
 struct Server::Impl {
-  Endpoint endpoint;
+  Impl(RoleCheck checked, const ServiceContext& backend) : roles(std::move(checked)) {
+    for (const NamedService& service : kServices) services.push_back(service.make(backend));
+  }
+
+  RoleCheck roles;
   std::vector<std::unique_ptr<grpc::Service>> services;
-  std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
-  std::unique_ptr<grpc::Server> server;
+  std::unique_ptr<grpc::Server> within;  // the services; listens nowhere
+  std::unique_ptr<CallForwarder> forwarder;
+  std::unique_ptr<grpc::Server> server;  // the endpoint
+  Endpoint endpoint;
+
+  void start_services(bool reflection, auth::AuditLog& audit);
+  Status listen(grpc::ServerBuilder& builder, const Endpoint& wanted,
+                tls::CurrentIdentity identity);
 
   void set(const char* service, bool serving) const {
-    server->GetHealthCheckService()->SetServingStatus(service, serving);
+    within->GetHealthCheckService()->SetServingStatus(service, serving);
   }
   void set_rig_serving(bool serving) const { set(kRigService, serving); }
   void set_serving(bool serving) const {
     set("", serving);
-    for (const Made& service : kServices) {
+    for (const NamedService& service : kServices) {
       if (std::string_view(service.name) != kRigService) set(service.name, serving);
     }
     if (!serving) set_rig_serving(false);
   }
 };
 
-Server::Server() : impl_(std::make_unique<Impl>()) {}
+void Server::Impl::start_services(bool reflection, auth::AuditLog& audit) {
+  grpc::EnableDefaultHealthCheckService(true);
+  if (reflection) grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  grpc::ServerBuilder builder;
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+  interceptors.push_back(make_audit_interceptor(audit));
+  builder.experimental().SetInterceptorCreators(std::move(interceptors));
+  builder.SetResourceQuota(grpc::ResourceQuota("hydroprintd").SetMaxThreads(kMostThreads));
+  for (const auto& service : services) builder.RegisterService(service.get());
+  within = builder.BuildAndStart();
+  grpc::EnableDefaultHealthCheckService(false);  // not of the endpoint itself
+}
+
+Status Server::Impl::listen(grpc::ServerBuilder& builder, const Endpoint& wanted,
+                            tls::CurrentIdentity identity) {
+  // Without this a second daemon would silently share the port.
+  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+  // Clients that say nothing are disconnected.
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshake_ms);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdle_ms);
+  const auto credentials =
+      identity ? tls_credentials(std::move(identity)) : grpc::InsecureServerCredentials();
+  int port = 0;
+  builder.AddListeningPort(wanted.text(), credentials, &port);
+  builder.RegisterCallbackGenericService(forwarder.get());
+  server = builder.BuildAndStart();
+  if (!server || port == 0) {
+    return fail(Code::kUnavailable,
+                "cannot listen at " + wanted.text() +
+                    ": the address is in use, perhaps by another hydroprintd; stop that, or give "
+                    "another port with --grpc");
+  }
+  endpoint = {wanted.host, port};
+  return {};
+}
+
+Server::Server(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Server::~Server() = default;
 
 Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool reflection,
                                               const ServiceContext& backend,
                                               tls::CurrentIdentity identity) {
   gpr_set_log_function(log_of_grpc);
-  grpc::EnableDefaultHealthCheckService(true);
-  if (reflection) grpc::reflection::InitProtoReflectionServerBuilderPlugin();
-  std::unique_ptr<Server> made(new Server);
-  Impl& impl = *made->impl_;
-  for (const Made& service : kServices) {
-    HP_ASSIGN_OR_RETURN(
-        auto gate, guarded(service.name, service.make(backend), backend.access, {"StopMotion"}));
-    impl.services.push_back(std::move(gate));
-  }
-
-  grpc::ServerBuilder builder;
-  // Without this a second daemon would silently share the port.
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> taps;
-  taps.push_back(make_audit_tap(backend.access, backend.audit));
-  builder.experimental().SetInterceptorCreators(std::move(taps));
-  builder.SetResourceQuota(grpc::ResourceQuota("hydroprintd").SetMaxThreads(kMostThreads));
-  for (const auto& service : impl.services) builder.RegisterService(service.get());
-  // Strangers that say nothing are let go.
-  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshake_ms);
-  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdle_ms);
-  if (identity) impl.credentials = tls_credentials(std::move(identity));
-  int port = 0;
-  builder.AddListeningPort(endpoint.text(), impl.credentials, &port);
-  impl.server = builder.BuildAndStart();
-  if (!impl.server || port == 0) {
-    return fail(Code::kUnavailable,
-                "cannot listen at " + endpoint.text() +
-                    ": something else does, perhaps another hydroprintd; stop that or give another "
-                    "port with --grpc");
-  }
-  impl.endpoint = {endpoint.host, port};
+  std::vector<std::string> names;
+  for (const NamedService& service : kServices) names.emplace_back(service.name);
+  HP_ASSIGN_OR_RETURN(RoleCheck roles, RoleCheck::make(backend.access, names));
+  std::unique_ptr<Server> server(new Server(std::make_unique<Impl>(std::move(roles), backend)));
+  Impl& impl = *server->impl_;
+  grpc::ServerBuilder builder;  // before reflection is switched on, which would join the endpoint
+  impl.start_services(reflection, backend.audit);
+  impl.forwarder = std::make_unique<CallForwarder>(server->in_process(), impl.roles);
+  HP_RETURN_IF_ERROR(impl.listen(builder, endpoint, std::move(identity)));
   impl.set_rig_serving(false);
   impl.set_serving(true);
-  return made;
+  return server;
 }
 
 std::shared_ptr<grpc::Channel> Server::in_process() const {
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(kMostAnswer_bytes);
-  return impl_->server->InProcessChannel(arguments);
+  return impl_->within->InProcessChannel(arguments);
 }
+
+const RoleCheck& Server::roles() const { return impl_->roles; }
 
 const Endpoint& Server::endpoint() const { return impl_->endpoint; }
 
@@ -125,8 +151,11 @@ void Server::set_rig_serving(bool serving) { impl_->set_rig_serving(serving); }
 
 void Server::stop(std::chrono::milliseconds patience) {
   impl_->set_serving(false);
-  impl_->server->Shutdown(std::chrono::system_clock::now() + patience);
+  const auto deadline = std::chrono::system_clock::now() + patience;
+  impl_->server->Shutdown(deadline);
   impl_->server->Wait();
+  impl_->within->Shutdown(deadline);
+  impl_->within->Wait();
 }
 
 }  // namespace hydroprint::daemon

@@ -5,6 +5,7 @@
 #include "daemon/jobs/registry.h"
 #include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
+#include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "daemon/store/to_proto.h"
 #include "hydroprint/v1/job_service.grpc.pb.h"
@@ -86,7 +87,7 @@ class JobService final : public v1::JobService::Service {
  private:
   grpc::Status answer(const grpc::ServerContext& context, const Result<Job>& job,
                       v1::Job* reply) const {
-    const auto caller = backend_.access.caller(context);
+    const auto caller = caller_of(context);
     if (!caller) return to_grpc(caller.error());
     if (!job) return to_grpc(job.error());
     *reply = shown_to(*caller, *job);
@@ -100,7 +101,7 @@ class JobService final : public v1::JobService::Service {
 
   // A job that the caller may change.
   Result<Job> own(const grpc::ServerContext& context, const std::string& name) const {
-    HP_ASSIGN_OR_RETURN(const auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const Job job, get(name));
     HP_RETURN_IF_ERROR(check_may_change(caller, job));
     return job;
@@ -124,7 +125,7 @@ class JobService final : public v1::JobService::Service {
 
   Result<Job> create(const grpc::ServerContext& context, const v1::CreateJobRequest& request) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
-    HP_ASSIGN_OR_RETURN(const auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const JobKind* const kind, kind_of(request.job()));
     HP_RETURN_IF_ERROR(check_may_create(caller, kind->least_role(), request.job(), backend_.jobs,
                                         backend_.assets));
@@ -171,7 +172,7 @@ class JobService final : public v1::JobService::Service {
     HP_ASSIGN_OR_RETURN(const Job old, own(context, request.name()));
     HP_ASSIGN_OR_RETURN(const JobKind* const kind, kind_of(old));
     HP_RETURN_IF_ERROR(check_may_retry(old, *kind));
-    HP_ASSIGN_OR_RETURN(const auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     JobRequest again;
     again.job = to_message(old);
     HP_RETURN_IF_ERROR(
@@ -195,7 +196,7 @@ class JobService final : public v1::JobService::Service {
 
   Status list(const grpc::ServerContext& context, const v1::ListJobsRequest& request,
               v1::ListJobsResponse& reply) {
-    HP_ASSIGN_OR_RETURN(const auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     JobFilter filter;
     for (const int state : request.states()) {
@@ -226,7 +227,7 @@ class JobService final : public v1::JobService::Service {
   Status watch(const grpc::ServerContext& context, const v1::WatchJobRequest& request,
                grpc::ServerWriter<v1::WatchJobResponse>& writer) {
     HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.name()));
-    HP_ASSIGN_OR_RETURN(const auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     const auto after = request.has_after_seq() ? std::optional(request.after_seq()) : std::nullopt;
     const auto send = [&](const WatchItem& item) {
       v1::WatchJobResponse message;
@@ -237,7 +238,7 @@ class JobService final : public v1::JobService::Service {
     };
     Status still;
     const Status end = watch_job(backend_, id, after, send, [&] {
-      still = backend_.access.check_still(context);
+      still = backend_.access.check_still(caller);
       return !still || context.IsCancelled();
     });
     return still ? end : still;

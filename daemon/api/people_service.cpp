@@ -4,6 +4,7 @@
 #include "daemon/jobs/field_check.h"
 #include "daemon/platform/log.h"
 #include "daemon/platform/resource_names.h"
+#include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "daemon/store/to_proto.h"
 #include "hydroprint/v1/people_service.grpc.pb.h"
@@ -155,7 +156,7 @@ class PeopleService final : public v1::PeopleService::Service {
     if (!outcome && outcome.error().reason == "TOO_MANY_ATTEMPTS") return;
     auth::AuditEntry entry;
     entry.via = request.link_token().empty() ? "password" : "link";
-    entry.peer = peer_address(context);
+    entry.peer = credentials_of(context).peer;
     entry.what = "PeopleService.SignIn";
     entry.outcome = outcome ? "OK" : std::string(code_name(outcome.error().code));
     if (outcome) {
@@ -176,7 +177,7 @@ class PeopleService final : public v1::PeopleService::Service {
     if (request.link_token().empty() == request.user().empty()) {
       return invalid_field("user", "is needed, with a password, or a link_token instead");
     }
-    const std::string peer = peer_address(context);
+    const std::string peer = credentials_of(context).peer;
     const auto in = request.link_token().empty()
                         ? backend_.accounts.sign_in(request.user(), request.password(), peer)
                         : backend_.accounts.sign_in_by_link(request.link_token(), peer);
@@ -190,18 +191,18 @@ class PeopleService final : public v1::PeopleService::Service {
   }
 
   Status sign_out(const grpc::ServerContext& context) {
-    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     return caller.session.empty() ? Status() : backend_.accounts.end_session(caller.session);
   }
 
   Status who(const grpc::ServerContext& context, v1::WhoAmIResponse& reply) {
-    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     reply.set_user(caller.name);
     reply.set_role(static_cast<v1::Role>(caller.role));
     reply.set_via(caller.via);
     reply.set_accounts(caller.is_user);
     if (!caller.session.empty()) {
-      reply.set_csrf_token(auth::csrf_token(metadata_of(context, "hydroprint-session")));
+      reply.set_csrf_token(auth::csrf_token(caller.credentials.session));
     }
     const auto user = backend_.accounts.user(caller.name);
     reply.set_has_password(user && !user->password.empty());
@@ -210,7 +211,7 @@ class PeopleService final : public v1::PeopleService::Service {
 
   Status usage(const grpc::ServerContext& context, const v1::GetUsageRequest& request,
                v1::Usage& reply) {
-    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     const std::string& owner = request.owner().empty() ? caller.name : request.owner();
     if (owner != caller.name) HP_RETURN_IF_ERROR(check_role(caller, Role::kAdmin));
     HP_ASSIGN_OR_RETURN(const Usage usage, backend_.assets.usage(owner));
@@ -251,7 +252,7 @@ class PeopleService final : public v1::PeopleService::Service {
   Result<auth::User> set_password(const grpc::ServerContext& context,
                                   const v1::SetPasswordRequest& request) {
     HP_ASSIGN_OR_RETURN(const std::string name, name_in("users", request.name()));
-    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     const bool is_own = caller.name == name && caller.is_user;
     if (!is_own) HP_RETURN_IF_ERROR(check_role(caller, Role::kAdmin));
     HP_ASSIGN_OR_RETURN(const auth::User user, backend_.accounts.user(name));
@@ -268,7 +269,7 @@ class PeopleService final : public v1::PeopleService::Service {
                             const std::string& password, const grpc::ServerContext& context) {
     if (user.password.empty() && !caller.session.empty()) return {};
     const Status right =
-        backend_.accounts.check_password(user.name, password, peer_address(context));
+        backend_.accounts.check_password(user.name, password, credentials_of(context).peer);
     if (right || right.error().code != Code::kUnauthenticated) return right;
     return fail(Code::kPermissionDenied,
                 "old_password: is not the one that holds; ask an admin for a new one",
@@ -293,7 +294,7 @@ class PeopleService final : public v1::PeopleService::Service {
 
   Status list_keys(const grpc::ServerContext& context, const v1::ListApiKeysRequest& request,
                    v1::ListApiKeysResponse& reply) {
-    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     HP_ASSIGN_OR_RETURN(const std::string user, wanted(caller, request.user()));
     auto keys =
@@ -305,7 +306,7 @@ class PeopleService final : public v1::PeopleService::Service {
 
   Status create_key(const grpc::ServerContext& context, const v1::CreateApiKeyRequest& request,
                     v1::CreateApiKeyResponse& reply) {
-    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     if (!caller.is_user) {
       return fail(Code::kFailedPrecondition,
                   "there are no users yet, and nobody needs a key; create a user first",
@@ -325,7 +326,7 @@ class PeopleService final : public v1::PeopleService::Service {
   }
 
   Status delete_key(const grpc::ServerContext& context, const v1::DeleteApiKeyRequest& request) {
-    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("apiKeys", request.name()));
     const auto key = backend_.accounts.key(id);
     if (!key || is_hidden(caller, key->user)) {
@@ -336,7 +337,7 @@ class PeopleService final : public v1::PeopleService::Service {
 
   Status list_sessions(const grpc::ServerContext& context, const v1::ListSessionsRequest& request,
                        v1::ListSessionsResponse& reply) {
-    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     HP_ASSIGN_OR_RETURN(const std::string user, wanted(caller, request.user()));
     auto sessions =
@@ -356,7 +357,7 @@ class PeopleService final : public v1::PeopleService::Service {
   }
 
   Status revoke(const grpc::ServerContext& context, const v1::RevokeSessionRequest& request) {
-    HP_ASSIGN_OR_RETURN(const Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("sessions", request.name()));
     const auto session = backend_.accounts.session(id);
     if (!session || is_hidden(caller, session->user)) {

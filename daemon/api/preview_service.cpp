@@ -3,6 +3,7 @@
 
 #include "daemon/api/services.h"
 #include "daemon/auth/visibility.h"
+#include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "daemon/store/to_proto.h"
 #include "hydroprint/v1/preview_service.grpc.pb.h"
@@ -67,7 +68,7 @@ class PreviewService final : public v1::PreviewService::Service {
   Status compute(const grpc::ServerContext& context, const v1::ComputePreviewRequest& request,
                  v1::Preview& reply) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
-    HP_ASSIGN_OR_RETURN(const auth::Caller caller, backend_.access.caller(context));
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     const std::string& owner = caller.name;
     HP_RETURN_IF_ERROR(check_may_use_files(caller, request, backend_.assets));
     HP_ASSIGN_OR_RETURN(const PreviewRequest ask, check_preview(request));

@@ -7,6 +7,7 @@
 #include "daemon/jobs/field_check.h"
 #include "daemon/platform/log.h"
 #include "daemon/rig/to_proto_rig.h"
+#include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "daemon/store/idempotency.h"
 #include "daemon/store/to_proto.h"
@@ -34,12 +35,8 @@ class RigService final
   grpc::ServerUnaryReactor* StopMotion(grpc::CallbackServerContext* context,
                                        const v1::StopMotionRequest*, v1::Rig* reply) override {
     grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
-    const auto caller = backend_.access.caller(*context);  // whoever is known may stop
-    if (!caller && caller.error().code == Code::kUnauthenticated) {
-      reactor->Finish(to_grpc(caller.error()));
-      return reactor;
-    }
     if (backend_.gateway.controller() != nullptr) backend_.gateway.controller()->stop();
+    const auto caller = caller_of(*context);
     backend_.gateway.note_stop(caller ? caller->name : "somebody");
     *reply = rig_message(backend_.gateway);
     reactor->Finish(grpc::Status::OK);
@@ -181,11 +178,12 @@ class RigService final
     const auto period = std::chrono::duration_cast<SteadyClock::duration>(
         std::chrono::duration<double>(1 / rate_hz));
     const auto quietest = std::max<SteadyClock::duration>(kQuietest, period);
+    HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     v1::Rig sent;
     SteadyClock::time_point sent_at;
     for (bool first = true;; std::this_thread::sleep_for(kWatchLook)) {
       HP_RETURN_IF_ERROR(check_serving(backend_));
-      HP_RETURN_IF_ERROR(backend_.access.check_still(context));
+      HP_RETURN_IF_ERROR(backend_.access.check_still(caller));
       if (context.IsCancelled()) return fail(Code::kCancelled, "the client left");
       const auto since = SteadyClock::now() - sent_at;
       // A sleep may be short by a little, and the rate must not halve for it.

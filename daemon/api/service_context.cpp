@@ -1,12 +1,13 @@
 #include "daemon/api/service_context.h"
 
 #include "daemon/platform/resource_names.h"
+#include "daemon/rpc/caller_metadata.h"
 
 namespace hydroprint::daemon {
 
 Result<std::string> owner_of(const ServiceContext& backend,
                              const grpc::ServerContextBase& context) {
-  HP_ASSIGN_OR_RETURN(auth::Caller caller, backend.access.caller(context));
+  HP_ASSIGN_OR_RETURN(auth::Caller caller, caller_of(context));
   return std::move(caller).name;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace hydroprint::auth {
@@ -42,13 +43,22 @@ struct Session {
   std::int64_t use_ms = 0;
 };
 
-/// Who makes a call.
+/// The headers of a request that say who calls.
+struct Credentials {
+  std::string authorization;         ///< "Bearer KEY"; empty without
+  std::string session;               ///< token of the session cookie; empty without
+  std::optional<std::string> owner;  ///< Hydroprint-Owner: the name to use while there are no users
+  std::string peer;                  ///< address without port; empty within this process
+};
+
+/// The user or program that makes a request. Authenticator establishes it once per request.
 struct Caller {
   std::string name;
   Role role = Role::kViewer;
-  std::string via;      ///< "session", "key 0a1b...", "loopback"
-  std::string session;  ///< id of the session, if it is one
-  bool is_user = true;  ///< false: there are no users, and whoever is on this machine is admin
+  std::string via;            ///< "session", "key 0a1b...", "loopback"
+  std::string session;        ///< id of the session; empty if there is none
+  bool is_user = true;        ///< false: there are no users, and callers on this machine are admins
+  Credentials credentials{};  ///< as presented
 };
 
 }  // namespace hydroprint::auth

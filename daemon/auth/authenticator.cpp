@@ -9,11 +9,9 @@ namespace {
 
 constexpr std::string_view kBearer = "Bearer ";
 
-// Whoever they say they are, in a name that jobs can be owned by.
-Result<std::string> claimed_name(const grpc::ServerContextBase& context) {
-  const auto& metadata = context.client_metadata();
-  if (metadata.find("hydroprint-owner") == metadata.end()) return std::string("anonymous");
-  std::string owner = metadata_of(context, "hydroprint-owner");
+Result<std::string> claimed_name(const auth::Credentials& credentials) {
+  if (!credentials.owner) return std::string("anonymous");
+  const std::string& owner = *credentials.owner;
   const bool printable =
       std::all_of(owner.begin(), owner.end(), [](char c) { return c > ' ' && c < 0x7f; });
   if (owner.empty() || owner.size() > 64 || !printable) {
@@ -23,71 +21,46 @@ Result<std::string> claimed_name(const grpc::ServerContextBase& context) {
   return owner;
 }
 
-// Calls over TCP have such an address and no other; those within the process have none.
-bool is_over_network(const std::string& peer) {
-  return peer.starts_with("ipv4:") || peer.starts_with("ipv6:");
-}
-
-// "ipv4:127.0.0.1:50051" or "ipv6:%5B::1%5D:50051" without family, port and brackets.
-std::string address_in(const std::string& peer) {
-  std::string host = peer.substr(5, peer.rfind(':') - 5);
-  for (const char* bracket : {"%5B", "%5D", "[", "]"}) {
-    if (const auto at = host.find(bracket); at != std::string::npos) {
-      host.erase(at, std::string_view(bracket).size());
-    }
-  }
-  return host;
-}
-
 }  // namespace
-
-std::string metadata_of(const grpc::ServerContextBase& context, const char* name) {
-  const auto& metadata = context.client_metadata();
-  const auto found = metadata.find(name);
-  if (found == metadata.end()) return {};
-  return {found->second.data(), found->second.size()};
-}
-
-std::string peer_address(const grpc::ServerContextBase& context) {
-  const std::string peer = context.peer();
-  if (is_over_network(peer)) return address_in(peer);
-  return metadata_of(context, "hydroprint-peer").substr(0, 100);
-}
 
 bool is_loopback(const std::string& address) {
   return address.empty() || address == "::1" || address.starts_with("127.") ||
          address.starts_with("::ffff:127.");
 }
 
-Status Authenticator::check_still(const grpc::ServerContextBase& context) const {
-  HP_RETURN_IF_ERROR(caller(context, false));
+tl::unexpected<Error> sign_in_needed(const auth::Credentials& credentials) {
+  const bool has_some = !credentials.authorization.empty() || !credentials.session.empty();
+  return fail(Code::kUnauthenticated,
+              has_some ? "the API key or the session is not valid (any more); sign in again, or "
+                         "create another API key"
+                       : "sign in (hydroprint login), or give an API key",
+              "SIGN_IN_NEEDED");
+}
+
+Status Authenticator::check_still(const auth::Caller& caller) const {
+  HP_RETURN_IF_ERROR(this->caller(caller.credentials, false));
   return {};
 }
 
-Result<auth::Caller> Authenticator::caller(const grpc::ServerContextBase& context,
+Result<auth::Caller> Authenticator::caller(const auth::Credentials& credentials,
                                            bool is_use) const {
-  if (open_on_loopback_ && !accounts_.any() && is_loopback(peer_address(context))) {
-    HP_ASSIGN_OR_RETURN(const std::string name, claimed_name(context));
-    return auth::Caller{name, auth::Role::kAdmin, "loopback", "", false};
+  if (open_on_loopback_ && !accounts_.any() && is_loopback(credentials.peer)) {
+    HP_ASSIGN_OR_RETURN(const std::string name, claimed_name(credentials));
+    return auth::Caller{name, auth::Role::kAdmin, "loopback", "", false, credentials};
   }
-  const std::string authorization = metadata_of(context, "authorization");
-  const std::string session = metadata_of(context, "hydroprint-session");
   std::optional<auth::Caller> caller;
-  if (!authorization.empty()) {
-    // A key that does not hold is not made up for by a session.
-    if (authorization.starts_with(kBearer)) {
-      caller = accounts_.by_key(std::string_view(authorization).substr(kBearer.size()), is_use);
+  if (!credentials.authorization.empty()) {
+    // An invalid key is refused even beside a valid session.
+    if (credentials.authorization.starts_with(kBearer)) {
+      const auto key = std::string_view(credentials.authorization).substr(kBearer.size());
+      caller = accounts_.by_key(key, is_use);
     }
-  } else if (!session.empty()) {
-    caller = accounts_.by_session(session, is_use);
+  } else if (!credentials.session.empty()) {
+    caller = accounts_.by_session(credentials.session, is_use);
   }
-  if (caller) return *caller;
-  const bool has_some = !authorization.empty() || !session.empty();
-  return fail(Code::kUnauthenticated,
-              has_some ? "the key or the session does not hold (any more); sign in again, or make "
-                         "another key"
-                       : "this needs a user; sign in (hydroprint login), or give an API key",
-              "SIGN_IN_NEEDED");
+  if (!caller) return sign_in_needed(credentials);
+  caller->credentials = credentials;
+  return *std::move(caller);
 }
 
 Status check_role(const auth::Caller& caller, auth::Role needed) {
@@ -99,13 +72,6 @@ Status check_role(const auth::Caller& caller, auth::Role needed) {
   refused.value().metadata = {{"role", auth::name_of(caller.role)},
                               {"needed", auth::name_of(needed)}};
   return refused;
-}
-
-Result<auth::Caller> Authenticator::admit(const grpc::ServerContextBase& context,
-                                          auth::Role needed) const {
-  HP_ASSIGN_OR_RETURN(auth::Caller caller, this->caller(context));
-  HP_RETURN_IF_ERROR(check_role(caller, needed));
-  return caller;
 }
 
 }  // namespace hydroprint::daemon

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <grpcpp/server_context.h>
-
 #include <string>
 
 #include "daemon/auth/account.h"
@@ -10,31 +8,26 @@
 
 namespace hydroprint::daemon {
 
-/// Tells who makes a call, by its metadata (PeopleService says which). Never waits. Any thread may
-/// call.
+/// Establishes the caller of a request from its credentials. Never waits. Any thread may call.
 class Authenticator {
  public:
-  /// @param open_on_loopback  whether, while there is no user, everybody on this machine is admin
+  /// @param open_on_loopback  whether everyone on this machine is admin while there are no users
   Authenticator(auth::Accounts& accounts, bool open_on_loopback)
       : accounts_(accounts), open_on_loopback_(open_on_loopback) {}
 
-  /// Who calls.
-  /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for a `hydroprint-owner` that is no
-  /// name,
-  ///   where that counts
-  [[nodiscard]] Result<auth::Caller> caller(const grpc::ServerContextBase& context) const {
-    return caller(context, true);
+  /// The caller; marks the session or key as used.
+  /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for a malformed `hydroprint-owner`
+  ///   where that name counts
+  [[nodiscard]] Result<auth::Caller> caller(const auth::Credentials& credentials) const {
+    return caller(credentials, true);
   }
-  /// Whether whoever makes a call that goes on and on may still make it: streams ask this a few
-  /// times a second, and end with it. Being watched does not keep a session alive.
+  /// Whether the credentials of an established caller still hold. Streams ask this a few times a
+  /// second and end if not. Does not mark the session as used.
   /// @return kUnauthenticated, SIGN_IN_NEEDED
-  [[nodiscard]] Status check_still(const grpc::ServerContextBase& context) const;
-  /// Who calls, if their role is enough. As above; kPermissionDenied, ROLE_TOO_LOW.
-  [[nodiscard]] Result<auth::Caller> admit(const grpc::ServerContextBase& context,
-                                           auth::Role needed) const;
+  [[nodiscard]] Status check_still(const auth::Caller& caller) const;
 
  private:
-  [[nodiscard]] Result<auth::Caller> caller(const grpc::ServerContextBase& context,
+  [[nodiscard]] Result<auth::Caller> caller(const auth::Credentials& credentials,
                                             bool is_use) const;
 
   auth::Accounts& accounts_;
@@ -44,14 +37,10 @@ class Authenticator {
 /// Refuses (kPermissionDenied, ROLE_TOO_LOW) a caller with a lesser role.
 [[nodiscard]] Status check_role(const auth::Caller& caller, auth::Role needed);
 
-/// Address, without port, that a call came from: over HTTP what the metadata `hydroprint-peer`
-/// says, which only calls within this process can carry.
-[[nodiscard]] std::string peer_address(const grpc::ServerContextBase& context);
-
-/// Whether that is an address of this machine's own; so is none at all, within this process.
+/// Whether that is an address of this machine itself. An empty address is within this process.
 [[nodiscard]] bool is_loopback(const std::string& address);
 
-/// The value of a call's metadata; empty if it has none of that name.
-[[nodiscard]] std::string metadata_of(const grpc::ServerContextBase& context, const char* name);
+/// The refusal (kUnauthenticated, SIGN_IN_NEEDED) of a request without a known caller.
+[[nodiscard]] tl::unexpected<Error> sign_in_needed(const auth::Credentials& credentials);
 
 }  // namespace hydroprint::daemon

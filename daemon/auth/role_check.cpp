@@ -1,112 +1,13 @@
 #include "daemon/auth/role_check.h"
 
 #include <google/protobuf/descriptor.h>
-#include <google/protobuf/empty.pb.h>
-#include <google/protobuf/message_lite.h>
-#include <grpcpp/impl/codegen/proto_utils.h>
-#include <grpcpp/impl/rpc_service_method.h>
-#include <grpcpp/support/method_handler.h>
 
-#include <deque>
-
-#include "daemon/rpc/grpc_status.h"
 #include "hydroprint/v1/access.pb.h"
 
 namespace hydroprint::daemon {
-namespace {
 
-using google::protobuf::Empty;
 using google::protobuf::MethodDescriptor;
 using google::protobuf::ServiceDescriptor;
-using grpc::internal::MethodHandler;
-using grpc::internal::RpcMethod;
-using grpc::internal::RpcServiceMethod;
-
-// Gives access to what gRPC keeps for those who derive from its services.
-struct Opened : grpc::Service {
-  static MethodHandler* handler_of(grpc::Service& service, int index) {
-    return (service.*(&Opened::GetHandler))(index);
-  }
-};
-
-class GatedHandler final : public MethodHandler {
- public:
-  GatedHandler(MethodHandler& inner, const Authenticator& access, auth::Role needed)
-      : inner_(inner), access_(access), needed_(needed) {}
-
-  void RunHandler(const HandlerParameter& call) final {
-    const auto caller = access_.admit(*call.server_context, needed_);
-    if (caller) {
-      inner_.RunHandler(call);
-      return;
-    }
-    // The request is in the call's memory, and only its handler would have ended it.
-    if (call.request != nullptr) {
-      static_cast<google::protobuf::MessageLite*>(call.request)->~MessageLite();
-    }
-    // Of gRPC's handlers this one asks for no request before it answers.
-    grpc::internal::ClientStreamingHandler<grpc::Service, Empty, Empty>(
-        [&](auto&&...) { return to_grpc(caller.error()); }, nullptr)
-        .RunHandler(call);
-  }
-
-  void* Deserialize(grpc_call* call, grpc_byte_buffer* request, grpc::Status* status,
-                    void** data) final {
-    return inner_.Deserialize(call, request, status, data);
-  }
-
- private:
-  MethodHandler& inner_;
-  const Authenticator& access_;
-  auth::Role needed_;
-};
-
-class OpenHandler final : public MethodHandler {
- public:
-  explicit OpenHandler(MethodHandler& inner) : inner_(inner) {}
-  void RunHandler(const HandlerParameter& call) final { inner_.RunHandler(call); }
-  void* Deserialize(grpc_call* call, grpc_byte_buffer* request, grpc::Status* status,
-                    void** data) final {
-    return inner_.Deserialize(call, request, status, data);
-  }
-
- private:
-  MethodHandler& inner_;
-};
-
-RpcMethod::RpcType type_of(const MethodDescriptor& method) {
-  if (method.client_streaming()) {
-    return method.server_streaming() ? RpcMethod::BIDI_STREAMING : RpcMethod::CLIENT_STREAMING;
-  }
-  return method.server_streaming() ? RpcMethod::SERVER_STREAMING : RpcMethod::NORMAL_RPC;
-}
-
-class Gate final : public grpc::Service {
- public:
-  explicit Gate(std::unique_ptr<grpc::Service> inner) : inner_(std::move(inner)) {}
-
-  void add(const MethodDescriptor& method, const Need& need, const Authenticator& access,
-           bool checks_itself) {
-    MethodHandler& handler = *Opened::handler_of(*inner_, method.index());
-    names_.push_back("/" + method.service()->full_name() + "/" + method.name());
-    std::unique_ptr<MethodHandler> mine;
-    if (need && !checks_itself) {
-      mine = std::make_unique<GatedHandler>(handler, access, *need);
-    } else {
-      mine = std::make_unique<OpenHandler>(handler);
-    }
-    auto added =
-        std::make_unique<RpcServiceMethod>(names_.back().c_str(), type_of(method), mine.release());
-    if (checks_itself) added->SetServerApiType(RpcServiceMethod::ApiType::CALL_BACK);
-    AddMethod(added.release());  // which takes it
-  }
-
- private:
-  std::unique_ptr<grpc::Service> inner_;
-  std::deque<std::string> names_;  // gRPC keeps pointers to them
-};
-
-}  // namespace
 
 Result<Need> need_of(const MethodDescriptor& method) {
   const bool is_open = method.options().GetExtension(v1::without_sign_in);
@@ -120,20 +21,40 @@ Result<Need> need_of(const MethodDescriptor& method) {
                                    "role or without_sign_in (hydroprint/v1/access.proto)");
 }
 
-Result<std::unique_ptr<grpc::Service>> guarded(const std::string& name,
-                                               std::unique_ptr<grpc::Service> inner,
-                                               const Authenticator& access,
-                                               const std::set<std::string>& check_themselves) {
-  const ServiceDescriptor* const service =
-      google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(name);
-  if (service == nullptr) return fail(Code::kInternal, name + ": there is no such service");
-  auto gate = std::make_unique<Gate>(std::move(inner));
-  for (int i = 0; i < service->method_count(); ++i) {
-    const MethodDescriptor& method = *service->method(i);
-    HP_ASSIGN_OR_RETURN(const Need need, need_of(method));
-    gate->add(method, need, access, check_themselves.contains(method.name()));
+Result<RoleCheck> RoleCheck::make(const Authenticator& authenticator,
+                                  const std::vector<std::string>& services) {
+  RoleCheck check(authenticator);
+  for (const std::string& name : services) {
+    const ServiceDescriptor* const service =
+        google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(name);
+    if (service == nullptr) return fail(Code::kInternal, name + ": there is no such service");
+    for (int i = 0; i < service->method_count(); ++i) {
+      const MethodDescriptor& method = *service->method(i);
+      HP_ASSIGN_OR_RETURN(const Need need, need_of(method));
+      check.rules_["/" + name + "/" + method.name()] = {
+          need, method.options().GetExtension(v1::stops_motion)};
+    }
   }
-  return std::unique_ptr<grpc::Service>(std::move(gate));
+  return check;
+}
+
+Result<std::optional<auth::Caller>> RoleCheck::admit(std::string_view method,
+                                                     const auth::Credentials& credentials) const {
+  const auto found = rules_.find(method);
+  if (found == rules_.end()) {
+    return fail(Code::kUnimplemented, "this daemon has no such method", "METHOD_NOT_FOUND");
+  }
+  const auto& [need, stops_motion] = found->second;
+  auto caller = authenticator_->caller(credentials);
+  if (stops_motion && !caller && caller.error().code == Code::kInvalidArgument) {
+    auth::Credentials nameless = credentials;
+    nameless.owner.reset();
+    caller = authenticator_->caller(nameless);
+  }
+  if (!need) return caller ? std::optional(*std::move(caller)) : std::nullopt;
+  if (!caller) return tl::unexpected(caller.error());
+  HP_RETURN_IF_ERROR(check_role(*caller, *need));
+  return std::optional(*std::move(caller));
 }
 
 }  // namespace hydroprint::daemon

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <grpcpp/impl/service_type.h>
-
-#include <memory>
+#include <functional>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "daemon/auth/authenticator.h"
 
@@ -15,21 +15,40 @@ class MethodDescriptor;
 
 namespace hydroprint::daemon {
 
-/// The least role that may call a method; none: whoever reaches the daemon.
+/// The least role that may call a method; nullopt: no sign-in is needed.
 using Need = std::optional<auth::Role>;
 
-/// What a method states (access.proto).
-/// @return kInternal if it states nothing, or both
+/// The role that a method states in its options (access.proto).
+/// @return kInternal if it states none, or both a role and `without_sign_in`
 [[nodiscard]] Result<Need> need_of(const google::protobuf::MethodDescriptor& method);
 
-/// The same service behind a gate: each of its methods answers whoever may not call it before it
-/// looks at the request. This is the one place where roles are checked, and no method gets past it
-/// but those of `check_themselves`, which are answered by threads of their own (gRPC's callback
-/// API) and have to call Authenticator::admit.
-/// @param name  "hydroprint.v1.JobService"
-/// @return kInternal for a service with a method that states no role
-[[nodiscard]] Result<std::unique_ptr<grpc::Service>> guarded(
-    const std::string& name, std::unique_ptr<grpc::Service> inner, const Authenticator& access,
-    const std::set<std::string>& check_themselves);
+/// Admits requests, from their headers alone: the one place where roles are checked. Both endpoints
+/// ask it before they read a message or a body. Any thread may call.
+class RoleCheck {
+ public:
+  /// @param services  full names: "hydroprint.v1.JobService"
+  /// @return kInternal for a service that does not exist or a method that states no role
+  [[nodiscard]] static Result<RoleCheck> make(const Authenticator& authenticator,
+                                              const std::vector<std::string>& services);
+
+  /// Establishes the caller and checks the role. nullopt: the method needs no sign-in and the
+  /// caller is not known. A stop is never refused because of the name in `hydroprint-owner`.
+  /// @param method  "/hydroprint.v1.JobService/GetJob"
+  /// @return kUnauthenticated, SIGN_IN_NEEDED; kPermissionDenied, ROLE_TOO_LOW; kUnimplemented for
+  ///   an unknown method; as Authenticator::caller()
+  [[nodiscard]] Result<std::optional<auth::Caller>> admit(
+      std::string_view method, const auth::Credentials& credentials) const;
+
+ private:
+  explicit RoleCheck(const Authenticator& authenticator) : authenticator_(&authenticator) {}
+
+  struct Rule {
+    Need need;
+    bool stops_motion = false;
+  };
+
+  const Authenticator* authenticator_;
+  std::map<std::string, Rule, std::less<>> rules_;  // by method
+};
 
 }  // namespace hydroprint::daemon

@@ -1,7 +1,7 @@
 // The bytes of an artifact, as fast as they are read.
 #include "daemon/http/download.h"
 
-#include "daemon/http/caller_metadata.h"
+#include "daemon/http/credentials.h"
 #include "daemon/http/error_response.h"
 #include "daemon/http/protocol/async_value.h"
 #include "daemon/http/protocol/byte_range.h"
@@ -12,7 +12,8 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kDiskPatience{60'000};
-const std::string kService = "/hydroprint.v1.ArtifactService/";
+const std::string kGetArtifact = "/hydroprint.v1.ArtifactService/GetArtifact";
+const std::string kDownload = "/hydroprint.v1.ArtifactService/DownloadArtifact";
 
 Result<v1::Artifact> artifact_of(const Reply& reply) {
   v1::Artifact artifact;
@@ -66,7 +67,7 @@ Wanted wanted(const Head& head, const v1::Artifact& artifact, bool is_inline) {
 class Download {
  public:
   Download(ServerContext& server, Exchange& exchange, const InProcessChannel::Metadata& metadata)
-      : exchange_(exchange), stream_(server.rpc.stream(kService + "DownloadArtifact", metadata)) {}
+      : exchange_(exchange), stream_(server.rpc.stream(kDownload, metadata)) {}
 
   Task<void> run(const std::string& name, Wanted wanted) {
     v1::DownloadArtifactRequest request;
@@ -137,7 +138,7 @@ Task<std::string> answer_download(ServerContext& server, Exchange& exchange, Art
     co_await exchange.send(only_get());
     co_return route;
   }
-  const auto metadata = metadata_of(head, exchange.socket().peer());
+  const auto metadata = admit(server, exchange, kDownload);
   if (!metadata || !target.is_good) {
     Error error{Code::kInvalidArgument,
                 "of a download only inline=1 can be asked",
@@ -149,7 +150,7 @@ Task<std::string> answer_download(ServerContext& server, Exchange& exchange, Art
   }
   v1::GetArtifactRequest request;
   request.set_name(target.name);
-  rest::Call get{kService + "GetArtifact", false, request.SerializeAsString()};
+  rest::Call get{kGetArtifact, false, request.SerializeAsString()};
   const Reply reply = co_await call(server, exchange, std::move(get), *metadata);
   const Result<v1::Artifact> artifact = artifact_of(reply);
   if (!reply.ok() || !artifact) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "daemon/http/artifact_path.h"
-#include "daemon/http/caller_metadata.h"
+#include "daemon/http/credentials.h"
 #include "daemon/http/download.h"
 #include "daemon/http/error_response.h"
 #include "daemon/http/idempotency_key.h"
@@ -58,15 +58,10 @@ Task<std::string> answer_options(const ServerContext& server, Exchange& exchange
   co_return "options";
 }
 
-Task<void> answer_unary(ServerContext& server, Exchange& exchange, rest::Call request) {
-  const auto unprintable = request.stops_motion ? Unprintable::kReplace : Unprintable::kRefuse;
-  auto metadata = metadata_of(exchange.head(), exchange.socket().peer(), unprintable);
-  if (!metadata) {
-    co_await refuse(exchange, metadata.error());
-    co_return;
-  }
+Task<void> answer_unary(ServerContext& server, Exchange& exchange, rest::Call request,
+                        InProcessChannel::Metadata metadata) {
   const std::string method = request.method;
-  Reply reply = co_await call(server, exchange, std::move(request), std::move(*metadata));
+  Reply reply = co_await call(server, exchange, std::move(request), std::move(metadata));
   if (!reply.ok()) {
     co_await exchange.send(refusal(reply));
     co_return;
@@ -122,6 +117,15 @@ Task<std::string> answer_call(ServerContext& server, Exchange& exchange) {
   if (auto artifact = artifact_target(head.target)) {
     co_return co_await answer_download(server, exchange, std::move(*artifact));
   }
+  const bool wants_head = head.method == "HEAD";
+  const std::string http_method = wants_head ? "GET" : head.method;
+  const Result<std::string> method = server.transcoder.method_of(http_method, head.target);
+  if (!method) co_return co_await refuse_call(server, exchange, method.error());
+  Result<InProcessChannel::Metadata> metadata = admit(server, exchange, *method);
+  if (!metadata) {
+    co_await refuse(exchange, metadata.error());
+    co_return "refused";
+  }
   Result<std::string> body = co_await body_of(server, exchange);
   if (!body) {
     const bool is_too_long = body.error().reason == "BODY_TOO_LARGE";
@@ -132,9 +136,7 @@ Task<std::string> answer_call(ServerContext& server, Exchange& exchange) {
     co_await refuse(exchange, body.error(), status);
     co_return "refused";
   }
-  const bool wants_head = head.method == "HEAD";
-  Result<rest::Call> request =
-      server.transcoder.read(wants_head ? "GET" : head.method, head.target, *body);
+  Result<rest::Call> request = server.transcoder.read(http_method, head.target, *body);
   if (request && request->streams && wants_head) {
     request = fail(Code::kUnimplemented, "a stream has no head of its own; use GET",
                    "METHOD_NOT_ALLOWED");
@@ -149,9 +151,9 @@ Task<std::string> answer_call(ServerContext& server, Exchange& exchange) {
   }
   const std::string name = short_name(request->method);
   if (request->streams) {
-    co_await answer_events(server, exchange, std::move(*request));
+    co_await answer_events(server, exchange, std::move(*request), *metadata);
   } else {
-    co_await answer_unary(server, exchange, std::move(*request));
+    co_await answer_unary(server, exchange, std::move(*request), std::move(*metadata));
   }
   co_return name;
 }

@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "daemon/auth/account.h"
 #include "daemon/http/protocol/limits.h"
 #include "daemon/tls/identity.h"
 #include "sim/base/result.h"
@@ -34,9 +37,14 @@ struct Health {
   std::string json;
 };
 
-/// What the server shows of the daemon. Both may take their time: they are called by a thread that
-/// does nothing else.
+/// Establishes the caller of an API method and checks its role (RoleCheck::admit). Never waits.
+using Admit = std::function<Result<std::optional<auth::Caller>>(std::string_view method,
+                                                                const auth::Credentials&)>;
+
+/// What the server shows of the daemon. health and metrics may take their time: they are called by
+/// a thread that does nothing else.
 struct Sources {
+  Admit admit;
   std::function<Health()> health;
   std::function<std::string()> metrics;  ///< Prometheus text
 };

@@ -3,7 +3,7 @@
 #include "daemon/http/session_cookie.h"
 
 #include "daemon/auth/secret.h"
-#include "daemon/http/caller_metadata.h"
+#include "daemon/http/credentials.h"
 #include "hydroprint/v1/people_service.pb.h"
 
 namespace hydroprint::http {

@@ -1,7 +1,6 @@
 // Streams of the services as server-sent events.
 #include "daemon/http/sse.h"
 
-#include "daemon/http/caller_metadata.h"
 #include "daemon/http/error_response.h"
 #include "daemon/http/protocol/async_value.h"
 #include "daemon/http/sse_text.h"
@@ -120,13 +119,9 @@ class EventStream {
 
 }  // namespace
 
-Task<void> answer_events(ServerContext& server, Exchange& exchange, rest::Call request) {
-  const auto metadata = metadata_of(exchange.head(), exchange.socket().peer());
-  if (!metadata) {
-    co_await refuse(exchange, metadata.error());
-    co_return;
-  }
-  EventStream stream(server, exchange, std::move(request), *metadata);
+Task<void> answer_events(ServerContext& server, Exchange& exchange, rest::Call request,
+                         InProcessChannel::Metadata metadata) {
+  EventStream stream(server, exchange, std::move(request), metadata);
   co_await stream.run();
 }
 

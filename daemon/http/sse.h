@@ -7,6 +7,7 @@
 namespace hydroprint::http {
 
 /// Answers a streaming call with server-sent events.
-[[nodiscard]] Task<void> answer_events(ServerContext& server, Exchange& exchange, rest::Call call);
+[[nodiscard]] Task<void> answer_events(ServerContext& server, Exchange& exchange, rest::Call call,
+                                       InProcessChannel::Metadata metadata);
 
 }  // namespace hydroprint::http

@@ -1,7 +1,7 @@
 // Bytes of an upload, on their way from the connection to the store.
 #include "daemon/http/upload.h"
 
-#include "daemon/http/caller_metadata.h"
+#include "daemon/http/credentials.h"
 #include "daemon/http/error_response.h"
 #include "daemon/http/protocol/async_value.h"
 #include "daemon/http/protocol/upload_head.h"
@@ -12,7 +12,8 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kStorePatience{60'000};  // with a disk that is slow
-constexpr const char* kChunks = "/hydroprint.v1.AssetService/UploadChunk";
+const std::string kUploadChunk = "/hydroprint.v1.AssetService/UploadChunk";
+const std::string kGetUpload = "/hydroprint.v1.AssetService/GetUpload";
 
 Response state_of(const v1::Upload& upload) {
   Response response;
@@ -28,7 +29,7 @@ class Passing {
   Passing(ServerContext& server, Exchange& exchange, std::string name, std::int64_t offset,
           const InProcessChannel::Metadata& metadata)
       : exchange_(exchange),
-        stream_(server.rpc.stream(kChunks, metadata)),
+        stream_(server.rpc.stream(kUploadChunk, metadata)),
         name_(std::move(name)),
         offset_(offset) {}
 
@@ -115,7 +116,7 @@ Task<void> answer_state(ServerContext& server, Exchange& exchange, std::string n
                         InProcessChannel::Metadata metadata) {
   v1::GetUploadRequest request;
   request.set_name(name);
-  rest::Call get{"/hydroprint.v1.AssetService/GetUpload", false, request.SerializeAsString()};
+  rest::Call get{kGetUpload, false, request.SerializeAsString()};
   const Reply reply = co_await call(server, exchange, std::move(get), std::move(metadata));
   v1::Upload upload;
   if (!reply.ok() || !upload.ParseFromString(reply.response)) {
@@ -130,9 +131,10 @@ Task<void> answer_state(ServerContext& server, Exchange& exchange, std::string n
 Task<std::string> answer_upload(ServerContext& server, Exchange& exchange) {
   const Head& head = exchange.head();
   Result<std::string> name = upload_name(head.path());
-  Result<InProcessChannel::Metadata> metadata = metadata_of(head, exchange.socket().peer());
+  Result<InProcessChannel::Metadata> metadata =
+      admit(server, exchange, head.method == "HEAD" ? kGetUpload : kUploadChunk);
   if (!name || !metadata) {
-    const Error& error = name ? metadata.error() : name.error();
+    const Error& error = metadata ? name.error() : metadata.error();
     co_await refuse(exchange, error);
     co_return "refused";
   }

@@ -174,6 +174,12 @@ Result<Call> Transcoder::read(std::string_view http_method, std::string_view tar
               request->SerializeAsString(), route.stops_motion};
 }
 
+Result<std::string> Transcoder::method_of(std::string_view http_method,
+                                          std::string_view target) const {
+  HP_ASSIGN_OR_RETURN(const Match found, impl_->match_of(http_method, path_of(target)));
+  return rpc_name(*found.route->method);
+}
+
 bool Transcoder::stops_motion(std::string_view http_method, std::string_view target) const {
   const auto found = impl_->match_of(http_method, path_of(target));
   return found && found->route->stops_motion;

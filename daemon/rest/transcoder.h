@@ -42,6 +42,11 @@ class Transcoder {
   [[nodiscard]] Result<Call> read(std::string_view http_method, std::string_view target,
                                   std::string_view body) const;
 
+  /// The API method that a request asks for, from its head alone: "/hydroprint.v1.JobService/GetJob".
+  /// Refused: as read(), for all that is wrong in the path.
+  [[nodiscard]] Result<std::string> method_of(std::string_view http_method,
+                                              std::string_view target) const;
+
   /// Whether the request stops motion (access.proto). read() then ignores its body and its query.
   [[nodiscard]] bool stops_motion(std::string_view http_method, std::string_view target) const;
 

@@ -5,7 +5,7 @@
 #include <google/protobuf/util/time_util.h>
 
 #include "daemon/platform/resource_names.h"
-#include "daemon/rpc/grpc_status.h"
+#include "daemon/rest/status.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -23,7 +23,7 @@ void set_times(const Job& job, v1::Job& out) {
 }
 
 void set_error(const JobFailure& failure, v1::JobError& out) {
-  out.set_code(number_of(failure.error.code));
+  out.set_code(rest::number_of(failure.error.code));
   out.set_reason(failure.error.reason);
   out.set_message(failure.error.message);
   if (failure.exit_status) out.set_exit_status(*failure.exit_status);

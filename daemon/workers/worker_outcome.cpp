@@ -45,12 +45,6 @@ std::string shortened(std::string text, std::size_t longest) {
   return text.substr(0, longest);
 }
 
-bool out_of_memory(const std::string& words) {
-  return words.find("out of memory") != std::string::npos ||
-         words.find("bad_alloc") != std::string::npos ||
-         words.find("cannot allocate memory") != std::string::npos;
-}
-
 JobFailure failure(Code code, std::string reason, std::string message) {
   return {{code, std::move(message), std::move(reason), {}}, {}, {}};
 }
@@ -67,11 +61,6 @@ JobFailure time_failure() {
                  "workers.time_limit_s");
 }
 
-bool out_of_disk(const std::string& words) {
-  return words.find("the disk is full") != std::string::npos ||
-         words.find("No space left on device") != std::string::npos;
-}
-
 JobFailure disk_failure() {
   return failure(Code::kResourceExhausted, "DISK_FULL",
                  "the artifacts do not fit on the daemon's disk; delete jobs or assets, make room, "
@@ -85,9 +74,6 @@ JobFailure output_failure() {
 }
 
 JobFailure judge_exit(int status, const std::string& words) {
-  if (out_of_memory(words) && status != 2) return memory_failure();
-  if (out_of_disk(words)) return disk_failure();
-  if (words.find("limit on file sizes") != std::string::npos) return output_failure();
   switch (status) {
     case 2:
     case 3:
@@ -108,10 +94,9 @@ JobFailure judge_exit(int status, const std::string& words) {
   }
 }
 
-JobFailure judge_signal(int signal, const std::string& words) {
+JobFailure judge_signal(int signal) {
   if (signal == SIGXCPU) return time_failure();
   if (signal == SIGXFSZ) return output_failure();
-  if (out_of_memory(words)) return memory_failure();
   if (signal == SIGKILL || signal == SIGTERM) {
     return failure(Code::kInternal, "WORKER_KILLED",
                    "the worker was killed (signal " + std::to_string(signal) +
@@ -123,22 +108,42 @@ JobFailure judge_signal(int signal, const std::string& words) {
                      "); please report it together with the model");
 }
 
-// The reason that a program printed for its failure, if it is one that the API has.
-std::optional<std::string> told_reason(std::string_view answer) {
+// The reason code that a program printed for its failure; empty without one.
+std::string printed_reason(std::string_view answer) {
   const std::string line = last_line(answer);
   // Deeply nested text would exhaust the parser's stack.
   if (std::count(line.begin(), line.end(), '{') > 3 || line.find('[') != std::string::npos) {
-    return std::nullopt;
+    return {};
   }
   const auto object = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
   const nlohmann::json::json_pointer place("/error/reason");
-  if (!object.is_object() || !object.contains(place) || !object.at(place).is_string()) {
-    return std::nullopt;
-  }
-  const auto reason = object.at(place).get<std::string>();
-  v1::ErrorReason known = v1::ERROR_REASON_UNSPECIFIED;
-  if (!v1::ErrorReason_Parse(reason, &known)) return std::nullopt;
-  return reason;
+  if (!object.is_object() || !object.contains(place) || !object.at(place).is_string()) return {};
+  return object.at(place).get<std::string>();
+}
+
+// Limits of the machine and of the worker, which the program names by its own reason codes
+// (sim/base, sim/worker); nullopt for other reasons.
+std::optional<JobFailure> limit_failure(const std::string& reason) {
+  if (reason == "OUT_OF_MEMORY") return memory_failure();
+  if (reason == "DISK_FULL") return disk_failure();
+  if (reason == "FILE_LIMIT") return output_failure();
+  return std::nullopt;
+}
+
+bool is_known(const std::string& reason) {
+  v1::ErrorReason parsed = v1::ERROR_REASON_UNSPECIFIED;
+  return v1::ErrorReason_Parse(reason, &parsed);
+}
+
+// A program that ended by itself with a status other than 0.
+JobFailure judge_failed_exit(int status, const std::string& words, std::string_view answer) {
+  const std::string reason = printed_reason(answer);
+  if (auto failure = limit_failure(reason)) return *std::move(failure);
+  JobFailure out = judge_exit(status, words);
+  const bool is_general =
+      out.error.reason == "INPUT_REFUSED" || out.error.reason == "COMPUTATION_FAILED";
+  if (is_general && is_known(reason)) out.error.reason = reason;
+  return out;
 }
 
 std::optional<double> fraction(const nlohmann::json& object, const char* key) {
@@ -170,13 +175,9 @@ std::optional<JobFailure> judge(int wait_status, StoppedFor stopped, std::string
   } else if (stopped == StoppedFor::kMemory) {
     out = memory_failure();
   } else if (WIFEXITED(wait_status)) {
-    out = judge_exit(WEXITSTATUS(wait_status), words);
-    std::string& reason = out.error.reason;
-    if (reason == "INPUT_REFUSED" || reason == "COMPUTATION_FAILED") {
-      reason = told_reason(answer).value_or(reason);
-    }
+    out = judge_failed_exit(WEXITSTATUS(wait_status), words, answer);
   } else {
-    out = judge_signal(WTERMSIG(wait_status), words);
+    out = judge_signal(WTERMSIG(wait_status));
   }
   if (WIFEXITED(wait_status)) out.exit_status = WEXITSTATUS(wait_status);
   if (WIFSIGNALED(wait_status)) out.signal = WTERMSIG(wait_status);

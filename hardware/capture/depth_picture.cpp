@@ -8,7 +8,7 @@
 namespace hydroprint::capture {
 namespace {
 
-// Viridis at even steps; between them straight lines, which nobody can tell from the curve.
+// Viridis at even steps. Linear interpolation between them is visually identical to the curve.
 constexpr std::array<image::Rgb8, 11> kViridis{{{68, 1, 84},
                                                 {72, 36, 117},
                                                 {65, 68, 135},
@@ -36,8 +36,8 @@ image::Rgb8 colour_of(double t) {
   return out;
 }
 
-/// The nearest of the four pixels that become one, so that thin things are not lost; 0: none was
-/// measured.
+/// Returns the nearest of the four pixels that are merged into one, so that thin objects are not
+/// lost; 0 if none was measured.
 std::uint16_t nearest_of(const depth_camera::DepthFrame& frame, int x, int y) {
   std::uint16_t out = 0;
   for (int v = 2 * y; v < 2 * y + 2; ++v) {

@@ -5,12 +5,12 @@
 
 namespace hydroprint::capture {
 
-/// A frame for people to look at, at half its size.
+/// A frame as a picture for people, at half its size.
 struct DepthPicture {
-  /// Viridis, which colour-blind people can read, too: the nearer the brighter. Grey: not measured.
+  /// Viridis, which is readable for colour-blind people: nearer is brighter. Grey: not measured.
   image::RgbImage picture;
-  /// Where the colours begin and end: a hundredth of what was measured is nearer, and a hundredth
-  /// farther, so that a stray point does not flatten all else.
+  /// Ends of the colour scale. 1 % of the measured pixels are nearer and 1 % farther, so that a
+  /// stray point does not compress the scale.
   int nearest_mm = 0, farthest_mm = 0;
   double measured_share = 0;  ///< of the frame's pixels
 };

@@ -11,7 +11,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr double kUsualSeconds = 2;
-constexpr milliseconds kSlice{200};  ///< of a wait, between looks at whether to go on
+constexpr milliseconds kSlice{200};  ///< interval between checks for cancellation during a wait
 constexpr std::string_view kStage = "capture";
 
 }  // namespace
@@ -46,7 +46,7 @@ Result<Taken> take_frames(depth_camera::DepthCamera& camera, const Options& opti
     index = frame->index;
     start_s = start_s.value_or(frame->time_s);
     const double passed_s = frame->time_s - *start_s;
-    // Half a frame's time: seconds are rounded to whole frames.
+    // Half a frame period: durations are rounded to whole frames.
     if (passed_s >= seconds - 0.5 / 30) break;
     if (watch.good()) {
       out.frames.push_back(std::move(*frame));
@@ -56,7 +56,7 @@ Result<Taken> take_frames(depth_camera::DepthCamera& camera, const Options& opti
     context.progress(kStage, all ? count / static_cast<double>(*all) : passed_s / seconds);
   }
   if (out.frames.empty()) {
-    return fail(Code::kDataLoss, camera.info().uri + ": not one frame of use. Record it again",
+    return fail(Code::kDataLoss, camera.info().uri + ": contains no usable frame. Record it again",
                 "RECORDING_INVALID");
   }
   context.progress(kStage, 1);

@@ -10,21 +10,21 @@
 
 namespace hydroprint::capture {
 
-/// Frames taken one after another.
+/// A series of captured frames.
 struct Taken {
   std::vector<depth_camera::DepthFrame> frames;
-  int lost = 0;      ///< that the camera counted and that never arrived
-  int left_out = 0;  ///< black ones, and ones that repeat the one before
+  int lost = 0;      ///< counted by the camera but never received
+  int left_out = 0;  ///< black frames, and frames identical to the one before
 };
 
-/// The next frame, within the patience of the options; `alive` is called again and again meanwhile.
-/// None: the recording has ended. Refuses what DepthCamera::next refuses, and kCancelled.
+/// Returns the next frame, within the options' patience; calls `alive` repeatedly while waiting.
+/// Returns nullopt at the end of a recording. Errors: those of DepthCamera::next, and kCancelled.
 [[nodiscard]] Result<std::optional<depth_camera::DepthFrame>> next_frame(
     depth_camera::DepthCamera& camera, const Options& options, const Context& context,
     const std::function<void()>& alive);
 
-/// Takes frames for as long as the options say, or until the recording ends. Refuses what
-/// next_frame() and FrameWatch refuse.
+/// Captures frames for the duration in the options, or until the recording ends. Errors: those of
+/// next_frame() and FrameWatch.
 [[nodiscard]] Result<Taken> take_frames(depth_camera::DepthCamera& camera, const Options& options,
                                         const Context& context, const std::function<void()>& alive);
 

@@ -19,7 +19,7 @@ Status write_all(int to, const std::string& bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = ::write(to, bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return fail(Code::kUnavailable, "nobody reads the pictures any more");
+    if (count <= 0) return fail(Code::kUnavailable, "the reader of the pictures has disconnected");
     done += static_cast<std::size_t>(count);
   }
   return {};

@@ -8,10 +8,10 @@
 
 namespace hydroprint::capture {
 
-/// Writes what the camera sees to a descriptor, one picture every `every_s` of the options: a line
-/// of JSON (bytes, width, height, nearest_mm, farthest_mm, measured_share, camera) and as many
-/// bytes of PNG. Goes on until it is cancelled. Refuses what next_frame() and FrameWatch refuse,
-/// and (kUnavailable) a reader that left.
+/// Writes one picture every `every_s` of the options to a descriptor: a line of JSON (bytes, width,
+/// height, nearest_mm, farthest_mm, measured_share, camera), followed by that number of bytes of
+/// PNG. Runs until it is cancelled. Errors: those of next_frame() and FrameWatch, and kUnavailable
+/// if the reader has disconnected.
 [[nodiscard]] Status show_live(depth_camera::DepthCamera& camera, const Options& options,
                                const Context& context, const std::function<void()>& alive, int to);
 

@@ -1,5 +1,5 @@
-// hydroprint-capture: frames of a depth camera, in a process of its own, so that a driver that
-// hangs or crashes harms nothing else.
+// hydroprint-capture captures frames of a depth camera in its own process, so that a driver that
+// hangs or crashes does no other harm.
 
 #include <unistd.h>
 
@@ -38,7 +38,7 @@ void tell(const Error& error, bool json) {
   worker::tell(error, exit_status(error), json, kProgram);
 }
 
-/// A recording in the making: under another name until it is whole.
+/// A recording in progress, under a temporary name until it is complete.
 class Recording {
  public:
   explicit Recording(std::filesystem::path path) : path_(std::move(path)) {
@@ -61,7 +61,7 @@ class Recording {
     std::filesystem::rename(partial_, path_, error);
     if (!error) return {};
     return fail(Code::kPermissionDenied,
-                path_.string() + ": cannot be recorded to. Choose another file");
+                path_.string() + ": cannot be written. Choose another file");
   }
   void abandon() const {
     std::error_code ignored;
@@ -84,7 +84,7 @@ struct Summary {
   int lost = 0;
 };
 
-/// Ends the process when the driver has it hang, once it is cleaned up.
+/// Returns a function that cleans up and ends the process if the driver hangs.
 std::function<void()> bite(const Options& options, const worker::QuietStderr& quiet,
                            std::function<void()> clean_up) {
   return [&options, &quiet, clean_up = std::move(clean_up)] {
@@ -93,10 +93,11 @@ std::function<void()> bite(const Options& options, const worker::QuietStderr& qu
     const std::string name = !options.recording.empty() ? options.recording.string()
                              : options.device.empty()   ? "the camera"
                                                         : options.device;
-    const Error error{Code::kUnavailable,
-                      name + ": its driver hangs. Unplug the camera and plug it in again",
-                      "CAMERA_STALLED",
-                      {}};
+    const Error error{
+        Code::kUnavailable,
+        name + ": the driver does not respond. Unplug the camera and plug it in again",
+        "CAMERA_STALLED",
+        {}};
     tell(error, options.json);
     ::_exit(static_cast<int>(exit_status(error)));
   };
@@ -121,7 +122,7 @@ Result<Summary> run(const Options& options, worker::Termination& termination,
   const Context context{
       1, [&](std::string_view stage, double fraction) { progress.update(stage, fraction); },
       [&termination] { return termination.requested(); }};
-  // More than the camera itself has, which says it better.
+  // Longer than the camera's own timeout, whose message is more specific.
   const double patience_s = std::max(options.patience_s, options.recording.empty() ? 0 : 30.0);
   Watchdog watchdog(std::chrono::duration<double>(patience_s + 1), bite(options, quiet, clean_up));
   context.progress("capture", 0);
@@ -146,13 +147,13 @@ Result<Summary> run(const Options& options, worker::Termination& termination,
   return Summary{folder.dir(), taken.frames.size(), taken.lost};
 }
 
-/// Until a signal ends it, or a failure.
+/// Runs until a signal or an error.
 Status live(const Options& options, worker::Termination& termination,
             const worker::QuietStderr& quiet) {
-  (void)::nice(kGivesWay);  // to the rig, and to whoever computes in earnest
+  (void)::nice(kGivesWay);  // to the rig and to computations
   Context context;
   context.cancelled = [&termination] { return termination.requested(); };
-  // More than the camera itself has, which says it better.
+  // Longer than the camera's own timeout, whose message is more specific.
   Watchdog watchdog(std::chrono::duration<double>(options.patience_s + 1),
                     bite(options, quiet, [] {}));
   HP_ASSIGN_OR_RETURN(auto camera, open(options));
@@ -170,7 +171,7 @@ void sum_up(const Summary& summary, bool json) {
   std::puts(text.c_str());
 }
 
-/// None: there is nothing to sum up.
+/// Returns nullopt if there is no summary.
 Result<std::optional<Summary>> run_guarded(const Options& options, worker::Termination& termination,
                                            const worker::QuietStderr& quiet) {
   try {

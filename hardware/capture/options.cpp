@@ -14,7 +14,7 @@ constexpr const char* kFooter = R"(Examples:
 
 Exit status: 0 done, 2 bad usage, 3 bad input (no such camera among it), 4 the camera failed, 130 cancelled.)";
 
-/// An option that names a file. (Left to itself, the library would cut paths at blanks.)
+/// Adds an option for a file. CLI11's own conversion would cut paths at spaces.
 CLI::Option* add_path(CLI::App& app, const std::string& flag, std::filesystem::path& path,
                       const std::string& description, const std::string& type) {
   return app
@@ -26,33 +26,33 @@ CLI::Option* add_path(CLI::App& app, const std::string& flag, std::filesystem::p
 void declare(CLI::App& app, Options& o) {
   auto* device =
       app.add_option("--device", o.device,
-                     "Camera, as OpenNI2 names it; hydroprint:CONTROL is that of a virtual rig; "
-                     "default: the first there is")
+                     "OpenNI2 name of the camera; hydroprint:CONTROL for a virtual rig; default: "
+                     "the first camera")
           ->type_name("URI");
   auto* recording = add_path(app, "--recording", o.recording,
-                             "Take its frames in place of a camera's", "FILE.oni");
-  auto* record = add_path(app, "--record", o.record, "Record the stream, too", "FILE.oni");
+                             "Use the frames of this recording instead of a camera", "FILE.oni");
+  auto* record = add_path(app, "--record", o.record, "Also record the stream", "FILE.oni");
   recording->excludes(device)->excludes(record);
   auto* out = add_path(
       app, "--out", o.out,
-      "Folder to make, of frames and frames.json; one of an earlier run is replaced", "DIR");
-  auto* seconds =
-      app.add_option("--seconds", o.seconds, "How long; default: 2 of a camera, all of a recording")
-          ->check(CLI::Range(0.01, kMostSeconds));
+      "Folder to create for the frames and frames.json; that of an earlier run is replaced", "DIR");
+  auto* seconds = app.add_option("--seconds", o.seconds,
+                                 "Duration; default: 2 for a camera, all of a recording")
+                      ->check(CLI::Range(0.01, kMostSeconds));
   auto* live = app.add_flag("--live", o.live,
-                            "In place of frames in a folder: what the camera sees, as pictures on "
-                            "stdout, until a signal ends it");
+                            "Write pictures to stdout until a signal ends the program, instead of "
+                            "frames to a folder");
   live->excludes(recording)->excludes(record)->excludes(out)->excludes(seconds);
-  app.add_option("--every-s", o.every_s, "From one picture to the next")
+  app.add_option("--every-s", o.every_s, "Interval between pictures")
       ->check(CLI::Range(0.05, 60.0))
       ->capture_default_str()
       ->needs(live);
-  app.add_option("--patience-s", o.patience_s, "How long to wait for a camera that does not answer")
+  app.add_option("--patience-s", o.patience_s, "Time to wait for a camera that does not respond")
       ->check(CLI::Range(0.1, 600.0))
       ->capture_default_str();
-  app.add_flag("--json", o.json, "Summary or error as one JSON object on stdout");
+  app.add_flag("--json", o.json, "Print the summary or error as one JSON object on stdout");
   app.add_option("--progress-fd", o.progress_fd,
-                 "File descriptor to write progress to, one JSON object a line")
+                 "File descriptor for progress, one JSON object per line")
       ->type_name("N");
 }
 
@@ -60,7 +60,7 @@ void declare(CLI::App& app, Options& o) {
 
 CommandLine parse_command_line(int argc, char** argv) {
   CommandLine out;
-  CLI::App app("Takes frames of a depth camera, or of a recording of one, as 16-bit PNG in mm.");
+  CLI::App app("Captures frames of a depth camera, or of a recording, as 16-bit PNG files in mm.");
   app.name("hydroprint-capture");
   app.footer(kFooter);
   app.set_version_flag("--version", "hydroprint-capture " HYDROPRINT_VERSION);

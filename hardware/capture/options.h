@@ -8,30 +8,30 @@
 
 namespace hydroprint::capture {
 
-/// What hydroprint-capture is asked for.
+/// Options of hydroprint-capture.
 struct Options {
-  std::string device;               ///< OpenNI2's name of a camera; empty: the first there is
-  std::filesystem::path recording;  ///< in place of a camera; empty: none
-  std::filesystem::path record;     ///< where to record to; empty: nowhere
+  std::string device;               ///< OpenNI2's name of a camera; empty: the first one
+  std::filesystem::path recording;  ///< instead of a camera; empty: none
+  std::filesystem::path record;     ///< file to record to; empty: none
   std::filesystem::path out;
-  std::optional<double> seconds;  ///< default: 2 of a camera, all of a recording
-  double patience_s = 5;          ///< for a frame, and for a driver to do anything
-  /// Pictures on stdout in place of frames in `out`, for as long as somebody wants them.
+  std::optional<double> seconds;  ///< default: 2 for a camera, all of a recording
+  double patience_s = 5;          ///< timeout for a frame and for the driver
+  /// Writes pictures to stdout instead of frames to `out`, until the reader disconnects.
   bool live = false;
-  double every_s = 1;  ///< from one of those to the next
+  double every_s = 1;  ///< interval between these pictures
   int progress_fd = -1;
   bool json = false;
 };
 
-/// Frames are kept in memory until the last has come: so many seconds at most.
+/// Longest capture, s: frames are kept in memory until the last one has arrived.
 inline constexpr double kMostSeconds = 60;
 
-/// Options, or what to say in place of work and the exit status with it.
+/// The options, or a message and exit status if the program should not run.
 struct CommandLine {
   Options options;
   bool runs = false;
   int status = 0;
-  std::string text;  ///< of help or version, for stdout; else for stderr
+  std::string text;  ///< to stdout for help and version, otherwise to stderr
 };
 [[nodiscard]] CommandLine parse_command_line(int argc, char** argv);
 

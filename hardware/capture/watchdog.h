@@ -8,8 +8,8 @@
 
 namespace hydroprint::capture {
 
-/// Ends what hangs: unless it is fed in time, `bites` runs, on a thread of its own, and must not
-/// return.
+/// Ends a process that hangs. Unless fed in time, it calls `bites` on its own thread; `bites` must
+/// not return.
 class Watchdog {
  public:
   Watchdog(std::chrono::duration<double> patience, std::function<void()> bites);

@@ -16,10 +16,10 @@ namespace {
 constexpr int kWidth_px = 640;
 constexpr int kHeight_px = 480;
 constexpr int kRate_hz = 30;
-/// A frame of a recording only has to be read.
+/// Timeout for a frame of a recording, which only has to be read.
 constexpr std::chrono::seconds kReadTime{20};
 
-/// What OpenNI2 has to say, on one line.
+/// Returns OpenNI2's extended error text, on one line.
 std::string details() {
   std::string out = openni::OpenNI::getExtendedError();
   for (char& c : out) {
@@ -41,11 +41,11 @@ Status initialise() {
 
 tl::unexpected<Error> unusable(const std::string& uri, const std::string& what) {
   return fail(Code::kFailedPrecondition,
-              uri + ": " + what + details() + ". Use a depth camera of 640 x 480 pixels at 30 Hz",
+              uri + ": " + what + details() + ". Use a depth camera with 640 x 480 pixels at 30 Hz",
               "CAMERA_UNUSABLE");
 }
 
-/// Hears whether a camera is unplugged.
+/// Records whether the camera has been unplugged.
 class Unplugging : public openni::OpenNI::DeviceDisconnectedListener {
  public:
   explicit Unplugging(std::string uri) : uri_(std::move(uri)) {
@@ -81,7 +81,7 @@ class OpenNiCamera : public DepthCamera {
   [[nodiscard]] Result<std::optional<DepthFrame>> next(std::chrono::milliseconds timeout) override;
   [[nodiscard]] Status record(const std::filesystem::path& path) override;
   void finish_recording() override {
-    // First no more frames, so that none meets a recorder that is going.
+    // Stops the stream first, so that no frame reaches a recorder that is being destroyed.
     if (stream_.isValid()) stream_.stop();
     recorder_.destroy();
   }
@@ -105,7 +105,7 @@ Status OpenNiCamera::open(const std::string& uri) {
   if (device_.open(wanted) != openni::STATUS_OK) {
     return fail(Code::kNotFound,
                 (uri.empty() ? "no depth camera is plugged in" : uri + ": no such depth camera") +
-                    details() + ". Plug it in, or name the right one",
+                    details() + ". Plug it in, or correct the name",
                 "CAMERA_NOT_FOUND");
   }
   const openni::DeviceInfo& info = device_.getDeviceInfo();
@@ -127,7 +127,7 @@ Status OpenNiCamera::choose_mode() {
       return {};
     }
   }
-  return unusable(info_.uri, "it has no such depth frames");
+  return unusable(info_.uri, "it does not support this frame size and rate");
 }
 
 Status OpenNiCamera::start_device() {
@@ -139,7 +139,7 @@ Status OpenNiCamera::start_device() {
       openni::STATUS_OK) {
     info_.serial = serial.data();
   }
-  (void)stream_.setMirroringEnabled(false);  // those that cannot do not mirror
+  (void)stream_.setMirroringEnabled(false);  // may fail on devices that cannot mirror
   if (stream_.start() != openni::STATUS_OK) return unusable(info_.uri, "it does not start");
   info_.width = kWidth_px;
   info_.height = kHeight_px;
@@ -149,7 +149,7 @@ Status OpenNiCamera::start_device() {
 Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& what) {
     return fail(Code::kDataLoss,
-                path.string() + ": " + what + details() + ". Name an OpenNI2 recording (.oni)",
+                path.string() + ": " + what + details() + ". Use an OpenNI2 recording (.oni)",
                 "RECORDING_INVALID");
   };
   HP_RETURN_IF_ERROR(initialise());
@@ -161,7 +161,8 @@ Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
     return refuse("it has no depth stream");
   }
   openni::PlaybackControl* const playback = device_.getPlaybackControl();
-  // Only stepped by hand (speed -1) does no frame get lost; seeking crashes OpenNI 2.2.
+  // Frames are lost unless the recording is stepped manually (speed -1); seeking crashes OpenNI
+  // 2.2.
   if (playback == nullptr || playback->setSpeed(-1) != openni::STATUS_OK ||
       playback->setRepeatEnabled(false) != openni::STATUS_OK) {
     return refuse("it cannot be played frame by frame");
@@ -172,7 +173,7 @@ Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
   info_.frames = playback->getNumberOfFrames(stream_);
   if (mode.getPixelFormat() != openni::PIXEL_FORMAT_DEPTH_1_MM || *info_.frames < 1 ||
       info_.width < 1 || info_.width > 4096 || info_.height < 1 || info_.height > 4096) {
-    return refuse("it holds no depth frames in whole mm");
+    return refuse("it contains no depth frames in whole mm");
   }
   if (stream_.start() != openni::STATUS_OK) return refuse("it does not start");
   return {};
@@ -186,7 +187,7 @@ tl::unexpected<Error> OpenNiCamera::no_frame() const {
                 "RECORDING_INVALID");
   }
   return fail(Code::kUnavailable,
-              info_.uri + ": no frame came in time. Unplug the camera and plug it in again",
+              info_.uri + ": no frame arrived in time. Unplug the camera and plug it in again",
               "CAMERA_STALLED");
 }
 
@@ -196,12 +197,12 @@ Result<std::optional<DepthFrame>> OpenNiCamera::next(std::chrono::milliseconds t
   int ready = 0;
   const auto wait =
       info_.frames ? std::max<std::chrono::milliseconds>(timeout, kReadTime) : timeout;
-  // Never readFrame() alone: it waits for ever.
+  // readFrame() alone would wait forever.
   const openni::Status status =
       openni::OpenNI::waitForAnyStream(&stream, 1, &ready, static_cast<int>(wait.count()));
   if (unplugging_ && unplugging_->happened()) {
     return fail(Code::kUnavailable,
-                info_.uri + ": the camera has gone. Plug it in again, and look at its cable",
+                info_.uri + ": the camera was disconnected. Check its cable and plug it in again",
                 "CAMERA_GONE");
   }
   if (status != openni::STATUS_OK) return no_frame();
@@ -240,7 +241,7 @@ Status OpenNiCamera::record(const std::filesystem::path& path) {
   if (starts) return {};
   recorder_.destroy();
   return fail(Code::kPermissionDenied,
-              path.string() + ": cannot be recorded to" + details() + ". Choose another file");
+              path.string() + ": cannot be written" + details() + ". Choose another file");
 }
 
 }  // namespace
@@ -256,7 +257,7 @@ Result<std::unique_ptr<DepthCamera>> DepthCamera::open_recording(
     const std::filesystem::path& path) {
   if (const auto file = open_input_file(path); !file) return tl::unexpected(file.error());
   auto out = std::make_unique<OpenNiCamera>();
-  // OpenNI2 changes the working folder while it loads drivers.
+  // OpenNI2 changes the working directory while it loads drivers.
   HP_RETURN_IF_ERROR(out->start_recording(std::filesystem::absolute(path)));
   return std::unique_ptr<DepthCamera>(std::move(out));
 }

@@ -16,15 +16,15 @@ Status FrameWatch::look(const DepthFrame& frame) {
   if (black_ >= kMostBad) {
     return fail(Code::kUnavailable,
                 name_ +
-                    ": the camera sees nothing. Take its cover off, keep 0.5 m away and shade it "
-                    "from the sun",
+                    ": the camera measures nothing. Remove its cover, keep a distance of 0.5 m and "
+                    "shade it from the sun",
                 "CAMERA_BLACK");
   }
   if (same_ >= kMostBad) {
     return fail(Code::kUnavailable,
                 name_ +
-                    ": the camera is frozen, it sends the same frame over and over. Unplug it "
-                    "and plug it in again",
+                    ": the camera is frozen: it repeats the same frame. Unplug it and plug it in "
+                    "again",
                 "CAMERA_FROZEN");
   }
   return {};

@@ -9,22 +9,22 @@
 
 namespace hydroprint::depth_camera {
 
-/// Looks at frame after frame for a camera that still sends, but nothing of use. One or two such
-/// frames are no fault: cameras warm up.
+/// Detects a camera that still sends frames, but useless ones. One or two such frames are not an
+/// error, since cameras warm up.
 class FrameWatch {
  public:
-  /// So many frames in sequence are one too many: a third of a second.
+  /// Number of bad frames in sequence that is an error: a third of a second.
   static constexpr int kMostBad = 10;
   /// A frame with fewer measured pixels than this share is black.
   static constexpr double kLeastMeasured = 0.01;
 
   explicit FrameWatch(std::string name) : name_(std::move(name)) {}
 
-  /// Refuses (kUnavailable) the frame that is the last straw: CAMERA_FROZEN, pixel for pixel the
-  /// one before it, which no sensor's noise allows; CAMERA_BLACK.
+  /// Checks a frame. Returns kUnavailable at the kMostBad-th bad frame: CAMERA_FROZEN (identical to
+  /// the one before, which sensor noise rules out) or CAMERA_BLACK.
   [[nodiscard]] Status look(const DepthFrame& frame);
 
-  /// Whether the frame last looked at is worth keeping.
+  /// Whether the last frame checked is usable.
   [[nodiscard]] bool good() const { return same_ == 0 && black_ == 0; }
 
  private:

@@ -16,7 +16,7 @@ Status check_speed(const DriveProfile& profile, double speed_mm_per_s) {
   if (speed_mm_per_s > 0 && speed_mm_per_s <= profile.max_speed_mm_per_s) return {};
   std::ostringstream message;
   message << "a speed of " << speed_mm_per_s
-          << " mm/s cannot be driven. Give one above 0 and up to " << profile.max_speed_mm_per_s
+          << " mm/s is out of range. Use a speed above 0 and up to " << profile.max_speed_mm_per_s
           << " mm/s";
   return fail(Code::kOutOfRange, message.str(), "LIMIT_EXCEEDED");
 }

@@ -39,13 +39,13 @@ std::string serial_remedy(int error) {
       return "not allowed. Add this user to the group that owns the device";
     case EBUSY:
     case EWOULDBLOCK:
-      return "in use by another program. End it";
+      return "in use by another program. Stop that program";
     default:
       return std::string(std::strerror(error)) + ". Check the adapter";
   }
 }
 
-/// select(), which libmodbus uses, cannot watch descriptors beyond these.
+/// libmodbus uses select(), which cannot watch larger descriptors.
 bool can_be_watched(int descriptor) { return descriptor < FD_SETSIZE; }
 
 bool wait_connected(int socket, std::chrono::milliseconds patience) {
@@ -63,7 +63,7 @@ bool wait_connected(int socket, std::chrono::milliseconds patience) {
   return error == 0;
 }
 
-/// A connected socket that does not block; -1 and errno.
+/// Returns a connected non-blocking socket; -1 with errno on failure.
 int connect_socket(const Endpoint& endpoint, std::chrono::milliseconds patience) {
   const int out = ::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   if (out < 0) return out;
@@ -121,22 +121,23 @@ Result<std::unique_ptr<Connection>> Connection::open(const Endpoint& endpoint,
   modbus_t* modbus = endpoint.serial ? modbus_new_rtu(endpoint.device.c_str(), endpoint.baud,
                                                       endpoint.parity, 8, endpoint.stop_bits)
                                      : modbus_new_tcp(endpoint.host.c_str(), endpoint.port);
-  if (modbus == nullptr) return offline(endpoint, "cannot be used. Correct the address");
+  if (modbus == nullptr) return offline(endpoint, "is not a valid address. Correct it");
   std::unique_ptr<Connection> out(new Connection(endpoint, timing, modbus));
   modbus_set_error_recovery(modbus, MODBUS_ERROR_RECOVERY_NONE);
-  // No time between bytes: then the response timeout bounds the whole reply.
+  // Without a timeout between bytes, the response timeout limits the whole reply.
   modbus_set_byte_timeout(modbus, 0, 0);
   HP_RETURN_IF_ERROR(endpoint.serial ? out->open_serial() : out->open_tcp());
   if (!can_be_watched(modbus_get_socket(modbus))) {
-    return offline(endpoint, "this process has too many files open. Close some");
+    return offline(endpoint, "this process has too many open files. Close some");
   }
   return out;
 }
 
 namespace {
 
-/// A line that has no parity bit to set, as a pseudo-terminal has none, refuses settings of which
-/// nothing else is new: those that whoever was killed with the line open has left.
+/// A line without a parity bit, such as a pseudo-terminal, refuses settings that change nothing but
+/// parity. That happens after a process was killed with the line open, because its settings remain.
+/// Changing the speed first avoids the refusal.
 void forget_settings(int line) {
   termios settings{};
   if (::tcgetattr(line, &settings) != 0) return;
@@ -149,18 +150,18 @@ void forget_settings(int line) {
 Status Connection::open_tcp() {
   const int socket = connect_socket(endpoint_, timing_.connect);
   if (socket < 0) {
-    return offline(endpoint_, std::string(std::strerror(errno)) +
-                                  ". Check that it is switched on and the address is right");
+    return offline(endpoint_,
+                   std::string(std::strerror(errno)) + ". Check the power and the address");
   }
   modbus_set_socket(modbus_, socket);
   return {};
 }
 
 Status Connection::open_serial() {
-  // Locked before libmodbus touches the line's settings, which may be another program's.
+  // The lock is taken before libmodbus changes settings that another program may be using.
   lock_ = ::open(endpoint_.device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
   if (lock_ < 0) return offline(endpoint_, serial_remedy(errno));
-  if (::isatty(lock_) == 0) return offline(endpoint_, "no serial line. Correct the path");
+  if (::isatty(lock_) == 0) return offline(endpoint_, "not a serial line. Correct the path");
   if (::flock(lock_, LOCK_EX | LOCK_NB) != 0) return offline(endpoint_, serial_remedy(errno));
   forget_settings(lock_);
   if (modbus_connect(modbus_) != 0) return offline(endpoint_, serial_remedy(errno));
@@ -197,7 +198,7 @@ Connection::End Connection::receive(std::vector<std::uint8_t>& reply, std::strin
   const std::size_t size = static_cast<std::size_t>(got);
   const std::size_t head = endpoint_.serial ? 0 : kTcpHeader;
   const std::size_t tail = endpoint_.serial ? kCrc : 0;
-  if (size < head + tail + 2) {  // 0: libmodbus left out what another unit said
+  if (size < head + tail + 2) {  // 0: libmodbus dropped the reply of another unit
     cause = "reply of another unit";
     return End::kDamaged;
   }

@@ -9,27 +9,27 @@ struct _modbus;
 
 namespace hydroprint::drive {
 
-/// One open connection of libmodbus: closed when this goes. One thread at a time.
+/// An open connection of libmodbus, closed by the destructor. Not thread-safe.
 class Connection {
  public:
-  /// Opens within timing.connect; a serial line is taken for this process alone.
-  /// Refuses with kUnavailable, reason RIG_OFFLINE.
+  /// Opens a connection within timing.connect; locks a serial line for this process. Returns
+  /// kUnavailable, reason RIG_OFFLINE, on failure.
   [[nodiscard]] static Result<std::unique_ptr<Connection>> open(const Endpoint& endpoint,
                                                                 const LinkTiming& timing);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  /// How an exchange ended.
+  /// The result of an exchange.
   enum class End {
-    kReply,    ///< something came that is framed as a reply
-    kDamaged,  ///< something came that is not
+    kReply,    ///< a correctly framed reply arrived
+    kDamaged,  ///< something else arrived
     kTimeout,
-    kLost,  ///< the connection is gone
+    kLost,  ///< the connection is lost
   };
 
-  /// Empties the line, sends a request as encode_request gives it and waits for the reply, which is
-  /// left in `reply` as decode_reply takes it. `cause` is libmodbus's word for what went wrong.
+  /// Empties the line, sends a request from encode_request and waits for the reply, which is stored
+  /// in `reply` for decode_reply. `cause` is libmodbus's description of the error.
   End exchange(int unit, const std::vector<std::uint8_t>& request, std::size_t reply_bytes,
                std::vector<std::uint8_t>& reply, std::string& cause);
 
@@ -43,7 +43,7 @@ class Connection {
   LinkTiming timing_;
   _modbus* modbus_;
   int lock_ = -1;      // second descriptor of a serial line, which holds the lock
-  bool owns_ = false;  // the serial line is ours alone
+  bool owns_ = false;  // this process has locked the serial line
 };
 
 }  // namespace hydroprint::drive

@@ -31,7 +31,7 @@ std::string seconds(double value_s) {
   return out.str();
 }
 
-/// Whether the drive is still in step with us after such an error: it answered, if with a refusal.
+/// Whether the drive responded despite the error, so that its state is still known.
 bool is_answer(const Error& error) {
   return error.reason == "DRIVE_REFUSED" || error.reason == "DRIVE_BUSY" ||
          error.reason == "LIMIT_EXCEEDED";
@@ -93,8 +93,8 @@ Status Drive::check_identity() {
     if (words && ((*words)[0] & mark.mask) == mark.value) continue;
     const std::string found = words ? "holds " + hex((*words)[0]) : "does not exist";
     return tl::unexpected(unsafe("register " + hex(mark.address) + " (" + mark.meaning + ") " +
-                                 found + ", not " + hex(mark.value) + ": this is no " +
-                                 profile_.name + ". Give the profile of the drive that is there"));
+                                 found + ", not " + hex(mark.value) + ": the drive is not a " +
+                                 profile_.name + ". Use the profile of the connected drive"));
   }
   return {};
 }
@@ -103,8 +103,8 @@ Result<Inspection> Drive::inspect_watchdog() {
   Inspection out{profile_.name, 0, {}};
   if (!profile_.watchdog) {
     out.unsafe = unsafe(profile_.name +
-                        " has no communication watchdog: it would run on without us. Use another "
-                        "drive");
+                        " has no communication watchdog: it would not stop when the connection is "
+                        "lost. Use another drive");
     return out;
   }
   const Watchdog& watchdog = *profile_.watchdog;
@@ -127,7 +127,8 @@ Result<Inspection> Drive::inspect_watchdog() {
 Result<DriveState> Drive::poll() {
   if (!connected()) {
     known_ = false;
-    return fail(Code::kUnavailable, profile_.name + " is not connected. Connect", "RIG_OFFLINE");
+    return fail(Code::kUnavailable, profile_.name + " is not connected. Connect to it first",
+                "RIG_OFFLINE");
   }
   std::vector<std::vector<std::uint16_t>> blocks;
   Clock::time_point time;
@@ -142,7 +143,7 @@ Result<DriveState> Drive::poll() {
       return fail(Code::kDataLoss,
                   "a reply of " + profile_.name + " lacks its mark (" + block.mark.meaning +
                       ", register " + hex(block.mark.address) +
-                      "): it is another request's. Poll again",
+                      ") and belongs to another request. Poll again",
                   "REPLY_INVALID");
     }
     if (holds(block, profile_.position)) {
@@ -162,7 +163,7 @@ Status Drive::may_move() const {
   if (unsafe_) return tl::unexpected(*unsafe_);
   if (known_ && connected()) return {};
   return fail(Code::kUnavailable,
-              "the state of " + profile_.name + " is not known after a failure. Poll it first",
+              "the state of " + profile_.name + " is unknown after a failure. Poll it first",
               "RIG_OFFLINE");
 }
 

@@ -13,56 +13,56 @@
 
 namespace hydroprint::drive {
 
-/// What a drive said of itself at one moment.
+/// The state of a drive at one moment.
 struct DriveState {
-  double position_mm = 0;  ///< from the home switch; means nothing before homing
+  double position_mm = 0;  ///< from the home switch; meaningless before homing
   double velocity_mm_per_s = 0;
-  std::optional<double> demand_mm;  ///< where the drive's own trajectory is, if it tells
+  std::optional<double> demand_mm;  ///< position of the drive's own trajectory, if reported
   bool enabled = false;
   bool homed = false;
   bool moving = false;
   bool alarm = false;
-  bool positive_end = false;  ///< end switch hit
+  bool positive_end = false;  ///< limit switch pressed
   bool negative_end = false;
   bool home_switch = false;
   bool stop_input = false;  ///< stop button pressed
   int alarm_code = 0;       ///< 0: none
   std::string alarm_text;   ///< empty: none
-  std::string alarm_hint;   ///< what to do about it
-  /// Half way between request and reply of the position, and how far off that can be.
+  std::string alarm_hint;   ///< remedy
+  /// Midpoint between request and reply of the position, and its uncertainty.
   std::chrono::steady_clock::time_point time;
   std::chrono::duration<double> time_error{0};
 };
 
-/// What connect() found.
+/// The result of connect().
 struct Inspection {
   std::string drive;      ///< name in the profile
-  double watchdog_s = 0;  ///< as read back; 0: off, or there is none
-  /// Why this drive must not be armed as it is set up (kFailedPrecondition, reason
-  /// DRIVE_CONFIG_UNSAFE); none: it may be.
+  double watchdog_s = 0;  ///< as read back; 0: off, or no watchdog
+  /// Why this drive must not be armed in its present configuration (kFailedPrecondition, reason
+  /// DRIVE_CONFIG_UNSAFE); nullopt if it may be armed.
   std::optional<Error> unsafe;
 };
 
-/// One drive, spoken to by its profile. One thread at a time may call (StopLine is for others);
-/// every call ends after a bounded number of requests, each bounded by the link's timing.
+/// A drive, controlled as its profile describes. One thread at a time may call; other threads use
+/// StopLine. Every call ends after a bounded number of requests, each limited by the link's timing.
 ///
-/// Commands are sent once; one that fails with metadata `timeout` may or may not have been obeyed.
-/// After any failure of the link the state is unknown: enable, home, move_to and jog refuse with
-/// RIG_OFFLINE until a poll() succeeds; they refuse with DRIVE_CONFIG_UNSAFE what connect() found
-/// unsafe. disable and stop are always sent. Errors: RIG_OFFLINE, DRIVE_CONFIG_UNSAFE and those of
-/// decode_reply; kOutOfRange, reason LIMIT_EXCEEDED, for what the profile or the registers cannot
-/// take.
+/// Commands are sent once; one that fails with metadata `timeout` may have taken effect. After any
+/// failure of the link the state is unknown: enable, home, move_to and jog return RIG_OFFLINE until
+/// a poll() succeeds. They return DRIVE_CONFIG_UNSAFE if connect() found the configuration unsafe.
+/// disable and stop are always sent. Errors: RIG_OFFLINE, DRIVE_CONFIG_UNSAFE and those of
+/// decode_reply; kOutOfRange, reason LIMIT_EXCEEDED, for values that the profile or the registers
+/// do not allow.
 class Drive {
  public:
   Drive(DriveProfile profile, std::shared_ptr<Link> link);
 
-  /// Connects (anew, if it was connected), checks that this is the profile's drive and reads back
-  /// its watchdog. Refuses with RIG_OFFLINE; with kFailedPrecondition, reason DRIVE_CONFIG_UNSAFE,
-  /// another drive, from which it disconnects.
+  /// Connects or reconnects, checks that this is the profile's drive and reads back its watchdog.
+  /// Returns RIG_OFFLINE on failure. For another drive it returns kFailedPrecondition, reason
+  /// DRIVE_CONFIG_UNSAFE, and disconnects.
   [[nodiscard]] Result<Inspection> connect();
   void disconnect();
 
-  /// False: connect() is needed before poll() and motion can succeed.
+  /// If false, connect() must be called before poll() and motion can succeed.
   [[nodiscard]] bool connected() const;
 
   /// Reads all blocks and checks their marks.
@@ -71,15 +71,15 @@ class Drive {
   [[nodiscard]] Status enable();
   [[nodiscard]] Status disable();
 
-  /// Starts homing, which the drive does by itself: moving, then homed.
+  /// Starts homing, which the drive performs by itself: first moving, then homed.
   [[nodiscard]] Status home();
 
   /// Starts a move at constant speed (apart from the profile's ramps); speed above 0.
   [[nodiscard]] Status move_to(double position_mm, double speed_mm_per_s);
 
-  /// Starts or goes on with motion at a speed of either sign, not 0; to be called again at least
-  /// every profile().jog_refresh_s. Ends by stop(), or by itself if it is not called again for
-  /// profile().jog_dead_man_s.
+  /// Starts or continues motion at a speed of either sign, not 0. Must be called again at least
+  /// every profile().jog_refresh_s. Ends with stop(), or by itself profile().jog_dead_man_s after
+  /// the last call.
   [[nodiscard]] Status jog(double speed_mm_per_s);
 
   /// Brakes; the drive stays enabled.
@@ -103,8 +103,9 @@ class Drive {
 
   DriveProfile profile_;
   std::shared_ptr<Link> link_;
-  bool known_ = false;            // the last thing that happened to the link was no failure
-  std::uint64_t connection_ = 0;  // that was inspected; StopLine may have made another
+  bool known_ = false;  // the last exchange on the link succeeded
+  // connection that was inspected; StopLine may have reconnected since
+  std::uint64_t connection_ = 0;
   std::optional<Error> unsafe_;
 };
 

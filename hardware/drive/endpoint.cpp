@@ -14,7 +14,7 @@ constexpr std::array<int, 8> kBauds = {1200, 4800, 9600, 19200, 38400, 57600, 11
 tl::unexpected<Error> refuse(std::string_view text, const std::string& what) {
   return fail(Code::kInvalidArgument,
               "drive at \"" + std::string(text) + "\": " + what +
-                  ". Write tcp:192.168.1.20:502 or "
+                  ". Use tcp:192.168.1.20:502 or "
                   "rtu:/dev/serial/by-id/NAME?baud=115200&parity=E&stop=1",
               "CONFIG_INVALID");
 }
@@ -32,7 +32,7 @@ Result<Endpoint> parse_tcp(std::string_view all, std::string_view rest) {
   if (out.host == "localhost") out.host = "127.0.0.1";
   in_addr address{};
   if (inet_pton(AF_INET, out.host.c_str(), &address) != 1) {
-    return refuse(all, "is no IPv4 address (names are not looked up)");
+    return refuse(all, "is not an IPv4 address (host names are not supported)");
   }
   if (!read_number(rest.substr(colon + 1), out.port) || out.port < 1 || out.port > 65535) {
     return refuse(all, "has no port from 1 to 65535");
@@ -57,7 +57,7 @@ Result<Endpoint> parse_rtu(std::string_view all, std::string_view rest) {
   const std::size_t question = rest.find('?');
   out.device = rest.substr(0, question);
   if (out.device.empty() || out.device[0] != '/')
-    return refuse(all, "names no device by full path");
+    return refuse(all, "lacks the full path of a device");
   if (question == std::string_view::npos) return out;
   std::string_view options = rest.substr(question + 1);
   while (!options.empty()) {
@@ -66,7 +66,7 @@ Result<Endpoint> parse_rtu(std::string_view all, std::string_view rest) {
     const std::size_t equals = std::min(option.find('='), option.size());
     if (equals == option.size() ||
         !set_option(option.substr(0, equals), option.substr(equals + 1), out)) {
-      return refuse(all, "has the option \"" + std::string(option) + "\", which cannot be");
+      return refuse(all, "has the invalid option \"" + std::string(option) + "\"");
     }
     options.remove_prefix(std::min(end + 1, options.size()));
   }
@@ -84,10 +84,10 @@ std::string Endpoint::text() const {
 Result<Endpoint> parse_endpoint(std::string_view text) {
   const bool has_control_character =
       std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
-  if (has_control_character) return refuse("...", "holds a control character");
+  if (has_control_character) return refuse("...", "contains a control character");
   if (text.starts_with("tcp:")) return parse_tcp(text, text.substr(4));
   if (text.starts_with("rtu:")) return parse_rtu(text, text.substr(4));
-  return refuse(text, "is neither tcp: nor rtu:");
+  return refuse(text, "starts with neither tcp: nor rtu:");
 }
 
 }  // namespace hydroprint::drive

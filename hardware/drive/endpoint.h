@@ -7,22 +7,22 @@
 
 namespace hydroprint::drive {
 
-/// Where a drive is.
+/// The address of a drive.
 struct Endpoint {
   bool serial = false;
-  std::string host;  ///< of TCP: an IPv4 address (names are not looked up: that may block)
+  std::string host;  ///< of TCP: an IPv4 address (a name lookup could block)
   int port = 502;
   std::string device;  ///< of RTU: "/dev/serial/by-id/..."
   int baud = 115200;
   char parity = 'E';  ///< 'N', 'E' or 'O'
   int stop_bits = 1;
 
-  /// As parse_endpoint takes it.
+  /// Formats the endpoint as parse_endpoint expects it.
   [[nodiscard]] std::string text() const;
 };
 
-/// Reads "tcp:192.168.1.20:502" or "rtu:/dev/serial/by-id/X?baud=115200&parity=E&stop=1".
-/// Refuses anything else with kInvalidArgument, saying what is wrong and what to write.
+/// Parses "tcp:192.168.1.20:502" or "rtu:/dev/serial/by-id/X?baud=115200&parity=E&stop=1".
+/// Otherwise returns kInvalidArgument with the fault and the expected format.
 [[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
 
 }  // namespace hydroprint::drive

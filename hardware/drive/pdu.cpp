@@ -20,7 +20,7 @@ std::uint16_t word_at(std::span<const std::uint8_t> bytes, std::size_t at) {
 tl::unexpected<Error> invalid(const std::string& what) {
   return fail(Code::kDataLoss,
               "the drive's reply " + what +
-                  ". If this goes on, check cable, termination, baud rate and unit id",
+                  ". If this persists, check cable, termination, baud rate and unit id",
               "REPLY_INVALID");
 }
 
@@ -30,7 +30,7 @@ std::string_view exception_text(int exception) {
       "function not supported",
       "no such register",
       "value not allowed",
-      "not possible in its present state",
+      "not possible in the present state",
       "accepted, but not done yet",
       "busy",
   };
@@ -69,7 +69,7 @@ Result<std::vector<std::uint16_t>> decode_echo(const Request& request,
                             ? request.values[0]
                             : static_cast<std::uint16_t>(request.values.size());
   if (word_at(reply, 2) != request.address || word_at(reply, 4) != expected) {
-    return invalid("repeats another request than the one sent");
+    return invalid("confirms a different request");
   }
   return std::vector<std::uint16_t>();
 }

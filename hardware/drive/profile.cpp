@@ -38,7 +38,7 @@ Format read_format(TomlReader& table, std::string_view per_unit) {
   format.inverse = table.flag("inverse", false);
   format.per_unit = table.number(per_unit, -kMostPerUnit, kMostPerUnit);
   if (std::abs(format.per_unit) < kLeastPerUnit) {
-    table.refuse(per_unit, "is 0, or next to it. Give the counts of one unit");
+    table.refuse(per_unit, "is 0 or too close to 0. Use the number of counts per unit");
   }
   return format;
 }
@@ -49,7 +49,7 @@ Field read_field(TomlReader table, std::string_view per_unit) {
   field.address = read_word(table, "address");
   field.format = read_format(table, per_unit);
   if (field.address + field.format.words > 0x10000) {
-    table.refuse("address", "reaches beyond register 65535. Correct it");
+    table.refuse("address", "extends beyond register 65535. Correct it");
   }
   return field;
 }
@@ -58,14 +58,14 @@ Mark read_mark(TomlReader& table, Space space) {
   Mark mark{space, read_word(table, "address"), read_word(table, "value"),
             read_word(table, "mask", 0xffff), table.text("meaning", "mark")};
   if (mark.mask == 0 || (mark.value & ~mark.mask) != 0) {
-    table.refuse("mask", "leaves out bits of the value. Set them in the mask");
+    table.refuse("mask", "omits bits of the value. Set them in the mask");
   }
   return mark;
 }
 
 void check_mark(const Block& block, TomlReader& mark) {
   if (block.mark.address < block.address || block.mark.address >= block.address + block.count) {
-    mark.refuse("address", "lies outside of its block. Give a register of the block");
+    mark.refuse("address", "lies outside its block. Use a register of the block");
   }
 }
 
@@ -75,10 +75,10 @@ std::vector<Block> read_blocks(TomlReader& top) {
     Block block;
     block.space = read_space(table);
     block.address = read_word(table, "address");
-    // Identity and watchdog are read one or two words at a time.
+    // Identity and watchdog are read with requests of one or two words.
     block.count = static_cast<std::uint16_t>(table.integer("count", 3, kMaxReadWords));
     if (block.address + block.count > 0x10000) {
-      table.refuse("count", "reaches beyond register 65535. Correct it");
+      table.refuse("count", "extends beyond register 65535. Correct it");
     }
     TomlReader mark = table.table("mark");
     block.mark = read_mark(mark, block.space);
@@ -86,12 +86,12 @@ std::vector<Block> read_blocks(TomlReader& top) {
     if (std::any_of(blocks.begin(), blocks.end(),
                     [&](const Block& other) { return other.count == block.count; })) {
       table.refuse("count",
-                   "is that of another block: late replies could be mistaken. Read one more "
-                   "register in one of them");
+                   "is the same as that of another block, so late replies could be confused. Read "
+                   "one more register in one of the blocks");
     }
     blocks.push_back(std::move(block));
   }
-  if (blocks.empty()) top.refuse("block", "is empty. Add what is to be polled");
+  if (blocks.empty()) top.refuse("block", "is empty. Add a block with the registers to poll");
   return blocks;
 }
 
@@ -106,7 +106,7 @@ Field read_polled(TomlReader& top, const std::vector<Block>& blocks, std::string
                   std::string_view per_unit) {
   Field field = read_field(top.table(key), per_unit);
   if (!is_polled(blocks, field.space, field.address, field.format.words)) {
-    top.refuse(key, "lies in no block. Extend a block, or add one");
+    top.refuse(key, "is not in any block. Extend a block, or add one");
   }
   return field;
 }
@@ -116,14 +116,14 @@ void read_alarms(TomlReader& top, DriveProfile& profile) {
   profile.alarm_code.space = read_space(code);
   profile.alarm_code.address = read_word(code, "address");
   if (!is_polled(profile.blocks, profile.alarm_code.space, profile.alarm_code.address, 1)) {
-    top.refuse("alarm_code", "lies in no block. Extend a block, or add one");
+    top.refuse("alarm_code", "is not in any block. Extend a block, or add one");
   }
   if (!top.has("alarm")) return;
   for (TomlReader& table : top.tables("alarm")) {
     const int number = static_cast<int>(table.integer("code", 1, 0xffff));
     Alarm alarm{table.text("text"), table.text("hint")};
     if (!profile.alarms.emplace(number, std::move(alarm)).second) {
-      table.refuse("code", "stands here twice. Remove one");
+      table.refuse("code", "appears twice. Remove one");
     }
   }
 }
@@ -141,7 +141,7 @@ void read_bits(TomlReader& top, DriveProfile& profile) {
     place.bit = static_cast<int>(table.integer("bit", 0, 15));
     place.inverted = table.flag("inverted", false);
     if (!is_polled(profile.blocks, place.space, place.address, 1)) {
-      status.refuse(name, "lies in no block. Extend a block, or add one");
+      status.refuse(name, "is not in any block. Extend a block, or add one");
     }
     profile.bits.at(i) = place;
   }
@@ -167,15 +167,16 @@ Write read_write(TomlReader& table, const DriveProfile& profile) {
     const auto value = read_value(*node);
     if (!value) {
       table.refuse("values",
-                   "holds something that cannot be written. Use words from 0 to 65535 and "
-                   "\"position\", \"speed\", \"-speed\", \"acceleration\", \"deceleration\"");
+                   "contains an invalid value. Use words from 0 to 65535 and \"position\", "
+                   "\"speed\", \"-speed\", \"acceleration\", \"deceleration\"");
       return write;
     }
     words += words_of(profile, value->quantity);
     write.values.push_back(*value);
   }
   if (words < 1 || words > kMaxWriteWords || write.address + words > 0x10000) {
-    table.refuse("values", "holds too few or too many words. Write 1 to 123, up to register 65535");
+    table.refuse("values",
+                 "contains too few or too many words. Use 1 to 123, up to register 65535");
   }
   return write;
 }
@@ -196,7 +197,7 @@ void read_commands(TomlReader& top, DriveProfile& profile) {
     auto& writes = profile.commands.at(i);
     for (TomlReader& table : commands.tables(name)) writes.push_back(read_write(table, profile));
     const bool may_lack = i <= static_cast<std::size_t>(Command::kDisable);
-    if (writes.empty() && !may_lack) commands.refuse(name, "is empty. Say what is written");
+    if (writes.empty() && !may_lack) commands.refuse(name, "is empty. Add the registers to write");
   }
 }
 
@@ -212,13 +213,15 @@ void read_watchdog(TomlReader& top, DriveProfile& profile) {
     for (const toml::node* node : table.array("stopping_actions")) {
       const auto value = read_value(*node);
       if (!value || value->quantity != Quantity::kWord) {
-        table.refuse("stopping_actions", "holds no register value. Use words from 0 to 65535");
+        table.refuse("stopping_actions",
+                     "contains an invalid register value. Use words from 0 to 65535");
         break;
       }
       watchdog.stopping.push_back(value->word);
     }
   } else if (!table.flag("always_stops")) {
-    table.refuse("always_stops", "is false and there is no action. Say which values of it stop");
+    table.refuse("always_stops",
+                 "is false, but there is no action. Add the values of the action that stop");
   }
   profile.watchdog = std::move(watchdog);
 }
@@ -265,7 +268,8 @@ Result<DriveProfile> read_drive_profile(const std::filesystem::path& path) {
     const Space space = read_space(table);
     profile.identity.push_back(read_mark(table, space));
   }
-  if (profile.identity.empty()) top.refuse("identity", "is empty. Say how to tell this drive");
+  if (profile.identity.empty())
+    top.refuse("identity", "is empty. Add registers that identify this drive");
   profile.blocks = read_blocks(top);
   profile.position = read_polled(top, profile.blocks, "position", "counts_per_mm");
   profile.velocity = read_polled(top, profile.blocks, "velocity", "counts_per_mm_per_s");

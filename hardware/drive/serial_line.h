@@ -8,7 +8,7 @@
 
 namespace hydroprint::drive {
 
-/// Time that `bytes` take on a serial line: start, 8 data, parity and stop bits each.
+/// Time that `bytes` take on a serial line: each has start, 8 data, parity and stop bits.
 [[nodiscard]] inline std::chrono::nanoseconds wire_time(const Endpoint& line, std::size_t bytes) {
   const int bits = 1 + 8 + (line.parity == 'N' ? 0 : 1) + line.stop_bits;
   return std::chrono::nanoseconds(1'000'000'000LL * bits * static_cast<long long>(bytes) /

@@ -14,7 +14,7 @@ bool holds(const Block& block, Space space, std::uint16_t address, int words) {
          address + words <= block.address + block.count;
 }
 
-/// The words at an address; the profile was checked for it to be polled.
+/// Returns the words at an address, which the profile check guarantees to be polled.
 std::span<const std::uint16_t> words_at(const DriveProfile& profile, const Blocks& blocks,
                                         Space space, std::uint16_t address, int words) {
   std::size_t i = 0;
@@ -56,7 +56,7 @@ DriveState decode_state(const DriveProfile& profile, const Blocks& blocks) {
   if (out.alarm_code == 0) return out;
   const auto known = profile.alarms.find(out.alarm_code);
   out.alarm_text =
-      known == profile.alarms.end() ? "alarm that the profile does not know" : known->second.text;
+      known == profile.alarms.end() ? "alarm not listed in the profile" : known->second.text;
   out.alarm_hint =
       known == profile.alarms.end() ? "look the code up in the drive's manual" : known->second.hint;
   return out;

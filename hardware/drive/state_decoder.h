@@ -7,10 +7,10 @@
 
 namespace hydroprint::drive {
 
-/// Whether a block holds all of a field.
+/// Whether a block contains the whole field.
 [[nodiscard]] bool holds(const Block& block, const Field& field);
 
-/// What the polled blocks, in the profile's order, say; without the time.
+/// Decodes the polled blocks, in the profile's order, without the time.
 [[nodiscard]] DriveState decode_state(const DriveProfile& profile,
                                       const std::vector<std::vector<std::uint16_t>>& blocks);
 

@@ -10,19 +10,18 @@
 
 namespace hydroprint::drive {
 
-/// Stops a drive from any thread, while another may be stuck in Drive: over a connection of its own
-/// (TCP) or before everything else that waits for the line (RTU). Never polls, so that it does not
-/// keep the drive's watchdog from seeing that the main thread is silent.
+/// Stops a drive from any thread, even while another thread is blocked in Drive. Uses its own
+/// connection (TCP) or takes precedence over all other requests on the line (RTU). It never polls,
+/// so the drive's watchdog still detects a main thread that has hung.
 class StopLine {
  public:
   explicit StopLine(const Drive& drive);
 
-  /// Connects ahead of time, so that stop() need not; harmless if it is connected.
+  /// Connects in advance, so that stop() need not; harmless if already connected.
   [[nodiscard]] Status connect();
 
-  /// Tells the drive to stop, connecting and repeating (stopping twice does no harm) until the
-  /// drive confirms or `patience` is over, which it outlasts by one request at most.
-  /// Refuses with the last failure.
+  /// Sends stop to the drive, reconnecting and repeating (which is harmless) until the drive
+  /// confirms or `patience` is over. May exceed `patience` by one request. Returns the last error.
   [[nodiscard]] Status stop(std::chrono::milliseconds patience);
 
  private:

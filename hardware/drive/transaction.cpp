@@ -21,7 +21,7 @@ std::size_t reply_bytes(const Request& request) {
 
 }  // namespace
 
-/// The line and whose turn it is.
+/// The line, and the order in which threads use it.
 class Link::Line {
  public:
   Line(Endpoint endpoint, const LinkTiming& timing)
@@ -39,7 +39,7 @@ class Link::Line {
   [[nodiscard]] const LinkTiming& timing() const { return timing_; }
 
  private:
-  /// Whoever holds one is alone on the line.
+  /// Exclusive use of the line while it exists.
   class Turn {
    public:
     Turn(Line& line, Urgency urgency);
@@ -63,9 +63,9 @@ class Link::Line {
   int stops_waiting_ = 0;
   bool open_ = false;
   std::uint64_t connections_ = 0;
-  Clock::time_point silent_until_;          // for everything but a stop
-  Clock::time_point quiet_until_;           // the gap that ends a frame, for all
-  std::unique_ptr<Connection> connection_;  // of whoever has the turn
+  Clock::time_point silent_until_;          // applies to everything except a stop
+  Clock::time_point quiet_until_;           // the gap after a frame, applies to everything
+  std::unique_ptr<Connection> connection_;  // used only by the holder of the turn
 };
 
 Link::Line::Turn::Turn(Line& line, Urgency urgency) : line_(line) {
@@ -97,7 +97,8 @@ void Link::Line::drop() {
   open_ = false;
 }
 
-// On TCP a late reply dies with its connection; a serial line has to be waited out.
+// On TCP a late reply is dropped with its connection. On a serial line, the delay has to be waited
+// out.
 void Link::Line::after_failure(bool lost) {
   if (lost || !endpoint_.serial) return drop();
   const std::scoped_lock lock(mutex_);
@@ -139,7 +140,7 @@ tl::unexpected<Error> Link::Line::explain(Connection::End end, const std::string
   switch (end) {
     case Connection::End::kTimeout: {
       Error error{Code::kUnavailable,
-                  where + "no reply. Check that it is switched on, its cable and its unit id",
+                  where + "no reply. Check power, cable and unit id",
                   "RIG_OFFLINE",
                   {{"timeout", "1"}}};
       return tl::unexpected(std::move(error));
@@ -147,7 +148,7 @@ tl::unexpected<Error> Link::Line::explain(Connection::End end, const std::string
     case Connection::End::kDamaged:
       return fail(Code::kDataLoss,
                   where + "damaged reply (" + cause +
-                      "). If this goes on, check cable, termination, baud rate and unit id",
+                      "). If this persists, check cable, termination, baud rate and unit id",
                   "REPLY_INVALID");
     default:
       return fail(Code::kUnavailable,
@@ -158,7 +159,8 @@ tl::unexpected<Error> Link::Line::explain(Connection::End end, const std::string
 Result<std::vector<std::uint16_t>> Link::Line::transact(const Request& request, Urgency urgency) {
   const Turn turn(*this, urgency);
   if (!connection_) {
-    return fail(Code::kUnavailable, "drive at " + endpoint_.text() + ": not connected. Connect",
+    return fail(Code::kUnavailable,
+                "drive at " + endpoint_.text() + ": not connected. Connect to it first",
                 "RIG_OFFLINE");
   }
   const Clock::time_point quiet_until = quiet_until_;

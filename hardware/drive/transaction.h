@@ -11,25 +11,26 @@
 
 namespace hydroprint::drive {
 
-/// How long a link waits.
+/// The timeouts of a link.
 struct LinkTiming {
   std::chrono::milliseconds connect{500};
-  std::chrono::milliseconds response{150};     ///< for a reply, besides its time on a serial line
-  std::chrono::milliseconds worst_delay{500};  ///< after which the drive surely answers no more
+  /// for a reply, in addition to its time on a serial line
+  std::chrono::milliseconds response{150};
+  std::chrono::milliseconds worst_delay{500};  ///< after which a reply can no longer arrive
 };
 
-/// Who goes first when two threads want the line.
+/// The priority of a request when two threads want the line.
 enum class Urgency {
   kNormal,
-  kStop,  ///< goes before any kNormal that waits, and does not wait for silence
+  kStop,  ///< precedes all waiting kNormal requests and does not wait for silence
 };
 
-/// A Modbus connection, TCP or RTU, over libmodbus. Any thread may call; requests go one at a time.
+/// A Modbus connection, TCP or RTU, over libmodbus. Thread-safe; requests are sent one at a time.
 ///
-/// Every call ends: within `response` (plus, if another thread is on the line, its `response`), and
-/// on RTU after a failure at most `worst_delay` later: then the line stays silent for so long and
-/// is emptied before the next request, so that no late reply is taken for another's. On TCP a
-/// failure closes the connection. Nothing is ever sent twice, and nothing but connect() connects.
+/// Every call ends within `response` (plus the `response` of another thread on the line). On RTU, a
+/// failure adds at most `worst_delay`: the line then stays silent for that time and is emptied
+/// before the next request, so that a late reply is not taken for another one. On TCP a failure
+/// closes the connection. Nothing is ever sent twice, and only connect() connects.
 class Link {
  public:
   Link(Endpoint endpoint, const LinkTiming& timing);
@@ -37,8 +38,8 @@ class Link {
   Link(const Link&) = delete;
   Link& operator=(const Link&) = delete;
 
-  /// Opens the connection anew; on RTU takes the line for this process alone.
-  /// Refuses with kUnavailable, reason RIG_OFFLINE, saying what to check.
+  /// Reopens the connection; on RTU, locks the line for this process. Returns kUnavailable, reason
+  /// RIG_OFFLINE, with the things to check.
   [[nodiscard]] Status connect();
 
   /// Closes the connection; does nothing if it is closed.
@@ -46,17 +47,18 @@ class Link {
 
   [[nodiscard]] bool is_open() const;
 
-  /// How often it was connected. A number other than before: another connection, and who knows to
-  /// what.
+  /// Number of connections made so far. A different number means a different connection, perhaps to
+  /// another drive.
   [[nodiscard]] std::uint64_t connections() const;
 
-  /// One request and its reply: the words read, none for a write. Refuses what decode_reply
-  /// refuses; with kUnavailable, reason RIG_OFFLINE: no connection, no reply in time (metadata
-  /// `timeout` = "1": whether the drive obeyed is unknown), line unplugged.
+  /// Sends a request and returns its reply: the words read, empty for a write. Errors: those of
+  /// decode_reply, and kUnavailable, reason RIG_OFFLINE. The latter means no connection, an
+  /// unplugged line, or no reply in time (metadata `timeout` = "1": the command may have taken
+  /// effect).
   [[nodiscard]] Result<std::vector<std::uint16_t>> transact(const Request& request,
                                                             Urgency urgency = Urgency::kNormal);
 
-  /// To be called when a reply, though well formed, was not what was asked for: as after a failure.
+  /// Must be called if a well-formed reply has the wrong content; handled like a failure.
   void distrust();
 
   [[nodiscard]] const Endpoint& endpoint() const;
@@ -67,8 +69,8 @@ class Link {
   std::unique_ptr<Line> line_;
 };
 
-/// The link by which to stop while `link` is busy or stuck: another TCP connection; the same link
-/// on RTU, where there is one line (and Urgency::kStop).
+/// Returns the link for stopping while `link` is busy or stuck: another TCP connection; on RTU,
+/// which has only one line, the same link (with Urgency::kStop).
 [[nodiscard]] std::shared_ptr<Link> stop_link(const std::shared_ptr<Link>& link);
 
 }  // namespace hydroprint::drive

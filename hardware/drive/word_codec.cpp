@@ -24,7 +24,7 @@ Result<std::vector<std::uint16_t>> encode(const Format& format, double value) {
   const double raw = std::round(format.inverse ? format.per_unit / value : value * format.per_unit);
   if (!(raw >= least_raw(format) && raw <= largest_raw(format)) || (raw == 0 && value != 0)) {
     std::ostringstream message;
-    message << "the drive's registers cannot hold " << value << ". Ask for another value";
+    message << "the drive's registers cannot hold " << value << ". Use another value";
     return fail(Code::kOutOfRange, message.str(), "LIMIT_EXCEEDED");
   }
   const auto bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));

@@ -17,7 +17,7 @@ Result<Address> parse_address(const std::string& uri) {
   if (status < HTTP_URI_STATUS_OK || (kind != "ipp" && kind != "ipps") || host[0] == '\0' ||
       resource[0] != '/') {
     return fail(Code::kInvalidArgument, "printer '" + uri +
-                                            "': not the address of an IPP printer. Write "
+                                            "': not the address of an IPP printer. Use "
                                             "ipp://HOST[:PORT]/ipp/print, or ipps:// for TLS");
   }
   return Address{host.data(), port, resource.data(), kind == "ipps", uri};

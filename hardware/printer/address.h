@@ -6,7 +6,7 @@
 
 namespace hydroprint::printer {
 
-/// Where a printer speaks the Internet Printing Protocol.
+/// The address of a printer that speaks the Internet Printing Protocol.
 struct Address {
   std::string host;
   int port = 631;
@@ -15,7 +15,7 @@ struct Address {
   std::string uri;  ///< as given
 };
 
-/// Reads "ipp://host[:port]/resource" or "ipps://...". Refuses anything else (kInvalidArgument).
+/// Parses "ipp://host[:port]/resource" or "ipps://..."; returns kInvalidArgument otherwise.
 [[nodiscard]] Result<Address> parse_address(const std::string& uri);
 
 }  // namespace hydroprint::printer

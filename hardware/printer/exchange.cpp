@@ -19,8 +19,8 @@ struct HttpClose {
 };
 using Http = std::unique_ptr<http_t, HttpClose>;
 
-/// Breaks a connection off when its time is up, since the library bounds each wait, but not their
-/// number, and when whoever waits gives up.
+/// Closes a connection when its time is up or the caller cancels. CUPS limits each wait, but not
+/// their number.
 class Deadline {
  public:
   using Clock = std::chrono::steady_clock;
@@ -63,16 +63,16 @@ class Deadline {
   std::condition_variable wake_;
   bool is_over_ = false;
   std::atomic<bool> has_passed_ = false, given_up_ = false;
-  std::thread thread_;  // last: it uses the others
+  std::thread thread_;  // last member: it uses the others
 };
 
-/// The library asks whether to wait on when the time for one wait is up.
+/// Callback of CUPS, called when the time for one wait is up: whether to continue waiting.
 int give_up(http_t*, void* timed_out) {
   *static_cast<bool*>(timed_out) = true;
   return 0;
 }
 
-/// One connection and what happened on it.
+/// One connection and its state.
 class Connection {
  public:
   Connection(const Address& address, const ExchangeTiming& timing,
@@ -87,18 +87,18 @@ class Connection {
 
   [[nodiscard]] Result<Ipp> exchange(ipp_t* request, std::span<const unsigned char> document) {
     if (gives_up_ && gives_up_()) return left();
-    if (!http_) return failure(kUnreachable, "cannot be reached. Is it on, and the address right?");
+    if (!http_) return failure(kUnreachable, "cannot be reached. Check its power and the address");
     const double wait_s = std::chrono::duration<double>(timing_.answer).count();
     httpSetTimeout(http_.get(), wait_s, give_up, &timed_out_);
     Deadline deadline(httpGetFd(http_.get()), timing_.whole, gives_up_);
-    // A printer that refuses may say why and hang up before it has all.
+    // A printer that refuses may send its reason and hang up before it has received everything.
     const bool is_sent = send(request, document);
     Ipp reply(ippNew());
     http_status_t status = HTTP_STATUS_CONTINUE;
     while (status == HTTP_STATUS_CONTINUE) status = httpUpdate(http_.get());
     if (status == HTTP_STATUS_ERROR) return broken(deadline, is_sent);
     if (status != HTTP_STATUS_OK) {
-      return failure(kNoIpp, "answers \"" + std::string(httpStatus(status)) +
+      return failure(kNoIpp, "responds \"" + std::string(httpStatus(status)) +
                                  "\". Check the address's path, as in ipp://HOST/ipp/print");
     }
     ipp_state_t state = IPP_STATE_IDLE;
@@ -109,7 +109,7 @@ class Connection {
     if (timed_out_ || deadline.has_passed() || deadline.given_up() || httpError(http_.get()) != 0) {
       return broken(deadline, is_sent);
     }
-    return failure(kNoIpp, "answers what is no IPP. Check the address");
+    return failure(kNoIpp, "does not respond with IPP. Check the address");
   }
 
  private:
@@ -135,7 +135,7 @@ class Connection {
           httpWrite2(http_.get(), reinterpret_cast<const char*>(part.data()), part.size());
       if (written <= 0) return false;
       document = document.subspan(static_cast<std::size_t>(written));
-      if (httpWait(http_.get(), 0) != 0) return document.empty();  // it has its answer already
+      if (httpWait(http_.get(), 0) != 0) return document.empty();  // the reply has already arrived
     }
     return httpFlushWrite(http_.get()) >= 0;
   }
@@ -144,15 +144,15 @@ class Connection {
     return fail(Code::kUnavailable, "printer " + address_.uri + ": " + what, reason);
   }
   [[nodiscard]] tl::unexpected<Error> left() const {
-    return fail(Code::kCancelled, "printer " + address_.uri + ": was left alone", kLeft);
+    return fail(Code::kCancelled, "printer " + address_.uri + ": cancelled", kLeft);
   }
   [[nodiscard]] tl::unexpected<Error> broken(const Deadline& deadline, bool is_sent) const {
     if (deadline.given_up()) return left();
     if (timed_out_ || deadline.has_passed()) {
-      return failure(kSilent, is_sent ? "does not answer in time. Look at its display"
-                                      : "does not take the data in time. Look at its display");
+      return failure(kSilent, is_sent ? "does not respond in time. Check its display"
+                                      : "does not accept the data in time. Check its display");
     }
-    return failure(kLost, "broke the connection off. Is it still on?");
+    return failure(kLost, "closed the connection. Check its power");
   }
 
   const Address& address_;

@@ -18,25 +18,24 @@ struct IppDelete {
 };
 using Ipp = std::unique_ptr<ipp_t, IppDelete>;
 
-/// How long one exchange may take.
+/// Time limits of one exchange.
 struct ExchangeTiming {
   std::chrono::milliseconds connect{5000};
-  std::chrono::milliseconds answer{15000};  ///< from the last byte sent; also for every write
-  std::chrono::milliseconds whole{60000};   ///< all of it, however the printer dawdles
+  std::chrono::milliseconds answer{15000};  ///< after the last byte sent; also for every write
+  std::chrono::milliseconds whole{60000};   ///< for the whole exchange, however slow the printer is
 };
 
-/// Why an exchange failed.
+/// Reasons of failed exchanges.
 inline constexpr const char* kUnreachable = "PRINTER_UNREACHABLE";  ///< nothing was sent
-inline constexpr const char* kSilent = "PRINTER_SILENT";  ///< connected, but no answer in time
+inline constexpr const char* kSilent = "PRINTER_SILENT";  ///< connected, but no response in time
 inline constexpr const char* kLost = "PRINTER_LOST";      ///< the connection broke
-inline constexpr const char* kNoIpp = "PRINTER_NOT_IPP";  ///< it answered something else
-inline constexpr const char* kLeft = "PRINTER_LEFT";      ///< whoever asked gave up
+inline constexpr const char* kNoIpp = "PRINTER_NOT_IPP";  ///< the response is not IPP
+inline constexpr const char* kLeft = "PRINTER_LEFT";      ///< the caller cancelled
 
-/// Sends one request, with a document behind it, over a connection of its own and waits for the
-/// reply: the printer's, whatever its status says. Ends in bounded time, but for the look-up of the
-/// host's name, which the resolver bounds. Refuses with kUnavailable (kLeft: kCancelled) and one of
-/// the reasons above.
-/// @param gives_up  asked ten times a second once there is a connection; true breaks it off
+/// Sends one request, followed by a document, over a new connection and waits for the printer's
+/// reply, whatever its status. Ends in bounded time, except for host name lookup, which depends on
+/// the resolver. Returns kUnavailable (kLeft: kCancelled) with one of the reasons above.
+/// @param gives_up  called ten times a second while connected; true ends the exchange
 [[nodiscard]] Result<Ipp> exchange(const Address& address, const ExchangeTiming& timing,
                                    const std::function<bool()>& gives_up, ipp_t* request,
                                    std::span<const unsigned char> document = {});

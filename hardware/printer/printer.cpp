@@ -18,10 +18,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kUser = "hydroprint";
-constexpr double kUnitsPerMm = 100;  // PWG's
+constexpr double kUnitsPerMm = 100;  // of PWG media sizes
 
 Ipp request_of(ipp_op_t operation, const Address& address) {
-  Ipp out(ippNewRequest(operation));  // with charset and language
+  Ipp out(ippNewRequest(operation));  // includes charset and language
   ippAddString(out.get(), IPP_TAG_OPERATION, IPP_TAG_URI, "printer-uri", nullptr,
                address.uri.c_str());
   return out;
@@ -63,7 +63,7 @@ std::optional<int> number(ipp_t* reply, const char* name, ipp_tag_t type) {
   return ippGetInteger(attribute, 0);
 }
 
-/// Reasons but the word for none.
+/// Returns the listed reasons, without the keyword "none".
 std::vector<std::string> reasons(ipp_t* reply, const char* name) {
   std::vector<std::string> out = texts(reply, name);
   std::erase(out, "none");
@@ -76,7 +76,7 @@ std::string joined(const std::vector<std::string>& words) {
   return out;
 }
 
-/// The least of what is supported; printers that print to the edge say 0 among others.
+/// The smallest supported value. Printers that can print to the edge list 0 among others.
 double least_mm(ipp_t* reply, const char* name) {
   ipp_attribute_t* attribute = ippFindAttribute(reply, name, IPP_TAG_INTEGER);
   int least = 0;
@@ -97,7 +97,7 @@ std::vector<Paper> papers(ipp_t* reply) {
   return out;
 }
 
-/// Attributes of the request that the reply says are not heeded.
+/// Attributes of the request that the reply reports as ignored.
 std::vector<std::string> ignored(ipp_t* reply) {
   std::vector<std::string> out;
   for (ipp_attribute_t* a = ippFirstAttribute(reply); a != nullptr; a = ippNextAttribute(reply)) {
@@ -109,7 +109,7 @@ std::vector<std::string> ignored(ipp_t* reply) {
 
 bool is_ok(ipp_t* reply) { return ippGetStatusCode(reply) < IPP_STATUS_REDIRECTION_OTHER_SITE; }
 
-/// Printers say so by the status made for it, or by naming the attribute.
+/// Printers report this with a specific status, or by naming the attribute.
 bool is_about_format(ipp_t* reply) {
   if (ippGetStatusCode(reply) == IPP_STATUS_ERROR_DOCUMENT_FORMAT_NOT_SUPPORTED) return true;
   const auto names = ignored(reply);
@@ -123,14 +123,13 @@ tl::unexpected<Error> refused(const Address& address, const std::string& what, i
   if (!message.empty()) why += ": " + message;
   const std::string start = "printer " + address.uri + ": refuses " + what + " (" + why + "). ";
   if (is_about_format(reply)) {
-    return fail(Code::kInvalidArgument, start + "Send a format that it lists",
+    return fail(Code::kInvalidArgument, start + "Use one of the formats that it lists",
                 "FORMAT_NOT_SUPPORTED");
   }
   if (status == IPP_STATUS_ERROR_NOT_FOUND) {
-    return fail(Code::kNotFound, start + "Check the address and the job's number",
-                "PRINTER_REFUSED");
+    return fail(Code::kNotFound, start + "Check the address and the job number", "PRINTER_REFUSED");
   }
-  return fail(Code::kFailedPrecondition, start + "Look at its display", "PRINTER_REFUSED");
+  return fail(Code::kFailedPrecondition, start + "Check its display", "PRINTER_REFUSED");
 }
 
 JobState job_state(int ipp_state) {
@@ -161,7 +160,7 @@ ExchangeTiming question(const Timing& timing) {
   return {timing.connect, timing.answer, 2 * timing.answer};
 }
 
-/// How a job ended, as follow() tells it.
+/// Converts the final report of a job to the result of follow().
 Result<JobReport> outcome(const Address& address, const JobReport& report) {
   if (report.state == JobState::kCompleted) return report;
   const bool canceled = report.state == JobState::kCanceled;
@@ -169,7 +168,7 @@ Result<JobReport> outcome(const Address& address, const JobReport& report) {
   return fail(Code::kAborted,
               "printer " + address.uri + ": job " + std::to_string(report.id) + " was " +
                   (canceled ? "cancelled" : "aborted") + (why.empty() ? "" : " (" + why + ")") +
-                  ". Look at the printer's display, then print again",
+                  ". Check the printer's display, then print again",
               canceled ? "PRINT_CANCELED" : "PRINT_ABORTED");
 }
 
@@ -213,7 +212,7 @@ Result<Attributes> Printer::attributes() const {
                                     "media-top-margin-supported", "media-bottom-margin-supported"});
   HP_ASSIGN_OR_RETURN(const Ipp reply,
                       exchange(address_, question(timing_), gives_up_, request.get()));
-  if (!is_ok(reply.get())) return refused(address_, "to tell about itself", reply.get());
+  if (!is_ok(reply.get())) return refused(address_, "to report its attributes", reply.get());
   Attributes out;
   out.name = text(reply.get(), "printer-name");
   out.make_and_model = text(reply.get(), "printer-make-and-model");
@@ -240,7 +239,8 @@ Result<Submitted> Printer::print(const PrintJob& job) const {
                job.format.c_str());
   const auto units = [](double mm) { return static_cast<int>(std::lround(mm * kUnitsPerMm)); };
   const pwg_media_t* media = pwgMediaForSize(units(job.paper_mm.x()), units(job.paper_mm.y()));
-  if (media == nullptr) return fail(Code::kOutOfRange, "paper: no such size. Use another");
+  if (media == nullptr)
+    return fail(Code::kOutOfRange, "paper: the size is not a standard size. Use another");
   ippAddString(request.get(), IPP_TAG_JOB, IPP_TAG_KEYWORD, "media", nullptr, media->pwg);
   ippAddString(request.get(), IPP_TAG_JOB, IPP_TAG_KEYWORD, "print-scaling", nullptr, "none");
   auto reply = exchange(address_, {timing_.connect, timing_.answer, timing_.upload}, gives_up_,
@@ -248,14 +248,13 @@ Result<Submitted> Printer::print(const PrintJob& job) const {
   if (!reply) {
     Error error = std::move(reply).error();
     if (error.reason != kUnreachable) {
-      error.message += error.reason == kLeft ? "." : "";
-      error.message += " It may have taken the job: look before printing again";
+      error.message += ". The printer may have accepted the job. Check it before printing again";
     }
     return tl::unexpected(std::move(error));
   }
   if (!is_ok(reply->get())) return refused(address_, job.format, reply->get());
   const auto id = number(reply->get(), "job-id", IPP_TAG_INTEGER);
-  if (!id) return refused(address_, "to say the job's number", reply->get());
+  if (!id) return refused(address_, "to report the job number", reply->get());
   return Submitted{*id, ignored(reply->get())};
 }
 
@@ -266,10 +265,11 @@ Result<JobReport> Printer::job(int id) const {
   HP_ASSIGN_OR_RETURN(const Ipp reply,
                       exchange(address_, question(timing_), gives_up_, request.get()));
   if (!is_ok(reply.get())) {
-    return refused(address_, "to tell about job " + std::to_string(id), reply.get());
+    return refused(address_, "to report job " + std::to_string(id), reply.get());
   }
   const auto state = number(reply.get(), "job-state", IPP_TAG_ENUM);
-  if (!state) return refused(address_, "to say how job " + std::to_string(id) + " is", reply.get());
+  if (!state)
+    return refused(address_, "to report the state of job " + std::to_string(id), reply.get());
   return JobReport{id,
                    job_state(*state),
                    reasons(reply.get(), "job-state-reasons"),
@@ -307,7 +307,7 @@ Result<JobReport> Printer::follow(int id, const std::function<void(const JobRepo
     auto report = job(id);
     if (!report && report.error().code != Code::kUnavailable) return report;
     if (!report && Clock::now() - heard >= timing_.patience) {
-      report.error().message += " Job " + std::to_string(id) + " may have been printed or not";
+      report.error().message += ". Job " + std::to_string(id) + " may or may not have been printed";
       report.error().reason = kLost;
       return report;
     }
@@ -325,7 +325,7 @@ Result<JobReport> Printer::follow(int id, const std::function<void(const JobRepo
     if (Clock::now() >= end) {
       return fail(Code::kUnavailable,
                   "printer " + address_.uri + ": job " + std::to_string(id) + " is still " +
-                      job_state_name(last.state) + ". Look at the printer's display",
+                      job_state_name(last.state) + ". Check the printer's display",
                   "PRINT_UNFINISHED");
     }
     std::this_thread::sleep_for(timing_.poll);

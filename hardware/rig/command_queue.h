@@ -11,34 +11,35 @@
 
 namespace hydroprint::rig {
 
-/// What a command answers: the number of the motion that it started; 0 if it starts none.
+/// The result of a command: the number of the motion that it started, or 0.
 using Answer = Result<std::uint64_t>;
 
-/// One command on its way to the owner of the drive.
+/// A command on its way to the control loop.
 struct Order {
   Event::Kind kind = Event::Kind::kArm;
   Plan plan = {};
   TimePoint given = {};
-  std::uint64_t stops = 0;  ///< how many stops had been asked for before it
+  std::uint64_t stops = 0;  ///< number of stops requested before it
   std::promise<Answer> answer = {};
 };
 
-/// Few commands, in order. Callers wait for each other, the owner for nobody.
+/// A short queue of commands, in order. Callers may wait for each other; the control loop never
+/// waits.
 class CommandQueue {
  public:
-  /// False if it is full: then nothing was kept.
+  /// Returns false if the queue is full; the order is then not stored.
   [[nodiscard]] bool put(Order& order) {
     const std::lock_guard lock(mutex_);
     if (orders_.size() >= kMost) return false;
     orders_.push_back(std::move(order));
     return true;
   }
-  /// All that wait; none if a caller is just putting one (it is there the next time).
+  /// Takes all waiting orders. Returns none if a caller is adding one, which is taken next time.
   [[nodiscard]] std::deque<Order> take() {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     return lock ? std::exchange(orders_, {}) : std::deque<Order>();
   }
-  /// All that wait, for sure; not for the owner's loop.
+  /// Takes all waiting orders and waits for the lock; not for use in the control loop.
   [[nodiscard]] std::deque<Order> take_all() {
     const std::lock_guard lock(mutex_);
     return std::exchange(orders_, {});

@@ -36,25 +36,24 @@ std::span<const RigConfigKey> rig_config_keys() { return kKeys; }
 Status check(const RigConfig& config, const drive::DriveProfile& profile) {
   for (const RigConfigKey& key : kKeys) {
     const double value = config.*key.member;
-    if (value >= key.least && value <= key.most) continue;  // not so for NaN
+    if (value >= key.least && value <= key.most) continue;  // false for NaN
     return refuse(key.name, " is ", value, "; it must be from ", key.least, " to ", key.most);
   }
   if (config.max_speed_mm_per_s > profile.max_speed_mm_per_s) {
     return refuse("max_speed_mm_per_s is ", config.max_speed_mm_per_s, "; it must be at most ",
-                  profile.max_speed_mm_per_s, ", the most that the drive \"", profile.name,
-                  "\" can do");
+                  profile.max_speed_mm_per_s, ", the limit of the drive \"", profile.name, "\"");
   }
   const double needed_mm = stopping_distance_mm(config, profile, config.max_speed_mm_per_s);
   if (!(config.keep_out_mm >= needed_mm)) {
     return refuse("keep_out_mm is ", config.keep_out_mm, "; it must be at least ", needed_mm,
-                  ", how far the axis goes on at ", config.max_speed_mm_per_s,
-                  " mm/s when the link is lost; give it more, or lower max_speed_mm_per_s");
+                  ", the stopping distance at ", config.max_speed_mm_per_s,
+                  " mm/s after a lost link; increase it, or lower max_speed_mm_per_s");
   }
   const Range range = soft_limits(config);
   if (!(range.low_mm < range.high_mm)) {
     return refuse("end_high_mm is ", config.end_high_mm, "; it must be more than ",
                   config.end_low_mm + 2 * config.keep_out_mm,
-                  ", end_low_mm and the keep-out at both ends");
+                  ": end_low_mm plus the keep-out at both ends");
   }
   return {};
 }

@@ -20,11 +20,11 @@ using Kind = Event::Kind;
 constexpr double kPendingPatience_s = 2;
 constexpr double kStopAgain_s = 0.2;
 constexpr int kStillLooks = 2;
-// Beyond its set time, before the watchdog of a drive has surely acted.
+// Added to the watchdog's time before it is certain to have acted.
 constexpr double kWatchdogMargin_s = 0.05;
-// Beyond the computed time, before an axis that goes on after a stop counts as not obeying.
+// Added to the computed stopping time; an axis that still moves then does not obey.
 constexpr double kObeyMargin_s = 0.5;
-// Beyond the computed one, before an axis that nobody sees counts as being at rest.
+// Added to the computed stopping time before an axis that cannot be polled counts as at rest.
 constexpr double kStandstillMargin_s = 0.5;
 
 double seconds_since(TimePoint time) {
@@ -73,7 +73,7 @@ void ControlLoop::shut_down() {
   }
   stop_channel_.watch(false, link_monitor_.clean());
   if (link_monitor_.is_up())
-    (void)drive_.disable();  // else its watchdog stops it, and nobody moves it
+    (void)drive_.disable();  // if this fails, the drive's watchdog stops the axis
   drive_.disconnect();
 }
 
@@ -86,7 +86,7 @@ void ControlLoop::tick() {
 }
 
 void ControlLoop::take_stops() {
-  if (stop_channel_.take_trip()) {  // it was this thread that did not look
+  if (stop_channel_.take_trip()) {  // this thread was late with its polls
     link_monitor_.lose();
     lose();
   }
@@ -96,7 +96,7 @@ void ControlLoop::take_stops() {
   apply({Kind::kStop});
 }
 
-/// At rest is what was seen twice after a stop, lest a motion begins that was sent before it.
+/// After a stop, standstill requires two polls: a motion that was sent earlier may still begin.
 Bits ControlLoop::settled(Bits bits) {
   if (condition_.state != State::kStopping) return bits;
   still_ = bits.moving ? 0 : still_ + 1;
@@ -112,7 +112,7 @@ void ControlLoop::look() {
     seen.event->bits = settled(seen.event->bits);
     if (seen.event->kind == Kind::kSeen) {
       stop_channel_.prepare();
-      stopping_since_ = Clock::now();  // if it is: from now on it can obey
+      stopping_since_ = Clock::now();  // if STOPPING: the drive can obey from now on
     }
   }
   if (seen.event) apply(*seen.event);
@@ -128,8 +128,8 @@ void ControlLoop::look() {
   }
 }
 
-/// A drive that may be moving and was perhaps not reached by the stop is left alone until its own
-/// watchdog has stopped it: whatever it hears would keep it going.
+/// If the drive may be moving and the stop may not have reached it, this thread stays silent until
+/// the drive's watchdog has acted: any message would keep the drive moving.
 void ControlLoop::lose() {
   axis_.reset();
   apply({Kind::kLost});
@@ -188,12 +188,12 @@ void ControlLoop::note_change(const Condition& before) {
 void ControlLoop::send_stop() {
   stop_sent_ = Clock::now();
   stop_channel_.stop();
-  // On a line that was just lost this would have to wait; the stop_channel does not.
+  // After a lost link this call would have to wait; stop_channel_ does not.
   if (link_monitor_.is_up()) (void)drive_.stop();
 }
 
-/// Fails with the first thing that the drive did not take; a stop and taking torque away are
-/// repeated until they can be seen, so they do not count.
+/// Returns the error of the first command that the drive did not accept. Stop and disable are
+/// repeated until the drive shows them, so their errors are ignored.
 Status ControlLoop::act(const Actions& actions) {
   if (actions.stop) send_stop();
   if (actions.disable && link_monitor_.is_up()) (void)drive_.disable();
@@ -209,7 +209,8 @@ void ControlLoop::keep_going() {
   if (condition_.motion == Motion::kJog &&
       seconds_since(jogged_) >= drive_.profile().jog_refresh_s / 2) {
     jogged_ = Clock::now();
-    (void)drive_.jog(supervisor_->plan().jog_mm_per_s);  // one that is missing ends by itself
+    // if one is missing, the jog ends by itself
+    (void)drive_.jog(supervisor_->plan().jog_mm_per_s);
   }
   if (condition_.state != State::kStopping || !link_monitor_.is_up()) return;
   const double braking_s =
@@ -223,7 +224,7 @@ void ControlLoop::keep_going() {
 }
 
 void ControlLoop::take_orders() {
-  if (stop_channel_.is_busy()) return;  // at the next look
+  if (stop_channel_.is_busy()) return;  // the orders are taken at the next tick
   for (Order& order : shared_.orders.take()) carry_out(order);
 }
 
@@ -254,7 +255,7 @@ void ControlLoop::carry_out(Order& order) {
 }
 
 Answer ControlLoop::begin(const Order& order) {
-  if (supervisor_) {  // a jog that goes on
+  if (supervisor_) {  // an ongoing jog
     supervisor_->hold_jog(order.given, order.plan.jog_mm_per_s);
   } else {
     const TimePoint now = Clock::now();
@@ -263,7 +264,7 @@ Answer ControlLoop::begin(const Order& order) {
     log_.begin(order.plan.motion, now, axis_->position_mm);
   }
   if (Status sent = command(order); !sent) {
-    apply({Kind::kStop});  // perhaps it did arrive
+    apply({Kind::kStop});  // the command may have arrived
     return tl::unexpected(after_start(std::move(sent).error()));
   }
   return log_.latest();
@@ -282,7 +283,7 @@ Status ControlLoop::command_leg(const Leg& leg) {
   return {};
 }
 
-/// Answers who waits for what is pending no longer.
+/// Answers orders whose confirmation is no longer pending.
 void ControlLoop::answer_waiting() {
   if (condition_.pending != Pending::kNone) return;
   for (Order& order : std::exchange(waiting_, {})) {
@@ -293,7 +294,7 @@ void ControlLoop::answer_waiting() {
       continue;
     }
     Error error{Code::kAborted,
-                "the drive did not confirm it; look at its display and order it again",
+                "the drive did not confirm the command; check its display and try again",
                 "STATE_FORBIDS",
                 {{"state", std::string(name(condition_.state))}}};
     answer(order, tl::unexpected(std::move(error)));
@@ -304,7 +305,7 @@ void ControlLoop::refuse_all() {
   std::deque<Order> orders = shared_.orders.take_all();
   for (Order& order : waiting_) orders.push_back(std::move(order));
   waiting_.clear();
-  for (Order& order : orders) order.answer.set_value(aborted("the rig is being let go of"));
+  for (Order& order : orders) order.answer.set_value(aborted("the daemon is releasing the rig"));
 }
 
 void ControlLoop::publish() {
@@ -324,7 +325,7 @@ void ControlLoop::publish() {
   now.connects = link_monitor_.connects();
   now.jitter = jitter_;
   shared_.status.snapshot.store(now);
-  (void)shared_.status.put(link_monitor_.trouble());  // the next time, if somebody is reading
+  (void)shared_.status.put(link_monitor_.trouble());  // if the lock is taken, at the next tick
   stop_channel_.watch(in_motion(condition_.state), link_monitor_.clean());
   for (auto& [promise, answer] : answers_) promise.set_value(std::move(answer));
   answers_.clear();

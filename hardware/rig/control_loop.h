@@ -12,25 +12,23 @@
 
 namespace hydroprint::rig {
 
-/// What the callers of the controller and the owner of the drive share; neither waits for the
-/// other.
+/// State shared by the controller's callers and the control loop; neither waits for the other.
 struct SharedState {
   CommandQueue orders;
   RigStatus status;
-  std::atomic<std::uint64_t> stops{0};  ///< how often a stop was asked for
+  std::atomic<std::uint64_t> stops{0};  ///< number of stops requested
   std::atomic<bool> end{false};
 };
 
-/// The one thread that talks to the drive: looks at it at a fixed period, feeds the state machine,
-/// and does what comes of it.
+/// The only thread that communicates with the drive. It polls the drive at a fixed period, feeds
+/// the state machine, and executes its actions.
 class ControlLoop {
  public:
-  /// @param drive, stop_channel, shared  outlive it
+  /// @param drive, stop_channel, shared  must outlive this object
   ControlLoop(const RigConfig& config, drive::Drive& drive, StopChannel& stop_channel,
               SharedState& shared);
 
-  /// Until shared.end; then brings the axis to rest, takes its torque away and lets go of the
-  /// drive.
+  /// Runs until shared.end; then stops the axis, disables its torque and releases the drive.
   void run();
 
  private:
@@ -43,7 +41,7 @@ class ControlLoop {
   void publish();
   void shut_down();
 
-  /// Feeds the state machine and does what it says, but for starting a motion.
+  /// Feeds the state machine and executes its actions, except starting a motion.
   Step apply(const Event& event);
   void note_change(const Condition& before);
   [[nodiscard]] Status act(const Actions& actions);
@@ -70,11 +68,11 @@ class ControlLoop {
   Condition condition_;
   std::optional<drive::DriveState> axis_;
   std::optional<MotionSupervisor> supervisor_;
-  std::uint64_t stops_ = 0;  // of shared_.stops, those that were taken
-  int still_ = 0;            // looks in a row, while STOPPING, that saw the axis at rest
+  std::uint64_t stops_ = 0;  // number of stops processed, of shared_.stops
+  int still_ = 0;            // number of consecutive polls with the axis at rest, while STOPPING
   TimePoint jogged_, stop_sent_, stopping_since_;
-  std::vector<Order> waiting_;  // for what is pending
-  /// What is answered once the snapshot shows what came of it.
+  std::vector<Order> waiting_;  // for confirmation by the drive
+  /// Answers that are sent once the snapshot shows their effect.
   std::vector<std::pair<std::promise<Answer>, Answer>> answers_;
   TimePoint pending_since_;
   Jitter jitter_;

@@ -54,7 +54,7 @@ std::future<Answer> Controller::order(Event::Kind kind, Plan plan) {
   std::future<Answer> answer = order.answer.get_future();
   if (!impl_->shared.orders.put(order)) {
     order.answer.set_value(fail(Code::kResourceExhausted,
-                                "too many orders wait for the rig; order it again in a moment",
+                                "too many commands are waiting for the rig; try again in a moment",
                                 "QUEUE_FULL"));
   }
   return answer;

@@ -12,49 +12,50 @@
 
 namespace hydroprint::rig {
 
-/// One rig. Its owner thread looks at the drive at a fixed period, whether or not the drive
-/// answers, and never waits for a caller, a log or a disk; it loses and finds the drive again by
-/// itself.
+/// One rig. Its control loop polls the drive at a fixed period, whether or not the drive responds.
+/// It never waits for a caller, a log or a disk, detects a lost drive and reconnects by itself.
 ///
-/// Any thread may call anything, at any time. Orders are carried out one after the other; the
-/// future of an order is there when the drive took it (arm and reset: when the drive shows it), or
-/// it was refused, by the reasons of errors.h, LIMIT_EXCEEDED, QUEUE_FULL, or kAborted if it came
-/// too late, or a stop came after it. What then becomes of a motion stands in motion(). No order is
-/// ever answered with kUnavailable.
+/// Thread-safe. Orders are executed one after the other. The future of an order is set when the
+/// drive has accepted it (arm and reset: when the drive shows it), or when it is refused. Reasons
+/// are those of errors.h, LIMIT_EXCEEDED and QUEUE_FULL, and kAborted if the order was late or
+/// followed by a stop. motion() reports the further course of a motion. An order never returns
+/// kUnavailable.
 class Controller {
  public:
-  /// Starts it; the drive need not be there. Refuses what check(config, profile) refuses.
+  /// Starts the controller; the drive need not be present. Returns the errors of check(config,
+  /// profile).
   [[nodiscard]] static Result<std::unique_ptr<Controller>> make(const RigConfig& config,
                                                                 drive::DriveProfile profile,
                                                                 drive::Endpoint endpoint);
-  /// Stops a motion, waits for standstill (as long as the drive's watchdog needs at most), and
-  /// takes the torque away.
+  /// Stops a motion, waits for standstill (at most as long as the drive's watchdog needs), and
+  /// disables the torque.
   ~Controller();
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
 
   std::future<Answer> arm();
-  /// Takes the torque away; where the axis is, is not known afterwards.
+  /// Disables the torque. The position of the axis is unknown afterwards.
   std::future<Answer> disarm();
   std::future<Answer> reset();
   std::future<Answer> home();
   std::future<Answer> move_to(double position_mm, double speed_mm_per_s);
-  /// Moves at a speed of either sign for as long as this is called again at least every
-  /// kPresence_s; at rest within 500 ms of the last call, or before the soft limit.
+  /// Moves at a speed of either sign as long as this is called again at least every kPresence_s.
+  /// The axis stops within 500 ms of the last call, or before the soft limit.
   std::future<Answer> jog(double speed_mm_per_s);
-  /// Goes each leg and holds; nobody need be there.
+  /// Performs each leg and its hold; needs no client.
   std::future<Answer> dip(std::vector<Leg> legs);
 
-  /// Stops any motion. Returns at once, whatever hangs; never refused; again does no harm. Orders
-  /// given before it and not carried out yet are refused.
+  /// Stops any motion. Returns immediately in every situation, is never refused and may be
+  /// repeated. Orders that were given before it and have not started are refused.
   void stop() noexcept;
 
   [[nodiscard]] Snapshot snapshot() const;
-  /// Why the drive does not answer, or must not be armed.
+  /// Why the drive does not respond, or must not be armed.
   [[nodiscard]] std::optional<Error> trouble() const;
-  /// What became of a motion; none if there was none of that number, or many since.
+  /// Report of a motion; nullopt if the number does not exist or is too old.
   [[nodiscard]] std::optional<MotionReport> motion(std::uint64_t number) const;
-  /// Samples by their numbers, oldest first; the older ones may be gone (SampleRing::kSize).
+  /// Returns samples by number, oldest first; old ones may have been overwritten
+  /// (SampleRing::kSize).
   [[nodiscard]] std::vector<Sample> samples(std::uint64_t first, std::uint64_t last) const;
 
   [[nodiscard]] const RigConfig& config() const;

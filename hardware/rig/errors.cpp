@@ -16,35 +16,34 @@ struct Words {
 Words words(Cause cause) {
   switch (cause) {
     case Cause::kLinkLost:
-      return {"the drive did not answer while it was armed", "check its power and its cable",
+      return {"the drive stopped responding while it was armed", "check its power and cable",
               "RIG_OFFLINE"};
     case Cause::kAlarm:
-      return {"the drive raised an alarm", "remove its cause as the drive's text says",
-              "RIG_FAULTED"};
+      return {"the drive raised an alarm", "remove the cause that the alarm names", "RIG_FAULTED"};
     case Cause::kDropped:
-      return {"the drive gave up torque or its home by itself, as after a power cut",
+      return {"the drive lost its torque or home position, as after a power failure",
               "check its power supply", "RIG_FAULTED"};
     case Cause::kLimit:
-      return {"an end switch was hit", "see what is in the way and check the soft limits",
+      return {"a limit switch was hit", "remove any obstacle and check the soft limits",
               "LIMIT_EXCEEDED"};
     case Cause::kGuard:
       return {"the axis left its soft limits", "check the home switch and rig.end_*_mm",
               "LIMIT_EXCEEDED"};
     case Cause::kFollowingError:
-      return {"the axis is not where it was told to be", "see what blocks it, or slips",
+      return {"the axis is not at its commanded position", "check for blocking or slipping parts",
               "RIG_FAULTED"};
     case Cause::kUnexpectedMotion:
-      return {"the axis moved and nobody told it to", "see who else commands the drive",
+      return {"the axis moved without a command", "find out what else commands the drive",
               "RIG_FAULTED"};
     case Cause::kConfigUnsafe:
-      return {"the drive's watchdog would not stop it any more", "set up its watchdog",
+      return {"the drive's watchdog would no longer stop the axis", "set up its watchdog",
               "DRIVE_CONFIG_UNSAFE"};
     case Cause::kStopButton:
       return {"the stop button was pressed", "release it", "STOP_BUTTON"};
     case Cause::kNone:
       break;
   }
-  return {"the motion was stopped", "look at the rig", "STATE_FORBIDS"};
+  return {"the motion was stopped", "check the rig", "STATE_FORBIDS"};
 }
 
 struct Answer {
@@ -56,16 +55,17 @@ Answer answer(Refusal refusal, State state) {
   switch (refusal) {
     case Refusal::kOffline:
       return {Code::kFailedPrecondition,
-              "the drive does not answer; check its power, its cable and rig.drive"};
+              "the drive does not respond; check its power, its cable and rig.drive"};
     case Refusal::kFaulted:
-      return {Code::kFailedPrecondition, "the rig wants a reset"};
+      return {Code::kFailedPrecondition, "the rig must be reset"};
     case Refusal::kNotHomed:
-      return {Code::kFailedPrecondition, "where the axis is, is not known; home it first"};
+      return {Code::kFailedPrecondition, "the axis position is unknown; home it first"};
     case Refusal::kMotionInProgress:
-      return {Code::kAborted, "another motion is under way; wait for its end, or stop it"};
+      return {Code::kAborted, "another motion is in progress; wait until it ends, or stop it"};
     case Refusal::kConfigUnsafe:
-      return {Code::kFailedPrecondition,
-              "the drive is not set up to stop by itself when the link is lost; see what it lacks"};
+      return {
+          Code::kFailedPrecondition,
+          "the drive is not set up to stop by itself when the link is lost; check its watchdog"};
     case Refusal::kStateForbids:
       break;
   }

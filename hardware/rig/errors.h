@@ -5,11 +5,11 @@
 
 namespace hydroprint::rig {
 
-/// What a refused command answers: why, and what to do first; metadata `state` and, if there is
-/// one, `cause`. Never kUnavailable: nothing here is to be tried again blindly.
+/// Error for a refused command: the reason and the first remedy, with metadata `state` and, if set,
+/// `cause`. Never kUnavailable, because clients must not repeat these commands automatically.
 [[nodiscard]] Error refused(Refusal refusal, const Condition& condition);
 
-/// What a motion that failed for this cause says: what happened and what to do; metadata `cause`.
+/// Error of a motion that failed for this cause: fault and remedy, with metadata `cause`.
 [[nodiscard]] Error failed(Cause cause);
 
 }  // namespace hydroprint::rig

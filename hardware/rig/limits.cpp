@@ -8,7 +8,7 @@
 namespace hydroprint::rig {
 namespace {
 
-// Polls pass between two looks at a jog.
+// Poll periods between two checks of a jog.
 constexpr double kJogLooks = 3;
 
 std::string text(double value) {
@@ -17,7 +17,7 @@ std::string text(double value) {
   return out.str();
 }
 
-/// The longest that is accepted; without a watchdog, the drive is never armed.
+/// The longest accepted watchdog time; a drive without a watchdog is never armed.
 double watchdog_s(const drive::DriveProfile& profile) {
   return profile.watchdog ? profile.watchdog->largest_time_s : 0;
 }
@@ -25,7 +25,7 @@ double watchdog_s(const drive::DriveProfile& profile) {
 Status refuse(const std::string& axis, const char* unit, double value, Range range) {
   Error error{Code::kOutOfRange,
               axis + ": " + text(value) + unit + " is outside " + text(range.low_mm) + " to " +
-                  text(range.high_mm) + unit + "; ask for less",
+                  text(range.high_mm) + unit + "; choose a value in this range",
               "LIMIT_EXCEEDED",
               {{"axis", axis},
                {"min", text(range.low_mm)},

@@ -4,22 +4,22 @@
 
 namespace hydroprint::rig {
 
-/// Writes on the status what becomes of each motion.
+/// Writes the report of each motion to the status.
 class MotionLog {
  public:
-  /// @param status  outlives it
+  /// @param status  must outlive this object
   explicit MotionLog(RigStatus& status) : status_(status) {}
 
-  /// A motion starts; @return its number.
+  /// Records the start of a motion; @return its number.
   std::uint64_t begin(Motion motion, TimePoint now, double position_mm);
-  /// It is over, though perhaps not at rest.
+  /// Records the end of the motion, perhaps before standstill.
   void end(MotionReport::Outcome outcome, Cause cause, int alarm_code);
-  /// Where the axis was just seen.
+  /// Records a sample of the axis.
   void see(const Sample& sample, bool at_rest);
 
   /// Number of the latest motion; 0: none yet.
   [[nodiscard]] std::uint64_t latest() const { return report_.number; }
-  /// That of the motion to which samples belong now (its way to standstill included); 0: none.
+  /// Number of the motion that new samples belong to, until standstill; 0: none.
   [[nodiscard]] std::uint64_t current() const { return open_ ? report_.number : 0; }
 
  private:

@@ -16,7 +16,7 @@ Travel::Travel(double from_mm, double to_mm, double speed_mm_per_s, double accel
 }
 
 double Travel::position_mm(double t_s) const {
-  // The way up to t is a trapezoid of speed less what is cut off at either end.
+  // The distance up to t is the area of a speed trapezoid that is cut off at t.
   const double t = std::clamp(t_s, 0.0, duration_s());
   const double ramp = std::min(t, ramp_s_);
   const double cruise = std::clamp(t - ramp_s_, 0.0, cruise_s_);

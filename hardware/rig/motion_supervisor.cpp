@@ -11,9 +11,9 @@ namespace {
 
 using Kind = Event::Kind;
 
-// A drive that was told to home shows it within this time.
+// Time within which a drive must show that homing has started.
 constexpr double kHomingShows_s = 0.5;
-// A move may take this much longer than computed: time for the order, and for the last step.
+// Tolerance of a move's duration, for sending the command and for the last step.
 constexpr double kLate_s = 1;
 
 double seconds(TimePoint from, TimePoint to) {
@@ -26,7 +26,7 @@ Status check(const RigConfig& config, const Plan& plan) {
   if (plan.motion == Motion::kJog) return check_speed(config, std::abs(plan.jog_mm_per_s));
   if (plan.motion == Motion::kHome) return {};
   if (plan.legs.empty() || (plan.motion == Motion::kMove && plan.legs.size() != 1)) {
-    return fail(Code::kInvalidArgument, "a motion without a way to go; give its target and speed",
+    return fail(Code::kInvalidArgument, "the motion has no leg; give a target and a speed",
                 "SPEC_INVALID");
   }
   for (const Leg& leg : plan.legs) {
@@ -115,7 +115,7 @@ void MotionSupervisor::note(Sample& sample) const {
   if (!travel_) return;
   const double t_s = since_leg_s(sample.time);
   sample.expected_mm = travel_->position_mm(t_s);
-  // The order may arrive late, and the drive may be so too.
+  // The command may arrive late, and so may the drive's reaction.
   sample.cruising =
       t_s > travel_->cruise_begin_s() + config_.following_error_s && t_s < travel_->cruise_end_s();
 }

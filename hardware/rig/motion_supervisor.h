@@ -11,25 +11,26 @@
 
 namespace hydroprint::rig {
 
-/// One way at constant speed, and how long to stay at its end.
+/// A move at constant speed and the hold at its end.
 struct Leg {
   double target_mm = 0;
   double speed_mm_per_s = 0;
   double hold_s = 0;
 };
 
-/// What a motion is to do.
+/// The parameters of a motion.
 struct Plan {
   Motion motion = Motion::kNone;
-  std::vector<Leg> legs = {};  ///< of a move (one) and of a dip
-  double jog_mm_per_s = 0;     ///< of a jog; its sign is its direction
+  std::vector<Leg> legs = {};  ///< of a move (one) and a dip
+  double jog_mm_per_s = 0;     ///< of a jog; the sign is the direction
 };
 
 /// Refuses a plan that leaves the soft limits or is too fast (check_target, check_speed), a move
-/// without its leg, a dip without any or with a hold that is no time.
+/// without its leg, a dip without legs, and an invalid hold time.
 [[nodiscard]] Status check(const RigConfig& config, const Plan& plan);
 
-/// One motion under way: told what the drive shows, it says what is next. It knows no drive.
+/// One motion in progress: processes samples of the drive and returns the next action. Has no
+/// access to the drive.
 class MotionSupervisor {
  public:
   /// @param plan  checked
@@ -38,16 +39,16 @@ class MotionSupervisor {
 
   struct Advice {
     std::optional<Event::Kind> event;  ///< for the state machine
-    std::optional<Leg> next;           ///< command this move now, then call begin_leg()
+    std::optional<Leg> next;           ///< send this move now, then call begin_leg()
   };
-  /// Looks at a clean sample of the drive.
+  /// Processes a valid sample of the drive.
   [[nodiscard]] Advice look(const drive::DriveState& drive);
-  /// The leg's move was commanded, at this time.
+  /// Records when the leg's move was sent.
   void begin_leg(TimePoint now);
-  /// Somebody holds the jog at this time, and wants this speed.
+  /// Records that the jog was held at this time, with its speed.
   void hold_jog(TimePoint now, double speed_mm_per_s);
 
-  /// Fills in what of a sample is the motion's: leg, where it should be, whether it cruises.
+  /// Fills in a sample's fields that depend on the motion: leg, expected position, constant speed.
   void note(Sample& sample) const;
 
   [[nodiscard]] const Plan& plan() const { return plan_; }

@@ -8,7 +8,7 @@
 namespace hydroprint::rig {
 namespace {
 
-// An older order is not carried out: the person who gave it may have left.
+// Older orders are refused: the person who gave the order may have left.
 constexpr double kOldest_s = 1;
 
 double age_s(const Order& order) {
@@ -20,10 +20,11 @@ double age_s(const Order& order) {
 Status check_order(const Order& order, std::uint64_t stops, const RigConfig& config,
                    const drive::DriveProfile& profile,
                    const std::optional<drive::DriveState>& axis) {
-  if (order.stops != stops) return aborted("a stop was asked for after this; order it again");
+  if (order.stops != stops)
+    return aborted("a stop was requested after this command; repeat the command");
   const bool jogs = order.kind == Event::Kind::kJog;
   if (age_s(order) > (jogs ? kPresence_s : kOldest_s)) {
-    return aborted("the rig was busy too long to begin this safely; order it again");
+    return aborted("the command waited too long to start safely; repeat it");
   }
   if (order.plan.motion == Motion::kNone) return {};
   HP_RETURN_IF_ERROR(check(config, order.plan));

@@ -12,53 +12,52 @@
 
 namespace hydroprint::rig {
 
-/// What came of one motion.
+/// The report of one motion.
 struct MotionReport {
   enum class Outcome : std::uint8_t {
     kRunning,
     kDone,
-    kStopped,  ///< because somebody asked, or let go of the jog
+    kStopped,  ///< on request, or because the jog was released
     kFailed,   ///< for `cause`
   };
   std::uint64_t number = 0;
   Motion motion = Motion::kNone;
   Outcome outcome = Outcome::kRunning;
   Cause cause = Cause::kNone;
-  std::int32_t alarm_code = 0;  ///< the drive's, when it failed; 0: none
-  bool at_rest = false;         ///< seen so since it ended
+  std::int32_t alarm_code = 0;  ///< the drive's, if the motion failed; 0: none
+  bool at_rest = false;         ///< standstill was seen since the end
   double begin_mm = 0;
-  double end_mm = 0;  ///< where it was last seen
+  double end_mm = 0;  ///< last position seen
   TimePoint begun, ended;
-  TimePoint rested;                ///< when it was seen at rest
-  std::uint64_t first_sample = 0;  ///< numbers in the SampleRing; its own samples and those of
-  std::uint64_t last_sample = 0;   ///< the way to standstill
+  TimePoint rested;                ///< time of standstill
+  std::uint64_t first_sample = 0;  ///< numbers in the SampleRing, of the samples of the motion
+  std::uint64_t last_sample = 0;   ///< and of its way to standstill
 };
 
-/// How regularly the owner looks at the drive.
+/// How regularly the control loop polls the drive.
 struct Jitter {
   std::uint64_t ticks = 0;
-  std::uint64_t skipped =
-      0;                 ///< periods in which it did not look, because the last one took longer
-  double largest_s = 0;  ///< latest that it ever was
-  double rms_s = 0;      ///< of how late it was
+  std::uint64_t skipped = 0;  ///< periods skipped because the one before took longer
+  double largest_s = 0;       ///< largest delay of a poll
+  double rms_s = 0;           ///< rms delay of the polls
 };
 
-/// All that the rig shows, at one moment.
+/// The complete state of the rig at one moment.
 struct Snapshot {
   Condition condition;
-  TimePoint time;         ///< of the last clean look at the drive
-  bool has_axis = false;  ///< the following were seen since the drive last answered
+  TimePoint time;         ///< of the last valid poll
+  bool has_axis = false;  ///< the fields below are valid since the drive last connected
   Bits bits;
   double position_mm = 0;
   double velocity_mm_per_s = 0;
-  std::int32_t alarm_code = 0;                   ///< DriveProfile::alarms has its words
+  std::int32_t alarm_code = 0;                   ///< text in DriveProfile::alarms
   double watchdog_s = 0;                         ///< the drive's, as read back
-  std::uint64_t motion = 0;                      ///< number of the latest; 0: none yet
+  std::uint64_t motion = 0;                      ///< number of the latest motion; 0: none yet
   std::uint64_t missed_polls = 0, connects = 0;  ///< since the start
-  Jitter jitter;                                 ///< `ticks` is the owner's sign of life
+  Jitter jitter;                                 ///< `ticks` shows that the control loop is alive
 };
 
-/// What the owner of the drive tells, without ever waiting, and others copy out.
+/// Data that the control loop publishes without waiting and other threads copy.
 class RigStatus {
  public:
   static constexpr std::size_t kMotions = 64;
@@ -66,22 +65,22 @@ class RigStatus {
   SampleRing samples;
   Seqlock<Snapshot> snapshot;
 
-  /// By the owner.
+  /// For the control loop.
   void put(const MotionReport& report) { motions_[report.number % kMotions].store(report); }
-  /// The one of that number; none if it is not there yet, or any more.
+  /// Returns the report of a motion; nullopt if it does not exist yet, or has been overwritten.
   [[nodiscard]] std::optional<MotionReport> motion(std::uint64_t number) const {
     const MotionReport report = motions_[number % kMotions].load();
     if (number == 0 || report.number != number) return std::nullopt;
     return report;
   }
 
-  /// By the owner; false if somebody is just reading: then try again later.
+  /// For the control loop. Returns false if another thread is reading; then call it again later.
   [[nodiscard]] bool put(const std::optional<Error>& trouble) {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (lock) trouble_ = trouble;
     return lock.owns_lock();
   }
-  /// Why the drive does not answer, or must not be armed; none: all is well.
+  /// Why the drive does not respond, or must not be armed; nullopt: no fault.
   [[nodiscard]] std::optional<Error> trouble() const {
     const std::lock_guard lock(mutex_);
     return trouble_;

@@ -16,7 +16,7 @@ double seconds(const Sample& sample, const Sample& first) {
   return std::chrono::duration<double>(sample.time - first.time).count();
 }
 
-// A late reply tells little: samples count by how well their times are known, up to this.
+// The weight of a sample depends on the uncertainty of its time, with this lower bound.
 constexpr double kBestTimeError_s = 2e-4;
 
 double weight(const Sample& sample) {
@@ -74,7 +74,7 @@ std::vector<Sample> SampleRing::copy(std::uint64_t first, std::uint64_t last) co
   std::vector<Sample> out;
   for (std::uint64_t number = first; number <= last; ++number) {
     const Sample sample = (*slots_)[number % kSize].load();
-    if (sample.number == number) out.push_back(sample);  // else it was overwritten just now
+    if (sample.number == number) out.push_back(sample);  // otherwise it has just been overwritten
   }
   return out;
 }

@@ -8,24 +8,24 @@
 
 namespace hydroprint::rig {
 
-/// A value that one thread writes without ever waiting and any thread reads whole: a reader that
-/// met the writer half way reads again.
+/// A value that one thread writes without waiting and any thread reads consistently: a reader that
+/// overlaps with a write repeats the read.
 ///
-/// Every access is atomic, and ordered by release and acquire alone, no fence: a reader that gets a
-/// word of a later value acquires with it the odd turn that was stored before it, so its second
-/// look at the turn differs from the first, which had acquired all words of its own value.
+/// Every access is atomic, with release and acquire ordering and no fences. A reader that gets a
+/// word of a later value thereby also acquires the odd turn stored before it. Its second read of
+/// the turn then differs from the first, which had acquired all words of its own value.
 template <class T>
 class Seqlock {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  /// By one thread only.
+  /// For one thread only.
   void store(const T& value) {
     std::array<std::uint64_t, kWords> words{};
     std::memcpy(words.data(), &value, sizeof value);
     const std::uint64_t turn = turn_.load(std::memory_order_relaxed);
     turn_.store(turn + 1, std::memory_order_relaxed);
-    // Whoever sees one of these words sees the odd turn, too.
+    // A reader that sees one of these words also sees the odd turn.
     for (std::size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
     turn_.store(turn + 2, std::memory_order_release);
   }

@@ -16,7 +16,7 @@ State rest(const Condition& c) {
   return c.homed ? State::kIdle : State::kUnhomed;
 }
 
-/// Something went wrong: the axis is stopped, and a reset is owed. The first cause is the one kept.
+/// A fault: the axis is stopped, and a reset is required. The first cause is kept.
 Step trip(Condition c, Cause cause, bool moving) {
   if (c.cause == Cause::kNone) c.cause = cause;
   c.homed = false;
@@ -36,15 +36,15 @@ Step press_button(Condition c) {
   return {c, {.stop = news}};
 }
 
-/// What a look at the drive shows to be wrong in this condition.
+/// Returns the fault that a poll shows in this condition.
 Cause wrong(const Condition& c, const Bits& bits) {
-  if (c.homed && bits.limit) return Cause::kLimit;  // most drives raise an alarm as well
+  if (c.homed && bits.limit) return Cause::kLimit;  // most drives also raise an alarm
   if (bits.alarm) return Cause::kAlarm;
   if (is_armed(c.state)) {
     if (c.link == Link::kUnsafe) return Cause::kConfigUnsafe;
     if (!bits.enabled || (c.homed && !bits.homed)) return Cause::kDropped;
   }
-  // Without torque a hand may turn the screw.
+  // Without torque, the screw can be turned by hand.
   const bool should_rest = at_rest_armed(c.state) || c.state == State::kDisarmed;
   if (should_rest && bits.moving && bits.enabled) return Cause::kUnexpectedMotion;
   return Cause::kNone;
@@ -79,7 +79,7 @@ Step look_at_disarmed(Condition c, const Bits& bits) {
 }
 
 Step look(Condition c, const Bits& bits) {
-  if (c.link == Link::kNone) return stay(c);  // a look at a drive that is not there
+  if (c.link == Link::kNone) return stay(c);  // ignores a poll without a link
   c.button = bits.button;
   if (bits.button) return press_button(c);
   if (c.state == State::kFault || c.state == State::kEstopped) return look_at_fault(c, bits);
@@ -116,7 +116,7 @@ Step assume_standstill(Condition c) {
 
 Step finish_motion(Condition c) {
   if (!in_motion(c.state)) return stay(c);
-  c.homed = true;  // before homing, nothing but homing can be under way
+  c.homed = true;  // before homing, the only possible motion is homing
   c.motion = Motion::kNone;
   c.state = State::kIdle;
   return stay(c);
@@ -138,7 +138,7 @@ Step time_out(Condition c) {
   return {c, {.disable = arming}};
 }
 
-/// Why nothing but a stop can be done in this state; none if something can.
+/// Why only a stop is possible in this state; nullopt if other commands are possible.
 std::optional<Refusal> out_of_order(const Condition& c) {
   switch (c.state) {
     case State::kOffline:
@@ -166,7 +166,7 @@ Step arm(Condition c) {
 
 Step ask_to_disarm(const Condition& c) {
   if (c.state == State::kFault) return {c, {.disable = true}};
-  if (c.state == State::kEstopped) return stay(c);  // the button took the torque
+  if (c.state == State::kEstopped) return stay(c);  // the button removed the torque
   if (const auto refusal = out_of_order(c)) return refuse(c, *refusal);
   return disarm(c);
 }

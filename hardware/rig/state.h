@@ -6,83 +6,83 @@
 
 namespace hydroprint::rig {
 
-/// What the rig is doing; README.md draws how one follows another.
+/// The state of the rig; README.md draws the transitions.
 enum class State : std::uint8_t {
-  kOffline,   ///< the drive does not answer: nothing is known
+  kOffline,   ///< the drive does not respond: nothing is known
   kDisarmed,  ///< the drive answers and holds no torque
-  kUnhomed,   ///< armed, but where the axis is, is not known: only homing may move
+  kUnhomed,   ///< armed, but the position is unknown: only homing is allowed
   kIdle,      ///< armed, homed, at rest
   kMoving,    ///< homing, a move or a jog
   kDipping,
-  kStopping,  ///< told to stop, not seen at rest yet
-  kFault,     ///< at rest after something went wrong: wants a reset
-  kEstopped,  ///< the stop button was pressed: wants it released, a reset, arming and homing
+  kStopping,  ///< stop sent, standstill not seen yet
+  kFault,     ///< at rest after a fault: must be reset
+  kEstopped,  ///< the stop button was pressed: release it, reset, arm and home
 };
 
 enum class Motion : std::uint8_t { kNone, kHome, kMove, kJog, kDip };
 
-/// Why the rig has to be reset.
+/// The fault that requires a reset.
 enum class Cause : std::uint8_t {
   kNone,
   kLinkLost,          ///< while armed
-  kAlarm,             ///< the drive's own
-  kDropped,           ///< the drive gave up torque or its home by itself: it was restarted
-  kLimit,             ///< an end switch
+  kAlarm,             ///< raised by the drive
+  kDropped,           ///< the drive lost torque or home position: it was restarted
+  kLimit,             ///< limit switch
   kGuard,             ///< the axis left its soft limits
-  kFollowingError,    ///< the axis is not where it was told to be
-  kUnexpectedMotion,  ///< the axis moves and nobody told it to
-  kConfigUnsafe,      ///< the drive lost its watchdog while armed
+  kFollowingError,    ///< the axis is not at its commanded position
+  kUnexpectedMotion,  ///< the axis moves without a command
+  kConfigUnsafe,      ///< the drive's watchdog was turned off while armed
   kStopButton,
 };
 
-/// What is known of the drive at the other end.
+/// The state of the link to the drive.
 enum class Link : std::uint8_t {
-  kNone,    ///< it does not answer
-  kUnsafe,  ///< it answers; not the right drive, or its watchdog would not stop it
+  kNone,    ///< no response
+  kUnsafe,  ///< responds, but is the wrong drive, or its watchdog would not stop it
   kSafe,
 };
 
-/// What the drive was asked for and has not shown yet.
+/// A request to the drive that it has not confirmed yet.
 enum class Pending : std::uint8_t { kNone, kArm, kReset };
 
-/// All that decides what may happen next.
+/// The complete input to decisions about the next action.
 struct Condition {
   State state = State::kOffline;
-  Motion motion = Motion::kNone;  ///< under way
+  Motion motion = Motion::kNone;  ///< in progress
   Cause cause = Cause::kNone;     ///< kept until a reset, through STOPPING and OFFLINE
   Link link = Link::kNone;
   Pending pending = Pending::kNone;
-  bool homed = false;   ///< in this condition's own judgement; a drive may claim more
-  bool button = false;  ///< pressed when last seen
+  bool homed = false;   ///< determined by this state machine; the drive may claim more
+  bool button = false;  ///< pressed at the last poll
 
   bool operator==(const Condition&) const = default;
 };
 
-/// One clean look at the drive.
+/// The result of a valid poll.
 struct Bits {
   bool moving = false;
   bool enabled = false;  ///< holds torque
-  bool homed = false;    ///< says that it knows where it is
+  bool homed = false;    ///< claims a known position
   bool alarm = false;
   bool button = false;  ///< stop input active
-  bool limit = false;   ///< on either end switch
+  bool limit = false;   ///< on either limit switch
 
   bool operator==(const Bits&) const = default;
 };
 
 struct Event {
   enum class Kind : std::uint8_t {
-    kSeen,    ///< first clean look after a connect; `safe` is the verdict on identity and watchdog
-    kSample,  ///< any later look
-    kLost,    ///< three polls missed, 250 ms without a clean look, or no connection
-    kStandstillAssumed,  ///< lost for longer than the drive's own watchdog needs to stop it
-    kMotionDone,         ///< the drive is at rest where the motion was to end
-    kJogOver,            ///< nobody holds the jog any more, or it has come to its limit
+    kSeen,    ///< first valid poll after connecting; `safe`: identity and watchdog are good
+    kSample,  ///< any later poll
+    kLost,    ///< three polls missed, 250 ms without a valid poll, or no connection
+    kStandstillAssumed,  ///< lost for longer than the drive's watchdog needs
+    kMotionDone,         ///< the drive is at rest at the motion's target
+    kJogOver,            ///< the jog was released, or has reached its limit
     kOutsideLimits,
     kFollowingError,
-    kTimedOut,  ///< what is pending takes too long
+    kTimedOut,  ///< a pending confirmation takes too long
     // Commands; only these can be refused.
-    kStop,  ///< never is
+    kStop,  ///< never refused
     kArm,
     kDisarm,
     kHome,
@@ -96,7 +96,7 @@ struct Event {
   bool safe = false;  ///< of kSeen
 };
 
-/// What the owner of the drive must do, in this order.
+/// Actions for the control loop, in this order.
 struct Actions {
   bool stop = false;
   bool disable = false;
@@ -119,21 +119,21 @@ enum class Refusal : std::uint8_t {
 struct Step {
   Condition next;
   Actions actions = {};
-  std::optional<Refusal> refusal = {};  ///< if any: `next` is as before and nothing is to be done
+  std::optional<Refusal> refusal = {};  ///< if set, `next` is unchanged and there are no actions
 };
 
-/// What follows from an event; every event is good in every condition. Rules:
-/// - nothing moves before arming, and nothing but homing before homing;
-/// - a reset, a reconnect or a released button starts nothing;
-/// - whatever costs the reset also costs the home position, and so does disarming;
-/// - STOPPING ends when the axis is seen at rest; with the link lost, when the drive's watchdog
-/// must
-///   have stopped it (then OFFLINE); or as ESTOPPED, which cannot be left while the axis moves.
+/// Computes the reaction to an event; every event is valid in every condition. Rules:
+/// - nothing moves before arming, and only homing is allowed before homing;
+/// - a reset, a reconnect or a released button starts no motion;
+/// - everything that requires a reset also discards the home position, and so does disarming;
+/// - STOPPING ends when the axis is seen at rest. With the link lost, it ends when the drive's
+///   watchdog must have stopped the axis (then OFFLINE). It also ends as ESTOPPED, which cannot be
+///   left while the axis moves.
 [[nodiscard]] Step step(const Condition& condition, const Event& event);
 
-/// Torque is or may be on.
+/// Whether torque is or may be on.
 [[nodiscard]] bool is_armed(State state);
-/// A motion that was commanded is under way.
+/// Whether a commanded motion is in progress.
 [[nodiscard]] bool in_motion(State state);
 
 }  // namespace hydroprint::rig

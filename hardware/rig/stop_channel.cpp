@@ -25,7 +25,7 @@ StopChannel::~StopChannel() {
 
 void StopChannel::ring() noexcept {
   const std::uint64_t one = 1;
-  // Fails only if it was rung so often that it is awake anyway.
+  // The write fails only if the counter is full, and then the thread is awake anyway.
   if (::write(bell_, &one, sizeof one) < 0) return;
 }
 
@@ -57,11 +57,11 @@ void StopChannel::run() {
     std::uint64_t rings = 0;
     if (::read(bell_, &rings, sizeof rings) < 0) rings = 0;
     if (owner_is_late()) {
-      in_motion_ = false;  // once
+      in_motion_ = false;  // only once
       tripped_ = true;
       stop_ = true;
     }
-    // What the owner cannot see here it sees by looking at the drive.
+    // Errors are ignored here: the control loop sees the result when it polls the drive.
     stopping_ = true;
     if (stop_.exchange(false)) (void)line_.stop(kPatience);
     stopping_ = false;

@@ -9,13 +9,13 @@
 
 namespace hydroprint::rig {
 
-/// The stop's own path: a thread that does nothing else and has its own connection to the drive
-/// (TCP) or goes first on the line (RTU). It also stops the drive by itself when the owner of the
-/// drive, expected to be looking at a motion, has not had a clean look for kStale_s.
+/// A separate path for stopping: a thread with no other task and its own connection to the drive
+/// (TCP) or precedence on the line (RTU). It also stops the drive if the control loop, during a
+/// motion, has had no valid poll for kStale_s.
 class StopChannel {
  public:
-  /// For so long it repeats a stop that is not confirmed. Not longer: each try is something that
-  /// the drive hears, and only a drive that hears nothing is stopped by its watchdog.
+  /// How long an unconfirmed stop is repeated. It must not be longer: the drive hears each attempt,
+  /// and its watchdog acts only on silence.
   static constexpr std::chrono::milliseconds kPatience{150};
 
   explicit StopChannel(const drive::Drive& drive);
@@ -23,16 +23,17 @@ class StopChannel {
   StopChannel(const StopChannel&) = delete;
   StopChannel& operator=(const StopChannel&) = delete;
 
-  /// Has the drive stopped. Any thread; returns at once, whatever hangs.
+  /// Stops the drive. Thread-safe; returns immediately in every situation.
   void stop() noexcept;
-  /// A stop is still on its way to the drive: what is ordered now would be stopped by it.
+  /// Whether a stop is still on its way to the drive; it would also stop a motion that is started
+  /// now.
   [[nodiscard]] bool is_busy() const noexcept { return stop_ || stopping_; }
-  /// Has it connect ahead of time. Returns at once.
+  /// Connects in advance. Returns immediately.
   void prepare() noexcept;
 
-  /// By the owner: a motion is (or is not) under way, last seen clean then.
+  /// For the control loop: whether a motion is in progress, and the time of the last valid poll.
   void watch(bool in_motion, TimePoint clean) noexcept;
-  /// True once after it stopped the drive because the owner did not look.
+  /// Returns true once after it has stopped the drive because the control loop was late.
   [[nodiscard]] bool take_trip() noexcept { return tripped_.exchange(false); }
 
  private:

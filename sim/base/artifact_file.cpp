@@ -30,7 +30,7 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, int erro
     case EPERM:
     case EROFS:
       return fail(Code::kPermissionDenied,
-                  start + "may not be written. Choose a folder you may write to");
+                  start + "not writable. Choose a folder that you may write to");
     default:
       return fail(Code::kInternal, start + "writing failed (" + std::strerror(error) +
                                        "). Check the disk and the path");

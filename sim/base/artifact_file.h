@@ -10,13 +10,13 @@
 namespace hydroprint::image {
 
 /// Writes a whole file under a temporary name in the same folder, syncs it and renames it, so that
-/// the name never stands for half a file. Refuses with kResourceExhausted (reason DISK_FULL,
-/// or FILE_LIMIT beyond the process's limit), kNotFound (no such folder), kPermissionDenied or
-/// kInternal; nothing is left behind then.
+/// the name never refers to a partial file. Errors: kResourceExhausted (reason DISK_FULL, or
+/// FILE_LIMIT beyond the process's limit), kNotFound (no such folder), kPermissionDenied or
+/// kInternal. Nothing is left behind after an error.
 [[nodiscard]] Status write_artifact(const std::filesystem::path& path,
                                     std::span<const unsigned char> bytes);
 
-/// The same of a text.
+/// Same as write_artifact() above, for a text.
 [[nodiscard]] Status write_artifact(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace hydroprint::image

@@ -7,7 +7,7 @@ namespace hydroprint {
 
 void throw_invariant_error(const char* file, int line, const char* condition) {
   throw InvariantError(std::filesystem::path(file).filename().string() + ":" +
-                       std::to_string(line) + ": this must hold: " + condition);
+                       std::to_string(line) + ": check failed: " + condition);
 }
 
 }  // namespace hydroprint

@@ -17,8 +17,8 @@ std::string place(std::string_view text, std::size_t byte) {
   return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - line_start);
 }
 
-/// Whether the text, if it is JSON, nests objects and arrays deeper than that. Brackets in strings
-/// do not count.
+/// Whether the text, if it is JSON, nests objects and arrays more than `most` levels deep. Brackets
+/// in strings do not count.
 bool is_deeper(std::string_view text, int most) {
   int depth = 0;
   bool in_string = false;
@@ -60,8 +60,7 @@ Result<json> parse_json(std::string_view text, JsonLimits limits) {
     return fail(Code::kInvalidArgument,
                 place(text, error.byte) + ": not valid JSON. Correct it there");
   } catch (const json::exception&) {
-    return fail(Code::kInvalidArgument,
-                "holds a number beyond what can be represented. Correct it");
+    return fail(Code::kInvalidArgument, "contains a number that is too large. Correct it");
   }
 }
 

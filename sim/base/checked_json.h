@@ -9,26 +9,26 @@
 
 #include "sim/base/result.h"
 
-// The only way to read JSON from a file, a process or the network. For inclusion in .cpp files
-// only.
+// Every read of JSON from a file, a process or the network goes through this header. Include it in
+// .cpp files only.
 
 namespace hydroprint {
 
 struct JsonLimits {
   std::size_t bytes = std::size_t{16} << 20;
-  int depth = 64;  ///< of nested objects and arrays
+  int depth = 64;  ///< levels of nested objects and arrays
 };
 
 /// Parses untrusted text.
-/// @return kInvalidArgument for text that is too long, too deep or not valid JSON (with line and
-/// column), or that holds a number beyond the range of double
+/// @return kInvalidArgument if the text is too long, too deep or not valid JSON (with line and
+///     column), or contains a number beyond the range of double
 [[nodiscard]] Result<nlohmann::json> parse_json(std::string_view text, JsonLimits limits = {});
 
-/// The same of a file; errors name it. Also refuses what read_text_file() refuses.
+/// Same as parse_json(), for a file; errors name it. Also fails as read_text_file() does.
 [[nodiscard]] Result<nlohmann::json> read_json_file(const std::filesystem::path& path);
 
-/// A finite number, string or unsigned integer of an object; nullopt if `object` is not an object,
-/// or lacks the key, or has a value of another type there.
+/// The finite number, string or unsigned integer at `key`; nullopt if `object` is not an object,
+/// lacks the key or has a value of another type there.
 [[nodiscard]] std::optional<double> json_number(const nlohmann::json& object, const char* key);
 [[nodiscard]] std::optional<std::string> json_string(const nlohmann::json& object, const char* key);
 [[nodiscard]] std::optional<std::uint64_t> json_unsigned(const nlohmann::json& object,

@@ -17,7 +17,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// Cuts the part before the next separator off the front.
+/// Removes the part before the next separator from the front of `text` and returns it.
 std::string_view take(std::string_view& text, char separator) {
   const auto end = text.find(separator);
   const std::string_view part = text.substr(0, end);
@@ -25,7 +25,7 @@ std::string_view take(std::string_view& text, char separator) {
   return trimmed(part);
 }
 
-/// Cells of a line; one more than there are separators, none in an empty line.
+/// Cells of a line: one more than it has separators; empty for an empty line.
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   if (line.empty()) return cells;
@@ -34,7 +34,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   return cells;
 }
 
-/// What is wrong with a header; empty if nothing is.
+/// The fault in a header; empty if there is none.
 std::string header_objection(const std::vector<std::string_view>& cells,
                              const std::vector<std::string_view>& wanted) {
   if (cells == wanted) return {};
@@ -45,7 +45,7 @@ std::string header_objection(const std::vector<std::string_view>& cells,
   return "not the header";
 }
 
-/// Adds a row's numbers. @return what is wrong with it; empty if nothing is
+/// Appends a row's numbers. @return the fault in the row; empty if there is none
 std::string add_row(const std::vector<std::string_view>& cells,
                     const std::vector<std::string_view>& names, std::vector<double>& values) {
   const std::string wanted = std::to_string(names.size());
@@ -69,7 +69,7 @@ std::string add_row(const std::vector<std::string_view>& cells,
 }  // namespace
 
 std::string CsvTable::place(std::size_t row) const {
-  return path.string() + ": line " + std::to_string(row + 2);  // the header is the first
+  return path.string() + ": line " + std::to_string(row + 2);  // the header is line 1
 }
 
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::string_view header,

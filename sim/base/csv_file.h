@@ -10,7 +10,7 @@
 
 namespace hydroprint {
 
-/// A table of numbers as people measure them.
+/// A table of numbers from a CSV file.
 struct CsvTable {
   std::filesystem::path path;
   std::size_t columns = 0;
@@ -18,14 +18,14 @@ struct CsvTable {
 
   [[nodiscard]] std::size_t rows() const { return values.size() / columns; }
   [[nodiscard]] const double* row(std::size_t i) const { return &values[i * columns]; }
-  /// "FILE: line N", for what is wrong with a row.
+  /// "FILE: line N", for messages about a row.
   [[nodiscard]] std::string place(std::size_t row) const;
 };
 
-/// Reads a file of at most 128 MiB: a header, then rows of that many finite numbers. Blanks round
-/// cells and empty lines at the end count for nothing.
-/// Refuses, naming file, line and remedy: another header than this ("t_s,x_mm"), rows of anything
-/// but such numbers, more than `most_rows`.
+/// Reads a file of at most 128 MiB: a header, then rows with one finite number per column. Blanks
+/// around cells and empty lines at the end are ignored.
+/// Refuses, naming file, line and remedy: a header other than `header` ("t_s,x_mm"), rows that
+/// contain anything else, more than `most_rows` rows.
 [[nodiscard]] Result<CsvTable> read_csv(const std::filesystem::path& path, std::string_view header,
                                         std::size_t most_rows);
 

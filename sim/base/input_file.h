@@ -9,12 +9,12 @@
 
 namespace hydroprint {
 
-/// Opens a regular file for reading bytes. Refuses what is missing (kNotFound), unreadable
-/// (kPermissionDenied), a folder or a device (kInvalidArgument).
+/// Opens a regular file for reading bytes. Errors: kNotFound if it is missing, kPermissionDenied if
+/// it is unreadable, kInvalidArgument if it is a folder or a device.
 [[nodiscard]] Result<std::ifstream> open_input_file(const std::filesystem::path& path);
 
-/// The whole content of a file of at most `max_bytes`, for small files that people write.
-/// Refuses what open_input_file refuses and what is too large (kOutOfRange).
+/// The whole content of a file of at most `max_bytes`, for small hand-written files. Fails as
+/// open_input_file() does, and with kOutOfRange if the file is too large.
 [[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& path,
                                                  std::size_t max_bytes);
 

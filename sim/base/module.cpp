@@ -9,8 +9,8 @@ Result<void*> module_symbol(const std::string& file, const std::string& name) {
   void* symbol = module == nullptr ? nullptr : ::dlsym(module, name.c_str());
   if (symbol != nullptr) return symbol;
   return fail(Code::kInternal, file +
-                                   ": cannot be loaded. It belongs beside the program, with the "
-                                   "packages of deploy/packages.txt installed");
+                                   ": cannot be loaded. Put it beside the program and install the "
+                                   "packages in deploy/packages.txt");
 }
 
 }  // namespace hydroprint

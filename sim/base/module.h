@@ -6,8 +6,8 @@
 
 namespace hydroprint {
 
-/// What a module that lies beside the program exports by a name; the module is loaded if it is not
-/// yet, and stays so. Refuses (kInternal) what cannot be loaded.
+/// Returns a symbol that a module beside the program exports. Loads the module if necessary; it
+/// stays loaded. Error: kInternal if it cannot be loaded.
 /// @param file  "hydroprint-....so"
 [[nodiscard]] Result<void*> module_symbol(const std::string& file, const std::string& name);
 

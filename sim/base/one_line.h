@@ -4,8 +4,8 @@
 
 namespace hydroprint {
 
-/// The text on one line: control characters, line ends among them, become blanks. For what is said
-/// of other people's files and words, which may hold any.
+/// Puts the text on one line: control characters, including line ends, become blanks. For messages
+/// that quote untrusted files or input.
 [[nodiscard]] std::string one_line(std::string text);
 
 }  // namespace hydroprint

@@ -14,7 +14,7 @@ template <int size>
 Result<Eigen::Vector<double, size>> read_vector(const std::string& where,
                                                 const nlohmann::json& json) {
   const std::string wanted =
-      ": not a list of " + std::to_string(size) + " numbers. Write it as one";
+      ": not a list of " + std::to_string(size) + " numbers. Correct the list";
   if (!json.is_array() || json.size() != size) return fail(Code::kInvalidArgument, where + wanted);
   Eigen::Vector<double, size> out;
   for (int i = 0; i < size; ++i) {
@@ -30,7 +30,7 @@ Result<Eigen::Vector4d> read_rotation(const std::string& where, const nlohmann::
   const double length = wxyz.stableNorm();
   if (!(length >= kMinQuaternion)) {
     return fail(Code::kInvalidArgument,
-                where + ": too short to be a rotation. No rotation is [1, 0, 0, 0]");
+                where + ": too short to be a rotation. Use [1, 0, 0, 0] for no rotation");
   }
   return Eigen::Vector4d(wxyz / length);
 }

@@ -24,7 +24,7 @@ struct PoseFile {
 /// mm, a quaternion too short to have a direction.
 [[nodiscard]] Result<PoseFile> read_pose_file(const std::filesystem::path& path);
 
-/// The same of JSON that came from `name`.
+/// Same as read_pose_file(), for JSON; `name` is its source in messages.
 [[nodiscard]] Result<PoseFile> parse_pose(const nlohmann::json& json, const std::string& name);
 
 }  // namespace hydroprint

@@ -37,7 +37,8 @@ std::string_view code_name(Code code) {
 }
 
 ExitStatus exit_status(const Error& error) {
-  if (error.reason == "OUT_OF_MEMORY") return ExitStatus::kFailed;  // a full disk is bad input
+  // Unlike a full disk, which counts as bad input.
+  if (error.reason == "OUT_OF_MEMORY") return ExitStatus::kFailed;
   switch (error.code) {
     case Code::kCancelled:
       return ExitStatus::kCancelled;

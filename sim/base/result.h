@@ -9,7 +9,7 @@
 
 namespace hydroprint {
 
-/// Why something could not be done; the names and meanings are those of gRPC's status codes.
+/// Why an operation failed; names and meanings are those of gRPC's status codes.
 enum class Code {
   kCancelled,
   kInvalidArgument,
@@ -24,38 +24,39 @@ enum class Code {
   kInternal,
   kUnavailable,
   kDataLoss,
-  kUnauthenticated,  // stores know codes by their numbers: new ones come last
+  kUnauthenticated,  // stored by number: add new codes at the end
 };
 
 /// gRPC's name of a code: "INVALID_ARGUMENT".
 [[nodiscard]] std::string_view code_name(Code code);
 
-/// One failure: a code for programs and one sentence for people that names the thing, the place in
-/// it and what to do.
+/// A failure: a code for programs, and one sentence for people with the fault, its place and the
+/// remedy.
 struct Error {
   Code code = Code::kInternal;
   std::string message;
-  /// Stable UPPER_SNAKE word that scripts may rely on ("ASSET_HASH_MISMATCH"); empty if the code
-  /// says it all.
+  /// Stable UPPER_SNAKE word that scripts may rely on ("ASSET_HASH_MISMATCH"); empty if the code is
+  /// enough.
   std::string reason;
-  /// The parts of the message that a program may want, by stable names ("field", "max_bytes").
+  /// The message's parts for programs, under stable names ("field", "max_bytes").
   std::map<std::string, std::string> metadata = {};
 };
 
-/// The one way errors travel: a value or an Error.
+/// Errors are always returned this way: a value or an Error.
 template <class T>
 using Result = tl::expected<T, Error>;
 
-/// Outcome of something that returns no value.
+/// Outcome of an operation that returns no value.
 using Status = Result<void>;
 
-/// Makes the failing side of any Result.
+/// Makes the error side of any Result.
 [[nodiscard]] inline tl::unexpected<Error> fail(Code code, std::string message,
                                                 std::string reason = {}) {
   return tl::unexpected<Error>(Error{code, std::move(message), std::move(reason), {}});
 }
 
-/// Something that was assumed or that the user should look at; goes into report.json as is.
+/// An assumption that was made, or a thing that the user should check; goes into report.json
+/// unchanged.
 struct Warning {
   std::string code;     ///< stable lower_snake word
   std::string message;  ///< one sentence: what was found and what was assumed
@@ -72,7 +73,7 @@ enum class ExitStatus { kDone = 0, kUsage = 2, kBadInput = 3, kFailed = 4, kCanc
 
 }  // namespace hydroprint
 
-// What is declared cannot stand in parentheses.
+// A declaration cannot stand in parentheses.
 // NOLINTBEGIN(bugprone-macro-parentheses)
 
 /// Evaluates a Result; on error returns it from the enclosing function, else binds the value.

@@ -9,10 +9,9 @@
 
 namespace hydroprint {
 
-/// Runs `background` in a thread of its own while `foreground` runs in this one; one after the
-/// other if the context allows only one thread. If `foreground` fails, `background` is cancelled
-/// and its outcome dropped. Each takes the context to work with; only the background reports
-/// progress.
+/// Runs `background` in its own thread while `foreground` runs in this one; one after the other if
+/// the context allows only one thread. If `foreground` fails, `background` is cancelled and its
+/// result dropped. Each receives the context to work with; only the background reports progress.
 /// @return both values, or the error of `foreground` before that of `background`
 template <class Background, class Foreground>
 auto run_beside(const Context& context, const Background& background, const Foreground& foreground)

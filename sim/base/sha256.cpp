@@ -12,7 +12,7 @@ struct FreeContext {
   void operator()(EVP_MD_CTX* context) const { EVP_MD_CTX_free(context); }
 };
 
-// Nothing but memory can be wanting: the algorithm is built in, and bytes are bytes.
+// These calls fail only for lack of memory: the algorithm is built in and accepts any bytes.
 void require(bool done) {
   if (!done) throw std::bad_alloc();
 }

@@ -7,7 +7,7 @@
 
 namespace hydroprint {
 
-/// SHA-256 of bytes given piece by piece. Throws std::bad_alloc where the library has no memory.
+/// SHA-256 of bytes added in pieces. Throws std::bad_alloc if the library runs out of memory.
 class Sha256 {
  public:
   Sha256();
@@ -27,7 +27,7 @@ class Sha256 {
 /// SHA-256 of bytes as 64 lower-case hex digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
-/// Two lower-case hex digits a byte.
+/// Two lower-case hex digits per byte.
 [[nodiscard]] std::string to_hex(std::span<const unsigned char> bytes);
 
 }  // namespace hydroprint

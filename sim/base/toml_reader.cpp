@@ -50,7 +50,7 @@ Result<toml::table> read_toml_file(const std::filesystem::path& path) {
 struct TomlReader::Shared {
   std::filesystem::path path;
   toml::table root;
-  toml::table none;  // stands for a table that is not there
+  toml::table none;  // stands for a missing table
   std::optional<Error> error;
   std::map<const toml::table*, std::set<std::string, std::less<>>> asked;
 };
@@ -100,7 +100,7 @@ double TomlReader::number(std::string_view key, double least, double most,
   if (node == nullptr) return fallback.value_or(0);
   const double value = node->is_number() ? node->value<double>().value_or(NAN) : NAN;
   if (!(value >= least && value <= most)) {
-    refuse(key, "is no number in range. " + range_text("a number", least, most));
+    refuse(key, "is not a number in range. " + range_text("a number", least, most));
   }
   return value;
 }
@@ -111,7 +111,7 @@ std::int64_t TomlReader::integer(std::string_view key, std::int64_t least, std::
   if (node == nullptr) return fallback.value_or(least);
   const auto* value = node->as_integer();
   if (value == nullptr || value->get() < least || value->get() > most) {
-    refuse(key, "is no whole number in range. " + range_text("a whole number", least, most));
+    refuse(key, "is not a whole number in range. " + range_text("a whole number", least, most));
     return least;
   }
   return value->get();
@@ -130,7 +130,7 @@ std::string TomlReader::text(std::string_view key, std::optional<std::string> fa
   if (node == nullptr) return std::move(fallback).value_or("");
   const auto* value = node->as_string();
   if (value == nullptr || value->get().find('\0') != std::string::npos) {
-    refuse(key, "is no text. Write it in quotes");
+    refuse(key, "is not text. Write it in quotes");
     return {};
   }
   return value->get();
@@ -154,7 +154,7 @@ TomlReader TomlReader::table(std::string_view key) {
   const toml::node* node = find(key, true);
   const toml::table* table = node == nullptr ? nullptr : node->as_table();
   if (node != nullptr && table == nullptr) {
-    refuse(key, "is no table. Write [" + full(key) + "] or " + std::string(key) + " = {...}");
+    refuse(key, "is not a table. Write [" + full(key) + "] or " + std::string(key) + " = {...}");
   }
   return {shared_, table == nullptr ? &shared_->none : table, full(key)};
 }
@@ -166,7 +166,7 @@ std::vector<const toml::node*> TomlReader::array(std::string_view key) {
   if (const toml::array* array = node->as_array()) {
     for (const toml::node& entry : *array) out.push_back(&entry);
   } else {
-    refuse(key, "is no array. Write " + std::string(key) + " = [...]");
+    refuse(key, "is not an array. Write " + std::string(key) + " = [...]");
   }
   return out;
 }
@@ -176,7 +176,7 @@ std::vector<TomlReader> TomlReader::tables(std::string_view key) {
   for (const toml::node* entry : array(key)) {
     const toml::table* table = entry->as_table();
     if (table == nullptr) {
-      refuse(key, "holds something else than tables. Write [[" + full(key) + "]]");
+      refuse(key, "contains entries that are not tables. Write [[" + full(key) + "]]");
       return {};
     }
     out.push_back({shared_, table, full(key)});
@@ -200,7 +200,7 @@ void TomlReader::vector(std::string_view key, const toml::node& list, double lea
   }
   if (is_right) return;
   const std::string wanted = "list of " + std::to_string(out.size()) + " numbers";
-  refuse(key, "is no " + wanted + " in range. " +
+  refuse(key, "is not a " + wanted + " in range. " +
                   range_text(("a " + wanted + ", each").c_str(), least, most));
 }
 

@@ -8,7 +8,7 @@
 namespace hydroprint::calibrate {
 namespace {
 
-constexpr double kOnSurface_mm = 5;  ///< points farther from the object are something else's
+constexpr double kOnSurface_mm = 5;  ///< points farther from the object belong to something else
 constexpr double kUsualHeight_mm = 40;
 constexpr double kUnknownScale = 0.02, kUnknownFocal = 0.02, kUnknownCentre_px = 8;
 
@@ -31,7 +31,7 @@ registration::ObjectTask object_task(const Task& task) {
   return out;
 }
 
-/// The scan's points on the object, and how far they are off.
+/// Adds the scan's points on the object and their distances from it.
 Status add_points(const scan::Cloud& cloud, const Task& task, Calibration& out,
                   const Context& context) {
   const auto points =
@@ -48,7 +48,7 @@ Status add_points(const scan::Cloud& cloud, const Task& task, Calibration& out,
   return {};
 }
 
-/// The registration error at each point of the surface, which follows from the pose's covariance.
+/// The registration error at each point of the surface, from the pose's covariance.
 std::vector<double> error_map(const Task& task, const registration::ObjectPose& object) {
   std::vector<Eigen::Vector3d> points_F;
   points_F.reserve(task.surface.points.size());
@@ -56,10 +56,11 @@ std::vector<double> error_map(const Task& task, const registration::ObjectPose& 
   return registration::error_at(points_F, object.centre_mm, object.covariance);
 }
 
-/// What may be the reason for which no object is found.
+/// Adds to the error a possible reason why no object was found.
 tl::unexpected<Error> without_gripper(const Task& task, Error error) {
   if (!task.gripper_mm && error.reason != "NO_OBJECT")
-    error.message += " (the gripper counts as object too, as its height is not given)";
+    error.message +=
+        " (the gripper height is not given, so the gripper counts as part of the object)";
   return tl::unexpected(std::move(error));
 }
 
@@ -70,8 +71,8 @@ Warnings all_warnings(const Task& task, const Calibration& found) {
   out.insert(out.end(), camera.begin(), camera.end());
   if (!found.water)
     out.push_back({"water_not_seen",
-                   "too little of the water is in view to tell its level: "
-                   "z = 0 of the layout is taken for it",
+                   "too little water is in view to measure its level: "
+                   "the layout's z = 0 is used instead",
                    "water"});
   return out;
 }
@@ -114,7 +115,7 @@ registration::CameraCalibration uncalibrated(const scan::Lens& nominal) {
 Warnings camera_warnings(const registration::CameraCalibration& camera) {
   if (camera.views > 0) return {};
   return {{"camera_not_calibrated",
-           "lens and depth scale are the driver's: depths may be a per cent or two off; "
+           "lens and depth scale come from the driver, so depths may be off by 1 to 2 %: "
            "use calibrate-camera",
            "camera"}};
 }

@@ -14,7 +14,7 @@ namespace {
 using scan::Lens;
 using Json = nlohmann::ordered_json;
 
-/// As Lens::parameters() has them.
+/// In the order of Lens::parameters().
 constexpr std::array<const char*, Lens::kParameters> kNames = {
     "fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "depth_scale"};
 
@@ -82,11 +82,12 @@ Result<registration::CameraCalibration> read_camera(const std::filesystem::path&
   }
   if (!is_lens(out.lens) || !out.covariance.allFinite())
     return fail(Code::kInvalidArgument,
-                path.string() + ": no camera has such a lens. Calibrate it anew");
+                path.string() + ": lens parameters out of range. Calibrate the camera again");
   if (!has_pattern)
-    return fail(Code::kInvalidArgument, path.string() +
-                                            ": its pattern is broken, or not of its image's size. "
-                                            "Calibrate the camera anew");
+    return fail(Code::kInvalidArgument,
+                path.string() +
+                    ": the fixed pattern is invalid or does not match the image size. "
+                    "Calibrate the camera again");
   return out;
 }
 

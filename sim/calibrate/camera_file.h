@@ -8,17 +8,17 @@
 
 namespace hydroprint::calibrate {
 
-/// A camera's calibration as JSON: image size, each parameter of the lens by name (Lens), their
-/// covariance in that order, how well the board fitted, and the fixed pattern, if it is known
-/// (pattern_json.h). Reads back as the very same values.
+/// A camera's calibration as JSON: image size, each lens parameter by name (Lens), their covariance
+/// in that order, the fit to the board, and the fixed pattern if known (pattern_json.h). Reading it
+/// back gives exactly the same values.
 [[nodiscard]] std::string camera_json(const registration::CameraCalibration& camera);
 
-/// The same without the fixed pattern, for people.
+/// Same as camera_json(), for people: without the fixed pattern.
 [[nodiscard]] std::string camera_summary_json(const registration::CameraCalibration& camera);
 
-/// Reads one; one without a pattern is one whose pattern is not known. Refuses what read_json_file
-/// refuses, and what is not complete or out of range, or whose pattern is not of the image's size
-/// (kInvalidArgument).
+/// Reads a camera's calibration; the fixed pattern may be missing. Fails as read_json_file() does,
+/// and with kInvalidArgument if a value is missing or out of range, or if the pattern does not
+/// match the image size.
 [[nodiscard]] Result<registration::CameraCalibration> read_camera(
     const std::filesystem::path& path);
 

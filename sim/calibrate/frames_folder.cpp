@@ -14,7 +14,7 @@ namespace {
 constexpr int kLeastSide_px = 16, kMostSide_px = 4096;
 constexpr double kWidestView_rad = 3;
 
-/// What frames.json says.
+/// The content of frames.json.
 struct Listing {
   int width = 0, height = 0;
   double horizontal_fov_rad = 0, vertical_fov_rad = 0;
@@ -80,7 +80,7 @@ Result<Frames> read_frames(const std::filesystem::path& folder, const Context& c
     HP_ASSIGN_OR_RETURN(const image::Grey16Image grey, image::read_grey16(path, context));
     if (grey.width != listing.width || grey.height != listing.height)
       return fail(Code::kDataLoss, path.string() +
-                                       ": not of the size that frames.json says. "
+                                       ": its size differs from that in frames.json. "
                                        "Take the frames again");
     out.frames[i] = {grey.width, grey.height,
                      std::vector<float>(grey.grey.begin(), grey.grey.end())};

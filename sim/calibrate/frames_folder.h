@@ -10,19 +10,19 @@
 
 namespace hydroprint::calibrate {
 
-/// Frames as a camera took them, and what its driver says of its lens.
+/// Recorded frames, and the driver's description of the lens.
 struct Frames {
   std::vector<scan::DepthFrame> frames;
-  std::vector<double> times_s;  ///< of the frames; 0 where frames.json tells none
+  std::vector<double> times_s;  ///< of the frames; 0 if frames.json has none
   scan::Lens nominal_lens;
 };
 
-/// No more frames than these are used of a folder: 10 s.
+/// At most this many frames of a folder are used: 10 s.
 inline constexpr std::size_t kMostFrames = 300;
 
-/// Reads a folder that hydroprint-capture wrote: frames.json and 16-bit PNGs of mm; the first
-/// `most`. Refuses what read_json_file and read_grey16 refuse, a frames.json that is not such
-/// a one (kInvalidArgument), and images of another size than it says (kDataLoss).
+/// Reads the first `most` frames of a folder written by hydroprint-capture: frames.json and 16-bit
+/// PNGs of mm. Fails as read_json_file() and read_grey16() do, with kInvalidArgument if frames.json
+/// is malformed, and with kDataLoss if an image has another size than frames.json states.
 [[nodiscard]] Result<Frames> read_frames(const std::filesystem::path& folder,
                                          const Context& context, std::size_t most = kMostFrames);
 

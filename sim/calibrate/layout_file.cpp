@@ -24,7 +24,8 @@ void read_markers(TomlReader& top, registration::MarkerLayout& out) {
     marker.X_FM.rotate(Eigen::AngleAxisd(kRadians * from.number("turned_deg", -180, 180, 0),
                                          Eigen::Vector3d::UnitZ()));
     for (const auto& other : out.markers)
-      if (other.name == marker.name) from.refuse("name", "is another marker's. Give each its own");
+      if (other.name == marker.name)
+        from.refuse("name", "is used by another marker. Give each marker its own name");
     out.markers.push_back(std::move(marker));
   }
 }
@@ -34,7 +35,7 @@ Pose read_camera(TomlReader from) {
   from.vector("at_mm", -kFarthest_mm, kFarthest_mm, at_mm);
   from.vector("looks_at_mm", -kFarthest_mm, kFarthest_mm, looks_at_mm);
   if (at_mm.isApprox(looks_at_mm)) {
-    from.refuse("at_mm", "is where it looks. Move it");
+    from.refuse("at_mm", "equals looks_at_mm. Move one of them");
     return Pose::Identity();
   }
   return look_at(at_mm, looks_at_mm, kRadians * from.number("turned_deg", -180, 180, 0));

@@ -7,13 +7,13 @@
 
 namespace hydroprint::calibrate {
 
-/// A fixed pattern as JSON: the side of its squares in pixels, and their offsets, sigmas and what
-/// they share, each as bytes in base64 (32-bit floats, little endian; whole steps of 8 bits, column
-/// after column). For inclusion in .cpp files only.
+/// A fixed pattern as JSON: the side of its squares in pixels, and their offsets, sigmas and shared
+/// errors. Each list is base64 of its bytes (32-bit floats, little endian; 8-bit multiples of a
+/// step, column by column). Include in .cpp files only.
 [[nodiscard]] nlohmann::ordered_json pattern_json(const scan::FixedPattern& pattern);
 
-/// Reads one of an image's size; nothing if it is not complete, or out of range. Takes no more
-/// memory than the text has. Throws what nlohmann::json does where a part is missing.
+/// Reads the pattern of an image of this size; nullopt if it is incomplete or out of range. Uses no
+/// more memory than the text. Throws nlohmann::json exceptions if a part is missing.
 [[nodiscard]] std::optional<scan::FixedPattern> pattern_of(const nlohmann::json& json, int width_px,
                                                            int height_px);
 

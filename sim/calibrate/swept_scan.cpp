@@ -10,11 +10,11 @@
 namespace hydroprint::calibrate {
 namespace {
 
-constexpr double kLeastFrames = 3;  ///< that must have seen a surface, if from 0.8 m
+constexpr double kLeastFrames = 3;  ///< that must have seen a surface from 0.8 m
 constexpr double kUsualDepth_mm = 800;
-constexpr double kLowest_mm = -40, kHighest_mm = 600;  ///< of what a rig holds, over the water
+constexpr double kLowest_mm = -40, kHighest_mm = 600;  ///< of a rig's contents, above the water
 
-/// What the camera would have seen at its first frame without noise.
+/// The noise-free view of the camera at its first frame.
 scan::FusedFrame first_frame(const scan::PointGrid& seen, const scan::Lens& lens,
                              const scan::DepthNoise& noise, std::size_t frames) {
   const std::size_t pixels = seen.points.size();
@@ -32,13 +32,13 @@ scan::FusedFrame first_frame(const scan::PointGrid& seen, const scan::Lens& lens
   return out;
 }
 
-/// The film's frame by the markers as the volume has them.
+/// The film frame from the markers in the volume.
 Result<registration::FilmFrame> film_frame_of(const scan::Sweep& sweep, const SweptTask& task,
                                               const scan::DepthNoise& noise,
                                               const Context& context) {
   context.progress("markers", 0);
   const scan::Lens& lens = task.camera.lens;
-  // The volume has the camera's fixed pattern taken off already.
+  // The volume is already corrected for the camera's fixed pattern.
   const scan::Camera camera{lens, task.camera.covariance, {}};
   HP_ASSIGN_OR_RETURN(const scan::PointGrid seen,
                       sweep.volume.look(scan::Optics(lens), Pose::Identity(), context));
@@ -53,13 +53,13 @@ Warnings lost_frames(const scan::Path& path) {
   if (path.lost() == 0) return {};
   return {{"frames_lost",
            std::to_string(path.lost()) + " of " + std::to_string(path.X_WC.size()) +
-               " frames found no place in the scan and are left out: sweep more slowly",
+               " frames could not be registered and are left out: sweep more slowly",
            "frames"}};
 }
 
 void append(Warnings& to, const Warnings& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-/// All that stands within the bars, which bear the markers.
+/// A box around everything within the bars, which carry the markers.
 Eigen::AlignedBox3d rig_box(const registration::MarkerLayout& layout) {
   Eigen::AlignedBox3d out;
   for (const registration::Marker& marker : layout.markers) out.extend(marker.X_FM.translation());
@@ -70,7 +70,7 @@ Eigen::AlignedBox3d rig_box(const registration::MarkerLayout& layout) {
   return out;
 }
 
-/// The triangles whose corners all lie in a box, and their corners.
+/// The triangles whose corners all lie in a box, with their corners.
 scan::TriangleMesh within(const scan::TriangleMesh& mesh, const Eigen::AlignedBox3d& box) {
   scan::TriangleMesh out;
   std::vector<int> at(mesh.points_mm.size(), -1);
@@ -117,7 +117,7 @@ Result<SweptScan> fuse_swept(const SweptTask& task, const Context& context) {
   for (Pose& pose : out.path.X_WC) pose = X_FW * pose;
   if (out.mesh.triangles.empty())
     return fail(Code::kFailedPrecondition,
-                "nothing was seen often enough to make a surface: sweep longer, at 0.6 to 1.2 m",
+                "no surface was seen often enough: sweep longer, at a distance of 0.6 to 1.2 m",
                 "NO_SURFACE");
   return out;
 }

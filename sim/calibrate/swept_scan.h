@@ -9,17 +9,17 @@
 
 namespace hydroprint::calibrate {
 
-/// What fuse_swept() is told.
+/// Input of fuse_swept().
 struct SweptTask {
-  std::span<const scan::DepthFrame> frames;  ///< of a camera swept by hand
+  std::span<const scan::DepthFrame> frames;  ///< from a camera swept by hand
   std::span<const double> times_s;
   registration::CameraCalibration camera;
-  std::optional<RigLayout> layout;  ///< none: there are no markers
+  std::optional<RigLayout> layout;  ///< nullopt: no markers
   scan::Volume::Options volume;
 };
 
-/// What a sweep showed, in the film frame; without a layout in that of the camera at its first
-/// frame.
+/// The result of a sweep, in the film frame, or without a layout in the frame of the camera at its
+/// first frame.
 struct SweptScan {
   scan::TriangleMesh mesh;
   scan::Path path;                                    ///< in the mesh's frame
@@ -27,11 +27,11 @@ struct SweptScan {
   Warnings warnings;
 };
 
-/// From frames of a camera swept by hand to the surface that they show: all that is within 1.5 m of
-/// it, or with a layout what stands within the bars. The markers have to be in view at the first
-/// frame.
-/// Refuses what scan::fuse_sweep and find_film_frame refuse, and NO_SURFACE
-/// (kFailedPrecondition) where nothing was seen often enough.
+/// Fuses frames of a hand-swept camera into the surface that they show. Keeps everything within 1.5
+/// m of the camera, or with a layout everything within the bars. The markers have to be in view at
+/// the first frame.
+/// Fails as scan::fuse_sweep and find_film_frame do, and with NO_SURFACE (kFailedPrecondition) if
+/// no surface was seen often enough.
 [[nodiscard]] Result<SweptScan> fuse_swept(const SweptTask& task, const Context& context);
 
 }  // namespace hydroprint::calibrate

@@ -122,7 +122,8 @@ bool meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2
   return on_segment(c, a, b) || on_segment(d, a, b) || on_segment(a, c, d) || on_segment(b, c, d);
 }
 
-/// Two edges (by their first corners) that cross, touch or fold back on each other, if any.
+/// Two edges (by their first corners) that cross, touch or fold back on each other; nullopt if none
+/// do.
 std::optional<std::pair<std::size_t, std::size_t>> crossing(const std::vector<Vector2d>& polygon) {
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -131,7 +132,7 @@ std::optional<std::pair<std::size_t, std::size_t>> crossing(const std::vector<Ve
     const Vector2d& next = polygon[(i + 2) % n];
     if (on_segment(next, a, b) || on_segment(a, b, next)) return {{i, (i + 1) % n}};
     for (std::size_t j = i + 2; j < n; ++j) {
-      if (i == 0 && j == n - 1) continue;  // neighbours round the end
+      if (i == 0 && j == n - 1) continue;  // neighbours across the end of the list
       const Vector2d& c = polygon[j];
       const Vector2d& d = polygon[(j + 1) % n];
       if (std::max(a.x(), b.x()) < std::min(c.x(), d.x()) - kOnEdge_mm ||
@@ -163,7 +164,7 @@ Result<std::vector<Vector2d>> read_corners(const std::string& file) {
     }
     corners.emplace_back(corner[0].get<double>(), corner[1].get<double>());
   }
-  // Many programs close a polygon by saying its first corner again.
+  // Many programs close a polygon by repeating its first corner.
   if (corners.size() > 3 && corners.front() == corners.back()) corners.pop_back();
   return corners;
 }

@@ -11,8 +11,8 @@
 namespace hydroprint::film {
 
 /// The film's edge, clamped to the vat (Gamma_v of section 4.1): a simple polygon in F, mm,
-/// counter-clockwise, and the size of its image (its bounding box, centred on the origin unless it
-/// is a polygon given as such).
+/// counter-clockwise. Its image covers its bounding box, which is centred on the origin unless the
+/// outline was given as a polygon.
 struct Outline {
   std::vector<Eigen::Vector2d> polygon;
   Eigen::Vector2d min_mm = Eigen::Vector2d::Zero();
@@ -22,13 +22,13 @@ struct Outline {
   [[nodiscard]] Eigen::Vector2d size_mm() const { return max_mm - min_mm; }
 };
 
-/// Reads "A4", "A3", "letter", "WxH", "circle:RADIUS" or "polygon:FILE.json" (contract). A circle
-/// becomes a polygon of chords no longer than 3 mm whose area is the circle's.
-/// Refuses with kOutOfRange sizes below 10 mm or above 2000 mm, with kInvalidArgument what it does
-/// not understand, polygons that cross themselves or have fewer than three corners.
+/// Parses "A4", "A3", "letter", "WxH", "circle:RADIUS" or "polygon:FILE.json" (contract). A circle
+/// becomes a polygon of the same area with chords of at most 3 mm.
+/// Errors: kOutOfRange for sizes below 10 mm or above 2000 mm; kInvalidArgument for malformed text
+/// and for polygons that cross themselves or have fewer than three corners.
 [[nodiscard]] Result<Outline> parse_outline(const std::string& text);
 
-/// The file that a text for parse_outline names ("polygon:FILE.json"), if it names one.
+/// The file named in a text for parse_outline ("polygon:FILE.json"); nullopt if there is none.
 [[nodiscard]] std::optional<std::filesystem::path> polygon_file(const std::string& text);
 
 /// True if the point lies inside the outline or on it.

@@ -23,7 +23,7 @@ struct Key {
   Range range;
 };
 
-// All the single numbers.
+// The keys that hold a single number.
 constexpr std::array<Key, 11> kKeys = {{
     {"thickness_mm", &Profile::thickness_mm, {1e-3, 10}},
     {"ink_ratio_mm", &Profile::ink_ratio_mm, {0, 10}},
@@ -48,7 +48,7 @@ std::string known_keys() {
   return out;
 }
 
-/// Where in the file, and of what the message speaks.
+/// The place of an error: file, line and key.
 std::string place(const std::filesystem::path& path, const toml::source_region& region,
                   std::string_view key) {
   return path.string() + ": line " + std::to_string(region.begin.line) + ": " + std::string(key);

@@ -8,21 +8,21 @@
 
 namespace hydroprint::film {
 
-/// What is known of a film and of how it is used (field notes 1 and 4): a TOML file, all keys
-/// optional, unknown keys refused; deploy/film_profile.toml.example says more of each.
+/// Properties of a film and of its use (field notes 1 and 4). A TOML file; all keys are optional,
+/// unknown keys are refused. deploy/film_profile.toml.example describes each key.
 struct Profile {
   double thickness_mm = 0.5;   ///< of the film without ink (paper section 7)
   double ink_ratio_mm = 0.05;  ///< thickness added per unit of ink amount t (section 4.3)
-  /// The printer's ICC output profile (CMYK), by which colours become ink; empty: naive CMYK. In
+  /// The printer's ICC output profile (CMYK), which converts colours to ink; empty: naive CMYK. In
   /// the file, a relative path starts at the file's own folder.
   std::filesystem::path ink_icc_profile;
   Eigen::Vector2d swelling = {1, 1};  ///< printed (x, y) floats at (s_x x, s_y y); each >= 1
   double drag_length_mm = 0;          ///< sqrt(mu h0 / k); 0: no water drag
   double tear_stretch = 3;            ///< film stretched beyond this tears
   double wrinkle_stretch = 0.6;       ///< smaller singular value below this wrinkles
-  /// Of the film itself (paper section 7). Only the inertial step takes these three: with the
-  /// velocity given all along the film's boundary, Y and rho drop out of the quasistatic answer,
-  /// and nu is 0.5 there, since volume is kept (field notes 1).
+  /// Properties of the film itself (paper section 7). Only the inertial step uses these three. With
+  /// the velocity given all along the film's boundary, Y and rho drop out of the quasistatic
+  /// solution. There, nu is 0.5, because volume is kept (field notes 1).
   double young_modulus_mpa = 1.82;
   double density_kg_per_m3 = 1300;
   double poisson_ratio = 0.5;
@@ -32,11 +32,11 @@ struct Profile {
 };
 
 /// Reads and checks a profile. Refuses, naming file, line and remedy: unknown keys, wrong types,
-/// values out of range. Whether the ICC profile can be used is found where it is.
+/// values out of range. The ICC profile itself is checked when it is used.
 [[nodiscard]] Result<Profile> read_profile(const std::filesystem::path& path);
 
-/// The profile as a file that read_profile reads back as the same, number for number. The ICC
-/// profile is named by its absolute path.
+/// The profile as a file from which read_profile() reads exactly the same numbers. It names the ICC
+/// profile by its absolute path.
 [[nodiscard]] std::string profile_toml(const Profile& profile);
 
 /// Thickness, at rest, of film that carries the ink amount t in [0, 4] (section 4.3):

@@ -26,8 +26,8 @@ struct Interval {
   bool is_one_sided;
 };
 
-/// An interval within the domain. At a bound it begins there and has the other end of a one-sided
-/// one, counted from where the data alone would put the estimate if that is inside.
+/// A confidence interval within the domain. For an estimate at a bound, it begins there and ends as
+/// a one-sided interval. That one starts at the unconstrained estimate, if this is in the domain.
 Interval interval_of(double value, double unbounded, double error, double low, double high,
                      double degrees) {
   constexpr double kAt = 1e-9;
@@ -46,7 +46,7 @@ double natural_error(Parameter parameter, double scaled, double error,
   if (parameter != Parameter::kDrag) {
     return natural_value(parameter, error, profile) - natural_value(parameter, 0, profile);
   }
-  // length = scaled^(-1/2), but for a factor.
+  // length = scaled^(-1/2), up to a factor.
   const double length_mm = natural_value(parameter, scaled, profile);
   if (!std::isfinite(length_mm)) return std::numeric_limits<double>::quiet_NaN();
   return 0.5 * length_mm * error / scaled;
@@ -90,26 +90,27 @@ Undetermined explain(const Unknown& unknown, const std::vector<Parameter>& free,
   const Description what = describe(free[unknown.parameter], start);
   std::string reason;
   if (unknown.taken_for < 0) {
-    reason = "between the ends of what is plausible (" + what.plausible +
-             ") it moves the measured points by " + text(unknown.moves_mm) +
+    reason = "over its plausible range (" + what.plausible +
+             ") it moves the measured points by only " + text(unknown.moves_mm) +
              " mm, too little against residuals of " + text(residual_mm) +
              " mm. Measure more points, where the film was stretched most";
   } else {
     reason =
-        "these points cannot tell it from " + describe(free[unknown.taken_for], start).name +
-        ": both move them alike, and its interval would be wider than all that is plausible (" +
-        what.plausible + "). Measure points spread farther over the film, or hold the other";
+        "these points cannot distinguish it from " + describe(free[unknown.taken_for], start).name +
+        ": both move them in the same way, and its interval would exceed the plausible range (" +
+        what.plausible +
+        "). Measure points spread farther over the film, or hold the other parameter";
   }
   return {what.name, reason};
 }
 
 std::vector<Undetermined> never_determined() {
   const std::string boundary =
-      "with the velocity given all along the film's edges it drops out of the quasistatic sheet, "
-      "and no landing point depends on it";
+      "the velocity is given all along the film's edges, so it drops out of the quasistatic "
+      "sheet and no landing point depends on it";
   return {{"young_modulus_mpa", boundary},
           {"density_kg_per_m3", boundary},
-          {"thickness_mm", "only the ratio of ink_ratio_mm to it matters to where film lands"}};
+          {"thickness_mm", "landing points depend only on the ratio of ink_ratio_mm to it"}};
 }
 
 }  // namespace hydroprint::fit

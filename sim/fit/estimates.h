@@ -11,7 +11,7 @@
 
 namespace hydroprint::fit {
 
-/// Share of intervals that hold the true value.
+/// Share of intervals that contain the true value.
 inline constexpr double kConfidence = 0.95;
 
 /// A fitted parameter in the profile's terms: mm, or a ratio for swelling. A drag length is
@@ -22,13 +22,13 @@ struct Estimate {
   double start = 0, value = 0;
   double standard_error = 0;        ///< NaN for a drag length at its bound
   double low = 0, high = 0;         ///< of the interval
-  bool is_one_sided = false;        ///< the estimate lies at a bound, and so does that end
-  double scaled = 0;                ///< what was fitted, see parameters.h
-  double scaled_error = 0;          ///< standard error of that
-  double discretisation_error = 0;  ///< its part that is the computation's, scaled
+  bool is_one_sided = false;        ///< the estimate and one end lie at a bound
+  double scaled = 0;                ///< the fitted value, see parameters.h
+  double scaled_error = 0;          ///< its standard error
+  double discretisation_error = 0;  ///< the part due to the computation itself, scaled
 };
 
-/// A parameter that keeps its value.
+/// A parameter that was not fitted and keeps its value.
 struct Undetermined {
   std::string name;
   std::string reason;  ///< a clause for people
@@ -36,25 +36,25 @@ struct Undetermined {
 
 /// The estimates with their intervals.
 /// @param at              residuals and derivatives at u, all known
-/// @param floor_mm        as of jackknife_covariance
-/// @param discretisation  standard error of each by the computation's own error, scaled
+/// @param floor_mm        as in jackknife_covariance()
+/// @param discretisation  standard error of each due to the computation itself, scaled
 [[nodiscard]] std::vector<Estimate> estimates_of(const std::vector<Parameter>& free,
                                                  const film::Profile& start,
                                                  const Eigen::VectorXd& u, const Domain& domain,
                                                  const Linearised& at, double floor_mm,
                                                  const Eigen::VectorXd& discretisation);
 
-/// The correlations that go with a covariance.
+/// The correlation matrix of a covariance matrix.
 [[nodiscard]] Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
 
-/// Degrees of freedom that residuals of so many parameters leave; at least 1.
+/// Degrees of freedom that remain after fitting the parameters; at least 1.
 [[nodiscard]] int degrees_of_freedom(const Linearised& known);
 
-/// Why a parameter is held, for people.
+/// Explains for people why a parameter is held.
 [[nodiscard]] Undetermined explain(const Unknown& unknown, const std::vector<Parameter>& free,
                                    const film::Profile& start, double residual_mm);
 
-/// What no landing point tells, whatever is measured.
+/// The parameters that landing points never determine.
 [[nodiscard]] std::vector<Undetermined> never_determined();
 
 }  // namespace hydroprint::fit

@@ -17,14 +17,15 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 using Places = std::vector<Vector2d>;
 
-/// Error of a prediction that varies from dip to dip, such as where sweeps end.
+/// Error of a prediction that varies from dip to dip, for example with the end of the sweeps.
 constexpr double kFloor_mm = 0.003;
-/// Sweeps of the sheet go on until they move film by less: derivatives are made of differences.
+/// Sweeps of the sheet end when they move the film by less than this, because derivatives are
+/// differences of predictions.
 constexpr double kSheetTolerance_mm = 3e-4;
-/// How much finer the computation is by which its own error is found.
+/// Mesh size and step of the finer computation that measures the computation's own error.
 constexpr double kFineFactor = 0.6;
-/// Its error goes with the square of mesh size and step, so that this share of the difference
-/// between the usual and the finer one is left in the latter.
+/// The error goes with the square of mesh size and step, so this share of the difference between
+/// the usual and the finer result remains in the finer one.
 constexpr double kErrorLeft = kFineFactor * kFineFactor / (1 - kFineFactor * kFineFactor);
 constexpr double kDipsOfAFineOne = 4;
 constexpr int kMostOutlierRounds = 3;
@@ -60,7 +61,7 @@ pipeline::DipOptions accurate(pipeline::DipOptions options) {
   return options;
 }
 
-/// One fit on its way.
+/// One fit in progress.
 class Fitting {
  public:
   Fitting(const mesh::Model& model, const pipeline::DipOptions& dip, const Options& options,
@@ -117,7 +118,7 @@ class Fitting {
       PointResult& p = out_.points[i];
       p.before_mm = p.after_mm = before[i];
       if (p.is_used() && !before[i].allFinite()) {
-        p.left_out = "by the profile to start from no film arrives there";
+        p.left_out = "no film arrives there with the starting profile";
       }
     }
     return check_enough(out_.points, options_.points_name);
@@ -127,12 +128,13 @@ class Fitting {
     const auto ink = std::find(free_.begin(), free_.end(), Parameter::kInkRatio);
     if (ink == free_.end() || dip_.ink.total_mm2() > 0) return;
     out_.undetermined.push_back(
-        {"ink_ratio_mm", "without ink nothing depends on it. Give what was printed (--ink-image)"});
+        {"ink_ratio_mm",
+         "without ink nothing depends on it. Give the printed image (--ink-image)"});
     free_.erase(ink);
   }
 
   Result<Places> predict(Predictor& predictor, const film::Profile& profile, double weight) {
-    // Three rounds of derivatives and the finer dips, more or less.
+    // About three rounds of derivatives, and the finer dips.
     const double expected = 7.0 * static_cast<double>(options_.free.size()) + 2 * kDipsOfAFineOne;
     context_.progress("fit", std::min(0.99, work_ / expected));
     work_ += weight;
@@ -140,7 +142,7 @@ class Fitting {
     return predictor.predict(profile, spots_, quiet_);
   }
 
-  /// Predicted minus measured, NaN for points that do not count.
+  /// Predicted minus measured; NaN for points that do not count.
   [[nodiscard]] VectorXd residuals_of(const Places& predicted) const {
     VectorXd r(2 * static_cast<Index>(spots_.size()));
     for (std::size_t i = 0; i < spots_.size(); ++i) {
@@ -174,7 +176,7 @@ class Fitting {
     return {};
   }
 
-  /// From now on these keep the value they started with.
+  /// Holds these parameters at their starting values.
   void hold(const std::vector<Unknown>& held, double residual_mm) {
     for (const Unknown& unknown : held) {
       out_.undetermined.push_back(explain(unknown, free_, dip_.profile, residual_mm));
@@ -192,7 +194,7 @@ class Fitting {
     u_ = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
   }
 
-  /// A last step by a finer computation, whose own error is smaller and can be told.
+  /// A last step with a finer computation, whose error is smaller and can be estimated.
   Status refine() {
     discretisation_ = VectorXd::Zero(u_.size());
     motion_warnings_ = predictor_.warnings();
@@ -207,7 +209,7 @@ class Fitting {
     HP_ASSIGN_OR_RETURN(VectorXd there, fine_residuals(after));
     const Linearised usual = at_;
     at_.residuals = there;
-    // Only points that both computations know of.
+    // Only points known to both computations.
     const Linearised difference = Linearised{there - usual.residuals, usual.jacobian}.of_known();
     discretisation_ = kErrorLeft * (gain(difference.jacobian) * difference.residuals).cwiseAbs();
     out_.discretisation_mm = std::sqrt(2 * mean_square(difference.residuals));
@@ -220,7 +222,7 @@ class Fitting {
       const bool is_known =
           at_.jacobian.middleRows(static_cast<Index>(2 * i), 2).allFinite() && after[i].allFinite();
       if (p.is_used() && !is_known) {
-        p.left_out = "film arrives there only by some of the profiles that were tried";
+        p.left_out = "film arrives there only with some of the profiles that were tried";
       }
     }
     return {};
@@ -245,7 +247,7 @@ class Fitting {
     if (free_.empty()) {
       out_.warnings.push_back({"nothing_determined",
                                "the points determine none of the parameters; the profile is the "
-                               "one to start from",
+                               "starting one",
                                options_.points_name});
       return;
     }
@@ -262,13 +264,13 @@ class Fitting {
     if (outliers > 0) {
       out_.warnings.push_back({"outliers",
                                std::to_string(outliers) +
-                                   " points lie beyond 4 robust standard deviations and count "
-                                   "nevertheless; see residuals.csv, or --drop-outliers",
+                                   " points lie beyond 4 robust standard deviations but "
+                                   "still count; see residuals.csv, or use --drop-outliers",
                                options_.points_name});
     }
     if (!out_.settled) {
       out_.warnings.push_back({"fit_not_settled",
-                               "the steps did not become small before they ended; start from "
+                               "the fit ended before its steps became small; start from "
                                "another profile",
                                options_.points_name});
     }
@@ -283,10 +285,10 @@ class Fitting {
   std::vector<Parameter> free_;
   VectorXd u_;               ///< scaled values of free_
   Linearised at_;            ///< at u_
-  VectorXd discretisation_;  ///< standard errors of u_ by the computation's own error
+  VectorXd discretisation_;  ///< standard errors of u_ due to the computation itself
   std::vector<Spot> spots_;
   Warnings motion_warnings_;  ///< of the last prediction
-  double work_ = 0;           ///< dips, finer ones more
+  double work_ = 0;           ///< in dips; a finer dip counts more
   Outcome out_;
 };
 

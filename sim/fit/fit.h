@@ -22,19 +22,19 @@ struct Options {
   std::string points_name = "points";  ///< of the points' file, for messages
 };
 
-/// What became of a measured point. Places on the film are printed ones, in F, mm.
+/// The result for a measured point. Places on the film are printed ones, in F, mm.
 struct PointResult {
   Point point;
-  Eigen::Vector2d before_mm;  ///< what lands there by the profile to start from; NaN: nothing
-  Eigen::Vector2d after_mm;   ///< by the fitted one
-  std::string left_out;       ///< why it does not count; empty: it does
+  Eigen::Vector2d before_mm;  ///< point landing there with the starting profile; NaN: none
+  Eigen::Vector2d after_mm;   ///< with the fitted profile
+  std::string left_out;       ///< why it does not count; empty: it counts
   bool is_outlier = false;    ///< its residual lies beyond 4 robust standard deviations
 
   [[nodiscard]] bool is_used() const { return left_out.empty(); }
 };
 
 struct Outcome {
-  film::Profile profile;         ///< the starting one with what could be fitted
+  film::Profile profile;         ///< the starting profile with the fitted parameters
   Pose X_FO = Pose::Identity();  ///< as used: lowest point on the water, z = 0
   std::vector<Estimate> estimates;
   Eigen::MatrixXd correlation;  ///< of the estimates, in their order
@@ -42,7 +42,7 @@ struct Outcome {
   std::vector<PointResult> points;
   double rms_before_mm = 0, rms_after_mm = 0;  ///< of the used points' distances on the film
   double residual_sigma_mm = 0;                ///< standard deviation of one coordinate
-  double discretisation_mm = 0;  ///< rms by which finer meshes and steps move the prediction
+  double discretisation_mm = 0;  ///< rms change of the prediction with finer meshes and steps
   int degrees_of_freedom = 0;
   double t_quantile = 0;  ///< Student's, of two-sided intervals
   int iterations = 0, dips = 0;
@@ -50,12 +50,12 @@ struct Outcome {
   Warnings warnings;
 };
 
-/// The profile by which the sheet (section 4.3, quasistatic) brings the measured points' film to
-/// where it was found: least squares of (predicted - measured) printed point, mm, with 95 %
-/// intervals. What the points do not tell keeps its value in `dip.profile` and is listed.
-/// Warns where the dip is one whose motion is not to be trusted (pipeline::warnings_of_motion).
-/// @param dip  the dip that was measured; its profile is where the fit starts
-/// Refuses what the dip refuses and (kInvalidArgument) fewer than four usable points 1 mm apart.
+/// Fits the film profile to a measured dip, using the quasistatic sheet of section 4.3. Least
+/// squares of (predicted - measured) printed point, mm, with 95 % intervals. Parameters that the
+/// points do not determine keep their value in `dip.profile` and are listed. Warns if the dip's
+/// motion cannot be trusted (pipeline::warnings_of_motion).
+/// @param dip  the measured dip; the fit starts with its profile
+/// Fails as the dip does, and with kInvalidArgument for fewer than four usable points 1 mm apart.
 [[nodiscard]] Result<Outcome> fit(const mesh::Model& model, const pipeline::DipOptions& dip,
                                   const std::vector<Point>& points, const Options& options,
                                   const Context& context);

@@ -22,7 +22,7 @@ constexpr double kFirstDamping = 1e-3;
 constexpr double kSettledShare = 0.05;  ///< of the uncertainty
 constexpr double kMostStep = 1;
 
-/// Mean squares of both over the values that both know.
+/// Mean squares of both, over the values known to both.
 std::pair<double, double> mean_squares(const VectorXd& a, const VectorXd& b) {
   double sum_a = 0, sum_b = 0;
   Index count = 0;
@@ -37,7 +37,7 @@ std::pair<double, double> mean_squares(const VectorXd& a, const VectorXd& b) {
   return {sum_a / static_cast<double>(count), sum_b / static_cast<double>(count)};
 }
 
-/// Minimises |r + J d|^2 + damping over the parameters that are free, the others moving by `d`.
+/// Minimises |r + J d|^2 + damping over the free parameters; the others move by `d`.
 void solve_free(const Linearised& known, double damping, const std::vector<Index>& free,
                 VectorXd& d) {
   HP_CHECK(damping >= 0);
@@ -135,7 +135,7 @@ Result<Minimum> minimise(const Residuals& residuals, VectorXd u, const Domain& d
       out.u = next;
       out.at.residuals = std::move(at_next);
     }
-    if (!moved) break;  // numerical noise is all that is left
+    if (!moved) break;  // only numerical noise is left
   }
   return out;
 }

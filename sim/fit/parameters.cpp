@@ -8,13 +8,13 @@
 namespace hydroprint::fit {
 namespace {
 
-/// Drag from none to this, 1 / drag_length^2, is plausible: a length of 10 mm.
+/// Drag (1 / drag_length^2) is plausible from 0 to this: a length of 10 mm.
 constexpr double kPlausibleDrag_per_mm2 = 0.01;
-/// The most that is tried: a length of 1 mm.
+/// The largest drag that is tried: a length of 1 mm.
 constexpr double kMostDrag_per_mm2 = 1;
-/// Longer ones make no difference, and profiles know none.
+/// Longer ones make no difference, and profiles do not allow them.
 constexpr double kLongestDrag_mm = 1e4;
-/// Beyond 1.3 prints turn out blurred.
+/// Above a swelling of 1.3, prints turn out blurred.
 constexpr double kPlausibleGrowth = 0.3;
 constexpr double kMostGrowth = 1;
 constexpr double kMostInk_mm = 10;

@@ -25,7 +25,7 @@ Result<std::vector<Point>> read_points(const std::filesystem::path& path) {
   }
   if (points.empty()) {
     return fail(Code::kInvalidArgument,
-                path.string() + ": line 2: no points. Write one measured point a line");
+                path.string() + ": line 2: no points. Write one measured point per line");
   }
   return points;
 }

@@ -8,7 +8,7 @@
 
 namespace hydroprint::fit {
 
-/// A printed point and where it was found on the object.
+/// A printed point and its measured position on the object.
 struct Point {
   Eigen::Vector2d film_mm = Eigen::Vector2d::Zero();     ///< as printed, in F
   Eigen::Vector3d surface_mm = Eigen::Vector3d::Zero();  ///< as measured, in O
@@ -16,8 +16,8 @@ struct Point {
 
 inline constexpr std::size_t kMostPoints = 20'000;
 
-/// Reads `film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm` and 1 to 20,000 rows. Refuses, naming file, line and
-/// remedy, what read_csv refuses, coordinates beyond 1e4 mm and a file without rows.
+/// Reads `film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm` and 1 to 20,000 rows. Fails as read_csv() does, and
+/// for coordinates beyond 1e4 mm or a file without rows. Errors name file, line and remedy.
 [[nodiscard]] Result<std::vector<Point>> read_points(const std::filesystem::path& path);
 
 }  // namespace hydroprint::fit

@@ -12,25 +12,25 @@
 
 namespace hydroprint::fit {
 
-/// Says for a profile which printed points of the film land on given spots of a body: a dip of the
-/// sheet, in which the film is followed back from those spots alone.
+/// Predicts, for a profile, which printed points of the film land on given spots of a body. Runs a
+/// dip of the sheet and traces the film back from those spots only.
 class Predictor {
  public:
+  /// @param model    must outlive the predictor
   /// @param options  all but the profile
-  /// The model must outlive the predictor.
   Predictor(const mesh::Model& model, pipeline::DipOptions options)
       : model_(model), options_(std::move(options)) {}
 
-  /// What does not depend on ink and drag, kept for the swelling it was last made for.
+  /// The part that does not depend on ink and drag; cached for the latest swelling.
   [[nodiscard]] Result<const pipeline::StokesPass*> start(const Eigen::Vector2d& swelling,
                                                           const Context& context);
 
-  /// Per spot the printed point, mm, in F; NaN where no film arrives.
+  /// Per spot, the printed point, mm, in F; NaN where no film arrives.
   [[nodiscard]] Result<std::vector<Eigen::Vector2d>> predict(const film::Profile& profile,
                                                              const std::vector<Spot>& spots,
                                                              const Context& context);
 
-  /// What makes the last prediction's motion untrustworthy (pipeline::warnings_of_motion).
+  /// Reasons not to trust the motion of the last prediction (pipeline::warnings_of_motion).
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 
  private:

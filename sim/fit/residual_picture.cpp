@@ -21,13 +21,13 @@ constexpr double kPanel_px = 760;  ///< the film's longer side
 constexpr double kGap_px = 30;
 constexpr double kTitle_px = 60;
 constexpr double kLetter_px = 12;
-constexpr double kArrow_px = 40;  ///< of the arrow that all but one in twenty are shorter than
+constexpr double kArrow_px = 40;  ///< 95th percentile of the arrows' lengths
 constexpr Rgb8 kInk = {40, 40, 40};
 constexpr Rgb8 kBlue = {0, 90, 181};
 constexpr Rgb8 kRed = {200, 30, 30};
 constexpr Rgb8 kGrey = {170, 170, 170};
 
-/// One of the two, and where it stands.
+/// One of the two pictures and its place.
 struct Panel {
   std::string name;
   double rms_mm = 0;
@@ -45,7 +45,7 @@ struct Scale {
   }
 };
 
-/// 1, 2 or 5 times a power of ten: the most that keeps nearly all arrows short.
+/// 1, 2 or 5 times a power of ten: the largest factor that keeps nearly all arrows short.
 double enlargement(const Outcome& outcome, const Panel& panel, double px_per_mm) {
   std::vector<double> lengths;
   for (const PointResult& p : outcome.points) {
@@ -102,7 +102,7 @@ void draw_panel(RgbImage& image, const film::Outline& outline, const Outcome& ou
 RgbImage residual_picture(const film::Outline& outline, const Outcome& outcome) {
   const Vector2d size_mm = outline.size_mm();
   const Scale scale{outline.min_mm, size_mm, kPanel_px / size_mm.maxCoeff()};
-  // Titles take some room however narrow the film is.
+  // Titles need some room even above a narrow film.
   const double width_px = std::max(size_mm.x() * scale.px_per_mm, 0.9 * kPanel_px);
   const auto width = static_cast<int>(2 * width_px + 3 * kGap_px);
   const auto height = static_cast<int>(size_mm.y() * scale.px_per_mm + kTitle_px + kGap_px);

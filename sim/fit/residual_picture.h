@@ -6,9 +6,9 @@
 
 namespace hydroprint::fit {
 
-/// Two pictures of the film seen from above, before the fit and after it: its outline, the measured
-/// points (grey: left out, red: outliers) and from each an arrow to where the prediction has it,
-/// enlarged by a factor that stands above. About 1600 pixels wide.
+/// Two pictures of the film seen from above, before and after the fit. They show its outline, the
+/// measured points (grey: left out, red: outliers) and from each an arrow to its prediction. The
+/// title states the factor by which arrows are enlarged. About 1600 pixels wide.
 [[nodiscard]] image::RgbImage residual_picture(const film::Outline& outline,
                                                const Outcome& outcome);
 

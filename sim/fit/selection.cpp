@@ -13,10 +13,10 @@ constexpr double kOffSurface_mm = 1;
 constexpr double kApart_mm = 1;
 constexpr std::size_t kLeastPlaces = 4;
 constexpr double kOutlierSigmas = 4;
-/// Median of the absolute value of what is normally distributed with standard deviation 1.
+/// Median of the absolute value of a standard normal variable.
 constexpr double kNormalMedian = 0.6744897501960817;
 
-/// The first used points that lie apart from one another, as many as are needed.
+/// The number of used points that are apart from one another, up to the number needed.
 std::size_t places(const std::vector<PointResult>& points) {
   std::vector<Vector2d> apart;
   for (const PointResult& p : points) {
@@ -67,12 +67,12 @@ Status check_enough(const std::vector<PointResult>& points, const std::string& n
       std::count_if(points.begin(), points.end(), [](const PointResult& p) { return p.is_used(); });
   std::string what = name + ": " + std::to_string(used) + " of " + std::to_string(points.size()) +
                      " points can be used, at " + std::to_string(found) +
-                     " places 1 mm apart on the film, which determine nothing";
+                     " places 1 mm apart on the film, which is too few";
   if (const std::string why = main_reason(points); !why.empty()) {
     what += " (most of the others: " + why + ")";
   }
   return fail(Code::kInvalidArgument,
-              what + ". Measure at least 4 points, better dozens, all over the printed part",
+              what + ". Measure at least 4 points, preferably dozens, all over the printed part",
               "TOO_FEW_POINTS");
 }
 

@@ -11,17 +11,17 @@
 
 namespace hydroprint::fit {
 
-/// Why a point cannot count, by where it is; empty if it can.
+/// Why a point cannot count because of its position; empty if it can.
 [[nodiscard]] std::string geometric_objection(const Point& point, const Spot& spot,
                                               const waterline::Body& body,
                                               const film::Outline& outline);
 
-/// Refuses fewer than four used points at places 1 mm apart on the film, naming why others are left
-/// out.
+/// Refuses fewer than four used points at places 1 mm apart on the film. The message names the main
+/// reason why others are left out.
 [[nodiscard]] Status check_enough(const std::vector<PointResult>& points, const std::string& name);
 
 /// Marks the used points whose residual (after) lies beyond 4 robust standard deviations.
-/// @return how many were not marked before
+/// @return the number of points that were not marked before
 int mark_outliers(std::vector<PointResult>& points, double floor_mm);
 
 }  // namespace hydroprint::fit

@@ -64,7 +64,7 @@ Vector3d nearest_in(const std::array<Vector3d, 3>& corners, const Vector3d& p) {
   return best;
 }
 
-/// How far from p the box round a triangle is.
+/// Distance of p from a triangle's bounding box.
 double box_distance(const std::array<Vector3d, 3>& corners, const Vector3d& p) {
   const auto& [a, b, c] = corners;
   const Vector3d below = a.cwiseMin(b).cwiseMin(c) - p;

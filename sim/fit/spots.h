@@ -13,10 +13,10 @@ namespace hydroprint::fit {
 struct Spot {
   int triangle = 0;
   Eigen::Vector3d barycentric = Eigen::Vector3d::UnitX();  ///< of its corners 0, 1, 2
-  double distance_mm = 0;                                  ///< from the point that was asked for
+  double distance_mm = 0;                                  ///< from the requested point
 };
 
-/// Per point (O, mm) the nearest one of the surface; of several triangles the first.
+/// Per point (O, mm), the nearest one of the surface; if several triangles share it, the first.
 [[nodiscard]] Result<std::vector<Spot>> nearest_spots(const mesh::Surface& surface,
                                                       const std::vector<Eigen::Vector3d>& points_mm,
                                                       const Context& context);

@@ -13,18 +13,18 @@ using Eigen::Matrix2d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Parameters that move the points by less than this, rms, between the ends of what is plausible
-/// are lost in the computation's own error.
+/// Parameters that move the points by less than this, rms, over their plausible range are lost in
+/// the computation's own error.
 constexpr double kLeastMove_mm = 0.02;
-/// Variance of what is not known at all.
+/// Variance of an entirely unknown value.
 constexpr double kHuge = 1e12;
-/// A point that alone decides on a direction leaves this much of its residual at least.
+/// A point that alone determines a direction keeps at least this share of its residual.
 constexpr double kLeastShare = 1e-3;
 
-/// What the residuals say of the parameters, by directions that do not mix.
+/// Information in the residuals about the parameters, split into independent directions.
 struct Directions {
   MatrixXd known, unknown;  ///< orthonormal columns
-  VectorXd inverse_square;  ///< per known one, of its singular value
+  VectorXd inverse_square;  ///< per known direction, of its singular value
 };
 
 Directions directions_of(const MatrixXd& jacobian) {
@@ -56,7 +56,7 @@ double half_width(const MatrixXd& covariance, Index j, double t) {
   return t * std::sqrt(std::max(covariance(j, j), 0.0));
 }
 
-/// The parameter with which another one's estimate is most correlated.
+/// The parameter whose estimate is most correlated with another one.
 Index partner(const MatrixXd& covariance, Index parameter) {
   Index best = -1;
   double most = 0;
@@ -84,7 +84,7 @@ MatrixXd jackknife_covariance(const Linearised& known, double floor_mm) {
   MatrixXd scatter = MatrixXd::Zero(jacobian.cols(), jacobian.cols());
   for (Index i = 0; i + 1 < jacobian.rows(); i += 2) {
     const MatrixXd rows = jacobian.middleRows(i, 2);
-    // What the residual would be had the point not been there.
+    // Share of the point's own error that shows in its residual; the fit absorbs the rest.
     const Matrix2d share = Matrix2d::Identity() - rows * inverse * rows.transpose();
     const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(share);
     const Eigen::Vector2d left = eigen.eigenvalues().cwiseMax(kLeastShare);

@@ -8,17 +8,17 @@
 
 namespace hydroprint::fit {
 
-/// Covariance of least-squares estimates, scaled, by leaving out one point at a time (the jackknife
-/// in its linearised form, known as HC3): honest for points whose errors differ, as they do where
-/// film is stretched more or less, and for the two coordinates of a point, whose errors go
-/// together. Directions in which the points hardly move (by less than the computation's own error
-/// over all that is plausible) have a huge variance.
-/// @param known     all rows known, two a point
-/// @param floor_mm  error of every residual that does not show in the residuals: the computation's
+/// Scaled covariance of least-squares estimates, by leaving out one point at a time (the linearised
+/// jackknife, known as HC3). It is valid for points with different errors, as where the film is
+/// stretched more or less, and for a point's two coordinates, whose errors are correlated.
+/// Directions in which the points hardly move (by less than the computation's own error over the
+/// plausible range) have a huge variance.
+/// @param known     all rows known, two per point
+/// @param floor_mm  the computation's error in every residual, which the residuals do not show
 [[nodiscard]] Eigen::MatrixXd jackknife_covariance(const Linearised& known, double floor_mm);
 
-/// The linear map from residuals to minus the step of least squares: step = -gain * residuals.
-/// Directions that the residuals do not depend on are left alone.
+/// The linear map from residuals to the least-squares step: step = -gain * residuals. Directions on
+/// which the residuals do not depend stay unchanged.
 [[nodiscard]] Eigen::MatrixXd gain(const Eigen::MatrixXd& jacobian);
 
 /// Quantile of Student's t.
@@ -26,19 +26,20 @@ namespace hydroprint::fit {
 /// @param degrees      of freedom, above 0
 [[nodiscard]] double student_t(double probability, double degrees);
 
-/// Why a parameter is not known.
+/// Why a parameter is unknown.
 struct Unknown {
   Eigen::Index parameter = 0;
-  double moves_mm = 0;    ///< by which it moves the points, rms, over all that is plausible
+  double moves_mm = 0;    ///< rms move of the points over its plausible range
   double half_width = 0;  ///< of its interval, scaled
-  /// The parameter that it is taken for, -1 if it is the points that say too little of it alone.
+  /// The parameter it is confused with; -1 if the points simply contain too little information on
+  /// it.
   Eigen::Index taken_for = -1;
 };
 
-/// The parameters (scaled) that the points cannot tell, to be held one after the other: those whose
-/// interval would be wider than all that is plausible. First those that are unknown even where all
-/// others are known; else, of those that are only unknown together, the one known least.
-/// @param t  quantile that makes an interval of a standard error
+/// The parameters (scaled) that the points do not determine, to be held one after the other: those
+/// with an interval wider than the plausible range. First come those that are unknown even if all
+/// others are known. If there are none, the least known of those that are only unknown together.
+/// @param t  quantile that turns a standard error into an interval
 [[nodiscard]] std::vector<Unknown> unknowns(const Linearised& known, double floor_mm, double t);
 
 }  // namespace hydroprint::fit

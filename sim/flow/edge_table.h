@@ -10,9 +10,9 @@
 
 namespace hydroprint::flow {
 
-/// A value for each of many edges, each named by the numbers of its two ends in either order. A
-/// hash table in one piece, since a node of its own for each of millions of edges is mostly waiting
-/// for memory.
+/// Maps edges to values. An edge is given by the numbers of its two ends, in either order. The hash
+/// table is one array: with a separate node for each of millions of edges, most time would be spent
+/// waiting for memory.
 template <class T>
 class EdgeTable {
  public:
@@ -24,7 +24,7 @@ class EdgeTable {
     return slot.key == kNone ? nullptr : &slot.value;
   }
 
-  /// Takes the place of an earlier value.
+  /// Replaces an earlier value.
   void set(int a, int b, const T& value) {
     if (2 * (count_ + 1) > slots_.size()) grow();
     const std::uint64_t key = key_of(a, b);
@@ -45,7 +45,7 @@ class EdgeTable {
     return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
   }
 
-  /// Where the key is, or would be put.
+  /// The slot that holds the key, or would hold it.
   [[nodiscard]] std::size_t place(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
     std::uint64_t hash = (key ^ key >> 29) * 0x9e3779b97f4a7c15ULL;
@@ -63,7 +63,7 @@ class EdgeTable {
     }
   }
 
-  std::vector<Slot> slots_;  ///< a power of two of them, at most half of them taken
+  std::vector<Slot> slots_;  ///< a power of two, at most half of them used
   std::size_t count_ = 0;
 };
 

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Per surface point the stretch of the film round it (section 6).
+/// Sets the stretch of the film around each surface point (section 6).
 void measure_stretch(const mesh::Surface& surface, const waterline::Body& body,
                      const std::vector<Vector2d>& film_mm, SurfaceMap& map) {
   HP_CHECK(film_mm.size() == body.points_mm.size());

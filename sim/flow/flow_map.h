@@ -13,17 +13,17 @@ namespace hydroprint::flow {
 struct MapOptions {
   double dip_speed_mm_per_s = 5;
   Eigen::Vector2d swelling = {1, 1};  ///< rest film = floating film divided by this
-  /// Tiles are divided until the map is linear on each to within this, on the film; doubled with
-  /// each division, so that scatter of the traced points does not pass for a jump.
+  /// Tiles are divided until the map is linear on each to within this tolerance, on the film. It
+  /// doubles with each division, so that scatter of the traced points is not mistaken for a jump.
   double tolerance_mm = 0.02;
   /// Edges of tiles shorter than this on the film are not divided further (a pixel at 600 dpi).
   double least_edge_mm = 0.042;
   bool make_tiles = true;
 };
 
-/// Options made for 600 dpi, for an image of another resolution: where its pixels are larger, the
-/// map need not be known as finely: tolerance and least edge stay the same in pixels down to
-/// 150 dpi. Where pixels are smaller nothing changes.
+/// Adapts options made for 600 dpi to an image of another resolution. Larger pixels allow a coarser
+/// map: tolerance and least edge stay the same in pixels down to 150 dpi. Smaller pixels change
+/// nothing.
 /// @param dpi  positive
 [[nodiscard]] MapOptions for_resolution(MapOptions options, double dpi);
 

@@ -11,8 +11,8 @@
 namespace hydroprint::flow {
 namespace {
 
-/// A triangle on which film is gathered more than this lies across a jump of the map: at 170
-/// degrees, where eq. (1) ends, a sphere gathers it to cos(85 deg) = 0.087.
+/// A triangle with a smaller stretch than this lies across a jump of the map. At 170 degrees, where
+/// eq. (1) ends, a sphere compresses the film to cos(85 deg) = 0.087.
 constexpr double kLeastStretch = 0.05;
 
 }  // namespace
@@ -49,7 +49,7 @@ std::vector<Gradient> point_gradients(const std::vector<Eigen::Vector2d>& film_m
   for (const Eigen::Vector3i& t : triangles) {
     const Eigen::Vector2d u = film_mm[t[1]] - film_mm[t[0]];
     const Eigen::Vector2d v = film_mm[t[2]] - film_mm[t[0]];
-    // The film touches the surface from outside, so what turns left there turns right on the film.
+    // The film touches the surface from outside, so orientation on the film is reversed.
     if (!(u.x() * v.y() - u.y() * v.x() < 0)) continue;
     const Eigen::Vector3d& origin = surface_mm[t[0]];
     const double area = (surface_mm[t[1]] - origin).cross(surface_mm[t[2]] - origin).norm();

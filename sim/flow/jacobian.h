@@ -6,17 +6,17 @@
 
 namespace hydroprint::flow {
 
-/// Derivative of the map from the surface to the film (the inverse of eq. 6): how far on the film
-/// one goes for a step along the surface.
+/// Derivative of the map from the surface to the film (the inverse of eq. 6): displacement on the
+/// film per displacement along the surface.
 using Gradient = Eigen::Matrix<double, 2, 3>;
 
-/// Singular values of the Jacobian of the map from film to surface (section 6): one at rest.
+/// Singular values of the Jacobian of the map from film to surface (section 6); 1 at rest.
 struct Stretch {
   double most = 0, least = 0;
 };
 
-/// Stretch of the film where the inverse map has this gradient; infinite where film is stretched
-/// without end.
+/// Stretch of the film where the inverse map has this gradient; infinite where the film is
+/// stretched without limit.
 [[nodiscard]] Stretch stretch_of(const Gradient& gradient);
 
 /// The gradient on one triangle, constant there.
@@ -24,10 +24,10 @@ struct Stretch {
 [[nodiscard]] Gradient gradient_of(const std::array<Eigen::Vector2d, 3>& film_mm,
                                    const std::array<Eigen::Vector3d, 3>& surface_mm);
 
-/// The gradient at each point: the mean over the triangles round it, by area. Averaging this way
-/// round stays finite where film is stretched without end.
-/// @param film_mm  per point; triangles with a NaN corner, on which the film lies the wrong way up,
-///                 or across a jump of the map do not count
+/// The gradient at each point: the area-weighted mean over the triangles around it. Averaging the
+/// inverse map's gradients stays finite where the film is stretched without limit.
+/// @param film_mm  per point. Triangles with a NaN corner, with the film the wrong way up, or
+///     across a jump of the map are ignored
 /// @return NaN at points without a triangle
 [[nodiscard]] std::vector<Gradient> point_gradients(const std::vector<Eigen::Vector2d>& film_mm,
                                                     const std::vector<Eigen::Vector3d>& surface_mm,

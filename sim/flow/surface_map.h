@@ -6,8 +6,8 @@
 
 namespace hydroprint::flow {
 
-/// Where the film lands, seen from the surface: one entry per point of mesh::Surface. NaN where no
-/// film arrives.
+/// The film's landing as a function of the surface: one entry per point of mesh::Surface. NaN where
+/// no film arrives.
 struct SurfaceMap {
   std::vector<Eigen::Vector2d> film_mm;  ///< the point of the film, in F at rest, that lands here
   std::vector<double> contact_time_s;    ///< since the start of the dip
@@ -16,8 +16,8 @@ struct SurfaceMap {
   std::vector<double> least_stretch;  ///< the smaller singular value
 };
 
-/// A small triangle of the surface on which the map film -> surface is continuous and linear to
-/// within the tolerance it was made with. Together they tile what the film reaches.
+/// A small triangle of the surface on which the map film -> surface is continuous, and linear to
+/// within its tolerance. Together these triangles tile the part that the film reaches.
 struct MappedTriangle {
   std::array<Eigen::Vector2d, 3> film_mm;  ///< counter-clockwise seen from above
   int triangle = 0;                        ///< into mesh::Surface::triangles

@@ -18,10 +18,10 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// More edges than this at one level are a scatter of reached and unreached points, which no
 /// division resolves.
 constexpr std::size_t kMostEdges = 400000;
-/// A 2 mm edge is shorter than a pixel by then; slivers could go on for ever.
+/// A 2 mm edge is shorter than a pixel by then; slivers could be divided without end.
 constexpr int kMostLevels = 6;
 
-/// A corner of tiles: where it lies on the surface and which film lands there (NaN: none).
+/// A corner of tiles: its place on the surface and the film that lands there (NaN: none).
 struct Node {
   Vector3d surface_mm;
   Vector2d film_mm;
@@ -34,10 +34,10 @@ struct Tile {
   std::array<Vector3d, 3> barycentric;
 };
 
-/// Takes steps on the film to steps on the surface.
+/// Maps displacements on the film to displacements on the surface.
 using SurfacePerFilm = Eigen::Matrix<double, 3, 2>;
 
-/// What is known of the edge between two nodes.
+/// State of the edge between two nodes.
 enum class EdgeState : unsigned char { kLinear, kDivided, kBroken };
 
 struct Edge {
@@ -45,11 +45,12 @@ struct Edge {
   Landing middle = {};
   double film_per_surface = 0;
   Vector2d film_mm = Vector2d::Constant(kNaN);
-  /// Of the tiles on its two sides.
+  /// For the tiles on its two sides.
   std::array<SurfacePerFilm, 2> side = {SurfacePerFilm::Zero(), SurfacePerFilm::Zero()};
   int sides = 0;
 
-  /// How far off on the surface the film lands that is that far off on the film.
+  /// The distance on the surface that corresponds to `off_mm` on the film; the larger of both
+  /// sides.
   [[nodiscard]] double off_on_surface_mm(const Vector2d& off_mm) const {
     double most = 0;
     for (int i = 0; i < sides; ++i) most = std::max(most, (side[i] * off_mm).norm());
@@ -98,8 +99,9 @@ class Tiler {
       HP_RETURN_IF_ERROR(trace_middles(edges, context));
       judge(edges);
       divide();
-      // A smooth map bows four times less on half an edge; what does not get better by dividing is
-      // either a jump, which is large, or the scatter of the traced points, which is small.
+      // In a smooth map, the deviation on half an edge is four times smaller. A deviation that
+      // division does not reduce is either a jump, which is large, or scatter of the traced points,
+      // which is small.
       tolerance_mm_ *= 2;
       ++level_;
     }
@@ -109,8 +111,8 @@ class Tiler {
   std::vector<MappedTriangle> take() { return std::move(done_); }
 
  private:
-  /// Edges of the mesh itself along which the map turns too little to matter, judged by its
-  /// gradients at both ends: the middle of a cubic through them.
+  /// Marks edges of the mesh itself as linear if the map bends too little along them to matter. The
+  /// estimate is the middle of a cubic through the gradients at both ends.
   void trust_smooth_edges(const std::vector<Gradient>& gradient) {
     for (const Tile& tile : active_) {
       for (int i = 0; i < 3; ++i) {
@@ -221,12 +223,12 @@ class Tiler {
     active_ = std::move(next);
   }
 
-  /// Two, three or four smaller tiles, according to how many edges are divided.
+  /// Splits a tile into two, three or four, depending on the number of divided edges.
   static void split(const Tile& tile, const std::array<int, 3>& middle, std::vector<Tile>& out) {
     const auto bary_middle = [&](int i) -> Vector3d {
       return 0.5 * (tile.barycentric[(i + 1) % 3] + tile.barycentric[(i + 2) % 3]);
     };
-    // Corners of the polygon round the tile, starting so that the pattern below fits.
+    // Corners of the polygon around the tile, starting so that the pattern below fits.
     struct Corner {
       int node;
       Vector3d barycentric;
@@ -266,8 +268,8 @@ class Tiler {
     }
     MappedTriangle mapped;
     mapped.triangle = tile.triangle;
-    // The film touches the surface from outside, so what turns left on the surface turns right
-    // on the film seen from above.
+    // The film touches the surface from outside, so orientation on the film, seen from above, is
+    // reversed.
     for (int i = 0; i < 3; ++i) {
       const int from = 2 - i;
       const Node& node = nodes_[tile.node[from]];
@@ -291,7 +293,7 @@ class Tiler {
   std::vector<Tile> active_;
   std::vector<MappedTriangle> done_;
   EdgeTable<EdgeState> state_;
-  EdgeTable<int> middle_;  ///< of those divided
+  EdgeTable<int> middle_;  ///< of divided edges
 };
 
 }  // namespace

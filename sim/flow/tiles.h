@@ -12,9 +12,9 @@
 
 namespace hydroprint::flow {
 
-/// Tiles the reached surface. Edges whose middle lands elsewhere than halfway are divided, as are
-/// edges with only one end reached, until tiles are linear or as small as a pixel; a tile that a
-/// jump of the map still crosses then is left out.
+/// Tiles the reached surface. An edge is divided if its middle does not land halfway, or if only
+/// one of its ends is reached. Division ends when tiles are linear or as small as a pixel. A tile
+/// that still crosses a jump of the map is then left out.
 /// @param film_mm  per welded point of the body: the floating film that lands there, NaN if none
 [[nodiscard]] Result<std::vector<MappedTriangle>> make_tiles(
     const waterline::Body& body, const DipField& dip, const Landings& landings,

@@ -12,18 +12,18 @@
 namespace hydroprint::flow {
 namespace {
 
-/// Chords of the film mesh cut off this much of the film at most; farther outside is no film.
+/// Chords of the film mesh cut off at most this much of the film; there is no film farther outside.
 constexpr double kReach_mm = 0.08;
-/// A step may overshoot the waterline, and a landing lies up to a step's waterlines apart from
-/// either: they need some velocity all the same. (Whether a landing has film at all is decided
-/// where it begins.)
+/// A step may overshoot the waterline, and a landing may be as far from its neighbouring waterlines
+/// as they are from each other. Such points still need a velocity. (The start of each path decides
+/// whether its landing has film at all.)
 constexpr double kFarReach_mm = velocity::Locator::kReach_mm;
 
 using Eigen::Vector2d;
 using velocity::VelocityField;
 
-/// A step at least this many times longer than the one before starts the multistep rule anew: the
-/// short one was across an event, where the velocity jumps.
+/// A step at least this many times longer than the previous one restarts the multistep rule: the
+/// short step crossed an event, where the velocity jumps.
 constexpr double kMostGrowth = 4;
 
 constexpr std::size_t kChunk = 512;  ///< points followed together
@@ -32,19 +32,19 @@ constexpr std::size_t kChunk = 512;  ///< points followed together
 struct BackPath {
   Vector2d point_mm;  ///< NaN: lost
   double immersion_mm;
-  Vector2d velocity;                           ///< of the film there and then
-  std::size_t after;                           ///< how many waterlines lie before it still
+  Vector2d velocity;                           ///< of the film at that point and immersion
+  std::size_t after;                           ///< number of waterlines still before it
   Vector2d later_velocity = Vector2d::Zero();  ///< one step later in the dip
   double later_span_mm = 0;
-  bool keeps_on = false;  ///< with the velocity it has where there is no film; else it is lost
+  bool keeps_on = false;  ///< keeps its velocity where there is no film; else it is lost
 
   [[nodiscard]] bool is_lost() const { return std::isnan(point_mm.x()); }
   void lose() { point_mm.setConstant(std::numeric_limits<double>::quiet_NaN()); }
 };
 
-/// Displacement over a step for the velocity at its start and, predicted, at its end: quadratic in
-/// time through these and the one before (Adams and Moulton's rule for uneven steps), linear where
-/// there is none before.
+/// Displacement over a step, from the velocity at its start and the predicted one at its end.
+/// Quadratic in time through these and the previous velocity (Adams-Moulton rule for uneven steps);
+/// linear if there is no previous one.
 Vector2d displacement(const BackPath& path, double span_mm, const Vector2d& end_velocity) {
   const double g = path.later_span_mm;
   const double h = span_mm;
@@ -54,7 +54,7 @@ Vector2d displacement(const BackPath& path, double span_mm, const Vector2d& end_
          h * h * h / (6 * g * (h + g)) * path.later_velocity;
 }
 
-/// The same, before the velocity at its end is known.
+/// Same as displacement(), before the velocity at the end is known.
 Vector2d predicted_displacement(const BackPath& path, double span_mm) {
   Vector2d out = span_mm * path.velocity;
   if (span_mm < kMostGrowth * path.later_span_mm) {
@@ -64,7 +64,7 @@ Vector2d predicted_displacement(const BackPath& path, double span_mm) {
 }
 
 /// One step back to the waterline at `immersion_mm`; the path is lost where the field has no film.
-/// @param triangle  of the film mesh, near the point if possible; becomes that under the point
+/// @param triangle  of the film mesh, near the point if possible; set to the one under the point
 void step_back(const VelocityField& field, double immersion_mm, int& triangle, BackPath& path) {
   const double span_mm = path.immersion_mm - immersion_mm;
   Vector2d before = path.velocity;
@@ -84,7 +84,7 @@ void step_back(const VelocityField& field, double immersion_mm, int& triangle, B
   if (!is_film && !path.keeps_on) path.lose();
 }
 
-/// An order in which paths begin near one another: up and down narrow strips.
+/// An order in which consecutive paths begin near each other: up and down narrow strips.
 std::vector<std::size_t> neighbours_in_turn(const std::vector<BackPath>& paths) {
   constexpr double kStrip_mm = 4;
   struct Key {
@@ -108,8 +108,8 @@ std::vector<std::size_t> neighbours_in_turn(const std::vector<BackPath>& paths) 
   return order;
 }
 
-/// Follows paths back through the dip, together from waterline to waterline, so that each film mesh
-/// is read once for all of them.
+/// Follows all paths back through the dip together, waterline by waterline, so that each film mesh
+/// is read only once.
 /// @param first  the waterline at which they end
 void follow_back(const DipField& dip, std::vector<BackPath>& paths, std::size_t first = 0) {
   std::size_t most = 0;
@@ -125,7 +125,7 @@ void follow_back(const DipField& dip, std::vector<BackPath>& paths, std::size_t 
   }
 }
 
-/// The last step, to before first contact.
+/// The last step of each path, to before first contact.
 void come_to_rest(const DipField& dip, std::vector<BackPath>& paths) {
   for (BackPath& path : paths) {
     if (path.is_lost()) continue;
@@ -136,15 +136,15 @@ void come_to_rest(const DipField& dip, std::vector<BackPath>& paths) {
 }
 
 /// The film's velocity at the landing.
-/// @param after  index of the first waterline above it
-/// @return false if neither the waterline before has film there still nor the one after again: the
-///         landing is then not on the film's boundary at all
+/// @param after  index of the first waterline after it
+/// @return false if there is film neither at the waterline before nor at the one after. The landing
+///     is then not on the film's boundary at all
 bool velocity_at(const DipField& dip, const Landing& landing, std::size_t after,
                  Vector2d& velocity) {
   velocity = landing.pull;
   Vector2d before_velocity = Vector2d::Zero();
   Vector2d after_velocity = Vector2d::Zero();
-  const bool is_first = after == 0;  // the whole film is there before first contact
+  const bool is_first = after == 0;  // the whole film is present before first contact
   const bool is_last = after == dip.fields.size();
   const double outside_before_mm =
       is_first ? 0 : dip.fields[after - 1].nearest(landing.point_mm, before_velocity);
@@ -163,7 +163,7 @@ bool velocity_at(const DipField& dip, const Landing& landing, std::size_t after,
   return true;
 }
 
-/// The path that ends in a landing, lost where no film arrives.
+/// The path that ends in a landing; lost if no film arrives.
 BackPath path_to(const DipField& dip, const Landing& landing) {
   const auto after = static_cast<std::size_t>(
       std::upper_bound(dip.immersion_mm.begin(), dip.immersion_mm.end(), landing.immersion_mm) -
@@ -226,7 +226,7 @@ std::vector<Vector2d> trace_back(const DipField& dip, std::size_t k, const RestM
   for (std::size_t n = 0; n < field.nodes().size(); ++n) {
     BackPath& path = paths.emplace_back(
         BackPath{velocity::place_of(field.mesh(), n), dip.immersion_mm[k], field.nodes()[n], k});
-    path.keeps_on = true;  // this is film for certain
+    path.keeps_on = true;  // this is certainly film
   }
   follow_back(dip, paths, known != nullptr ? known->waterline : 0);
   if (known == nullptr) come_to_rest(dip, paths);

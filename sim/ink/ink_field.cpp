@@ -14,16 +14,15 @@ using Eigen::Vector2d;
 
 constexpr int kMostCells = 2048;  // along a side
 constexpr int kPointsPerCell = 4;
-/// From the middle, as parts of the length: exact for cubics, such as the integrand along a piece
-/// of an edge within one cell.
+/// Gauss points relative to the middle, as parts of the length. They are exact for cubics, such as
+/// the integrand along a piece of an edge within one cell.
 constexpr std::array<double, 2> kGauss = {-0.28867513459481287, 0.28867513459481287};
 constexpr double kOnEdge_cells = 1e-9;
 /// Twice the area, in cells, below which rounding would show in a mean.
 constexpr double kFlat_cells2 = 1e-6;
 
 /// One axis of the field, cut at the nodes and at the field's two ends. Strip i in [0, cells] lies
-/// between the nodes i and i + 1; strip -1 is all that is before the field, cells + 1 all behind
-/// it.
+/// between the nodes i and i + 1. Strip -1 is before the field, strip cells + 1 behind it.
 struct Axis {
   int cells;
 
@@ -34,7 +33,7 @@ struct Axis {
     if (!(u >= begin())) return -1;
     return u >= end() ? cells + 1 : static_cast<int>(u);
   }
-  /// Where strip i ends and strip i + 1 begins.
+  /// The end of strip i and start of strip i + 1.
   [[nodiscard]] double end_of(int i) const { return clamp(i + 1); }
 };
 
@@ -42,7 +41,7 @@ double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 
 bool is_ink(double t) { return t >= 0 && t <= kMostInk; }
 
-/// Into [0, 4] what rounding took out of it; NaN becomes 0.
+/// Moves values that rounding took out of [0, 4] back into it; NaN becomes 0.
 double rounded_in(double t) { return t >= 0 ? std::min(t, kMostInk) : 0; }
 
 tl::unexpected<Error> not_ink(const InkGrid& grid, std::size_t cell, double t) {
@@ -71,9 +70,9 @@ InkGrid ink_grid(const film::Outline& outline, double cell_mm) {
 
 Result<InkField> InkField::from_means(const InkGrid& grid, const std::vector<double>& means) {
   if (means.size() != grid.count()) {
-    return fail(Code::kInvalidArgument, "ink: " + std::to_string(means.size()) +
-                                            " amounts for a grid of " +
-                                            std::to_string(grid.count()) + " cells. Give one each");
+    return fail(Code::kInvalidArgument,
+                "ink: " + std::to_string(means.size()) + " amounts for a grid of " +
+                    std::to_string(grid.count()) + " cells. Give one per cell");
   }
   for (std::size_t cell = 0; cell < means.size(); ++cell) {
     if (!is_ink(means[cell])) return not_ink(grid, cell, means[cell]);
@@ -132,8 +131,8 @@ double InkField::at(const Vector2d& point_mm) const {
   return (1 - b) * ((1 - a) * low[0].t + a * low[1].t) + b * ((1 - a) * high[0].t + a * high[1].t);
 }
 
-/// Integral of t along the horizontal line through v, from the row's first node to u; the place
-/// lies in strips i and j.
+/// Integral of t along the horizontal line through v, from the row's first node to u. The point (u,
+/// v) is in strips i and j.
 double InkField::to_the_left(int i, int j, double u, double v) const {
   const double a = u - i, b = v - j;
   const auto along = [&](int row) {
@@ -143,12 +142,12 @@ double InkField::to_the_left(int i, int j, double u, double v) const {
   return (1 - b) * along(j) + b * along(j + 1);
 }
 
-/// Integral of t over all that lies left of an edge, positive if it goes up.
+/// Integral of t over the region left of an edge; positive if the edge goes up.
 double InkField::left_of_edge(const Vector2d& from, const Vector2d& to) const {
   const Axis across{grid_.columns}, up{grid_.rows};
   if (const int i = across.strip(from.x()), j = up.strip(from.y());
       i >= 0 && i <= across.cells && j >= 0 && j <= up.cells && i == across.strip(to.x()) &&
-      j == up.strip(to.y())) {  // within one cell, as most are
+      j == up.strip(to.y())) {  // within one cell, like most edges
     double sum = 0;
     for (const double gauss : kGauss) {
       const Vector2d at = from + (0.5 + gauss) * (to - from);
@@ -193,7 +192,7 @@ double InkField::mean(const Vector2d& a_mm, const Vector2d& b_mm, const Vector2d
   if (nodes_.empty() || !std::isfinite(twice_area) || std::abs(twice_area) < kFlat_cells2) {
     return at((a_mm + b_mm + c_mm) / 3);
   }
-  // Green's theorem: what lies left of the edges that go up, less what lies left of the others.
+  // Green's theorem: the region left of the edges that go up minus the region left of the others.
   const double integral = left_of_edge(a, b) + left_of_edge(b, c) + left_of_edge(c, a);
   return rounded_in(2 * integral / twice_area);
 }

@@ -15,13 +15,13 @@
 namespace hydroprint::ink {
 namespace {
 
-/// An image by its rows (8-bit sRGB, row 0 on top); `buffer` is there to put one into.
+/// An image by its rows (8-bit sRGB, row 0 on top); `row` may store the row in `buffer`.
 struct Rows {
   int width, height;
   std::function<const std::uint8_t*(int y, std::vector<std::uint8_t>& buffer)> row;
 };
 
-/// Which pixels a cell covers, along one axis: from the first one's edge, in pixels.
+/// The range of pixels that a cell covers along one axis, in pixels from the edge of the first.
 struct Span {
   double from, to;
 
@@ -32,7 +32,7 @@ struct Span {
   }
 };
 
-/// @param first_px, cell_px  where cell 0 begins and the cells' size, in pixels
+/// @param first_px, cell_px  start of cell 0 and size of the cells, in pixels
 std::vector<Span> spans(int cells, double first_px, double cell_px, int pixels) {
   HP_CHECK(cells > 0);
   HP_CHECK(cell_px > 0);
@@ -63,7 +63,7 @@ Result<InkField> average(const Rows& image, const film::Outline& outline, const 
   const Eigen::Vector2d px_mm =
       extent.size_mm.cwiseQuotient(Eigen::Vector2d(image.width, image.height));
   const Eigen::Vector2d cell_px = grid.cell_mm.cwiseQuotient(px_mm);
-  // Counted from the top, as the image's rows are.
+  // Counted from the top, like the image's rows.
   const Eigen::Vector2d first_px =
       Eigen::Vector2d(outline.min_mm.x() - extent.low_mm.x(),
                       extent.low_mm.y() + extent.size_mm.y() - outline.max_mm.y())

@@ -15,15 +15,15 @@ struct InkOptions {
   double cell_mm = kInkCell_mm;
 };
 
-/// The ink that a film image puts on its film: each pixel's amount (make_separation), then means
-/// over the cells. The image lies as image::image_extent says; what is outside it has no ink. The
-/// same bits whatever the number of threads. Refuses what make_separation refuses.
+/// The ink of a film image on its film: each pixel's amount (make_separation), then means over the
+/// cells. The image covers image::image_extent(); there is no ink outside it. The result is
+/// bit-identical for any number of threads. Fails as make_separation() does.
 [[nodiscard]] Result<InkField> ink_of(const image::RgbImage& film_image,
                                       const film::Outline& outline, const InkOptions& options,
                                       const Context& context);
 
-/// The same for an image file (PNG, JPEG or TIFF, any number of pixels; transparency is white), by
-/// its 8-bit sRGB codes. Refuses what image::read_image refuses, too.
+/// Same as ink_of(), for an image file (PNG, JPEG or TIFF, any number of pixels; transparency is
+/// white), by its 8-bit sRGB codes. Also fails as image::read_image() does.
 [[nodiscard]] Result<InkField> read_ink_image(const std::filesystem::path& path,
                                               const film::Outline& outline,
                                               const InkOptions& options, const Context& context);

@@ -11,8 +11,8 @@
 namespace hydroprint::ink {
 namespace {
 
-/// No file may be larger, and no table that one announces: real ones have 1 MiB or so, while the
-/// library would allocate half a GiB on the word of a damaged header.
+/// Limit on the size of files and of the tables that they announce. Real profiles have about 1 MiB,
+/// but the library would allocate half a GiB if a damaged header says so.
 constexpr std::size_t kMost_bytes = std::size_t{64} << 20;
 constexpr std::size_t kHeader_bytes = 128;
 
@@ -24,30 +24,30 @@ void* reallocate(cmsContext, void* memory, cmsUInt32Number bytes) {
 }
 void release(cmsContext, void* memory) { std::free(memory); }
 
-/// Keeps what the library says first.
+/// Keeps the library's first message.
 void note_error(cmsContext context, cmsUInt32Number, const char* text) {
   auto* said = static_cast<std::string*>(cmsGetContextUserData(context));
   if (said != nullptr && said->empty()) *said = text;
 }
 
-/// The library leaves out what lies beyond the end of the file and goes on with the rest.
+/// Checks the length, because the library ignores missing data at the end of the file.
 Status check_whole(const std::string& bytes, const std::string& name) {
   std::size_t announced = 0;
   if (bytes.size() >= kHeader_bytes) {
     for (int i = 0; i < 4; ++i) announced = announced << 8 | static_cast<unsigned char>(bytes[i]);
   }
   if (bytes.size() < kHeader_bytes || bytes.size() < announced) {
-    return fail(Code::kDataLoss, name + ": an ICC profile cut short, or none. Its " +
-                                     std::to_string(bytes.size()) + " bytes should be " +
+    return fail(Code::kDataLoss, name + ": truncated, or not an ICC profile. Its " +
+                                     std::to_string(bytes.size()) + " bytes should be at least " +
                                      std::to_string(std::max(announced, kHeader_bytes)) +
-                                     " or more. Get the file again");
+                                     ". Get the file again");
   }
   return {};
 }
 
 }  // namespace
 
-/// An own context of the library, so that nothing is global, and what was made in it.
+/// A private context of the library, so that nothing is global, and the objects created in it.
 class PrinterColours::LittleCms {
  public:
   LittleCms() {
@@ -75,8 +75,8 @@ class PrinterColours::LittleCms {
     if (cmsGetDeviceClass(profile_) != cmsSigOutputClass ||
         (space != cmsSigCmykData && space != cmsSigRgbData)) {
       return fail(Code::kInvalidArgument, name +
-                                              ": not the profile of a CMYK printer, nor of an RGB "
-                                              "one. Name an ICC output profile whose colour space "
+                                              ": not the profile of a CMYK or RGB printer. "
+                                              "Give an ICC output profile whose colour space "
                                               "is CMYK or RGB");
     }
     channels_ = space == cmsSigCmykData ? 4 : 3;
@@ -98,7 +98,7 @@ class PrinterColours::LittleCms {
  private:
   [[nodiscard]] tl::unexpected<Error> damaged(const std::string& name) const {
     const std::string why = said_.substr(0, said_.find('\n'));
-    return fail(Code::kDataLoss, name + ": not a sound ICC profile" +
+    return fail(Code::kDataLoss, name + ": damaged ICC profile" +
                                      (why.empty() ? "" : " (" + why + ")") +
                                      ". Get the file again");
   }

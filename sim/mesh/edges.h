@@ -7,11 +7,11 @@
 
 namespace hydroprint::mesh {
 
-/// The sides of triangles gathered by edge. Side s = 3 t + k of triangle t runs from its corner k
-/// to its corner (k + 1) % 3; two sides lie on the same edge if their welded ends are the same.
+/// The sides of triangles, grouped by edge. Side s = 3 t + k of triangle t runs from its corner k
+/// to its corner (k + 1) % 3. Two sides are on the same edge if their welded ends are the same.
 class Edges {
  public:
-  /// @param weld  per point, the point that stands for it
+  /// @param weld  per point, its representative
   Edges(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld);
 
   [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
@@ -25,7 +25,7 @@ class Edges {
   std::vector<std::size_t> begin_;
 };
 
-/// Welded point at which a side begins, and at which it ends.
+/// The welded points at which a side begins and ends.
 struct SideEnds {
   int from = 0;
   int to = 0;

@@ -7,7 +7,7 @@
 
 namespace hydroprint::mesh {
 
-/// Disjoint sets of 0 ... count - 1 (union-find); the smallest member stands for its set.
+/// Disjoint sets of 0 ... count - 1 (union-find); the smallest member represents its set.
 class Groups {
  public:
   explicit Groups(std::size_t count) : parent_(count) {

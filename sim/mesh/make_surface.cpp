@@ -22,7 +22,7 @@ void warn(Surface& surface, const Model& model, std::string code, std::string me
   surface.warnings.push_back({std::move(code), std::move(message), model.path.string()});
 }
 
-/// Triangles that have an area once coincident points are one.
+/// The triangles that still have an area after coincident points are welded.
 std::vector<int> proper_triangles(const Model& model, const std::vector<int>& weld,
                                   double tolerance) {
   std::vector<int> kept;
@@ -87,11 +87,11 @@ void warn_about_orientation(const Model& model, const Orientation& found, Surfac
   if (found.inside_out > 0)
     warn(surface, model, "inside_out",
          std::to_string(found.inside_out) + " of " + std::to_string(found.shells) +
-             " shells had their faces looking inward and were turned over");
+             " shells faced inward and were turned over");
   if (found.shells > 1)
     warn(surface, model, "many_shells",
          std::to_string(found.shells) + " separate shells (" + std::to_string(found.cavities) +
-             " of them hollows inside another): their union is used");
+             " of them cavities inside another): their union is used");
 }
 
 /// @return true if every edge has two faces, one each way

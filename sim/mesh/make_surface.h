@@ -8,17 +8,17 @@
 
 namespace hydroprint::mesh {
 
-/// Faces are subdivided to this edge length unless told otherwise (contract, `surface_map.ply`).
+/// Default edge length to which faces are subdivided (contract, `surface_map.ply`).
 inline constexpr double kMaxEdgeMm = 2;
-/// More triangles than this are not made by subdivision.
+/// Subdivision produces at most this many triangles.
 inline constexpr std::size_t kMaxSubdividedTriangles = 8'000'000;
 
-/// Welds, orients outward, subdivides and finds normals. Works on whatever a Model holds: open,
-/// non-manifold, of many shells, inside out; Surface::warnings says what was assumed.
-/// Points that subdivision adds are shared over UV seams; old ones stay as the model has them.
-/// Refuses an edge length that is not positive (kInvalidArgument), a model whose faces all vanish
-/// (kInvalidArgument), and one that would take more than kMaxSubdividedTriangles
-/// (kResourceExhausted). Linear in the number of triangles; the result does not depend on threads.
+/// Welds, orients outward, subdivides and computes normals. Handles any Model: open, non-manifold,
+/// with many shells, inside out. Surface::warnings lists the assumptions made. Points added by
+/// subdivision are shared across UV seams; the model's own points stay unchanged.
+/// Errors: kInvalidArgument for an edge length that is not positive and for a model whose faces all
+/// vanish, kResourceExhausted for more than kMaxSubdividedTriangles. Takes time linear in the
+/// number of triangles; the result does not depend on the number of threads.
 [[nodiscard]] Result<Surface> make_surface(const Model& model, double max_edge_mm,
                                            const Context& context);
 

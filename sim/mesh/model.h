@@ -10,10 +10,10 @@
 
 namespace hydroprint::mesh {
 
-/// What a texture coordinate outside [0, 1] means.
+/// Meaning of texture coordinates outside [0, 1].
 enum class Wrap { kRepeat, kMirror, kClamp };
 
-/// A material as the model file names it.
+/// A material of a model file.
 struct Material {
   std::string name;
   Eigen::Vector3f colour = {1, 1, 1};        ///< sRGB-coded, [0, 1]
@@ -24,17 +24,17 @@ struct Material {
   Wrap wrap_v = Wrap::kRepeat;
 };
 
-/// A model as read: geometry in mm in the object frame O, and where its colour comes from.
+/// A model as read: geometry in mm in the object frame O, and the sources of its colour.
 /// Invariants: indices in range, every coordinate finite, at least one triangle with an area.
 struct Model {
   std::filesystem::path path;
   std::vector<Eigen::Vector3d> vertices;                   ///< in the file's order, times scale
-  std::vector<Eigen::Vector3i> triangles;                  ///< polygons fanned; no zero-area ones
+  std::vector<Eigen::Vector3i> triangles;                  ///< polygons split; none with zero area
   std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs;  ///< per triangle, v up; empty: none
   std::vector<int> triangle_material;                      ///< into materials; empty: none
   std::vector<Material> materials;
   std::vector<Eigen::Vector3f> vertex_colours;  ///< sRGB-coded [0, 1]; empty: none
-  Warnings warnings;                            ///< what was assumed in reading
+  Warnings warnings;                            ///< assumptions made in reading
 };
 
 }  // namespace hydroprint::mesh

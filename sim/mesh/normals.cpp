@@ -16,9 +16,9 @@ const Eigen::Vector3d& at(const std::vector<Eigen::Vector3d>& points, int i) {
   return points[static_cast<std::size_t>(i)];
 }
 
-constexpr std::size_t kChunk = 8192;  ///< faces looked at together
+constexpr std::size_t kChunk = 8192;  ///< faces processed together
 
-/// Of each face its normal and the angles at its corners.
+/// Normal and corner angles of each face.
 struct Faces {
   std::vector<Eigen::Vector3d> normals;
   std::vector<std::array<double, 3>> angles_rad;
@@ -52,7 +52,7 @@ Result<Faces> measure(const std::vector<Eigen::Vector3d>& points,
   return faces;
 }
 
-/// Corners that share a normal. A corner has the number of the side that begins at it.
+/// Groups corners that share a normal. A corner has the number of the side that begins at it.
 Groups smooth_corners(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld,
                       const Edges& edges, const std::vector<Eigen::Vector3d>& normals) {
   HP_CHECK(normals.size() == triangles.size());
@@ -63,7 +63,8 @@ Groups smooth_corners(const std::vector<Eigen::Vector3i>& triangles, const std::
     if (sides.size() != 2) continue;
     const int a = sides[0];
     const int b = sides[1];
-    // Faces that run the same way along their edge look to opposite sides: no surface bends so.
+    // Faces that run the same way along their edge face opposite sides; no smooth surface does
+    // that.
     if (side_ends(a, triangles, weld).from == side_ends(b, triangles, weld).from) continue;
     const double cosine =
         normals[static_cast<std::size_t>(a / 3)].dot(normals[static_cast<std::size_t>(b / 3)]);
@@ -95,7 +96,7 @@ Result<std::vector<std::array<Eigen::Vector3d, 3>>> corner_normals(
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& sum = sums[groups.find(3 * t + k)];
-      // A ring of faces that turns right round may add up to nothing: then the face's own.
+      // The normals around a full ring of faces may cancel. Then the face's own normal is used.
       result[t][k] = sum.norm() > 1e-6 ? sum.normalized() : normals[t];
     }
   }

@@ -10,11 +10,11 @@
 
 namespace hydroprint::mesh {
 
-/// Unit normals at triangle corners: the mean over the faces round the corner, weighted by their
-/// angles there, that can be reached from the corner's own face without crossing a crease (dihedral
-/// angle of 30 degrees or more), a boundary, or an edge of more than two faces.
-/// Linear in the number of triangles, however many meet at a point.
-/// @return kCancelled if the context says so
+/// Unit normals at triangle corners: the mean of the faces around the corner, weighted by their
+/// angles there. A face counts if it can be reached from the corner's own face without crossing a
+/// crease (dihedral angle of 30 degrees or more), a boundary, or an edge of more than two faces.
+/// Takes time linear in the number of triangles, however many meet at a point.
+/// @return kCancelled if the context is cancelled
 [[nodiscard]] Result<std::vector<std::array<Eigen::Vector3d, 3>>> corner_normals(
     const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3i>& triangles,
     const std::vector<int>& weld, const Edges& edges, const Context& context);

@@ -11,18 +11,18 @@
 namespace hydroprint::mesh {
 namespace {
 
-/// Triangles that hang together over edges of exactly two faces.
+/// Triangles connected across edges of exactly two faces.
 struct Patch {
   std::vector<std::size_t> triangles;
   double volume = 0;
   bool closed = true;
-  bool flat = false;    ///< no volume to speak of
+  bool flat = false;    ///< negligible volume
   bool turned = false;  ///< turned over as a whole
   Eigen::AlignedBox3d box;
 };
 
-/// What is tested at most to tell hollows from parts turned inside out (a second of work); beyond
-/// it a part within another's bounding box counts as a hollow.
+/// Limit for the tests that distinguish cavities from inverted parts (a second of work). Beyond it,
+/// a part within another's bounding box counts as a cavity.
 constexpr std::size_t kMaxWindingTriangles = 100'000'000;
 
 class Orienter {
@@ -42,7 +42,7 @@ class Orienter {
       measure(patch);
       total += patch.volume;
     }
-    // All wrong rather than some: then a hollow is the part with the positive sign.
+    // The whole model is inverted, not just some parts, so its cavities have the positive sign.
     if (total < 0)
       for (auto& patch : patches_) turn_over(patch);
     for (std::size_t i = 0; i < patches_.size(); ++i) {
@@ -115,7 +115,7 @@ class Orienter {
         }
       }
     }
-    result_.one_sided += conflicts / 2;  // each such edge was met from both sides
+    result_.one_sided += conflicts / 2;  // each such edge was visited from both sides
     follow_majority(patch);
     return patch;
   }

@@ -9,7 +9,7 @@
 namespace hydroprint::mesh {
 namespace {
 
-/// One corner on its way into a new triangle.
+/// A corner of a new triangle.
 struct Corner {
   int point = 0;
   Eigen::Vector3f barycentric;
@@ -19,7 +19,7 @@ class Pass {
  public:
   Pass(Patchwork& work, double max_edge_mm) : work_(work), max_edge_mm_(max_edge_mm) {}
 
-  /// Finds the edges to cut. @return number of triangles the pass would leave
+  /// Finds the edges to cut. @return number of triangles after the pass
   std::size_t plan() {
     std::size_t cuts = 0;
     for (int side = 0; side < static_cast<int>(3 * work_.triangles.size()); ++side)
@@ -88,7 +88,7 @@ class Pass {
       for (std::size_t k = 0; k < 3; ++k) emit(corner[k], m[k], m[(k + 2) % 3]);
       return emit(m[0], m[1], m[2]);
     }
-    // Turned so that sides 0 (and 1, if two are cut) are the cut ones.
+    // Rotates the corners so that sides 0 (and 1, if two are cut) are the cut ones.
     std::size_t s = 0;
     while (!cut[s] || (cuts == 2 && !cut[(s + 1) % 3])) ++s;
     const auto& a = corner[s];

@@ -9,7 +9,7 @@
 
 namespace hydroprint::mesh {
 
-/// Triangles of a surface while it is being made: see mesh::Surface for the members.
+/// The triangles of a surface under construction; see mesh::Surface for the members.
 struct Patchwork {
   std::vector<Eigen::Vector3d> points;
   std::vector<int> weld;
@@ -18,10 +18,10 @@ struct Patchwork {
   std::vector<std::array<Eigen::Vector3f, 3>> source_barycentric;
 };
 
-/// Halves every edge longer than `max_edge_mm` until there is none. Whether and where an edge is
-/// cut depends on its welded ends alone, so neighbours agree, also over seams. Old points keep
-/// their numbers; new ones follow, one per cut edge.
-/// Refuses with kResourceExhausted if that takes more than `max_triangles`.
+/// Halves edges longer than `max_edge_mm` until none is left. Whether and where an edge is cut
+/// depends on its welded ends alone, so neighbours agree, also across seams. Old points keep their
+/// numbers; new ones follow, one per cut edge. Error: kResourceExhausted for more than
+/// `max_triangles`.
 [[nodiscard]] Result<Patchwork> subdivide(Patchwork input, double max_edge_mm,
                                           std::size_t max_triangles, const Context& context);
 

@@ -17,7 +17,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// How often each point of one texture is used, up to twice.
+/// The number of times that each point of one texture is used, counted up to two.
 class Coverage {
  public:
   void add(const Uvs& uvs) {
@@ -109,7 +109,7 @@ Warnings uv_warnings(const Model& model) {
   if (mirrored > kWorthSaying)
     warnings.push_back({"uv_mirrored",
                         percent(mirrored) + " of the texture in use is mirrored on the object: it "
-                                            "is printed so",
+                                            "is printed that way",
                         model.path.string()});
   return warnings;
 }

@@ -4,10 +4,10 @@
 
 namespace hydroprint::mesh {
 
-/// What is odd about a model's texture coordinates, if it has any: `uv_overlapping` when more than
-/// 0.5 % of the texture that is used is used twice (judged on 1024 x 1024 points, per material),
-/// `uv_mirrored` when more than 0.5 % of the area in the texture shows its picture mirrored. Both
-/// are often meant; nothing is refused.
+/// Warnings about unusual texture coordinates. `uv_overlapping`: more than 0.5 % of the used
+/// texture is used twice (measured at 1024 x 1024 points, per material). `uv_mirrored`: more than
+/// 0.5 % of the area in the texture appears mirrored on the object. Both are often intended, so
+/// nothing is refused.
 [[nodiscard]] Warnings uv_warnings(const Model& model);
 
 }  // namespace hydroprint::mesh

@@ -13,8 +13,9 @@ namespace {
 
 using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// Points by cell of a grid. Cells that share a slot share a chain; the distance test tells them
-/// apart. Only representatives enter, so a cell of four tolerances holds a bounded number of them.
+/// Points by cell of a grid, in a hash table. Cells in the same slot share a chain; the distance
+/// test separates them. Only representatives are stored, so a cell of four tolerances holds a
+/// bounded number.
 class Grid {
  public:
   Grid(const std::vector<Eigen::Vector3d>& points, double tolerance)

@@ -14,11 +14,11 @@ namespace hydroprint::pipeline {
 [[nodiscard]] Result<Dip> dip(const mesh::Model& model, const DipOptions& options,
                               const Context& context);
 
-/// The same, from a first pass of this model with these options.
+/// Same as above, continuing from a first pass of this model with these options.
 [[nodiscard]] Result<Dip> dip(const mesh::Model& model, StokesPass first, const DipOptions& options,
                               const Context& context);
 
-/// Puts figures, warnings and flow map together.
+/// Combines figures, warnings and flow map.
 /// @param unsettled_mm  see DipFigures
 [[nodiscard]] Dip assemble_dip(const mesh::Model& model, StokesPass first, flow::FlowMap map,
                                double unsettled_mm, const DipOptions& options);

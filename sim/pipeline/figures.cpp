@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStokesStretch = 1.3;  ///< the paper's 0.3 is stretch beyond rest (section 4.4)
 
-/// What a sheet may still move in the end, before there is a warning: about a pixel at 300 dpi.
+/// A sheet that still moves by more than this at the end gets a warning: about a pixel at 300 dpi.
 constexpr double kUnsettled_mm = 0.08;
 
 struct Face {
@@ -77,9 +77,9 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
   const waterline::Trap& largest = traps.front();
   warnings.push_back(
       {"film_trapped",
-       "the waterline closes round film, a piece of up to " + fixed(largest.area_mm2) + " mm2" +
+       "the waterline closes around a piece of film of up to " + fixed(largest.area_mm2) + " mm2" +
            and_others(static_cast<std::ptrdiff_t>(traps.size()) - 1) +
-           ", which from then on can only be stretched. Turn the object so that it goes in edge "
+           ", which after that can only stretch. Turn the object so that it enters the water edge "
            "first",
        where_of(largest)});
   const auto airy = [](const waterline::Trap& trap) { return trap.ceiling_mm.has_value(); };
@@ -89,14 +89,14 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
   const auto count = std::count_if(traps.begin(), traps.end(), airy);
   if (count == 0) return;
   warnings.push_back({"air_trapped",
-                      "the object closes over " + fixed(most->air_mm3 / 1000) + " cm3 of air" +
+                      "the object traps " + fixed(most->air_mm3 / 1000) + " cm3 of air" +
                           and_others(count - 1) +
-                          ", which keeps the water out of the hollow; the map in there is not to "
-                          "be trusted. Turn the object or drill a vent",
+                          ", which keeps the water out of the cavity; do not trust the map there. "
+                          "Turn the object or drill a vent",
                       where_of(*most)});
 }
 
-/// Where the film is no sheet any more.
+/// Warns where the film tears or wrinkles, so that it no longer behaves as a sheet.
 void warn_of_strain(const DipFigures& figures, const film::Profile& profile, Warnings& warnings) {
   const auto warn = [&](double share, const char* code, const std::string& message) {
     if (share > 0) {
@@ -104,11 +104,11 @@ void warn_of_strain(const DipFigures& figures, const film::Profile& profile, War
     }
   };
   warn(figures.torn_share, "film_torn",
-       "the film is stretched more than " + fixed(profile.tear_stretch) +
-           " times, where it tears. Dip less deep, turn the object, or take a larger film");
+       "the film tears, because it is stretched more than " + fixed(profile.tear_stretch) +
+           " times. Dip less deep, turn the object, or use a larger film");
   warn(figures.wrinkled_share, "film_wrinkled",
-       "the film is gathered to less than " + fixed(profile.wrinkle_stretch) +
-           " of its width and wrinkles. Turn the object or dip less deep");
+       "the film wrinkles, because it is compressed below " + fixed(profile.wrinkle_stretch) +
+           " of its width. Turn the object or dip less deep");
 }
 
 }  // namespace
@@ -138,7 +138,7 @@ DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
       if (clamped) is_clamped[v] = 1;
       if (std::isnan(map.film_mm[v].x())) continue;
       shares.reached += face.area_mm2 / 3;
-      if (clamped) continue;  // nothing to be trusted there
+      if (clamped) continue;  // the map is unreliable there
       if (map.least_stretch[v] < profile.wrinkle_stretch) shares.wrinkled += face.area_mm2 / 3;
       if (map.stretch[v] > profile.tear_stretch) shares.torn += face.area_mm2 / 3;
     }
@@ -165,10 +165,9 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
   }
   if (figures.clamped_share > 0) {
     warnings.push_back({"theta_clamped",
-                        "faces within 10 degrees of level, facing up, make " +
-                            percent(figures.clamped_share) +
-                            " of the surface; there theta is clamped at 170 degrees and the map "
-                            "is not to be trusted",
+                        percent(figures.clamped_share) +
+                            " of the surface faces up, within 10 degrees of level; there theta is "
+                            "clamped at 170 degrees: do not trust the map there",
                         "surface"});
   }
   warn_of_traps(figures.traps, warnings);
@@ -187,7 +186,7 @@ Warnings warnings_of(const DipFigures& figures, const DipOptions& options) {
   }
   if (options.film_model == FilmModel::kStokes && options.profile.drag_length_mm > 0) {
     warnings.push_back({"drag_ignored",
-                        "Stokes flow knows no water drag (drag_length_mm). Use --model sheet",
+                        "Stokes flow ignores water drag (drag_length_mm). Use --model sheet",
                         "profile"});
   }
   warn_of_strain(figures, options.profile, warnings);
@@ -202,19 +201,20 @@ Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm
   Warnings warnings;
   if (!passed_over_mm.empty()) {
     const std::size_t all = passed_over_mm.size() + static_cast<std::size_t>(steps);
-    warnings.push_back({"waterlines_passed_over",
-                        std::to_string(passed_over_mm.size()) + " of " + std::to_string(all) +
-                            " waterlines are passed over, since two of their curves all but touch; "
-                            "between them the film moves as before and after. Widen or close such "
-                            "gaps of the model",
-                        fixed(passed_over_mm.front()) + " mm immersion"});
+    warnings.push_back(
+        {"waterlines_passed_over",
+         std::to_string(passed_over_mm.size()) + " of " + std::to_string(all) +
+             " waterlines are passed over, because two of their curves nearly touch; "
+             "there the film's motion comes from the neighbouring waterlines. Widen "
+             "or close such gaps in the model",
+         fixed(passed_over_mm.front()) + " mm immersion"});
   }
   if (unsettled_mm > kUnsettled_mm) {
     warnings.push_back({"sheet_unsettled",
                         "the thickness of the film does not settle, as happens where it tears or "
                         "folds; another sweep would still move it by " +
                             fixed(unsettled_mm) +
-                            " mm. Do not trust what lands where the stretch is extreme; turn the "
+                            " mm. Do not trust the result where the stretch is extreme; turn the "
                             "object or dip less deep",
                         "film"});
   }

@@ -8,15 +8,15 @@
 
 namespace hydroprint::pipeline {
 
-/// What there is to say of a dip in figures.
+/// Computes the figures of a dip.
 [[nodiscard]] DipFigures figures_of(const StokesPass& pass, const flow::SurfaceMap& map,
                                     const film::Profile& profile);
 
-/// What a user has to be told of a dip with these figures.
+/// The warnings for a user about a dip with these figures.
 [[nodiscard]] Warnings warnings_of(const DipFigures& figures, const DipOptions& options);
 
-/// The part of it that says where the film's motion is not to be trusted, wherever it lands.
-/// @param steps  waterlines solved; the rest is as in DipFigures
+/// The warnings about the film's motion only, wherever the film lands.
+/// @param steps  waterlines solved; the other parameters are as in DipFigures
 [[nodiscard]] Warnings warnings_of_motion(int steps, const std::vector<double>& passed_over_mm,
                                           double unsettled_mm);
 

@@ -14,13 +14,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Resolution of film images that are only made to know their ink: finer than the cells over which
-/// the ink is averaged.
+/// Resolution of film images that are only made to compute their ink: finer than the cells over
+/// which the ink is averaged.
 constexpr double kInkDpi = 60;
-/// Share of the points that must have come to rest: at the map's jumps a few may leap for ever.
+/// Share of the points that must have come to rest; a few at the map's jumps may never settle.
 constexpr double kMostPoints = 0.999;
 
-/// How finely the map is tiled for such an image: to a fraction of its pixels.
+/// Coarsens the tiling of the map for such an image, to a fraction of its pixels.
 flow::MapOptions coarse(flow::MapOptions map) {
   map.tolerance_mm = 0.25;
   map.least_edge_mm = 0.5;
@@ -47,7 +47,7 @@ InkPass compare(const std::vector<Vector2d>& before, const std::vector<Vector2d>
   return pass;
 }
 
-/// The sheet that carries the ink of its own film image, and where it lands.
+/// The sheet that carries the ink of its own film image, and the map of its landing.
 struct InkedFlow {
   sheet::SheetFlow flow;
   flow::FlowMap map;

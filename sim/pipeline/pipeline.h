@@ -20,25 +20,26 @@
 
 namespace hydroprint::pipeline {
 
-/// How the film moves: as Stokes flow (section 4.2) or as a viscous sheet whose thickness matters
-/// (section 4.3).
+/// Model of the film's motion: Stokes flow (section 4.2), or a viscous sheet whose thickness
+/// matters (section 4.3).
 enum class FilmModel { kStokes, kSheet };
 
-/// One immersion: where the object is and how it goes down through which film.
+/// One immersion: the object's pose and motion, and the film.
 struct DipOptions {
-  /// Object frame to film frame at the start of the dip; z is ignored (contract). None: as in the
-  /// file, bounding box centred on the film.
+  /// Object frame to film frame at the start of the dip; z is ignored (contract). nullopt:
+  /// orientation as in the file, bounding box centred on the film.
   std::optional<Pose> X_FO;
   film::Outline outline;
   film::Profile profile;
-  std::optional<double> depth_mm;  ///< immersion at the end of the dip; none: full
+  std::optional<double> depth_mm;  ///< immersion at the end of the dip; nullopt: full
   double dip_speed_mm_per_s = 5;
   FilmModel film_model = FilmModel::kSheet;
-  /// The sheet moves with inertia, as in Algorithm 1, not quasistatically: slower, the same answer.
+  /// The sheet moves with inertia, as in Algorithm 1, instead of quasistatically. This is slower
+  /// and gives the same answer.
   bool inertia = false;
-  ink::InkField ink;         ///< printed on the film; for the sheet alone
-  waterline::Motion motion;  ///< sideways path as driven; empty: straight down
-  // How finely: the defaults are both fast and accurate (tests/bench).
+  ink::InkField ink;         ///< printed on the film; used by the sheet only
+  waterline::Motion motion;  ///< the path as driven, in the plane; empty: straight down
+  // Resolution: the defaults are both fast and accurate (tests/bench).
   double surface_edge_mm = 2;  ///< longer faces are subdivided (contract)
   waterline::ScheduleOptions schedule;
   velocity::MeshOptions mesh;
@@ -46,14 +47,14 @@ struct DipOptions {
   flow::MapOptions map;       ///< speed and swelling are taken from above
 };
 
-/// The same dip with all lengths that say how finely it is computed multiplied: below 1 it is
+/// The same dip with all lengths that set its resolution multiplied by `factor`; below 1 it is
 /// finer.
 [[nodiscard]] DipOptions scaled_resolution(DipOptions options, double factor);
 
-/// How far an ink pass moved where the film lands, from the pass before it.
+/// The change of the landing points by an ink pass, compared with the previous pass.
 struct InkPass {
   double moved_rms_mm = 0;
-  double moved_most_mm = 0;  ///< not exceeded by 99.9 % of the surface's points
+  double moved_most_mm = 0;  ///< the 99.9th percentile over the surface's points
   double moved_max_mm = 0;
 };
 
@@ -62,22 +63,22 @@ struct DipFigures {
   double depth_mm = 0;           ///< immersion reached
   bool stopped_at_edge = false;  ///< the waterline reached the film's edge before `depth_mm`
   int steps = 0;                 ///< waterlines solved
-  /// Waterlines that were not, since two of their curves all but touch: their immersions.
+  /// Immersions of the waterlines that were not solved, because two of their curves nearly touch.
   std::vector<double> passed_over_mm;
   std::vector<InkPass> ink_passes;
   int film_vertices_max = 0;  ///< of the largest film mesh
   int film_triangles_max = 0;
   double coverage = 0;        ///< share of the object's surface that film reaches
   double clamped_share = 0;   ///< share of the surface with theta beyond 170 degrees
-  double wrinkled_share = 0;  ///< of the surface, the film gathered below wrinkle_stretch
+  double wrinkled_share = 0;  ///< of the surface, the film compressed below wrinkle_stretch
   double torn_share = 0;      ///< of the surface, the film stretched beyond tear_stretch
-  /// By which further sweeps would move the sheet where it tears or folds; see sheet::SheetFlow.
+  /// Move of the sheet by further sweeps, where it tears or folds; see sheet::SheetFlow.
   double unsettled_mm = 0;
-  std::vector<waterline::Trap> traps;  ///< film and air closed in, largest first
+  std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first
   double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;  ///< where theta is not clamped
 };
 
-/// The outcome of one immersion: the surface it was computed on and where the film lands.
+/// The outcome of one immersion: the surface used in the computation and the film's landing on it.
 struct Dip {
   mesh::Surface surface;
   Pose X_FO;  ///< as used: lowest point on the water, z = 0

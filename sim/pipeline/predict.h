@@ -14,20 +14,20 @@
 
 namespace hydroprint::pipeline {
 
-/// From a film image as printed to what lands on the object.
+/// Options for predicting the look of the object from a printed film image.
 struct PredictOptions {
   std::filesystem::path mesh;
   double scale = 1;                  ///< model units to mm
   std::filesystem::path film_image;  ///< any image at the film's size
   DipOptions dip;                    ///< the true pose, and the path as driven
   int ink_passes = 1;  ///< not 0: the film carries the ink of film_image, else that of dip.ink
-  bool images = true;  ///< false: where the film lands, and nothing to look at
+  bool images = true;  ///< false: only the film's landing, without images
 };
 
-/// The colours that land.
+/// The colours that land on the object.
 struct PredictedImages {
   std::vector<Eigen::Vector3f> landed;      ///< per point of the surface; NaN: no film arrives
-  std::optional<image::RgbaImage> texture;  ///< the same as a texture; none: no UVs
+  std::optional<image::RgbaImage> texture;  ///< the same as a texture; nullopt: no UVs
   image::RgbImage picture;                  ///< of the object
 };
 
@@ -38,8 +38,8 @@ struct Prediction {
   Warnings warnings;  ///< of every stage
 };
 
-/// The chain of section 4 the other way: film image, model, dip, colours, pictures. Refuses what
-/// its stages refuse.
+/// The chain of section 4 in reverse: film image, model, dip, colours, pictures. Fails as its
+/// stages do.
 [[nodiscard]] Result<Prediction> predict(const PredictOptions& options, const Context& context);
 
 }  // namespace hydroprint::pipeline

@@ -4,10 +4,10 @@
 
 namespace hydroprint::pipeline {
 
-/// The same dip, roughly, for a page that answers while an object is being turned: Stokes flow, a
-/// film mesh and steps that are just fine enough to show where film goes (to a millimetre on the
-/// film up to theta = 120 degrees), on the model's own triangles. How far it is stretched is told
-/// less well, by half near the end of the dip; what the sheet and its ink do, not at all.
+/// A coarse version of the dip, for a page that responds while the user turns an object. It uses
+/// Stokes flow on the model's own triangles, with film mesh and steps just fine enough to show the
+/// film's landing (to a millimetre on the film up to theta = 120 degrees). The stretch is less
+/// accurate, by half near the end of the dip. Effects of the sheet and its ink are missing.
 [[nodiscard]] DipOptions preview_of(DipOptions options);
 
 }  // namespace hydroprint::pipeline

@@ -12,7 +12,7 @@
 namespace hydroprint::pipeline {
 namespace {
 
-/// A model of up to this size leaves memory for the image libraries to load beside it.
+/// Models up to this size leave memory for the image libraries to load in parallel.
 constexpr std::uintmax_t kSmallModel_bytes = std::uintmax_t{16} << 20;
 
 bool is_small(const std::filesystem::path& file) {
@@ -21,7 +21,8 @@ bool is_small(const std::filesystem::path& file) {
   return !unknown && bytes <= kSmallModel_bytes;
 }
 
-/// Refuses a model whose faces would be white although it means them to have a colour.
+/// Refuses a model whose faces would be white because the files that define their colours are
+/// missing.
 Status check_materials(const mesh::Model& model) {
   for (const Warning& warning : model.warnings) {
     if (warning.code != "material_file_missing" && warning.code != "material_missing") continue;
@@ -32,8 +33,8 @@ Status check_materials(const mesh::Model& model) {
 }
 
 /// Loading the image libraries takes as long as reading most models. They are loaded before a large
-/// model, because they end the program if they find no memory, and always by the calling thread,
-/// because LeakSanitizer fails on libraries whose loading thread has ended.
+/// model, because they end the program if they find no memory. The calling thread always loads
+/// them, because LeakSanitizer fails on libraries whose loading thread has ended.
 Result<mesh::Model> read_model(const SimulateOptions& options, const Context& context) {
   const auto read = [&](const Context& reading) {
     return mesh::read_model(options.mesh, options.scale, reading);

@@ -7,9 +7,9 @@
 
 namespace hydroprint::pipeline {
 
-/// Reads the model of a simulation and, if pictures will be needed, loads the image libraries
-/// meanwhile. Refuses what mesh::read_model refuses and, unless a texture is given, a model whose
-/// material file or material is missing (kNotFound).
+/// Reads the model of a simulation and, if pictures will be needed, loads the image libraries at
+/// the same time. Fails as mesh::read_model() does and, unless a texture is given, with kNotFound
+/// for a model whose material file or material is missing.
 [[nodiscard]] Result<mesh::Model> read_inputs(const SimulateOptions& options,
                                               const Context& context);
 

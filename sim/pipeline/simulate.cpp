@@ -34,7 +34,7 @@ int ink_passes_of(const SimulateOptions& options) {
   return options.dip.film_model == FilmModel::kSheet ? options.ink_passes : 0;
 }
 
-/// The flow is solved while the paint is read: neither needs the other.
+/// Solves the flow while the paint is read; the two are independent.
 Result<PaintedStokesPass> run_painted_stokes_pass(const mesh::Model& model,
                                                   const SimulateOptions& options,
                                                   const Context& context) {

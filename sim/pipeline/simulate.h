@@ -12,25 +12,25 @@
 
 namespace hydroprint::pipeline {
 
-/// From a textured model to the image to print.
+/// Options for computing the image to print from a textured model.
 struct SimulateOptions {
   std::filesystem::path mesh;
   double scale = 1;                              ///< model units to mm
-  std::optional<std::filesystem::path> texture;  ///< none: the model's own colours
+  std::optional<std::filesystem::path> texture;  ///< nullopt: the model's own colours
   DipOptions dip;
   double dpi = 300;
-  /// Passes of the two-step scheme (section 4.3); 0: as much ink as dip.ink says. For the sheet
-  /// alone, and for objects that have a colour.
+  /// Passes of the two-step scheme (section 4.3); 0: the ink is dip.ink. Only for the sheet, and
+  /// for objects with colours.
   int ink_passes = 1;
-  bool images = true;  ///< false: where the film lands, and nothing to look at
+  bool images = true;  ///< false: only the film's landing, without images
 };
 
-/// What is made to be printed and looked at.
+/// The image to print, and pictures for people.
 struct SimulatedImages {
   image::RgbImage film;     ///< the image to print
-  image::FilmMap film_map;  ///< where the film's points land
+  image::FilmMap film_map;  ///< landing points of the film
   image::RgbImage stretch;  ///< picture of the stretch on the object
-  /// Picture of how far the film is gathered; where that makes it wrinkle (film_wrinkled).
+  /// Picture of the film's compression; only if the film wrinkles (film_wrinkled).
   std::optional<image::RgbImage> wrinkles;
   image::RgbImage predicted;  ///< picture of the object as it will look
 };
@@ -43,8 +43,8 @@ struct Simulation {
 };
 
 /// The whole chain of section 4: model, paint, dip, film image, pictures.
-/// Refuses what its stages refuse and, unless a texture is given, a model whose material file or
-/// material is missing (kNotFound): its colours would be white without a word.
+/// Fails as its stages do and, unless a texture is given, with kNotFound for a model whose material
+/// file or material is missing: its colours would silently be white.
 [[nodiscard]] Result<Simulation> simulate(const SimulateOptions& options, const Context& context);
 
 }  // namespace hydroprint::pipeline

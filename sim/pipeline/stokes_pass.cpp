@@ -15,7 +15,7 @@
 namespace hydroprint::pipeline {
 namespace {
 
-/// The film as it floats: swollen, its clamped edge with it.
+/// The floating film: swollen, together with its clamped edge.
 film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   for (Eigen::Vector2d& p : outline.polygon) p = p.cwiseProduct(swelling);
   outline.min_mm = outline.min_mm.cwiseProduct(swelling);
@@ -23,12 +23,12 @@ film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   return outline;
 }
 
-/// Waterlines whose film cannot be meshed, since two of their curves just touch, are passed over;
-/// more of them than this share are an error.
+/// Waterlines whose film cannot be meshed, because two of their curves nearly touch, are passed
+/// over. If their share exceeds this, the dip fails.
 constexpr double kMostPassedOver = 0.2;
 
-/// Stokes has no memory: every waterline is meshed and solved by itself, all in parallel.
-/// @return no field for a waterline that is passed over
+/// Meshes and solves every waterline separately and in parallel, because Stokes flow has no memory.
+/// @return nullopt for a waterline that is passed over
 Result<std::vector<std::optional<velocity::VelocityField>>> solve(
     const film::Outline& outline, waterline::Waterlines& waterlines,
     const velocity::MeshOptions& options, const Context& context) {
@@ -45,7 +45,7 @@ Result<std::vector<std::optional<velocity::VelocityField>>> solve(
     const auto fixed = velocity::boundary_velocities(*mesh, line.pulls);
     HP_ASSIGN_OR_RETURN(auto nodes, velocity::solve_stokes(*mesh, fixed));
     fields[k] = velocity::VelocityField(std::move(*mesh), std::move(nodes));
-    line = {line.immersion_mm, {}, {}, {}};  // its curves are not needed any more
+    line = {line.immersion_mm, {}, {}, {}};  // its curves are no longer needed
     return {};
   }));
   const auto is_refused = [](const Status& status) { return !status; };
@@ -90,7 +90,7 @@ Result<sheet::SheetFlow> sheet_field(const flow::DipField& first, const ink::Ink
                                      const DipOptions& options, const Context& context) {
   const film::Profile& profile = options.profile;
   const auto rest_thickness = [&](const std::array<Eigen::Vector2d, 3>& rest_mm) {
-    // Swelling spreads a printed amount of film and ink alike; only relative thickness matters.
+    // Swelling spreads film and ink by the same factor, and only relative thickness matters.
     const auto printed = [&](const Eigen::Vector2d& p) {
       return p.cwiseQuotient(profile.swelling);
     };

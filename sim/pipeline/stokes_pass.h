@@ -22,7 +22,7 @@ struct StokesPass {
   flow::DipField stokes;
   std::vector<double> passed_over_mm;  ///< see DipFigures
   bool stopped_at_edge = false;
-  std::vector<waterline::Trap> traps;  ///< film and air closed in, largest first
+  std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first
 };
 
 /// Computes mesh, pose, waterlines, film meshes and velocities. Returns the errors of its stages.
@@ -30,13 +30,13 @@ struct StokesPass {
                                                  const DipOptions& options, const Context& context);
 
 /// The flow of the viscous sheet (section 4.3) that carries this ink.
-/// @param first  the flow to start from: Stokes flow, or the sheet's with nearly the same ink
+/// @param first  the starting flow: Stokes flow, or that of the sheet with nearly the same ink
 [[nodiscard]] Result<sheet::SheetFlow> sheet_field(const flow::DipField& first,
                                                    const ink::InkField& ink,
                                                    const DipOptions& options,
                                                    const Context& context);
 
-/// Traces where a film that moves like `field` lands on the object (section 4.5).
+/// Traces the landing points on the object of a film that moves like `field` (section 4.5).
 [[nodiscard]] Result<flow::FlowMap> trace_flow_map(const StokesPass& pass,
                                                    const flow::DipField& field,
                                                    const DipOptions& options,

@@ -15,15 +15,14 @@ namespace {
 
 constexpr double kFull = 255;
 
-/// `count` pixels R G B to what the printer takes.
+/// Converts `count` pixels R G B to the printer's channels.
 using Convert = std::function<void(const std::uint8_t* rgb, std::size_t count, std::uint8_t* out)>;
 
 std::uint8_t code(double share) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(share, 0.0, 1.0) * kFull));
 }
 
-/// K = 1 - max(R, G, B), the rest of the colour in C, M and Y, as a share of what K leaves
-/// (section 4.3).
+/// K = 1 - max(R, G, B); C, M and Y are the rest of the colour, as a share of 1 - K (section 4.3).
 void plain_cmyk(const std::uint8_t* rgb, std::size_t count, std::uint8_t* out) {
   for (std::size_t i = 0; i < count; ++i, rgb += 3, out += 4) {
     const int most = std::max({rgb[0], rgb[1], rgb[2]});
@@ -43,7 +42,7 @@ void convert(const ink::PrinterColours& colours, const std::uint8_t* rgb, std::s
   });
 }
 
-/// White film carries no ink, and paper that is white needs none.
+/// Sets white pixels to no ink: white film carries none, and white paper needs none.
 void keep_white(const std::uint8_t* rgb, std::size_t count, int channels, std::uint8_t* out) {
   const std::uint8_t nothing = channels == 4 ? 0 : 255;
   for (std::size_t i = 0; i < count; ++i, rgb += 3, out += channels) {
@@ -53,7 +52,7 @@ void keep_white(const std::uint8_t* rgb, std::size_t count, int channels, std::u
 
 int total(const std::uint8_t* cmyk) { return cmyk[0] + cmyk[1] + cmyk[2] + cmyk[3]; }
 
-/// What the ink limit does to a row.
+/// Effect of the ink limit on a row.
 struct Limited {
   int most = 0;  ///< of 4 * 255, after the limit
   std::size_t changed = 0;
@@ -67,7 +66,7 @@ Limited limit_ink(std::uint8_t* cmyk, std::size_t count, int most) {
       ++out.changed;
       cmyk[3] = static_cast<std::uint8_t>(std::min<int>(cmyk[3], most));
       const int colour = cmyk[0] + cmyk[1] + cmyk[2];
-      for (int c = 0; c < 3; ++c) {  // rounded down, so that the sum keeps to the limit
+      for (int c = 0; c < 3; ++c) {  // rounded down, so that the sum stays within the limit
         cmyk[c] = static_cast<std::uint8_t>(colour > 0 ? cmyk[c] * (most - cmyk[3]) / colour : 0);
       }
     }
@@ -82,7 +81,7 @@ Status check_limit(double ink_limit) {
                                      " is out of range. Use C + M + Y + K above 0 and at most 4");
 }
 
-/// How the settings convert; sets the number of channels.
+/// The conversion for the settings; sets the number of channels.
 Result<Convert> converter(const ColourSettings& settings, PrinterColoured& out) {
   if (!settings.icc_profile.empty()) {
     HP_ASSIGN_OR_RETURN(const auto colours, ink::PrinterColours::open(settings.icc_profile));
@@ -109,7 +108,7 @@ Result<PrinterColoured> printer_coloured(const image::RgbImage& image,
   image::PrinterImage& to = out.image;
   if (to.channels == 3 && settings.ink_limit < ink::kMostInk) {
     return fail(Code::kInvalidArgument,
-                "ink limit: RGB has no amounts of ink. Print in CMYK, or leave it out");
+                "ink limit: does not apply to RGB. Print in CMYK, or remove the limit");
   }
   to.width = image.width;
   to.height = image.height;

@@ -13,20 +13,21 @@ struct Box {
   [[nodiscard]] Eigen::Vector2d size_mm() const { return high_mm - low_mm; }
 };
 
-/// What of a sheet is free for marks: in cells of half a millimetre, a cell counting as taken if
-/// any of it is.
+/// The free part of a sheet for marks, in cells of half a millimetre. A cell counts as taken if any
+/// part of it is.
 class FreeSpace {
  public:
-  /// @param printable  of the sheet, all of it free at first
+  /// @param printable  part of the sheet; all of it is free at first
   explicit FreeSpace(const Box& printable);
 
-  /// Takes what lies inside a simple polygon or within `clearance_mm` of its edge.
+  /// Marks the inside of a simple polygon and everything within `clearance_mm` of its edge as
+  /// taken.
   void take(const std::vector<Eigen::Vector2d>& polygon, double clearance_mm);
   void take(const Box& box);
 
   [[nodiscard]] bool is_free(const Box& box) const;
 
-  /// The free rectangle of that size whose middle is nearest to a place, if there is any.
+  /// The free rectangle of this size with its middle nearest to a point; nullopt if there is none.
   [[nodiscard]] std::optional<Box> find(const Eigen::Vector2d& size_mm,
                                         const Eigen::Vector2d& near_mm) const;
 

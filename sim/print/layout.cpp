@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// On sheets that take a part of the film each, so much is left along the edges for marks.
+/// Room left along the edges for marks, on sheets that hold only a part of the film.
 constexpr double kJoinRoom_mm = 9;
 constexpr int kMostSheets = 100;
 constexpr double kRounding_mm = 1e-6;
@@ -24,8 +24,8 @@ struct Cut {
   int first = 0, end = 0;
 };
 
-/// As few equal windows of at most `most_px` as cover `size_px` with at least that overlap; none if
-/// there would be too many.
+/// The smallest number of equal windows of at most `most_px` that cover `size_px` with at least
+/// this overlap; empty if there would be too many.
 std::vector<Cut> cuts(int size_px, int most_px, int overlap_px) {
   HP_CHECK(size_px > 0);
   HP_CHECK(overlap_px >= 0);
@@ -49,7 +49,7 @@ struct Cuts {
   [[nodiscard]] std::size_t sheets() const { return across.size() * down.size(); }
 };
 
-/// Ways to cut the film image for paper that lies so; not one sheet if there is none.
+/// Cuts the film image for paper in this orientation; zero sheets if that is impossible.
 Cuts cuts_for(const image::FilmGrid& grid, const Vector2d& film_mm, const Vector2d& sheet_mm,
               const PageSettings& settings) {
   if ((sheet_mm - film_mm).minCoeff() >= -kRounding_mm) {
@@ -79,7 +79,7 @@ Result<Cuts> best_cuts(const image::FilmGrid& grid, const film::Outline& outline
                                      " sheets. Use larger paper, or less margin and overlap");
 }
 
-/// The pixels of a window that lie within the printer's reach.
+/// The pixels of a window within the area that the printer can print.
 Pixels printable_pixels(const Sheet& sheet, const Box& printable, double pitch_mm) {
   const Vector2d high_mm =
       sheet.low_mm + Vector2d(sheet.window.width(), sheet.window.height()) * pitch_mm;
@@ -87,7 +87,7 @@ Pixels printable_pixels(const Sheet& sheet, const Box& printable, double pitch_m
     const double pixels = std::ceil(beyond_mm / pitch_mm - kRounding_mm);
     return std::clamp(static_cast<int>(pixels), 0, most);
   };
-  // Half a pixel too much of an image that is rounded to whole ones is no loss.
+  // An image is rounded to whole pixels, so losing half a pixel does not matter.
   const Vector2d slack = Vector2d::Constant(pitch_mm / 2 + kRounding_mm);
   const Vector2d low = printable.low_mm - sheet.low_mm - slack;
   const Vector2d high = high_mm - printable.high_mm - slack;
@@ -99,7 +99,7 @@ Pixels printable_pixels(const Sheet& sheet, const Box& printable, double pitch_m
   return out;
 }
 
-/// From the film frame to a sheet's page.
+/// Transforms the film frame to a sheet's page.
 class ToPage {
  public:
   ToPage(const image::FilmGrid& grid, const Sheet& sheet, bool mirror)
@@ -124,7 +124,7 @@ class ToPage {
 
 Box box_between(const Vector2d& a, const Vector2d& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
 
-/// What of the film is on the sheet: all of its outline, or the window where it is one of several.
+/// The film's outline on the sheet; its window if the film is on several sheets.
 std::vector<Vector2d> film_on(const Sheet& sheet, const film::Outline& outline,
                               const ToPage& to_page, bool is_part, double pitch_mm) {
   if (is_part) {
@@ -137,7 +137,7 @@ std::vector<Vector2d> film_on(const Sheet& sheet, const film::Outline& outline,
   return out;
 }
 
-/// Edges of other windows that fall inside of one.
+/// Edges of other windows that lie inside this one.
 std::vector<double> joins(const std::vector<Cut>& cuts, std::size_t own) {
   HP_CHECK(own < cuts.size());
   std::vector<double> out;
@@ -217,8 +217,8 @@ void warn_of_dropped(const Sheet& sheet, std::size_t number, Warnings& warnings)
   std::string names;
   for (const std::string& name : sheet.dropped) names += (names.empty() ? "" : ", ") + name;
   warnings.push_back({"marks_dropped",
-                      "left out, since beside the film there is no room for all of them: " + names +
-                          ". Use larger paper for them",
+                      "there is not enough room beside the film, so these are left out: " + names +
+                          ". Use larger paper",
                       "sheet " + std::to_string(number)});
 }
 

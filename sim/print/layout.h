@@ -21,12 +21,12 @@ struct Pixels {
   [[nodiscard]] int height() const { return y1 - y0; }
 };
 
-/// One sheet of paper: which part of the film image goes where on it. Places are in the page's
-/// frame (Stroke).
+/// One sheet of paper with its part of the film image. Coordinates are in the page's frame
+/// (Stroke).
 struct Sheet {
-  Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();  ///< as it is fed
+  Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();  ///< in the orientation in which it is fed
   int column = 0, row = 0;                            ///< among the sheets; row 0 on top
-  Pixels window;     ///< of the film image as printed (mirrored where that is asked for)
+  Pixels window;     ///< of the film image as printed (mirrored if requested)
   Pixels printable;  ///< the part of it that the printer can print; the rest stays white
   Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< lower left corner of the window
   std::vector<Eigen::Vector2d> film_mm;              ///< the film's edge on this sheet
@@ -41,12 +41,12 @@ struct Layout {
   Warnings warnings;          ///< marks_dropped
 };
 
-/// Lays a film image out on paper: at exact scale in the middle of one sheet, turned where the film
-/// else would not fit; on several that overlap where it is larger than the paper. Marks stand only
-/// where no film is, a millimetre off it, and where the printer can print: registration marks for
-/// the sliding bars and at the corners, rulers, an arrow to the film's +y, a line of text; what has
-/// no room is left out, with a warning.
-/// Refuses (kOutOfRange) what check refuses, and a film that takes more than 100 sheets.
+/// Lays out a film image on paper at exact scale. It is in the middle of one sheet, rotated if it
+/// would not fit otherwise, or on several overlapping sheets if it is larger than the paper. Marks
+/// are only drawn outside the film, at a distance of a millimetre, and where the printer can print.
+/// They are registration marks for the sliding bars and at the corners, rulers, an arrow to the
+/// film's +y and a line of text. Marks without room are left out, with a warning.
+/// Fails as check() does, and with kOutOfRange for a film that needs more than 100 sheets.
 [[nodiscard]] Result<Layout> lay_out(const image::FilmGrid& grid, const film::Outline& outline,
                                      const PageSettings& settings);
 

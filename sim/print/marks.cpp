@@ -17,9 +17,9 @@ using Strokes = std::vector<Stroke>;
 constexpr double kPen_mm = 0.25;
 constexpr double kClearance_mm = 1;  ///< from the film
 constexpr double kLetter_mm = 1.6;   ///< height of a lower-case x
-constexpr double kOff_mm = 2;        ///< from the film's edge to where a registration mark begins
+constexpr double kOff_mm = 2;        ///< from the film's edge to the start of a registration mark
 constexpr double kMark_mm = 5;       ///< its length
-constexpr double kBleed_mm = 0.5;    ///< around what is lettered
+constexpr double kBleed_mm = 0.5;    ///< around text
 
 Stroke line(const Vector2d& from_mm, const Vector2d& to_mm) {
   return {{from_mm, to_mm}, kPen_mm, 1};
@@ -41,14 +41,14 @@ void append(Strokes& to, Strokes from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-/// Draws marks on a sheet as long as there is room.
+/// Draws marks on a sheet while there is room.
 class Marker {
  public:
   Marker(Sheet& sheet, const Box& printable) : sheet_(sheet), space_(printable) {
     space_.take(sheet.film_mm, kClearance_mm);
   }
 
-  /// Marks that have their place; those that have no room there are left out.
+  /// Draws marks at fixed places; those without room are left out.
   void draw_fixed(const std::string& name, const Strokes& strokes) {
     bool all = true;
     for (const Stroke& stroke : strokes) {
@@ -63,8 +63,8 @@ class Marker {
     note(name, all);
   }
 
-  /// One that may stand anywhere.
-  /// @param draw  from the lower left corner of its box
+  /// Draws a mark that may be anywhere.
+  /// @param draw  draws from the lower left corner of its box
   template <class Draw>
   [[nodiscard]] bool place(const Vector2d& size_mm, const Vector2d& near_mm, Draw&& draw) {
     settle();
@@ -80,7 +80,7 @@ class Marker {
   }
 
  private:
-  /// Marks that have their place may touch each other; others keep away from all.
+  /// Marks at fixed places may touch each other; other marks keep a distance from all of them.
   void settle() {
     for (const Box& box : pending_) {
       const Vector2d around = Vector2d::Constant(kClearance_mm);
@@ -96,8 +96,8 @@ class Marker {
 
 Vector2d middle_of(const Box& box) { return (box.low_mm + box.high_mm) / 2; }
 
-/// Off the sides of a box: across the ones below and above at those x, and the other two at those
-/// y. All are given from the box's middle.
+/// Marks outside a box: below and above it at the given x, and to its left and right at the given
+/// y, both relative to its middle.
 Strokes side_marks(const Box& box, const std::vector<double>& at_x,
                    const std::vector<double>& at_y) {
   Strokes out;
@@ -115,20 +115,20 @@ Strokes side_marks(const Box& box, const std::vector<double>& at_x,
   return out;
 }
 
-/// Off the middle of each side, where a sliding bar is, and off where the bar begins and ends.
+/// Marks at the middle of each side, where a sliding bar is, and at the bar's two ends.
 Strokes bar_marks(const Box& film, double bar_mm) {
   std::vector<double> along = {0};
   if (bar_mm > 0) along = {-bar_mm / 2, 0, bar_mm / 2};
   return side_marks(film, along, along);
 }
 
-/// Both edges drawn on beyond each corner of a box.
+/// Extends both edges beyond each corner of a box.
 Strokes corner_marks(const Box& box) {
   const Vector2d half = box.size_mm() / 2;
   return side_marks(box, {-half.x(), half.x()}, {-half.y(), half.y()});
 }
 
-/// Off the window's sides: where the neighbours' windows begin and end.
+/// Marks at the edges of the neighbours' windows, along the sides of this window.
 Strokes join_marks(const MarkPlan& plan) {
   const Vector2d middle = middle_of(plan.window);
   std::vector<double> at_x = plan.joins_x_mm, at_y = plan.joins_y_mm;
@@ -137,7 +137,7 @@ Strokes join_marks(const MarkPlan& plan) {
   return side_marks(plan.window, at_x, at_y);
 }
 
-/// Marks of the film at parts of it that are on other sheets stand there.
+/// Removes marks for parts of the film that are on other sheets.
 Strokes on_this_sheet(Strokes marks, const Box& window) {
   std::erase_if(marks, [&](const Stroke& mark) {
     const Vector2d off = Vector2d::Constant(kOff_mm + kClearance_mm);
@@ -148,7 +148,7 @@ Strokes on_this_sheet(Strokes marks, const Box& window) {
   return marks;
 }
 
-/// An arrow up, to the film's +y, with a word beside it.
+/// An arrow to the film's +y, which is up, with a label beside it.
 constexpr double kArrow_mm = 12;
 const std::string kArrowText = "top +y";
 
@@ -197,7 +197,7 @@ void add_text(Marker& marker, const Box& printable, const std::string& text) {
 }  // namespace
 
 Strokes lettered(const std::string& text, const Vector2d& at_mm, double size_mm) {
-  std::string lower = text;  // which is all the letters there are
+  std::string lower = text;  // the only letters available
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   Strokes out;
   for (auto& points : image::text_strokes(lower)) {

@@ -8,8 +8,8 @@
 
 namespace hydroprint::print {
 
-/// A line drawn with a round pen. Places are in the page's frame: mm, from the sheet's lower left
-/// corner, x to the right, y up.
+/// A line drawn with a round pen. Coordinates are in the page's frame: mm from the sheet's lower
+/// left corner, x to the right, y up.
 struct Stroke {
   std::vector<Eigen::Vector2d> points_mm;
   double width_mm = 0.25;
@@ -27,14 +27,14 @@ struct PlacedImage {
 struct Page {
   Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
   std::vector<PlacedImage> images;
-  std::vector<Stroke> strokes;  ///< over the images
+  std::vector<Stroke> strokes;  ///< drawn over the images
 };
 
-/// Pages that are printed together, and what their colours mean.
+/// Pages that are printed together, and the meaning of their colours.
 struct Document {
   std::string title;
-  std::string icc_profile;  ///< of the printer, that the images are for; empty: sRGB or plain CMYK
-  bool cmyk = false;        ///< images have four channels, strokes are of black ink alone
+  std::string icc_profile;  ///< of the printer for which the images are; empty: sRGB or plain CMYK
+  bool cmyk = false;        ///< images have four channels, strokes use black ink only
   std::vector<Page> pages;
 };
 

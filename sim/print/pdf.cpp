@@ -1,10 +1,10 @@
-// The only file that knows QPDF. Of what Debian has for writing PDF it alone leaves every number
-// and every byte of a stream to us: cairo has no CMYK, libharu reckons in single precision and
-// takes ICC profiles for PDF/A alone, PoDoFo 0.9 dates what it writes. QPDF compresses in one
-// thread, which is why images come compressed as a PNG's are: a PDF takes that as it is.
+// The only file that uses QPDF. Of the PDF writers in Debian, only QPDF leaves every number and
+// every byte of a stream to the caller. Cairo has no CMYK, libharu computes in single precision and
+// accepts ICC profiles only for PDF/A, and PoDoFo 0.9 writes dates. QPDF compresses in one thread,
+// so images are compressed beforehand as in a PNG, which PDF accepts unchanged.
 #include "sim/print/pdf.h"
 
-#define POINTERHOLDER_TRANSITION 4  // its headers ask how far users have come with its old pointers
+#define POINTERHOLDER_TRANSITION 4  // required by its headers; 4: its old pointers are not used
 
 #include <array>
 #include <charconv>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr double kPointsPerMm = 72 / 25.4;
 
-/// Six digits behind the point: a millionth of a point.
+/// Six digits after the decimal point: a millionth of a point.
 std::string number(double value) {
   std::array<char, 64> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
@@ -39,13 +39,13 @@ QPDFObjectHandle name(const std::string& text) { return QPDFObjectHandle::newNam
 
 QPDFObjectHandle integer(long long value) { return QPDFObjectHandle::newInteger(value); }
 
-/// Rows as compress_rows gives them.
+/// An image with its rows compressed by compress_rows().
 Result<QPDFObjectHandle> image_object(QPDF& pdf, const image::PrinterImage& image,
                                       const Context& context) {
   HP_ASSIGN_OR_RETURN(const auto rows, image::compress_rows(image.samples.data(), image.width,
                                                             image.height, image.channels, context));
   QPDFObjectHandle parameters = QPDFObjectHandle::newDictionary();
-  parameters.replaceKey("/Predictor", integer(15));  // every row says how it is filtered
+  parameters.replaceKey("/Predictor", integer(15));  // every row states its filter
   parameters.replaceKey("/Colors", integer(image.channels));
   parameters.replaceKey("/BitsPerComponent", integer(8));
   parameters.replaceKey("/Columns", integer(image.width));
@@ -113,7 +113,7 @@ Status add_page(QPDF& pdf, const Page& page, bool cmyk, const Context& context) 
   return {};
 }
 
-/// What the samples mean: the amounts of the printer that the profile describes.
+/// States the meaning of the samples: amounts for the printer that the profile describes.
 QPDFObjectHandle output_intents(QPDF& pdf, const Document& document) {
   QPDFObjectHandle profile = QPDFObjectHandle::newStream(&pdf, document.icc_profile);
   profile.getDict().replaceKey("/N", integer(document.cmyk ? 4 : 3));

@@ -8,10 +8,10 @@
 
 namespace hydroprint::print {
 
-/// A PDF's bytes: pages of the paper's size, images without loss at exact scale, which viewers are
-/// asked not to change when they print. Equal documents give equal bytes: there is no date in it.
-/// The samples are the printer's own amounts, untouched (DeviceRGB or DeviceCMYK); the profile goes
-/// along as output intent. Fails as image::compress_rows does.
+/// A PDF's bytes: pages of the paper's size, with lossless images at exact scale. Viewers are asked
+/// not to scale them when printing. Equal documents give equal bytes, because there is no date in
+/// them. The samples are the printer's own amounts, unchanged (DeviceRGB or DeviceCMYK); the
+/// profile is added as output intent. Fails as image::compress_rows() does.
 [[nodiscard]] Result<std::vector<unsigned char>> encode_pdf(const Document& document,
                                                             const Context& context = {});
 

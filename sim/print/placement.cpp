@@ -22,13 +22,13 @@ using Eigen::Vector2d;
 using Strokes = std::vector<Stroke>;
 
 constexpr double kLetter_mm = 1.6;
-constexpr double kSlice_mm = 0.5;  ///< between the cuts that make the silhouette
+constexpr double kSlice_mm = 0.5;  ///< between the cuts that form the silhouette
 constexpr int kMostSlices = 400;
 constexpr double kBold_mm = 0.6, kThin_mm = 0.15, kLine_mm = 0.25;
 
 Vector2d turned(const Vector2d& size_mm) { return {size_mm.y(), size_mm.x()}; }
 
-/// The paper as it is fed, so that the film has room.
+/// The paper in the orientation in which the film fits.
 Result<Vector2d> sheet_for(const film::Outline& outline, const PageSettings& settings) {
   for (const Vector2d& size_mm : {settings.paper_mm, turned(settings.paper_mm)}) {
     if ((size_mm - outline.size_mm()).minCoeff() >= -1e-6) return size_mm;
@@ -37,7 +37,7 @@ Result<Vector2d> sheet_for(const film::Outline& outline, const PageSettings& set
               "paper: smaller than the film " + outline.name + ". Use paper of its size or larger");
 }
 
-/// What of the object is at or below some immersion, seen from above.
+/// Outline of the part of the object at or below an immersion, seen from above.
 waterline::CrossSection silhouette(const waterline::Slicer& slicer, double height_mm) {
   const int slices = std::clamp(static_cast<int>(height_mm / kSlice_mm), 1, kMostSlices);
   std::vector<waterline::Contour> all;
@@ -75,7 +75,7 @@ void append(Strokes& to, Strokes from) {
   std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
-/// Both axes over the whole film, a tick every 10 mm, longer every 50.
+/// Both axes over the whole film, with a tick every 10 mm, longer every 50 mm.
 Strokes axes(const film::Outline& outline, const Vector2d& origin_mm) {
   Strokes out;
   for (int axis = 0; axis < 2; ++axis) {
@@ -105,7 +105,7 @@ Stroke film_edge(const film::Outline& outline, const Vector2d& origin_mm) {
   return out;
 }
 
-/// A cross with a gap, so that the place itself stays visible.
+/// A cross with a gap, so that the point itself stays visible.
 Strokes cross(const Vector2d& at_mm) {
   Strokes out;
   for (const Vector2d& way : {Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)}) {
@@ -120,7 +120,7 @@ std::string rounded(double value) {
   return buffer.data();
 }
 
-/// What stands beside the drawing.
+/// The text beside the drawing.
 std::vector<std::string> lines_of(const Placement& placement, const PageSettings& settings) {
   const Eigen::Quaterniond q(placement.X_FO.linear());
   const Eigen::Vector3d& t = placement.X_FO.translation();
@@ -138,7 +138,7 @@ std::vector<std::string> lines_of(const Placement& placement, const PageSettings
   return out;
 }
 
-/// Puts what is to be read where the object is not.
+/// Places text where the object is not.
 class Legend {
  public:
   Legend(Page& page, const Box& printable, const waterline::CrossSection& object,
@@ -196,7 +196,7 @@ class Legend {
   FreeSpace space_;
 };
 
-/// The views of `simulate`'s pictures, of an object without colours.
+/// The views of `simulate`'s pictures, for an object without colours.
 Result<Page> orientation_page(const mesh::Surface& surface, const Pose& X_FO,
                               const Vector2d& size_mm, const film::Outline& outline,
                               double margin_mm, const Context& context) {
@@ -256,10 +256,11 @@ Result<Placement> placement(const mesh::Surface& surface, const std::optional<Po
   const bool has_ruler = legend.add_ruler();
   const bool has_text = legend.add_text(lines_of(out, settings));
   if (!has_ruler || !has_text) {
-    out.warnings.push_back({"template_cut_off",
-                            "no room beside the object for the ruler or the text: left out. Use "
-                            "larger paper for them",
-                            "page 1"});
+    out.warnings.push_back(
+        {"template_cut_off",
+         "the ruler or the text is left out, because there is no room beside the "
+         "object. Use larger paper",
+         "page 1"});
   }
   HP_ASSIGN_OR_RETURN(Page pictures, orientation_page(surface, out.X_FO, page.size_mm, outline,
                                                       settings.printer_margin_mm, context));

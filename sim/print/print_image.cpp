@@ -19,7 +19,7 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-/// Dots per inch of an image that has as many pixels as a film image of this film.
+/// Dots per inch of an image with the size of a film image of this film.
 Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
                       const film::Outline& outline, std::optional<double> given) {
   const double guess = std::max(1.0, std::round(image.width * kMmPerInch / outline.size_mm().x()));
@@ -31,11 +31,10 @@ Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
   }
   const image::FilmGrid grid = image::film_grid(outline, kMmPerInch / dpi);
   if (grid.columns == image.width && grid.rows == image.height) return dpi;
-  return fail(Code::kInvalidArgument, name + ": " + size_text(image.width, image.height) +
-                                          " pixels, but a film image of " + outline.name + " at " +
-                                          text_of(dpi) + " dpi has " +
-                                          size_text(grid.columns, grid.rows) +
-                                          ". Give --film and --dpi that it was made with");
+  return fail(Code::kInvalidArgument,
+              name + ": " + size_text(image.width, image.height) + " pixels, but a film image of " +
+                  outline.name + " at " + text_of(dpi) + " dpi has " +
+                  size_text(grid.columns, grid.rows) + ". Give the --film and --dpi of the image");
 }
 
 void mirror(image::PrinterImage& image) {
@@ -51,8 +50,8 @@ bool has_colour(const std::uint8_t* pixel, int channels) {
   return std::any_of(pixel, pixel + channels, [nothing](std::uint8_t c) { return c != nothing; });
 }
 
-/// A sheet's part of an image, and how many of its pixels had a colour that the printer cannot
-/// print, at each edge of the paper: left, right, top, bottom.
+/// A sheet's part of an image, and the number of its coloured pixels that the printer cannot print.
+/// `at_edge` states the affected edges of the paper: left, right, top, bottom.
 struct Part {
   image::PrinterImage image;
   std::size_t lost = 0;
@@ -99,9 +98,9 @@ Warning margin_warning(const Part& part, std::size_t number_of_sheet, double mar
     if (part.at_edge[i]) edges += (edges.empty() ? "" : ", ") + std::string(kEdges[i]);
   }
   return {"image_in_printer_margin",
-          text_of(lost_mm2) + " mm2 of the image lie within the " + text_of(margin_mm) +
-              " mm along the edges that the printer cannot print, and stay white; place the object "
-              "nearer the film's middle, or print without margin",
+          text_of(lost_mm2) + " mm2 of the image lie within " + text_of(margin_mm) +
+              " mm of the paper's edge, which the printer cannot print, and stay white; place the "
+              "object nearer the film's middle, or print without margin",
           "sheet " + std::to_string(number_of_sheet) + ": " + edges};
 }
 

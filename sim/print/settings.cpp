@@ -22,7 +22,7 @@ tl::unexpected<Error> out_of_range(const std::string& what, double value, double
 
 Result<Eigen::Vector2d> parse_paper(const std::string& text) {
   const std::string about = "paper '" + text + "': ";
-  // A film may have shapes that paper has not.
+  // A film may have shapes that paper does not have.
   const bool is_shape = text.find(':') != std::string::npos;
   const auto outline = film::parse_outline(is_shape ? "" : text);
   if (outline) return outline->size_mm();

@@ -11,15 +11,15 @@
 
 namespace hydroprint::registration {
 
-/// Where an alignment ended.
+/// The result of an alignment.
 struct Aligned {
   Pose pose = Pose::Identity();  ///< takes the scan's points to the target
   bool converged = false;
 };
 
-/// Brings a start near to where fit_pose() takes over: PCL's point-to-plane ICP (Besl and McKay
-/// 1992, Chen and Medioni 1992) against a surface given by samples. Points whose normals differ
-/// by more than 60 degrees are not paired. May be used by several threads at once.
+/// Improves a start until fit_pose() can refine it: PCL's point-to-plane ICP (Besl and McKay 1992,
+/// Chen and Medioni 1992) against a surface given by samples. Points whose normals differ by more
+/// than 60 degrees are not paired. Thread-safe.
 class Icp {
  public:
   Icp() = default;
@@ -33,17 +33,17 @@ class Icp {
                                       double distance_mm, int iterations) const = 0;
 };
 
-/// Every so manieth of a scan's points, `most` or up to twice as many: enough for align().
+/// Returns a regular subset of a scan's points for align(): `most` points or up to twice as many.
 [[nodiscard]] std::vector<SurfacePoint> thinned(std::span<const scan::ScanPoint> points,
                                                 std::size_t most);
 
-/// PCL brings 30 libraries along, a tenth of a second to load, and most of what the worker does
-/// needs none of them. So this is a module, loaded when first asked for; refuses what
-/// module_symbol() refuses.
+/// Builds an Icp for a target. PCL depends on 30 libraries, which take a tenth of a second to load
+/// and which most runs of the worker do not need. So it is in a module that the first call loads.
+/// Fails as module_symbol() does.
 [[nodiscard]] Result<std::unique_ptr<const Icp>> make_icp(std::span<const SurfacePoint> target);
 
 }  // namespace hydroprint::registration
 
-/// The one thing that the module exports. The caller's to delete.
+/// The only symbol that the module exports. The caller owns the result.
 extern "C" hydroprint::registration::Icp* hydroprint_icp(
     std::span<const hydroprint::registration::SurfacePoint> target);

@@ -18,10 +18,10 @@ using Points = pcl::PointCloud<Point>;
 
 constexpr double kMostTurn_rad = 60 * std::numbers::pi / 180;
 constexpr std::size_t kFewestPairs = 6;
-constexpr double kFarthest_mm = 1e4;  ///< numbers that are none end the program in PCL's search
-constexpr double kLever_mm = 50;      ///< at which turns count as shifts
-constexpr double kLeastTold = 2e-3;   ///< of what the pairs tell of the motion that they tell best
-constexpr double kSettled = 1e-8;     ///< PCL's: of squared steps, radian and mm alike
+constexpr double kFarthest_mm = 1e4;  ///< PCL's search aborts the program on NaN and infinity
+constexpr double kLever_mm = 50;      ///< lever arm by which turns are compared with shifts
+constexpr double kLeastTold = 2e-3;   ///< smallest eigenvalue used, relative to the largest
+constexpr double kSettled = 1e-8;     ///< PCL's limit of squared steps, in rad^2 and mm^2 alike
 
 Points::Ptr to_pcl(std::span<const SurfacePoint> points) {
   auto out = pcl::make_shared<Points>();
@@ -43,9 +43,9 @@ Pose to_pose(const Eigen::Matrix4f& matrix) {
   return pose;
 }
 
-/// Least squares of distances along the target's normals, by the shortest motion where the pairs do
-/// not tell all of it. PCL's own inverts a matrix that is singular as soon as all pairs lie on one
-/// flat face: most of what a camera sees of a board, which so would never be turned at all.
+/// Least squares of distances along the target's normals. If the pairs do not determine the whole
+/// motion, the shortest solution is used. PCL's own estimation inverts a matrix that is singular if
+/// all pairs lie on one flat face, as is common with boards; ICP would then never turn a board.
 class Estimation : public pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point> {
  public:
   using Base = pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point>;
@@ -104,7 +104,7 @@ class PclIcp final : public Icp {
  public:
   explicit PclIcp(std::span<const SurfacePoint> target)
       : target_(to_pcl(target)), tree_(pcl::make_shared<pcl::search::KdTree<Point>>()) {
-    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // a start that fails is no news
+    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // starts that fail are expected
     tree_->setInputCloud(target_);
   }
 

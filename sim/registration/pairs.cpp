@@ -11,9 +11,9 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kLeastCosine = 0.2;      ///< between normal and line of sight
-constexpr double kLeastAlike = 0.4;       ///< between the surface's normal and the scan's
-constexpr double kSurfaceError_mm = 0.1;  ///< of meshes and of pixels' places
+constexpr double kLeastCosine = 0.2;      ///< cosine between normal and line of sight
+constexpr double kLeastAlike = 0.4;       ///< cosine between the normals of surface and scan
+constexpr double kSurfaceError_mm = 0.1;  ///< error of meshes and of pixel positions
 constexpr std::size_t kAtOnce = 256;
 
 std::optional<SurfacePoint> partner(const Shape& shape, const scan::ScanPoint& scan,

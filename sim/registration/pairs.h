@@ -16,47 +16,47 @@ struct Pair {
   Eigen::Vector3d on_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double residual_mm = 0;        ///< of the point, outward
-  double changing_sigma_mm = 0;  ///< along the normal, as the constant one
-  double constant_sigma_mm = 0;
-  double usual_constant_mm = 0;  ///< the same where nothing is known of the camera's pattern
+  double changing_sigma_mm = 0;  ///< noise that differs between frames, along the normal
+  double constant_sigma_mm = 0;  ///< noise that is the same in all frames, along the normal
+  double usual_constant_mm = 0;  ///< constant_sigma_mm for an unknown camera pattern
 
   [[nodiscard]] double sigma_mm() const;
-  /// What it would be if nothing were known of the camera's pattern.
+  /// sigma_mm() for an unknown camera pattern.
   [[nodiscard]] double usual_sigma_mm() const;
-  /// Without what is constant.
+  /// sigma_mm() without the constant noise.
   [[nodiscard]] double own_sigma_mm() const;
 };
 
-/// Which point of the surface a scan point is paired with.
+/// The choice of the surface point that is paired with a scan point.
 enum class Pairing {
-  kNearest,  ///< finds its way from far, but takes the nearer side of a crease, whatever is true
-  kOnRay,    ///< where the pixel's ray meets the surface: depths err along rays
+  kNearest,  ///< converges from far away, but is biased towards the nearer side of a crease
+  kOnRay,    ///< where the pixel's ray meets the surface, because depths err along rays
 };
 
-/// Pairs points with the surface, where that is within `reach_mm`, looks the way the scan says, and
-/// is seen by the camera at no grazing angle.
+/// Pairs points with the surface. A pair requires a distance of at most `reach_mm`, similar normals
+/// of surface and scan, and a view that is not at a grazing angle.
 [[nodiscard]] Result<std::vector<Pair>> pair_up(const Shape& shape,
                                                 std::span<const scan::ScanPoint> points,
                                                 const Pose& X_CB, Pairing pairing, double reach_mm,
                                                 const Context& context);
 
-/// Motion in units of mm of surface: turns times a length, then shifts.
+/// Normal equations for a motion in mm of the surface: turns times a length, then shifts.
 struct Normals {
   Matrix6 information = Matrix6::Zero();  ///< sum of weight times direction squared
-  Matrix6 scatter = Matrix6::Zero();      ///< covariance of `pull` by noise
-  Vector6 pull = Vector6::Zero();
-  CameraGain camera;  ///< derivative of `pull` by the camera's unknowns; by none at first
+  Matrix6 scatter = Matrix6::Zero();      ///< covariance of `pull` due to noise
+  Vector6 pull = Vector6::Zero();         ///< right-hand side
+  CameraGain camera;  ///< derivative of `pull` by the camera's unknowns; set by add_camera()
 };
 
-/// How the surface's distance along the pair's normal goes with its motion about `centre`.
+/// Derivative of the surface's position along the pair's normal by its motion about `centre`.
 [[nodiscard]] Vector6 direction(const Pair& pair, const Eigen::Vector3d& centre, double length_mm);
 
 /// The normal equations of the pairs.
-/// @param weights  robust ones, in [0, 1]
+/// @param weights  robust weights, in [0, 1]
 [[nodiscard]] Normals normal_equations(std::span<const Pair> pairs, std::span<const double> weights,
                                        const Eigen::Vector3d& centre, double length_mm);
 
-/// Adds derivatives by what is not known of the camera.
+/// Sets the derivatives by the camera's unknowns.
 void add_camera(Normals& normals, std::span<const Pair> pairs, std::span<const double> weights,
                 const Eigen::Vector3d& centre, double length_mm, const scan::Camera& camera);
 

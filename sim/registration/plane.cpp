@@ -13,12 +13,12 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr int kTrials = 400;
-constexpr std::size_t kLooked = 2000;  ///< points that a trial is judged by
+constexpr std::size_t kLooked = 2000;  ///< points that each trial counts
 constexpr double kNear_mm = 5;
 constexpr double kLeastShare = 0.05;
 constexpr double kLeastUpright = 0.766;  ///< cosine of 40 degrees
 constexpr int kRefinements = 5;
-constexpr double kLevel = 0.9;  ///< cosine between the plane's normal and that of what is level
+constexpr double kLevel = 0.9;  ///< least cosine between the plane's normal and a level point's
 constexpr double kBin_mm = 3;
 constexpr double kLevelShare = 0.01;  ///< of all points
 constexpr std::size_t kMostLevels = 6;
@@ -63,7 +63,7 @@ Result<Plane> find_plane(const scan::Cloud& cloud, const Eigen::Vector3d& up_C) 
   Plane best;
   std::size_t most = 0;
   for (int trial = 0; trial < kTrials && looked.size() >= 3; ++trial) {
-    // Not a distribution of the library: those differ from one to the other.
+    // Not std::uniform_int_distribution: its results differ between standard libraries.
     const auto any = [&] { return looked[random() % looked.size()]->point_mm; };
     const Eigen::Vector3d a = any(), b = any(), c = any();
     Eigen::Vector3d normal = (b - a).cross(c - a);
@@ -81,7 +81,7 @@ Result<Plane> find_plane(const scan::Cloud& cloud, const Eigen::Vector3d& up_C) 
   }
   if (static_cast<double>(most) < kLeastShare * static_cast<double>(looked.size()) || most < 3)
     return fail(Code::kFailedPrecondition,
-                "neither water nor table is in view: aim the camera at the vat", "NO_PLANE");
+                "neither water nor table is in view. Aim the camera at the vat", "NO_PLANE");
   for (int i = 0; i < kRefinements; ++i) best = refined(cloud, best);
   return best;
 }

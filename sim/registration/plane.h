@@ -7,7 +7,7 @@
 
 namespace hydroprint::registration {
 
-/// Points p with normal . p = offset; camera frame, the normal towards the camera.
+/// The points p with normal . p = offset, in the camera frame. The normal points to the camera.
 struct Plane {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
   double offset_mm = 0;
@@ -17,14 +17,15 @@ struct Plane {
   }
 };
 
-/// The plane that most points lie on: table or water, which tells up. Random sampling (Fischler and
-/// Bolles 1981) with a fixed seed, then least squares.
-/// @param up_C  about where up is; planes tilted to it by more than 40 degrees do not count
-/// Refuses (kFailedPrecondition, NO_PLANE) where fewer than a twentieth of the points lie on it.
+/// Finds the plane that contains most points, the table or the water, which defines up. Uses random
+/// sampling (Fischler and Bolles 1981) with a fixed seed, then least squares.
+/// @param up_C  approximate direction of up; planes tilted from it by more than 40 degrees are
+///              ignored
+/// Fails (kFailedPrecondition, NO_PLANE) if fewer than a twentieth of the points lie on the plane.
 [[nodiscard]] Result<Plane> find_plane(const scan::Cloud& cloud, const Eigen::Vector3d& up_C);
 
-/// Heights over the plane at which there is much that is level (table, water, bars); most first, at
-/// most six.
+/// Heights over the plane at which the scan has large level areas (table, water, bars). At most
+/// six, largest area first.
 [[nodiscard]] std::vector<double> level_heights(const scan::Cloud& cloud, const Plane& plane);
 
 }  // namespace hydroprint::registration

@@ -18,16 +18,16 @@ constexpr double kLeastReach_mm = 5;
 constexpr double kReachShrinks = 0.8;
 constexpr double kSettled_mm = 1e-3, kNearlySettled_mm = 0.1;
 constexpr double kMostStep_mm = 10;
-constexpr double kNil = 1e-12;      ///< of information over the most there is: rounding
+constexpr double kNil = 1e-12;      ///< information below this share of the largest is rounding
 constexpr double kOnSurface = 0.3;  ///< robust weight from which a point counts as on the surface
 
-/// By which noise a point is judged to be the surface's or not: that of a camera whose fixed
-/// pattern is not known, or what is left of it. On the way there, it is the usual one: by less, the
-/// few points of a narrow face, off by more than their noise, would be left out for good, and with
-/// them the motions that they alone tell.
+/// The noise by which outliers are judged: that of a camera with an unknown fixed pattern
+/// (kUsual), or this camera's own, which may be smaller (kOwn). The fit first settles with kUsual.
+/// Far from the solution, kOwn would drop the few points of a narrow face for good, and with them
+/// the motions that only these points determine.
 enum class Gate { kUsual, kOwn };
 
-/// Residuals in units of noise, and how little of each is explained by it.
+/// Residuals in units of noise, and their robust weights.
 struct Judged {
   std::vector<double> off, weights;
   double spread = 1;
@@ -45,26 +45,27 @@ Judged judged(std::span<const Pair> pairs, Gate gate) {
   return out;
 }
 
-/// The normal equations along the directions in which they are independent.
+/// The normal equations along their eigenvectors.
 struct Split {
   Matrix6 directions;  ///< columns
   Vector6 information;
   Vector6 sigma_mm;
   Eigen::Array<bool, 6, 1> weak;
 
-  /// Takes a pull to the step that it asks for along what the scan tells.
+  /// Pseudo-inverse of the information, without the weak directions.
   [[nodiscard]] Matrix6 inverse() const {
     const Vector6 each = weak.select(0, information.array().inverse()).matrix();
     return directions * each.asDiagonal() * directions.transpose();
   }
+  /// Projection onto the weak directions.
   [[nodiscard]] Matrix6 onto_weak() const {
     const Vector6 each = weak.cast<double>().matrix();
     return directions * each.asDiagonal() * directions.transpose();
   }
 };
 
-/// @param told  how many of the directions are weak, where that is settled: the worst so many, and
-///              what no pair tells any longer
+/// @param told  number of weak directions once it is settled: those with the largest errors.
+///              Directions without any information are weak in addition
 Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::Index> told = {}) {
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(normals.information);
   Split out{solver.eigenvectors(), solver.eigenvalues(), Vector6::Zero(), {}};
@@ -73,20 +74,20 @@ Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::I
     const Vector6 e = out.directions.col(k);
     const double information = std::max(out.information[k], nil);
     out.sigma_mm[k] = std::sqrt(std::max(0.0, e.dot(normals.scatter * e))) / information;
-    // Without noise there is no scatter, so what there is of information must do, too.
+    // Without noise the scatter is 0, so the information alone also bounds the error.
     const double at_least = 1 / std::sqrt(information);
     out.sigma_mm[k] = std::max(out.sigma_mm[k], at_least);
   }
   Vector6 sorted = out.sigma_mm;
   std::sort(sorted.begin(), sorted.end());
-  // A direction at the limit must not be weak in one step and strong in the next.
+  // A direction near the limit must not change between weak and strong from step to step.
   if (told) weak_sigma_mm = *told == 6 ? 0 : *told == 0 ? INFINITY : sorted[5 - *told];
-  // Nor is there a step along one of which nothing is told, whatever may be believed of it.
+  // Without any information a step along the direction is impossible.
   out.weak = out.sigma_mm.array() > weak_sigma_mm || out.information.array() <= nil;
   return out;
 }
 
-/// One look at the pairs from one pose.
+/// The pairs at one pose, with their weights and normal equations.
 struct Look {
   std::vector<Pair> pairs;
   Judged judged;
@@ -116,11 +117,11 @@ class Fitter {
   }
 
  private:
-  /// How far a fit has come.
+  /// State of the iteration.
   struct Way {
     Pose pose;
     double reach;
-    std::optional<Eigen::Index> weak;  ///< how many directions are, once that is settled
+    std::optional<Eigen::Index> weak;  ///< number of weak directions, once it is settled
   };
 
   Status settle(Way& way, Gate gate) const {
@@ -151,7 +152,7 @@ class Fitter {
     if (out.pairs.size() < kFewestPairs)
       return fail(Code::kFailedPrecondition,
                   "only " + std::to_string(out.pairs.size()) +
-                      " scan points lie near the surface: is it in the camera's view?",
+                      " scan points lie near the surface. Check that it is in the camera's view",
                   "TOO_FEW_POINTS");
     out.judged = judged(out.pairs, gate);
     out.centre = pose * shape_.centroid();
@@ -165,7 +166,7 @@ class Fitter {
   }
   [[nodiscard]] Vector6 unscaled(const Vector6& step) const { return scale().cwiseProduct(step); }
 
-  /// Along what the scan tells, to where it says; else towards the nominal pose.
+  /// The Gauss-Newton step, and along weak directions the step to the nominal pose.
   [[nodiscard]] Vector6 step_of(const Look& look, const Split& parts, const Pose& pose) const {
     const Vector6 to_nominal = twist_between(pose, nominal_, look.centre).cwiseQuotient(scale());
     const Vector6 step = parts.inverse() * look.normals.pull + parts.onto_weak() * to_nominal;
@@ -175,7 +176,7 @@ class Fitter {
   [[nodiscard]] PoseFit told(Look& look, const Pose& pose,
                              const std::optional<Eigen::Index>& weak) const {
     add_camera(look.normals, look.pairs, look.judged.weights, look.centre, length_mm_, camera_);
-    // Where points are farther off than noise explains, so is what they tell.
+    // If residuals exceed their noise, the error of the result grows by the same factor.
     look.normals.scatter *= look.judged.spread * look.judged.spread;
     const Split parts = split(look.normals, options_.weak_sigma_mm, weak);
     const Matrix6 inverse = parts.inverse(), onto_weak = parts.onto_weak();
@@ -195,7 +196,8 @@ class Fitter {
     return out;
   }
 
-  /// What passes for the shape is not to be nearer to it because the camera is known better.
+  /// Uses the usual noise, so that the criteria for a match do not depend on how well the camera is
+  /// calibrated.
   void judge(std::span<const Pair> pairs, PoseFit& out) const {
     const Judged usual = judged(pairs, Gate::kUsual);
     double squares_mm = 0, squares = 0;

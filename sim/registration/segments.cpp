@@ -7,7 +7,7 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr int kReach_px = 2;  ///< beyond the next pixel, which may lack a depth
+constexpr int kReach_px = 2;  ///< more than 1 because the next pixel may lack a depth
 
 }  // namespace
 

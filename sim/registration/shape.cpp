@@ -21,7 +21,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 using Corners = std::array<Eigen::Vector3d, 3>;
 
 constexpr std::size_t kSamplesForMoments = 4000;
-constexpr double kClear_mm = 0.05;  ///< from the surface, for a view of it
+constexpr double kClear_mm = 0.05;  ///< gap to the surface in visibility tests
 
 Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 Eigen::Vector3d to_eigen(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
@@ -72,10 +72,10 @@ struct Shape::Impl {
     double total = 0;
     for (const auto& c : corners) total += area(c);
     const double each = total / static_cast<double>(count);
-    double left = each / 2;  // to the next sample
+    double left = each / 2;  // area up to the next sample
     for (std::size_t t = 0; t < corners.size(); ++t) {
       for (left -= area(corners[t]); left <= 0; left += each) {
-        // The plastic number's sequence fills the unit square evenly, and so the triangle.
+        // The sequence of the plastic number fills the unit square evenly, and thus the triangle.
         const auto i = static_cast<double>(out.size());
         const double r = std::sqrt(fraction(0.5 + 0.7548776662466927 * i));
         const double s = fraction(0.5 + 0.5698402909980532 * i);
@@ -119,11 +119,11 @@ std::optional<SurfacePoint> Shape::hit(const Eigen::Vector3d& from_B,
       impl_->tree.first_intersection(Kernel::Ray_3(to_cgal(from_B), to_cgal(towards_B)));
   if (!met) return {};
   const auto* point = boost::get<Kernel::Point_3>(&met->first);
-  if (point == nullptr) return {};  // along a triangle
+  if (point == nullptr) return {};  // the ray lies in a triangle's plane
   const auto index = static_cast<std::size_t>(met->second - impl_->triangles.cbegin());
   return impl_->point(index, to_eigen(*point));
 } catch (const CGAL::Failure_exception&) {
-  return {};  // so nearly along a triangle, or that so nearly a line, that it is not told
+  return {};  // the ray is nearly in a triangle's plane, or the triangle nearly degenerate
 }
 
 bool Shape::is_seen(const SurfacePoint& p_B, const Eigen::Vector3d& eye_B) const {

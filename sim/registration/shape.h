@@ -14,11 +14,11 @@ namespace hydroprint::registration {
 /// A point of a surface.
 struct SurfacePoint {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward unit, smooth but for creases
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward unit, smooth except at creases
 };
 
-/// A surface that can be asked where it is nearest: what scans are compared with. Body frame B, mm.
-/// May be asked from several threads at once; copies share their data.
+/// A surface for comparison with scans, with a search structure for nearest points and rays. Body
+/// frame B, mm. Thread-safe; copies share their data.
 class Shape {
  public:
   /// @param surface  at least one triangle
@@ -26,12 +26,12 @@ class Shape {
 
   /// The nearest point of the surface.
   [[nodiscard]] SurfacePoint closest(const Eigen::Vector3d& p_B) const;
-  /// Where a ray first meets the surface, from either side; nothing if it does not.
+  /// Where a ray first meets the surface, from either side; nullopt if it does not.
   [[nodiscard]] std::optional<SurfacePoint> hit(const Eigen::Vector3d& from_B,
                                                 const Eigen::Vector3d& towards_B) const;
   /// True if no part of the surface lies between the eye and a point on the surface.
   [[nodiscard]] bool is_seen(const SurfacePoint& p_B, const Eigen::Vector3d& eye_B) const;
-  /// About so many points, spread evenly over the area; the same every time.
+  /// About `count` points, spread evenly over the area. Deterministic.
   [[nodiscard]] std::vector<SurfacePoint> samples(std::size_t count) const;
 
   /// Root mean square distance of the surface from its centroid.
@@ -45,11 +45,11 @@ class Shape {
   std::shared_ptr<const Impl> impl_;
 };
 
-/// The surface where `pose` puts it. Keeps its sense of rotation.
+/// Transforms the surface by `pose`.
 [[nodiscard]] mesh::Surface moved(mesh::Surface surface, const Pose& pose);
-/// The surface in a mirror (x to -x), still looking outward.
+/// Mirrors the surface (x to -x). Its normals still point outward.
 [[nodiscard]] mesh::Surface mirrored(mesh::Surface surface);
-/// Both as one.
+/// Combines two surfaces into one.
 [[nodiscard]] mesh::Surface joined(mesh::Surface a, const mesh::Surface& b);
 
 }  // namespace hydroprint::registration

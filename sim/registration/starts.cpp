@@ -17,7 +17,7 @@ constexpr std::size_t kEyeSamples = 300;
 constexpr double kAround_rad = 20 * std::numbers::pi / 180;
 constexpr double kFar_mm = 40, kNear_mm = 10;
 constexpr int kIterations = 15;
-constexpr std::size_t kGoOn = 12;  ///< starts that are worth more than a first look
+constexpr std::size_t kGoOn = 12;  ///< best starts, which are aligned a second time
 constexpr double kCapped_mm = 6;
 constexpr double kAlike_rad = 3 * std::numbers::pi / 180;
 constexpr double kAlike_mm = 3;
@@ -39,7 +39,7 @@ std::vector<Eigen::Matrix3d> quarter_turns() {
   return out;
 }
 
-/// Ways to hold the body, but for the nominal one.
+/// Orientations to start from, without the nominal one.
 std::vector<Eigen::Matrix3d> turns(const Eigen::Matrix3d& nominal) {
   std::vector<Eigen::Matrix3d> out;
   for (int axis = 0; axis < 3; ++axis)
@@ -57,7 +57,7 @@ Eigen::Vector3d middle(const std::vector<SurfacePoint>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// The turn, with what faces the eye in the middle of the scan.
+/// The given orientation, with the camera-facing part of the body at the middle of the scan.
 Pose placed(const Eigen::Matrix3d& turn, const std::vector<SurfacePoint>& body,
             const Eigen::Vector3d& middle_C) {
   std::vector<SurfacePoint> facing;
@@ -103,7 +103,7 @@ Result<std::vector<Pose>> rough_alignments(const Shape& shape,
   const auto scan = thinned(points, kScanPoints);
   const auto body = shape.samples(kEyeSamples);
   HP_ASSIGN_OR_RETURN(const auto icp, make_icp(shape.samples(kTargetSamples)));
-  // The nominal turn also where it is nominally: there may be more in the scan than the body.
+  // The nominal pose itself is tried too, because the scan may show more than the body.
   std::vector<Pose> from{nominal_CB, placed(nominal_CB.linear(), body, middle(scan))};
   for (const auto& turn : turns(nominal_CB.linear()))
     from.push_back(placed(turn, body, middle(scan)));

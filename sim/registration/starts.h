@@ -9,11 +9,11 @@
 
 namespace hydroprint::registration {
 
-/// Rough alignments of a body to a scan, most promising first: ICP from the nominal turn, from
-/// turns of 20 degrees around it, and from all quarter turns of it (which leaves no way for the
-/// body to lie farther than 63 degrees from a start), each with the middle of what the camera would
-/// see brought to the middle of the scan. Those that end alike count once.
-/// @param most  so many at most, the nominal turn's own always among them
+/// Rough alignments of a body to a scan, best first. ICP starts from the nominal orientation, from
+/// turns of 20 degrees around it, and from all quarter turns of it, so that every orientation is
+/// within 63 degrees of a start. Each start moves the centre of the part that the camera would see
+/// to the centre of the scan. Equal results are returned once.
+/// @param most  largest number of results; that of the nominal pose is always added
 [[nodiscard]] Result<std::vector<Pose>> rough_alignments(const Shape& shape,
                                                          std::span<const scan::ScanPoint> points,
                                                          const Pose& nominal_CB, std::size_t most,

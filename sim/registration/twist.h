@@ -9,7 +9,7 @@ namespace hydroprint::registration {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-/// How a motion goes with what is not known of the camera (scan::CameraErrors), a column each.
+/// Derivative of a motion by the camera's unknowns (scan::CameraErrors), one column for each.
 using CameraGain = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// A small motion about `centre`: turn (radians) first, then shift (mm).
@@ -37,14 +37,14 @@ using CameraGain = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   return out;
 }
 
-/// Takes twists about one centre to the same motions told about another.
+/// Matrix that converts twists about the centre `from` to twists about the centre `to`.
 [[nodiscard]] inline Matrix6 recentred(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   Matrix6 out = Matrix6::Identity();
   out.bottomLeftCorner<3, 3>() = -cross_matrix(to - from);
   return out;
 }
 
-/// Takes twists told in one frame to those told in another that is turned.
+/// Matrix that rotates the coordinates of twists.
 [[nodiscard]] inline Matrix6 turned(const Eigen::Matrix3d& turn) {
   Matrix6 out = Matrix6::Zero();
   out.topLeftCorner<3, 3>() = turn;

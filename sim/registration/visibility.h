@@ -9,14 +9,14 @@
 
 namespace hydroprint::registration {
 
-/// What the camera saw where part of a surface should be.
+/// A comparison of the camera's depths with the expected surface. The shares add up to 1.
 struct Sight {
   std::size_t expected = 0;  ///< samples that the surface itself does not hide
-  double on = 0;             ///< shares of those: seen on the surface,
-  double before = 0;         ///< something nearer seen,
-  double through = 0;        ///< something farther seen, so that the surface cannot be there,
-  double without_depth = 0;  ///< no depth,
-  double out_of_view = 0;    ///< beyond the edge of the image
+  double on = 0;             ///< share of samples with a depth on the surface
+  double before = 0;         ///< share where something nearer is seen
+  double through = 0;        ///< share where something farther is seen: there is no surface there
+  double without_depth = 0;  ///< share without a depth
+  double out_of_view = 0;    ///< share beyond the edge of the image
 };
 
 /// Samples of a body that its own surface does not hide from the camera; camera frame.

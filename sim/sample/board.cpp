@@ -9,9 +9,9 @@ namespace {
 
 constexpr double kSideMm = 120;
 constexpr double kThickMm = 10;
-constexpr double kLineMm = 10;  // from line to line; the mesh has a vertex where two cross
+constexpr double kLineMm = 10;  // spacing of lines; the mesh has a vertex at each crossing
 
-/// Lines each 10 mm, finer ones each 2 mm, on a ground whose colour tells the place.
+/// Lines every 10 mm and finer ones every 2 mm. The background colour varies with the position.
 Colour grid_colour(double x, double y, const Colour& left, const Colour& right) {
   Colour colour = mix(left, right, x / kSideMm);
   colour = mix(colour, {1, 1, 1}, 0.6 * y / kSideMm);
@@ -34,7 +34,7 @@ Chart grid_chart(double x_mm, double y_mm, double height_mm, const Colour& left,
           }};
 }
 
-/// One side, divided where its lines cross.
+/// Adds one side, divided at the crossings of its lines.
 void add_side(TexturedMesh& mesh, const Eigen::Vector3d& origin, const Eigen::Vector3d& right,
               const Eigen::Vector3d& up, std::size_t chart, const Sheet& sheet) {
   const Eigen::Vector2d& size = sheet.charts[chart].size_mm;
@@ -70,8 +70,8 @@ Sample make_board() {
     return Eigen::Vector3d(((i & 1) != 0 ? 0.5 : -0.5) * kSideMm,
                            ((i & 2) != 0 ? 0.5 : -0.5) * kSideMm, (i & 4) != 0 ? kThickMm : 0);
   };
-  // Top, bottom (which is dipped first), then the sides: each from its lower left corner outside,
-  // and the next two the other way round.
+  // Top, bottom (which is dipped first), then the four side faces. For each: its lower left corner
+  // as seen from outside, then the corners to the right of it and above it.
   const std::array<std::array<int, 3>, 6> sides = {
       {{4, 5, 6}, {1, 0, 3}, {0, 1, 4}, {1, 3, 5}, {3, 2, 7}, {2, 0, 6}}};
   for (std::size_t q = 0; q < sides.size(); ++q) {

@@ -15,12 +15,13 @@ using std::numbers::pi;
 constexpr double kHeightMm = 66;
 constexpr double kWallMm = 4;
 constexpr double kFloorMm = 5;
-constexpr double kFootMm = 47;  // radius outside at the bottom
-constexpr double kRimMm = 50;   // radius outside at the rim
+constexpr double kFootMm = 47;  // outer radius at the bottom
+constexpr double kRimMm = 50;   // outer radius at the rim
 constexpr double kFilletMm = 3;
 constexpr int kAround = 180;
 
-/// From the middle of the bottom outward, up, over the rim and down inside to the middle again.
+/// The outline from the middle of the bottom outward, up, over the rim, and down inside to the
+/// middle again.
 Outline make_outline() {
   Outline out(1);
   add_line(out, kFootMm - kFilletMm, 0, 22);
@@ -51,7 +52,7 @@ Sample make_bowl() {
   const double length_mm = places.back().arc_mm;
   Sample sample;
   TexturedMesh& mesh = sample.mesh;
-  std::vector<int> ring, uv;  // first vertex and first texture coordinate of each place
+  std::vector<int> ring, uv;  // first vertex and texture coordinate of each outline point
   for (const OutlinePoint& p : places) {
     const bool is_middle = &p == &places.front() || &p == &places.back();
     ring.push_back(mesh.add_vertex({p.radius_mm, 0, p.z_mm}));
@@ -61,7 +62,7 @@ Sample make_bowl() {
     }
     const double v = p.arc_mm / length_mm;
     uv.push_back(mesh.add_uv({is_middle ? 0.5 / kAround : 0, v}));
-    for (int i = 1; i <= kAround; ++i) {  // those of a middle lie between the others
+    for (int i = 1; i <= kAround; ++i) {  // at a middle, they lie between those of the rings
       mesh.add_uv({std::min<double>(kAround, is_middle ? i + 0.5 : i) / kAround, v});
     }
   }

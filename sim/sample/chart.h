@@ -8,15 +8,15 @@
 
 namespace hydroprint::sample {
 
-/// A rectangle of the texture, in mm of surface: its place in the sheet and what is drawn there.
+/// A rectangle of the texture, in mm of surface: its place in the sheet and its picture.
 struct Chart {
-  Eigen::Vector2d origin_mm;  ///< in the sheet, of the chart's lower left corner
+  Eigen::Vector2d origin_mm;  ///< lower left corner, in the sheet
   Eigen::Vector2d size_mm;
-  std::function<Colour(double x_mm, double y_mm)> colour_at;  ///< of places in the chart
+  std::function<Colour(double x_mm, double y_mm)> colour_at;  ///< colour at a place in the chart
 };
 
-/// The charts side by side on one texture, with gutters in which their pictures go on, so that
-/// filters find no foreign colour.
+/// The charts side by side on one texture. Their pictures continue into gutters around them, so
+/// that texture filters do not mix in other colours.
 struct Sheet {
   Eigen::Vector2d size_mm;
   double px_per_mm = 8;
@@ -29,7 +29,7 @@ struct Sheet {
   [[nodiscard]] image::RgbImage draw() const;
 };
 
-/// Width of the border round a chart in which its picture goes on.
+/// Width of the gutter around a chart.
 inline constexpr double kGutterMm = 2.5;
 
 }  // namespace hydroprint::sample

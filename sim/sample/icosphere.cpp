@@ -8,7 +8,7 @@
 namespace hydroprint::sample {
 namespace {
 
-/// Unit icosahedron on a corner: a pole, a ring of five, a ring of five, a pole.
+/// Unit icosahedron that stands on a corner: a pole, two rings of five vertices, and a pole.
 mesh::Model icosahedron() {
   mesh::Model model;
   const double z = 1 / std::sqrt(5.0);

@@ -4,9 +4,9 @@
 
 namespace hydroprint::sample {
 
-/// A sphere round the origin from an icosahedron whose faces are halved `subdivisions` times: 20 *
-/// 4^subdivisions triangles, closed, looking outward, without texture coordinates. The icosahedron
-/// stands on a corner, so that (0, 0, -radius) is a vertex.
+/// A sphere around the origin, made from an icosahedron by halving all edges `subdivisions` times.
+/// It has 20 * 4^subdivisions triangles that face outward, is closed, and has no texture
+/// coordinates. The icosahedron stands on a corner, so that (0, 0, -radius) is a vertex.
 /// @param subdivisions  0 to 9
 [[nodiscard]] mesh::Model icosphere(double radius_mm, int subdivisions);
 

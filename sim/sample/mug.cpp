@@ -21,10 +21,10 @@ constexpr double kFilletMm = 6;
 constexpr int kAround = 192;
 constexpr double kRoundMm = 2 * pi * kRadiusMm;
 
-/// Parts of the outline from the middle of the bottom outward, up, over the rim and down inside.
+/// Parts of the outline, from the middle of the bottom outward, up, over the rim and down inside.
 enum Part : std::size_t { kBottom, kOuter, kInner, kFloor, kHandle };
 
-/// The outline by parts; a part begins with the last point of the one before.
+/// The parts of the outline. Each begins with the last point of the previous one.
 std::vector<Outline> make_parts() {
   std::vector<Outline> parts(1, Outline(1));
   const auto next = [&] {
@@ -47,11 +47,11 @@ std::vector<Outline> make_parts() {
   return parts;
 }
 
-// The handle leaves and meets the wall where 8 x 10 of the wall's cells are left out.
+// The handle joins the wall at two holes, each of 8 x 10 of the wall's cells.
 constexpr int kHoleHalf = 4;   // cells to either side of the handle's plane
 constexpr int kHoleRows = 10;  // cells
-constexpr int kLowRow = 10;    // first of the lower hole, in rows of the wall
-constexpr int kHighRow = 42;   // first of the upper hole
+constexpr int kLowRow = 10;    // first row of the wall in the lower hole
+constexpr int kHighRow = 42;   // first row of the wall in the upper hole
 constexpr int kSpokes = 2 * (2 * kHoleHalf + kHoleRows);
 constexpr int kHandleRings = 60;
 constexpr double kHandleRadiusMm = 5.5;
@@ -107,7 +107,8 @@ class MugMaker {
 
   // --- the body ---
 
-  /// First vertex of each outline point's ring; the two middles are single vertices.
+  /// Adds the ring of an outline point and returns its first vertex. The two middles are single
+  /// vertices. Parts share the ring between them.
   int ring_of(std::size_t part, std::size_t row) {
     if (row == 0 && part != kBottom) return last_ring_;
     const auto& p = parts_[part][row];
@@ -159,8 +160,8 @@ class MugMaker {
 
   // --- the handle ---
 
-  /// The rim of a hole, from the middle of its far side (up for the upper hole, down for the lower)
-  /// towards +y and round.
+  /// The rim of a hole: from the middle of its outer side (upper side of the upper hole, lower side
+  /// of the lower hole) towards +y and around.
   [[nodiscard]] std::vector<int> hole_rim(int first_row, bool is_upper) const {
     std::vector<int> rim;
     const auto add = [&](int i, int row) {
@@ -188,14 +189,15 @@ class MugMaker {
             (high + low) / 2 + (high - low) / 2 * std::cos(pi * t)};
   }
 
-  /// Across the handle, in the plane of its middle line, away from its inside.
+  /// Unit vector across the handle, in the plane of its middle line, away from the mug.
   [[nodiscard]] Eigen::Vector3d outward(double t) const {
     const double half = (row_z(kHighRow) - row_z(kLowRow)) / 2;
     const Eigen::Vector3d along(kHandleReachMm * std::cos(pi * t), 0, -half * std::sin(pi * t));
     return along.normalized().cross(Eigen::Vector3d::UnitY());
   }
 
-  /// Point j of the handle's cross-section at t: round in the middle, growing into the rims.
+  /// Point j of the handle's cross-section at t. The cross-section is round in the middle and
+  /// changes into the holes' rims at the ends.
   [[nodiscard]] Eigen::Vector3d handle_point(double t, int j, const std::vector<int>& upper,
                                              const std::vector<int>& lower) const {
     const bool is_upper = t < 0.5;
@@ -209,7 +211,7 @@ class MugMaker {
     const double a = (1 - round) * up + round * kHandleRadiusMm * std::cos(angle);
     const double b = (1 - round) * side + round * kHandleRadiusMm * std::sin(angle);
     Eigen::Vector3d p = middle(t) + a * outward(t) + b * Eigen::Vector3d::UnitY();
-    p.x() += (1 - round) * from_middle.x();  // the rim follows the wall's curve
+    p.x() += (1 - round) * from_middle.x();  // the rim lies on the curved wall
     return p;
   }
 
@@ -238,7 +240,7 @@ class MugMaker {
 
   // --- the picture ---
 
-  /// A bay with the sun behind hills and waves in front; it closes round the mug.
+  /// A bay with the sun behind hills, and waves in front. The picture is periodic around the mug.
   static Colour scene(double x, double y) {
     const double turn = 2 * pi * x / kRoundMm;
     const auto hill = [&](double base, double height, int waves, double shift) {

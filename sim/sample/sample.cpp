@@ -22,10 +22,10 @@ constexpr std::array kMakers = {
     Maker{"globe", "a globe of radius 60 mm with continents, graticule and marked poles",
           make_globe},
     Maker{"sphere80", "a sphere of radius 80 mm with a chessboard of 15 degrees", make_sphere80},
-    Maker{"board", "a board of 120 x 120 x 10 mm with grid lines each 10 and 2 mm", make_board},
+    Maker{"board", "a board of 120 x 120 x 10 mm with grid lines every 10 and 2 mm", make_board},
     Maker{"ubend", "a U-shaped tube with a chessboard, its two feet dipped first", make_ubend},
-    Maker{"mug", "a mug with handle and cavity and a picture wrapped round it", make_mug},
-    Maker{"bowl", "a deep bowl with a chessboard, whose inside no film can line (Fig. 17)",
+    Maker{"mug", "a mug with handle and cavity and a picture wrapped around it", make_mug},
+    Maker{"bowl", "a deep bowl with a chessboard; no film can cover its inside (Fig. 17)",
           make_bowl}};
 
 std::span<const unsigned char> bytes_of(const std::string& text) {
@@ -36,8 +36,8 @@ Status write(const Sample& sample, const std::string& name, const std::filesyste
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
-    return fail(Code::kPermissionDenied, folder.string() + ": cannot be made (" + error.message() +
-                                             "); choose another folder");
+    return fail(Code::kPermissionDenied, folder.string() + ": cannot be created (" +
+                                             error.message() + "). Choose another folder");
   const std::string material = "newmtl " + name + "\nKd 1 1 1\nmap_Kd " + name + ".png\n";
   HP_RETURN_IF_ERROR(
       image::write_png(folder / (name + ".png"), sample.texture, 25.4 * sample.px_per_mm));
@@ -52,7 +52,7 @@ Result<Sample> make(const std::string& kind) {
     known.append(known.empty() ? "" : ", ").append(maker.name);
   }
   return fail(Code::kInvalidArgument,
-              "there is no sample \"" + kind + "\"; choose one of " + known);
+              "there is no sample \"" + kind + "\". Choose one of " + known);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 using std::numbers::pi;
 constexpr double kDegree = pi / 180;
 
-/// A sphere on meridians and parallels with an equirectangular map: u runs east from 180 W, v
+/// A sphere of meridians and parallels with an equirectangular map. u runs east from 180 W, and v
 /// north from the south pole, which is the lowest point.
 TexturedMesh make_sphere(double radius_mm, int meridians, int parallels) {
   TexturedMesh mesh;
@@ -33,7 +33,7 @@ TexturedMesh make_sphere(double radius_mm, int meridians, int parallels) {
     return {1 + (j - 1) * meridians + i % meridians, (j - 1) * (meridians + 1) + i};
   };
   for (int i = 0; i < meridians; ++i) {
-    const double middle = (i + 0.5) / meridians;  // a pole has a place of its own in each triangle
+    const double middle = (i + 0.5) / meridians;  // a pole has its own u in each triangle
     mesh.add_face({{south, mesh.add_uv({middle, 0})}, corner(i + 1, 1), corner(i, 1)});
     for (int j = 1; j + 1 < parallels; ++j)
       mesh.add_face({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)});
@@ -59,7 +59,8 @@ Place place_at(double x_deg, double y_deg) {
        std::cos(latitude * kDegree) * std::sin(longitude * kDegree), std::sin(latitude * kDegree)}};
 }
 
-/// How far the place is on a line every `spacing_deg` of both kinds, for lines `width_deg` wide.
+/// Coverage, in [0, 1], of a place by the meridians and parallels every `spacing_deg`, with lines
+/// `width_deg` wide.
 double on_graticule(const Place& p, double spacing_deg, double width_deg) {
   const double shrink = std::cos(p.latitude_deg * kDegree);
   const double distance = std::min(to_nearest_line(p.longitude_deg, spacing_deg) * shrink,
@@ -67,7 +68,8 @@ double on_graticule(const Place& p, double spacing_deg, double width_deg) {
   return 1 - ramp(0.35 * width_deg, 0.65 * width_deg, distance);
 }
 
-/// Equator red, Greenwich blue, a disc with a ring on each pole: red north, gold south.
+/// Draws the equator in red, the prime meridian in blue, and a disc with a ring on each pole, red
+/// in the north and gold in the south.
 Colour with_marks(Colour colour, const Place& p) {
   const double shrink = std::cos(p.latitude_deg * kDegree);
   const double equator = 1 - ramp(0.25, 0.5, std::abs(p.latitude_deg));

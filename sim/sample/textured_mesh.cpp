@@ -7,7 +7,7 @@
 namespace hydroprint::sample {
 namespace {
 
-/// Fixed notation whatever the locale.
+/// Appends a number in fixed notation, independent of the locale.
 void append_number(std::string& text, double value, int digits) {
   std::array<char, 32> buffer{};
   const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,

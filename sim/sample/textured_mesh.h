@@ -9,7 +9,7 @@
 
 namespace hydroprint::sample {
 
-/// A mesh of triangles and quads on its way to an OBJ file. Faces look outward.
+/// A mesh of triangles and quads for an OBJ file. Faces point outward.
 class TexturedMesh {
  public:
   struct Corner {
@@ -25,9 +25,9 @@ class TexturedMesh {
   [[nodiscard]] const Eigen::Vector3d& vertex(int i) const {
     return vertices_[static_cast<std::size_t>(i)];
   }
-  /// The whole as an OBJ file that uses material `name` of `name`.mtl.
+  /// Returns the mesh as an OBJ file that uses the material `name` in `name`.mtl.
   [[nodiscard]] std::string to_obj(const std::string& name) const;
-  /// The whole as a model without material.
+  /// Returns the mesh as a model without a material.
   [[nodiscard]] mesh::Model to_model() const;
 
  private:
@@ -36,7 +36,7 @@ class TexturedMesh {
   std::vector<std::vector<Corner>> faces_;
 };
 
-/// What a sample is made of.
+/// Mesh and texture of a sample.
 struct Sample {
   TexturedMesh mesh;
   image::RgbImage texture;

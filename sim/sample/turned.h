@@ -4,22 +4,22 @@
 
 namespace hydroprint::sample {
 
-/// A place on the outline of a body turned round the z axis.
+/// A point on the outline of a solid of revolution around the z axis.
 struct OutlinePoint {
   double radius_mm = 0;
   double z_mm = 0;
-  double arc_mm = 0;  ///< along the outline from where it begins
+  double arc_mm = 0;  ///< length along the outline from its start
 };
 
-/// A stretch of outline that has a first point, and grows.
+/// Part of an outline, with at least one point.
 using Outline = std::vector<OutlinePoint>;
 
-/// Adds `steps` points, the last of them at this radius and height, in a straight line.
+/// Adds `steps` points in a straight line that ends at this radius and height.
 void add_line(Outline& outline, double radius_mm, double z_mm, int steps);
 
-/// Adds `steps` points on a circle of radius `bend_mm` round a place of this radius and height: the
-/// last at angle `to_rad`, the one before the first at `from_rad`, where the outline ends. Angles
-/// run from outward to up.
+/// Adds `steps` points on an arc of radius `bend_mm` whose centre has this radius and height. The
+/// outline must end at the angle `from_rad`; the last point added is at `to_rad`. Angles are
+/// measured from the outward direction towards up.
 void add_arc(Outline& outline, double radius_mm, double z_mm, double bend_mm, double from_rad,
              double to_rad, int steps);
 

@@ -19,14 +19,14 @@ constexpr double kCapMm = pi / 2 * kTubeMm;
 constexpr double kLengthMm = 2 * kCapMm + 2 * kLegMm + pi * kBendMm;
 constexpr double kRoundMm = 2 * pi * kTubeMm;
 
-/// A ring of the tube: the middle, the direction it looks along, and the radius.
+/// A ring of the tube: its middle, the direction of the tube there, and its radius.
 struct Ring {
   Eigen::Vector3d middle;
   Eigen::Vector3d along;
   double radius_mm;
 };
 
-/// The ring at arc length s, up the left leg from its foot, over the bend, down the right leg.
+/// The ring at arc length s: up the left leg from its foot, over the bend and down the right leg.
 Ring ring_at(double s) {
   if (s > kLengthMm / 2) {
     Ring ring = ring_at(kLengthMm - s);
@@ -56,7 +56,7 @@ Eigen::Vector3d point_on(const Ring& ring, int i) {
          ring.radius_mm * (std::cos(angle) * outward + std::sin(angle) * Eigen::Vector3d::UnitY());
 }
 
-/// As in Fig. 13, with a colour for each leg and a line along the back.
+/// Pattern of Fig. 13, with a different colour for each leg and a line along the back.
 Colour colour_at(double x_mm, double y_mm) {
   constexpr double kSquare = kRoundMm / 8;
   const double x = x_mm - kLengthMm / 2;
@@ -69,7 +69,7 @@ Colour colour_at(double x_mm, double y_mm) {
 }  // namespace
 
 Sample make_ubend() {
-  constexpr int kRings = 180;  // steps along
+  constexpr int kRings = 180;  // steps along the tube
   Sample sample;
   auto& mesh = sample.mesh;
   const auto at = [](int j) { return kLengthMm * j / kRings; };

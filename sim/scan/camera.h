@@ -5,7 +5,7 @@
 
 namespace hydroprint::scan {
 
-/// What is known of a depth camera.
+/// The calibration of a depth camera.
 struct Camera {
   Lens lens;
   Lens::Matrix covariance = Lens::Matrix::Zero();  ///< of Lens::parameters()

@@ -8,9 +8,9 @@
 namespace hydroprint::scan {
 
 Status check_frames(std::span<const DepthFrame> frames) {
-  if (frames.empty()) return fail(Code::kInvalidArgument, "no depth frames: is the camera on?");
+  if (frames.empty()) return fail(Code::kInvalidArgument, "no depth frames. Switch the camera on");
   if (frames.size() > std::numeric_limits<std::uint16_t>::max())
-    return fail(Code::kInvalidArgument, "more than 65535 depth frames: give fewer");
+    return fail(Code::kInvalidArgument, "more than 65535 depth frames. Give fewer");
   const DepthFrame& first = frames.front();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const DepthFrame& frame = frames[i];
@@ -18,7 +18,7 @@ Status check_frames(std::span<const DepthFrame> frames) {
         frame.height_px != first.height_px ||
         frame.depth_mm.size() != frame.index(0, frame.height_px))
       return fail(Code::kInvalidArgument, "depth frame " + std::to_string(i) +
-                                              " differs in size: record again with one setting");
+                                              " differs in size. Record again with one setting");
   }
   const auto is_nothing = [](float depth_mm) { return depth_mm == 0; };
   if (std::all_of(first.depth_mm.begin(), first.depth_mm.end(), is_nothing)) return {};  // black
@@ -26,7 +26,7 @@ Status check_frames(std::span<const DepthFrame> frames) {
   if (frames.size() > 1 && std::all_of(frames.begin() + 1, frames.end(), same))
     return fail(Code::kFailedPrecondition,
                 "all " + std::to_string(frames.size()) +
-                    " depth frames are the same bit by bit: the camera is frozen, reconnect it",
+                    " depth frames are identical, so the camera is frozen. Reconnect it",
                 "CAMERA_FROZEN");
   return {};
 }

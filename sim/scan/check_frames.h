@@ -7,8 +7,8 @@
 
 namespace hydroprint::scan {
 
-/// Refuses (kInvalidArgument) no frames, more than 65535, and frames that differ in size;
-/// (kFailedPrecondition, CAMERA_FROZEN) several that are all the same bit by bit.
+/// Fails (kInvalidArgument) if there are no frames or more than 65535, or if they differ in size.
+/// Fails (kFailedPrecondition, CAMERA_FROZEN) if several frames are all identical.
 [[nodiscard]] Status check_frames(std::span<const DepthFrame> frames);
 
 }  // namespace hydroprint::scan

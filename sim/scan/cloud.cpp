@@ -10,9 +10,9 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kJump_mm = 12;              ///< between neighbours: the edge of a surface
-constexpr double kSameSurface_mm = 15;       ///< between a pixel and those its normal is taken from
-constexpr int kReach_px = 5, kEvery_px = 2;  ///< neighbours share their noise
+constexpr double kJump_mm = 12;         ///< depth difference of neighbours at the edge of a surface
+constexpr double kSameSurface_mm = 15;  ///< largest depth difference within the pixels of a normal
+constexpr int kReach_px = 5, kEvery_px = 2;  ///< every second pixel, because neighbours share noise
 constexpr int kFewest = 6;                   ///< pixels for a normal
 
 bool on_a_surface(const PointGrid& grid, int u, int v) {
@@ -103,7 +103,7 @@ Result<Cloud> make_cloud(const FusedFrame& fused, const Camera& camera, const De
                 "the lens model is for " + std::to_string(lens.width_px) + " x " +
                     std::to_string(lens.height_px) + " pixels, the frames have " +
                     std::to_string(mean.width_px) + " x " + std::to_string(mean.height_px) +
-                    ": calibrate the camera in this mode");
+                    ". Calibrate the camera in this mode");
   HP_RETURN_IF_ERROR(camera.pattern.check_for(mean.width_px, mean.height_px, noise));
   const PointGrid grid = points_of(mean, camera, noise);
   std::vector<std::vector<ScanPoint>> rows(static_cast<std::size_t>(grid.height_px));

@@ -6,16 +6,16 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kUsualScale_mm = 575.8 * 75 * 8;  ///< px, mm, steps a pixel
+constexpr double kUsualScale_mm = 575.8 * 75 * 8;  ///< px, mm, steps per pixel
 constexpr int kScalesAside = 1000, kShifts = 25;
 constexpr double kScaleStep = 5e-5, kShiftStep = 1.0 / kShifts;
 constexpr double kMostOff = kScalesAside * kScaleStep;
 constexpr std::size_t kMost_mm = 10000;
-constexpr std::size_t kOften = 8;         ///< pixels; fewer may be strays
-constexpr double kHalf = 0.5 + 1e-4;      ///< mm, to which depths are rounded
-constexpr double kCoarseSlack_mm = 0.12;  ///< that those leave
+constexpr std::size_t kOften = 8;         ///< pixels; fewer may be outliers
+constexpr double kHalf = 0.5 + 1e-4;      ///< rounding error in mm
+constexpr double kCoarseSlack_mm = 0.12;  ///< extra error allowed in the coarse search
 constexpr double kFinest = 1e-7;
-/// Log of one over the chance of explaining all depths by steps that are not theirs: 1e-11.
+/// Minus the log of the probability (1e-11) that wrong steps explain all depths.
 constexpr double kSure = 25;
 
 struct Steps {
@@ -26,7 +26,7 @@ struct Steps {
   }
 };
 
-/// How far the worst of the depths is from the nearest step; stops looking at `enough`.
+/// Largest distance of a depth from the nearest step. Stops as soon as it reaches `enough`.
 double worst_mm(const std::vector<double>& depths, const Steps& steps, double enough) {
   double out = 0;
   for (const double depth : depths) {
@@ -36,7 +36,8 @@ double worst_mm(const std::vector<double>& depths, const Steps& steps, double en
   return out;
 }
 
-/// Whole depths that occur often, where steps are longer than 1 mm; empty if not all are whole.
+/// Depths that occur often, in the range where steps are longer than 1 mm. Empty if not all depths
+/// are whole mm.
 std::vector<double> often_told(const DepthCounts& counts) {
   std::vector<double> out;
   if (!counts.are_whole) return out;
@@ -52,7 +53,8 @@ double sureness(const std::vector<double>& depths) {
   return out;
 }
 
-/// The steps nearest to all depths, by looking everywhere and then around the best, ever closer.
+/// Finds the steps that are nearest to all depths by a coarse grid search and repeated refinement
+/// around the best.
 Steps closest(const std::vector<double>& depths) {
   Steps best{kUsualScale_mm, 0};
   double worst = kHalf + kCoarseSlack_mm;
@@ -78,7 +80,7 @@ Steps closest(const std::vector<double>& depths) {
   return best;
 }
 
-/// The mean of the steps that are rounded to a depth; that itself if there are none.
+/// The mean of the steps that are rounded to a depth; the depth itself if there are none.
 double before_rounding(const Steps& steps, std::size_t whole_mm) {
   const auto depth = static_cast<double>(whole_mm);
   const double first = std::ceil(steps.scale_mm / (depth + kHalf) - steps.shift);

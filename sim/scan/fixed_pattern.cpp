@@ -26,7 +26,7 @@ Status FixedPattern::check_for(int image_width_px, int image_height_px,
   return fail(Code::kInvalidArgument,
               "the camera's fixed pattern is for " + named(width_px, height_px, patch_px) +
                   ", the frames have " + named(image_width_px, image_height_px, noise.patch_px) +
-                  ": calibrate the camera in this mode");
+                  ". Calibrate the camera in this mode");
 }
 
 void FixedPattern::set_shared(const Eigen::MatrixXd& derivatives) {

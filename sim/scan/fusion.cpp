@@ -11,12 +11,12 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kDarkShare = 0.02;      ///< of the pixels with a depth, below which it is black
-constexpr double kUnsteadyShare = 0.05;  ///< of the pixels that may vary beyond the noise: edges
+constexpr double kDarkShare = 0.02;      ///< the image is black if fewer pixels have a depth
+constexpr double kUnsteadyShare = 0.05;  ///< of pixels that may vary beyond the noise, at edges
 constexpr double kUnsteadySigmas = 2.5;
 constexpr double kOutlierSigmas = 4;
 constexpr double kMadToSigma = 1.4826;
-constexpr std::size_t kFewFrames = 5;  ///< tell nothing of how depths vary
+constexpr std::size_t kFewFrames = 5;  ///< fewest frames for a standard deviation
 
 struct Pixel {
   double mean_mm = 0;
@@ -38,7 +38,7 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
-/// @param values  depths of a pixel, all above 0; comes back in another order and without outliers
+/// @param values  depths of a pixel, all above 0; they are reordered, and outliers are removed
 Pixel mean_of(std::vector<double>& values, std::vector<double>& scratch, const DepthNoise& noise) {
   HP_CHECK(!values.empty());
   Pixel out;
@@ -77,11 +77,11 @@ Pixel fuse_pixel(std::span<const DepthFrame> frames, std::size_t i, std::vector<
 Status judge(std::size_t pixels, std::size_t valid, std::size_t unsteady) {
   if (static_cast<double>(valid) < kDarkShare * static_cast<double>(pixels))
     return fail(Code::kFailedPrecondition,
-                "the camera sees nothing: uncover it, or move it 0.6 to 1.2 m away",
+                "the camera sees nothing. Uncover it, or move it 0.6 to 1.2 m away",
                 "CAMERA_BLACK");
   if (static_cast<double>(unsteady) > kUnsteadyShare * static_cast<double>(valid))
     return fail(Code::kFailedPrecondition,
-                "the camera or what it sees moved between frames: let all stand still, scan again",
+                "the camera or the scene moved between frames. Keep both still and scan again",
                 "CAMERA_MOVED");
   return {};
 }

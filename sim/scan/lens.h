@@ -5,13 +5,13 @@
 
 namespace hydroprint::scan {
 
-/// What a depth camera's driver does not say: how pixels become points. Camera frame C: origin in
-/// the centre of projection, x to the right and y down in the image, z along the axis. A point at
-/// (x, y) = (X/Z, Y/Z), r2 = x^2 + y^2, is seen at pixel (cx + fx x_d, cy + fy y_d) with Brown's
+/// The lens model of a depth camera. Camera frame C: origin in the centre of projection, x to the
+/// right and y down in the image, z along the axis. A point at (x, y) = (X/Z, Y/Z), with
+/// r2 = x^2 + y^2, is seen at pixel (cx + fx x_d, cy + fy y_d), with Brown's distortion
 ///   x_d = x (1 + k1 r2 + k2 r2^2) + 2 p1 x y + p2 (r2 + 2 x^2)
-///   y_d = y (1 + k1 r2 + k2 r2^2) + p1 (r2 + 2 y^2) + 2 p2 x y;
-/// pixel centres are at whole numbers. Its depth Z is
-/// depth_scale times the reported depth: what is triangulated counts from the centre of projection.
+///   y_d = y (1 + k1 r2 + k2 r2^2) + p1 (r2 + 2 y^2) + 2 p2 x y.
+/// Pixel centres are at whole numbers. The depth Z is depth_scale times the reported depth, without
+/// an offset, because triangulated depth counts from the centre of projection.
 struct Lens {
   static constexpr int kParameters = 9;
   using Vector = Eigen::Matrix<double, kParameters, 1>;
@@ -19,7 +19,7 @@ struct Lens {
 
   int width_px = 640;
   int height_px = 480;
-  double fx_px = 575.8;  ///< nominal of first-generation Kinects' drivers
+  double fx_px = 575.8;  ///< nominal value in the drivers of first-generation Kinects
   double fy_px = 575.8;
   double cx_px = 319.5;
   double cy_px = 239.5;
@@ -32,7 +32,7 @@ struct Lens {
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_C) const;
   /// The point of depth 1 on a pixel's ray.
   [[nodiscard]] Eigen::Vector3d ray(double u, double v) const;
-  /// ray() of every pixel, row after row.
+  /// ray() of every pixel, row by row.
   [[nodiscard]] std::vector<Eigen::Vector3d> rays() const;
   [[nodiscard]] double true_depth_mm(double reported_mm) const { return depth_scale * reported_mm; }
   /// Point of a pixel with this reported depth.

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-/// Round the cube's diagonal; of two corners of one, one has all the other's bits.
+/// Tetrahedra around the cube's diagonal. Of any two corners of one, one has all bits of the other.
 constexpr std::array<std::array<int, 4>, 6> kTetrahedra = {
     {{0, 1, 3, 7}, {0, 2, 3, 7}, {0, 2, 6, 7}, {0, 4, 6, 7}, {0, 4, 5, 7}, {0, 1, 5, 7}}};
 
@@ -39,7 +39,7 @@ void MarchingTetrahedra::add(const Vector3i& cell, const std::array<double, 8>& 
   for (const auto& corners : kTetrahedra) add_tetrahedron(cell, values, corners);
 }
 
-/// The point between two corners where the value is zero, one for all cubes at that edge.
+/// Returns the point between two corners where the value is zero. All cubes at that edge share it.
 int MarchingTetrahedra::cut(const Vector3i& cell, const std::array<double, 8>& values, int a,
                             int b) {
   if ((a & b) != a) std::swap(a, b);

@@ -8,25 +8,25 @@
 
 namespace hydroprint::scan {
 
-/// A surface as triangles, mm, corners counter-clockwise as seen from outside.
+/// A surface as triangles, in mm, with corners counter-clockwise as seen from outside.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> points_mm;
   std::vector<Eigen::Vector3i> triangles;
 };
 
-/// Corner c, 0 to 7, of a unit cube: at (c & 1, c >> 1 & 1, c >> 2).
+/// Corner c (0 to 7) of a unit cube, at (c & 1, c >> 1 & 1, c >> 2).
 [[nodiscard]] inline Eigen::Vector3i cube_corner(int c) { return {c & 1, c >> 1 & 1, c >> 2}; }
 
-/// The surface on which a function between grid points is zero, cube by cube (marching tetrahedra,
-/// Doi and Koide 1991): closed wherever all cubes round it are given.
+/// Extracts the zero level set of a function given on a grid, cube by cube (marching tetrahedra,
+/// Doi and Koide 1991). The surface is closed wherever all cubes around it are added.
 class MarchingTetrahedra {
  public:
   /// @param count  grid points along each axis; point (0, 0, 0) lies half a spacing from the origin
   MarchingTetrahedra(const Eigen::Vector3i& count, const Eigen::Vector3d& origin_mm,
                      double spacing_mm);
 
-  /// @param values  at the corners of the cube whose lowest one is that grid point; the outside is
-  ///                where they are positive
+  /// @param cell    the cube's lowest corner, a grid point
+  /// @param values  at the cube's corners; positive outside
   void add(const Eigen::Vector3i& cell, const std::array<double, 8>& values);
 
   [[nodiscard]] TriangleMesh mesh() && { return std::move(mesh_); }
@@ -40,7 +40,7 @@ class MarchingTetrahedra {
   Eigen::Vector3i count_;
   Eigen::Vector3d origin_mm_;
   double spacing_mm_;
-  std::unordered_map<std::uint64_t, int> points_;  ///< by an edge's lower end and direction
+  std::unordered_map<std::uint64_t, int> points_;  ///< keyed by an edge's lower end and direction
   TriangleMesh mesh_;
 };
 

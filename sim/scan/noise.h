@@ -4,17 +4,17 @@
 
 namespace hydroprint::scan {
 
-/// How a structured-light camera errs in depth. The standard deviation is that of Nguyen, Izadi and
-/// Lovell (Modeling Kinect sensor noise, 3DIMPVT 2012) for a first-generation Kinect; averaging
-/// takes away only the part that changes from frame to frame.
+/// Depth noise of a structured-light camera. The standard deviation is that of Nguyen, Izadi and
+/// Lovell (Modeling Kinect sensor noise, 3DIMPVT 2012) for a first-generation Kinect. Averaging
+/// removes only the part that differs from frame to frame.
 struct DepthNoise {
   double least_mm = 1.2;
   double growth_mm_per_m2 = 1.9;
   double least_at_mm = 400;
-  double constant_share = 0.5;  ///< of the variance, the same in every frame...
-  int patch_px = 4;             ///< ...and all over squares of so many pixels a side
+  double constant_share = 0.5;  ///< share of the variance that is the same in every frame
+  int patch_px = 4;             ///< side of the squares of pixels that share the constant part
 
-  /// Of one pixel of one frame, constant part and changing part together.
+  /// Standard deviation of one pixel of one frame, from the constant and the changing part.
   [[nodiscard]] double sigma_mm(double depth_mm) const {
     const double away_m = (depth_mm - least_at_mm) / 1000;
     return least_mm + growth_mm_per_m2 * away_m * away_m;

@@ -7,7 +7,7 @@
 
 namespace hydroprint::scan {
 
-/// A lens with the rays of all its pixels, which take long to find.
+/// A lens with the rays of all its pixels, which are slow to compute.
 struct Optics {
   Lens lens;
   std::vector<Eigen::Vector3d> rays;

@@ -8,9 +8,9 @@ namespace hydroprint::scan {
 namespace {
 
 constexpr int kReach_patches = 2;
-constexpr double kBendSigmas = 3;  ///< of the mean of two opposite depths from the one between
+constexpr double kBendSigmas = 3;  ///< deviation of a depth from the mean of two opposite ones
 
-/// One of each two opposite pixels, a pixel of every patch around.
+/// Offsets to one pixel in each patch around, but only one of each opposite pair.
 std::vector<Eigen::Vector2i> half_of_neighbours(const DepthNoise& noise) {
   std::vector<Eigen::Vector2i> out;
   for (int dv = 0; dv <= kReach_patches; ++dv)
@@ -19,7 +19,7 @@ std::vector<Eigen::Vector2i> half_of_neighbours(const DepthNoise& noise) {
   return out;
 }
 
-/// Inverse depths, which are linear in the image over a plane; 0: none.
+/// Inverse depths, which are linear in the image on a plane; 0: no depth.
 struct Inverse {
   int width_px, height_px;
   std::vector<float> values;
@@ -35,7 +35,8 @@ struct Inverse {
   }
 };
 
-/// @param most_bend  between a pixel's inverse depth and the mean of two opposite ones
+/// @param most_bend  largest difference of a pixel's inverse depth from the mean of an opposite
+/// pair
 float mean_around(const Inverse& inverse, const std::vector<Eigen::Vector2i>& neighbours, int u,
                   int v, float most_bend) {
   const float here = inverse.at(u, v);

@@ -6,12 +6,11 @@
 
 namespace hydroprint::scan {
 
-/// A frame with the noise of its surfaces averaged out, for tracking. What a camera adds to every
-/// frame alike (DepthNoise::constant_share) moves with it: to a tracker it is relief that stands
-/// still in the image, on a level surface steeper than most that is really there, and holds the
-/// camera where it was. A depth becomes the mean over its own patch and those up to two patches
-/// away that lie, with their opposite, on one plane with it: planes stay as they are, and edges
-/// where they are.
+/// Smooths the noise of a frame's surfaces, for tracking. The constant noise of a camera
+/// (DepthNoise::constant_share) moves with it. A tracker sees it as relief that is fixed in the
+/// image, and often steeper than the real surfaces, so that the camera seems to stand still.
+/// Each depth becomes the mean over its own patch and pairs of opposite patches up to two patches
+/// away that lie on one plane with it. So planes and edges do not change.
 [[nodiscard]] Result<DepthFrame> smooth(const DepthFrame& frame, const DepthNoise& noise,
                                         const Context& context);
 

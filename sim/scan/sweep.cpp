@@ -17,11 +17,11 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kFarthest_mm = 1500;   ///< beyond it is the room, not the rig
-constexpr double kRoundAbout_mm = 300;  ///< that later frames may see beyond the first's
-constexpr double kDarkShare = 0.02;     ///< of the pixels with a depth, below which it is black
-constexpr std::size_t kMostLost = 10;   ///< on end: a third of a second
-constexpr std::size_t kTakeEvery = 3;   ///< all are placed, these make the surface
+constexpr double kFarthest_mm = 1500;   ///< depths beyond it belong to the room, not the rig
+constexpr double kRoundAbout_mm = 300;  ///< margin around the first frame for later frames
+constexpr double kDarkShare = 0.02;     ///< the image is black if fewer pixels have a depth
+constexpr std::size_t kMostLost = 10;   ///< frames in a row: a third of a second
+constexpr std::size_t kTakeEvery = 3;   ///< all frames are registered, but only these are fused
 constexpr Volume::Options kToFollow{3, 12, 60000};
 constexpr const char* kLost = "CAMERA_LOST";
 
@@ -30,16 +30,17 @@ Status check(const SweepTask& task) {
   const DepthFrame& first = task.frames.front();
   if (first.width_px != task.camera.lens.width_px || first.height_px != task.camera.lens.height_px)
     return fail(Code::kInvalidArgument,
-                "the lens is of another image size than the frames: calibrate the camera as it is "
-                "set now");
+                "the lens calibration is for another image size. Calibrate the camera in its "
+                "current mode");
   if (task.times_s.size() != task.frames.size() ||
       std::adjacent_find(task.times_s.begin(), task.times_s.end(), std::greater_equal<>()) !=
           task.times_s.end())
-    return fail(Code::kInvalidArgument, "the frames have no rising times: record again");
+    return fail(Code::kInvalidArgument, "the frames' times do not increase. Record again");
   return task.camera.pattern.check_for(first.width_px, first.height_px, task.noise);
 }
 
-/// Frames come one by one, without rounding, the camera's fixed pattern and what is too far.
+/// Returns frames one by one. Undoes rounding, subtracts the camera's fixed pattern and drops
+/// depths that are too far.
 class Source {
  public:
   explicit Source(const SweepTask& task) : task_(task), steps_(find_depth_steps(task.frames)) {}
@@ -78,7 +79,7 @@ Result<Eigen::AlignedBox3d> box_of(const DepthFrame& first, const Optics& optics
   }
   if (static_cast<double>(seen) < kDarkShare * static_cast<double>(optics.rays.size()))
     return fail(Code::kFailedPrecondition,
-                "the camera sees nothing: uncover it, and begin 0.6 to 1.2 m away", "CAMERA_BLACK");
+                "the camera sees nothing. Uncover it, and begin 0.6 to 1.2 m away", "CAMERA_BLACK");
   const Eigen::Vector3d about = Eigen::Vector3d::Constant(kRoundAbout_mm);
   return Eigen::AlignedBox3d(box.min() - about, box.max() + about);
 }
@@ -92,7 +93,7 @@ bool is_lost_for_good(const Path& path) {
   return static_cast<std::size_t>(latest - path.is_placed.rbegin()) >= kMostLost;
 }
 
-/// The pose at the next time, if the hand goes on as it did between the last two.
+/// Extrapolates the motion between the last two frames to the next time.
 Pose foreseen(const std::vector<Pose>& X_WC, std::span<const double> times_s) {
   HP_CHECK(!X_WC.empty());
   HP_CHECK(X_WC.size() < times_s.size());
@@ -120,8 +121,8 @@ double share_of(std::size_t frame, const SweepTask& task) {
   return static_cast<double>(frame) / static_cast<double>(task.frames.size());
 }
 
-/// The first frame is where W is; the next are looked for where the hand would be, then where it
-/// was.
+/// Registers a frame. The first frame defines W. For later ones, first tries the extrapolated pose
+/// and then the previous pose.
 Result<Tracked> find_place(const DepthFrame& frame, const SweepTask& task, const Optics& optics,
                            const Volume& volume, const Path& path, const Context& context) {
   if (path.X_WC.empty()) return Tracked{};
@@ -133,7 +134,8 @@ Result<Tracked> find_place(const DepthFrame& frame, const SweepTask& task, const
   return found;
 }
 
-/// @return how far the next frame lies from what the volume shows, rms; 0 if it is lost
+/// Registers the next frame and appends it to the path.
+/// @return rms distance of the frame from the volume; 0 if it is not registered
 Result<double> place(const DepthFrame& frame, const SweepTask& task, const Optics& optics,
                      const Volume& volume, Path& path, const Context& context) {
   const auto found = find_place(frame, task, optics, volume, path, context);
@@ -145,7 +147,7 @@ Result<double> place(const DepthFrame& frame, const SweepTask& task, const Optic
   return found ? found->rms_mm : 0;
 }
 
-/// Places every frame by what those before it show.
+/// Registers every frame to the frames before it.
 Result<Path> follow(const SweepTask& task, const Source& source, const Optics& optics,
                     const Eigen::AlignedBox3d& box, const Context& context) {
   Volume volume(box, kToFollow);

@@ -10,39 +10,40 @@
 
 namespace hydroprint::scan {
 
-/// Where the frames of a camera swept by hand were taken. Frame W: the camera's at the first frame.
+/// Poses of a camera swept by hand. Frame W is the camera's frame at the first depth frame.
 struct Path {
-  std::vector<Pose> X_WC;       ///< per frame
-  std::vector<bool> is_placed;  ///< false: lost; its pose is that of the one before it
-  double rms_mm = 0;            ///< of smoothed frames from what those before them show, along rays
+  std::vector<Pose> X_WC;       ///< for each frame
+  std::vector<bool> is_placed;  ///< false: not registered; it has the pose of the previous frame
+  double rms_mm = 0;  ///< rms distance of smoothed frames from the volume before them, along rays
 
   [[nodiscard]] std::size_t lost() const {
     return static_cast<std::size_t>(std::count(is_placed.begin(), is_placed.end(), false));
   }
 };
 
-/// What such a camera saw, frame W.
+/// The fused frames of such a camera, in frame W.
 struct Sweep {
   Volume volume;
   Path path;
-  std::size_t fused = 0;  ///< frames that made the volume
+  std::size_t fused = 0;  ///< number of frames in the volume
 };
 
-/// What fuse_sweep() is told.
+/// Input of fuse_sweep().
 struct SweepTask {
   std::span<const DepthFrame> frames;
-  std::span<const double> times_s;  ///< of the frames, rising
+  std::span<const double> times_s;  ///< of the frames, increasing
   Camera camera;
   DepthNoise noise;
   Volume::Options volume;
 };
 
-/// Frames of a camera in motion as one volume. Each frame is placed by what the frames before it
-/// show (frame to model, KinectFusion, Izadi et al. 2011), smoothed; then every third is fused as
-/// it is. What is known of the camera's fixed pattern is taken off all of them. Refuses what
-/// check_frames refuses, and (kInvalidArgument) frames that are not of the lens's size or have
-/// other times; with kFailedPrecondition and a reason: CAMERA_BLACK where the first frame has
-/// hardly a depth, CAMERA_LOST where ten frames on end find no place.
+/// Fuses the frames of a moving camera into one volume. Each frame is smoothed and registered to
+/// the frames before it (frame to model, KinectFusion, Izadi et al. 2011). Then every third frame
+/// is fused without smoothing. The camera's known fixed pattern is subtracted from all frames.
+/// Fails as check_frames() does, and with kInvalidArgument if the frames' size differs from the
+/// lens's or their times do not increase. Fails with kFailedPrecondition and a reason: CAMERA_BLACK
+/// if the first frame has hardly any depth, CAMERA_LOST if ten frames in a row cannot be
+/// registered.
 [[nodiscard]] Result<Sweep> fuse_sweep(const SweepTask& task, const Context& context);
 
 }  // namespace hydroprint::scan

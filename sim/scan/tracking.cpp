@@ -14,22 +14,22 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 constexpr int kBlock_px = 4;
-constexpr double kSteepest = 3;    ///< slope of a surface, against the image
+constexpr double kSteepest = 3;    ///< largest slope of a surface to the image plane
 constexpr int kFewestOfBlock = 8;  ///< pixels
-constexpr double kReach_mm = 3;    ///< to which the volume's slopes are taken
+constexpr double kReach_mm = 3;    ///< step of the volume's gradients
 constexpr double kHuberSigmas = 2;
-constexpr double kLever_mm = 200;  ///< turns count as the way they are at this distance
+constexpr double kLever_mm = 200;  ///< lever arm by which turns are converted to mm
 constexpr double kSettled_mm = 0.005;
 constexpr int kIterations = 15;
 constexpr std::size_t kChunk = 512;
 
-// A pose is one only with these.
-constexpr double kLeastShare = 0.5;  ///< of the points that find a match
+// Limits for accepting a pose.
+constexpr double kLeastShare = 0.5;  ///< of the points that are matched
 constexpr double kMostSigma_mm = 1;
-constexpr double kMostRmsSigmas = 0.8;  ///< of the matches; smoothed, a frame's are 0.3 to 0.4
-constexpr double kStillMoves_mm = 0.2;  ///< in the last iteration
+constexpr double kMostRmsSigmas = 0.8;  ///< of the matches; smoothed frames have 0.3 to 0.4
+constexpr double kStillMoves_mm = 0.2;  ///< step of the last iteration
 
-/// Normal equations of a small motion (translation, turn times kLever_mm) of matched points.
+/// Normal equations for a small motion (translation, turn times kLever_mm) of matched points.
 struct Equations {
   Matrix6d A = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();
@@ -60,7 +60,7 @@ struct Equations {
   }
 };
 
-/// A frame's points, and what they are matched with.
+/// A frame's points and the volume that they are matched with.
 struct Match {
   const std::vector<Vector3d>& points;
   const DepthNoise& noise;
@@ -85,12 +85,12 @@ Result<Equations> match(const Match& with, const Pose& X_WC, const Context& cont
     parts[i] = with.part(X_WC, i * kChunk);
     return {};
   }));
-  Equations all;  // in the same order whatever the number of threads
+  Equations all;  // the order of the sum does not depend on the number of threads
   for (const Equations& part : parts) all += part;
   return all;
 }
 
-/// Of the motion that the matches tell least.
+/// Standard error of the motion that the matches determine worst.
 double worst_sigma_mm(const Equations& equations) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(equations.A, Eigen::EigenvaluesOnly);
   const double least = eigen.eigenvalues()[0];
@@ -98,10 +98,9 @@ double worst_sigma_mm(const Equations& equations) {
 }
 
 tl::unexpected<Error> lost() {
-  return fail(
-      Code::kFailedPrecondition,
-      "the camera lost its place in the scan: sweep more slowly, and keep the markers in sight",
-      "CAMERA_LOST");
+  return fail(Code::kFailedPrecondition,
+              "tracking of the camera failed. Sweep more slowly, and keep the markers in view",
+              "CAMERA_LOST");
 }
 
 Pose moved(const Pose& X_WC, const Vector6d& step, const Vector3d& middle_W) {

@@ -6,24 +6,24 @@
 
 namespace hydroprint::scan {
 
-/// Where a camera was, found by what it saw against a volume.
+/// Pose of a camera, found by registering its frame to a volume.
 struct Tracked {
   Pose X_WC = Pose::Identity();
-  double matched_share = 0;  ///< of the frame's points
-  double rms_mm = 0;         ///< of the matched points, along their rays
+  double matched_share = 0;  ///< share of the frame's points that were matched
+  double rms_mm = 0;         ///< rms distance of the matched points, along their rays
   double sigma_mm = 0;       ///< standard error of the pose in its worst direction, at the scene
 };
 
-/// Points of a frame to track it by, camera frame: each the mean of a block of pixels that lie on
-/// one surface. The noise that they share does not become less by looking closer.
+/// Points for tracking a frame, in the camera frame. Each is the mean of a block of pixels on one
+/// surface. Smaller blocks would not help, because the pixels of a block share their noise.
 [[nodiscard]] std::vector<Eigen::Vector3d> tracking_points(const DepthFrame& frame,
                                                            const Optics& optics);
 
-/// The pose of points that brings the volume's distances at them to zero (Bylow et al., Real-time
+/// Finds the pose for which the volume's distances at the points are zero (Bylow et al., Real-time
 /// camera tracking and 3D reconstruction using signed distance functions, RSS 2013).
 /// @param guess  of X_WC
-/// Refuses (kFailedPrecondition, CAMERA_LOST) where too little matches, or what does leaves a
-/// motion open.
+/// Fails (kFailedPrecondition, CAMERA_LOST) if too few points match, or if the matches do not
+/// determine the whole motion.
 [[nodiscard]] Result<Tracked> track(const std::vector<Eigen::Vector3d>& points,
                                     const DepthNoise& noise, const Volume& volume,
                                     const Pose& guess, const Context& context);

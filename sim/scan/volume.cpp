@@ -11,17 +11,18 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-// Along rays, mm: what a depth camera tells.
+// The range of a depth camera, along rays.
 constexpr double kNear_mm = 250;
 constexpr double kFar_mm = 2500;
-constexpr double kWidestTangent = 0.8;  ///< beyond it a lens's polynomial means nothing
-constexpr double kSaturated = 0.95;     ///< share of the truncation: hardly a distance any more
-/// Slope of distances, beyond which it is not a surface: what is seen past an edge, and what is
-/// taken to lie behind it, meet where nothing was seen. 1 over the cosine of 66 degrees.
+constexpr double kWidestTangent = 0.8;  ///< beyond it a lens's polynomial is not valid
+constexpr double kSaturated = 0.95;  ///< share of the truncation above which distances are unusable
+/// Largest slope of distances on a real surface, 1 / cos(66 degrees). Past the edge of a surface,
+/// positive distances seen beyond it meet negative ones assumed behind it, with a steeper slope;
+/// that zero is not a surface.
 constexpr double kSteepest = 2.5;
-constexpr int kMarkEvery_px = 4;  ///< blocks are larger than what lies between
+constexpr int kMarkEvery_px = 4;  ///< small enough not to skip a block
 
-Vector3i block_of_cell(const Vector3i& cell) {  // kSide is 8; rounds down below zero, too
+Vector3i block_of_cell(const Vector3i& cell) {  // kSide is 8; also rounds down below zero
   return {cell.x() >> 3, cell.y() >> 3, cell.z() >> 3};
 }
 
@@ -29,7 +30,7 @@ std::size_t in_block(const Vector3i& cell) {
   return static_cast<std::size_t>(((cell.z() & 7) << 6) | ((cell.y() & 7) << 3) | (cell.x() & 7));
 }
 
-/// Depth that a frame reports where a point is seen; 0 where it is not.
+/// Reported depth at the pixel that sees a point; 0 if the point is out of view.
 double reported_at(const DepthFrame& frame, const Lens& lens, const Vector3d& p_C) {
   if (p_C.z() < kNear_mm ||
       std::max(std::abs(p_C.x()), std::abs(p_C.y())) > kWidestTangent * p_C.z())
@@ -41,7 +42,7 @@ double reported_at(const DepthFrame& frame, const Lens& lens, const Vector3d& p_
   return frame.depth_mm[frame.index(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()))];
 }
 
-/// Whether a distance changes by more than that along an edge of a cube.
+/// True if the distance changes by more than `most` along an edge of the cube.
 bool leaps(const std::array<double, 8>& distances, double most) {
   for (std::size_t c = 0; c < 8; ++c)
     for (const std::size_t bit : {1U, 2U, 4U})
@@ -49,8 +50,8 @@ bool leaps(const std::array<double, 8>& distances, double most) {
   return false;
 }
 
-/// What lies farther behind a surface may as well be what is behind a thin or ending one. In
-/// [0, 1], of a distance in truncations.
+/// Weight in [0, 1] of a distance in units of the truncation. Far behind a surface it is lower,
+/// because the surface may be thin or end nearby.
 double trust(double distance) { return std::min(1.0, 2 * (1 + distance)); }
 
 }  // namespace
@@ -133,7 +134,7 @@ std::optional<Volume::Slope> Volume::slope(const Vector3d& p_W, double reach_mm)
   return out;
 }
 
-/// Marks the blocks along the surface that a frame shows, and makes them.
+/// Marks the blocks along the surface that a frame shows; creates missing ones.
 Status Volume::mark_surface(const DepthFrame& frame, const Optics& optics, const Pose& X_WC,
                             std::vector<char>& marked) {
   const auto mark = [&](const Vector3d& p_W) {
@@ -159,13 +160,14 @@ Status Volume::mark_surface(const DepthFrame& frame, const Optics& optics, const
       if (blocks_.size() > options_.most_blocks)
         return fail(Code::kResourceExhausted,
                     "the scan is larger than " + std::to_string(options_.most_blocks) +
-                        " blocks of voxels: keep the camera on the rig, or use larger voxels");
+                        " blocks of voxels. Keep the camera on the rig, or use larger voxels");
     }
   }
   return {};
 }
 
-/// Marks the blocks that a frame sees through: what stood there is gone, or never was.
+/// Marks the blocks in front of the surface that a frame shows. They are empty now, even if earlier
+/// frames had a surface there.
 void Volume::mark_before_surface(const DepthFrame& frame, const Optics& optics, const Pose& X_CW,
                                  std::vector<char>& marked) const {
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -202,7 +204,8 @@ void Volume::add_to(std::size_t block, const DepthFrame& frame, const Lens& lens
 Status Volume::add(const DepthFrame& frame, const Optics& optics, const DepthNoise& noise,
                    const Pose& X_WC, const Context& context) {
   if (frame.width_px != optics.lens.width_px || frame.height_px != optics.lens.height_px)
-    return fail(Code::kInvalidArgument, "the lens is of another image size: calibrate the camera");
+    return fail(Code::kInvalidArgument,
+                "the lens calibration is for another image size. Calibrate the camera");
   const Pose X_CW = X_WC.inverse();
   std::vector<char> marked(blocks_.size(), 0);
   HP_RETURN_IF_ERROR(mark_surface(frame, optics, X_WC, marked));
@@ -216,9 +219,9 @@ Status Volume::add(const DepthFrame& frame, const Optics& optics, const DepthNoi
   });
 }
 
-/// How far along a ray, of unit direction, it meets the surface from before it.
+/// Distance along a ray of unit direction to the first surface that it meets from the front.
 std::optional<double> Volume::first_hit_mm(const Vector3d& from, const Vector3d& along) const {
-  std::optional<std::pair<double, double>> before;  // way and distance, positive
+  std::optional<std::pair<double, double>> before;  // way, and the positive distance there
   for (double way = kNear_mm; way < kFar_mm;) {
     const Vector3d p = from + way * along;
     if (block_of(cell_of(p)) == nullptr) {

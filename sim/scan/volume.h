@@ -17,43 +17,43 @@
 
 namespace hydroprint::scan {
 
-/// Truncated signed distances to what was seen, positive before a surface, on a grid that exists in
-/// blocks where surfaces are (Curless and Levoy 1996; Izadi et al. 2011, section 3). Frame W.
+/// Truncated signed distances to the surfaces seen, positive in front of a surface. The grid has
+/// blocks only near surfaces (Curless and Levoy 1996; Izadi et al. 2011, section 3). Frame W.
 class Volume {
  public:
   struct Options {
     double voxel_mm = 3;
-    double truncation_mm = 12;        ///< some eight standard deviations of the depth at 0.8 m
-    std::size_t most_blocks = 60000;  ///< of 4 KiB
+    double truncation_mm = 12;        ///< about eight standard deviations of depth at 0.8 m
+    std::size_t most_blocks = 60000;  ///< of 4 KiB each
   };
 
-  /// @param box_mm  beyond which nothing is kept
+  /// @param box_mm  bounds of the volume
   Volume(const Eigen::AlignedBox3d& box_mm, const Options& options);
 
-  /// Takes in a frame seen from X_WC; every depth counts by its inverse variance.
-  /// Refuses (kInvalidArgument) a frame that is not of the lens's size, (kResourceExhausted) more
-  /// blocks than allowed. The same volume whatever the number of threads.
+  /// Adds a frame seen from X_WC. Depths are weighted by their inverse variance. The result does
+  /// not depend on the number of threads. Fails if the frame's size differs from the lens's
+  /// (kInvalidArgument), or if more blocks than allowed are needed (kResourceExhausted).
   [[nodiscard]] Status add(const DepthFrame& frame, const Optics& optics, const DepthNoise& noise,
                            const Pose& X_WC, const Context& context);
 
-  /// Distance at a point, between voxels linear; none where a voxel around it was never seen.
+  /// Distance at a point, interpolated linearly; nullopt if a voxel around it was never seen.
   [[nodiscard]] std::optional<double> distance_mm(const Eigen::Vector3d& p_W) const;
 
-  /// The distance at a point, and how it grows about it.
+  /// Distance and gradient at a point.
   struct Slope {
     double distance_mm = 0;
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< mm per mm
   };
-  /// None where the point or one of those `reach_mm` from it along the axes, which the gradient is
-  /// taken from, was never seen or lies beyond the truncation.
+  /// Distance and gradient at a point. The gradient is from points `reach_mm` away along the axes.
+  /// Returns nullopt if any of the points was never seen or lies beyond the truncation.
   [[nodiscard]] std::optional<Slope> slope(const Eigen::Vector3d& p_W, double reach_mm) const;
 
-  /// What a camera there would see, in its own frame.
+  /// The points that a camera at X_WV would see, in its own frame.
   [[nodiscard]] Result<PointGrid> look(const Optics& optics, const Pose& X_WV,
                                        const Context& context) const;
 
-  /// The surface of what was seen (marching tetrahedra, Doi and Koide 1991).
-  /// @param least_weight  of what is trusted: sum of inverse variances, 1/mm²
+  /// The surface in the volume (marching tetrahedra, Doi and Koide 1991).
+  /// @param least_weight  least weight of the voxels used: sum of inverse variances, 1/mm²
   [[nodiscard]] TriangleMesh surface(double least_weight = 0) const;
 
   [[nodiscard]] std::size_t blocks() const { return blocks_.size(); }
@@ -61,7 +61,7 @@ class Volume {
  private:
   static constexpr int kSide = 8;
   struct Voxel {
-    float distance = 1;  ///< in truncations
+    float distance = 1;  ///< in units of the truncation
     float weight = 0;    ///< 0: never seen
   };
   using Block = std::array<Voxel, kSide * kSide * kSide>;
@@ -83,8 +83,8 @@ class Volume {
 
   Options options_;
   Eigen::Vector3d origin_mm_;
-  Eigen::Vector3i count_;            ///< of blocks along each axis
-  std::vector<std::int32_t> table_;  ///< per place of a block: which; -1: none
+  Eigen::Vector3i count_;            ///< number of block positions along each axis
+  std::vector<std::int32_t> table_;  ///< for each position, the index of its block; -1: no block
   std::vector<Eigen::Vector3i> places_;
   std::deque<Block> blocks_;
 };

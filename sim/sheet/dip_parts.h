@@ -9,10 +9,10 @@
 
 namespace hydroprint::sheet {
 
-/// Per node the velocity where it is prescribed, at the film's edges; NaN at all other nodes.
+/// For each node, the prescribed velocity at the film's edges; NaN at all other nodes.
 [[nodiscard]] std::vector<Eigen::Vector2d> prescribed(const velocity::VelocityField& field);
 
-/// Length of dip that waterline `k` stands for: halfway from the one before to the one after, mm.
+/// Length of dip that waterline `k` represents, in mm: between the midpoints to its two neighbours.
 [[nodiscard]] double span_mm(const flow::DipField& dip, std::size_t k);
 
 /// Root mean square of the difference.

@@ -17,15 +17,15 @@ using velocity::VelocityField;
 using Velocities = std::vector<Vector2d>;
 
 constexpr double kLeastSpan_mm = 1e-6;
-constexpr int kMostShortened = 6;  ///< times, to a quarter each
+constexpr int kMostShortened = 6;  ///< times that steps are shortened to a quarter
 
 Velocities scaled(Velocities velocities, double by) {
   for (Vector2d& u : velocities) u *= by;
   return velocities;
 }
 
-/// The velocity, mm/s, that film which is now at the nodes of waterline `k` had at the one before;
-/// where no film was near, that it has now.
+/// The velocity, in mm/s, that the film at the nodes of waterline `k` had at the previous
+/// waterline. Where there was no film nearby, the current velocity is used.
 Velocities velocity_before(const flow::DipField& dip, std::size_t k, double speed_mm_per_s) {
   HP_CHECK(k < dip.fields.size());
   const VelocityField& now = dip.fields[k];
@@ -43,8 +43,8 @@ Velocities velocity_before(const flow::DipField& dip, std::size_t k, double spee
   return before;
 }
 
-/// The last of `steps` steps that the film takes at waterline `k`, the velocities before it being
-/// known.
+/// Computes the last of `steps` steps at waterline `k`. The velocities at the previous waterlines
+/// must be known.
 Result<Velocities> last_step(const flow::DipField& dip, std::size_t k, double steps,
                              const std::vector<double>& thickness_mm,
                              const InertialOptions& options) {
@@ -53,7 +53,7 @@ Result<Velocities> last_step(const flow::DipField& dip, std::size_t k, double st
   velocity::StepFilm film;
   film.elasticity = options.elasticity;
   film.elasticity.young_modulus_mpa *= kYoungsModulusStep_s / step_s;
-  // All steps but the last having changed the velocity evenly, this one has its share left to do.
+  // The steps change the velocity evenly, so the last one accounts for 1 / steps of the change.
   film.density_kg_per_m3 = options.density_kg_per_m3 / steps;
   const double viscosity_mpa_s = options.elasticity.young_modulus_mpa * kYoungsModulusStep_s / 3;
   film.drag_mpa_s_per_mm = viscosity_mpa_s * options.drag_per_mm;
@@ -64,8 +64,8 @@ Result<Velocities> last_step(const flow::DipField& dip, std::size_t k, double st
   return scaled(std::move(out), 1 / speed);
 }
 
-/// The velocities at waterline `k`, those before it being known and a first guess there. Steps are
-/// shortened where film is drawn through gaps that the usual ones overshoot.
+/// Computes the velocities at waterline `k` from those at the previous waterlines and a first guess
+/// at `k`. Steps are shortened if they do not converge, as where film is drawn through narrow gaps.
 Result<Velocities> step(const flow::DipField& dip, std::size_t k,
                         const std::vector<double>& thickness_mm, const InertialOptions& options) {
   HP_CHECK(options.step_mm > 0);

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix2d;
 using Eigen::Vector2d;
 
-/// The part of a symmetric matrix that has no negative eigenvalue.
+/// Projects a symmetric matrix onto the positive semidefinite ones.
 Matrix2d positive_part(const Matrix2d& S) {
   const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(S);
   return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() *
@@ -34,7 +34,7 @@ MembraneEnergy membrane_energy(const FilmMesh& mesh, std::size_t triangle, doubl
     const auto g = shape_gradients(mesh, triangle, point.barycentric);
     const Matrix2d grad = d * g;
     const Matrix2d F = Matrix2d::Identity() + grad;
-    // (F^T F - I) / 2, without its cancellation for small displacements.
+    // (F^T F - I) / 2, without cancellation for small displacements.
     const Matrix2d e = 0.5 * (grad + grad.transpose() + grad.transpose() * grad);
     const Matrix2d S = stiffness * ((1 - nu) * e + nu * e.trace() * Matrix2d::Identity());
     out.least_area_ratio = std::min(out.least_area_ratio, F.determinant());
@@ -43,8 +43,8 @@ MembraneEnergy membrane_energy(const FilmMesh& mesh, std::size_t triangle, doubl
     out.gradient += Eigen::Map<const ElementVector>(force.data());
 
     if (kind == Hessian::kNone) continue;
-    // Of the stress at fixed strain, then of the strain: with f = F g of a node, the displacement
-    // of one node along axis a changes e by sym(F^T e_a g^T).
+    // The sum of a term with the current stress and a term with the change of strain. A
+    // displacement of a node along axis a changes e by sym(F^T e_a g^T); f = F g.
     const Matrix2d held = kind == Hessian::kTrue ? S : positive_part(S);
     const Matrix2d left = F * F.transpose();
     const Eigen::Matrix<double, 2, 6> f = F * g.transpose();

@@ -13,11 +13,11 @@ namespace hydroprint::velocity {
 namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
-// The unknowns are numbered in a good order already (FilmMesh::elimination_order).
+// The numbering of the unknowns already has low fill (FilmMesh::elimination_order).
 using Factor = Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
-/// Integral of 2 (D(u) : D(v) + tr D(u) tr D(v)) over one triangle; the middles of its edges
-/// integrate quadratic functions exactly.
+/// Integral of 2 (D(u) : D(v) + tr D(u) tr D(v)) over one triangle. Quadrature at the midpoints of
+/// the edges is exact for quadratic functions.
 ElementMatrix stiffness(const FilmMesh& mesh, std::size_t t) {
   const double twice_area = twice_area_mm2(mesh, t);
   ElementMatrix K = ElementMatrix::Zero();
@@ -42,9 +42,9 @@ ElementMatrix stiffness(const FilmMesh& mesh, std::size_t t) {
   return K;
 }
 
-constexpr double kTolerance = 1e-7;  ///< of conjugate gradients: of the velocities, relative
-constexpr int kMostIterations = 12;  ///< a new factor is cheaper beyond
-constexpr int kFewIterations = 3;    ///< by then it shows how many there will be
+constexpr double kTolerance = 1e-7;  ///< relative error of the velocities in conjugate gradients
+constexpr int kMostIterations = 12;  ///< beyond that a new factorisation is cheaper
+constexpr int kFewIterations = 3;    ///< enough to estimate the total number of iterations
 
 }  // namespace
 
@@ -60,8 +60,8 @@ struct Sheet::State {
   double drag_per_mm;
   std::vector<Eigen::Vector2d> fixed;
   Unknowns unknowns;
-  std::vector<ElementMatrix> element;  ///< per triangle, for unit thickness
-  /// Per triangle and entry of its element, its place among the matrix's values; -1: none.
+  std::vector<ElementMatrix> element;  ///< for each triangle, for unit thickness
+  /// For each triangle, the index of each element entry among the matrix's values; -1: not stored.
   std::vector<std::array<int, 144>> place;
   Matrix matrix;  ///< lower triangle
   Eigen::VectorXd load, solution;
@@ -80,7 +80,7 @@ Sheet::State::State(const FilmMesh& film, double drag, std::vector<Eigen::Vector
   find_places();
 }
 
-/// Row of each of a triangle's twelve velocities, -1 where it is prescribed.
+/// Row of each of a triangle's twelve velocity components; -1: prescribed.
 std::array<int, 12> Sheet::State::rows_of(std::size_t triangle) const {
   std::array<int, 12> rows;
   const auto node = nodes_of(mesh, triangle);
@@ -152,11 +152,12 @@ bool Sheet::State::factorize() {
   return has_factor;
 }
 
-/// Conjugate gradients from the solution before, preconditioned by the factor of the matrix as it
-/// was. Gives up when a new factor is cheaper.
+/// Conjugate gradients from the previous solution, preconditioned by the factor of an earlier
+/// matrix. Returns false if a new factorisation is cheaper.
 bool Sheet::State::iterate() {
   const auto whole = matrix.selfadjointView<Eigen::Lower>();
-  // Errors are measured by the power that they dissipate: residuals say little of smooth ones.
+  // Errors are measured by the power that they dissipate, because smooth errors have small
+  // residuals.
   const double wanted = kTolerance * kTolerance * load.dot(solution);
   Eigen::VectorXd residual = load;
   residual -= whole * solution;
@@ -172,7 +173,8 @@ bool Sheet::State::iterate() {
     residual -= step * image;
     const Eigen::VectorXd towards = factor.solve(residual);
     const double next = residual.dot(towards);
-    // At the pace so far. A factor that is too old shows in the first few.
+    // Extrapolated from the convergence so far. The first few iterations show if a factor is too
+    // old.
     const double expected = i * std::log(wanted / first) / std::log(next / first);
     const bool is_slow = i >= kFewIterations && !(next < first && expected < kMostIterations);
     if (!(next <= wanted) && (is_slow || i >= kMostIterations)) return false;

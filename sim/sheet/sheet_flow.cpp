@@ -14,33 +14,32 @@ namespace {
 
 using velocity::VelocityField;
 
-/// So many waterlines are solved together: few, so that each window starts from what is known for
-/// certain; enough to keep the cores busy. Not a matter of how many cores there are, or the results
-/// would be.
+/// Number of waterlines solved together. A small number lets each window start from settled
+/// waterlines; a large one keeps the cores busy. It must not depend on the number of cores, because
+/// the results depend on it.
 constexpr std::size_t kWindow = 8;
 
-/// Sweeps that shrink the change less than this do not settle it: film that tears or is folded has
-/// no thickness to find.
+/// If a sweep reduces the change by less than this factor, the film does not settle. Film that
+/// tears or folds has no definite thickness.
 constexpr double kSettling = 0.5;
 
-/// How far the sweeps over a window of waterlines have come. What a waterline's film does depends
-/// on those before it alone, so they settle one after the other, and those that have settled are
-/// not solved again.
+/// State of the sweeps over a window of waterlines. A waterline depends only on those before it, so
+/// they settle in order, and settled ones are not solved again.
 class Progress {
  public:
   explicit Progress(std::size_t count) : moved_mm(count), before_mm_(count) {}
 
-  /// By how much the sweep moved the film at each waterline.
+  /// Movement of the film at each waterline in this sweep.
   std::vector<double> moved_mm;
 
   /// The first waterline that has not settled.
   [[nodiscard]] std::size_t first() const { return first_; }
-  /// How much the film moved in the sweep, where it had not settled.
+  /// Total movement in this sweep at waterlines that had not settled.
   [[nodiscard]] double sum_mm() const { return sum(moved_mm, moved_mm.size()); }
 
   enum class Next { kSweep, kSettled, kUnsettled };
-  /// After a sweep but the first: a next one would move the film by about as much less again as
-  /// this one did; each waterline may leave its share of the tolerance.
+  /// To be called after each sweep except the first. Assumes that the next sweep reduces the
+  /// movement by the same factor as this one. The tolerance is divided evenly among the waterlines.
   Next judge(double tolerance_mm) {
     const std::size_t count = moved_mm.size();
     const double before_mm = sum(before_mm_, count);
@@ -69,7 +68,7 @@ class Progress {
   std::size_t first_ = 0;
 };
 
-/// Solves the waterlines [first, last) of the dip, those before being solved.
+/// Solves the waterlines [first, last) of the dip. All waterlines before them must be solved.
 Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
                     const flow::RestMap* known, const RestThickness& rest_thickness,
                     const SheetOptions& options, const Context& context) {
@@ -95,7 +94,7 @@ Status solve_window(SheetFlow& flow, std::size_t first, std::size_t last,
     flow.sweeps = std::max(flow.sweeps, sweep);
     const double moved_mm = progress.sum_mm();
     if (sweep == 1) {
-      if (moved_mm < options.tolerance_mm) return {};  // and each moves it less
+      if (moved_mm < options.tolerance_mm) return {};  // later sweeps move it even less
     } else {
       const auto verdict = progress.judge(options.tolerance_mm);
       if (verdict == Progress::Next::kSettled) return {};
@@ -115,7 +114,7 @@ Result<SheetFlow> sheet_flow(flow::DipField first, const RestThickness& rest_thi
   HP_CHECK(first.immersion_mm.size() == first.fields.size());
   SheetFlow flow{std::move(first), 0};
   const std::size_t count = flow.field.fields.size();
-  // Long dips are not followed back to their beginning each time, but to the last window.
+  // Film is traced back only to the previous window, not to the start of the dip.
   std::optional<flow::RestMap> known;
   for (std::size_t k = 0; k < count; k += kWindow) {
     context.progress("sheet", static_cast<double>(k) / static_cast<double>(count));

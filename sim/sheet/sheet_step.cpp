@@ -15,18 +15,19 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 using Matrix = Eigen::SparseMatrix<double>;
-// The unknowns are numbered in a good order already (FilmMesh::elimination_order).
+// The numbering of the unknowns already has low fill (FilmMesh::elimination_order).
 using Factor = Eigen::SimplicialLLT<Matrix, Eigen::Lower, Eigen::NaturalOrdering<int>>;
 
-constexpr double kTonnePerMm3 = 1e-12;  ///< in a kg/m^3
+constexpr double kTonnePerMm3 = 1e-12;  ///< 1 kg/m^3 in t/mm^3
 constexpr int kMostIterations = 50;
 constexpr int kMostHalvings = 30;
-/// A full step of Newton's method that changes no velocity by more than this share of the largest
-/// leaves an error of about its square.
+/// Largest change in the last full Newton step, relative to the largest velocity. The remaining
+/// relative error is about its square.
 constexpr double kTolerance = 1e-7;
-constexpr double kLeastDecrease = 1e-4;  ///< of what the slope promises, for a step to count
+constexpr double kLeastDecrease =
+    1e-4;  ///< least decrease in the line search, relative to the slope
 
-/// What a step minimises, to second order in the velocities of the nodes that are free.
+/// Second-order expansion of the objective in the velocities of the free nodes.
 struct Quadratic {
   double value = 0;
   VectorXd gradient;
@@ -80,9 +81,9 @@ ElementVector Step::gather(const Velocities& velocities, std::size_t triangle) c
   return out;
 }
 
-/// One triangle's share of what is minimised, by its velocities:
-/// rho h |u - u_before|^2 / 2 + dt k |u|^2 / 2 + W(dt u), integrated; its gradient is dt times the
-/// balance of forces.
+/// One triangle's part of the objective as a function of its velocities: the integral of
+/// rho h |u - u_before|^2 / 2 + dt k |u|^2 / 2 + W(dt u). Its gradient is dt times the balance of
+/// forces.
 MembraneEnergy Step::element(std::size_t triangle, const Velocities& velocities, Strain strain,
                              Hessian kind) const {
   const ElementVector u = gather(velocities, triangle);
@@ -152,9 +153,9 @@ Quadratic Step::expand(const Velocities& velocities, Strain strain, Hessian kind
   return out;
 }
 
-/// Newton's direction, downhill.
-/// @param value  becomes what is minimised there
-/// @param slope  becomes its derivative along the direction
+/// Newton's direction, which is a descent direction.
+/// @param value  set to the objective at `velocities`
+/// @param slope  set to the objective's derivative along the direction
 Result<VectorXd> Step::direction(const Velocities& velocities, Strain strain, double& value,
                                  double& slope) {
   for (const Hessian kind : {Hessian::kTrue, Hessian::kPositive}) {
@@ -213,8 +214,8 @@ Result<std::vector<Vector2d>> Step::solve() {
     velocities = std::move(next);
   }
   return fail(Code::kInternal, "velocity: a step of " + std::to_string(step_s_) +
-                                   " s of the viscous sheet with inertia finds no balance; take "
-                                   "shorter steps, or leave out inertia");
+                                   " s of the viscous sheet with inertia does not converge. "
+                                   "Compute without inertia");
 }
 
 }  // namespace
@@ -226,7 +227,7 @@ Result<std::vector<Vector2d>> sheet_step(const FilmMesh& mesh,
                                          const std::vector<Vector2d>& fixed_mm_per_s) {
   HP_CHECK(step_s > 0);
   HP_CHECK(thickness_mm.size() == mesh.triangles.size());
-  HP_CHECK(before_mm_per_s.size() == mesh.node_count());
+  HP_CHECK(film.density_kg_per_m3 == 0 || before_mm_per_s.size() == mesh.node_count());
   HP_CHECK(fixed_mm_per_s.size() == mesh.node_count());
   return Step(mesh, thickness_mm, film, step_s, before_mm_per_s, fixed_mm_per_s).solve();
 }

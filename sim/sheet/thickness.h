@@ -9,17 +9,18 @@
 
 namespace hydroprint::sheet {
 
-/// Mean thickness of the film at rest over a triangle of it, mm; the corners in F as it floats at
-/// rest (swollen).
+/// Mean thickness, in mm, of the film at rest over a triangle. The corners are given in F, for the
+/// swollen film floating at rest.
 using RestThickness = std::function<double(const std::array<Eigen::Vector2d, 3>& rest_mm)>;
 
 /// Thickness of the floating film on each triangle of the film mesh of waterline `k`, from the
-/// conservation of volume (section 4.3): h = h0 A0 / A, where A0 is the area of the material at
-/// rest that has become the triangle, found by following its nodes back through the dip. The
-/// material carries its thickness, which is never interpolated from mesh to mesh.
+/// conservation of volume (section 4.3): h = h0 A0 / A. A0 is the rest area of the material in the
+/// triangle, found by tracing the triangle's nodes back through the dip. So the material carries
+/// its thickness, which is never interpolated from mesh to mesh.
 ///
-/// Area ratios beyond five, where film would long have wrinkled or torn, count as five.
-/// @param known  where the film was at rest at a waterline before; none: followed back all the way
+/// Area ratios are limited to five, because beyond that film has wrinkled or torn.
+/// @param known  rest positions of the film at an earlier waterline; nullptr: traced all the way
+///               back
 [[nodiscard]] std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,
                                                const RestThickness& rest_thickness,
                                                const flow::RestMap* known = nullptr);

@@ -29,13 +29,13 @@ bool is_sphere_cross(const Vector3d& p) {
   return is_whole(theta_deg(p) / 15) && is_whole(std::atan2(p.y(), p.x()) / (15 * kDegree));
 }
 
-/// Rows of errors at the cross-points and everywhere, region by region.
+/// A table of the errors at the cross-points and at all points, with a row for each region.
 Table error_table(const std::string& caption, const mesh::Surface& surface,
                   const std::vector<double>& errors, const Region& is_cross,
                   const std::vector<std::pair<NamedRegion, std::string>>& regions) {
   Table table{caption,
               {"region", "cross-points", "mean, mm", "largest, mm", "all points: rms, mm",
-               "largest, mm", "lands nowhere", "the paper measured"},
+               "largest, mm", "does not land", "measured in the paper"},
               {}};
   for (const auto& [named, paper] : regions) {
     const Region& region = named.region;
@@ -59,7 +59,7 @@ double worst(const mesh::Surface& surface, const std::vector<double>& errors,
       .max;
 }
 
-/// @param body  its name, and the region that the scale of errors is to fit
+/// @param body  its name, and the region that the scale of errors fits
 Status show(const ExperimentContext& setup, Experiment& out, const NamedRegion& body,
             const Plan& plan, const pipeline::Dip& truth, const std::vector<double>& errors,
             const Context& context) {
@@ -67,12 +67,12 @@ Status show(const ExperimentContext& setup, Experiment& out, const NamedRegion& 
   HP_ASSIGN_OR_RETURN(const auto film, setup.texture(plan.film, context));
   HP_RETURN_IF_ERROR(
       setup.show(out, name + "-film", plan.film,
-                 "The film image for the " + name + ", A4, as computed at the usual settings."));
+                 "The film image for the " + name + ", A4, computed at the usual settings."));
   HP_ASSIGN_OR_RETURN(const auto landed,
                       image::find_views(truth.surface, truth.X_FO, truth.map.tiles, context));
   HP_RETURN_IF_ERROR(setup.show(out, name + "-landed",
                                 image::predicted_picture(landed, film, context),
-                                "Where the fine computation lands that film."));
+                                "The same film landed, by the fine computation."));
   const pipeline::Dip& dip = plan.dip;
   HP_ASSIGN_OR_RETURN(const auto planned,
                       image::find_views(dip.surface, dip.X_FO, dip.map.tiles, context));
@@ -95,13 +95,13 @@ Status board(ExperimentContext& setup, Experiment& out, Steps& steps) {
   const Region upper = [](const Vector3d& p) { return p.z() > 10 - 1e-6; };
   out.tables.push_back(error_table("The board, 120 x 120 x 10 mm, dipped at 30 degrees", surface,
                                    errors, is_board_cross,
-                                   {{{"lower face", lower}, "1.5 mm at most"},
+                                   {{{"lower face", lower}, "at most 1.5 mm"},
                                     {{"sides", sides}, "-"},
                                     {{"upper face, 150 degrees to the water", upper}, "-"}}));
   out.figures.push_back({"board_lower_face_max_mm",
                          "board, lower face: largest error at a cross-point", "mm",
                          worst(surface, errors, is_board_cross, lower),
-                         Limit{0, 1.5, "what the paper measured, all told"}});
+                         Limit{0, 1.5, "total error measured in the paper"}});
   const Region scale = [](const Vector3d& p) { return p.z() < 10 - 1e-6; };
   return show(setup, out, {"board", scale}, *plan, truth, errors, fine);
 }
@@ -118,14 +118,14 @@ Status sphere(ExperimentContext& setup, Experiment& out, Steps& steps) {
   out.tables.push_back(
       error_table("The sphere of radius 80 mm, by the angle of its surface to the water", surface,
                   errors, is_sphere_cross,
-                  {{half, "2 mm at most"},
+                  {{half, "at most 2 mm"},
                    {next, "-"},
                    {band(120, 150, "120 to 150 degrees"), "-"},
                    {band(150, 180, "150 to 180 degrees, the far pole"), "about 5 mm"}}));
   out.figures.push_back({"sphere_to_equator_max_mm",
                          "sphere, to the equator: largest error at a cross-point", "mm",
                          worst(surface, errors, is_sphere_cross, half.region),
-                         Limit{0, 2, "what the paper measured, all told"}});
+                         Limit{0, 2, "total error measured in the paper"}});
   out.figures.push_back({"sphere_to_120_deg_max_mm",
                          "sphere, 90 to 120 degrees: largest error at a cross-point", "mm",
                          worst(surface, errors, is_sphere_cross, next.region), std::nullopt});
@@ -135,8 +135,9 @@ Status sphere(ExperimentContext& setup, Experiment& out, Steps& steps) {
   return show(setup, out, {"sphere80", band(0, 120, "").region}, *plan, truth, errors, fine);
 }
 
-/// Where film lands on a sphere of radius R dipped in the middle of a circular film of radius Rv:
-/// the exact solution of eqs. (1) and (2), and of the sheet of uniform thickness, solved for theta.
+/// Landing point of film on a sphere of radius R dipped in the middle of a circular film of radius
+/// Rv: the exact solution of eqs. (1) and (2), and of the sheet of uniform thickness, solved for
+/// theta.
 Vector3d exact_landing(const Vector2d& film_mm, double R, double Rv) {
   const double k = std::sqrt(Rv * Rv / (R * R) - 1);
   const double r0 = film_mm.norm();
@@ -173,14 +174,14 @@ Status exact(ExperimentContext& setup, Experiment& out, Steps& steps) {
   HP_ASSIGN_OR_RETURN(const double fine, distance_from_exact(setup, Fineness::kFine, fine_context));
   // Errors grow with the square of the lengths.
   const double looser = setup.quick() ? kQuickFactor * kQuickFactor : 1;
-  const std::string quick = setup.quick() ? ", times 6.25 for the coarseness of a quick run" : "";
+  const std::string quick = setup.quick() ? ", times 6.25 for the coarse quick run" : "";
   out.figures.push_back({"exact_sphere_usual_max_mm",
                          "the same sphere in a circular film, to 120 degrees, usual settings: "
                          "largest distance from the exact solution",
                          "mm", usual,
-                         Limit{0, 0.2 * looser, "a tenth of what the paper measured" + quick}});
+                         Limit{0, 0.2 * looser, "a tenth of the paper's measured error" + quick}});
   out.figures.push_back({"exact_sphere_fine_max_mm", "the same at the fine settings", "mm", fine,
-                         Limit{0, 0.05 * looser, "what the film mesh is chosen for" + quick}});
+                         Limit{0, 0.05 * looser, "target for the film mesh" + quick}});
   return {};
 }
 
@@ -188,21 +189,19 @@ Status exact(ExperimentContext& setup, Experiment& out, Steps& steps) {
 
 Status accuracy(ExperimentContext& setup, Experiment& out, const Context& context) {
   out.text = {
-      "As in the paper, a film image is computed so that the cross-points of a grid come to lie on "
-      "known places of the object (there: shallow dimples), and is then dipped. The film image "
-      "comes from the usual settings, the dip from a computation with all lengths (of the film "
-      "mesh, of the steps in depth, of the tolerances) 0.6 times as long. The distance from each "
-      "cross-point to its place is the error; the maps show it for every point of the surface.",
-      "What this measures is the error of the computation alone; the paper's figures hold all that "
-      "happens to a real film as well. Most of it is not the mesh's: the film image is made for "
-      "the "
-      "ink of the image before it (one pass of the two-step scheme, as in the paper), and so the "
-      "film that is dipped is not quite as thick as it was thought to be.",
-      "That the fine computation deserves its part is tested where the answer is known exactly: a "
-      "sphere in the middle of a circular film, as Stokes flow (the sheet's answer is the same "
-      "there). What is left there at the fine settings is mostly due to the triangles that stand "
-      "for "
-      "the sphere."};
+      "As in the paper, a film image is computed so that the cross-points of a grid land on known "
+      "places of the object (shallow dimples in the paper). Then it is dipped. The film image is "
+      "computed at the usual settings. The dip is computed with all lengths (of the film mesh, of "
+      "the steps in depth, of the tolerances) 0.6 times as long. The error is the distance from "
+      "each cross-point to its place. The maps show the error of every point of the surface.",
+      "This is the error of the computation alone. The paper's figures also include all effects on "
+      "a real film. Most of the error is not due to the mesh. The film image is computed for the "
+      "ink of the previous image (one pass of the two-step scheme, as in the paper), so the "
+      "thickness of the dipped film differs slightly from the computed one.",
+      "The fine computation is checked against an exact solution: a sphere in the middle of a "
+      "circular film, with Stokes flow (the sheet has the same solution there). The remaining "
+      "error at the fine settings is mostly due to the approximation of the sphere by "
+      "triangles."};
   Steps steps(context, out.name, 6);
   HP_RETURN_IF_ERROR(board(setup, out, steps));
   HP_RETURN_IF_ERROR(sphere(setup, out, steps));

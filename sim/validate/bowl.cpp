@@ -15,10 +15,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// How much the film is stretched, in every direction, that lines the floor of a bowl dipped mouth
-/// down. Inside the ring where film has landed, eqs. (1) and (2) make the film grow evenly, at the
-/// rate tan(theta / 2) v / a in a ring of radius a; with v dt = sin(theta) ds along the wall the
-/// growth is exp(integral of (1 - cos theta) / a ds), from the rim to the floor.
+/// Stretch, equal in all directions, of the film on the floor of a bowl dipped mouth down. Inside
+/// the ring where film has landed, eqs. (1) and (2) stretch the film evenly at the rate
+/// tan(theta / 2) v / a, for a ring of radius a. With v dt = sin(theta) ds along the wall, the
+/// stretch is exp(integral of (1 - cos theta) / a ds), from the rim to the floor.
 double exact_floor_stretch(const mesh::Model& model) {
   // The sample's outline, in order: the vertices at y = 0 on the +x side.
   std::vector<Vector3d> outline;
@@ -56,15 +56,16 @@ bool warns(const pipeline::Dip& dip, const std::string& code) {
 
 Status bowl(ExperimentContext& setup, Experiment& out, const Context& context) {
   out.text = {
-      "The paper's failure: the inside of a deep bowl. Mouth down, the rim takes hold of a disc of "
-      "film that must line the whole wall before it comes to the floor; what is left by then is "
-      "stretched beyond what film bears. Standing upright, water and film do not come in at all. "
-      "The software must say so by itself, without a look at the picture.",
-      "Verdict by the rule of the stretch maps: " + std::string(kPrintableRule),
-      "That air trapped under the bowl would keep the water out as well is not computed."};
+      "The paper's failure case is the inside of a deep bowl. Mouth down, the rim encloses a disc "
+      "of film that must cover the whole wall before it reaches the floor. By then the film is "
+      "stretched until it tears. Upright, water and film do not enter the bowl at all. The "
+      "software must recognise this without a person looking at the picture.",
+      "The verdict uses the rule of the stretch maps: " + std::string(kPrintableRule),
+      "In reality, air trapped under the bowl would also keep the water out. This is not "
+      "computed."};
   Steps steps(context, out.name, 3);
   Table table{"The inside of the bowl, and its floor",
-              {"dipped", "film reaches of the inside", "torn, of the inside", "torn, of the floor",
+              {"dipped", "inside reached by film", "inside torn", "floor torn",
                "median stretch on the floor", "verdict on the floor", "warnings"},
               {}};
   struct Way {
@@ -89,7 +90,7 @@ Status bowl(ExperimentContext& setup, Experiment& out, const Context& context) {
                                "printed and the warning " +
                                way.warning + " is given",
                            "", verdict.good() < 0.5 && warns(dip, way.warning) ? 1.0 : 0.0,
-                           Limit{1, 1, "Fig. 17: it cannot"}});
+                           Limit{1, 1, "Fig. 17: it cannot be printed"}});
     HP_ASSIGN_OR_RETURN(const auto views,
                         image::find_views(dip.surface, dip.X_FO, dip.map.tiles, next));
     HP_RETURN_IF_ERROR(
@@ -98,11 +99,10 @@ Status bowl(ExperimentContext& setup, Experiment& out, const Context& context) {
     if (way.body != "bowl") continue;
     HP_RETURN_IF_ERROR(
         setup.show(out, key + "-film", plan->film,
-                   "The film image it would take: the floor's part has shrunk to a dot."));
+                   "The film image for the bowl. The part for the floor has shrunk to a dot."));
     HP_ASSIGN_OR_RETURN(const auto film, setup.texture(plan->film, next));
-    HP_RETURN_IF_ERROR(
-        setup.show(out, key + "-landed", image::predicted_picture(views, film, next),
-                   "The bowl if the film held: what a film image can give at best."));
+    HP_RETURN_IF_ERROR(setup.show(out, key + "-landed", image::predicted_picture(views, film, next),
+                                  "The bowl if the film did not tear: the best possible result."));
   }
   out.tables.push_back(std::move(table));
 
@@ -115,11 +115,11 @@ Status bowl(ExperimentContext& setup, Experiment& out, const Context& context) {
       summarise(values_where(even.surface, even.map.surface.stretch, is_bowl_floor)).p50;
   const double exact = exact_floor_stretch(body->model);
   out.figures.push_back({"floor_stretch", "median stretch on the floor, film without ink", "",
-                         floor, Limit{3, 1e300, "film tears at three times its length"}});
+                         floor, Limit{3, 1e300, "film tears at a stretch of three"}});
   out.figures.push_back(
       {"floor_stretch_to_exact", "the same over the exact solution for the bowl's outline", "",
        floor / exact,
-       Limit{0.95, 1.05, "inside a ring the film grows evenly, as a formula has it"}});
+       Limit{0.95, 1.05, "inside a ring the film stretches evenly, by a known formula"}});
   return {};
 }
 

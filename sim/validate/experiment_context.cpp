@@ -54,9 +54,9 @@ pipeline::DipOptions ExperimentContext::options(const Body& body, Fineness finen
   pipeline::DipOptions o;
   o.X_FO = body.X_FO;
   o.outline = film::parse_outline("A4").value();
-  // A level edge begins to be wetted as a slit, which takes a mesh the finer the narrower it is.
+  // A level edge first meets the water as a narrow slit. The narrower the slit, the finer the mesh.
   o.schedule.event_gap_mm = 0.05;
-  // Pictures and places to a few hundredths of a millimetre ask for no finer tiles.
+  // Fine enough for pictures and for positions to a few hundredths of a millimetre.
   o.map.tolerance_mm = quick_ ? 0.1 : 0.04;
   o.map.least_edge_mm = quick_ ? 0.3 : 0.15;
   const double fine = fineness == Fineness::kFine ? kFineFactor : 1;
@@ -120,7 +120,7 @@ Context Steps::next() {
   const int step = begun_++;
   Context context = whole_;
   context.report = [this, step](std::string_view stage, double fraction) {
-    // Rough shares of a dip; a stage that comes again tells nothing new.
+    // Rough shares of a dip. A repeated stage does not change the total.
     struct Share {
       std::string_view stage;
       double begin, end;

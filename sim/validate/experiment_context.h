@@ -17,31 +17,31 @@
 namespace hydroprint::validate {
 
 inline constexpr double kFineFactor = 0.6;
-/// By which all lengths are longer in a quick run.
+/// Factor on all lengths in a quick run.
 inline constexpr double kQuickFactor = 2.5;
 
-/// How finely a dip is computed.
+/// Resolution of a dip's computation.
 enum class Fineness {
-  kUsual,  ///< as `simulate` does unless told otherwise
-  kFine,   ///< all lengths times kFineFactor: what plays the physical experiment
+  kUsual,  ///< the defaults of `simulate`
+  kFine,   ///< all lengths times kFineFactor; stands for the physical experiment
 };
 
-/// A body of the paper and how the gripper holds it.
+/// A body of the paper and its pose in the gripper.
 struct Body {
   mesh::Model model;
   image::Paint paint;
   Pose X_FO;
 };
 
-/// What the computation at its usual settings gives out before the experiment.
+/// The result of the computation at the usual settings, before the experiment.
 struct Plan {
   pipeline::Dip dip;
-  image::RgbImage film;  ///< to print
-  ink::InkField ink;     ///< that the printed film carries
+  image::RgbImage film;  ///< the image to print
+  ink::InkField ink;     ///< the ink on the printed film
 };
 
-/// Bodies and films, made when first asked for and kept for the experiments that follow.
-/// All dips are of viscous sheets in A4 films unless their options are changed.
+/// Bodies and films, computed on first use and kept for later experiments. By default, dips use the
+/// viscous sheet and A4 films.
 class ExperimentContext {
  public:
   ExperimentContext(bool quick, PictureSink pictures)
@@ -49,25 +49,26 @@ class ExperimentContext {
 
   [[nodiscard]] bool quick() const { return quick_; }
 
-  /// One of sim/sample, held as in the paper: "board" tilted by 30 degrees, "bowl" mouth down,
-  /// "bowl-upright" as it stands.
+  /// A body of sim/sample, held as in the paper: "board" tilted by 30 degrees, "bowl" mouth down,
+  /// "bowl-upright" upright.
   [[nodiscard]] Result<const Body*> body(const std::string& name, const Context& context);
 
-  /// How to dip a body.
+  /// Options for dipping a body.
   [[nodiscard]] pipeline::DipOptions options(const Body& body, Fineness fineness) const;
 
-  /// The film image for a body and where it is thought to land (two-step scheme, one ink pass).
+  /// The film image for a body, and the dip that it is computed for (two-step scheme, one ink
+  /// pass).
   [[nodiscard]] Result<const Plan*> plan(const std::string& name, const Context& context);
 
-  /// `predict` at the fine settings: where that film lands "in truth".
+  /// The dip of the planned film at the fine settings, which stands for reality.
   [[nodiscard]] Result<pipeline::Dip> experiment(const std::string& name, const Context& context);
 
-  /// A film image, for pictures of what lands.
+  /// A film image, for pictures of the landed film.
   [[nodiscard]] Result<image::FilmTexture> texture(const image::RgbImage& film,
                                                    const Context& context) const;
 
-  /// Hands a picture over and enters it into the experiment's list, as
-  /// validate-EXPERIMENT-`what`.png.
+  /// Passes a picture on to be written as validate-EXPERIMENT-`what`.png, and adds it to the
+  /// experiment.
   [[nodiscard]] Status show(Experiment& experiment, const std::string& what,
                             const Result<image::RgbImage>& picture,
                             const std::string& caption) const;
@@ -81,8 +82,9 @@ class ExperimentContext {
   std::map<std::string, std::unique_ptr<Plan>> plans_;
 };
 
-/// The film image of a body's texture and its dip, for any options: as ExperimentContext::plan.
-/// @param ink_passes  0: the film is taken to be equally thick everywhere
+/// Computes the film image of a body's texture and its dip, like ExperimentContext::plan but for
+/// any options.
+/// @param ink_passes  0: the thickness of the film is taken to be uniform
 [[nodiscard]] Result<Plan> make_plan(const Body& body, const pipeline::DipOptions& options,
                                      int ink_passes, double dpi, const Context& context);
 
@@ -92,7 +94,7 @@ class Steps {
   Steps(const Context& whole, std::string experiment, int count)
       : whole_(whole), experiment_(std::move(experiment)), count_(count) {}
 
-  /// The context of the next step: the stages of a dip count as parts of it.
+  /// The context of the next step. The stages of a dip count as parts of the step.
   [[nodiscard]] Context next();
 
  private:

@@ -8,44 +8,44 @@
 
 namespace hydroprint::validate {
 
-/// What a figure is held against.
+/// The range that a figure must be in.
 struct Limit {
   double least = -1e300, most = 1e300;
-  std::string why;  ///< where the limit comes from
+  std::string why;  ///< reason for the limit
 };
 
 /// A number that an experiment found.
 struct Figure {
   std::string name;  ///< for programs: a to z, 0 to 9 and _, its unit at the end
   std::string text;  ///< for people
-  std::string unit;  ///< "mm", "%", ...; empty: none
+  std::string unit;  ///< "mm", "%", ...; empty: no unit
   double value = 0;
-  std::optional<Limit> limit;  ///< none: nothing to judge it by
+  std::optional<Limit> limit;  ///< nullopt: no limit is known
 
   [[nodiscard]] bool passes() const {
     return !limit || (value >= limit->least && value <= limit->most);
   }
 };
 
-/// A table of text, one row of cells below the other.
+/// A table of text.
 struct Table {
   std::string caption;
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
 };
 
-/// A picture that was handed over to be written.
+/// A picture that was passed on to be written.
 struct Picture {
-  std::string file;  ///< its name, beside the report
+  std::string file;  ///< file name, in the report's folder
   std::string caption;
   int width = 0, height = 0;
 };
 
-/// What one experiment has to tell.
+/// The result of one experiment.
 struct Experiment {
-  std::string name;               ///< as --only takes it
+  std::string name;               ///< name for --only
   std::string title;              ///< for people
-  std::string paper;              ///< where the paper has it: "section 7.1, Fig. 12"
+  std::string paper;              ///< place in the paper: "section 7.1, Fig. 12"
   std::vector<std::string> text;  ///< paragraphs
   std::vector<Figure> figures;
   std::vector<Table> tables;

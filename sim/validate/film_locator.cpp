@@ -110,7 +110,7 @@ std::optional<Vector3d> FilmLocator::at(const Vector2d& film_mm) const {
     const double time_s = b[0] * static_cast<double>(tile.contact_time_s[0]) +
                           b[1] * static_cast<double>(tile.contact_time_s[1]) +
                           b[2] * static_cast<double>(tile.contact_time_s[2]);
-    // Of those that hold the point the earliest, else the nearest.
+    // Prefers the earliest of the tiles that contain the point, otherwise the nearest tile.
     constexpr double kRounding_mm = 1e-9;
     const bool is_better = distance_mm < kRounding_mm
                                ? least_mm >= kRounding_mm || time_s < earliest_s

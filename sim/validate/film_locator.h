@@ -9,14 +9,15 @@
 
 namespace hydroprint::validate {
 
-/// Where points of the film land: the flow map the other way round.
+/// Finds where points of the film land, by inverting the flow map.
 class FilmLocator {
  public:
   /// Both must outlive the locator.
   FilmLocator(const mesh::Surface& surface, const std::vector<flow::MappedTriangle>& tiles);
 
-  /// The point of the surface, in O, mm. Film that has landed stays: of several places the earliest
-  /// contact counts. Between tiles, the nearest within 0.1 mm on the film; none: it lands nowhere.
+  /// The point of the surface, in O, mm. Of several places, the one with the earliest contact is
+  /// returned, because film that has landed does not move. Between tiles, the nearest tile within
+  /// 0.1 mm on the film is used; nullopt: the point does not land.
   [[nodiscard]] std::optional<Eigen::Vector3d> at(const Eigen::Vector2d& film_mm) const;
 
  private:
@@ -29,7 +30,7 @@ class FilmLocator {
   const std::vector<flow::MappedTriangle>& tiles_;
   Eigen::Vector2d low_mm_ = Eigen::Vector2d::Zero();
   int columns_ = 0, rows_ = 0;
-  std::vector<int> start_;  ///< per cell: its first in tiles_of_
+  std::vector<int> start_;  ///< for each cell, the index of its first entry in tiles_of_
   std::vector<int> tiles_of_;
 };
 

@@ -60,7 +60,7 @@ std::string number(double value) {
   return text_of(value, size < 0.1 ? 4 : size < 10 ? 3 : 1);
 }
 
-/// A limit as it was written down: no zeros behind it.
+/// A limit without trailing zeros.
 std::string bound(double value) {
   std::string text = text_of(value, 4);
   while (text.back() == '0') text.pop_back();
@@ -81,7 +81,7 @@ std::string verdict(const Figure& figure) {
 std::string figures_html(const Experiment& experiment) {
   if (experiment.figures.empty()) return {};
   std::string out = "<table>\n<caption>Figures</caption>\n<thead><tr>";
-  for (const char* head : {"what", "found", "limit", "verdict"}) out += element("th", head);
+  for (const char* head : {"figure", "value", "limit", "verdict"}) out += element("th", head);
   out += "</tr></thead>\n<tbody>\n";
   for (const Figure& f : experiment.figures) {
     out += "<tr>" + element("td", f.text) +
@@ -133,32 +133,31 @@ std::string head_html(const Report& report) {
   out +=
       element("p",
               "The experiments of section 7 of Computational Hydrographic Printing (Zhang, Yin, "
-              "Zheng, Zhou 2015), without a film, water or an object: a finer computation plays "
-              "the physical experiment. A film image is computed at the usual settings; where it "
-              "lands is then computed with the film mesh and the steps finer, under "
-              "drawn errors, by another model or with other ink.") +
+              "Zheng, Zhou 2015), without film, water or an object. A finer computation stands for "
+              "the physical experiment. A film image is computed at the usual settings. Its "
+              "landing is then computed with a finer film mesh and finer steps, with random "
+              "errors, with another model or with other ink.") +
       "\n";
   out +=
       element("p",
-              "So this shows how far the computation errs within its own model, and how much "
-              "that model says the result depends on what is varied. It cannot show whether "
-              "the model is right: how real film softens, swells, stretches, wrinkles and tears; "
-              "how much activator was sprayed, and when; trapped air, currents, waves and drag of "
-              "the water; how ink bleeds and fades; printer, scanner, gripper and the person who "
-              "lays the film. Only dipping real objects shows that.") +
+              "This shows the error of the computation within its own model, and the effect of the "
+              "varied quantities in that model. It cannot show whether the model is right. The "
+              "model does not cover how real film softens, swells, stretches, wrinkles and tears; "
+              "the amount and time of the activator; trapped air, currents, waves and drag of the "
+              "water; bleeding and fading of ink; or errors of the printer, the scanner, the "
+              "gripper and the person who lays the film. Only dipping real objects shows these.") +
       "\n";
   if (report.options.quick) {
-    out += element(
-               "p",
-               "This was a quick run: all lengths of the film meshes and of the steps in depth are "
-               "2.5 times as long as they usually are, so its figures say that all of it works, "
-               "not how accurate it is.") +
+    out += element("p",
+                   "This was a quick run. All lengths of the film meshes and of the steps in depth "
+                   "were 2.5 times the usual ones. So it checks that everything works, but not how "
+                   "accurate it is.") +
            "\n";
   }
   out += element("p",
                  std::to_string(report.passed) + " of " +
                      std::to_string(report.passed + report.failed) +
-                     " figures that there is a limit for lie within it.",
+                     " figures with a limit are within it.",
                  report.failed == 0 ? "class=\"passed\"" : "class=\"failed\"") +
          "\n<ul>\n";
   for (const Experiment& e : report.experiments) {

@@ -14,46 +14,46 @@
 
 namespace hydroprint::validate {
 
-/// A set of numbers in figures; all but `count` are NaN if there are none.
+/// Statistics of a set of numbers. All except `count` are NaN if the set is empty.
 struct Summary {
   std::size_t count = 0;
   double mean = 0, rms = 0, p50 = 0, p95 = 0, max = 0;
 };
 
-/// Of those that are finite.
+/// Statistics of the finite values.
 [[nodiscard]] Summary summarise(std::vector<double> values);
 
-/// Per point of the surface: how far from it the film printed for it lands in the experiment, mm,
-/// straight through space; NaN where the plan prints nothing for it, infinite where what is printed
-/// lands nowhere. The two dips must be of the same surface.
+/// For each point of the surface, the straight distance in mm to the place where the film printed
+/// for it lands in the experiment. NaN if the plan prints nothing for the point, infinite if the
+/// printed film does not land. The two dips must be of the same surface.
 [[nodiscard]] Result<std::vector<double>> landing_errors(const pipeline::Dip& plan,
                                                          const pipeline::Dip& experiment,
                                                          const Context& context);
 
-/// Per point of the surface: how far apart on the film two dips find what lands there; NaN where
-/// one of them finds none.
+/// For each point of the surface, the distance on the film between the points that land there in
+/// two dips; NaN if no film lands there in one of them.
 [[nodiscard]] std::vector<double> film_differences(const pipeline::Dip& a, const pipeline::Dip& b);
 
-/// A part of a body, by place, in O.
+/// A part of a body, as a predicate on positions in O.
 using Region = std::function<bool(const Eigen::Vector3d&)>;
 [[nodiscard]] inline bool everywhere(const Eigen::Vector3d&) { return true; }
 
-/// The values of a region's points, those at one place once.
+/// The values of a region's points. Welded points count once.
 [[nodiscard]] std::vector<double> values_where(const mesh::Surface& surface,
                                                const std::vector<double>& values,
                                                const Region& region);
 
-/// The share, by area, of a region's points for which something holds; 0 if it is empty.
+/// The share, by area, of a region's points for which `holds` is true; 0 if the region is empty.
 [[nodiscard]] double share_where(const mesh::Surface& surface, const Region& region,
                                  const std::function<bool(std::size_t point)>& holds);
 
-/// A picture's quantity from one value per point of the surface, at points without one the mean of
-/// their neighbours'. Its scale fits a region.
+/// A picture's quantity from one value for each point of the surface. Missing values are replaced
+/// with the mean of their triangle's. The scale fits the values of the region `fits`.
 [[nodiscard]] image::Quantity quantity_of(const std::string& label, const mesh::Surface& surface,
                                           const std::vector<double>& values,
                                           const Region& fits = everywhere);
 
-/// With so many digits behind the point; "-" if it is not finite.
+/// A number with `digits` decimal places; "-" if it is not finite.
 [[nodiscard]] std::string text_of(double value, int digits);
 
 }  // namespace hydroprint::validate

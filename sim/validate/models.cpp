@@ -11,7 +11,7 @@
 namespace hydroprint::validate {
 namespace {
 
-constexpr double kBendFrom_mm = 72;  ///< height at which the U-shape's legs begin to bend
+constexpr double kBendFrom_mm = 72;  ///< height at which the bend of the U-shape begins
 
 image::RgbImage chessboard() {
   return sample::draw(840, 1188, 0.25, 2, [](double x, double y) -> sample::Colour {
@@ -27,14 +27,13 @@ image::RgbImage chessboard() {
 
 Status models(ExperimentContext& setup, Experiment& out, const Context& context) {
   out.text = {
-      "A U-shaped tube goes in with its two feet first and its bend last. The film between the "
-      "legs "
-      "is drawn out all the way and then lands on the bend, where the paper finds that the viscous "
-      "sheet foretells a distortion that Stokes flow does not. Both are computed here at the usual "
-      "settings, for a film with a chessboard of 5 mm that is as thick everywhere.",
-      "The map shows by how much the two differ on the film: how far from one another they put the "
-      "colour for the same place on the object. There is no photograph to say which is right; what "
-      "can be judged is where they must differ most."};
+      "A U-shaped tube is dipped with its two feet first and its bend last. The film between the "
+      "legs is stretched during the whole dip and then lands on the bend. There, according to the "
+      "paper, the viscous sheet predicts a distortion that Stokes flow does not. Both are computed "
+      "here at the usual settings, for a film of uniform thickness with a chessboard of 5 mm.",
+      "The map shows the distance on the film between the colours that the two models choose for "
+      "the same place on the object. There is no photograph to decide which is right. It is only "
+      "checked where they differ most."};
   Steps steps(context, out.name, 2);
   HP_ASSIGN_OR_RETURN(const Body* body, setup.body("ubend", context));
   pipeline::DipOptions options = setup.options(*body, Fineness::kUsual);
@@ -48,8 +47,8 @@ Status models(ExperimentContext& setup, Experiment& out, const Context& context)
   const Region legs = [](const Eigen::Vector3d& p) { return p.z() < kBendFrom_mm; };
   const Region bend = [](const Eigen::Vector3d& p) { return p.z() >= kBendFrom_mm; };
   Table table{"Difference on the film, and stretch",
-              {"region", "mean, mm", "95 %, mm", "largest, mm", "stretch of 95 %, Stokes",
-               "stretch of 95 %, sheet"},
+              {"region", "mean, mm", "95th percentile, mm", "largest, mm",
+               "95th percentile of stretch, Stokes", "95th percentile of stretch, sheet"},
               {}};
   for (const NamedRegion& named : {NamedRegion{"legs", legs}, NamedRegion{"bend", bend}}) {
     const auto of = [&](const std::vector<double>& values) {
@@ -68,8 +67,8 @@ Status models(ExperimentContext& setup, Experiment& out, const Context& context)
       {"bend_to_legs_ratio", "mean difference on the bend over that on the legs", "",
        out.figures[1].value / out.figures[0].value,
        Limit{1, 1e300,
-             "as in Fig. 13, the bend is where the models part: the film's thickness has "
-             "had the whole dip to become uneven"}});
+             "as in Fig. 13, the models differ most on the bend, because the film's thickness "
+             "becomes uneven during the whole dip"}});
 
   HP_ASSIGN_OR_RETURN(const auto film, setup.texture(chessboard(), second));
   HP_ASSIGN_OR_RETURN(const auto before,
@@ -77,13 +76,13 @@ Status models(ExperimentContext& setup, Experiment& out, const Context& context)
   HP_ASSIGN_OR_RETURN(const auto after,
                       image::find_views(sheet.surface, sheet.X_FO, sheet.map.tiles, second));
   HP_RETURN_IF_ERROR(setup.show(out, "stokes", image::predicted_picture(before, film, second),
-                                "The chessboard as Stokes flow lands it (Fig. 13 b)."));
+                                "The landed chessboard with Stokes flow (Fig. 13 b)."));
   HP_RETURN_IF_ERROR(setup.show(out, "sheet", image::predicted_picture(after, film, second),
-                                "The same as the viscous sheet lands it (Fig. 13 c)."));
+                                "The landed chessboard with the viscous sheet (Fig. 13 c)."));
   return setup.show(
       out, "difference",
       image::quantity_picture(after, quantity_of("on film mm", sheet.surface, differences), second),
-      "How far apart on the film the two models put the colour for the same place.");
+      "Distance on the film between the two models' colours for the same place.");
 }
 
 }  // namespace hydroprint::validate

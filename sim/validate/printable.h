@@ -9,21 +9,21 @@
 
 namespace hydroprint::validate {
 
-/// How much of a face of a body one dip can print.
+/// The part of a body's face that one dip can print.
 struct Verdict {
   double reached = 0;  ///< share of the face that film reaches
   double torn = 0;     ///< share of the face where the film is stretched beyond tearing
 
   [[nodiscard]] double good() const { return reached - torn; }
   [[nodiscard]] const char* text() const {
-    return good() >= 0.95 ? "can be printed" : good() >= 0.5 ? "in part" : "cannot be printed";
+    return good() >= 0.95 ? "can be printed" : good() >= 0.5 ? "partly" : "cannot be printed";
   }
 };
 
 inline constexpr const char* kPrintableRule =
-    "a face can be printed if film reaches 95 % of it without being stretched beyond tearing "
-    "(three "
-    "times, the default of a film profile), in part if it does so on half of it, else not.";
+    "a face can be printed if film reaches 95 % of it without tearing (at a stretch of three, the "
+    "default of a film profile). It can be printed partly if film reaches half of it in this way, "
+    "and otherwise it cannot be printed.";
 
 [[nodiscard]] inline Verdict judge(const pipeline::Dip& dip, const Region& face) {
   const flow::SurfaceMap& map = dip.map.surface;
@@ -34,7 +34,7 @@ inline constexpr const char* kPrintableRule =
 
 [[nodiscard]] inline std::string percent(double share) { return text_of(100 * share, 1) + " %"; }
 
-/// The outside wall of the sample mug, without its handle, foot and rim.
+/// The outer wall of the sample mug, without its handle, foot and rim.
 [[nodiscard]] inline bool is_mug_wall(const Eigen::Vector3d& p) {
   return std::abs(std::hypot(p.x(), p.y()) - 40) < 0.05 && p.z() > 6 && p.z() < 88;
 }

@@ -13,12 +13,12 @@ namespace hydroprint::validate {
 inline constexpr double kDegree = 3.14159265358979323846 / 180;
 inline constexpr double kSphere80_mm = 80, kGlobe_mm = 60;  ///< radii of the samples
 
-/// Angle between a sphere's surface and the water, when that place touches it, degrees.
+/// Angle between a sphere's surface and the water when the point meets the water, in degrees.
 [[nodiscard]] inline double theta_deg(const Eigen::Vector3d& p) {
   return std::acos(std::clamp(-p.z() / p.norm(), -1.0, 1.0)) / kDegree;
 }
 
-/// A region with the name that people know it by.
+/// A region with a name for people.
 struct NamedRegion {
   std::string name;
   Region region;

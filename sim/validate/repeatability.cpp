@@ -20,16 +20,16 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// Standard deviations that are assumed, per axis.
+// Assumed standard deviations, for each axis.
 constexpr double kGripper_mm = 0.3, kGripper_deg = 0.3;
 constexpr double kFilm_mm = 0.5, kFilm_deg = 0.2;
 constexpr unsigned kSeed = 1;
 constexpr int kDraws = 12, kQuickDraws = 4;
 
 constexpr double kGrid_mm = 5;
-constexpr int kAcross = 20, kAlong = 29;  // grid points to either side of the middle
+constexpr int kAcross = 20, kAlong = 29;  // grid points on each side of the middle
 
-/// Normal numbers that are the same with every standard library.
+/// Normally distributed numbers that do not depend on the standard library.
 class Dice {
  public:
   double normal() {
@@ -42,7 +42,7 @@ class Dice {
   std::mt19937_64 engine_{kSeed};
 };
 
-/// The object's pose against the film as it lies, when gripper and film are where a draw puts them.
+/// The object's pose relative to the film, with random errors of the gripper and of the film.
 Pose drawn(const Pose& X_FO, Dice& dice) {
   const Vector3d turn =
       kGripper_deg * kDegree * Vector3d(dice.normal(), dice.normal(), dice.normal());
@@ -55,7 +55,7 @@ Pose drawn(const Pose& X_FO, Dice& dice) {
   return film.inverse() * held;
 }
 
-/// The film's grid points, row by row from below.
+/// The film's grid points, row by row from the bottom.
 std::vector<Vector2d> grid() {
   std::vector<Vector2d> points;
   for (int j = -kAlong; j <= kAlong; ++j) {
@@ -64,7 +64,7 @@ std::vector<Vector2d> grid() {
   return points;
 }
 
-/// Standard deviation of places: root of the sum of the variances of x, y and z.
+/// Standard deviation of positions: root of the sum of the variances of x, y and z.
 double scatter(const std::vector<Vector3d>& places) {
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& p : places) mean += p / static_cast<double>(places.size());
@@ -73,7 +73,7 @@ double scatter(const std::vector<Vector3d>& places) {
   return std::sqrt(sum / static_cast<double>(places.size() - 1));
 }
 
-/// Values at the grid points, bilinear between them; NaN beside a point that has none.
+/// Bilinear interpolation of values at the grid points; NaN if one of the four values is missing.
 double between(const std::vector<double>& values, const Vector2d& film_mm) {
   constexpr int kColumns = 2 * kAcross + 1, kRows = 2 * kAlong + 1;
   const double x = film_mm.x() / kGrid_mm + kAcross, y = film_mm.y() / kGrid_mm + kAlong;
@@ -100,17 +100,17 @@ image::RgbImage chessboard() {
 Status repeatability(ExperimentContext& setup, Experiment& out, const Context& context) {
   const int draws = setup.quick() ? kQuickDraws : kDraws;
   out.text = {
-      "The paper prints the same chessboard on the same face several times over and finds it in "
-      "the "
+      "The paper prints the same chessboard on the same face several times and finds it in the "
       "same places. Here the same film, with a grid of 5 mm, is dipped " +
           std::to_string(draws) +
-          " times onto the globe (radius 60 mm), each time with other errors of the gripper and of "
-          "the film's place, and the spread of each grid point's landing is taken.",
-      "Assumed standard deviations (of a normal distribution, per axis; seed " +
+          " times onto the globe (radius 60 mm). Each dip has different random errors of the "
+          "gripper and of the film's position. The figure is the spread of the positions where "
+          "each grid point lands.",
+      "Assumed standard deviations (normal distribution, for each axis; seed " +
           std::to_string(kSeed) +
           "): gripper 0.3 mm sideways and 0.3 degrees about each axis; film " +
-          "0.5 mm along and across and 0.2 degrees in its plane. Each dip is computed as Stokes "
-          "flow, which is fast and, for a difference of two dips so much alike, good enough."};
+          "0.5 mm along and across, and 0.2 degrees in its plane. Each dip is computed with Stokes "
+          "flow, which is fast, and accurate enough for the difference of two similar dips."};
   Steps steps(context, out.name, draws + 1);
   HP_ASSIGN_OR_RETURN(const Body* body, setup.body("globe", context));
   pipeline::DipOptions options = setup.options(*body, Fineness::kUsual);
@@ -122,7 +122,7 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
 
   const std::vector<Vector2d> points = grid();
   std::vector<std::vector<Vector3d>> landed(points.size());
-  std::vector<Vector3d> contacts;  // where the film's middle must land, whatever the flow
+  std::vector<Vector3d> contacts;  // where the film's middle lands; independent of the flow
   Dice dice;
   for (int draw = 0; draw < draws; ++draw) {
     const Context next = steps.next();
@@ -132,7 +132,7 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
     for (std::size_t i = 0; i < points.size(); ++i) {
       if (const auto place = locator.at(points[i])) landed[i].push_back(*place);
     }
-    // Near the lowest point film lands where it lies: r0 = 2 R sin(theta / 2), a chord.
+    // Near the lowest point, film lands without stretching: r0 = 2 R sin(theta / 2), a chord.
     const Vector3d middle(-dip.X_FO.translation().x(), -dip.X_FO.translation().y(), 0);
     const double sag = kGlobe_mm - middle.squaredNorm() / (2 * kGlobe_mm);
     contacts.emplace_back(dip.X_FO.linear().transpose() * (middle - sag * Vector3d::UnitZ()));
@@ -145,9 +145,10 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
     spread[i] = scatter(landed[i]);
     theta[i] = theta_deg(landed[i].front());
   }
-  Table table{"Spread of the landing (root of the sum of the variances along x, y and z)",
-              {"angle to the water", "grid points", "median, mm", "95 %, mm", "largest, mm"},
-              {}};
+  Table table{
+      "Spread of the landing (root of the sum of the variances along x, y and z)",
+      {"angle to the water", "grid points", "median, mm", "95th percentile, mm", "largest, mm"},
+      {}};
   const auto summary = [&](double from_deg, double to_deg) {
     std::vector<double> values;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -165,32 +166,31 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
   out.tables.push_back(std::move(table));
   const std::size_t middle = points.size() / 2;
   out.figures.push_back({"spread_to_equator_p95_mm",
-                         "spread not exceeded by 95 % of the grid points to the equator", "mm",
+                         "spread of the grid points to the equator (95th percentile)", "mm",
                          summary(0, 90).p95,
                          Limit{0, 2,
-                               "the paper's largest error to the equator: were it more, "
-                               "these errors alone would explain it"}});
+                               "the paper's largest error to the equator, which also includes "
+                               "these errors"}});
   out.figures.push_back({"spread_at_contact_mm", "spread where the object first touches", "mm",
                          spread[middle], std::nullopt});
-  out.figures.push_back(
-      {"spread_at_contact_ratio", "the same over that of the drawn errors themselves", "",
-       spread[middle] / scatter(contacts),
-       Limit{0.97, 1.03, "nothing has moved the film yet: the one follows from the other"}});
+  out.figures.push_back({"spread_at_contact_ratio",
+                         "the same, relative to the spread of the random errors", "",
+                         spread[middle] / scatter(contacts),
+                         Limit{0.97, 1.03, "the film has not moved yet, so both are equal"}});
 
   HP_ASSIGN_OR_RETURN(const auto film, setup.texture(chessboard(), first));
   HP_ASSIGN_OR_RETURN(const auto views,
                       image::find_views(planned.surface, planned.X_FO, planned.map.tiles, first));
   HP_RETURN_IF_ERROR(setup.show(out, "chessboard", image::predicted_picture(views, film, first),
-                                "The film's chessboard of 10 mm as it lands without errors."));
+                                "The film's chessboard of 10 mm, landed without errors."));
   image::Quantity quantity{"spread mm", spread, 0, 0.1, [&](const flow::MappedTriangle& tile) {
                              std::array<double, 3> values{};
                              for (int i = 0; i < 3; ++i)
                                values[i] = between(spread, tile.film_mm[i]);
                              return values;
                            }};
-  return setup.show(
-      out, "spread", image::quantity_picture(views, quantity, first),
-      "Spread of the landing under the drawn errors; hatched where not every draw lands film.");
+  return setup.show(out, "spread", image::quantity_picture(views, quantity, first),
+                    "Spread of the landing with random errors; hatched: some dips land no film.");
 }
 
 }  // namespace hydroprint::validate

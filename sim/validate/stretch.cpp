@@ -12,9 +12,9 @@ namespace hydroprint::validate {
 namespace {
 
 struct Shown {
-  std::string body;    ///< of ExperimentContext
-  std::string people;  ///< what it is
-  NamedRegion face;    ///< what is to be printed
+  std::string body;    ///< name for ExperimentContext
+  std::string people;  ///< name for people
+  NamedRegion face;    ///< the face to print
 };
 
 std::vector<Shown> bodies() {
@@ -24,7 +24,7 @@ std::vector<Shown> bodies() {
           {"sphere80", "sphere, radius 80 mm", band(0, 90, "to the equator")},
           {"globe", "globe, radius 60 mm", band(0, 120, "to 120 degrees")},
           {"ubend", "U-shape", {"legs", [](const Eigen::Vector3d& p) { return p.z() < 72; }}},
-          {"mug", "mug", {"outside wall", is_mug_wall}},
+          {"mug", "mug", {"outer wall", is_mug_wall}},
           {"bowl", "bowl, mouth down", {"floor", is_bowl_floor}}};
 }
 
@@ -33,19 +33,19 @@ std::vector<Shown> bodies() {
 Status stretch(ExperimentContext& setup, Experiment& out, const Context& context) {
   const auto shown = bodies();
   out.text = {
-      "How much the film is stretched where it lands: the largest singular value of the map from "
-      "film to surface (section 6), at the usual settings. The paper chooses by such maps which "
-      "part of an object is to be printed from which side; it holds stretch beyond 1.3 to be more "
-      "than Stokes flow can foretell.",
-      "The table says what one dip can print, by one rule for all bodies: " +
+      "The stretch of the film where it lands is the largest singular value of the map from film "
+      "to surface (section 6), at the usual settings. The paper uses such maps to choose from "
+      "which side to print each part of an object. It states that Stokes flow cannot predict "
+      "stretch beyond 1.3.",
+      "The second table shows which faces one dip can print. The rule for all bodies: " +
           std::string(kPrintableRule)};
   Steps steps(context, out.name, static_cast<int>(shown.size()));
-  Table figures{
-      "Stretch and coverage of the whole body",
-      {"body", "film reaches", "median stretch", "95 %", "clamped", "torn", "wrinkled", "warnings"},
-      {}};
+  Table figures{"Stretch and coverage of the whole body",
+                {"body", "reached by film", "median stretch", "95th percentile", "clamped", "torn",
+                 "wrinkled", "warnings"},
+                {}};
   Table printable{
-      "What one dip can print", {"body", "face", "film reaches", "torn", "verdict"}, {}};
+      "Faces that one dip can print", {"body", "face", "reached by film", "torn", "verdict"}, {}};
   for (const Shown& s : shown) {
     const Context next = steps.next();
     HP_ASSIGN_OR_RETURN(const Plan* plan, setup.plan(s.body, next));
@@ -71,7 +71,7 @@ Status stretch(ExperimentContext& setup, Experiment& out, const Context& context
               .max;
       out.figures.push_back(
           {"sphere_stretch_at_contact", "sphere: largest stretch within 2 degrees of first contact",
-           "", at_contact, Limit{1, 1.02, "film that lands at once is not stretched"}});
+           "", at_contact, Limit{1, 1.02, "film that lands immediately is not stretched"}});
     }
   }
   out.tables = {figures, printable};

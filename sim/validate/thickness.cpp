@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kSquare_deg = 45;
 
-/// Longitude and latitude, squares that take much ink (t = 2.4) beside some that take none, and a
-/// graticule by which to see where things land.
+/// A chessboard in longitude and latitude, with squares of much ink (t = 2.4) and squares without
+/// ink, and a graticule that makes displacements visible.
 image::RgbImage squares() {
   constexpr int kHeight_px = 720;
   return sample::draw(2 * kHeight_px, kHeight_px, 180.0 / kHeight_px, 2,
@@ -30,7 +30,7 @@ image::RgbImage squares() {
                       });
 }
 
-/// A film image as it lands when the film carries the ink that is printed on it.
+/// The dip of a film image, with the thickness of the ink printed on it.
 Result<pipeline::Dip> dip_as_printed(const Body& body, const Plan& plan,
                                      pipeline::DipOptions options, const Context& context) {
   options.ink = plan.ink;
@@ -41,12 +41,13 @@ Result<pipeline::Dip> dip_as_printed(const Body& body, const Plan& plan,
 
 Status thickness(ExperimentContext& setup, Experiment& out, const Context& context) {
   out.text = {
-      "Ink makes the film thicker (by 0.05 mm per unit of ink on 0.5 mm, section 4.3), and what is "
-      "thicker gives way less. The film for a sphere of radius 80 mm with squares of 45 degrees in "
-      "heavy ink is computed twice: by the two-step scheme, which knows the ink of its own image, "
-      "and as if the film were as thick everywhere. Both films are then dipped as what they are: "
-      "inked.",
-      "All of this is at the usual settings, so that nothing but the ink makes the difference."};
+      "Ink makes the film thicker (by 0.05 mm per unit of ink on 0.5 mm, section 4.3), and thicker "
+      "film stretches less. The film image for a sphere of radius 80 mm with squares of 45 degrees "
+      "in heavy ink is computed twice: by the two-step scheme, which uses the ink of its own "
+      "image, "
+      "and for a film of uniform thickness. Both films are then dipped with the ink that is "
+      "printed on them.",
+      "All dips use the usual settings, so that only the ink makes a difference."};
   Steps steps(context, out.name, 4);
   HP_ASSIGN_OR_RETURN(const Body* sphere, setup.body("sphere80", context));
   Body body = *sphere;
@@ -58,12 +59,12 @@ Status thickness(ExperimentContext& setup, Experiment& out, const Context& conte
     int ink_passes;
   };
   std::vector<Plan> plans;
-  Table table{"Where the inked film lands, against where its colours should be",
+  Table table{"Distance between the colours of the inked film and their places",
               {"film image computed", "to the equator: mean, mm", "largest, mm",
                "to 120 degrees: mean, mm", "largest, mm"},
               {}};
   for (const Case& c : {Case{"on", "with the ink's thickness", 2},
-                        Case{"off", "as if the film were as thick everywhere", 0}}) {
+                        Case{"off", "for a film of uniform thickness", 0}}) {
     const Context first = steps.next();
     HP_ASSIGN_OR_RETURN(Plan plan, make_plan(body, options, c.ink_passes, setup.film_dpi(), first));
     const Context second = steps.next();
@@ -89,22 +90,22 @@ Status thickness(ExperimentContext& setup, Experiment& out, const Context& conte
         out, c.name + "-error",
         image::quantity_picture(
             planned, quantity_of("error mm", surface, errors, band(0, 120, "").region), second),
-        "How far the colours land from their places: " + c.people + "."));
+        "Distance of the landed colours from their places: " + c.people + "."));
     plans.push_back(std::move(plan));
   }
   out.tables.push_back(std::move(table));
   HP_RETURN_IF_ERROR(setup.show(out, "film", plans[0].film,
                                 "The film image of the two-step scheme, with its heavy ink."));
-  out.figures.push_back({"thickness_on_to_off",
-                         "mean error with the ink's thickness over that without", "",
-                         out.figures[0].value / out.figures[1].value,
-                         Limit{0, 0.25, "Fig. 7: knowing the ink takes most of its error away"}});
+  out.figures.push_back(
+      {"thickness_on_to_off", "mean error with the ink's thickness over that without", "",
+       out.figures[0].value / out.figures[1].value,
+       Limit{0, 0.25, "Fig. 7: using the ink's thickness removes most of the error"}});
   const auto& passes = plans[0].dip.figures.ink_passes;
   if (passes.size() > 1) {
     out.figures.push_back(
         {"second_pass_to_first", "movement (rms) of the second ink pass over that of the first", "",
          passes[1].moved_rms_mm / passes[0].moved_rms_mm,
-         Limit{0, 0.5, "section 4.3: one pass is enough, so the second must do little"}});
+         Limit{0, 0.5, "section 4.3: one pass is enough, so the second must move it little"}});
   }
   return {};
 }

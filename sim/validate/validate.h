@@ -11,36 +11,36 @@
 
 namespace hydroprint::validate {
 
-/// An experiment that there is.
+/// Description of an experiment.
 struct ExperimentKind {
   std::string name;
   std::string title;
-  double weight = 1;  ///< its usual share of the time
+  double weight = 1;  ///< typical share of the total time
 };
 
-/// All of them, in the order of the report.
+/// All experiments, in the order of the report.
 [[nodiscard]] std::vector<ExperimentKind> kinds();
 
 struct Options {
   std::vector<std::string> only;  ///< names of experiments; empty: all
-  bool quick = false;             ///< everything coarse: that it works, not how well
+  bool quick = false;             ///< coarse: checks that everything works, not its accuracy
 };
 
-/// Takes a finished picture to its place; `file` ends in ".png".
+/// Writes a finished picture; `file` ends in ".png".
 using PictureSink = std::function<Status(const std::string& file, const image::RgbImage& picture)>;
 
 struct Report {
   Options options;
   std::vector<Experiment> experiments;
-  int passed = 0, failed = 0;  ///< figures that there is a limit for
+  int passed = 0, failed = 0;  ///< numbers of figures that have a limit
 };
 
-/// Refuses (kInvalidArgument) names of experiments that there are not.
+/// Fails (kInvalidArgument) for unknown names of experiments.
 [[nodiscard]] Status check(const Options& options);
 
-/// The experiments of the paper's section 7 in silico: a much finer computation plays the physical
-/// experiment. Progress is told under the experiments' names. The same report and pictures whatever
-/// the number of threads. Refuses what `check` does.
+/// Runs the experiments of the paper's section 7 in silico. A finer computation stands for the
+/// physical experiment. Progress is reported under the experiments' names. The report and the
+/// pictures do not depend on the number of threads. Fails as check() does.
 [[nodiscard]] Result<Report> validate(const Options& options, const PictureSink& pictures,
                                       const Context& context);
 

@@ -16,7 +16,7 @@ double distance_to_chord(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
   return (a + t * along - p).norm();
 }
 
-/// The curve with its long edges divided, so that corners can be picked on them.
+/// Divides the curve's long edges, so that samples can lie on them.
 std::vector<Eigen::Vector2d> divide(const std::vector<Eigen::Vector2d>& curve, double spacing_mm) {
   std::vector<Eigen::Vector2d> fine;
   for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -38,7 +38,8 @@ bool strays(const std::vector<Eigen::Vector2d>& fine, std::size_t from, std::siz
   return false;
 }
 
-/// Start where the curve turns most sharply, so that a lone corner is never cut off.
+/// The corner at which the curve turns most sharply. Sampling starts there, so that a single corner
+/// is never cut off.
 std::size_t sharpest(const std::vector<Eigen::Vector2d>& curve) {
   std::size_t best = 0;
   double least = 2;

@@ -29,19 +29,19 @@ using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 using Point = Kernel::Point_2;
 
-constexpr double kSquaredSine = 0.25;  ///< of the smallest angle: 30 degrees
+constexpr double kSquaredSine = 0.25;  ///< of the smallest angle, 30 degrees
 
-/// Triangles with shorter edges are left as they are: where waterlines nearly touch, the gap would
-/// be filled with ever smaller ones.
+/// Triangles with shorter edges are not refined for their angles. Otherwise, gaps between
+/// waterlines that nearly touch would be filled with ever smaller triangles.
 constexpr double kTiny_mm = 0.1;
 
-/// A triangle is bad if an angle is below 30 degrees or its longest edge beyond the sizing field.
+/// A triangle is bad if an angle is below 30 degrees or its longest edge exceeds the sizing field.
 class Criteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
   using Base = CGAL::Delaunay_mesh_criteria_2<Triangulation>;
 
  public:
-  /// Squared sine of the smallest angle, and squared edge length over wanted size; the queue takes
-  /// the oversized first.
+  /// Squared sine of the smallest angle, and squared ratio of edge length to target size. The queue
+  /// processes oversized triangles first.
   struct Quality {
     double sine2 = 1, size2 = 0;
     bool is_tiny = false;
@@ -53,7 +53,7 @@ class Criteria : public CGAL::Delaunay_mesh_criteria_2<Triangulation> {
     }
   };
 
-  class Is_bad {  // NOLINT(readability-identifier-naming): the name CGAL's concept asks for
+  class Is_bad {  // NOLINT(readability-identifier-naming): the name required by CGAL's concept
    public:
     using Quality = Criteria::Quality;
     explicit Is_bad(const Sizing* sizing) : sizing_(sizing) {}
@@ -105,14 +105,14 @@ void insert_loop(Triangulation& triangulation, const std::vector<Eigen::Vector2d
   }
 }
 
-/// Marks as film the faces that an odd number of curves surrounds.
+/// Marks the faces surrounded by an odd number of curves as film.
 void mark_film(Triangulation& triangulation) {
   for (auto face : triangulation.all_face_handles()) face->set_in_domain(false);
   CGAL::Unique_hash_map<Triangulation::Face_handle, int> nesting(-1);
   std::deque<Triangulation::Face_handle> border = {triangulation.infinite_face()};
   nesting[triangulation.infinite_face()] = 0;
   while (!border.empty()) {
-    // Flood one level; what lies behind its constraints waits for the next.
+    // Flood one level; faces behind its constraints belong to the next.
     const auto start = border.front();
     border.pop_front();
     std::vector<Triangulation::Face_handle> open = {start};
@@ -145,8 +145,8 @@ bool lies_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d&
   return false;
 }
 
-/// Far more vertices than the sizes asked for need. Where two waterlines touch, the mesher would
-/// divide their edges for ever.
+/// Limit far above the number of vertices that the sizes imply. Where two waterlines touch, the
+/// mesher would divide their edges forever.
 std::size_t most_vertices(const film::Outline& outline,
                           const std::vector<std::vector<Eigen::Vector2d>>& waterlines,
                           const Sizing::Options& size) {
@@ -161,7 +161,7 @@ FilmMesh extract(const Triangulation& triangulation, const film::Outline& outlin
   FilmMesh mesh;
   CGAL::Unique_hash_map<Triangulation::Vertex_handle, int> index(-1);
   std::unordered_map<std::uint64_t, int> edge_index;
-  std::vector<char> sides;  // how many film triangles an edge has
+  std::vector<char> sides;  // number of film triangles at each edge
   for (auto face : triangulation.finite_face_handles()) {
     if (!face->is_in_domain()) continue;
     Eigen::Vector3i corners, edges;
@@ -208,7 +208,7 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
     if (!line.bounds_film[l]) continue;
     const auto& curve = line.section[l].points_mm;
     auto loop = sample_loop(curve, options.spacing_mm, options.tolerance_mm, options.least_mm);
-    // A contour too small for that keeps its own corners.
+    // A contour that is too small for sampling keeps its own corners.
     waterlines.push_back(loop.size() < 6 && curve.size() > loop.size() ? curve : std::move(loop));
   }
   const Sizing sizing(outline, waterlines, options.size);
@@ -224,8 +224,8 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
       if (triangulation.number_of_vertices() > most) {
         return fail(Code::kInternal,
                     "film mesh at immersion " + std::to_string(line.immersion_mm) +
-                        " mm needs more than " + std::to_string(most) +
-                        " vertices; smooth the model or dip another part of it",
+                        " mm: needs more than " + std::to_string(most) +
+                        " vertices. Smooth the model, or dip another part of it",
                     kMeshUnbounded);
       }
     }

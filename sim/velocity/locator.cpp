@@ -11,7 +11,7 @@ namespace hydroprint::velocity {
 namespace {
 
 constexpr double kCell_mm = 2.0;
-constexpr int kMostSteps = 8;  ///< of a walk; farther than that the grid is faster
+constexpr int kMostSteps = 8;  ///< of a walk; the grid is faster for longer walks
 
 struct Box {
   Eigen::Vector2d low, high;
@@ -23,7 +23,7 @@ Box box_of(const FilmMesh& mesh, const Eigen::Vector3i& triangle) {
           v[triangle[0]].cwiseMax(v[triangle[1]]).cwiseMax(v[triangle[2]])};
 }
 
-/// Point of the triangle nearest to one outside it, in barycentric coordinates.
+/// The point of the triangle nearest to an outside point, in barycentric coordinates.
 Eigen::Vector3d nearest_in(const Eigen::Vector2d& p, const Eigen::Vector2d& origin,
                            const Eigen::Matrix2d& edges, double& square_mm2) {
   const std::array<Eigen::Vector2d, 3> corner = {origin, origin + edges.col(0),
@@ -132,7 +132,7 @@ bool Locator::holds(int triangle, const Eigen::Vector2d& point_mm, Place& place)
   place.triangle = triangle;
   place.barycentric = {first, b.x(), b.y()};
   place.outside_mm = 0;
-  // The innermost question of a simulation: Eigen's minCoeff() is a call here.
+  // This is the innermost operation of a simulation. Eigen's minCoeff() would not be inlined here.
   constexpr double kSlack = -1e-10;
   return (first >= kSlack) & (b.x() >= kSlack) & (b.y() >= kSlack);
 }

@@ -16,23 +16,23 @@ class Locator {
   struct Place {
     int triangle = -1;
     Eigen::Vector3d barycentric;  ///< of corners 0, 1, 2; clamped into the triangle if outside
-    double outside_mm = 0;        ///< how far outside the film the point lies; 0: inside
+    double outside_mm = 0;        ///< distance of the point from the film; 0: inside
   };
 
-  /// How far outside the film a point is still found, mm.
+  /// Largest distance from the film at which a point is found, mm.
   static constexpr double kReach_mm = 1.0;
 
-  /// The triangle that holds the point or, outside the film, the nearest one within kReach_mm;
-  /// triangle = -1 if there is none.
-  /// @param guess  a triangle near the point, if one is known (-1: none), to start from
+  /// Finds the triangle that contains the point or, outside the film, the nearest one within
+  /// kReach_mm; triangle = -1 if there is none.
+  /// @param guess  a triangle near the point to start from; -1: unknown
   [[nodiscard]] Place find(const Eigen::Vector2d& point_mm, int guess = -1) const;
 
  private:
-  /// What a step of a walk reads, in one line of the cache.
+  /// The data that a step of a walk reads, in one cache line.
   struct alignas(64) Corners {
     Eigen::Vector2d origin_mm;
     Eigen::Matrix2d to_barycentric;  ///< (point - origin) to the coordinates of corners 1 and 2
-    Eigen::Vector3i neighbours;      ///< opposite each corner; -1: none
+    Eigen::Vector3i neighbours;      ///< opposite each corner; -1: no neighbour
   };
 
   [[nodiscard]] bool holds(int triangle, const Eigen::Vector2d& point_mm, Place& place) const;
@@ -43,7 +43,7 @@ class Locator {
   std::vector<Eigen::Matrix2d> edges_mm_;  ///< from corner 0 to the others
   Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();
   int columns_ = 0, rows_ = 0;
-  /// Per cell the triangles that overlap it, then those that come within reach of it.
+  /// For each cell, the triangles that overlap it, and the border triangles within reach of it.
   std::vector<int> inner_start_, inner_, near_start_, near_;
 };
 

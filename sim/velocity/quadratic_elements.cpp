@@ -29,7 +29,7 @@ double twice_area_mm2(const FilmMesh& mesh, std::size_t triangle) {
 
 const std::array<QuadraturePoint, 6>& quadrature() {
   static const std::array<QuadraturePoint, 6> points = [] {
-    // One of the three coordinates, the others being equal, and the weight.
+    // One of the three coordinates (the other two are equal), and the weight.
     constexpr std::array<std::array<double, 2>, 2> kOrbits = {
         {{0.108103018168070, 0.223381589678011}, {0.816847572980459, 0.109951743655322}}};
     std::array<QuadraturePoint, 6> out;

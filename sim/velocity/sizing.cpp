@@ -12,7 +12,7 @@ constexpr float kStep_mm = kCell_mm;
 constexpr float kDiagonal_mm = std::numbers::sqrt2_v<float> * kStep_mm;
 constexpr float kFar_mm = 1e6F;
 
-/// Half a pass of the chamfer transform: what a row has from the one beside it.
+/// Half a pass of the chamfer transform: updates a row from the adjacent one.
 void relax_from_row(const float* beside, float* here, int columns) {
   for (int c = 0; c < columns; ++c) {
     const float diagonal = std::min(beside[c - 1], beside[c + 1]) + kDiagonal_mm;
@@ -25,7 +25,7 @@ void relax_from_row(const float* beside, float* here, int columns) {
 Sizing::Sizing(const film::Outline& outline,
                const std::vector<std::vector<Eigen::Vector2d>>& waterlines, const Options& options)
     : options_(options), origin_mm_(outline.min_mm) {
-  // A large film far from the object needs no finer mesh than a small one.
+  // On a large film, triangles far from the object may be larger than on a small one.
   options_.most_mm = std::max(options.most_mm, 0.05 * outline.size_mm().minCoeff());
   columns_ = static_cast<int>(std::ceil(outline.size_mm().x() / kCell_mm)) + 1;
   rows_ = static_cast<int>(std::ceil(outline.size_mm().y() / kCell_mm)) + 1;

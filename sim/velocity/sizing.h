@@ -7,9 +7,9 @@
 
 namespace hydroprint::velocity {
 
-/// Edge length wanted at each place of the film: small at the waterline, growing with the distance
-/// from it. The distance is a chamfer transform on a grid, good to a few percent, which is all that
-/// a mesh size needs.
+/// Target edge length at each place of the film, which is small at the waterline and grows with the
+/// distance from it. The distance is a chamfer transform on a grid, with an error of a few percent,
+/// which is accurate enough for mesh sizes.
 class Sizing {
  public:
   struct Options {
@@ -29,7 +29,7 @@ class Sizing {
   Options options_;
   Eigen::Vector2d origin_mm_;
   int columns_ = 0, rows_ = 0;
-  std::vector<float> distance_mm_;  ///< of the cells, and of a margin of one cell around them
+  std::vector<float> distance_mm_;  ///< for the cells and a margin of one cell around them
 };
 
 }  // namespace hydroprint::velocity

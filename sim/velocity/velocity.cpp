@@ -13,7 +13,7 @@ namespace {
 
 using Local = Eigen::Matrix<double, 6, 6>;
 
-/// Quadratic stiffness of one triangle, in closed form from the linear one
+/// Stiffness of one quadratic triangle, in closed form from that of the linear triangle,
 /// k_ij = area * grad(l_i) . grad(l_j).
 Local stiffness(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const std::array<Eigen::Vector2d, 3> edge = {c - b, a - c, b - a};
@@ -90,7 +90,7 @@ Eigen::Vector2d VelocityField::value(const Locator::Place& place) const {
 std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
                                                  const waterline::PullIndex& pulls) {
   HP_CHECK(mesh.edge_kind.size() == mesh.edges.size());
-  constexpr double kInwards = 0.02;  ///< of an edge: off its end, so that a corner has two sides
+  constexpr double kInwards = 0.02;  ///< share of an edge's length, to sample each side of a corner
   const Eigen::Vector2d unknown =
       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
   std::vector<Eigen::Vector2d> fixed(mesh.node_count(), unknown);

@@ -11,28 +11,28 @@
 
 namespace hydroprint::velocity {
 
-/// Film velocity at one immersion, per unit of dip speed: quadratic on the triangles of the film
-/// mesh.
+/// Film velocity at one immersion, per unit of dip speed. It is quadratic on the triangles of the
+/// film mesh.
 class VelocityField {
  public:
-  /// No film anywhere.
+  /// A field without film.
   VelocityField() = default;
   VelocityField(FilmMesh mesh, std::vector<Eigen::Vector2d> nodes);
 
-  /// Other velocities on the same film mesh, which the two then share.
+  /// Returns a field of other velocities that shares the film mesh.
   [[nodiscard]] VelocityField with(std::vector<Eigen::Vector2d> nodes) const;
 
-  /// Velocity at a point of the film, or at its nearest point if it lies up to `reach_mm` outside.
-  /// @param triangle  where to look first (-1: anywhere); becomes the triangle found
-  /// @return false, leaving `velocity` alone, where there is no film within reach
+  /// Velocity at a point of the film. For a point up to `reach_mm` outside, the velocity at the
+  /// nearest point of the film.
+  /// @param triangle  first triangle to try (-1: unknown); set to the triangle found
+  /// @return false, without changing `velocity`, if there is no film within reach
   [[nodiscard]] bool at(const Eigen::Vector2d& point_mm, double reach_mm, Eigen::Vector2d& velocity,
                         int& triangle) const;
   [[nodiscard]] bool at(const Eigen::Vector2d& point_mm, double reach_mm,
                         Eigen::Vector2d& velocity) const;
 
-  /// Velocity at the point of the film nearest to this one, zero if none is within the locator's
-  /// reach.
-  /// @return how far outside the film the point lies, mm; kNoFilm_mm if beyond reach
+  /// Velocity at the nearest point of the film; zero if the film is beyond the locator's reach.
+  /// @return distance of the point from the film, mm; kNoFilm_mm if beyond reach
   double nearest(const Eigen::Vector2d& point_mm, Eigen::Vector2d& velocity) const;
   static constexpr double kNoFilm_mm = 1e30;
 
@@ -52,15 +52,15 @@ class VelocityField {
   std::vector<Eigen::Vector2d> nodes_;
 };
 
-/// Dirichlet values of eq. (1) for every node: zero at the vat, the pull at the waterline (at a
-/// corner the mean of its two sides), NaN for inner nodes.
+/// Dirichlet values of eq. (1) for all nodes: zero at the vat, the pull at the waterline (at a
+/// corner, the mean of its two sides) and NaN for inner nodes.
 [[nodiscard]] std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
                                                                const waterline::PullIndex& pulls);
 
-/// Stokes flow (section 4.2, eq. 2): each component harmonic, quadratic elements, one
-/// factorisation for both.
-/// @param fixed  per node the prescribed velocity, NaN where it is to be found
-/// @return per node the velocity; kInternal if the matrix cannot be factored
+/// Stokes flow (section 4.2, eq. 2). Each component is harmonic; both use the same factorisation,
+/// on quadratic elements.
+/// @param fixed  for each node, the prescribed velocity, or NaN where it is unknown
+/// @return the velocity of each node; kInternal if the matrix cannot be factored
 [[nodiscard]] Result<std::vector<Eigen::Vector2d>> solve_stokes(
     const FilmMesh& mesh, const std::vector<Eigen::Vector2d>& fixed);
 

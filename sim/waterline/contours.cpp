@@ -7,13 +7,13 @@
 namespace hydroprint::waterline {
 namespace {
 
-// An end is 2 * segment + (0 for its start, 1 for its end).
+// An end is encoded as 2 * segment + (0 for its start, 1 for its end).
 constexpr int kNone = -1;
 int segment_of(int end) { return end / 2; }
 int opposite(int end) { return end ^ 1; }
 bool is_start(int end) { return end % 2 == 0; }
 
-/// For every end the end it meets on the same mesh edge; kNone where the surface is open there.
+/// For each end, the end that it meets on the same mesh edge; kNone if the surface is open there.
 std::vector<int> link_ends(const std::vector<CutSegment>& cuts) {
   struct End {
     std::uint64_t edge;
@@ -41,7 +41,7 @@ std::vector<int> link_ends(const std::vector<CutSegment>& cuts) {
     for (; i < ends.size() && ends[i].edge == edge; ++i) {
       (is_start(ends[i].end) ? starts : finishes).push_back(ends[i].end);
     }
-    // First as the orientation wants it, then what is left among itself (faces inside out).
+    // First pairs ends with starts, then the remaining ones with each other (faces inside out).
     const std::size_t pairs = std::min(starts.size(), finishes.size());
     for (std::size_t k = 0; k < pairs; ++k) join_two(starts[k], finishes[k]);
     auto& rest = starts.size() > pairs ? starts : finishes;
@@ -51,8 +51,8 @@ std::vector<int> link_ends(const std::vector<CutSegment>& cuts) {
 }
 
 Segment reversed(const Segment& s) {
-  // A face turned round has its normal turned round: the pull's direction changes, and theta
-  // becomes pi - theta, whose half-angle tangent is the reciprocal.
+  // Reversing a face reverses its normal. So the pull changes its direction, and theta becomes
+  // pi - theta, whose half-angle tangent is the reciprocal.
   const auto turned = [](const Eigen::Vector2d& pull) -> Eigen::Vector2d {
     const double square = pull.squaredNorm();
     static const double limit = std::tan(0.5 * kThetaLimit_rad);
@@ -62,7 +62,7 @@ Segment reversed(const Segment& s) {
   return {s.b_mm, s.a_mm, turned(s.pull_b), turned(s.pull_a)};
 }
 
-/// The chain that is entered at `end`, until it closes or opens; marks its segments.
+/// Follows the chain from `end` until it closes or ends; marks its segments as seen.
 Contour follow(const std::vector<CutSegment>& cuts, const std::vector<int>& link, int end,
                std::vector<char>& seen) {
   std::vector<int> entries;
@@ -73,7 +73,7 @@ Contour follow(const std::vector<CutSegment>& cuts, const std::vector<int>& link
     const Segment& s = cuts[segment_of(at)].segment;
     forward_mm += (s.b_mm - s.a_mm).norm() * (is_start(at) ? 1 : -1);
   }
-  if (forward_mm < 0) {  // most of it runs the other way
+  if (forward_mm < 0) {  // most of its length runs the other way
     std::reverse(entries.begin(), entries.end());
     for (int& entry : entries) entry = opposite(entry);
   }
@@ -86,9 +86,10 @@ Contour follow(const std::vector<CutSegment>& cuts, const std::vector<int>& link
   return contour;
 }
 
-/// Appends a straight line to `target`, in pieces no longer than 1 mm, pull going over linearly.
+/// Appends a straight line to `target`, in pieces of at most 1 mm. The pull is interpolated
+/// linearly.
 void bridge(Contour& contour, const Segment& target) {
-  // Copies: both may be part of the curve that grows.
+  // Copies, because both may be elements of the growing contour.
   const Segment from = contour.back();
   const Segment to = target;
   const double length_mm = (to.a_mm - from.b_mm).norm();
@@ -105,7 +106,7 @@ void bridge(Contour& contour, const Segment& target) {
   }
 }
 
-/// Joins open chains, each end to the nearest start that is left, its own included.
+/// Joins open chains: each end to the nearest remaining start, which may be its own.
 void close_up(std::vector<Contour> open, std::vector<Contour>& closed) {
   while (!open.empty()) {
     Contour contour = std::move(open.back());

@@ -8,7 +8,7 @@ namespace {
 
 namespace clip = ClipperLib;
 
-// Clipper works on integers; at 1e-6 mm a vat of a metre stays in its fast 32-bit range.
+// Clipper uses integers. With units of 1e-6 mm, a vat of one metre is within its fast 32-bit range.
 constexpr double kUnits_per_mm = 1e6;
 constexpr double kLeastArea_mm2 = 1e-3;
 constexpr double kSlit_mm = 0.3;
@@ -43,8 +43,8 @@ void collect(const clip::PolyNode& node, int parent, CrossSection& section) {
   }
 }
 
-/// Closes gaps narrower than kSlit_mm between curves, by widening the solid and narrowing it again:
-/// parts that touch but for rounding are one, and no film fits between them.
+/// Closes gaps narrower than kSlit_mm between curves, by widening the solid and narrowing it again.
+/// This joins parts that touch except for rounding errors; film does not fit between them.
 void close_slits(clip::PolyTree& tree) {
   clip::Paths paths;
   clip::ClosedPathsFromPolyTree(tree, paths);

@@ -5,8 +5,8 @@
 
 namespace hydroprint::waterline {
 
-/// How the object strays sideways on its way down, as driven: offset from the planned axis against
-/// immersion. Empty: straight down. Rows in order of immersion, which never decreases.
+/// The measured sideways motion of the object during the dip: its offset from the planned axis as a
+/// function of immersion. Empty: straight down. Immersion never decreases from row to row.
 struct Motion {
   struct Row {
     double time_s = 0;

@@ -64,7 +64,7 @@ Eigen::Vector2d PullIndex::at(const Eigen::Vector2d& point_mm) const {
   if (segments_.empty()) return Eigen::Vector2d::Zero();
   const Eigen::Vector2i centre = cell_of(point_mm);
   Nearest nearest;
-  // Rings of cells outwards until no nearer segment can come.
+  // Searches rings of cells outward until no ring can contain a nearer segment.
   const int rings = cells_.maxCoeff();
   for (int ring = 0; ring <= rings; ++ring) {
     const double reach_mm = (ring - 1) * kCell_mm;

@@ -14,13 +14,13 @@ namespace hydroprint::waterline {
 namespace {
 
 constexpr int kBins = 8192;
-constexpr double kLeastShelf_mm2 = 0.5;  ///< smaller level faces are no event
-constexpr double kLeastRim_mm = 5;       ///< shorter level edges are no event
-constexpr double kCreaseCosine = 0.8;    ///< corner normals further apart make a crease
-/// Along an upright crease eq. (1) turns at once, and the film with it: steps are this much
-/// shorter.
+constexpr double kLeastShelf_mm2 = 0.5;  ///< smaller level faces are not events
+constexpr double kLeastRim_mm = 5;       ///< shorter level edges are not events
+constexpr double kCreaseCosine = 0.8;    ///< corner normals with a smaller cosine make a crease
+/// Factor by which steps are shorter at creases. Across an upright crease, the direction of eq. (1)
+/// jumps, and with it the film's velocity.
 constexpr double kCreaseSteps = 2;
-/// Bends of a smaller radius are swept in shorter steps; the sharpest that count.
+/// Below the first radius, steps are shorter. Radii below the second count as the second.
 constexpr double kBend_mm = 20, kSharpest_mm = 1;
 
 struct Triangle {
@@ -37,36 +37,36 @@ Triangle measure(const Body& body, const Eigen::Vector3i& t) {
   return {low, high, 0.5 * length, normal.head<2>().norm() / length, -normal.z() / length};
 }
 
-/// What the depth range between two bin edges holds.
+/// Properties of the surface in each bin of depth.
 struct Bins {
-  std::vector<double> wetted_mm2;  ///< surface wetted, weighed
+  std::vector<double> wetted_mm2;  ///< wetted surface, weighted
   std::vector<double> length_mm;   ///< mean waterline length
-  std::vector<double> smallness;   ///< mean over it, by how the surface bends upward
+  std::vector<double> smallness;   ///< mean smallness() over it, for the upward curvature
   std::vector<char> has_crease;    ///< the waterline crosses creases
 };
 
-/// How much the time step matters for a surface at this angle: the film hardly moves near level
-/// faces (u = tan(theta / 2)), so there the steps may be longer.
+/// Weight of surface at this angle. Near level faces the film hardly moves (u = tan(theta / 2)), so
+/// steps may be longer there.
 double weight(double cosine) {
   const double tangent = std::sqrt(std::max(0.0, 1 - cosine) / std::max(1e-12, 1 + cosine));
   return std::clamp(2 * tangent, 0.3, 1.0);
 }
 
-/// How much less may be swept where a radius is smaller than the one that the steps are meant for,
-/// so that the error in mm stays about the same (ScheduleOptions::swept_mm).
+/// Factor for the swept width where a radius is smaller than the one that the steps are meant for.
+/// It keeps the error in mm about the same (ScheduleOptions::swept_mm).
 double smallness(double radius_mm, double meant_for_mm) {
   return std::min(1.0, std::pow(radius_mm / meant_for_mm, 2.0 / 3));
 }
 
-/// For a whole body: that of a sphere with as much surface.
+/// Smallness of a whole body: that of a sphere with the same surface area.
 double smallness(const Body& body) {
   double area_mm2 = 0;
   for (const Eigen::Vector3i& t : body.triangles) area_mm2 += measure(body, t).area_mm2;
   return smallness(std::sqrt(area_mm2 / (4 * std::numbers::pi)), ScheduleOptions::kLarge_mm);
 }
 
-/// Radius with which the surface bends upward on a triangle: how theta changes along the steepest
-/// way, from the corners' normals; infinite where it does not.
+/// Radius of curvature in the uphill direction on a triangle: from the change of theta between the
+/// corners' normals. Infinite if theta does not change.
 double bend_mm(const Body& body, std::size_t triangle) {
   const Eigen::Vector3i& t = body.triangles[triangle];
   const auto point = [&](int i) { return body.points_mm[t[i % 3]]; };
@@ -84,7 +84,7 @@ double bend_mm(const Body& body, std::size_t triangle) {
                                : std::numeric_limits<double>::infinity();
 }
 
-/// Per point, whether the surface is sharp there.
+/// For each point, whether it lies on a crease.
 std::vector<char> crease_points(const Body& body) {
   std::vector<char> is_crease(body.points_mm.size(), 0), found(body.points_mm.size(), 0);
   std::vector<Eigen::Vector3d> first(body.points_mm.size());
@@ -105,13 +105,13 @@ std::vector<char> crease_points(const Body& body) {
 
 Bins collect(const Body& body, double shelf_slope_rad) {
   const double bin_mm = body.height_mm / kBins;
-  // Densities enter as differences at the ends of each triangle's range, with the two end bins
-  // filled in part; a running sum then gives every bin.
+  // Each triangle adds differences of density at the two ends of its range, with the end bins
+  // partly filled. A running sum then gives the value of each bin.
   std::vector<double> area(kBins + 2, 0), length(kBins + 2, 0), small(kBins + 2, 0),
       crease(kBins + 2, 0);
   const std::vector<char> is_crease = crease_points(body);
   const auto spread = [&](std::vector<double>& bins, double low, double high, double density) {
-    const auto step_up = [&](double z, double rise) {  // density from z on, as bin averages
+    const auto step_up = [&](double z, double rise) {  // adds density above z, as bin averages
       const double at = std::clamp(z / bin_mm, 0.0, static_cast<double>(kBins));
       const int bin = static_cast<int>(at);
       const double inside = 1 - (at - bin);
@@ -150,7 +150,7 @@ Bins collect(const Body& body, double shelf_slope_rad) {
   return bins;
 }
 
-/// Levels at which at least `least` of the given weighted heights gather within 1e-3 mm.
+/// Levels at which the weights of heights within 1e-3 mm add up to at least `least`.
 std::vector<double> gather(std::vector<std::pair<double, double>> heights, double least) {
   std::sort(heights.begin(), heights.end());
   std::vector<double> levels;
@@ -172,7 +172,7 @@ std::vector<double> shelves(const Body& body, double shelf_slope_rad) {
   return gather(std::move(faces), kLeastShelf_mm2);
 }
 
-/// Level edges at which the surface has a crease: the waterline's speed jumps all along them.
+/// Heights of level edges that are creases. The waterline's speed jumps along the whole edge.
 std::vector<double> rims(const Body& body) {
   struct Side {
     Eigen::Vector3d normal;

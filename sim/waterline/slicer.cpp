@@ -21,11 +21,11 @@ struct Crossing {
   std::uint64_t edge;
 };
 
-/// Where the edge from corner i to corner j of triangle t crosses the level.
+/// The point at which the edge from corner i to corner j of triangle t crosses the level.
 Crossing cross(const Body& body, int t, int i, int j, double level_mm) {
   const int vi = body.triangles[t][i];
   const int vj = body.triangles[t][j];
-  // The same arithmetic from both sides of an edge: always from its lower index.
+  // Always computed from the lower index, so that both triangles at an edge get the same result.
   const bool swap = vi > vj;
   const Eigen::Vector3d& p = body.points_mm[swap ? vj : vi];
   const Eigen::Vector3d& q = body.points_mm[swap ? vi : vj];
@@ -72,12 +72,13 @@ std::vector<Contour> Slicer::cut(double immersion_mm) const {
     const auto is_wet = [&](int i) { return body_->points_mm[corners[i]].z() < immersion_mm; };
     const int wet = is_wet(0) + is_wet(1) + is_wet(2);
     if (wet == 0 || wet == 3) continue;
-    // The corner that stands alone on its side of the water.
+    // The corner that is alone on its side of the water.
     const int lone = is_wet(0) == is_wet(1) ? 2 : (is_wet(0) == is_wet(2) ? 1 : 0);
     const Crossing c = cross(*body_, t, lone, (lone + 1) % 3, immersion_mm);
     const Crossing d = cross(*body_, t, lone, (lone + 2) % 3, immersion_mm);
-    // Counter-clockwise corners seen from outside: with the lone corner wet, the cut runs from the
-    // edge towards the next corner to the edge from the previous one, solid on its left.
+    // Corners are counter-clockwise as seen from outside. For a dry lone corner, the cut runs from
+    // the edge to the next corner to the edge to the previous one, with the solid on its left; for
+    // a wet lone corner, it is reversed.
     const Crossing& from = wet == 1 ? d : c;
     const Crossing& to = wet == 1 ? c : d;
     cuts.push_back(

@@ -7,30 +7,30 @@
 
 namespace hydroprint::waterline {
 
-/// One triangle's cut with the water surface: the solid lies to the left of a -> b.
+/// The intersection of one triangle with the water surface. The solid lies to the left of a -> b.
 struct Segment {
   Eigen::Vector2d a_mm, b_mm;
   Eigen::Vector2d pull_a, pull_b;  ///< film velocity per unit dip speed at the ends (eq. 1)
 };
 
-/// A closed curve made of segments, end to start; the solid it bounds lies to its left.
+/// A closed curve of segments, each ending at the next one's start. The solid lies to its left.
 using Contour = std::vector<Segment>;
 
-/// Cuts a body at any immersion. Triangles are binned by height once, so that a cut costs what it
-/// returns.
+/// Slices a body at any immersion. Triangles are binned by height once, so that the cost of a cut
+/// is proportional to its result.
 class Slicer {
  public:
   explicit Slicer(const Body& body);
 
-  /// The curves along which the body's triangles meet the water. Vertices exactly at the water's
-  /// level count as dry, so every curve of a closed body is closed. What an open or non-manifold
-  /// body leaves open is closed by straight lines between the nearest ends.
+  /// The curves along which the body's triangles meet the water. Vertices exactly at the water
+  /// level count as dry, so all curves of a closed body are closed. Curves of an open or
+  /// non-manifold body are closed by straight lines between the nearest ends.
   [[nodiscard]] std::vector<Contour> cut(double immersion_mm) const;
 
  private:
   const Body* body_;
   double bins_per_mm_ = 1;
-  std::vector<int> bin_start_;  ///< into bin_triangles_, one more than bins
+  std::vector<int> bin_start_;  ///< indices into bin_triangles_, one more than there are bins
   std::vector<int> bin_triangles_;
 };
 

@@ -9,17 +9,18 @@ namespace hydroprint::waterline {
 namespace {
 
 constexpr double kLeastTrap_mm2 = 1;
-/// Solid over at least this share of a hole closes it: by then it has opened nowhere else.
+/// A hole that vanishes is closed by solid if solid covers at least this share of it. Otherwise it
+/// has opened.
 constexpr double kClosedShare = 0.5;
 
 using Curves = std::vector<std::vector<Eigen::Vector2d>>;
 
 /// A hole of one waterline.
 struct Hole {
-  Curves curves;  ///< its edge and those of the islands in it
+  Curves curves;  ///< edges of the hole and of the islands in it
   double area_mm2 = 0;
   bool holds_film = false;
-  int trap = -1;  ///< among the traps found; -1: none
+  int trap = -1;  ///< index of its trap; -1: no trap
 };
 
 std::vector<Hole> holes_of(const Waterline& line) {
@@ -55,17 +56,17 @@ Eigen::Vector2d middle_of(const std::vector<Eigen::Vector2d>& polygon) {
   return {0.5 * (left->x() + right->x()), 0.5 * (low->y() + high->y())};
 }
 
-/// Follows the holes of the waterlines one by one.
+/// Follows holes from waterline to waterline.
 class Follower {
  public:
-  /// @param is_dip  false beyond the end of the dip, where no film is closed in any more
+  /// @param is_dip  false above the end of the dip, where no more film is enclosed
   void follow(const Waterline& line, bool is_dip) {
     std::vector<Hole> now = holes_of(line);
     std::vector<char> is_taken(traps_.size(), 0);
     for (Hole& hole : now) {
       const int below = trap_below(hole);
       if (below < 0 ? hole.holds_film && is_dip : is_taken[below] != 0) {
-        hole.trap = begin(hole, line.immersion_mm);  // closed in, or parted from another
+        hole.trap = begin(hole, line.immersion_mm);  // newly closed, or split off from another
       } else if (below >= 0) {
         hole.trap = below;
         is_taken[below] = 1;
@@ -114,7 +115,7 @@ class Follower {
     return static_cast<int>(traps_.size()) - 1;
   }
 
-  /// From a hole of the waterline before to what has become of it.
+  /// Updates the trap of a hole of the previous waterline.
   void pass(const Hole& before, const std::vector<Hole>& now, const Curves& solid,
             double immersion_mm, double span_mm) {
     Trap& trap = traps_[before.trap];
@@ -144,7 +145,7 @@ std::vector<Trap> find_traps(const std::vector<Waterline>& lines,
   Follower follower;
   for (const Waterline& line : lines) follower.follow(line, true);
   for (const Waterline& line : beyond) follower.follow(line, false);
-  Waterline above;  // the object: everything is open
+  Waterline above;  // above the object everything is open
   const std::vector<Waterline>& last = beyond.empty() ? lines : beyond;
   if (!last.empty()) above.immersion_mm = last.back().immersion_mm;
   follower.follow(above, false);

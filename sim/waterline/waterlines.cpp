@@ -11,7 +11,7 @@
 namespace hydroprint::waterline {
 namespace {
 
-constexpr double kEdgeMargin_mm = 0.05;   ///< nearer than this to the film's edge counts as there
+constexpr double kEdgeMargin_mm = 0.05;   ///< points nearer to the film's edge have reached it
 constexpr double kLeastIsland_mm2 = 0.2;  ///< smaller contours may come and go unresolved
 constexpr std::size_t kMostWaterlines = 3000;
 
@@ -37,7 +37,7 @@ Waterline take(const Slicer& slicer, const Motion& motion, double immersion_mm) 
   return {immersion_mm, unite(contours), {}, PullIndex(contours)};
 }
 
-/// How many outer loops and holes of some size there are: when it changes, the topology has.
+/// Numbers of outer loops and of holes above a minimum size. They change when the topology changes.
 std::array<int, 2> signature(const Waterline& line) {
   std::array<int, 2> count = {0, 0};
   for (const Loop& loop : line.section) {
@@ -84,13 +84,13 @@ Status check_first_contact(const Body& body, const film::Outline& outline, const
   return fail(Code::kFailedPrecondition,
               "pose: the object's lowest point, at (" + std::to_string(touch.x()) + ", " +
                   std::to_string(touch.y()) + ") mm, misses the film " + outline.name +
-                  "; move the object over the film (translation_mm) or take a larger --film",
+                  ". Move the object over the film (translation_mm), or use a larger --film",
               "CONTACT_MISSES_FILM");
 }
 
 using Curves = std::vector<std::vector<Eigen::Vector2d>>;
 
-/// The curves round everything that is neither film nor solid: holes without film.
+/// The curves around regions that are neither film nor solid: holes without film.
 Curves dry_curves(const Waterline& line) {
   Curves curves;
   for (std::size_t l = 0; l < line.section.size(); ++l) {
@@ -102,7 +102,7 @@ Curves dry_curves(const Waterline& line) {
   return curves;
 }
 
-/// Decides which loops bound film, given the waterline just before.
+/// Determines which loops bound film, from the previous waterline.
 void carry_film(const film::Outline& outline, const Waterline& before, Waterline& line) {
   line.bounds_film.assign(line.section.size(), 0);
   for (std::size_t l = 0; l < line.section.size(); ++l) {
@@ -122,7 +122,7 @@ void carry_film(const film::Outline& outline, const Waterline& before, Waterline
   }
 }
 
-/// Waterlines at the given immersions, more where the topology changes in between.
+/// Takes waterlines at the given immersions, and more where the topology changes between them.
 Result<std::vector<Waterline>> take_all(const Slicer& slicer, const Motion& motion,
                                         const std::vector<double>& depths, double event_gap_mm,
                                         const Context& context) {
@@ -155,7 +155,7 @@ Result<std::vector<Waterline>> take_all(const Slicer& slicer, const Motion& moti
   return lines;
 }
 
-/// Cuts the list off where the waterline reaches the film's edge, adding one last waterline just
+/// Truncates the list where the waterline reaches the film's edge, and adds a last waterline just
 /// before that.
 void stop_at_edge(const Slicer& slicer, const Motion& motion, const film::Outline& outline,
                   Waterlines& waterlines) {
@@ -182,7 +182,7 @@ void stop_at_edge(const Slicer& slicer, const Motion& motion, const film::Outlin
   waterlines.depth_mm = beyond;
 }
 
-/// What lies above the end of the dip, for those who ask whether a hole is closed up there.
+/// Takes the waterlines above the end of the dip, for finding the ceilings of holes.
 Result<std::vector<Waterline>> take_beyond(const Slicer& slicer, const Body& body, double depth_mm,
                                            const Motion& motion, const ScheduleOptions& options,
                                            const Context& context) {

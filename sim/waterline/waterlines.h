@@ -15,12 +15,13 @@
 
 namespace hydroprint::waterline {
 
-/// Where the water meets the object at one immersion, in F with the object's sideways offset.
+/// The intersection of the water surface with the object at one immersion, in F, including the
+/// object's sideways offset.
 struct Waterline {
   double immersion_mm = 0;
   CrossSection section;
-  /// Per loop of the section: film lies on its open side. Outer loops of solids that float in a
-  /// hole without film, and holes that film never entered, do not bound film.
+  /// For each loop of the section, whether film lies on its open side. Holes that film never
+  /// entered do not bound film, nor do outer loops within such holes.
   std::vector<char> bounds_film;
   PullIndex pulls;
 };
@@ -29,27 +30,27 @@ struct Waterline {
 struct Waterlines {
   std::vector<Waterline> lines;
   double depth_mm = 0;           ///< immersion at which the dip ends
-  bool stopped_at_edge = false;  ///< it ends there because the waterline reached the film's edge
-  std::vector<Trap> traps;       ///< film and air closed in on the way, largest first
+  bool stopped_at_edge = false;  ///< the dip ends because the waterline reached the film's edge
+  std::vector<Trap> traps;       ///< enclosed film and air, largest first
 };
 
 /// Sideways offset of the object at an immersion, mm: linear between the motion's rows.
 [[nodiscard]] Eigen::Vector2d offset_at(const Motion& motion, double immersion_mm);
 
-/// Its derivative by immersion, dimensionless: the part that the film at the waterline shares.
+/// Derivative of offset_at() by immersion, dimensionless. The film at the waterline moves with it.
 [[nodiscard]] Eigen::Vector2d drift_at(const Motion& motion, double immersion_mm);
 
-/// Takes the waterlines of a dip: at the scheduled immersions, and more closely where contours
-/// appear, vanish, split or merge (halving down to `event_gap_mm` * 5). Carries along which holes
-/// hold film: only film can stay film, so a hole that opens inside the cross-section holds none.
-/// @param outline  the film as it floats; the dip ends where the waterline reaches it
-/// @return refuses with kFailedPrecondition if the first contact misses the film
+/// Computes the waterlines of a dip at the scheduled immersions, and more closely where contours
+/// appear, vanish, split or merge (bisecting down to `event_gap_mm` * 5). Tracks which holes
+/// contain film; a hole that opens inside the cross-section contains none.
+/// @param outline  the floating film; the dip ends where the waterline reaches its edge
+/// @return kFailedPrecondition if the first contact misses the film
 [[nodiscard]] Result<Waterlines> take_waterlines(const Body& body, const film::Outline& outline,
                                                  double depth_mm, const Motion& motion,
                                                  const ScheduleOptions& options,
                                                  const Context& context);
 
-/// The closed curves, film's edge first, that bound the film under the even-odd rule.
+/// The closed curves that bound the film under the even-odd rule; the film's edge is the first.
 [[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> film_curves(const film::Outline& outline,
                                                                     const Waterline& line);
 

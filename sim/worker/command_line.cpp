@@ -37,7 +37,7 @@ struct RunFlags {
 
 void add_path(CLI::App& app, const std::string& flag, std::filesystem::path& path,
               const std::string& description, const std::string& type) {
-  // CLI11 itself would cut paths at blanks.
+  // CLI11's own path option splits paths at spaces.
   app.add_option_function<std::string>(
          flag, [&path](const std::string& text) { path = text; }, description)
       ->type_name(type);
@@ -77,7 +77,7 @@ class VerbParser {
   CLI::App& app_;
   std::unique_ptr<Message> spec_;
   Flags flags_;
-  std::vector<CLI::Option*> verb_flags_;  ///< those that `--spec` replaces
+  std::vector<CLI::Option*> verb_flags_;  ///< flags that `--spec` replaces
 };
 
 VerbParser::VerbParser(CLI::App& program, const Verb& verb, RunFlags& run)
@@ -99,14 +99,14 @@ void VerbParser::add_run_flags() {
   RunOptions& options = run_.options;
   if (verb_.leaves_folder) {
     add_path(app_, "--out", options.out,
-             "Artifact folder to create; one of an earlier run is replaced", "DIR");
+             "Artifact folder to create; replaces that of an earlier run", "DIR");
     app_.get_option("--out")->required();
     app_.add_flag("--json", options.json, "Print the summary or error as one JSON object");
     app_.add_option("--progress-fd", options.progress_fd,
-                    "File descriptor to write progress to, one JSON object a line")
+                    "File descriptor for progress, one JSON object per line")
         ->type_name("N");
   }
-  flags_.add("threads", "Threads to compute on; default: all cores");
+  flags_.add("threads", "Number of threads; default: all cores");
 }
 
 void VerbParser::add_spec_flags() {
@@ -116,15 +116,15 @@ void VerbParser::add_spec_flags() {
             run_.spec = file;
             for (CLI::Option* flag : verb_flags_) flag->required(false);
           },
-          "Options as JSON of " + spec_->GetDescriptor()->name() +
-              ", in place of the flags below; -: stdin")
+          "Options as JSON (" + spec_->GetDescriptor()->name() +
+              "), instead of the flags below; - reads stdin")
       ->type_name("FILE.json");
   app_.add_option("--inputs", run_.inputs,
-                  "Folder of the files that --spec names; default: the folder of --spec")
+                  "Folder with the files named in --spec; default: the folder of the spec file")
       ->type_name("DIR");
 }
 
-/// What is wrong with the command line as such; empty if nothing is.
+/// Describes the first usage error; empty if there is none.
 std::string VerbParser::usage_problem() const {
   const RunOptions& o = run_.options;
   if (verb_.leaves_folder && o.out.empty()) return "--out: empty. Name a folder";
@@ -134,7 +134,7 @@ std::string VerbParser::usage_problem() const {
   if (!run_.spec && run_.inputs) return "--inputs: needs --spec. Leave it out";
   if (!run_.spec) return {};
   if (*run_.spec == "-" && !verb_.leaves_folder) {
-    return "--spec: stdin is for requests. Name a file";
+    return "--spec: stdin is reserved for requests. Name a file";
   }
   for (const CLI::Option* flag : verb_flags_) {
     if (flag->count() == 0) continue;
@@ -172,8 +172,8 @@ int VerbParser::threads() const {
   return reflection.HasField(*spec_, &field) ? reflection.GetInt32(*spec_, &field) : all_cores();
 }
 
-/// The error with the flag or, for a spec, with the field in its message; for people also with the
-/// spec's file.
+/// Adds the flag to the error's message or, for a spec, the field. Without `--json` also adds the
+/// name of the spec file.
 Error VerbParser::located(Error error) const {
   const bool is_in_spec = run_.spec && error.metadata.contains("field");
   error = name_field(std::move(error), !run_.spec);
@@ -181,8 +181,7 @@ Error VerbParser::located(Error error) const {
   return error;
 }
 
-/// A flag that makes no sense is bad usage, a number out of range is bad input; so is everything
-/// in a spec.
+/// An invalid flag is bad usage. A number out of range is bad input, and so is any error in a spec.
 CommandLine VerbParser::refuse_options(const Error& error) const {
   const bool is_usage = !run_.spec && error.code != Code::kOutOfRange;
   return refuse(run_.options, is_usage ? ExitStatus::kUsage : ExitStatus::kBadInput,
@@ -218,7 +217,7 @@ CommandLine print(std::string text) {
 
 CommandLine parse_command_line(int argc, const char* const* argv) {
   CLI::App app(
-      "Computes one hydrographic print: reads a model, writes an artifact folder.\n"
+      "Runs one computation for hydrographic printing and writes an artifact folder.\n"
       "Needs no daemon and no network.");
   app.name("hydroprint-worker");
   app.set_version_flag("--version", "hydroprint-worker " HYDROPRINT_VERSION);

@@ -8,7 +8,7 @@
 
 namespace hydroprint::worker {
 
-/// What a command line asks for.
+/// The parsed command line.
 struct CommandLine {
   enum class Action { kRun, kPrint, kRefuse };
   Action action = Action::kRun;
@@ -20,9 +20,9 @@ struct CommandLine {
   ExitStatus status = ExitStatus::kDone;
 };
 
-/// Reads the command line and the spec or pose file that it names; checks all options as far as
-/// possible without the other files. Refuses with kUsage a command line that is not valid, with
-/// kBadInput values out of range and a spec that is not valid.
+/// Reads the command line and the spec or pose file that it names. Checks all options as far as
+/// possible without reading the other input files. Refuses an invalid command line with kUsage,
+/// and an invalid spec or values out of range with kBadInput.
 [[nodiscard]] CommandLine parse_command_line(int argc, const char* const* argv);
 
 }  // namespace hydroprint::worker

@@ -1,13 +1,15 @@
-// hydroprint-worker: one computation, one process. Its verbs: registry.h.
+// hydroprint-worker: runs one computation per process. registry.h lists its verbs.
 
 #include <fcntl.h>
 #include <malloc.h>
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include "sim/base/one_line.h"
 #include "sim/base/process/error_output.h"
@@ -19,8 +21,8 @@
 namespace hydroprint::worker {
 namespace {
 
-/// A file opened later must not take the number of a stream that the caller closed: what is said
-/// there would end up in it.
+/// Opens /dev/null for each standard stream that the caller closed. Otherwise a file opened later
+/// could get the stream's number and receive its output.
 void occupy_standard_streams() {
   for (int fd = ::open("/dev/null", O_RDWR); fd >= 0; fd = ::open("/dev/null", O_RDWR)) {
     if (fd > 2) {
@@ -30,15 +32,29 @@ void occupy_standard_streams() {
   }
 }
 
-/// What is freed is used again soon: memory that goes back to the system each time comes back page
-/// by page, which takes a twentieth of a dip's time.
+/// Keeps freed memory in the process, because it is soon used again. Returning it to the system
+/// costs a twentieth of a dip's time in page faults.
 void keep_freed_memory() {
   constexpr int kMany = 256 << 20;
   ::mallopt(M_MMAP_THRESHOLD, kMany);
   ::mallopt(M_TRIM_THRESHOLD, kMany);
 }
 
-/// Runs the task, and turns exceptions of libraries into errors.
+/// Ends a program whose caller reads JSON when memory runs out where no exception may pass, and
+/// states the reason. Other exceptions abort the program as usual.
+[[noreturn]] void on_terminate() {
+  try {
+    if (std::current_exception()) std::rethrow_exception(std::current_exception());
+  } catch (const std::bad_alloc&) {
+    constexpr std::string_view kAnswer = "{\"error\":{\"reason\":\"OUT_OF_MEMORY\"}}\n";
+    const bool written = ::write(STDOUT_FILENO, kAnswer.data(), kAnswer.size()) > 0;
+    if (written) ::_exit(static_cast<int>(ExitStatus::kFailed));
+  } catch (...) {
+  }
+  std::abort();
+}
+
+/// Runs the task and turns exceptions of libraries into errors.
 Result<Finished> run(const CommandLine& command, Termination& termination, int stderr_fd) {
   const std::string subject = command.task->subject();
   try {
@@ -72,6 +88,7 @@ int main_of(int argc, char** argv) {
   keep_freed_memory();
   const CommandLine command = parse_command_line(argc, argv);
   const bool json = command.run.json;
+  if (json) std::set_terminate(on_terminate);
   switch (command.action) {
     case CommandLine::Action::kPrint:
       std::fputs(command.text.c_str(), stdout);

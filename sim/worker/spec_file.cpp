@@ -24,7 +24,7 @@ using google::protobuf::Message;
 
 constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
 
-/// References that a daemon replaces by files and values before a worker starts.
+/// References that a daemon replaces with files and values before a worker starts.
 constexpr std::array<std::string_view, 6> kReferences = {
     "simulate_job", "capture_job",        "capture_jobs",
     "calibration",  "camera_calibration", "allow_stale_calibration"};
@@ -43,7 +43,7 @@ Result<std::string> read_stdin() {
 }
 
 Status parse(const std::string& json, const std::filesystem::path& file, Message& spec) {
-  // A parse error is reported once, as our own error.
+  // Keeps protobuf from logging the parse error, which is returned below.
   const google::protobuf::LogSilencer silencer;
   const auto status = google::protobuf::util::JsonStringToMessage(json, &spec);
   if (status.ok()) return {};
@@ -86,7 +86,7 @@ Status check(const Message& spec, const std::filesystem::path& inputs) {
   for (const FieldDescriptor* field : fields) {
     if (std::find(kReferences.begin(), kReferences.end(), field->name()) != kReferences.end()) {
       return fail_field(Code::kInvalidArgument, field->name(),
-                        "only a daemon can look this up. Name files and values instead");
+                        "only a daemon can resolve this. Give files and values instead");
     }
     if (is_input_file(*field)) HP_RETURN_IF_ERROR(check_files(spec, *field, inputs));
   }

@@ -1,4 +1,4 @@
-// `hydroprint admin` on the daemon's machine, against the real daemon and without one.
+// `hydroprint admin` on the daemon's machine, with and without a running daemon.
 #include <sys/mount.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ constexpr char kNewPassword[] = "battery staple";
 
 using Tree = std::map<std::string, std::string>;
 
-// What is in a folder: file by file, its content.
+// The content of a folder, file by file.
 Tree tree_of(const std::filesystem::path& folder) {
   Tree tree;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
@@ -51,7 +51,7 @@ class AdminCli : public PeopleCli {
     const std::string file = folder_.write("m.obj", mesh).string();
     return client_json({"submit", "simulate", "--mesh", file, "--wait"}).at("name");
   }
-  // In the place of the daemon's state folder.
+  // A folder to use instead of the daemon's state folder.
   [[nodiscard]] std::filesystem::path elsewhere() const { return other_.path() / "state"; }
   Outcome reset(const std::string& lines, const Arguments& more = {}) const {
     Arguments arguments{"admin", "reset-password", "--state-dir", daemon_.state().string(), "ann"};
@@ -62,7 +62,7 @@ class AdminCli : public PeopleCli {
   TemporaryFolder other_;
 };
 
-TEST_F(AdminCli, ABackupOfARunningDaemonIsAllThereIsAndBringsItBack) {
+TEST_F(AdminCli, ABackupOfARunningDaemonIsCompleteAndRestoresIt) {
   const std::string name = simulate("mesh");
   ASSERT_EQ(client({"pin", name}).status, 0);
   const auto out = folder_.path() / "got", film = out / "film.png";
@@ -70,8 +70,8 @@ TEST_F(AdminCli, ABackupOfARunningDaemonIsAllThereIsAndBringsItBack) {
   const auto file = backup();
   struct stat info {};
   ASSERT_EQ(::stat(file.c_str(), &info), 0);
-  EXPECT_EQ(info.st_mode & 0777, 0600U);  // it holds what everybody printed
-  simulate("later");                      // the daemon went on
+  EXPECT_EQ(info.st_mode & 0777, 0600U);  // it contains all users' data
+  simulate("later");                      // the daemon kept running
   const Outcome restored = admin({"restore", file}, elsewhere());
   ASSERT_EQ(restored.status, 0) << restored.err;
   EXPECT_NE(restored.out.find("restored 1 jobs and "), std::string::npos) << restored.out;
@@ -94,11 +94,11 @@ TEST_F(AdminCli, ABackupOfARunningDaemonIsAllThereIsAndBringsItBack) {
   EXPECT_FALSE(reader.jobs->GetJob(reader.context().get(), later, &none).ok());
   v1::ListSessionsResponse sessions;
   ASSERT_TRUE(reader.people->ListSessions(reader.context().get(), {}, &sessions).ok());
-  EXPECT_EQ(sessions.sessions_size(), 1);  // those of the backup do not come back
+  EXPECT_EQ(sessions.sessions_size(), 1);  // those of the backup are not restored
   EXPECT_EQ(reader.upload("mesh"), job.simulate().mesh().asset());
 }
 
-TEST_F(AdminCli, BackupsMadeWhileJobsComeAndGoAreEachWhole) {
+TEST_F(AdminCli, BackupsDuringJobChangesAreConsistent) {
   std::atomic<bool> is_over{false};
   std::thread busy([&] {
     for (int i = 0; !is_over; ++i) {
@@ -116,7 +116,7 @@ TEST_F(AdminCli, BackupsMadeWhileJobsComeAndGoAreEachWhole) {
   busy.join();
 }
 
-TEST_F(AdminCli, ARunningJobIsBackedUpAndBegunAnewWhereItIsRestored) {
+TEST_F(AdminCli, ARunningJobIsBackedUpAndRestartedAfterARestore) {
   const std::string mesh = folder_.write("m.obj", "sleep 1000").string();
   const std::string name = client_json({"submit", "simulate", "--mesh", mesh}).at("name");
   Client watcher(daemon_.address());
@@ -130,7 +130,7 @@ TEST_F(AdminCli, ARunningJobIsBackedUpAndBegunAnewWhereItIsRestored) {
   reader.wait_for(name, v1::Job::RUNNING);
 }
 
-TEST_F(AdminCli, WhatIsMissingIsToldOfAndLeftOut) {
+TEST_F(AdminCli, MissingFilesAreReportedAndOmitted) {
   const std::string name = simulate("mesh"), other = simulate("other");
   std::filesystem::remove(daemon_.state() / "artifacts" / "1" / "film.png");
   const auto file = folder_.path() / "backup.tar";
@@ -155,7 +155,7 @@ TEST_F(AdminCli, ABackupNeverReplacesAFileAndLeavesNothingWhenItFails) {
   EXPECT_TRUE(std::filesystem::is_empty(other_.path()));
 }
 
-/// A disk of so many KiB, for as long as this lives.
+/// A file system of the given size in KiB, mounted while this object lives.
 class SmallDisk {
  public:
   SmallDisk(std::filesystem::path path, int kib) : path_(std::move(path)) {
@@ -175,8 +175,8 @@ class SmallDisk {
   std::filesystem::path path_;
 };
 
-// Whatever the moment at which there is no more room.
-TEST_F(AdminCli, OnADiskThatIsTooSmallBackupAndRestoreAreWholeOrNotThere) {
+// Tries many sizes, so that the space runs out at different moments.
+TEST_F(AdminCli, OnAFullDiskBackupAndRestoreAreCompleteOrAbsent) {
   const auto small = other_.path() / "small";
   if (!SmallDisk(small, 100).is_there) GTEST_SKIP() << "needs root, to mount a small disk";
   simulate(std::string(1 << 20, '#'));
@@ -193,7 +193,7 @@ TEST_F(AdminCli, OnADiskThatIsTooSmallBackupAndRestoreAreWholeOrNotThere) {
     const Outcome ended = admin({"restore", good}, small / "state");
     const Tree left = tree_of(small / "state");
     EXPECT_EQ(left.contains("hydroprint.db"), ended.status == 0) << ended.err;
-    EXPECT_EQ(left.size() > 1, ended.status == 0) << ended.err;  // else the lock alone
+    EXPECT_EQ(left.size() > 1, ended.status == 0) << ended.err;  // otherwise only the lock
     ++(ended.status == 0 ? restores : refused);
   }
   EXPECT_GT(backups, 0);
@@ -201,13 +201,13 @@ TEST_F(AdminCli, OnADiskThatIsTooSmallBackupAndRestoreAreWholeOrNotThere) {
   EXPECT_GT(refused, 4);
 }
 
-TEST_F(AdminCli, ARestoreTakesNoFolderThatIsInUseOrNotEmptyUnlessTold) {
+TEST_F(AdminCli, ARestoreRefusesAFolderThatIsInUseOrNotEmpty) {
   const std::string name = simulate("mesh");
   const auto file = backup();
   const Outcome in_use = admin({"restore", file, "--replace"});
   EXPECT_EQ(in_use.status, 3);
   EXPECT_NE(in_use.err.find("uses this state folder"), std::string::npos) << in_use.err;
-  EXPECT_EQ(client({"show", name}).status, 0);  // the daemon never noticed
+  EXPECT_EQ(client({"show", name}).status, 0);  // the daemon is not affected
 
   std::filesystem::create_directories(elsewhere());
   std::ofstream(elsewhere() / "thesis.txt") << "mine";
@@ -223,7 +223,7 @@ TEST_F(AdminCli, ARestoreTakesNoFolderThatIsInUseOrNotEmptyUnlessTold) {
   EXPECT_EQ(client({"show", name}).status, 0);
 }
 
-TEST_F(AdminCli, ADamagedBackupIsRefusedAndNothingIsTouched) {
+TEST_F(AdminCli, ADamagedBackupIsRefusedWithoutChanges) {
   simulate("mesh");
   const std::string good = content(backup());
   daemon_.terminate();
@@ -253,7 +253,7 @@ TEST_F(AdminCli, ADamagedBackupIsRefusedAndNothingIsTouched) {
   expect_refused(in_database, "a byte of the database");
 }
 
-TEST_F(AdminCli, AnArchiveThatLeadsElsewhereIsRefused) {
+TEST_F(AdminCli, AnArchiveWithPathsOutsideTheFolderIsRefused) {
   const std::vector<std::string> names{"../evil",          "/tmp/hydroprint-evil",
                                        "assets/../evil",   "artifacts/1/../x",
                                        "artifacts/0/x",    "artifacts/1/",
@@ -283,7 +283,7 @@ TEST_F(AdminCli, AnArchiveThatLeadsElsewhereIsRefused) {
   EXPECT_EQ(admin({"restore", file}, elsewhere()).status, 3);
 }
 
-TEST(Archive, NamesAndContentsComeBackAsTheyWere) {
+TEST(Archive, NamesAndContentsAreRestored) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.tar";
   const std::map<std::string, std::string> entries{
@@ -297,7 +297,7 @@ TEST(Archive, NamesAndContentsComeBackAsTheyWere) {
       const auto done = out->add(name, bytes);
       ASSERT_TRUE(done) << done.error().message;
     }
-    EXPECT_FALSE(std::filesystem::exists(file));  // before it is whole
+    EXPECT_FALSE(std::filesystem::exists(file));  // before it is complete
     ASSERT_TRUE(out->finish());
   }
   std::map<std::string, std::string> read;
@@ -313,23 +313,24 @@ TEST(Archive, NamesAndContentsComeBackAsTheyWere) {
   EXPECT_EQ(read, entries);
 }
 
-TEST_F(AdminCli, NoDaemonStartsWhereARestoreWasBrokenOffUntilItWasDoneAgain) {
+TEST_F(AdminCli, NoDaemonStartsAfterAnInterruptedRestoreUntilItIsRepeated) {
   simulate("mesh");
   const auto file = backup();
   daemon_.terminate();
-  std::ofstream(daemon_.state() / "unrestored") << "";  // as after a power cut at the last step
+  std::ofstream(daemon_.state() / "unrestored") << "";  // as after a power failure at the last step
   std::filesystem::remove(daemon_.state() / "hydroprint.db");
   const Ended refused = run_daemon({"--state-dir", daemon_.state(), "--grpc", "127.0.0.1:0"});
   EXPECT_EQ(refused.status, 4) << refused.words;
   EXPECT_NE(refused.words.find("do it again"), std::string::npos) << refused.words;
   EXPECT_FALSE(std::filesystem::exists(daemon_.state() / "hydroprint.db"));
-  ASSERT_EQ(admin({"restore", file}).status, 0);  // it may replace what a restore left
+  // it may replace the result of an incomplete restore
+  ASSERT_EQ(admin({"restore", file}).status, 0);
   daemon_.start();
   log_in("ann");
   EXPECT_EQ(client({"show", "1"}).status, 0);
 }
 
-TEST_F(AdminCli, ANewPasswordHoldsAtOnceAndEndsTheSessionsAlsoWhileTheDaemonRuns) {
+TEST_F(AdminCli, ANewPasswordEndsSessionsAtOnceEvenWhileTheDaemonRuns) {
   Client reader(daemon_.address());
   v1::SignInRequest request;
   request.set_user("ann");
@@ -351,17 +352,17 @@ TEST_F(AdminCli, ANewPasswordHoldsAtOnceAndEndsTheSessionsAlsoWhileTheDaemonRuns
   EXPECT_EQ(entries[0].at("object"), "users/ann");
   EXPECT_EQ(entries[0].at("via"), "command line");
   daemon_.kill();
-  EXPECT_EQ(reset(std::string(kPassword) + "\n").status, 0);  // nor need it run
+  EXPECT_EQ(reset(std::string(kPassword) + "\n").status, 0);  // works without the daemon, too
   daemon_.start();
   log_in("ann");
 }
 
-TEST_F(AdminCli, APasswordIsAskedForTwiceOnATerminalAndNotShown) {
+TEST_F(AdminCli, APasswordIsAskedForTwiceOnATerminalWithoutEcho) {
   Terminal terminal(
       command({"admin", "reset-password", "--state-dir", daemon_.state().string(), "ann"}));
   ASSERT_TRUE(terminal.shows("New password: "));
   terminal.type(std::string(kNewPassword) + "\n");
-  ASSERT_TRUE(terminal.shows("The same again: "));
+  ASSERT_TRUE(terminal.shows("Repeat password: "));
   terminal.type(std::string(kNewPassword) + "\n");
   EXPECT_TRUE(terminal.shows("ann has a new password"));
   EXPECT_EQ(terminal.wait(), 0);
@@ -375,7 +376,7 @@ TEST_F(AdminCli, WrongPasswordsAndUsersAreRefused) {
   EXPECT_EQ(reset(std::string(1001, 'x') + "\n").status, 3);
   EXPECT_EQ(admin({"sign-in-link", "nobody"}).status, 3);
   EXPECT_EQ(client({"admin", "sign-in-link", "ann", "--state-dir", "/nowhere"}).status, 3);
-  log_in("ann");  // all is as it was
+  log_in("ann");  // nothing has changed
 }
 
 TEST_F(AdminCli, ALinkSignsInOnce) {
@@ -391,8 +392,8 @@ TEST_F(AdminCli, ALinkSignsInOnce) {
   EXPECT_FALSE(reader.people->SignIn(reader.context().get(), request, &session).ok());
 }
 
-TEST_F(AdminCli, AnotherUsersFolderIsLeftAlone) {
-  if (::geteuid() != 0) GTEST_SKIP() << "needs root, who can give a folder to another user";
+TEST_F(AdminCli, AnotherUsersFolderIsRefused) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root, to change the owner of a folder";
   daemon_.terminate();
   ASSERT_EQ(::chown(daemon_.state().c_str(), 65534, 65534), 0);
   for (const Arguments& arguments :
@@ -404,7 +405,7 @@ TEST_F(AdminCli, AnotherUsersFolderIsLeftAlone) {
   }
 }
 
-TEST_F(AdminCli, AStoreOfAnotherVersionIsLeftAsItIs) {
+TEST_F(AdminCli, AStoreOfAnotherVersionIsNotChanged) {
   daemon_.terminate();
   for (const char* const version : {"4000", "2"}) {
     {

@@ -11,7 +11,7 @@ namespace v1 = ::hydroprint::v1;
 using google::protobuf::util::MessageDifferencer;
 using google::protobuf::util::TimeUtil;
 
-TEST(ConvertRig, EveryFieldOfADipGoesToTheMessageAndBack) {
+TEST(ConvertRig, EveryFieldOfADipIsConvertedBothWays) {
   DipSpec spec;
   spec.simulate_job = "jobs/7";
   spec.yes_to_all = true;
@@ -31,10 +31,10 @@ TEST(ConvertRig, EveryFieldOfADipGoesToTheMessageAndBack) {
   EXPECT_TRUE(MessageDifferencer::Equals(to_proto(from_proto(message)), message));
   EXPECT_EQ(message.soak_s(), 8);
   EXPECT_TRUE(MessageDifferencer::Equals(to_proto(DipSpec()), v1::DipSpec()))
-      << "what is not set stays unset";
+      << "unset fields stay unset";
 }
 
-TEST(ConvertRig, NamesAreTheApis) {
+TEST(ConvertRig, NamesMatchTheApi) {
   for (int i = 1; v1::Rig::State_IsValid(i); ++i) {
     v1::Rig rig;
     rig.set_state(static_cast<v1::Rig::State>(i));
@@ -60,13 +60,13 @@ TEST(ConvertRig, NamesAreTheApis) {
   }
 }
 
-TEST(ConvertRig, AStateOfALaterDaemonIsUnknown) {
+TEST(ConvertRig, AStateOfANewerDaemonIsUnknown) {
   v1::Rig rig;
   rig.set_state(static_cast<v1::Rig::State>(99));
   EXPECT_EQ(from_proto(rig).state, RigState::kUnknown);
 }
 
-TEST(ConvertRig, TheRigKeepsWhatItsMessageSays) {
+TEST(ConvertRig, TheRigKeepsAllFieldsOfItsMessage) {
   v1::Rig message;
   message.set_cause("ALARM");
   message.set_trouble("reset it");
@@ -103,7 +103,7 @@ TEST(ConvertRig, TheRigKeepsWhatItsMessageSays) {
   EXPECT_FALSE(nothing.motion || nothing.axis || nothing.lease || nothing.sample_time);
 }
 
-TEST(ConvertRig, ADipIsOverWhenItWasInterruptedButAComputationIsNot) {
+TEST(ConvertRig, AnInterruptedDipIsFinishedButAComputationIsNot) {
   v1::Job message;
   message.set_state(v1::Job::INTERRUPTED);
   message.mutable_simulate();

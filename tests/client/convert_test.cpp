@@ -11,7 +11,7 @@ using google::protobuf::util::MessageDifferencer;
 
 InputFile file(const std::string& name) { return {name, "assets/" + name}; }
 
-/// Every field that simulate and predict share.
+/// All fields shared by simulate and predict.
 Spec full_spec(Verb verb) {
   Spec spec;
   spec.verb = verb;
@@ -40,7 +40,7 @@ v1::Job message_of(const Spec& spec) {
   return job;
 }
 
-/// Fails unless all fields of the message are set, and the way through Spec loses none of them.
+/// Fails unless all fields of the message are set and the conversion through Spec keeps them.
 void expect_round_trip(const v1::Job& job, const google::protobuf::Message& message) {
   const auto& fields = *message.GetDescriptor();
   for (int i = 0; i < fields.field_count(); ++i) {
@@ -56,7 +56,7 @@ void expect_round_trip(const v1::Job& job, const google::protobuf::Message& mess
       << message_of(*back.spec).DebugString() << job.DebugString();
 }
 
-TEST(Convert, EveryFieldOfSimulateGoesToTheMessageAndBack) {
+TEST(Convert, EveryFieldOfSimulateIsConvertedBothWays) {
   Spec spec = full_spec(Verb::kSimulate);
   spec.texture = file("spot.png");
   spec.calibration = "calibrations/3";
@@ -66,7 +66,7 @@ TEST(Convert, EveryFieldOfSimulateGoesToTheMessageAndBack) {
   EXPECT_TRUE(job.simulate().inertia());
 }
 
-TEST(Convert, EveryFieldOfPredictGoesToTheMessageAndBack) {
+TEST(Convert, EveryFieldOfPredictIsConvertedBothWays) {
   Spec spec = full_spec(Verb::kPredict);
   spec.film_image = file("film.png");
   spec.motion = file("driven.csv");
@@ -75,7 +75,7 @@ TEST(Convert, EveryFieldOfPredictGoesToTheMessageAndBack) {
   EXPECT_TRUE(job.predict().inertia());
 }
 
-TEST(Convert, EveryFieldOfValidateGoesToTheMessageAndBack) {
+TEST(Convert, EveryFieldOfValidateIsConvertedBothWays) {
   Spec spec;
   spec.verb = Verb::kValidate;
   spec.only = {"bowl", "accuracy"};
@@ -85,7 +85,7 @@ TEST(Convert, EveryFieldOfValidateGoesToTheMessageAndBack) {
   expect_round_trip(job, job.validate());
 }
 
-TEST(Convert, EveryFieldOfPrintImageGoesToTheMessageAndBack) {
+TEST(Convert, EveryFieldOfPrintImageIsConvertedBothWays) {
   Spec spec;
   spec.verb = Verb::kPrintImage;
   spec.simulate_job = "jobs/7";
@@ -104,7 +104,7 @@ TEST(Convert, EveryFieldOfPrintImageGoesToTheMessageAndBack) {
   EXPECT_EQ(to_proto(spec, refused).error().code, Code::kInvalidArgument);
 }
 
-TEST(Convert, EveryFieldOfTemplateGoesToTheMessageAndBack) {
+TEST(Convert, EveryFieldOfTemplateIsConvertedBothWays) {
   Spec spec;
   spec.verb = Verb::kTemplate;
   spec.simulate_job = "jobs/7";
@@ -122,7 +122,7 @@ TEST(Convert, EveryFieldOfTemplateGoesToTheMessageAndBack) {
   expect_round_trip(job, job.template_());
 }
 
-TEST(Convert, EveryFieldOfCalibrateGoesToTheMessageAndBack) {
+TEST(Convert, EveryFieldOfCalibrateIsConvertedBothWays) {
   Spec spec;
   spec.verb = Verb::kCalibrate;
   spec.mesh = file("spot.obj");
@@ -137,7 +137,7 @@ TEST(Convert, EveryFieldOfCalibrateGoesToTheMessageAndBack) {
   expect_round_trip(job, job.calibrate());
 }
 
-TEST(Convert, EveryFieldOfCalibrateCameraGoesToTheMessageAndBack) {
+TEST(Convert, EveryFieldOfCalibrateCameraIsConvertedBothWays) {
   Spec spec;
   spec.verb = Verb::kCalibrateCamera;
   spec.threads = 2;
@@ -147,16 +147,16 @@ TEST(Convert, EveryFieldOfCalibrateCameraGoesToTheMessageAndBack) {
   expect_round_trip(job, job.calibrate_camera());
 }
 
-TEST(Convert, ACaptureIsHowLong) {
+TEST(Convert, ACaptureHasADuration) {
   v1::Job message;
   message.mutable_capture()->set_seconds(2.5);
   message.set_state(v1::Job::INTERRUPTED);
   const Job job = from_proto(message);
   EXPECT_EQ(job.capture_s, 2.5);
-  EXPECT_TRUE(is_finished(job)) << "it is of its moment";
+  EXPECT_TRUE(is_finished(job)) << "a capture cannot be repeated";
 }
 
-TEST(Convert, APrintIsWhatIsPrinted) {
+TEST(Convert, APrintHasItsPrintImageJob) {
   v1::Job message;
   message.mutable_print()->set_print_image_job("jobs/8");
   message.set_state(v1::Job::INTERRUPTED);
@@ -166,7 +166,7 @@ TEST(Convert, APrintIsWhatIsPrinted) {
   EXPECT_TRUE(is_finished(job));
 }
 
-TEST(Convert, WhatIsNotSetStaysUnset) {
+TEST(Convert, UnsetFieldsStayUnset) {
   Spec spec;
   spec.mesh = file("spot.obj");
   const v1::Job job = message_of(spec);
@@ -176,7 +176,7 @@ TEST(Convert, WhatIsNotSetStaysUnset) {
   EXPECT_TRUE(MessageDifferencer::Equals(job, mesh_alone)) << job.DebugString();
 }
 
-TEST(Convert, NamesThatThereAreNotAreRefused) {
+TEST(Convert, UnknownNamesAreRefused) {
   Spec spec = full_spec(Verb::kSimulate);
   v1::Job job;
   spec.model = "honey";

@@ -1,4 +1,4 @@
-// `hydroprint dip` as users run it: against the real daemon and the virtual rig.
+// `hydroprint dip` as users run it, with the real daemon and the virtual rig.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -17,7 +17,7 @@ using hydroprint::testing::Terminal;
 using nlohmann::json;
 using Arguments = std::vector<std::string>;
 
-// Small and fast, with clocks that are seen to run.
+// Small and fast, with timers long enough to be seen.
 const Arguments kSmall{"--speed",        "10", "--hold-s",           "0", "--soak-s", "1",
                        "--clearance-mm", "3",  "--activator-wait-s", "1", "--out"};
 
@@ -49,7 +49,7 @@ class DipCli : public ::testing::Test {
   RigPrograms programs_;
 };
 
-TEST_F(DipCli, LeadsThroughEveryStep) {
+TEST_F(DipCli, GuidesThroughEveryStep) {
   Terminal dip_at(programs_.command(dip({})));
   const auto confirm = [&](const std::string& step) {
     ASSERT_TRUE(dip_at.shows(step + ":")) << dip_at.screen();
@@ -64,7 +64,7 @@ TEST_F(DipCli, LeadsThroughEveryStep) {
   ASSERT_TRUE(programs_.rests());
   const double contact_mm = programs_.rig.position_mm();
   EXPECT_GT(contact_mm, 8.5);
-  // The daemon may still have to see that it rests.
+  // The daemon may not have seen the standstill yet.
   ASSERT_TRUE(wait_until([&] {
     dip_at.type("\n");
     return dip_at.shows("CLEAR:", 300ms);
@@ -92,7 +92,7 @@ TEST_F(DipCli, EnterTypedAheadConfirmsNothing) {
   EXPECT_FALSE(dip_at.shows("LOAD_OBJECT:", 1s)) << dip_at.screen();
 }
 
-TEST_F(DipCli, CtrlCAbortsItAndSaysWhatToDo) {
+TEST_F(DipCli, CtrlCAbortsTheDipAndPrintsInstructions) {
   Terminal dip_at(programs_.command(dip({})));
   ASSERT_TRUE(dip_at.shows("PRINT_FILM:")) << dip_at.screen();
   dip_at.type("\n");
@@ -106,7 +106,7 @@ TEST_F(DipCli, CtrlCAbortsItAndSaysWhatToDo) {
   EXPECT_TRUE(dip_at.is_cooked());
 }
 
-TEST_F(DipCli, CtrlCInTheDescentStopsTheAxis) {
+TEST_F(DipCli, CtrlCDuringTheDescentStopsTheAxis) {
   Terminal dip_at(programs_.command(dip({"--yes-to-all"}, "100")));
   ASSERT_TRUE(dip_at.shows("DESCEND:")) << dip_at.screen();
   ASSERT_TRUE(programs_.moves());
@@ -116,7 +116,7 @@ TEST_F(DipCli, CtrlCInTheDescentStopsTheAxis) {
   EXPECT_LT(programs_.rig.position_mm(), 100);
 }
 
-TEST_F(DipCli, KilledItGoesOn) {
+TEST_F(DipCli, TheDipContinuesWhenTheClientIsKilled) {
   Terminal dip_at(programs_.command(dip({"--yes-to-all"})));
   ASSERT_TRUE(dip_at.shows("DESCEND:")) << dip_at.screen();
   ::kill(dip_at.pid(), SIGKILL);
@@ -133,7 +133,7 @@ TEST_F(DipCli, YesToAllNeedsNoTerminal) {
   EXPECT_TRUE(std::filesystem::exists(out() / "positions.csv"));
 }
 
-TEST_F(DipCli, WithoutATerminalItAsksForAnotherWay) {
+TEST_F(DipCli, WithoutATerminalItNamesTheAlternatives) {
   const auto ended = programs_.client(dip({}));
   EXPECT_EQ(ended.status, 3);
   EXPECT_NE(ended.err.find("--no-guide"), std::string::npos) << ended.err;
@@ -149,15 +149,17 @@ TEST_F(DipCli, StepsAreConfirmedOneByOne) {
   EXPECT_EQ(right.status, 0) << right.err;
   EXPECT_NE(right.out.find("then: hydroprint confirm " + job + " LOAD_OBJECT"), std::string::npos)
       << right.out;
-  EXPECT_EQ(programs_.client({"confirm", job, "PRINT_FILM"}).status, 0) << "again is no error";
+  EXPECT_EQ(programs_.client({"confirm", job, "PRINT_FILM"}).status, 0)
+      << "repeating is not an error";
   EXPECT_EQ(step_of(job), "LOAD_OBJECT");
-  EXPECT_EQ(programs_.client({"confirm", job, "ACTIVATE"}).status, 2) << "not the operator's";
+  EXPECT_EQ(programs_.client({"confirm", job, "ACTIVATE"}).status, 2)
+      << "not confirmed by the operator";
   EXPECT_EQ(programs_.client({"list", "--state", "WAITING_FOR_OPERATOR"}).out.find(job),
             programs_.client({"list"}).out.find(job));
   EXPECT_EQ(programs_.client({"cancel", job}).status, 0);
 }
 
-TEST_F(DipCli, WatchTellsTheStepsAndTheirInstructions) {
+TEST_F(DipCli, WatchPrintsTheStepsAndTheirInstructions) {
   const std::string job = create().at("name");
   hydroprint::testing::Process watch(programs_.command({"watch", job}));
   std::this_thread::sleep_for(500ms);
@@ -170,7 +172,7 @@ TEST_F(DipCli, WatchTellsTheStepsAndTheirInstructions) {
     EXPECT_NE(ended.out.find(step), std::string::npos) << ended.out;
 }
 
-TEST_F(DipCli, SomebodyElsesLeaseIsNamed) {
+TEST_F(DipCli, TheHolderOfTheLeaseIsNamed) {
   programs_.client({"rig", "lease", "release"});
   programs_.client({"rig", "lease", "acquire", "--purpose", "a vase"}, "alice");
   const auto ended = programs_.client(dip({"--yes-to-all"}));
@@ -179,13 +181,13 @@ TEST_F(DipCli, SomebodyElsesLeaseIsNamed) {
     EXPECT_NE(ended.err.find(word), std::string::npos) << ended.err;
 }
 
-TEST_F(DipCli, TheLeaseThatItTookIsGivenBack) {
+TEST_F(DipCli, TheAcquiredLeaseIsReleased) {
   programs_.client({"rig", "lease", "release"});
   EXPECT_EQ(programs_.client(dip({"--yes-to-all"})).status, 0);
   EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease"));
   create();
   EXPECT_EQ(programs_.client_json({"rig", "status"}).at("lease").at("holder"), "tester")
-      << "its steps want confirming";
+      << "its steps must be confirmed";
 }
 
 }  // namespace

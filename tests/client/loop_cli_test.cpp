@@ -1,4 +1,4 @@
-// The whole loop as users run it, with every program the real one.
+// The whole loop as users run it, with all real programs.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -57,7 +57,7 @@ class LoopCli : public ::testing::Test {
   std::string lens;
 };
 
-TEST_F(LoopCli, OnePoseFromHungCrookedlyToWhereItsFilmLands) {
+TEST_F(LoopCli, RunsTheWholeLoopForOnePose) {
   const std::string control = rig.camera().substr(rig.camera().find(':') + 1);
   const auto ended = loop({"--object", "board", "--control", control});
   ASSERT_EQ(ended.status, 0) << ended.err;
@@ -65,7 +65,7 @@ TEST_F(LoopCli, OnePoseFromHungCrookedlyToWhereItsFilmLands) {
   const json report = json::parse(std::ifstream(out() / "report.json"));
   EXPECT_EQ(report["lost_cross_points"], 0);
   const json& errors = report["errors"];
-  EXPECT_LT(errors["numerics"]["p95_mm"], 0.1) << "the same dip twice";
+  EXPECT_LT(errors["numerics"]["p95_mm"], 0.1) << "both dips are the same";
   EXPECT_LT(errors["placement"]["p95_mm"], 2) << ended.out;
   EXPECT_GT(errors["placement"]["p95_mm"], errors["numerics"]["p95_mm"]);
   const json& round = report["rounds"][0];
@@ -79,7 +79,7 @@ TEST_F(LoopCli, OnePoseFromHungCrookedlyToWhereItsFilmLands) {
   EXPECT_TRUE(std::filesystem::exists(out() / "report.html"));
 }
 
-TEST_F(LoopCli, TheCameraShowsWhatItSees) {
+TEST_F(LoopCli, CameraCommandShowsTheCurrentPicture) {
   const auto ask = [&](const std::vector<std::string>& more) {
     std::vector<std::string> all{HYDROPRINT_BIN_DIR "/hydroprint", "--server", daemon->address(),
                                  "camera"};
@@ -103,7 +103,7 @@ TEST_F(LoopCli, TheCameraShowsWhatItSees) {
   EXPECT_EQ(ask({"--out", (folder.path() / "no folder/x.png").string()}).status, 3);
 }
 
-TEST_F(LoopCli, SaysWhatItNeeds) {
+TEST_F(LoopCli, ReportsMissingRequirements) {
   const auto ended = loop({"--control", (folder.path() / "nothing").string()});
   EXPECT_EQ(ended.status, 5);
   EXPECT_NE(ended.err.find("no virtual rig answers there"), std::string::npos) << ended.err;

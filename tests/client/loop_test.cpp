@@ -1,4 +1,4 @@
-// What `hydroprint loop` draws, and how it measures.
+// The random draws and the evaluation of `hydroprint loop`.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@
 namespace hydroprint::loop {
 namespace {
 
-/// A flat face whose film comes from right below it, but `off` to one side.
+/// A flat face whose film comes from directly below, shifted by `off`.
 SurfaceMap flat(const Eigen::Vector2d& off) {
   constexpr int kSide = 13;
   SurfaceMap out;
@@ -38,24 +38,24 @@ const Body kBoard{"board", Eigen::Matrix3d::Identity(), false, {}};
 
 double largest(const CrossErrors& errors) { return quantile(lengths_mm(errors), 1); }
 
-TEST(Loop, ErrorsAreHowFarCrossPointsLandFromWhereTheyBelong) {
+TEST(Loop, ErrorsAreTheDisplacementsOfCrossPoints) {
   const SurfaceMap plan = flat({0, 0});
   const Truth well;
   EXPECT_EQ(cross_errors(kBoard, plan, plan, well).size(), 169U);
   EXPECT_NEAR(largest(cross_errors(kBoard, plan, plan, well)), 0, 1e-12);
   const CrossErrors aside = cross_errors(kBoard, plan, flat({0.3, -0.4}), well);
   EXPECT_NEAR(quantile(lengths_mm(aside), 0.5), 0.5, 1e-9);
-  EXPECT_EQ(lost(aside), 25) << "those of two edges land beside the face";
+  EXPECT_EQ(lost(aside), 25) << "those at two edges miss the face";
   Truth off;
   off.printer_scale = 0.999;
   EXPECT_NEAR(largest(cross_errors(kBoard, plan, plan, off)), 0.001 * std::hypot(60, 60), 1e-9);
   off = {};
   off.film_mm = {0.3, -0.4};
   EXPECT_NEAR(largest(cross_errors(kBoard, plan, flat({0.3, -0.4}), off)), 0, 1e-9)
-      << "what is off twice the same way is right";
+      << "equal errors cancel";
 }
 
-TEST(Loop, FilmStaysWhereItLandsFirst) {
+TEST(Loop, FilmStaysOnTheTriangleItReachesFirst) {
   SurfaceMap map;
   for (const double height_mm : {5.0, 0.0}) {
     for (const auto& at : {Eigen::Vector2d(0, 0), Eigen::Vector2d(9, 0), Eigen::Vector2d(0, 9)}) {
@@ -69,10 +69,10 @@ TEST(Loop, FilmStaysWhereItLandsFirst) {
   EXPECT_NEAR((*locator.at({2, 3}) - Eigen::Vector3d(2, 3, 0)).norm(), 0, 1e-12);
   EXPECT_FALSE(locator.at({6, 6}));
   map.film_mm[3] = {NAN, NAN};
-  EXPECT_EQ(FilmLocator(map).at({2, 3})->z(), 5) << "where no film arrives, none is found";
+  EXPECT_EQ(FilmLocator(map).at({2, 3})->z(), 5) << "points without film are not found";
 }
 
-TEST(Loop, DrawsAreWithinTheirBoundsAndTheSameEveryTime) {
+TEST(Loop, DrawsAreWithinTheirBoundsAndReproducible) {
   for (const char* name : {"board", "sphere80"}) {
     const Body body = make_body(name).value();
     const Pose nominal = nominal_pose(body);
@@ -84,7 +84,7 @@ TEST(Loop, DrawsAreWithinTheirBoundsAndTheSameEveryTime) {
       EXPECT_LE(truth.film_mm.norm(), kMostFilm_mm + 1e-9);
       EXPECT_LE(std::abs(truth.printer_scale - 1), kMostScale);
       if (body.is_round) {
-        EXPECT_TRUE(off.isIdentity(1e-9)) << "no scan could tell its turn";
+        EXPECT_TRUE(off.isIdentity(1e-9)) << "a scan cannot measure its rotation";
       }
       EXPECT_NEAR(height_mm(body, truth, 300) - height_mm(body, truth, 200), 100, 1e-9);
       const Pose there = pose_at_contact(body, truth, 200);
@@ -98,7 +98,7 @@ TEST(Loop, DrawsAreWithinTheirBoundsAndTheSameEveryTime) {
   EXPECT_EQ(make_body("mug").error().code, Code::kInvalidArgument);
 }
 
-TEST(Loop, WhatIsNoSurfaceMapIsRefused) {
+TEST(Loop, InvalidSurfaceMapsAreRefused) {
   const testing::TemporaryFolder folder;
   const auto refused = [&](const std::string& text) {
     const auto map = read_surface_map(folder.write("map.ply", text));
@@ -117,7 +117,7 @@ TEST(Loop, WhatIsNoSurfaceMapIsRefused) {
   EXPECT_FALSE(refused(header + points + std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13)));
 }
 
-TEST(Loop, TheBoardIsHeldWholeBeforeTheCamera) {
+TEST(Loop, TheBoardIsFullyInViewOfTheCamera) {
   const std::string obj = board_obj();
   std::istringstream lines(obj);
   std::vector<Eigen::Vector3d> points;
@@ -142,7 +142,7 @@ TEST(Loop, TheBoardIsHeldWholeBeforeTheCamera) {
   EXPECT_FALSE(held_board(1, 3).isApprox(held_board(2, 3)));
 }
 
-TEST(Loop, TheReportSaysWhatWasReachedWhereItComesFromAndWhatItCannotShow) {
+TEST(Loop, TheReportShowsTheErrorItsSourcesAndItsLimits) {
   const auto errors = [](double x, double y) { return CrossErrors{{x, 0, 0}, {0, y, 0}}; };
   Round round;
   round.numerics = errors(0.1, 0.2);
@@ -162,12 +162,12 @@ TEST(Loop, TheReportSaysWhatWasReachedWhereItComesFromAndWhatItCannotShow) {
   EXPECT_NEAR(report["errors"]["motion"]["share"],
               (-0.1 * 0.7 + 0.2 * 1.4) / (0.7 * 0.7 + 1.4 * 1.4), 1e-12);
   const std::string page = report_html(of);
-  for (const char* words : {"1.40 mm", "at most 1.00 mm", "cannot show", "src=\"a.png\""})
+  for (const char* words : {"1.40 mm", "limit: 1.00 mm", "Not covered", "src=\"a.png\""})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_NE(report_text(of).find("within 1.40 mm"), std::string::npos) << report_text(of);
 }
 
-TEST(Loop, WhatLandsNowhereIsCountedAndTakenFromNoShare) {
+TEST(Loop, LostCrossPointsAreCountedAndDoNotAffectShares) {
   Round round;
   round.numerics = round.calibration = round.motion = {{1, 0, 0}, {1, 0, 0}};
   round.placement = {{2, 0, 0}, Eigen::Vector3d::Constant(NAN)};

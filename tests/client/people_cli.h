@@ -21,7 +21,7 @@ using nlohmann::json;
 constexpr char kClient[] = HYDROPRINT_BIN_DIR "/hydroprint";
 constexpr char kPassword[] = "correct horse";
 
-/// `hydroprint` as people use it who have accounts, against the real daemon.
+/// `hydroprint` with user accounts, and the real daemon.
 class PeopleCli : public ::testing::Test {
  protected:
   static DaemonProcess::Options options() {
@@ -30,7 +30,8 @@ class PeopleCli : public ::testing::Test {
     return options;
   }
 
-  /// In a home of the test's, with HYDROPRINT_SERVER and these variables ("NAME=VALUE").
+  /// A command in the test's home folder, with HYDROPRINT_SERVER and these variables
+  /// ("NAME=VALUE").
   Arguments command(const Arguments& arguments, const Arguments& variables = {}) const {
     Arguments all{"/usr/bin/env", "-u", "HYDROPRINT_API_KEY",
                   "XDG_CONFIG_HOME=" + (folder_.path() / "config").string(),
@@ -43,7 +44,7 @@ class PeopleCli : public ::testing::Test {
   Outcome client(const Arguments& arguments, const Arguments& variables = {}) const {
     return hydroprint::testing::run(command(arguments, variables));
   }
-  /// With these lines on standard input.
+  /// Runs a command with these lines on standard input.
   Outcome told(const std::string& lines, const Arguments& arguments) const {
     Arguments all{"/bin/sh", "-c", "printf '%s' '" + lines + "' | \"$0\" \"$@\""};
     const Arguments rest = command(arguments);

@@ -1,4 +1,4 @@
-// `hydroprint` as people use it who have accounts, against the real daemon.
+// `hydroprint` with user accounts, and the real daemon.
 #include "tests/client/people_cli.h"
 
 #include <sys/stat.h>
@@ -8,7 +8,7 @@
 namespace hydroprint::tests {
 namespace {
 
-TEST_F(PeopleCli, LoginKeepsAKeyThatEveryCommandGoesBy) {
+TEST_F(PeopleCli, LoginStoresAKeyThatEveryCommandUses) {
   add("ann", "ADMIN");
   const Outcome refused = client({"list"});
   EXPECT_EQ(refused.status, 3);
@@ -20,10 +20,11 @@ TEST_F(PeopleCli, LoginKeepsAKeyThatEveryCommandGoesBy) {
   EXPECT_EQ(content(credentials()).find(kPassword), std::string::npos);
   EXPECT_EQ(client_json({"whoami"}).at("role"), "ADMIN");
   EXPECT_EQ(client({"list"}).status, 0);
-  EXPECT_TRUE(client_json({"sessions", "list"}).at("sessions").empty());  // login left none behind
+  // login leaves no session behind
+  EXPECT_TRUE(client_json({"sessions", "list"}).at("sessions").empty());
 }
 
-TEST_F(PeopleCli, LogoutEndsTheKey) {
+TEST_F(PeopleCli, LogoutRevokesTheKey) {
   add("ann", "ADMIN");
   log_in("ann");
   const std::string kept = content(credentials());
@@ -36,7 +37,7 @@ TEST_F(PeopleCli, LogoutEndsTheKey) {
   EXPECT_EQ(client({"logout"}).status, 3);
 }
 
-TEST_F(PeopleCli, AKeyFromTheEnvironmentGoesFirst) {
+TEST_F(PeopleCli, AKeyFromTheEnvironmentTakesPrecedence) {
   add("ann", "ADMIN");
   log_in("ann");
   const std::string key =
@@ -60,7 +61,7 @@ TEST_F(PeopleCli, ALinkLogsInOnce) {
   EXPECT_EQ(told(link, {"login", "--link-stdin"}).status, 3) << "a second time";
 }
 
-TEST_F(PeopleCli, AWrongPasswordOrKeyIsNotKept) {
+TEST_F(PeopleCli, AWrongPasswordOrKeyIsNotStored) {
   add("ann", "ADMIN");
   const Outcome ended = told("wrong password\n", {"login", "--user", "ann"});
   EXPECT_EQ(ended.status, 3);
@@ -69,7 +70,7 @@ TEST_F(PeopleCli, AWrongPasswordOrKeyIsNotKept) {
   EXPECT_FALSE(std::filesystem::exists(credentials()));
 }
 
-TEST_F(PeopleCli, KeysThatOthersMayReadAreRefused) {
+TEST_F(PeopleCli, KeysThatOthersCanReadAreRefused) {
   add("ann", "ADMIN");
   log_in("ann");
   ::chmod(credentials().c_str(), 0644);
@@ -78,7 +79,7 @@ TEST_F(PeopleCli, KeysThatOthersMayReadAreRefused) {
   EXPECT_NE(ended.err.find("credentials.toml"), std::string::npos) << ended.err;
 }
 
-TEST_F(PeopleCli, APasswordIsNotShownAndTheTerminalIsAsBefore) {
+TEST_F(PeopleCli, APasswordIsNotShownAndTheTerminalIsRestored) {
   add("ann", "ADMIN");
   Terminal terminal(command({"login"}));
   ASSERT_TRUE(terminal.shows("Name: "));
@@ -91,7 +92,7 @@ TEST_F(PeopleCli, APasswordIsNotShownAndTheTerminalIsAsBefore) {
   EXPECT_TRUE(terminal.is_cooked());
 }
 
-TEST_F(PeopleCli, CtrlCAtThePasswordLeavesTheTerminalAsBefore) {
+TEST_F(PeopleCli, CtrlCAtThePasswordRestoresTheTerminal) {
   add("ann", "ADMIN");
   Terminal terminal(command({"login", "--user", "ann"}));
   ASSERT_TRUE(terminal.shows("Password: "));
@@ -121,7 +122,7 @@ TEST_F(PeopleCli, AnAdminAddsChangesAndDeletesUsers) {
   EXPECT_EQ(entries[1].at("object"), "users/mae");
 }
 
-TEST_F(PeopleCli, JobsAreMineByMyUserAndSharedIfISaySo) {
+TEST_F(PeopleCli, JobsBelongToTheirUserAndCanBeShared) {
   add("ann", "ADMIN");
   log_in("ann");
   const std::string mesh = folder_.write("m.obj", "x").string();
@@ -136,7 +137,7 @@ TEST_F(PeopleCli, JobsAreMineByMyUserAndSharedIfISaySo) {
   EXPECT_EQ(client_json({"show", name}).at("shared"), false);
 }
 
-TEST_F(PeopleCli, WhoamiSaysWhatOneHasAndWhatIsPinnedIsKept) {
+TEST_F(PeopleCli, WhoamiShowsUsageAndPinnedJobs) {
   add("ann", "ADMIN");
   log_in("ann");
   const std::string mesh = folder_.write("m.obj", "mesh").string();
@@ -150,14 +151,14 @@ TEST_F(PeopleCli, WhoamiSaysWhatOneHasAndWhatIsPinnedIsKept) {
   EXPECT_EQ(usage.at("pinned_bytes"), 0);
   const Outcome words = client({"whoami"});
   EXPECT_NE(words.out.find("queued: 0 of 200 jobs"), std::string::npos) << words.out;
-  EXPECT_EQ(client({"pin", name}).out, name + " is pinned, and kept\n");
+  EXPECT_EQ(client({"pin", name}).out, name + " is pinned\n");
   EXPECT_EQ(client_json({"show", name}).at("pinned"), true);
   EXPECT_FALSE(client_json({"show", name}).contains("purge_time"));
   EXPECT_GT(client_json({"whoami"}).at("usage").at("pinned_bytes"), 0);
   EXPECT_NE(client({"unpin", name}).out.find("will be deleted on "), std::string::npos);
 }
 
-TEST_F(PeopleCli, WhoComesBackGetsWhatBearsTheirName) {
+TEST_F(PeopleCli, AReturningUserGetsJobsAndFilesBack) {
   add("ann", "ADMIN");
   log_in("ann");
   add("mae", "MAKER");
@@ -173,7 +174,7 @@ TEST_F(PeopleCli, WhoComesBackGetsWhatBearsTheirName) {
   EXPECT_EQ(client({"users", "add", "mae", "--role", "maker", "--returns"}, as_ann).status, 0);
 }
 
-TEST_F(PeopleCli, ThePythonExampleTakesServerAndKeyFromTheEnvironment) {
+TEST_F(PeopleCli, ThePythonExampleUsesServerAndKeyFromTheEnvironment) {
   add("ann", "ADMIN");
   log_in("ann");
   const std::string key = client_json({"keys", "add"}).at("key");

@@ -17,20 +17,20 @@ class PoseFile : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(PoseFile, GivesRotationAndTranslation) {
+TEST_F(PoseFile, ReadsRotationAndTranslation) {
   const auto pose = read(R"({"rotation_wxyz":[0.6,0.8,0,0],"translation_mm":[1,2,3.5]})");
   ASSERT_TRUE(pose) << pose.error().message;
   EXPECT_EQ(pose->rotation_wxyz, (std::array{0.6, 0.8, 0.0, 0.0}));
   EXPECT_EQ(pose->translation_mm, (std::array{1.0, 2.0, 3.5}));
 }
 
-TEST_F(PoseFile, NormalisesTheRotationAsTheWorkerDoesAndTheDaemonWants) {
+TEST_F(PoseFile, NormalizesTheRotationLikeTheWorker) {
   const auto pose = read(R"({"rotation_wxyz":[2,0,0,0]})");
   ASSERT_TRUE(pose) << pose.error().message;
   EXPECT_EQ(pose->rotation_wxyz, (std::array{1.0, 0.0, 0.0, 0.0}));
 }
 
-TEST_F(PoseFile, RefusesWhatIsNoPoseInOneLineThatNamesTheFile) {
+TEST_F(PoseFile, RefusesInvalidPosesWithOneLineThatNamesTheFile) {
   for (const char* content :
        {"", "[]", "{\"rotation_wxyz\":", R"({"rotation":[1,0,0,0]})", R"({"rotation_wxyz":[1,0]})",
         R"({"translation_mm":[1,2,"x"]})", R"({"translation_mm":[1,2,1e999]})"}) {

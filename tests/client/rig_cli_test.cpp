@@ -1,4 +1,4 @@
-// `hydroprint rig` as users run it: against the real daemon and the virtual rig.
+// `hydroprint rig` as users run it, with the real daemon and the virtual rig.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/stat.h>
@@ -22,7 +22,7 @@ constexpr double kSettled_mm = 0.1;  // the rig's arrival_mm
 
 class RigCli : public ::testing::Test {
  protected:
-  /// One line on stderr, with these words in it.
+  /// Expects one line on stderr that contains these words.
   void expect_error(const std::vector<std::string>& arguments, int status,
                     const std::vector<std::string>& words,
                     const std::string& user = "tester") const {
@@ -39,7 +39,7 @@ class RigCli : public ::testing::Test {
     return {};
   }
 
-  /// Time until the axis rests, by its own clock; not above 0 if it does already.
+  /// Time until the axis is at rest, by its own clock; not above 0 if it already is.
   double seconds_to_rest() {
     const double begin_s = programs_.rig.now_s();
     return programs_.rig.rested_s() - begin_s;
@@ -48,7 +48,7 @@ class RigCli : public ::testing::Test {
   RigPrograms programs_;
 };
 
-TEST_F(RigCli, TheLeaseIsKeptWhereOnlyItsOwnerReadsIt) {
+TEST_F(RigCli, TheLeaseFileIsReadableOnlyByItsOwner) {
   const json lease = programs_.client_json({"rig", "lease", "acquire", "--purpose", "a mug"});
   EXPECT_EQ(lease.at("holder"), "tester");
   EXPECT_EQ(lease.at("purpose"), "a mug");
@@ -63,7 +63,7 @@ TEST_F(RigCli, TheLeaseIsKeptWhereOnlyItsOwnerReadsIt) {
   expect_error({"rig", "arm"}, 3, {"hydroprint rig lease acquire --purpose"});
 }
 
-TEST_F(RigCli, WhoIsRefusedReadsWhoHasTheLeaseAndWhatFor) {
+TEST_F(RigCli, ARefusalNamesTheHolderAndPurposeOfTheLease) {
   programs_.client({"rig", "lease", "acquire", "--purpose", "a mug"}, "alice");
   const json lease = programs_.client_json({"rig", "lease", "show"});
   EXPECT_FALSE(lease.contains("lease_id")) << "it is a secret";
@@ -74,10 +74,10 @@ TEST_F(RigCli, WhoIsRefusedReadsWhoHasTheLeaseAndWhatFor) {
   expect_error({"rig", "jog", "--speed", "1", "--for", "1s"}, 3, words);
   EXPECT_EQ(programs_.client({"rig", "lease", "break", "--reason", "lunch"}).status, 0);
   EXPECT_EQ(programs_.client({"rig", "arm", "--with-lease", "mine"}).status, 0);
-  expect_error({"rig", "arm"}, 3, {"not yours"}, "alice");
+  expect_error({"rig", "arm"}, 3, {"which you do not hold"}, "alice");
 }
 
-TEST_F(RigCli, ALeaseIsRenewedAndNoLongerThanAskedFor) {
+TEST_F(RigCli, ALeaseIsRenewedForTheRequestedTime) {
   programs_.client({"rig", "lease", "acquire", "--purpose", "x", "--for", "1.5h"});
   const auto left = [&] { return programs_.client_json({"rig", "lease", "show"}); };
   const std::string long_one = left().at("expire_time");
@@ -87,7 +87,7 @@ TEST_F(RigCli, ALeaseIsRenewedAndNoLongerThanAskedFor) {
   expect_error({"rig", "lease", "renew", "--for", "soon"}, 2, {"--for"});
 }
 
-TEST_F(RigCli, ArmsHomesAndGoesThere) {
+TEST_F(RigCli, ArmsHomesAndMoves) {
   const auto one = [&](std::vector<std::string> arguments) {
     arguments.insert(arguments.end(), {"--with-lease", "a test"});
     return programs_.client_json(std::move(arguments));
@@ -99,10 +99,11 @@ TEST_F(RigCli, ArmsHomesAndGoesThere) {
   EXPECT_NEAR(rig.at("position_mm"), 12.5, kSettled_mm);
   EXPECT_NEAR(programs_.rig.position_mm(), 12.5, kSettled_mm);
   EXPECT_EQ(one({"rig", "disarm"}).at("state"), "DISARMED");
-  EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease")) << "each gave it back";
+  EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease"))
+      << "each command released it";
 }
 
-TEST_F(RigCli, WhatTheRigRefusesIsSaidInOneLine) {
+TEST_F(RigCli, RefusalsOfTheRigAreOneLine) {
   programs_.client({"rig", "lease", "acquire", "--purpose", "a test"});
   expect_error({"rig", "home"}, 3, {"arm it"});
   programs_.client({"rig", "arm"});
@@ -115,7 +116,7 @@ TEST_F(RigCli, WhatTheRigRefusesIsSaidInOneLine) {
   EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
 }
 
-TEST_F(RigCli, CtrlCInAMoveStopsTheAxis) {
+TEST_F(RigCli, CtrlCDuringAMoveStopsTheAxis) {
   programs_.make_ready(6);
   Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
   ASSERT_TRUE(programs_.moves());
@@ -128,7 +129,7 @@ TEST_F(RigCli, CtrlCInAMoveStopsTheAxis) {
   EXPECT_EQ(programs_.state(), "IDLE");
 }
 
-TEST_F(RigCli, StopNeedsNoLeaseAndAMoveThatItEndsDoesNotEndWith0) {
+TEST_F(RigCli, StopNeedsNoLeaseAndAStoppedMoveDoesNotExitWith0) {
   programs_.make_ready(6);
   Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
   ASSERT_TRUE(programs_.moves());
@@ -139,7 +140,7 @@ TEST_F(RigCli, StopNeedsNoLeaseAndAMoveThatItEndsDoesNotEndWith0) {
   EXPECT_NE(ended.err.find("stopped"), std::string::npos) << ended.err;
 }
 
-TEST_F(RigCli, AMoveThatFailsSaysWhy) {
+TEST_F(RigCli, AFailedMoveReportsTheReason) {
   programs_.make_ready(6);
   Process move(programs_.command({"rig", "move", "200", "--speed", "10"}));
   ASSERT_TRUE(programs_.moves());
@@ -157,7 +158,7 @@ TEST_F(RigCli, NoWaitReturnsWhileTheAxisMoves) {
   programs_.client({"rig", "stop"});
 }
 
-TEST_F(RigCli, WatchTellsEveryChange) {
+TEST_F(RigCli, WatchPrintsEveryChange) {
   const TemporaryFolder folder;
   const auto told = folder.path() / "told";
   testing::ProcessOptions options;
@@ -178,12 +179,12 @@ TEST_F(RigCli, WatchTellsEveryChange) {
   EXPECT_EQ(watch.wait().status, 130);
 }
 
-TEST_F(RigCli, AJogForATimeGoesThatFar) {
+TEST_F(RigCli, AJogForATimeCoversItsDistance) {
   programs_.make_ready(6);
   const double begin_mm = programs_.rig.position_mm();
   EXPECT_EQ(programs_.client({"rig", "jog", "--speed", "5", "--for", "1s"}).status, 0);
   EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
-  // What it goes on after the last sign: an exchange with the drive, and its ramp.
+  // The axis continues for one message exchange with the drive, and for its ramp.
   EXPECT_NEAR(programs_.rig.position_mm() - begin_mm, 5, 1);
 }
 
@@ -204,12 +205,12 @@ TEST_F(RigCli, AJogEndsWithTheLease) {
   ASSERT_TRUE(programs_.moves());
   programs_.client({"rig", "lease", "break", "--reason", "a test"}, "alice");
   EXPECT_LT(seconds_to_rest(), 0.5);
-  // LEASE_REQUIRED, or MOTION_IN_PROGRESS for a call that was on its way when the stop came.
+  // LEASE_REQUIRED, or MOTION_IN_PROGRESS for a request that was on its way when the stop came.
   const int status = jog.wait().status;
   EXPECT_TRUE(status == 3 || status == 4) << status;
 }
 
-TEST_F(RigCli, AKeyThatIsHeldMovesTheAxisAndOneThatIsLetGoStopsIt) {
+TEST_F(RigCli, AHeldKeyMovesTheAxisAndReleasingItStopsTheAxis) {
   programs_.make_ready(6);
   Terminal jog(programs_.command({"rig", "jog", "--speed", "5"}));
   ASSERT_TRUE(jog.shows("IDLE")) << jog.screen();
@@ -241,7 +242,7 @@ TEST_F(RigCli, ATapIsAShortStep) {
   EXPECT_LT(programs_.rig.position_mm(), begin_mm + 2.5);
 }
 
-TEST_F(RigCli, TheTerminalIsPutBackHoweverAJogEnds) {
+TEST_F(RigCli, TheTerminalIsRestoredAfterEveryJog) {
   programs_.make_ready(6);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     Terminal jog(programs_.command({"rig", "jog", "--speed", "5"}));
@@ -254,7 +255,7 @@ TEST_F(RigCli, TheTerminalIsPutBackHoweverAJogEnds) {
   }
 }
 
-TEST_F(RigCli, CtrlCOnATerminalStopsAHoming) {
+TEST_F(RigCli, CtrlCOnATerminalStopsHoming) {
   programs_.make_ready(30);
   Terminal home(programs_.command({"rig", "home"}));
   ASSERT_TRUE(home.shows("MOVING")) << home.screen();
@@ -263,7 +264,7 @@ TEST_F(RigCli, CtrlCOnATerminalStopsAHoming) {
   EXPECT_EQ(programs_.rig.speed_mm_per_s(), 0);
 }
 
-TEST_F(RigCli, ThePythonExampleTellsTheStateAndStops) {
+TEST_F(RigCli, ThePythonExamplePrintsTheStateAndStops) {
   programs_.make_ready(6);
   programs_.client({"rig", "move", "200", "--no-wait"});
   const auto ended = hydroprint::testing::run(

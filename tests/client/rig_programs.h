@@ -11,28 +11,28 @@
 
 namespace hydroprint::tests {
 
-/// A virtual rig, a daemon that knows it, and the client.
+/// A virtual rig, a daemon connected to it, and the client.
 class RigPrograms {
  public:
-  /// Waits until the daemon has found the rig.
+  /// Waits until the daemon has connected to the rig.
   RigPrograms();
 
-  /// Arguments that run `hydroprint` as a user of this name, with a folder of its own for the
-  /// lease.
+  /// Arguments that run `hydroprint` as this user, with a separate folder for the lease.
   [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& arguments,
                                                  const std::string& user = "tester") const;
-  /// Runs it to its end.
+  /// Runs the client to completion.
   hydroprint::testing::Ended client(const std::vector<std::string>& arguments,
                                     const std::string& user = "tester") const;
-  /// What --json printed; fails the test unless the exit status is 0 and it is one JSON value.
+  /// Returns the output of --json; fails the test unless the exit status is 0 and it is one JSON
+  /// value.
   [[nodiscard]] nlohmann::json client_json(std::vector<std::string> arguments,
                                            const std::string& user = "tester") const;
-  /// Acquires the lease, arms, homes and goes there.
+  /// Acquires the lease, arms, homes and moves to the position.
   void make_ready(double position_mm) const;
   [[nodiscard]] std::string state() const { return client_json({"rig", "status"}).at("state"); }
-  /// Where that user's lease is kept.
+  /// The folder of that user's lease.
   [[nodiscard]] std::filesystem::path runtime(const std::string& user = "tester") const;
-  /// Waits until the axis moves, or rests.
+  /// Waits until the axis moves, or is at rest.
   [[nodiscard]] bool moves() {
     return wait_until([&] { return rig.speed_mm_per_s() > 0; });
   }

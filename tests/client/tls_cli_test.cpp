@@ -1,4 +1,4 @@
-// `hydroprint` and the Python example with a daemon that speaks TLS.
+// `hydroprint` and the Python example with a daemon that uses TLS.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -33,7 +33,8 @@ class TlsCli : public ::testing::Test {
   [[nodiscard]] std::string at(const std::string& host) const {
     return host + daemon->address().substr(daemon->address().rfind(':'));
   }
-  /// In a home of the test's, with these variables ("NAME=VALUE") and lines on standard input.
+  /// Runs a command in the test's home folder with these variables ("NAME=VALUE") and standard
+  /// input.
   Outcome run(const Words& variables, const Words& command, const std::string& lines = "") const {
     Words all{"/bin/sh",
               "-c",
@@ -68,7 +69,7 @@ class TlsCli : public ::testing::Test {
   std::unique_ptr<DaemonProcess> daemon;
 };
 
-TEST_F(TlsCli, AnAuthorityThatIsNamedIsTrusted) {
+TEST_F(TlsCli, AConfiguredAuthorityIsTrusted) {
   start();
   EXPECT_EQ(client({"--server", at("localhost"), "--ca", ca, "list"}).status, 0);
   EXPECT_EQ(client({"--server", "https://" + at("localhost") + "/", "--ca", ca, "list"}).status, 0);
@@ -78,20 +79,20 @@ TEST_F(TlsCli, AnAuthorityThatIsNamedIsTrusted) {
       0);
 }
 
-TEST_F(TlsCli, WhatMakeCertificateMakesIsTrustedByItsAuthority) {
+TEST_F(TlsCli, CertificatesFromMakeCertificateAreTrusted) {
   const std::string out = (folder.path() / "tls").string();
   const auto make = [&] { return run({}, {MAKE_CERTIFICATE, "--out", out, "rig.local"}); };
   ASSERT_EQ(make().status, 0);
   const std::string made = content(out + "/ca.pem");
   const Outcome again = make();
   ASSERT_EQ(again.status, 0) << again.err;
-  EXPECT_EQ(content(out + "/ca.pem"), made) << "it signs with the authority that is there";
+  EXPECT_EQ(content(out + "/ca.pem"), made) << "it signs with the existing authority";
   start({{"DNS:localhost"}}, {out + "/certificate.pem", out + "/key.pem"});
   EXPECT_EQ(client({"--server", at("localhost"), "--ca", out + "/ca.pem", "list"}).status, 0);
   EXPECT_EQ(run({}, {MAKE_CERTIFICATE, "--out", out, "rig local"}).status, 1);
 }
 
-TEST_F(TlsCli, ACertificateThatIsNotTrustedIsSaidToBe) {
+TEST_F(TlsCli, AnUntrustedCertificateIsReported) {
   start();
   expect_refusal(client({"--server", "https://" + at("localhost"), "list"}), "--ca FILE");
   const Authority other;
@@ -99,7 +100,7 @@ TEST_F(TlsCli, ACertificateThatIsNotTrustedIsSaidToBe) {
   expect_refusal(client({"--server", at("localhost"), "--ca", file, "list"}), "--ca FILE");
 }
 
-TEST_F(TlsCli, ACertificateForAnotherNameIsSaidToBe) {
+TEST_F(TlsCli, ACertificateForAnotherNameIsReported) {
   start({{"DNS:rig.example.org"}});
   expect_refusal(client({"--server", at("localhost"), "--ca", ca, "list"}),
                  "is not for the name localhost");
@@ -107,18 +108,18 @@ TEST_F(TlsCli, ACertificateForAnotherNameIsSaidToBe) {
                  "is not for the name 127.0.0.1");
 }
 
-TEST_F(TlsCli, ACertificateThatHasExpiredIsSaidToHave) {
+TEST_F(TlsCli, AnExpiredCertificateIsReported) {
   start({{"DNS:localhost"}, -9, -1});
   expect_refusal(client({"--server", at("localhost"), "--ca", ca, "list"}), "expired on");
 }
 
-TEST_F(TlsCli, WhereOnlyOneEndSpeaksTlsItIsSaid) {
+TEST_F(TlsCli, TlsOnOnlyOneEndIsReported) {
   start();
   expect_refusal(client({"--server", at("localhost"), "list"}),
-                 "write --server https://" + at("localhost"));
+                 "use --server https://" + at("localhost"));
   const TemporaryFolder other;
   const DaemonProcess plain(other.path(), DaemonProcess::fake());
-  expect_refusal(client({"--server", plain.address(), "--ca", ca, "list"}), "not by TLS");
+  expect_refusal(client({"--server", plain.address(), "--ca", ca, "list"}), "does not speak TLS");
 }
 
 TEST_F(TlsCli, AnAuthorityThatCannotBeReadIsRefused) {
@@ -127,11 +128,11 @@ TEST_F(TlsCli, AnAuthorityThatCannotBeReadIsRefused) {
   expect_refusal(client({"--ca", file, "list"}), "no.pem");
 }
 
-TEST_F(TlsCli, NobodyThereIsNobodyThere) {
+TEST_F(TlsCli, AMissingServerIsReported) {
   EXPECT_EQ(client({"--server", "https://127.0.0.1:1", "list"}).status, 5);
 }
 
-TEST_F(TlsCli, NoSecretGoesToAnotherMachineWithoutTls) {
+TEST_F(TlsCli, SecretsAreNotSentToAnotherMachineWithoutTls) {
   for (const char* server : {"192.0.2.1:50051", "rig.example.org:50051"}) {
     expect_refusal(client({"--server", server, "list"}, {"HYDROPRINT_API_KEY=hp_a_b"}),
                    "https://" + std::string(server));
@@ -142,20 +143,20 @@ TEST_F(TlsCli, NoSecretGoesToAnotherMachineWithoutTls) {
   }
 }
 
-TEST_F(TlsCli, TheServerIsHostAndPort) {
+TEST_F(TlsCli, TheServerMustBeHostAndPort) {
   for (const char* bad : {"localhost", "https://", ":1", "localhost:", "localhost:x", "http://a:1",
                           "https://a:1/b", "https://user@a:1", "::1:1", "a:0"}) {
     EXPECT_EQ(client({"--server", bad, "list"}).status, 2) << bad;
   }
 }
 
-TEST_F(TlsCli, WhatLoginKeptIsForThePythonExampleToo) {
+TEST_F(TlsCli, ThePythonExampleUsesTheStoredKey) {
   start();
   const Words there{"HYDROPRINT_SERVER=https://" + at("localhost"), "HYDROPRINT_CA=" + ca};
   const std::string password = std::string(kSecret) + "\n";
   ASSERT_EQ(
       client({"users", "add", "ann", "--role", "MAKER", "--password"}, there, password).status, 3)
-      << "nobody would be admin";
+      << "there would be no admin";
   ASSERT_EQ(
       client({"users", "add", "ann", "--role", "ADMIN", "--password"}, there, password).status, 0);
   const auto mesh = folder.write("mesh.obj", "");

@@ -11,18 +11,18 @@
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/secret.h"
 
-// What is done on the daemon's own machine, to its state folder, is done by its own program:
-// hydroprintd admin. Here are its command line and the questions that are asked on a terminal.
+// These commands act on the daemon's state folder, on its own machine. The work is done by the
+// program "hydroprintd admin"; this file has the command line and the questions on the terminal.
 namespace hydroprint::cli {
 namespace {
 
 struct AdminOptions {
   std::string state_dir, file, user;
-  bool from_stdin = false;  // which is what is read where it is no terminal, with or without this
+  bool from_stdin = false;  // not read: hydroprintd reads standard input in either case
   bool replace = false;
 };
 
-// Beside this program, or else wherever it is found.
+// Looks beside this program, or else in PATH.
 std::string daemon_program() {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -30,7 +30,7 @@ std::string daemon_program() {
   return !error && std::filesystem::exists(beside, error) ? beside.string() : "hydroprintd";
 }
 
-// Becomes that program; comes back only if it cannot.
+// Replaces this process with hydroprintd; returns only on failure.
 Status become(const std::vector<std::string>& arguments) {
   std::vector<std::string> words{daemon_program(), "admin"};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -41,7 +41,7 @@ Status become(const std::vector<std::string>& arguments) {
   ::execvp(raw.front(), raw.data());
   return fail(Code::kFailedPrecondition,
               words.front() + ": cannot be started: " + std::generic_category().message(errno) +
-                  "; this is for the machine that hydroprintd is installed on");
+                  "; run this on the machine where hydroprintd is installed");
 }
 
 std::vector<std::string> arguments_of(const std::string& verb, const AdminOptions& options) {
@@ -65,20 +65,20 @@ Status link(const AdminOptions& options) {
   return become(arguments);
 }
 
-// The password goes through a pipe, which holds it until the other program reads: it stands on no
-// command line, and in no file.
+// The password is passed through a pipe, which buffers it until hydroprintd reads it. It appears
+// neither on a command line nor in a file.
 Status reset_password(const AdminOptions& options) {
   HP_ASSIGN_OR_RETURN(const std::string password, ask_new_password());
-  constexpr std::size_t kLongestPassword = 1000;  // a pipe takes as much at once
+  constexpr std::size_t kLongestPassword = 1000;  // a pipe buffers this much in one write
   if (password.size() > kLongestPassword) {
     return fail(Code::kInvalidArgument,
-                "the password has more than 1000 bytes; take a shorter one");
+                "the password has more than 1000 bytes; choose a shorter one");
   }
   int ends[2] = {-1, -1};
   const std::string line = password + "\n";
   if (::pipe(ends) != 0 || ::dup2(ends[0], STDIN_FILENO) < 0 ||
       ::write(ends[1], line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
-    return fail(Code::kInternal, "no pipe can be made: " + std::generic_category().message(errno));
+    return fail(Code::kInternal, "cannot create a pipe: " + std::generic_category().message(errno));
   }
   ::close(ends[0]);
   ::close(ends[1]);
@@ -90,7 +90,7 @@ Status reset_password(const AdminOptions& options) {
 CLI::App* add_verb(CLI::App& admin, const char* name, const char* help, AdminOptions& options) {
   CLI::App* const verb = admin.add_subcommand(name, help);
   verb->add_option("--state-dir", options.state_dir,
-                   "The daemon's state folder; default: that of a daemon of yours")
+                   "The daemon's state folder; default: that of a daemon run by the current user")
       ->type_name("DIR");
   return verb;
 }
@@ -100,12 +100,13 @@ CLI::App* add_verb(CLI::App& admin, const char* name, const char* help, AdminOpt
 void add_admin(CLI::App& app, Program& program) {
   auto options = std::make_shared<AdminOptions>();
   CLI::App* admin = app.add_subcommand(
-      "admin", "On the daemon's machine, as its user: back up and restore, let people in again");
+      "admin", "Back up, restore, reset passwords; on the daemon's machine, as its user");
   admin->require_subcommand(1);
 
-  CLI::App* backup = add_verb(
-      *admin, "backup", "Write all there is to one file, the daemon running or not", *options);
-  backup->add_option("file", options->file, "The archive (tar), which must not be there yet")
+  CLI::App* backup =
+      add_verb(*admin, "backup",
+               "Write the daemon's whole state to one file; the daemon may be running", *options);
+  backup->add_option("file", options->file, "The archive to create (tar); must not exist")
       ->type_name("FILE")
       ->required();
   backup->footer(
@@ -114,21 +115,22 @@ void add_admin(CLI::App& app, Program& program) {
   program.on(*backup, [options] { return on_file("backup", *options); });
 
   CLI::App* restore =
-      add_verb(*admin, "restore", "Bring back what backup wrote, the daemon stopped", *options);
+      add_verb(*admin, "restore", "Restore a backup; the daemon must be stopped", *options);
   restore->add_option("file", options->file, "The archive")->type_name("FILE")->required();
-  restore->add_flag("--replace", options->replace, "Delete what is in the state folder");
+  restore->add_flag("--replace", options->replace,
+                    "Delete the current contents of the state folder");
   program.on(*restore, [options] { return on_file("restore", *options); });
 
-  CLI::App* reset =
-      add_verb(*admin, "reset-password", "Set a user's password, and end their sessions", *options);
-  reset->add_option("user", options->user, "Whose")->type_name("NAME")->required();
-  reset->add_flag("--stdin", options->from_stdin, "Read it from standard input");
+  CLI::App* reset = add_verb(*admin, "reset-password",
+                             "Set a user's password and end the user's sessions", *options);
+  reset->add_option("user", options->user, "User name")->type_name("NAME")->required();
+  reset->add_flag("--stdin", options->from_stdin, "Read the password from standard input");
   program.on(*reset, [options] { return reset_password(*options); });
 
   CLI::App* to_link =
-      add_verb(*admin, "sign-in-link",
-               "Make a link by which a user signs in once, within 15 minutes", *options);
-  to_link->add_option("user", options->user, "Whose")->type_name("NAME")->required();
+      add_verb(*admin, "sign-in-link", "Create a link that signs a user in once, within 15 minutes",
+               *options);
+  to_link->add_option("user", options->user, "User name")->type_name("NAME")->required();
   program.on(*to_link, [options] { return link(*options); });
 }
 

@@ -28,7 +28,7 @@ Status artifacts(Program& program, const std::string& job) {
 
 void add_artifacts(CLI::App& app, Program& program) {
   auto job = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("artifacts", "List the files that a job made");
+  CLI::App* command = app.add_subcommand("artifacts", "List the files that a job produced");
   add_job_argument(*command, *job);
   program.on(*command, [&program, job] { return artifacts(program, job_name(*job)); });
 }

@@ -47,12 +47,12 @@ Status delete_assets(Program& program, const std::vector<std::string>& names) {
 void add_assets(CLI::App& app, Program& program) {
   CLI::App* command = app.add_subcommand("assets", "List or delete uploaded files");
   command->require_subcommand(1);
-  CLI::App* lister = command->add_subcommand(
-      "list", "List yours, as an operator all, in the order of their hashes");
+  CLI::App* lister =
+      command->add_subcommand("list", "List your assets, sorted by hash; as an operator, list all");
   program.on(*lister, [&program] { return list_assets(program); });
   auto names = std::make_shared<std::vector<std::string>>();
   CLI::App* deleter = command->add_subcommand(
-      "delete", "Give up yours; as an operator delete what no unfinished job needs");
+      "delete", "Delete your assets; as an operator, any asset that no unfinished job needs");
   deleter->add_option("asset", *names, "assets/SHA256")->type_name("ASSET")->required();
   program.on(*deleter, [&program, names] { return delete_assets(program, *names); });
 }

@@ -38,7 +38,7 @@ std::vector<std::filesystem::path> folders(const std::vector<std::string>& names
   return {names.begin(), names.end()};
 }
 
-/// Frames that are there, or those of a new capture.
+/// Uses the given frames, or captures new ones.
 Status take_frames(Program& program, const CalibrateOptions& options, Inputs& inputs,
                    client::ScanSpec& scan) {
   if (!options.frames.empty()) {
@@ -57,7 +57,7 @@ Status take_frames(Program& program, const CalibrateOptions& options, Inputs& in
   return {};
 }
 
-/// A calibration of a camera by its name, or a file.
+/// Accepts the name of a camera calibration, or a file.
 Status take_camera(const std::string& camera, Inputs& inputs, client::ScanSpec& scan) {
   if (camera.empty()) return {};
   const std::string name = calibration_name(camera);
@@ -85,7 +85,7 @@ Result<client::Spec> make_spec(Program& program, const CalibrateOptions& options
   return spec;
 }
 
-/// Follows the job, then tells what it found.
+/// Follows the job, then prints its result.
 Status finish(Program& program, const client::Job& job, const FinishOptions& options) {
   HP_RETURN_IF_ERROR(finish_job(program, job, options));
   if (options.no_wait || program.json()) return {};
@@ -116,7 +116,7 @@ Status calibrate_camera(Program& program, const CameraOptions& options) {
 }
 
 void add_name(CLI::App& command, client::JobOptions& job) {
-  command.add_option("--name", job.display_name, "What people call it")->type_name("TEXT");
+  command.add_option("--name", job.display_name, "Display name")->type_name("TEXT");
 }
 
 void add_object_flags(CLI::App& command, CalibrateOptions& options) {
@@ -127,8 +127,8 @@ void add_object_flags(CLI::App& command, CalibrateOptions& options) {
   command
       .add_option(
           "--pose", options.pose,
-          "How it should hang: {\"rotation_wxyz\":[w,x,y,z],\"translation_mm\":[x,y,z]}; it "
-          "tells what the scan cannot (a ball's turn)")
+          "Nominal pose: {\"rotation_wxyz\":[w,x,y,z],\"translation_mm\":[x,y,z]}; used for "
+          "motions that the scan cannot determine (a ball's rotation)")
       ->type_name("FILE");
   command
       .add_option("--film", options.film,
@@ -137,20 +137,17 @@ void add_object_flags(CLI::App& command, CalibrateOptions& options) {
 }
 
 constexpr char kCalibrateFooter[] =
-    "Takes frames, unless it is given some, and finds the object over the film in them. What it "
-    "finds is\n"
-    "kept as a calibration, which is active from then on: 'hydroprint submit simulate "
-    "--calibration active'\n"
-    "and 'hydroprint dip' go by it. It holds as long as the axis stays where it is.\n\n"
+    "Captures frames, unless some are given, and finds the pose of the object over the film in\n"
+    "them. The result is stored as a calibration and becomes active. 'hydroprint submit simulate\n"
+    "--calibration active' and 'hydroprint dip' use it. It stays valid until the axis moves.\n\n"
     "Examples:\n"
     "  hydroprint calibrate --mesh mug.obj --scale 10 --out held\n"
     "  hydroprint calibrate --mesh mug.obj --scale 10 --capture-job 5 --camera 2";
 
 constexpr char kCameraFooter[] =
-    "Each view: 1 s of frames of the calibration board, held still, whole in view and 30 mm before "
-    "what\n"
-    "is behind it; twelve views, tilted each way by 30 degrees, near and far, and out to the "
-    "corners.\n\n"
+    "Each view needs 1 s of frames of the calibration board. Hold the board still, fully in view\n"
+    "and 30 mm in front of the background. Take twelve views: tilted each way by 30 degrees, near\n"
+    "and far, and out to the corners.\n\n"
     "Examples:\n"
     "  hydroprint capture --seconds 1     # once for each view\n"
     "  hydroprint calibrate-camera --capture-jobs 1 2 3 4 5 6 7 8 9 10 11 12";
@@ -161,17 +158,17 @@ void add_calibrate(CLI::App& app, Program& program) {
   auto options = std::make_shared<CalibrateOptions>();
   options->spec.verb = client::Verb::kCalibrate;
   CLI::App* command =
-      app.add_subcommand("calibrate", "Find how the object hangs over the film, with the camera");
+      app.add_subcommand("calibrate", "Measure the object's pose over the film with the camera");
   add_object_flags(*command, *options);
   auto* seconds =
-      command->add_option("--seconds", options->seconds, "How long frames are taken; default 2");
+      command->add_option("--seconds", options->seconds, "Duration of the capture; default 2");
   seconds->type_name("S");
   auto* job = command->add_option("--capture-job", options->capture_job,
-                                  "Frames that were taken before: jobs/7, or 7");
+                                  "Use the frames of this capture: jobs/7, or 7");
   job->type_name("JOB")->excludes(seconds);
   command
       ->add_option("--frames", options->frames,
-                   "Frames that were taken elsewhere: a folder of hydroprint-capture")
+                   "Use frames from a folder written by hydroprint-capture")
       ->type_name("DIR")
       ->excludes(seconds, job);
   command
@@ -180,14 +177,13 @@ void add_calibrate(CLI::App& app, Program& program) {
       ->type_name("FILE");
   command
       ->add_option("--camera", options->camera,
-                   "The lens: calibrations/2, 2, or a camera.json; default: the active calibration "
-                   "of a camera")
+                   "Camera calibration: calibrations/2, 2, or a camera.json; default: the active "
+                   "one")
       ->type_name("CALIBRATION");
   command
-      ->add_option(
-          "--gripper-mm", options->spec.scan.gripper_mm,
-          "Height of the gripper's lower end over the water; default: the daemon knows it, "
-          "or none is in view")
+      ->add_option("--gripper-mm", options->spec.scan.gripper_mm,
+                   "Height of the gripper's lower end above the water; default: from the daemon's "
+                   "configuration, or no gripper in view")
       ->type_name("MM");
   add_name(*command, options->job);
   add_finish_flags(*command, options->finish);
@@ -199,12 +195,13 @@ void add_calibrate_camera(CLI::App& app, Program& program) {
   auto options = std::make_shared<CameraOptions>();
   options->spec.verb = client::Verb::kCalibrateCamera;
   CLI::App* command = app.add_subcommand(
-      "calibrate-camera", "Find the camera's lens and depth scale, from views of the board");
-  auto* jobs = command->add_option("--capture-jobs", options->capture_jobs, "One for each view");
+      "calibrate-camera", "Calibrate the camera's lens and depth scale from views of the board");
+  auto* jobs = command->add_option("--capture-jobs", options->capture_jobs,
+                                   "The captures, one for each view");
   jobs->type_name("JOB");
   command
       ->add_option("--frames", options->frames,
-                   "Views that were taken elsewhere: folders of hydroprint-capture")
+                   "Use views from folders written by hydroprint-capture")
       ->type_name("DIR")
       ->excludes(jobs);
   add_name(*command, options->job);

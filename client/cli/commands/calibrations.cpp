@@ -28,7 +28,7 @@ std::string holds(const client::Calibration& calibration) {
 
 void print_table(const std::vector<client::Calibration>& all) {
   std::cout << std::left << std::setw(18) << "CALIBRATION" << std::setw(8) << "KIND" << std::setw(8)
-            << "ACTIVE" << std::setw(14) << "HOLDS" << std::setw(21) << "CREATED"
+            << "ACTIVE" << std::setw(14) << "VALID" << std::setw(21) << "CREATED"
             << "NAME\n";
   for (const client::Calibration& one : all) {
     std::cout << std::setw(18) << one.name << std::setw(8) << one.kind << std::setw(8)
@@ -106,7 +106,7 @@ CLI::App* add_named(CLI::App& parent, Program& program, const char* verb, const 
 void add_listing(CLI::App& parent, Program& program) {
   auto limit = std::make_shared<int>(50);
   CLI::App* command = parent.add_subcommand("list", "List calibrations, newest first");
-  command->add_option("--limit", *limit, "At most so many")
+  command->add_option("--limit", *limit, "Maximum number")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
@@ -115,8 +115,7 @@ void add_listing(CLI::App& parent, Program& program) {
 
 void add_enter(CLI::App& parent, Program& program) {
   auto options = std::make_shared<EnterOptions>();
-  CLI::App* command =
-      parent.add_subcommand("enter", "Enter by hand how the object hangs, without a camera");
+  CLI::App* command = parent.add_subcommand("enter", "Enter a pose by hand, without a camera");
   command->add_option("--mesh", options->mesh, "The object")->type_name("FILE")->required();
   command
       ->add_option("--pose", options->pose,
@@ -128,27 +127,25 @@ void add_enter(CLI::App& parent, Program& program) {
       ->add_option("--film", options->entered.film,
                    "A4, A3, letter, WxH or circle:RADIUS, in mm; default A4")
       ->type_name("FILM");
-  command->add_option("--name", options->entered.display_name, "What people call it")
-      ->type_name("TEXT");
+  command->add_option("--name", options->entered.display_name, "Display name")->type_name("TEXT");
   command->footer(
-      "For a rig without a camera: hang the object as the placement template shows ('hydroprint "
-      "submit\n"
-      "template'). Nobody can tell when it does not hold any more.\n\n"
-      "Example:\n  hydroprint calibrations enter --mesh mug.obj --scale 10 --pose held.json");
+      "For a rig without a camera: position the object as the placement template shows\n"
+      "('hydroprint submit template'). hydroprint cannot detect when the pose becomes invalid.\n\n"
+      "Example:\n"
+      "  hydroprint calibrations enter --mesh mug.obj --scale 10 --pose held.json");
   program.on(*command, [&program, options] { return enter(program, *options); });
 }
 
 }  // namespace
 
 void add_calibrations(CLI::App& app, Program& program) {
-  CLI::App* command = app.add_subcommand(
-      "calibrations", "What is known of how objects hang, and of the camera: list, show, ...");
+  CLI::App* command =
+      app.add_subcommand("calibrations", "Manage calibrations of objects and cameras");
   command->require_subcommand(1);
   add_listing(*command, program);
-  add_named(*command, program, "show", "Show all there is to know about one", show);
-  add_named(*command, program, "activate", "Make it the one that is used where none is named",
-            activate);
-  add_named(*command, program, "delete", "Delete it; its job stays", remove);
+  add_named(*command, program, "show", "Show the details of a calibration", show);
+  add_named(*command, program, "activate", "Make it the default of its kind", activate);
+  add_named(*command, program, "delete", "Delete a calibration; its job is kept", remove);
   add_enter(*command, program);
 }
 

@@ -14,7 +14,7 @@ namespace hydroprint::cli {
 namespace {
 
 void show(const client::DepthPicture& seen) {
-  std::printf("%s: from %.0f to %.0f mm, %.0f %% of it measured, %.1f s ago\n",
+  std::printf("%s: %.0f to %.0f mm, %.0f %% of the picture measured, %.1f s ago\n",
               printable(seen.camera).c_str(), seen.nearest_mm, seen.farthest_mm,
               100 * seen.measured_share, seen.age_s);
 }
@@ -42,12 +42,15 @@ Status look(Program& program, const std::filesystem::path& out) {
 
 void add_camera(CLI::App& app, Program& program) {
   auto out = std::make_shared<std::filesystem::path>();
-  CLI::App* command = app.add_subcommand("camera", "What the daemon's depth camera sees now");
-  command->add_option("--out", *out, "Write it as a picture: the nearer the brighter, PNG")
+  CLI::App* command =
+      app.add_subcommand("camera", "Show the current picture of the daemon's depth camera");
+  command->add_option("--out", *out, "Write the picture to a PNG file; nearer is brighter")
       ->type_name("FILE");
   command->footer(
-      "The camera runs while somebody looks, and a little longer; a capture has it to itself.\n\n"
-      "Example:\n  hydroprint camera --out depth.png");
+      "The camera runs while pictures are requested, and a little longer. A capture has "
+      "priority.\n\n"
+      "Example:\n"
+      "  hydroprint camera --out depth.png");
   program.on(*command, [&program, out] { return look(program, *out); });
 }
 

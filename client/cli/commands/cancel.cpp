@@ -27,7 +27,7 @@ Status cancel(Program& program, const std::vector<std::string>& names) {
 
 void add_cancel(CLI::App& app, Program& program) {
   auto jobs = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = app.add_subcommand("cancel", "Cancel jobs, queued or running");
+  CLI::App* command = app.add_subcommand("cancel", "Cancel queued or running jobs");
   command->add_option("job", *jobs, "The jobs: jobs/7, or 7")->type_name("JOB")->required();
   program.on(*command, [&program, jobs] { return cancel(program, *jobs); });
 }

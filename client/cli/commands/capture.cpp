@@ -29,16 +29,17 @@ Status capture(Program& program, const CaptureOptions& options) {
 
 void add_capture(CLI::App& app, Program& program) {
   auto options = std::make_shared<CaptureOptions>();
-  CLI::App* command = app.add_subcommand("capture", "Take depth frames of the daemon's camera");
-  command->add_option("--seconds", options->seconds, field_help("CaptureSpec.seconds", "How long"))
+  CLI::App* command = app.add_subcommand("capture", "Record depth frames with the daemon's camera");
+  command->add_option("--seconds", options->seconds, field_help("CaptureSpec.seconds", "Duration"))
       ->type_name("S");
-  command->add_option("--name", options->job.display_name, "What people call the job")
+  command->add_option("--name", options->job.display_name, "Display name of the job")
       ->type_name("TEXT");
   add_finish_flags(*command, options->finish);
   command->footer(
-      "Where the axis stands is kept: what is calibrated from the frames holds as long as it stays "
-      "there.\n\n"
-      "Example:\n  hydroprint capture --out frames");
+      "The axis position is recorded. A calibration from these frames is valid until the axis "
+      "moves.\n\n"
+      "Example:\n"
+      "  hydroprint capture --out frames");
   program.on(*command, [&program, options] { return capture(program, *options); });
 }
 

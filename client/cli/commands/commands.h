@@ -8,7 +8,7 @@ namespace hydroprint::cli {
 
 class Program;
 
-// Each adds one command, with its flags, help and what it does, to the program's command line.
+// Each function adds one command to the program's command line.
 void add_sample(CLI::App& app, Program& program);
 void add_upload(CLI::App& app, Program& program);
 void add_submit(CLI::App& app, Program& program);
@@ -35,12 +35,12 @@ void add_preview(CLI::App& app, Program& program);
 void add_print(CLI::App& app, Program& program);
 void add_dip(CLI::App& app, Program& program);
 void add_confirm(CLI::App& app, Program& program);
-void add_login(CLI::App& app, Program& program);  // logout and whoami, too
+void add_login(CLI::App& app, Program& program);  // also adds logout and whoami
 void add_users(CLI::App& app, Program& program);
 void add_keys(CLI::App& app, Program& program);
 void add_sessions(CLI::App& app, Program& program);
 void add_audit(CLI::App& app, Program& program);
-void add_pin(CLI::App& app, Program& program);  // unpin, too
+void add_pin(CLI::App& app, Program& program);  // also adds unpin
 void add_admin(CLI::App& app, Program& program);
 void add_share(CLI::App& app, Program& program);
 void add_completion(CLI::App& app, Program& program);

@@ -10,7 +10,7 @@
 namespace hydroprint::cli {
 namespace {
 
-// A flag as completion sees it.
+// A flag, as needed for completion.
 struct Flag {
   std::vector<std::string> names;  // "--out", "-h"
   std::string help;
@@ -19,7 +19,7 @@ struct Flag {
   std::vector<std::string> choices;
 };
 
-// A command and all its flags, those of the commands above it included.
+// A command with all its flags, including those of its parent commands.
 struct Command {
   std::string path;  // "hydroprint submit simulate"
   std::vector<std::string> words;
@@ -64,7 +64,7 @@ void walk(const CLI::App& app, Command command, std::vector<Command>& commands) 
     command.takes_file = command.takes_file || is_path(option->get_type_name());
   }
   Command below{command.path, {}, {}, command.flags, false, {}};
-  std::erase_if(below.flags, [](const Flag& flag) {  // each command has these of its own
+  std::erase_if(below.flags, [](const Flag& flag) {  // every command has its own
     return flag.names.back() == "--help" || flag.names.back() == "--version";
   });
   const auto children = app.get_subcommands([](const CLI::App*) { return true; });
@@ -80,7 +80,7 @@ std::string join(const std::vector<std::string>& words, const char* separator = 
   return CLI::detail::join(words, separator);
 }
 
-// In single quotes, for a shell.
+// Quotes a word for a shell.
 std::string quote(const std::string& text) {
   std::string result = "'";
   for (const char c : text) c == '\'' ? result += "'\\''" : result += c;
@@ -95,7 +95,7 @@ std::string all_words(const Command& command) {
   return join(words);
 }
 
-// The cases on "PATH FLAG" of the flags that take a value: files, choices, or nothing to offer.
+// Shell cases "PATH FLAG" for flags that take a value: files, choices, or no suggestions.
 std::string value_cases(const Command& command, const std::string& files,
                         const std::string& before_choices, const std::string& after_choices) {
   std::string text;
@@ -110,7 +110,8 @@ std::string value_cases(const Command& command, const std::string& files,
   return text;
 }
 
-// The words so far that are commands, as "hydroprint submit simulate"; what follows a flag is none.
+// Shell function that joins the command words so far, for example "hydroprint submit simulate";
+// flags and their values are skipped.
 std::string path_function(const std::vector<Command>& commands, const char* name) {
   std::string cases;
   for (const Command& command : commands)
@@ -205,8 +206,8 @@ Status completion(const CLI::App& app, const std::string& shell) {
 
 void add_completion(CLI::App& app, Program& program) {
   auto shell = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("completion", "Print a completion script for a shell");
-  command->add_option("shell", *shell, "Which shell")
+  CLI::App* command = app.add_subcommand("completion", "Print a shell completion script");
+  command->add_option("shell", *shell, "The shell")
       ->type_name("SHELL")
       ->required()
       ->check(CLI::IsMember({"bash", "zsh", "fish"}));

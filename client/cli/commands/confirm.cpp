@@ -29,16 +29,17 @@ Status confirm(Program& program, const ConfirmOptions& options) {
 void add_confirm(CLI::App& app, Program& program) {
   auto options = std::make_shared<ConfirmOptions>();
   CLI::App* command =
-      app.add_subcommand("confirm", "Say that a step of a dip is done, so that it goes on");
+      app.add_subcommand("confirm", "Confirm a step of a dip, so that it continues");
   add_job_argument(*command, options->job);
-  command->add_option("step", options->step, "The step that was done")
+  command->add_option("step", options->step, "The completed step")
       ->type_name("STEP")
       ->required()
       ->transform(CLI::IsMember(client::operator_steps(), CLI::ignore_case));
   add_lease_flag(*command, options->with_lease);
   command->footer(
-      "Needs the lease that the dip was created with, or another one since. 'hydroprint show JOB'\n"
-      "tells the step. Saying it again does nothing.\n\nExample:\n"
+      "Needs the current lease, which may be newer than that of the dip. 'hydroprint show JOB'\n"
+      "shows the step. Confirming a step again has no effect.\n\n"
+      "Example:\n"
       "  hydroprint confirm 8 LAY_FILM");
   program.on(*command, [&program, options] { return confirm(program, *options); });
 }

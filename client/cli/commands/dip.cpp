@@ -40,11 +40,11 @@ Status check_terminal(const DipOptions& options) {
       Keyboard::is_there())
     return {};
   return fail(Code::kInvalidArgument,
-              "without a terminal nobody can be led through the steps: give --no-guide, then "
-              "'hydroprint confirm JOB STEP' for each; or --yes-to-all on the virtual rig");
+              "the guide through the steps needs a terminal; use --no-guide and then 'hydroprint "
+              "confirm JOB STEP' for each step, or --yes-to-all on the virtual rig");
 }
 
-// Ctrl-C: the daemon aborts the dip; waits until it did.
+// On Ctrl-C the daemon aborts the dip; waits until it has.
 Result<client::Job> abort_dip(const Program& program, const std::string& job) {
   client::Connection daemon = program.uninterrupted();
   HP_RETURN_IF_ERROR(client::cancel_job(daemon, job));
@@ -56,11 +56,11 @@ Result<client::Job> follow(Program& program, const HeldLease& lease, const clien
   return follow_job(program, job.name, {});
 }
 
-// Leads or follows the dip to its end; on Ctrl-C aborts it.
+// Guides or follows the dip to its end; aborts it on Ctrl-C.
 Result<client::Job> go_through(Program& program, const HeldLease& lease, const client::Job& job) {
   auto ended = follow(program, lease, job);
   if (ended || ended.error().code != Code::kCancelled) return ended;
-  if (!program.is_interrupted()) return ended;  // the terminal is gone
+  if (!program.is_interrupted()) return ended;  // the terminal was closed
   std::cerr << "aborting " << job.name << std::endl;
   return abort_dip(program, job.name);
 }
@@ -103,7 +103,7 @@ Status dip(Program& program, DipOptions options) {
     return {};
   }
   auto ended = go_through(program, *lease, job);
-  if (!ended) {  // the dip goes on, and may want confirmations
+  if (!ended) {  // the dip continues and may need confirmations
     lease->leave();
     return tl::unexpected(std::move(ended).error());
   }
@@ -116,28 +116,29 @@ void add_film_flags(CLI::App& command, client::DipSpec& spec) {
           "--film-area-mm2", spec.film_area_mm2,
           field_help(
               "DipSpec.film_area_mm2",
-              "Area of the film, for the amount of activator; default: the simulation's, or A4"))
+              "Area of the film, for the amount of activator; default: from the simulation, or A4"))
       ->type_name("MM2");
   command
       .add_option("--activator-ml-per-m2", spec.activator_ml_per_m2,
                   field_help("DipSpec.activator_ml_per_m2",
-                             "Activator; default: the film profile's, if there is one"))
+                             "Amount of activator; default: from the film profile, if any"))
       ->type_name("ML/M2");
   command
       .add_option("--soak-s", spec.soak_s,
                   field_help("DipSpec.soak_s",
-                             "How long the film floats before the activator; default: the "
-                             "profile's, if there is one"))
+                             "Time that the film floats before the activator; default: from the "
+                             "profile, if any"))
       ->type_name("S");
   command
       .add_option("--activator-wait-s", spec.activator_wait_s,
                   field_help("DipSpec.activator_wait_s",
-                             "How long the activator works before the dip; default: the profile's, "
-                             "if there is one"))
+                             "Time that the activator works before the dip; default: from the "
+                             "profile, if any"))
       ->type_name("S");
   command
       .add_option("--activation-window-s", spec.activation_window_s,
-                  field_help("DipSpec.activation_window_s", "How long after that the film is good"))
+                  field_help("DipSpec.activation_window_s",
+                             "Time after that in which the film can be dipped"))
       ->type_name("S");
   command
       .add_option(
@@ -150,38 +151,40 @@ void add_motion_flags(CLI::App& command, client::DipSpec& spec) {
   command
       .add_option(
           "--depth-mm", spec.depth_mm,
-          field_help("DipSpec.depth_mm", "Depth below first contact; default: the simulation's"))
+          field_help("DipSpec.depth_mm", "Depth below first contact; default: from the simulation"))
       ->type_name("MM");
   command
       .add_option("--speed", spec.speed_mm_per_s,
                   field_help("DipSpec.speed_mm_per_s",
-                             "Speed of the descent; default: the simulation's, if there is one"))
+                             "Speed of the descent; default: from the simulation, if any"))
       ->type_name("MM/S");
   command
       .add_option("--retract-speed", spec.retract_speed_mm_per_s,
                   field_help("DipSpec.retract_speed_mm_per_s",
-                             "Speed of the way up; default: that of the descent"))
+                             "Speed of the retraction; default: that of the descent"))
       ->type_name("MM/S");
   command
       .add_option("--hold-s", spec.hold_s,
-                  field_help("DipSpec.hold_s", "How long it stays at the depth"))
+                  field_help("DipSpec.hold_s", "Time that the object stays at the depth"))
       ->type_name("S");
   command
-      .add_option("--clearance-mm", spec.clearance_mm,
-                  field_help("DipSpec.clearance_mm", "How far above the water the object waits"))
+      .add_option(
+          "--clearance-mm", spec.clearance_mm,
+          field_help("DipSpec.clearance_mm", "Height above the water at which the object waits"))
       ->type_name("MM");
 }
 
 constexpr char kDipFooter[] =
-    "Needs an armed and homed rig. Takes the lease ('hydroprint rig lease') unless you have it, "
+    "Needs an armed and homed rig. Acquires the lease ('hydroprint rig lease') unless you have it, "
     "and\n"
-    "keeps it while the dip lasts. On a terminal it shows each step, what to do, and its clock;\n"
-    "Enter confirms a step; where first contact is looked for, hold Down or j, Up or k (see\n"
-    "'hydroprint rig jog --help'). Ctrl-C aborts the dip and says what to do with film and "
+    "keeps it during the dip. On a terminal it shows each step, the instruction and the timer;\n"
+    "Enter confirms a step. To find first contact, hold Down or j, Up or k (see\n"
+    "'hydroprint rig jog --help'). Ctrl-C aborts the dip and prints what to do with film and "
     "object.\n"
-    "If this program is lost the dip goes on; 'hydroprint watch JOB' and 'hydroprint confirm JOB\n"
-    "STEP' take it up.\n\n"
-    "Examples:\n  hydroprint dip --simulate-job 7 --water-temperature-c 24 --out record\n"
+    "If this program is lost, the dip continues; resume with 'hydroprint watch JOB' and\n"
+    "'hydroprint confirm JOB STEP'.\n\n"
+    "Examples:\n"
+    "  hydroprint dip --simulate-job 7 --water-temperature-c 24 --out record\n"
     "  hydroprint dip --depth-mm 20 --yes-to-all\n"
     "  hydroprint dip --simulate-job 7 --no-guide && hydroprint confirm 8 PRINT_FILM";
 
@@ -197,20 +200,20 @@ void add_dip(CLI::App& app, Program& program) {
       ->type_name("JOB");
   command
       ->add_option("--calibration", options->calibration,
-                   "How the object hangs, and where first contact is: calibrations/3, 3 or active; "
-                   "default: what the simulation went by")
+                   "Pose and first contact of the object: calibrations/3, 3 or active; default: "
+                   "that of the simulation")
       ->type_name("CALIBRATION");
   add_stale_flag(*command, options->spec.allow_stale_calibration);
   add_motion_flags(*command, options->spec);
   add_film_flags(*command, options->spec);
-  command->add_option("--name", options->job.display_name, "What people call the job")
+  command->add_option("--name", options->job.display_name, "Display name of the job")
       ->type_name("TEXT");
   command->add_option("--out", options->out, "Download the dip's record into this folder")
       ->type_name("DIR");
   command->add_flag("--no-guide", options->no_guide,
-                    "Create the dip and return; the lease stays yours");
+                    "Create the dip and return; you keep the lease");
   command->add_flag("--yes-to-all", options->spec.yes_to_all,
-                    "Skip confirmations and clocks; on the virtual rig only");
+                    "Skip confirmations and timers; on the virtual rig only");
   command->add_flag("--validate-only", options->job.validate_only, "Check, but create nothing");
   command->footer(kDipFooter);
   program.on(*command, [&program, options] { return dip(program, *options); });

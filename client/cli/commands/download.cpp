@@ -18,7 +18,7 @@ struct DownloadOptions {
   std::string out;
 };
 
-// "jobs/7" to "job-7".
+// Returns "job-7" for "jobs/7".
 std::string default_folder(const std::string& job) {
   return "job-" + job.substr(job.find('/') + 1);
 }
@@ -40,15 +40,16 @@ Status download(Program& program, const DownloadOptions& options) {
 
 void add_download(CLI::App& app, Program& program) {
   auto options = std::make_shared<DownloadOptions>();
-  CLI::App* command = app.add_subcommand("download", "Download the files that a job made");
+  CLI::App* command = app.add_subcommand("download", "Download the files that a job produced");
   add_job_argument(*command, options->job);
-  command->add_option("artifacts", options->artifacts, "Their names; default: all of them")
+  command->add_option("artifacts", options->artifacts, "Names of the artifacts; default: all")
       ->type_name("ARTIFACT");
-  command->add_option("--out", options->out, "Folder to put them in; default: job-NUMBER")
+  command->add_option("--out", options->out, "Destination folder; default: job-NUMBER")
       ->type_name("DIR");
   command->footer(
-      "Each file is checked by its SHA-256 and appears only when it is complete. What was\n"
-      "received before an interruption is kept and not fetched again.\n\nExample:\n"
+      "Each file is checked against its SHA-256 and appears only when it is complete.\n"
+      "An interrupted download resumes where it stopped.\n\n"
+      "Example:\n"
       "  hydroprint download 7 film.png report.json --out result");
   program.on(*command, [&program, options] { return download(program, *options); });
 }

@@ -29,7 +29,7 @@ Status events(Program& program, const std::string& name) {
 
 void add_events(CLI::App& app, Program& program) {
   auto job = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("events", "List what happened to a job, oldest first");
+  CLI::App* command = app.add_subcommand("events", "List the events of a job, oldest first");
   add_job_argument(*command, *job);
   program.on(*command, [&program, job] { return events(program, job_name(*job)); });
 }

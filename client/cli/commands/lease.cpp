@@ -36,11 +36,13 @@ void tell(const Program& program, const client::Lease& lease) {
     std::cout << lease_line(&lease) << std::endl;
 }
 
-// The id kept for this daemon.
+// Returns the lease id stored for this daemon.
 Result<std::string> our_lease(const Program& program) {
   if (auto kept = kept_lease(program.server())) return *kept;
   return fail(Code::kFailedPrecondition,
-              lease_file(program.server()).string() + ": no lease is kept there", "LEASE_REQUIRED");
+              lease_file(program.server()).string() +
+                  ": no lease is stored there; acquire one: hydroprint rig lease acquire",
+              "LEASE_REQUIRED");
 }
 
 Status show_lease(Program& program) {
@@ -88,50 +90,53 @@ Status break_it(Program& program, const LeaseOptions& options) {
 }
 
 void add_time_flag(CLI::App& command, LeaseOptions& options) {
-  add_duration(command, "--for", options.time_s, "How long: 1s to 8h; default 10min");
+  add_duration(command, "--for", options.time_s, "Duration: 1s to 8h; default 10min");
 }
 
 void add_acquire(CLI::App& parent, Program& program) {
   auto options = std::make_shared<LeaseOptions>();
-  CLI::App* command = parent.add_subcommand("acquire", "Take the lease, if nobody has it");
-  command->add_option("--purpose", options->purpose, "What for; others who are refused read it")
+  CLI::App* command = parent.add_subcommand("acquire", "Acquire the lease if nobody holds it");
+  command
+      ->add_option("--purpose", options->purpose, "Reason; shown to others who request the lease")
       ->type_name("TEXT")
       ->required();
   add_time_flag(*command, *options);
   command->footer(
-      "It is kept for the commands after it in $XDG_RUNTIME_DIR/hydroprint, or else in\n"
-      "~/.local/state/hydroprint, in a file that only you can read, for each --server.\n\n"
-      "Example:\n  hydroprint rig lease acquire --purpose 'dip of the mug' --for 30min");
+      "The lease is stored for later commands, one for each --server, in a file that only you\n"
+      "can read: in $XDG_RUNTIME_DIR/hydroprint, or else in ~/.local/state/hydroprint.\n\n"
+      "Example:\n"
+      "  hydroprint rig lease acquire --purpose 'dip of the mug' --for 30min");
   program.on(*command, [&program, options] { return acquire(program, *options); });
 }
 
 void add_renew(CLI::App& parent, Program& program) {
   auto options = std::make_shared<LeaseOptions>();
-  CLI::App* command = parent.add_subcommand("renew", "Let your lease end so long from now");
+  CLI::App* command = parent.add_subcommand("renew", "Extend your lease, counted from now");
   add_time_flag(*command, *options);
   program.on(*command, [&program, options] { return renew(program, *options); });
 }
 
 void add_break(CLI::App& parent, Program& program) {
   auto options = std::make_shared<LeaseOptions>();
-  CLI::App* command = parent.add_subcommand("break", "Take the lease away from whoever has it");
-  command->add_option("--reason", options->reason, "Why; the daemon logs it with both names")
+  CLI::App* command = parent.add_subcommand("break", "Take the lease away from its holder");
+  command->add_option("--reason", options->reason, "Reason; the daemon logs it with both names")
       ->type_name("TEXT")
       ->required();
-  command->footer("A jog ends, a dip goes on. Ask first: somebody may stand at the rig.");
+  command->footer("A jog ends; a dip continues. Ask first: somebody may be working at the rig.");
   program.on(*command, [&program, options] { return break_it(program, *options); });
 }
 
 }  // namespace
 
 void add_lease(CLI::App& parent, Program& program) {
-  CLI::App* command = parent.add_subcommand("lease", "Who may command the rig");
+  CLI::App* command =
+      parent.add_subcommand("lease", "Manage the exclusive right to command the rig");
   command->require_subcommand(1);
-  program.on(*command->add_subcommand("show", "Say who has the lease"),
+  program.on(*command->add_subcommand("show", "Show who holds the lease"),
              [&program] { return show_lease(program); });
   add_acquire(*command, program);
   add_renew(*command, program);
-  program.on(*command->add_subcommand("release", "Give your lease back"),
+  program.on(*command->add_subcommand("release", "Release your lease"),
              [&program] { return release(program); });
   add_break(*command, program);
 }

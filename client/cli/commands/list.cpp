@@ -71,8 +71,8 @@ void add_list(CLI::App& app, Program& program) {
       ->type_name("STATE")
       ->transform(CLI::IsMember(names, CLI::ignore_case));
   command->add_flag("--mine", options->mine,
-                    "Only your jobs: your user's, or those of --owner where there are no users");
-  command->add_option("--limit", options->filter.limit, "At most so many")
+                    "Only your jobs; without user accounts, those of --owner");
+  command->add_option("--limit", options->filter.limit, "Maximum number")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();

@@ -30,7 +30,7 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "a machine";
 }
 
-// "hp_0a1b_SECRET" to "apiKeys/0a1b".
+// Returns "apiKeys/0a1b" for "hp_0a1b_SECRET".
 std::string name_of_key(const std::string& key) {
   return "apiKeys/" + key.substr(3, key.find('_', 3) - 3);
 }
@@ -44,8 +44,8 @@ Status show_identity(const Program& program, const client::Identity& me) {
             << printable(me.via) << ")" << std::endl;
   if (!me.accounts) {
     std::cout
-        << "There are no users yet: whoever is on that machine is admin. 'hydroprint users add "
-           "NAME --role ADMIN' makes the first."
+        << "There are no users yet: everybody on that machine is admin. Add the first user with "
+           "'hydroprint users add NAME --role ADMIN'."
         << std::endl;
   }
   return {};
@@ -56,7 +56,7 @@ std::string of_allowed(const std::string& used, const std::string& allowed, bool
   return is_limited ? used + " of " + allowed : used;
 }
 
-// What one has there, after who one is.
+// Prints the caller's identity, then usage and quota.
 Status show_all(Program& program) {
   HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(program.daemon()));
   HP_ASSIGN_OR_RETURN(const client::Usage usage, client::get_usage(program.daemon()));
@@ -81,7 +81,7 @@ Status show_all(Program& program) {
 Result<std::string> begin_session(client::Connection& nobody, const LoginOptions& options) {
   if (options.link_from_stdin) {
     HP_ASSIGN_OR_RETURN(const std::string link, ask_secret("Sign-in link: "));
-    // The whole address, or what stands behind its "#".
+    // Accepts the whole link, or the part after "#".
     return client::sign_in_by_link(nobody, link.substr(link.rfind('#') + 1));
   }
   HP_ASSIGN_OR_RETURN(const std::string user, options.user.empty() ? ask("Name: ") : options.user);
@@ -89,7 +89,7 @@ Result<std::string> begin_session(client::Connection& nobody, const LoginOptions
   return client::sign_in(nobody, user, password);
 }
 
-// A key made with a session that lasts no longer than that.
+// Creates a key in a session that is closed afterwards.
 Result<std::string> make_key(const Program& program, const LoginOptions& options) {
   client::Connection nobody(program.options_as("", ""));
   HP_ASSIGN_OR_RETURN(const std::string session, begin_session(nobody, options));
@@ -108,23 +108,25 @@ Status log_in(Program& program, const LoginOptions& options) {
   HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(connection));
   if (!me.accounts) {
     return fail(Code::kFailedPrecondition,
-                "there are no users at " + program.server() + " yet, and nobody needs to log in");
+                "there are no users at " + program.server() + " yet; no login is needed");
   }
   HP_RETURN_IF_ERROR(keep_key(program.server(), key));
   return show_identity(program, me);
 }
 
-// Forgets the key here first: that holds even if the daemon does not answer.
+// Deletes the stored key first, so that the logout is effective here even if the daemon does not
+// respond.
 Status log_out(const Program& program) {
   HP_ASSIGN_OR_RETURN(const std::string key, kept_key(program.server()));
   if (key.empty()) {
-    return fail(Code::kFailedPrecondition, "nobody is logged in at " + program.server() + " here");
+    return fail(Code::kFailedPrecondition,
+                "not logged in at " + program.server() + " on this machine");
   }
   HP_RETURN_IF_ERROR(keep_key(program.server(), ""));
   client::Connection connection(program.options_as(key, ""));
   const Status ended = client::delete_api_key(connection, name_of_key(key));
   if (!ended && ended.error().code != Code::kUnauthenticated) {
-    return fail(ended.error().code, "forgotten here, but the key still holds: " +
+    return fail(ended.error().code, "the stored key was deleted, but it is still valid: " +
                                         ended.error().message + "; delete it: hydroprint keys");
   }
   if (program.json()) print({{"logged_out", program.server()}});
@@ -138,8 +140,9 @@ void add_login(CLI::App& app, Program& program) {
   auto options = std::make_shared<LoginOptions>();
   CLI::App* login = app.add_subcommand(
       "login",
-      "Keep an API key for a daemon, made with name and password or a link, or one you have");
-  login->add_option("--user", options->user, "Your name; else it is asked for")->type_name("NAME");
+      "Create an API key by password or sign-in link, or take an existing one, and store it");
+  login->add_option("--user", options->user, "Your user name; default: asks for it")
+      ->type_name("NAME");
   auto* key = login->add_flag("--api-key-stdin", options->key_from_stdin,
                               "Read an API key from standard input");
   login
@@ -148,10 +151,9 @@ void add_login(CLI::App& app, Program& program) {
       ->excludes(key);
   login->footer("Example:\n  hydroprint login --api-key-stdin < key");
   program.on(*login, [&program, options] { return log_in(program, *options); });
-  program.on(*app.add_subcommand("logout", "Forget the key and end it"),
+  program.on(*app.add_subcommand("logout", "Delete the stored key and revoke it"),
              [&program] { return log_out(program); });
-  program.on(*app.add_subcommand(
-                 "whoami", "Show who you are to the daemon, what you may do, and what you have"),
+  program.on(*app.add_subcommand("whoami", "Show your user, role, usage and quota at the daemon"),
              [&program] { return show_all(program); });
 }
 

@@ -18,13 +18,13 @@
 namespace hydroprint::cli {
 namespace {
 
-/// The axis armed and homed, whatever happened to it: on a machine that is too busy the drive's
-/// watchdog stops it between two poses, and it hurts nobody.
+/// Arms and homes the axis, also after a fault. On an overloaded machine, the drive's watchdog may
+/// stop the axis between two poses, which is harmless.
 Status make_ready(Program& program, const HeldLease& lease) {
   HP_ASSIGN_OR_RETURN(client::Rig rig, client::get_rig(program.daemon()));
   if (!rig.axis || !rig.axis->is_virtual)
     return fail(Code::kFailedPrecondition,
-                "the loop runs on hydroprint-virtual-rig alone; start the daemon with one");
+                "the loop needs hydroprint-virtual-rig; start the daemon with one");
   if (rig.state == client::RigState::kFault) {
     HP_ASSIGN_OR_RETURN(rig, client::reset_rig(program.daemon(), lease.id()));
   }
@@ -63,15 +63,11 @@ Status run_loop(Program& program, const LoopOptions& options) {
 }
 
 constexpr char kLoopFooter[] =
-    "Calibrates the virtual rig's camera from twelve views of the board. Then, for each pose: "
-    "hangs "
-    "the\n"
-    "object crookedly in the gripper, calibrates through the noisy camera, simulates, puts it on "
-    "paper and\n"
-    "dips on the rig; dips that film image in the computation at the true pose, along an axis that "
-    "is not\n"
-    "quite vertical, with film and printer a little off; and measures where the picture's "
-    "cross-points land.\n"
+    "Calibrates the virtual rig's camera from twelve views of the board. For each pose, hangs the\n"
+    "object with a random error, calibrates with the noisy camera, simulates, lays out the page\n"
+    "and dips on the rig. A computation then dips that film image at the true pose, with errors "
+    "of\n"
+    "axis, film and printer, and measures where the picture's cross-points land.\n"
     "The rig's --scene must have a [camera], and its water must be far enough below for the "
     "object.\n\n"
     "Example:\n"
@@ -82,8 +78,8 @@ constexpr char kLoopFooter[] =
 void add_loop(CLI::App& app, Program& program) {
   auto options = std::make_shared<LoopOptions>();
   CLI::App* command = app.add_subcommand(
-      "loop", "The whole loop in silico, on the virtual rig: how far off the print lands");
-  command->add_option("--object", options->object, "The sample that hangs there")
+      "loop", "Measure the placement error of a print in silico, on the virtual rig");
+  command->add_option("--object", options->object, "The sample to print")
       ->type_name("OBJECT")
       ->check(CLI::IsMember({"board", "sphere80"}))
       ->capture_default_str();
@@ -92,25 +88,25 @@ void add_loop(CLI::App& app, Program& program) {
       ->required();
   command
       ->add_option("--camera", options->camera,
-                   "The lens, if it is known: calibrations/2, 2, a camera.json, or 'active'")
+                   "Use this camera calibration: calibrations/2, 2, a camera.json, or 'active'")
       ->type_name("CALIBRATION");
-  command->add_option("--poses", options->poses, "How many")
+  command->add_option("--poses", options->poses, "Number of poses")
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "Of what is drawn")
+  command->add_option("--seed", options->seed, "Seed of the random errors")
       ->type_name("N")
       ->capture_default_str();
-  command->add_option("--seconds", options->seconds, "How long frames are taken")
+  command->add_option("--seconds", options->seconds, "Duration of each capture")
       ->type_name("S")
       ->capture_default_str();
   command->add_option("--dpi", options->dpi, "Resolution of the film image")
       ->type_name("DPI")
       ->capture_default_str();
-  command->add_option("--model", options->model, "How the film flows; stokes is faster")
+  command->add_option("--model", options->model, "Film model; stokes is faster")
       ->type_name("MODEL")
       ->check(CLI::IsMember({"sheet", "stokes"}));
-  command->add_option("--out", options->out, "Folder of report.html, report.json and the pictures")
+  command->add_option("--out", options->out, "Folder for report.html, report.json and the pictures")
       ->type_name("DIR")
       ->required();
   command->footer(kLoopFooter);

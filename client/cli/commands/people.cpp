@@ -23,7 +23,7 @@ struct UserOptions {
   bool disable = false, enable = false;
 };
 
-// "ann" or "users/ann" to "users/ann".
+// Returns "users/ann" for "ann" or "users/ann".
 std::string in_collection(const std::string& collection, const std::string& text) {
   return text.starts_with(collection + "/") ? text : collection + "/" + text;
 }
@@ -35,7 +35,7 @@ Status show_user(const Program& program, const Result<client::User>& user) {
   if (program.json()) {
     print(to_json(*user));
   } else {
-    std::cout << bare(user->name) << " is " << user->role << (user->disabled ? ", and barred" : "")
+    std::cout << bare(user->name) << " is " << user->role << (user->disabled ? ", disabled" : "")
               << std::endl;
   }
   return {};
@@ -53,19 +53,19 @@ Status list_people(Program& program) {
   for (const client::User& user : users) {
     std::cout << std::setw(24) << bare(user.name) << std::setw(10) << user.role << std::setw(21)
               << format_time(user.create_time) << (user.has_password ? "yes" : "none")
-              << (user.disabled ? ", barred" : "") << "\n";
+              << (user.disabled ? ", disabled" : "") << "\n";
   }
   return {};
 }
 
-// The page's address is not the daemon's, and not known here.
+// The page's address differs from the daemon's and is not known here.
 Status show_link(Program& program, const std::string& name) {
   HP_ASSIGN_OR_RETURN(const std::string token, client::create_sign_in_link(program.daemon(), name));
   if (program.json()) {
     print({{"user", name}, {"link_token", token}});
   } else {
     std::cout << bare(name)
-              << " signs in once, within 15 minutes, at the page's address followed by "
+              << " can sign in once, within 15 minutes, at the page's address followed by "
               << "/sign-in#" << token << std::endl;
   }
   return {};
@@ -95,7 +95,7 @@ Status change_password(Program& program, const std::string& of) {
   const bool is_own = of.empty() || in_collection("users", of) == "users/" + me.user;
   std::string old_password;
   if (is_own) {
-    HP_ASSIGN_OR_RETURN(old_password, ask_secret("Old password (empty if there is none): "));
+    HP_ASSIGN_OR_RETURN(old_password, ask_secret("Old password (empty if none is set): "));
   }
   HP_ASSIGN_OR_RETURN(const std::string password, ask_new_password());
   return show_user(
@@ -112,7 +112,7 @@ Status say_done(const Program& program, const std::string& name, const Status& d
 }
 
 void add_role(CLI::App& command, std::string& role) {
-  command.add_option("--role", role, "What they may do")
+  command.add_option("--role", role, "The user's role")
       ->type_name("ROLE")
       ->transform(CLI::IsMember(client::role_names(), CLI::ignore_case));
 }
@@ -153,8 +153,9 @@ Status add_key(Program& program, const KeyOptions& options) {
   if (program.json()) {
     print({{"api_key", to_json(made.key)}, {"key", made.text}});
   } else {
-    std::cerr << "This is shown once; give it as HYDROPRINT_API_KEY, or to hydroprint login "
-                 "--api-key-stdin:\n";
+    std::cerr
+        << "This key is shown once. Set HYDROPRINT_API_KEY to it, or pass it to 'hydroprint login "
+           "--api-key-stdin':\n";
     std::cout << made.text << std::endl;
   }
   return {};
@@ -202,39 +203,40 @@ Status show_audit(Program& program, const AuditOptions& options) {
 
 void add_users(CLI::App& app, Program& program) {
   auto options = std::make_shared<UserOptions>();
-  CLI::App* users = app.add_subcommand("users", "Who may use the daemon");
+  CLI::App* users = app.add_subcommand("users", "Manage the daemon's users");
   users->require_subcommand(1);
   program.on(*users->add_subcommand("list", "List all users"),
              [&program] { return list_people(program); });
 
-  CLI::App* add = add_named(*users, "add", "Add a user", options->name, "The new user's");
+  CLI::App* add = add_named(*users, "add", "Add a user", options->name, "Name of the new user");
   add_role(*add, options->role);
   add->get_option("--role")->required();
   add->add_flag("--password", options->with_password,
-                "Ask for a password; else see users link, or users password");
+                "Ask for a password; otherwise use 'users link' or 'users password'");
   add->add_flag("--returns", options->returns,
-                "They had this name before, and get back what bears it");
+                "This person had the name before and gets its jobs and files back");
   add->footer("Example:\n  hydroprint users add ann --role ADMIN --password");
   program.on(*add, [&program, options] { return add_user(program, *options); });
 
-  CLI::App* set = add_named(*users, "set", "Change what a user may do", options->name, "Whose");
+  CLI::App* set = add_named(*users, "set", "Change a user's role, disable or enable the user",
+                            options->name, "User name");
   add_role(*set, options->role);
-  auto* const disable = set->add_flag("--disable", options->disable, "Bar them");
-  set->add_flag("--enable", options->enable, "Admit them again")->excludes(disable);
+  auto* const disable = set->add_flag("--disable", options->disable, "Disable the user");
+  set->add_flag("--enable", options->enable, "Enable the user again")->excludes(disable);
   program.on(*set, [&program, options] { return set_user(program, *options); });
 
-  CLI::App* password = users->add_subcommand("password", "Set your password, or somebody's");
-  password->add_option("name", options->name, "Whose; default: yours")->type_name("NAME");
+  CLI::App* password = users->add_subcommand("password", "Set your password, or another user's");
+  password->add_option("name", options->name, "User name; default: yours")->type_name("NAME");
   program.on(*password, [&program, options] { return change_password(program, options->name); });
 
-  CLI::App* link = add_named(*users, "link", "Make a link by which a user signs in once",
-                             options->name, "Whose");
+  CLI::App* link = add_named(*users, "link", "Create a link that signs a user in once",
+                             options->name, "User name");
   program.on(*link, [&program, options] {
     return show_link(program, in_collection("users", options->name));
   });
 
-  CLI::App* remove =
-      add_named(*users, "delete", "Delete a user; their jobs stay", options->name, "Whom");
+  CLI::App* remove = add_named(*users, "delete", "Delete a user; the user's jobs are kept",
+                               options->name, "User name");
   program.on(*remove, [&program, options] {
     const std::string name = in_collection("users", options->name);
     return say_done(program, name, client::delete_user(program.daemon(), name), "deleted");
@@ -242,20 +244,21 @@ void add_users(CLI::App& app, Program& program) {
 }
 
 void add_keys(CLI::App& app, Program& program) {
-  CLI::App* keys = app.add_subcommand("keys", "API keys, which stand for you in scripts");
+  CLI::App* keys =
+      app.add_subcommand("keys", "Manage API keys, which let scripts act with your permissions");
   keys->require_subcommand(1);
-  program.on(*keys->add_subcommand("list", "List your keys; as an admin all"),
+  program.on(*keys->add_subcommand("list", "List your keys; as an admin, all keys"),
              [&program] { return list_all_keys(program); });
   auto options = std::make_shared<KeyOptions>();
-  CLI::App* add = keys->add_subcommand("add", "Make a key and print it, this once");
-  add->add_option("--name", options->display_name, "What it is for")->type_name("TEXT");
+  CLI::App* add = keys->add_subcommand("add", "Create a key and print it once");
+  add->add_option("--name", options->display_name, "Purpose of the key")->type_name("TEXT");
   add_role(*add, options->role);
-  add->add_option("--days", options->days, "How long it holds; default: until it is deleted")
+  add->add_option("--days", options->days, "Days until it expires; default: does not expire")
       ->type_name("N")
       ->check(CLI::Range(1, 3650));
   program.on(*add, [&program, options] { return add_key(program, *options); });
   auto name = std::make_shared<std::string>();
-  CLI::App* remove = add_named(*keys, "delete", "End a key", *name, "Which");
+  CLI::App* remove = add_named(*keys, "delete", "Delete a key", *name, "Name of the key");
   program.on(*remove, [&program, name] {
     const std::string full = in_collection("apiKeys", *name);
     return say_done(program, full, client::delete_api_key(program.daemon(), full), "deleted");
@@ -263,12 +266,12 @@ void add_keys(CLI::App& app, Program& program) {
 }
 
 void add_sessions(CLI::App& app, Program& program) {
-  CLI::App* sessions = app.add_subcommand("sessions", "Who is signed in");
+  CLI::App* sessions = app.add_subcommand("sessions", "Manage sign-in sessions");
   sessions->require_subcommand(1);
-  program.on(*sessions->add_subcommand("list", "List your sessions; as an admin all"),
+  program.on(*sessions->add_subcommand("list", "List your sessions; as an admin, all sessions"),
              [&program] { return list_all_sessions(program); });
   auto name = std::make_shared<std::string>();
-  CLI::App* revoke = add_named(*sessions, "revoke", "End a session", *name, "Which");
+  CLI::App* revoke = add_named(*sessions, "revoke", "End a session", *name, "Name of the session");
   program.on(*revoke, [&program, name] {
     const std::string full = in_collection("sessions", *name);
     return say_done(program, full, client::revoke_session(program.daemon(), full), "revoked");
@@ -277,11 +280,11 @@ void add_sessions(CLI::App& app, Program& program) {
 
 void add_audit(CLI::App& app, Program& program) {
   auto options = std::make_shared<AuditOptions>();
-  CLI::App* command = app.add_subcommand("audit", "What was done and by whom, newest first");
-  command->add_option("--who", options->who, "Only what this user did")->type_name("NAME");
-  command->add_option("--what", options->what, "Only methods whose name begins so")
+  CLI::App* command = app.add_subcommand("audit", "Show the audit log, newest first");
+  command->add_option("--who", options->who, "Only entries of this user")->type_name("NAME");
+  command->add_option("--what", options->what, "Only methods whose names start with this")
       ->type_name("TEXT");
-  command->add_option("--limit", options->limit, "At most so many")
+  command->add_option("--limit", options->limit, "Maximum number")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
@@ -293,9 +296,9 @@ void add_share(CLI::App& app, Program& program) {
   auto job = std::make_shared<std::string>();
   auto off = std::make_shared<bool>(false);
   CLI::App* command =
-      app.add_subcommand("share", "Let all who may look see a job's artifacts and files");
+      app.add_subcommand("share", "Share a job's artifacts and files with all users");
   add_job_argument(*command, *job);
-  command->add_flag("--off", *off, "No longer");
+  command->add_flag("--off", *off, "Stop sharing");
   program.on(*command, [&program, job, off]() -> Status {
     HP_ASSIGN_OR_RETURN(const client::Job shared,
                         client::share_job(program.daemon(), job_name(*job), !*off));

@@ -13,8 +13,8 @@ namespace hydroprint::cli {
 namespace {
 
 std::string fate_of(const client::Job& job) {
-  if (job.pinned) return "is pinned, and kept";
-  if (!job.purge_time) return "is not pinned any more";
+  if (job.pinned) return "is pinned";
+  if (!job.purge_time) return "is no longer pinned";
   return "will be deleted on " + format_time(job.purge_time);
 }
 
@@ -40,8 +40,8 @@ void add(CLI::App& app, Program& program, const char* verb, const char* help, bo
 }  // namespace
 
 void add_pin(CLI::App& app, Program& program) {
-  add(app, program, "pin", "Keep jobs with their artifacts, however old they get", true);
-  add(app, program, "unpin", "Let jobs be deleted when their time is up, which begins anew", false);
+  add(app, program, "pin", "Pin jobs: retention keeps them with their artifacts", true);
+  add(app, program, "unpin", "Unpin jobs; retention starts again from now", false);
 }
 
 }  // namespace hydroprint::cli

@@ -33,8 +33,8 @@ Json preview_json(const client::Preview& preview) {
 
 void show(const client::Preview& preview) {
   std::printf(
-      "film reaches %.0f %% of the surface in %.1f mm of immersion; half of that is stretched less "
-      "than %.2f times, 95 %% less than %.2f times\n",
+      "film reaches %.0f %% of the surface at a depth of %.1f mm; stretch is below %.2f for half "
+      "of that, below %.2f for 95 %%\n",
       100 * preview.coverage, preview.depth_mm, preview.stretch_p50, preview.stretch_p95);
   for (const Warning& warning : preview.warnings) {
     std::fprintf(stderr, "hydroprint: warning: %s (%s)\n", printable(warning.message).c_str(),
@@ -59,12 +59,13 @@ Status preview(Program& program, const SubmitOptions& options) {
 void add_preview(CLI::App& app, Program& program) {
   auto options = std::make_shared<SubmitOptions>();
   CLI::App* command =
-      app.add_subcommand("preview", "How a dip would roughly go, in a fraction of a second");
+      app.add_subcommand("preview", "Predict a dip roughly, in a fraction of a second");
   add_preview_flags(*command, *options);
   command->footer(
-      "Stokes flow on a coarse film; no job. The daemon keeps the mesh in memory for the next "
-      "one.\n\n"
-      "Example:\n  hydroprint preview --mesh mug.obj --scale 10 --pose pose.json --film A3");
+      "Uses Stokes flow on a coarse film; creates no job. The daemon keeps the mesh in memory for "
+      "the next one.\n\n"
+      "Example:\n"
+      "  hydroprint preview --mesh mug.obj --scale 10 --pose pose.json --film A3");
   program.on(*command, [&program, options] { return preview(program, *options); });
 }
 

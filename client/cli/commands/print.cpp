@@ -19,7 +19,7 @@ struct PrintOptions {
   WaitOptions wait;
 };
 
-// However it ended, it has a record.
+// A print has a record, however it ended.
 Status follow_to_end(Program& program, const std::string& name, const PrintOptions& options) {
   const auto ended = wait_for(program, name, options.wait);
   Result<std::vector<Downloaded>> files;
@@ -51,23 +51,23 @@ Status print_pages(Program& program, const PrintOptions& options) {
 void add_print(CLI::App& app, Program& program) {
   auto options = std::make_shared<PrintOptions>();
   CLI::App* command =
-      app.add_subcommand("print", "Have the daemon's printer print what a print-image job made");
+      app.add_subcommand("print", "Send a print-image job's PDF to the daemon's printer");
   command->add_option("job", options->print_image_job, "The print-image job: jobs/7, or 7")
       ->type_name("JOB")
       ->required();
-  command->add_option("--name", options->job.display_name, "What people call the job")
+  command->add_option("--name", options->job.display_name, "Display name of the job")
       ->type_name("TEXT");
   command->add_option("--out", options->out, "Download the print's record into this folder")
       ->type_name("DIR");
-  command->add_flag("--no-wait", options->no_wait, "Do not follow it to its end");
+  command->add_flag("--no-wait", options->no_wait, "Do not wait until it is finished");
   command->add_flag("--validate-only", options->job.validate_only, "Check, but print nothing");
   add_wait_flags(*command, options->wait);
   command->footer(
-      "Ends with 0 only once the printer says that it is printed; before, it shows what the "
-      "printer\n"
-      "says (out of paper, ...) and what may harm the scale. Measure the rulers on the page: 200 "
-      "mm.\n"
-      "Nothing is sent twice: after an error, look at the printer before you print again.\n\n"
+      "Exits with 0 only if the printer reports that the print is complete. Until then it shows "
+      "the\n"
+      "printer's messages (out of paper, ...) and warns of anything that may change the scale.\n"
+      "Measure the rulers on the page: 200 mm. Nothing is sent twice: after an error, check the\n"
+      "printer before you print again.\n\n"
       "Example:\n"
       "  hydroprint submit print-image --simulate-job 7 --wait\n"
       "  hydroprint print 8");

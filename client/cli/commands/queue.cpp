@@ -41,8 +41,9 @@ Status move(Program& program, const std::string& name, const std::string& before
 
 void add_pause(CLI::App& parent, Program& program) {
   auto reason = std::make_shared<std::string>();
-  CLI::App* command = parent.add_subcommand("pause", "Start no further job until resumed");
-  command->add_option("--reason", *reason, "For others to read")->type_name("TEXT");
+  CLI::App* command =
+      parent.add_subcommand("pause", "Pause the queue: start no further job until resumed");
+  command->add_option("--reason", *reason, "Reason, shown to others")->type_name("TEXT");
   program.on(*command, [&program, reason] {
     return show(program, client::pause_queue(program.daemon(), *reason));
   });
@@ -52,10 +53,11 @@ void add_move(CLI::App& parent, Program& program) {
   auto job = std::make_shared<std::string>();
   auto before = std::make_shared<std::string>();
   CLI::App* command =
-      parent.add_subcommand("move", "Put a queued job in front of another, or behind all");
+      parent.add_subcommand("move", "Move a queued job before another one, or to the end");
   add_job_argument(*command, *job);
   command
-      ->add_option("--before", *before, "In front of this one; default: behind all of its owner's")
+      ->add_option("--before", *before,
+                   "The job to go before; default: behind all jobs of the owner")
       ->type_name("JOB");
   program.on(*command, [&program, job, before] {
     return move(program, job_name(*job), before->empty() ? "" : job_name(*before));
@@ -70,7 +72,7 @@ void add_queue(CLI::App& app, Program& program) {
   program.on(*command->add_subcommand("show", "Show the queue"),
              [&program] { return show(program, client::get_queue(program.daemon())); });
   add_pause(*command, program);
-  program.on(*command->add_subcommand("resume", "Start jobs again"),
+  program.on(*command->add_subcommand("resume", "Resume the queue"),
              [&program] { return show(program, client::resume_queue(program.daemon())); });
   add_move(*command, program);
 }

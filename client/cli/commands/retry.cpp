@@ -26,7 +26,8 @@ void add_retry(CLI::App& app, Program& program) {
   CLI::App* command = app.add_subcommand("retry", "Queue a finished job again, under a new name");
   add_job_argument(*command, *job);
   command->footer(
-      "It is computed afresh, not answered from earlier results.\n\nExample:\n"
+      "The job is computed again; cached results are not used.\n\n"
+      "Example:\n"
       "  hydroprint watch $(hydroprint retry 7)");
   program.on(*command, [&program, job] { return retry(program, job_name(*job)); });
 }

@@ -52,7 +52,7 @@ Status watch(Program& program, double rate_hz) {
   }
 }
 
-// What the commands under the lease take.
+// Options of commands that need the lease.
 struct CommandOptions {
   std::string with_lease;
   double position_mm = 0;
@@ -76,20 +76,22 @@ Status drive(Program& program, const CommandOptions& options, const Motion& moti
 }
 
 void add_rig_status(CLI::App& parent, Program& program) {
-  CLI::App* command = parent.add_subcommand("status", "Say how the rig is");
+  CLI::App* command = parent.add_subcommand("status", "Show the state of the rig");
   program.on(*command,
              [&program] { return show(program, client::get_rig(program.daemon()), true); });
 }
 
 void add_rig_watch(CLI::App& parent, Program& program) {
   auto rate_hz = std::make_shared<double>(10);
-  CLI::App* command = parent.add_subcommand("watch", "Show the rig as it changes, until Ctrl-C");
-  command->add_option("--rate", *rate_hz, "At most so many messages a second")
+  CLI::App* command =
+      parent.add_subcommand("watch", "Show the rig's state continuously, until Ctrl-C");
+  command->add_option("--rate", *rate_hz, "Maximum rate of messages")
       ->type_name("HZ")
       ->check(field_range("WatchRigRequest.max_rate_hz"))
       ->capture_default_str();
   command->footer(
-      "One live line on a terminal; elsewhere a line for each change, with --json one of JSON.");
+      "Updates one line on a terminal. Elsewhere it prints a line for each change, with --json as "
+      "JSON.");
   program.on(*command, [&program, rate_hz] { return watch(program, *rate_hz); });
 }
 
@@ -104,31 +106,36 @@ void add_order(CLI::App& parent, Program& program, const char* name, const char*
 
 void add_wait_flag(CLI::App& command, CommandOptions& options) {
   command.add_flag("--no-wait", options.no_wait,
-                   "Return once the axis moves; Ctrl-C will not stop it then");
+                   "Return once the axis moves; Ctrl-C does not stop it then");
   add_lease_flag(command, options.with_lease);
 }
 
 void add_home(CLI::App& parent, Program& program) {
   auto options = std::make_shared<CommandOptions>();
-  CLI::App* command = parent.add_subcommand("home", "Look for the home switch");
+  CLI::App* command = parent.add_subcommand("home", "Home the axis");
   add_wait_flag(*command, *options);
   command->footer(std::string(kLeaseFooter) +
-                  "Waits for the end; Ctrl-C stops the axis. Exit status 0 only if it is home.\n\n"
-                  "Example:\n  hydroprint rig home --with-lease 'setting up'");
+                  "Waits until the motion ends; Ctrl-C stops the axis. Exit status 0 only if the "
+                  "axis is homed.\n\n"
+                  "Example:\n"
+                  "  hydroprint rig home --with-lease 'setting up'");
   program.on(*command, [&program, options] { return drive(program, *options, client::home_rig); });
 }
 
 void add_rig_move(CLI::App& parent, Program& program) {
   auto options = std::make_shared<CommandOptions>();
-  CLI::App* command = parent.add_subcommand("move", "Go to a place");
-  command->add_option("position", options->position_mm, "Where to: 0 is home, positive is down")
+  CLI::App* command = parent.add_subcommand("move", "Move the axis to a position");
+  command
+      ->add_option("position", options->position_mm, "Target position: 0 is home, positive is down")
       ->type_name("MM")
       ->required();
-  command->add_option("--speed", options->speed_mm_per_s, "How fast; default 5")->type_name("MM/S");
+  command->add_option("--speed", options->speed_mm_per_s, "Speed; default 5")->type_name("MM/S");
   add_wait_flag(*command, *options);
   command->footer(std::string(kLeaseFooter) +
-                  "Waits for the end; Ctrl-C stops the axis. Exit status 0 only if it got there.\n"
-                  "\nExample:\n  hydroprint rig move 120 --speed 8");
+                  "Waits until the motion ends; Ctrl-C stops the axis. Exit status 0 only if it "
+                  "arrived.\n\n"
+                  "Example:\n"
+                  "  hydroprint rig move 120 --speed 8");
   program.on(*command, [&program, options] {
     return drive(program, *options, [&](client::Connection& daemon, const std::string& lease_id) {
       return client::move_rig(daemon, lease_id, options->position_mm, options->speed_mm_per_s);
@@ -138,28 +145,31 @@ void add_rig_move(CLI::App& parent, Program& program) {
 
 void add_jog(CLI::App& parent, Program& program) {
   auto options = std::make_shared<JogOptions>();
-  CLI::App* command = parent.add_subcommand("jog", "Move for as long as a key is held");
-  command->add_option("--speed", options->speed_mm_per_s, "How fast, positive is down; default 2")
+  CLI::App* command = parent.add_subcommand("jog", "Move the axis while a key is held");
+  command->add_option("--speed", options->speed_mm_per_s, "Speed, positive is down; default 2")
       ->type_name("MM/S");
   add_duration(*command, "--for", options->time_s,
-               "Move that long instead, with no key: 1.5s, 500ms");
+               "Move for this time instead, without keys: 1.5s, 500ms");
   add_lease_flag(*command, options->with_lease);
   command->footer(
       std::string(kLeaseFooter) +
       "Hold Down or j to go down, Up or k to go up; + and - double and halve the speed; q ends.\n"
-      "A terminal tells of a held key only by repeating it. So each key event moves the axis for\n"
-      "0.2 s: a tap is a short step; a held key moves on once the keyboard repeats it (after "
-      "about\n"
-      "half a second), and the axis is stopped 0.2 s after the last repeat. If this program or "
-      "its\n"
-      "connection is gone, the daemon stops the axis within half a second.\n\n"
-      "Examples:\n  hydroprint rig jog --speed 1\n  hydroprint rig jog --speed -5 --for 2s");
+      "A terminal reports a held key only by repeating it, so each key event moves the axis for\n"
+      "0.2 s. A tap is a short step. A held key continues the motion once the keyboard repeats "
+      "it,\n"
+      "after about half a second. The axis is stopped 0.2 s after the last repeat. If this "
+      "program\n"
+      "or its connection is lost, the daemon stops the axis within half a second.\n\n"
+      "Examples:\n"
+      "  hydroprint rig jog --speed 1\n"
+      "  hydroprint rig jog --speed -5 --for 2s");
   program.on(*command, [&program, options] { return jog(program, *options); });
 }
 
 void add_stop(CLI::App& parent, Program& program) {
   CLI::App* command = parent.add_subcommand("stop", "Stop any motion; needs no lease");
-  command->footer("This is not an emergency stop: that is the button which cuts the power.");
+  command->footer(
+      "This is not an emergency stop. The emergency stop is the button that cuts the power.");
   program.on(*command, [&program] {
     client::Connection daemon = program.uninterrupted();
     return show(program, client::stop_rig(daemon));
@@ -169,21 +179,21 @@ void add_stop(CLI::App& parent, Program& program) {
 }  // namespace
 
 void add_rig(CLI::App& app, Program& program) {
-  CLI::App* command = app.add_subcommand("rig", "Watch, move and stop the rig; its lease");
+  CLI::App* command = app.add_subcommand("rig", "Watch, move and stop the rig; manage its lease");
   command->require_subcommand(1);
   add_rig_status(*command, program);
   add_rig_watch(*command, program);
-  add_order(*command, program, "arm", "Give the drive torque", "Example:\n  hydroprint rig arm",
+  add_order(*command, program, "arm", "Enable the drive's torque", "Example:\n  hydroprint rig arm",
             client::arm_rig);
-  add_order(*command, program, "disarm", "Take the drive's torque away",
-            "Where the axis is, is not known afterwards. A vertical axis without a brake sinks.",
+  add_order(*command, program, "disarm", "Disable the drive's torque",
+            "The position is unknown afterwards. A vertical axis without a brake sinks.",
             client::disarm_rig);
   add_home(*command, program);
   add_rig_move(*command, program);
   add_jog(*command, program);
   add_stop(*command, program);
-  add_order(*command, program, "reset", "After a fault or the stop button: clear the alarm",
-            "Starts nothing: then arm and home.", client::reset_rig);
+  add_order(*command, program, "reset", "Clear the alarm after a fault or the stop button",
+            "Starts no motion. Arm and home the axis afterwards.", client::reset_rig);
   add_lease(*command, program);
   command->footer(
       "Examples:\n  hydroprint rig lease acquire --purpose 'new bath'\n  hydroprint rig arm\n"

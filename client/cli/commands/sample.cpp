@@ -33,7 +33,8 @@ Status make(const Program& program, const SampleOptions& options) {
 
 void add_sample(CLI::App& app, Program& program) {
   auto options = std::make_shared<SampleOptions>();
-  CLI::App* command = app.add_subcommand("sample", "Make a sample: a mesh with its texture, in mm");
+  CLI::App* command =
+      app.add_subcommand("sample", "Create a sample: a mesh in mm with its texture");
   std::vector<std::string> names;
   std::string footer = "Kinds:\n";
   for (const sample::SampleKind& kind : sample::kinds()) {
@@ -42,11 +43,11 @@ void add_sample(CLI::App& app, Program& program) {
               std::string(kind.name.size() < 10 ? 10 - kind.name.size() : 1, ' ') +
               kind.description + "\n";
   }
-  command->add_option("kind", options->kind, "Which one")
+  command->add_option("kind", options->kind, "The sample")
       ->type_name("KIND")
       ->required()
       ->check(CLI::IsMember(names));
-  command->add_option("--out", options->out, "Folder to write it into")
+  command->add_option("--out", options->out, "Destination folder")
       ->type_name("DIR")
       ->capture_default_str();
   command->footer(footer + "\nExample:\n  hydroprint sample globe --out sample");

@@ -33,7 +33,7 @@ Status show(Program& program, const std::string& name) {
 
 void add_show(CLI::App& app, Program& program) {
   auto job = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("show", "Show all there is to know about a job");
+  CLI::App* command = app.add_subcommand("show", "Show the details of a job");
   add_job_argument(*command, *job);
   command->footer("Example:\n  hydroprint show 7 --json");
   program.on(*command, [&program, job] { return show(program, job_name(*job)); });

@@ -27,15 +27,15 @@ Status status(Program& program) {
   HP_ASSIGN_OR_RETURN(const client::Queue queue, client::get_queue(program.daemon()));
   show(program, health, queue);
   if (health != "SERVING")
-    return fail(Code::kUnavailable,
-                program.server() + ": hydroprintd says " + health + "; its log says why");
+    return fail(Code::kUnavailable, program.server() + ": hydroprintd reports " + health +
+                                        "; see its log for the reason");
   return {};
 }
 
 }  // namespace
 
 void add_status(CLI::App& app, Program& program) {
-  CLI::App* command = app.add_subcommand("status", "Say how the daemon is");
+  CLI::App* command = app.add_subcommand("status", "Show the status of the daemon and its queue");
   program.on(*command, [&program] { return status(program); });
 }
 

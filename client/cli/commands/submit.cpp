@@ -20,16 +20,16 @@ struct JobFlags {
 };
 
 void add_job_flags(CLI::App& command, JobFlags& options) {
-  command.add_option("--name", options.job.display_name, "What people call the job")
+  command.add_option("--name", options.job.display_name, "Display name of the job")
       ->type_name("TEXT");
   command
       .add_option("--priority", options.job.priority,
-                  field_help("Job.priority", "Higher goes first among yours"))
+                  field_help("Job.priority", "Among your jobs, higher runs first"))
       ->type_name("N")
       ->check(field_range("Job.priority"));
   command.add_flag("--validate-only", options.job.validate_only,
                    "Upload and check, but queue nothing");
-  command.add_flag("--wait", options.wait, "Follow the job to its end");
+  command.add_flag("--wait", options.wait, "Wait until the job is finished");
   command.add_option("--out", options.out, "Wait, then download the artifacts into this folder")
       ->type_name("DIR");
   add_wait_flags(command, options.wait_options);
@@ -64,30 +64,30 @@ void add_submit(CLI::App& app, Program& program) {
   CLI::App* command = app.add_subcommand("submit", "Upload files and queue a job");
   command->require_subcommand(1);
   add_verb(
-      *command, program, client::Verb::kSimulate, "From a textured model to the image to print",
-      "What an OBJ, MTL or glTF refers to beside it is uploaded too. Flags left out take the\n"
-      "worker's defaults.\n\nExample:\n"
+      *command, program, client::Verb::kSimulate, "Compute the film image for a textured model",
+      "Files that an OBJ, MTL or glTF refers to are uploaded too. Omitted flags take the\n"
+      "worker's defaults.\n\n"
+      "Example:\n"
       "  hydroprint submit simulate --mesh spot.obj --texture spot.png --scale 50 --out result");
   add_verb(*command, program, client::Verb::kPredict,
-           "From a film image to the colours that land on the object",
+           "Predict the colours on the object from a film image",
            "Example:\n"
            "  hydroprint submit predict --mesh spot.obj --film-image film.png --scale 50 --wait");
-  add_verb(*command, program, client::Verb::kFit,
-           "From measured landing points to the film profile that explains them",
+  add_verb(*command, program, client::Verb::kFit, "Fit a film profile to measured landing points",
            "Example:\n"
            "  hydroprint submit fit --mesh ball.ply --points measured.csv --ink-image film.png "
            "--out fitted");
   add_verb(*command, program, client::Verb::kValidate,
-           "The paper's experiments in silico, as a report with pictures",
+           "Run the paper's experiments in silico and write a report",
            "Example:\n  hydroprint submit validate --out validation");
   add_verb(*command, program, client::Verb::kPrintImage,
-           "From a film image to the files to print, at exact scale on paper",
+           "Lay out a film image at exact scale, as files to print",
            "Example:\n"
            "  hydroprint submit print-image --simulate-job 7 --job-name \"mug 7\" --out paper\n"
            "  hydroprint submit print-image --film-image result/film.png --out paper");
   add_verb(
       *command, program, client::Verb::kTemplate,
-      "A page that shows where the object belongs, for a rig without a camera",
+      "Create a page that shows where to place the object, for a rig without a camera",
       "Example:\n"
       "  hydroprint submit template --simulate-job 7 --out placement\n"
       "  hydroprint submit template --mesh mug.obj --scale 10 --pose pose.json --out placement");

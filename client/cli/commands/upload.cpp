@@ -19,7 +19,7 @@ Status upload(Program& program, const std::vector<std::string>& files) {
     assets.push_back(uploaded.asset);
     if (!program.json())
       std::cout << uploaded.asset.name << "  " << file
-                << (uploaded.was_known ? "  (was there already)" : "") << std::endl;
+                << (uploaded.was_known ? "  (already uploaded)" : "") << std::endl;
   }
   if (program.json()) print({{"assets", to_json(assets)}});
   return {};
@@ -30,9 +30,10 @@ Status upload(Program& program, const std::vector<std::string>& files) {
 void add_upload(CLI::App& app, Program& program) {
   auto files = std::make_shared<std::vector<std::string>>();
   CLI::App* command = app.add_subcommand("upload", "Upload files; prints their asset names");
-  command->add_option("files", *files, "What to upload")->type_name("FILE")->required();
+  command->add_option("files", *files, "Files to upload")->type_name("FILE")->required();
   command->footer(
-      "Bytes that the daemon has already are not sent again.\n\nExample:\n"
+      "Files that the daemon already has are not sent again.\n\n"
+      "Example:\n"
       "  hydroprint upload spot.obj spot.png");
   program.on(*command, [&program, files] { return upload(program, *files); });
 }

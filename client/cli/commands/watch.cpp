@@ -26,14 +26,16 @@ Status watch(Program& program, WatchOptions options) {
 
 void add_watch(CLI::App& app, Program& program) {
   auto options = std::make_shared<WatchOptions>();
-  CLI::App* command = app.add_subcommand("watch", "Follow a job to its end");
+  CLI::App* command = app.add_subcommand("watch", "Follow a job until it is finished");
   add_job_argument(*command, options->job);
   add_wait_flags(*command, options->wait);
   command->footer(
-      "Shows a bar and the time left on a terminal, lines elsewhere, a line of JSON for each "
-      "event\n"
-      "with --json. Ends with 0 only if the job succeeds. Takes a broken connection up again.\n\n"
-      "Example:\n  hydroprint watch 7");
+      "Shows a progress bar and the time left on a terminal, and lines elsewhere; with --json, "
+      "one\n"
+      "line of JSON for each event. Exits with 0 only if the job succeeds. Reconnects if the\n"
+      "connection is lost.\n\n"
+      "Example:\n"
+      "  hydroprint watch 7");
   program.on(*command, [&program, options] { return watch(program, *options); });
 }
 

@@ -22,8 +22,8 @@ std::string markers_text(const std::vector<client::CalibrationMarker>& markers) 
 std::string object_text(const client::Calibration& c) {
   std::string out;
   if (c.error_p95_mm)
-    out += "  the object's surface is known to " + format_fixed(*c.error_p95_mm) +
-           " mm (95 % of it), " + format_fixed(*c.error_max_mm) + " mm at worst\n";
+    out += "  surface position error: " + format_fixed(*c.error_p95_mm) +
+           " mm for 95 % of the surface, at most " + format_fixed(*c.error_max_mm) + " mm\n";
   out += markers_text(c.markers);
   for (const std::string& what : c.from_nominal_pose)
     out += "  from the nominal pose: " + printable(what) + "\n";
@@ -40,9 +40,9 @@ std::string text_of(const client::Calibration& c) {
   if (c.kind == "OBJECT")
     out += object_text(c);
   else
-    out += "  a camera, from " + std::to_string(c.views) + " views; the board fits to " +
-           format_fixed(c.rms_mm) + " mm\n";
-  for (const std::string& why : c.stale) out += "  does not hold any more: " + why + "\n";
+    out += "  a camera, from " + std::to_string(c.views) + " views; residual of the board " +
+           format_fixed(c.rms_mm) + " mm rms\n";
+  for (const std::string& why : c.stale) out += "  no longer valid: " + why + "\n";
   return out;
 }
 

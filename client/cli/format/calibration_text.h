@@ -6,7 +6,8 @@
 
 namespace hydroprint::cli {
 
-/// A few lines for people: what it is, how good, what it does not know, and whether it still holds.
+/// Describes a calibration in a few lines: its kind, accuracy, assumptions, and whether it is still
+/// valid.
 [[nodiscard]] std::string text_of(const client::Calibration& calibration);
 
 }  // namespace hydroprint::cli

@@ -5,8 +5,8 @@
 
 namespace hydroprint::cli {
 
-/// Adds a flag that takes a time, "90", "90s", "1.5h", "10min" or "500ms", as seconds; at least 1
-/// ms.
+/// Adds a flag that takes a duration of at least 1 ms: "90", "90s", "1.5h", "10min" or "500ms". The
+/// value is stored in seconds.
 void add_duration(CLI::App& command, const char* flag, std::optional<double>& time_s,
                   const char* help);
 

@@ -9,7 +9,7 @@ namespace {
 
 int percent(double fraction) { return static_cast<int>(100 * fraction); }
 
-// ", 0:12 left", or nothing.
+// Returns ", 0:12 left", or an empty string.
 std::string time_left(const std::optional<client::Time>& end) {
   if (!end) return "";
   using namespace std::chrono;
@@ -48,7 +48,7 @@ void JobDisplay::update(const client::JobUpdate& update) {
   };
   if (update.event) take(*update.event);
   if (update.job) take(*update.job);
-  if (client::is_finished(state_)) return;  // how it ended is for whoever waits to say
+  if (client::is_finished(state_)) return;  // the caller reports the result
   if (update.job && client::is_finished(*update.job)) return;
   if (update.job && update.job->dip_status) take_dip(*update.job->dip_status);
   if (const std::string news = message_of(update); !news.empty()) say(job_ + ": " + news);
@@ -64,7 +64,7 @@ void JobDisplay::take_dip(const client::DipStatus& status) {
 
 void JobDisplay::show() {
   if (line_.is_terminal()) return line_.show(job_, progress_fraction_, text());
-  if (dip_) return;  // its steps were said
+  if (dip_) return;  // the steps were shown already
   const int tenth = percent(progress_fraction_) / 10;
   const std::string key =
       std::string(client::name_of(state_)) + "/" + phase_ + "/" + std::to_string(tenth);

@@ -9,24 +9,23 @@
 
 namespace hydroprint::cli {
 
-/// What the daemon says beside the job as it stands; empty if nothing, or only what stands in its
-/// dip_status as well.
+/// Returns the message of an update; empty if there is none, or if dip_status already contains it.
 [[nodiscard]] std::string message_of(const client::JobUpdate& update);
 
-/// Warnings of a dip that were not there before.
+/// Returns the warnings of a dip that were not in `before`.
 [[nodiscard]] std::vector<std::string> new_warnings(const std::optional<client::DipStatus>& before,
                                                     const client::DipStatus& now);
 
-/// Shows how a job goes: a bar with the time left on a terminal, otherwise a line whenever its
-/// state or stage changes or another tenth is done. Of a dip: its step with what to do, its clock,
-/// and warnings as they come.
+/// Shows the progress of a job. On a terminal, a bar with the time left; elsewhere, a line for each
+/// new state or stage and for every further 10 %. For a dip: the step with its instruction and
+/// timer, and new warnings.
 class JobDisplay {
  public:
-  /// @param descriptor  where to show it: STDOUT_FILENO or STDERR_FILENO
+  /// @param descriptor  destination: STDOUT_FILENO or STDERR_FILENO
   JobDisplay(std::string job, int descriptor);
 
   void update(const client::JobUpdate& update);
-  /// One line that stays, whatever is shown.
+  /// Prints a line that stays on the screen.
   void say(const std::string& text) { line_.say(text); }
 
  private:

@@ -127,7 +127,7 @@ void put_found(Json& json, const client::Calibration& found) {
   if (!found.centre_mm.empty()) json["centre_mm"] = found.centre_mm;
 }
 
-// As the API's Job has it.
+// The job kind as in the API's Job.
 std::string kind_of(client::Verb verb) {
   std::string out(client::name_of(verb));
   std::replace(out.begin(), out.end(), '-', '_');
@@ -343,7 +343,7 @@ void print_tree(const Json& json, const std::string& indent) {
 }
 
 void print(const Json& json) {
-  // Names in file systems need not be UTF-8.
+  // File names need not be UTF-8.
   std::cout << json.dump(-1, ' ', false, Json::error_handler_t::replace) << std::endl;
 }
 

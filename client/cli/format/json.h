@@ -13,7 +13,7 @@
 
 namespace hydroprint::cli {
 
-/// What --json prints: the API's field names, RFC 3339 times; a field that is not set is left out.
+/// The output of --json: the API's field names, RFC 3339 times; unset fields are omitted.
 using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json to_json(const client::Spec& spec);
@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const client::Calibration& calibration);
 [[nodiscard]] Json to_json(const Error& error);
 
-/// An array of them.
+/// Converts a list to a JSON array.
 template <class T>
 [[nodiscard]] Json to_json(const std::vector<T>& values) {
   Json array = Json::array();
@@ -37,10 +37,10 @@ template <class T>
   return array;
 }
 
-/// Prints it for people: one key a line, lists one below the other.
+/// Prints JSON in readable form: one key per line, list items one below the other.
 void print_tree(const Json& json, const std::string& indent = "");
 
-/// Prints one line of JSON to standard output.
+/// Prints JSON on one line of standard output.
 void print(const Json& json);
 
 }  // namespace hydroprint::cli

@@ -12,7 +12,7 @@ namespace hydroprint::cli {
 [[nodiscard]] Json to_json(const client::Session& session);
 [[nodiscard]] Json to_json(const client::AuditEntry& entry);
 
-/// An array of them.
+/// Converts a list to a JSON array.
 template <class T>
 [[nodiscard]] Json array_json(const std::vector<T>& values) {
   Json array = Json::array();

@@ -7,7 +7,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What is wrong, after two blanks; the alarm's own text where the daemon has no words.
+// The fault, after two spaces; the alarm's own text if the daemon gives none.
 std::string trouble(const client::Rig& rig) {
   if (!rig.trouble.empty()) return "  " + printable(rig.trouble);
   std::string text = rig.cause.empty() ? "" : "  " + rig.cause;
@@ -32,20 +32,20 @@ std::string motion_line(const client::Motion& motion) {
 std::string axis_line(const client::Axis& axis) {
   return axis.drive + (axis.is_virtual ? " (virtual rig)" : "") + ", from " +
          format_fixed(axis.min_mm) + " to " + format_fixed(axis.max_mm) + " mm at up to " +
-         format_fixed(axis.max_speed_mm_per_s) + " mm/s; stops within " +
-         format_fixed(axis.stopping_distance_mm) + " mm at worst";
+         format_fixed(axis.max_speed_mm_per_s) + " mm/s; stopping distance at most " +
+         format_fixed(axis.stopping_distance_mm) + " mm";
 }
 
 std::string link_line(const client::LinkQuality& link) {
   return std::to_string(link.polls) + " polls, " + std::to_string(link.missed_polls) +
-         " without an answer; connected " + std::to_string(link.connects) + " times";
+         " without a response; connected " + std::to_string(link.connects) + " times";
 }
 
 }  // namespace
 
 std::string lease_line(const client::Lease* lease) {
-  if (lease == nullptr) return "nobody has the lease";
-  return printable(lease->holder + " has the lease for '" + lease->purpose + "' until ") +
+  if (lease == nullptr) return "nobody holds the lease";
+  return printable(lease->holder + " holds the lease for '" + lease->purpose + "' until ") +
          format_time(lease->expire_time);
 }
 

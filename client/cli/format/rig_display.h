@@ -8,24 +8,26 @@
 
 namespace hydroprint::cli {
 
-/// The rig in one line: state, position, speed, who has the lease, what is wrong and what to do.
+/// Describes the rig in one line: state, position, speed, lease holder, fault and remedy.
 [[nodiscard]] std::string rig_line(const client::Rig& rig);
 
-/// The rig in some lines, with what it may do and how well its drive answers.
+/// Describes the rig in several lines, with the axis limits and the quality of the link to the
+/// drive.
 [[nodiscard]] std::string rig_lines(const client::Rig& rig);
 
-/// "alice has the lease for 'calibration' until 2026-03-01 14:05:09", or "nobody has the lease".
+/// Returns "alice holds the lease for 'calibration' until 2026-03-01 14:05:09", or "nobody holds
+/// the lease".
 [[nodiscard]] std::string lease_line(const client::Lease* lease);
 
-/// Shows the rig as it changes: one live line on a terminal; otherwise a line for whatever changes,
-/// but for a position that changes, at most one a second.
+/// Shows changes of the rig: one live line on a terminal; elsewhere one line for each change.
+/// Changes of the position alone are shown at most once a second.
 class RigDisplay {
  public:
-  /// @param descriptor  where to show it: STDOUT_FILENO or STDERR_FILENO
+  /// @param descriptor  destination: STDOUT_FILENO or STDERR_FILENO
   explicit RigDisplay(int descriptor) : line_(descriptor) {}
 
   void update(const client::Rig& rig);
-  /// One line that stays, whatever is shown.
+  /// Prints a line that stays on the screen.
   void say(const std::string& text) { line_.say(text); }
 
  private:

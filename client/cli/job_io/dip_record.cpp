@@ -8,7 +8,7 @@
 namespace hydroprint::cli {
 namespace {
 
-// ", 20.00 mm deep"; nothing where the report has no such number.
+// Returns for example ", 20.00 mm deep"; empty if the report lacks the number.
 std::string told(const nlohmann::json& report, const char* pointer, const std::string& before,
                  const std::string& after, double scale = 1) {
   const nlohmann::json::json_pointer path(pointer);
@@ -40,7 +40,7 @@ std::string dip_summary(const client::Job& job, const std::vector<Downloaded>& f
          told(report, "/descent/speed_mm_per_s", " at ", " mm/s") +
          told(report, "/descent/largest_deviation_share", ", constant within ", " %", 100) +
          told(report, "/descent/largest_deviation_mm", " and ", " mm") +
-         told(report, "/descent/deviation_uncertainty_mm", " (known to ", " mm)");
+         told(report, "/descent/deviation_uncertainty_mm", " (uncertainty ", " mm)");
 }
 
 }  // namespace hydroprint::cli

@@ -9,14 +9,14 @@
 
 namespace hydroprint::cli {
 
-/// Downloads what a dip left (positions.csv, report.json) into `folder`; nothing if it left
-/// nothing.
+/// Downloads the record of a dip (positions.csv, report.json) into `folder`; returns an empty list
+/// if there is no record.
 [[nodiscard]] Result<std::vector<Downloaded>> fetch_record(client::Connection& daemon,
                                                            const std::string& job,
                                                            const std::filesystem::path& folder);
 
-/// One line on a dip from its record: depth, speed, largest deviation from constant speed; what of
-/// these report.json does not tell is left out.
+/// Summarizes a dip's record in one line: depth, speed, largest deviation from constant speed.
+/// Values missing from report.json are omitted.
 [[nodiscard]] std::string dip_summary(const client::Job& job, const std::vector<Downloaded>& files);
 
 }  // namespace hydroprint::cli

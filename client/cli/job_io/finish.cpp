@@ -8,9 +8,10 @@
 namespace hydroprint::cli {
 
 void add_finish_flags(CLI::App& command, FinishOptions& options) {
-  command.add_option("--out", options.out, "Download what it makes into this folder")
+  command.add_option("--out", options.out, "Download the artifacts into this folder")
       ->type_name("DIR");
-  command.add_flag("--no-wait", options.no_wait, "Do not follow it to its end")->excludes("--out");
+  command.add_flag("--no-wait", options.no_wait, "Do not wait until it is finished")
+      ->excludes("--out");
   add_wait_flags(command, options.wait);
 }
 
@@ -25,7 +26,7 @@ void tell_valid(const Program& program, const client::Job& job) {
   if (program.json())
     print(to_json(job));
   else
-    std::cout << "The daemon would take this job." << std::endl;
+    std::cout << "The job is valid." << std::endl;
 }
 
 Status finish_job(Program& program, const client::Job& job, const FinishOptions& options) {

@@ -8,23 +8,23 @@
 
 namespace hydroprint::cli {
 
-/// What becomes of a job that a command has created.
+/// Options for a job that a command has created.
 struct FinishOptions {
-  std::string out;       ///< folder for its artifacts; empty: none
-  bool no_wait = false;  ///< it is only named
+  std::string out;       ///< folder for its artifacts; empty: no download
+  bool no_wait = false;  ///< print its name and return
   WaitOptions wait;
 };
 
 /// Adds --out, --no-wait and --cancel-on-interrupt.
 void add_finish_flags(CLI::App& command, FinishOptions& options);
 
-/// Names a job that was created.
+/// Prints the name of a new job.
 void tell_created(const Program& program, const client::Job& job);
 
-/// Says that the daemon would take a job that was only to be checked.
+/// Reports that a job passed --validate-only.
 void tell_valid(const Program& program, const client::Job& job);
 
-/// Names a job, follows it to its end, and downloads what it made.
+/// Prints a job's name, waits until it is finished, and downloads its artifacts.
 [[nodiscard]] Status finish_job(Program& program, const client::Job& job,
                                 const FinishOptions& options);
 

@@ -53,8 +53,8 @@ Result<std::vector<client::InputFile>> Inputs::add_frames(
     }
     if (error || !std::filesystem::exists(folders[i] / "frames.json")) {
       return fail(Code::kNotFound, folders[i].string() +
-                                       ": no frames.json there; give a folder that "
-                                       "hydroprint-capture, or 'hydroprint capture', wrote");
+                                       ": contains no frames.json; give a folder written by "
+                                       "hydroprint-capture or 'hydroprint capture'");
     }
     std::sort(files.begin(), files.end());
     for (const auto& file : files) {
@@ -69,7 +69,8 @@ Result<std::string> Inputs::add_film(const std::string& film, client::Spec& spec
   constexpr std::string_view kPolygon = "polygon:";
   if (!film.starts_with(kPolygon)) return film;
   HP_ASSIGN_OR_RETURN(auto file, add(film.substr(kPolygon.size())));
-  if (!file) return fail(Code::kInvalidArgument, "--film polygon: needs a file, polygon:FILE.json");
+  if (!file)
+    return fail(Code::kInvalidArgument, "--film polygon: a file is missing; use polygon:FILE.json");
   spec.extra_files.push_back(*file);
   return std::string(kPolygon) + file->name;
 }

@@ -12,27 +12,27 @@
 
 namespace hydroprint::cli {
 
-/// Uploads a file; on a terminal, shows how far it is on standard error.
+/// Uploads a file; on a terminal, shows the progress on standard error.
 [[nodiscard]] Result<client::Uploaded> upload_shown(client::Connection& connection,
                                                     const std::filesystem::path& file);
 
-/// Uploads the files of one job and finds a name within the job for each, so that no two are alike.
+/// Uploads the files of one job and gives each a name that is unique within the job.
 class Inputs {
  public:
   explicit Inputs(client::Connection& connection) : connection_(connection) {}
 
-  /// The mesh and what it refers to, under names by which it finds them; notes about what it
-  /// refers to in vain go to standard error.
+  /// Adds the mesh and the files it refers to, under the names it uses. Notes about references that
+  /// cannot be sent go to standard error.
   [[nodiscard]] Status add_model(const std::filesystem::path& mesh, client::Spec& spec);
 
-  /// A file that nothing refers to by name; nothing for an empty path.
+  /// Adds a file that no other file refers to; returns nullopt for an empty path.
   [[nodiscard]] Result<std::optional<client::InputFile>> add(const std::filesystem::path& file);
 
-  /// Folders that hydroprint-capture wrote, each under its own name: "view1/frames.json", ...
+  /// Adds folders written by hydroprint-capture, each under its own name: "view1/frames.json", ...
   [[nodiscard]] Result<std::vector<client::InputFile>> add_frames(
       const std::vector<std::filesystem::path>& folders);
 
-  /// The worker's --film; the file of a polygon is uploaded.
+  /// Returns the value of the worker's --film; uploads the file of a polygon.
   [[nodiscard]] Result<std::string> add_film(const std::string& film, client::Spec& spec);
 
  private:

@@ -24,7 +24,7 @@ void add_validation_flags(CLI::App& command, client::Spec& spec) {
                   field_help("ValidateSpec.only", "Experiments to run; default: all"))
       ->delimiter(',')
       ->type_name("NAME[,NAME]");
-  command.add_flag("--quick", spec.quick, "A coarse run, which shows that everything works");
+  command.add_flag("--quick", spec.quick, "Run coarsely, to check that everything works");
   add_threads_flag(command, spec);
 }
 
@@ -49,7 +49,7 @@ void add_dpi_flag(CLI::App& command, client::Spec& spec) {
       ->type_name("DPI");
 }
 
-// An object as it is held over its film.
+// Flags for an object and its place over the film.
 void add_object_flags(CLI::App& command, SubmitOptions& options) {
   command.add_option("--mesh", options.mesh, "The object: OBJ, STL, PLY, glTF or GLB")
       ->type_name("FILE");
@@ -62,7 +62,7 @@ void add_object_flags(CLI::App& command, SubmitOptions& options) {
   add_film_flag(command, options);
 }
 
-// What goes in which way through which film.
+// Flags for the dip: profile, depth and speed.
 void add_dip_flags(CLI::App& command, SubmitOptions& options) {
   client::Spec& spec = options.spec;
   add_object_flags(command, options);
@@ -70,7 +70,7 @@ void add_dip_flags(CLI::App& command, SubmitOptions& options) {
   add_file(command, "--profile", options.profile, "Film profile, TOML");
   command
       .add_option("--depth-mm", options.depth,
-                  field_help("SimulateSpec.depth_mm", "Immersion at the end of the dip"))
+                  field_help("SimulateSpec.depth_mm", "Depth at the end of the dip"))
       ->type_name("D");
   command
       .add_option("--dip-speed-mm-per-s", spec.dip_speed_mm_per_s,
@@ -85,13 +85,14 @@ void add_fit_flags(CLI::App& command, SubmitOptions& options) {
       ->type_name("FILE")
       ->required();
   add_file(command, "--ink-image", options.ink_image,
-           "What was printed on the film; without it the ink ratio cannot be fitted");
+           "Image printed on the film; needed to fit the ink ratio");
   command
-      .add_option("--free", options.spec.free,
-                  field_help("FitSpec.free", "What to fit; default: all that the points determine"))
+      .add_option(
+          "--free", options.spec.free,
+          field_help("FitSpec.free", "Parameters to fit; default: all that the points determine"))
       ->delimiter(',')
       ->type_name("NAME[,NAME]");
-  command.add_flag("--drop-outliers", options.spec.drop_outliers, "Leave out outliers");
+  command.add_flag("--drop-outliers", options.spec.drop_outliers, "Exclude outliers");
 }
 
 void add_worker_flags(CLI::App& command, SubmitOptions& options) {
@@ -99,27 +100,28 @@ void add_worker_flags(CLI::App& command, SubmitOptions& options) {
   add_dip_flags(command, options);
   add_threads_flag(command, spec);
   if (spec.verb == client::Verb::kSimulate) {
-    add_file(
-        command, "--texture", options.texture,
-        "Its texture: PNG, JPEG or TIFF; without it the model's own materials give the colour");
+    add_file(command, "--texture", options.texture,
+             "The texture: PNG, JPEG or TIFF; default: the model's own materials");
     command
         .add_option(
             "--calibration", options.calibration,
-            "How the object hangs, in place of --pose, --film and --scale: calibrations/3, 3 "
-            "or active")
+            "Use this calibration instead of --pose, --film and --scale: calibrations/3, 3 or "
+            "active")
         ->type_name("CALIBRATION")
         ->excludes("--pose", "--film", "--scale");
     add_stale_flag(command, spec.allow_stale_calibration);
   } else {
     add_film_image_flag(command, options, "The film image as printed")->required();
     add_file(command, "--motion", options.motion,
-             "The path as driven: CSV with t_s, x_mm, y_mm, z_mm");
+             "Path of the axis: CSV with t_s, x_mm, y_mm, z_mm");
   }
   add_dpi_flag(command, spec);
-  command.add_option("--model", spec.model, field_help("SimulateSpec.model", "How the film moves"))
+  command
+      .add_option("--model", spec.model,
+                  field_help("SimulateSpec.model", "Model of the film's motion"))
       ->type_name("MODEL")
       ->check(field_choices("SimulateSpec.model"));
-  command.add_flag("--inertia", spec.inertia, "The sheet moves with inertia; slower");
+  command.add_flag("--inertia", spec.inertia, "Include the sheet's inertia; slower");
   command
       .add_option("--ink-passes", spec.ink_passes,
                   field_help("SimulateSpec.ink_passes", "Passes that take the ink into account"))
@@ -132,7 +134,7 @@ void add_worker_flags(CLI::App& command, SubmitOptions& options) {
       ->check(field_choices("SimulateSpec.artifacts"));
 }
 
-// In place of what the simulation is known to have.
+// Adds --simulate-job, which replaces flags that the simulation already determines.
 void add_simulate_job_flag(CLI::App& command, SubmitOptions& options, const std::string& file,
                            const std::vector<std::string>& taken, const char* help) {
   auto* job = command.add_option("--simulate-job", options.simulate_job, help)->type_name("JOB");
@@ -143,7 +145,7 @@ void add_simulate_job_flag(CLI::App& command, SubmitOptions& options, const std:
   });
 }
 
-// The paper, and what stands on it.
+// Flags for the page layout.
 void add_page_flags(CLI::App& command, client::Spec& spec) {
   client::PageSpec& page = spec.page;
   command
@@ -153,7 +155,7 @@ void add_page_flags(CLI::App& command, client::Spec& spec) {
   command
       .add_option("--printer-margin-mm", page.printer_margin_mm,
                   field_help("PrintImageSpec.printer_margin_mm",
-                             "What the printer cannot print along the edges of the paper"))
+                             "Unprintable margin along the edges of the paper"))
       ->type_name("D");
   command.add_option("--job-name", page.job_name, "Printed beside the film")->type_name("TEXT");
   command.add_option("--date", page.date, "Printed beside the film, as given")->type_name("TEXT");
@@ -165,9 +167,8 @@ void add_print_image_flags(CLI::App& command, SubmitOptions& options) {
   add_film_image_flag(command, options, "The film image: film.png of simulate");
   add_film_flag(command, options);
   add_dpi_flag(command, options.spec);
-  add_simulate_job_flag(
-      command, options, "--film-image", {"--film-image", "--film", "--dpi"},
-      "The simulation whose film image is printed, in place of these: jobs/7, or 7");
+  add_simulate_job_flag(command, options, "--film-image", {"--film-image", "--film", "--dpi"},
+                        "Print the film image of this simulation instead: jobs/7, or 7");
   add_page_flags(command, options.spec);
   command
       .add_option("--bar-mm", page.bar_mm,
@@ -175,35 +176,34 @@ void add_print_image_flags(CLI::App& command, SubmitOptions& options) {
       ->type_name("D");
   command
       .add_option("--overlap-mm", page.overlap_mm,
-                  field_help("PrintImageSpec.overlap_mm", "Overlap of sheets that join"))
+                  field_help("PrintImageSpec.overlap_mm", "Overlap of adjoining sheets"))
       ->type_name("D");
-  command.add_flag("--mirror", page.mirror, "Print it mirrored; else ink side up");
-  command.add_flag("--no-marks", page.no_marks, "Nothing but the film image");
+  command.add_flag("--mirror", page.mirror, "Mirror the image; default: ink side up");
+  command.add_flag("--no-marks", page.no_marks, "Print only the film image");
   command
       .add_option("--colours", page.colours,
                   field_help("PrintImageSpec.colours", "rgb: sRGB; cmyk: plain CMYK"))
       ->type_name("COLOURS")
       ->check(field_choices("PrintImageSpec.colours"));
   add_file(command, "--icc-profile", options.icc_profile,
-           "The printer's ICC output profile, in place of --colours");
+           "The printer's ICC output profile; replaces --colours");
   command
       .add_option(
           "--ink-limit", page.ink_limit,
-          field_help("PrintImageSpec.ink_limit", "Most C + M + Y + K of a pixel; CMYK alone"))
+          field_help("PrintImageSpec.ink_limit", "Limit of C + M + Y + K per pixel; CMYK only"))
       ->type_name("T");
   command
       .add_option("--formats", page.formats,
                   field_help("PrintImageSpec.formats",
-                             "Files to make; default: pdf, and png for RGB or tiff for CMYK"))
+                             "File formats; default: pdf, and png for RGB or tiff for CMYK"))
       ->delimiter(',')
       ->type_name("FORMAT[,FORMAT]");
 }
 
 void add_template_flags(CLI::App& command, SubmitOptions& options) {
   add_object_flags(command, options);
-  add_simulate_job_flag(
-      command, options, "--mesh", {"--mesh", "--scale", "--pose", "--film"},
-      "The simulation whose object is to be placed, in place of these: jobs/7, or 7");
+  add_simulate_job_flag(command, options, "--mesh", {"--mesh", "--scale", "--pose", "--film"},
+                        "Use the object of this simulation instead: jobs/7, or 7");
   add_page_flags(command, options.spec);
 }
 
@@ -211,7 +211,7 @@ Status set_depth(const std::optional<std::string>& depth, client::Spec& spec) {
   if (!depth || *depth == "full") return {};
   double depth_mm = 0;
   if (!CLI::detail::lexical_cast(*depth, depth_mm))
-    return fail(Code::kInvalidArgument, "--depth-mm " + *depth + ": give millimetres, or full");
+    return fail(Code::kInvalidArgument, "--depth-mm " + *depth + ": use millimetres, or full");
   spec.depth_mm = depth_mm;
   return {};
 }
@@ -239,7 +239,7 @@ void add_preview_flags(CLI::App& command, SubmitOptions& options) {
 
 Result<client::Spec> upload_inputs(Program& program, const SubmitOptions& options) {
   client::Spec spec = options.spec;
-  if (spec.verb == client::Verb::kValidate) return spec;  // it reads no files
+  if (spec.verb == client::Verb::kValidate) return spec;  // reads no files
   if (!options.simulate_job.empty()) spec.simulate_job = job_name(options.simulate_job);
   if (!options.calibration.empty()) spec.calibration = calibration_name(options.calibration);
   HP_RETURN_IF_ERROR(set_depth(options.depth, spec));

@@ -13,12 +13,12 @@
 namespace hydroprint::cli {
 namespace {
 
-// What Ctrl-C does to the job, and what to do next.
+// Cancels the job if requested, and explains how to continue.
 Error interrupted(Program& program, const std::string& job, const WaitOptions& options) {
   if (!options.cancel_on_interrupt)
     return {Code::kCancelled,
-            "interrupted; " + job + " goes on: 'hydroprint watch " + job +
-                "' follows it, 'hydroprint cancel " + job + "' ends it",
+            "interrupted; " + job + " continues. 'hydroprint watch " + job +
+                "' follows it, 'hydroprint cancel " + job + "' cancels it",
             {}};
   client::Connection connection = program.uninterrupted();
   const auto cancelled = client::cancel_job(connection, job);
@@ -27,7 +27,7 @@ Error interrupted(Program& program, const std::string& job, const WaitOptions& o
 }
 
 std::string summary(const client::Job& job) {
-  if (job.cache_hit) return job.name + ": done, from an earlier job with the same inputs";
+  if (job.cache_hit) return job.name + ": done, cached result of an earlier job";
   if (!job.start_time || !job.end_time) return job.name + ": done";
   using namespace std::chrono;
   return job.name + ": done in " + format_duration(round<seconds>(*job.end_time - *job.start_time));
@@ -47,7 +47,7 @@ Result<client::Artifact> find(const std::vector<client::Artifact>& artifacts,
     if (artifact.file_name() == name) return artifact;
     known += " " + artifact.file_name();
   }
-  return fail(Code::kNotFound, job + " has no artifact '" + name + "'; it has" + known);
+  return fail(Code::kNotFound, job + " has no artifact '" + name + "'; available:" + known);
 }
 
 Result<std::vector<client::Artifact>> choose(client::Connection& daemon, const std::string& job,
@@ -57,7 +57,7 @@ Result<std::vector<client::Artifact>> choose(client::Connection& daemon, const s
     HP_ASSIGN_OR_RETURN(const client::Job found, client::get_job(daemon, job));
     return fail(Code::kFailedPrecondition,
                 job + " is " + std::string(client::name_of(found.state)) +
-                    " and has no artifacts; only a job that SUCCEEDED has");
+                    " and has no artifacts; only SUCCEEDED jobs have them");
   }
   if (names.empty()) return artifacts;
   std::vector<client::Artifact> chosen;
@@ -72,7 +72,7 @@ Result<std::vector<client::Artifact>> choose(client::Connection& daemon, const s
 
 void add_wait_flags(CLI::App& command, WaitOptions& options) {
   command.add_flag("--cancel-on-interrupt", options.cancel_on_interrupt,
-                   "Let Ctrl-C cancel the job; without this it goes on");
+                   "Let Ctrl-C cancel the job; by default it continues");
 }
 
 Error why(const client::Job& job) {
@@ -87,10 +87,10 @@ Error why(const client::Job& job) {
     why = {Code::kInternal,
            job.name + " was interrupted: " +
                (job.dip         ? "the daemon was lost during the dip"
-                : job.capture_s ? "the daemon ended before the capture; take another one"
-                                : "the daemon ended before the print; look at the printer"),
+                : job.capture_s ? "the daemon stopped during the capture; start a new capture"
+                                : "the daemon stopped during the print; check the printer"),
            {}};
-  // Of a dip that ended early: what to do with film and object.
+  // A dip that ended early explains what to do with film and object.
   const std::string advice = job.dip_status ? job.dip_status->instruction : "";
   if (why.message.find(advice) == std::string::npos) why.message += "; " + advice;
   return why;
@@ -105,7 +105,7 @@ Result<client::Job> follow_job(Program& program, const std::string& job,
         options.json_lines ? print_update(update) : display.update(update);
       },
       [&](const Error& error) {
-        if (!options.json_lines) display.say("hydroprint: " + error.message + "; trying again");
+        if (!options.json_lines) display.say("hydroprint: " + error.message + "; retrying");
       });
   if (finished && finished->state == client::JobState::kSucceeded && !options.json_lines)
     display.say(summary(*finished));

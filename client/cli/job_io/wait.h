@@ -11,36 +11,37 @@
 
 namespace hydroprint::cli {
 
-/// How to wait for a job.
+/// Options for waiting for a job.
 struct WaitOptions {
-  bool cancel_on_interrupt = false;  ///< Ctrl-C cancels the job; otherwise it goes on
+  bool cancel_on_interrupt = false;  ///< Ctrl-C cancels the job; otherwise the job continues
   bool json_lines = false;           ///< every update as a line of JSON on standard output
-  int descriptor = 2;                ///< where to show it otherwise
+  int descriptor = 2;                ///< destination of the display otherwise
 };
 
 /// Adds --cancel-on-interrupt.
 void add_wait_flags(CLI::App& command, WaitOptions& options);
 
-/// Follows a job to its end. @return the job if it succeeded; kInvalidArgument if it failed because
-/// of its input, kInternal if it failed otherwise, kCancelled if it was cancelled or on Ctrl-C
+/// Waits until a job is finished. @return the job if it succeeded; kInvalidArgument if it failed
+/// because of its input, kInternal if it failed otherwise, kCancelled if it was cancelled or on
+/// Ctrl-C
 [[nodiscard]] Result<client::Job> wait_for(Program& program, const std::string& job,
                                            const WaitOptions& options);
 
-/// Follows a job to its end and shows it. @return the job as it ended, however it did; kCancelled
-/// on Ctrl-C
+/// Waits until a job is finished and shows its progress. @return the finished job, successful or
+/// not; kCancelled on Ctrl-C
 [[nodiscard]] Result<client::Job> follow_job(Program& program, const std::string& job,
                                              const WaitOptions& options);
 
-/// Why a job that ended did not succeed; of a dip also what to do with film and object.
+/// Explains why a finished job did not succeed; for a dip, also what to do with film and object.
 [[nodiscard]] Error why(const client::Job& job);
 
-/// A file that was downloaded.
+/// A downloaded file.
 struct Downloaded {
   std::filesystem::path path;
   client::Artifact artifact;
 };
 
-/// Downloads the named artifacts of a job (none named: all of them) into `folder`.
+/// Downloads the named artifacts of a job into `folder`; all artifacts if `names` is empty.
 [[nodiscard]] Result<std::vector<Downloaded>> download_all(client::Connection& daemon,
                                                            const std::string& job,
                                                            const std::vector<std::string>& names,

@@ -12,9 +12,9 @@ namespace hydroprint::cli {
 namespace {
 
 constexpr int kViews = 12;
-constexpr double kSeconds = 1;  // a view
+constexpr double kSeconds = 1;  // per view
 
-/// The board alone before the camera, until it goes.
+/// Shows only the board to the camera, until destroyed.
 class HeldBoard {
  public:
   HeldBoard(std::string control, const std::filesystem::path& folder)
@@ -38,13 +38,14 @@ class HeldBoard {
   std::filesystem::path mesh_, pose_;
 };
 
-/// The calibration that a job made.
+/// Returns the calibration that a job produced.
 Result<std::string> made_by(Program& program, const std::string& job) {
   HP_ASSIGN_OR_RETURN(const auto all, client::list_calibrations(program.daemon(), 100));
   for (const client::Calibration& one : all) {
     if (one.job == job) return one.name;
   }
-  return fail(Code::kAborted, job + " left no calibration; was it deleted?");
+  return fail(Code::kAborted,
+              job + " has no calibration; it may have been deleted. Run the loop again");
 }
 
 }  // namespace

@@ -9,12 +9,12 @@
 
 namespace hydroprint::cli {
 
-/// Calibrates the virtual rig's camera as one does a real one: the calibration board is held before
-/// it in twelve ways, each a capture, and a job finds lens and depth scale.
-/// @param control  of the virtual rig
-/// @param folder   for the board's mesh and where it is held
-/// @param seed     of how it is held
-/// @return the calibration, "calibrations/2", which is then the active one of a camera
+/// Calibrates the virtual rig's camera like a real one: the calibration board is held before it in
+/// twelve ways, with one capture each. A calibrate-camera job then finds lens and depth scale.
+/// @param control  control socket of the virtual rig
+/// @param folder   for the board's mesh and poses
+/// @param seed     of the board's poses
+/// @return the calibration, "calibrations/2", which becomes the active camera calibration
 [[nodiscard]] Result<std::string> calibrate_loop_camera(Program& program,
                                                         const std::string& control,
                                                         const std::filesystem::path& folder,

@@ -7,16 +7,16 @@
 
 namespace hydroprint::cli {
 
-/// Follows a job to its end, without showing it. @return it if it succeeded; why not otherwise
+/// Waits for a job without showing progress. @return the job if it succeeded, otherwise the error
 [[nodiscard]] Result<client::Job> finish_quietly(Program& program, const client::Job& job);
 
-/// Queues a job, and follows it as above.
+/// Queues a job and waits for it in the same way.
 [[nodiscard]] Result<client::Job> run_quietly(Program& program, const client::Spec& spec);
 
-/// Takes frames of the daemon's camera, as above.
+/// Captures frames with the daemon's camera and waits in the same way.
 [[nodiscard]] Result<client::Job> capture_quietly(Program& program, double seconds);
 
-/// A pose as specs have it, and back.
+/// Convert a pose to and from a spec.
 [[nodiscard]] client::PoseSpec spec_of(const Pose& pose);
 [[nodiscard]] Pose pose_of(const client::PoseSpec& spec);
 

@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kAbove_mm = 40;       ///< the water, where the object hangs while it is seen
-constexpr double kRoundDepth_mm = 90;  ///< of the sphere: to its equator, and a little beyond
+constexpr double kAbove_mm = 40;       ///< height above the water during the capture
+constexpr double kRoundDepth_mm = 90;  ///< of the sphere: slightly beyond its equator
 
 }  // namespace
 
@@ -49,8 +49,9 @@ Result<double> LoopRounds::gripper_mm() const {
   const auto json = nlohmann::json::parse(sight, nullptr, false);
   if (json.is_object() && json.contains("gripper_height_mm"))
     return json["gripper_height_mm"].get<double>();
-  return fail(Code::kInvalidArgument,
-              options_.control + ": this virtual rig has no camera; give its --scene a [camera]");
+  return fail(
+      Code::kInvalidArgument,
+      options_.control + ": this virtual rig has no camera; add a [camera] to its --scene file");
 }
 
 Status LoopRounds::hang(const Pose& X_GO) const {
@@ -69,14 +70,14 @@ Status LoopRounds::prepare() {
   return take_camera();
 }
 
-/// As it was named; otherwise it is calibrated first.
+/// Uses the camera calibration that was given; otherwise calibrates the camera first.
 Status LoopRounds::take_camera() {
   camera_name_ = calibration_name(options_.camera);
   if (options_.camera.empty()) {
     HP_ASSIGN_OR_RETURN(camera_name_, calibrate_loop_camera(program_, options_.control,
                                                             file("sample"), options_.seed));
     camera_calibration_ = camera_name_;
-  } else if (options_.camera == "active") {  // which calibrate takes by itself
+  } else if (options_.camera == "active") {  // the default of calibrate
     camera_name_ = "the active one";
   } else if (camera_name_.starts_with("calibrations/")) {
     camera_calibration_ = camera_name_;
@@ -115,7 +116,9 @@ Result<client::Calibration> LoopRounds::calibrate(loop::Round& out) {
   HP_ASSIGN_OR_RETURN(const client::Calibration found,
                       client::get_calibration(program_.daemon(), "calibrations/active"));
   if (found.job == job.name) return found;
-  return fail(Code::kAborted, "somebody else calibrated meanwhile; run the loop alone");
+  return fail(
+      Code::kAborted,
+      "another calibration became active during the loop; run the loop again, with no other user");
 }
 
 Result<client::Job> LoopRounds::simulate(const std::string& calibration, loop::Round& out) {
@@ -153,7 +156,7 @@ Result<client::Job> LoopRounds::dip(const std::string& simulation, loop::Round& 
   return ended;
 }
 
-/// Under a name with the pose's number; pictures are for the report.
+/// Downloads an artifact under a name with the pose's number; pictures go into the report.
 Result<std::string> LoopRounds::fetch(const std::string& job, const std::string& artifact,
                                       const std::string& as, loop::Round& out) const {
   HP_ASSIGN_OR_RETURN(const auto files,
@@ -162,12 +165,15 @@ Result<std::string> LoopRounds::fetch(const std::string& job, const std::string&
       "pose" + std::to_string(number_) + "-" + as + fs::path(artifact).extension().string();
   std::error_code error;
   fs::rename(files.front().path, file(name), error);
-  if (error) return fail(Code::kInternal, file(name).string() + ": cannot be written");
+  if (error)
+    return fail(
+        Code::kInternal,
+        file(name).string() + ": cannot be written; check the permissions and the free space");
   if (artifact.ends_with(".png")) out.pictures.push_back(name);
   return name;
 }
 
-/// Where a film image lands at a pose, as predict has it.
+/// Computes with predict where a film image lands at a pose.
 Result<loop::SurfaceMap> LoopRounds::predict(client::Spec spec, const Pose& pose,
                                              const std::string& as, loop::Round& out) {
   spec.pose = spec_of(pose);
@@ -176,7 +182,7 @@ Result<loop::SurfaceMap> LoopRounds::predict(client::Spec spec, const Pose& pose
   return loop::read_surface_map(file(map));
 }
 
-/// The way down as the axis went it, along its true direction.
+/// The actual motion of the descent, along its true direction.
 Result<client::InputFile> LoopRounds::driven(const std::string& dip, loop::Round& out) {
   HP_ASSIGN_OR_RETURN(const std::string positions, fetch(dip, "positions.csv", "positions", out));
   std::ifstream from(file(positions));
@@ -202,7 +208,7 @@ Result<client::InputFile> LoopRounds::driven(const std::string& dip, loop::Round
 
 Status LoopRounds::compare(const client::Calibration& found, loop::Round& out) const {
   if (!found.pose) return fail(Code::kInternal, found.name + " has no pose");
-  Pose seen = out.truth.X_GO;  // where it truly was when it was seen, F
+  Pose seen = out.truth.X_GO;  // the true pose during the capture, F
   seen.translation().z() += gripper_mm_;
   const Pose pose = pose_of(*found.pose);
   const Eigen::Matrix3d off = pose.linear().transpose() * seen.linear();
@@ -218,7 +224,7 @@ Status LoopRounds::compare(const client::Calibration& found, loop::Round& out) c
   return {};
 }
 
-/// A virtual dip of the film image that was made.
+/// Spec of a virtual dip of the film image.
 Result<client::Spec> LoopRounds::landing(const client::Job& simulation, loop::Round& out) {
   HP_ASSIGN_OR_RETURN(const std::string film, fetch(simulation.name, "film.png", "film", out));
   client::Spec spec = object_;
@@ -231,7 +237,7 @@ Result<client::Spec> LoopRounds::landing(const client::Job& simulation, loop::Ro
   return spec;
 }
 
-/// What became of it, to be looked at.
+/// Fetches a picture of the printed object for the report.
 Status LoopRounds::show_landed(client::Spec spec, loop::Round& out) {
   spec.pose = spec_of(loop::pose_at_contact(body_, out.truth, gripper_mm_));
   spec.artifacts = "all";
@@ -250,14 +256,14 @@ Status LoopRounds::measure(const client::Calibration& found, const client::Job& 
   const loop::Truth well;
   loop::Truth upright = out.truth;
   upright.slope.setZero();
-  say("its film image in the computation: as calibrated");
+  say("predict: as calibrated");
   HP_ASSIGN_OR_RETURN(auto map, predict(spec, pose_of(*found.pose), "as-calibrated", out));
   out.numerics = loop::cross_errors(body_, plan, map, well);
-  say("at the true pose");
+  say("predict: at the true pose");
   HP_ASSIGN_OR_RETURN(
       map, predict(spec, loop::pose_at_contact(body_, upright, gripper_mm_), "upright", out));
   out.calibration = loop::cross_errors(body_, plan, map, well);
-  say("as the axis was driven");
+  say("predict: with the actual motion");
   HP_ASSIGN_OR_RETURN(spec.motion, driven(dip, out));
   HP_ASSIGN_OR_RETURN(
       map, predict(spec, loop::pose_at_contact(body_, out.truth, gripper_mm_), "landed", out));

@@ -20,19 +20,20 @@ struct LoopOptions {
   int poses = 10;
   std::uint32_t seed = 1;
   double dpi = 150, seconds = 2;
-  std::optional<std::string> model;  ///< of the film: "sheet" or "stokes"
+  std::optional<std::string> model;  ///< film model: "sheet" or "stokes"
 };
 
-/// The object round the whole loop, pose by pose: from how it is hung to how its film lands.
+/// Runs the whole loop pose by pose, from the object's pose to the place where its film lands.
 class LoopRounds {
  public:
   LoopRounds(Program& program, const LoopOptions& options, loop::Body body, const HeldLease& lease);
 
-  /// Makes the object, the camera's lens known, and moves the axis to where the object is seen.
+  /// Creates the object, determines the camera's calibration, and moves the axis to the capture
+  /// position.
   [[nodiscard]] Status prepare();
-  /// The pose number `index`.
+  /// Runs the loop for pose number `index`.
   [[nodiscard]] Result<loop::Round> round(int index);
-  /// The calibration of the lens, or its file.
+  /// The camera calibration, or its file.
   [[nodiscard]] const std::string& camera() const { return camera_name_; }
 
  private:
@@ -62,10 +63,10 @@ class LoopRounds {
   loop::Body body_;
   const HeldLease& lease_;
   Inputs inputs_;
-  client::Spec object_;  // mesh and what goes with it
+  client::Spec object_;  // mesh and related fields
   std::optional<client::InputFile> camera_;
   std::string camera_calibration_, camera_name_;
-  double gripper_mm_ = 0;  // over the water, while the object is seen
+  double gripper_mm_ = 0;  // height above the water during the capture
   int number_ = 0;
 };
 

@@ -20,8 +20,8 @@ std::filesystem::path folder_in(const char* name) {
 
 Status cannot_keep_key(const std::filesystem::path& file) {
   return fail(Code::kPermissionDenied,
-              file.string() + ": the key cannot be kept there: " + std::strerror(errno) +
-                  "; set XDG_CONFIG_HOME to a folder of yours that can be written");
+              file.string() + ": the key cannot be stored there: " + std::strerror(errno) +
+                  "; set XDG_CONFIG_HOME to a folder that you can write to");
 }
 
 Result<toml::table> read_credentials() {
@@ -31,20 +31,20 @@ Result<toml::table> read_credentials() {
   if ((info.st_mode & 077) != 0) {
     return fail(
         Code::kPermissionDenied,
-        file.string() + ": others may read the keys in it; chmod 600 it, and make new keys");
+        file.string() + ": other users can read the keys in it; chmod 600 it, and create new keys");
   }
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& error) {
     return fail(Code::kInvalidArgument, file.string() + ": is not valid TOML (" +
                                             std::string(error.description()) +
-                                            "); mend or delete it");
+                                            "); correct or delete it");
   }
 }
 
 Status write_credentials(const toml::table& table) {
   const auto file = credentials_file();
-  std::error_code ignored;  // what is wrong shows when the file is written
+  std::error_code ignored;  // writing the file reports the error
   std::filesystem::create_directories(file.parent_path(), ignored);
   const auto part = file.string() + "." + std::to_string(::getpid());
   ::unlink(part.c_str());

@@ -7,18 +7,18 @@
 
 namespace hydroprint::cli {
 
-/// Where API keys are kept, one for each address of a daemon: a file of mode 0600,
+/// Path of the file that stores API keys, one for each address of a daemon. It has mode 0600 and is
 /// $XDG_CONFIG_HOME/hydroprint/credentials.toml or ~/.config/hydroprint/credentials.toml.
 [[nodiscard]] std::filesystem::path credentials_file();
 
-/// The key for that daemon; empty if there is none.
-/// @return kInvalidArgument for a file that cannot be read as TOML; kPermissionDenied for one that
-///   others may read
+/// Returns the stored key for a daemon; empty if there is none.
+/// @return kInvalidArgument if the file is not valid TOML; kPermissionDenied if other users can
+///   read it
 [[nodiscard]] Result<std::string> kept_key(const std::string& server);
 
-/// Keeps a key; the file appears at once and whole. As above; kPermissionDenied if it cannot be
-/// written.
-/// @param key  empty: forgets it
+/// Stores a key; the file is written atomically. Errors: as above, and kPermissionDenied if it
+/// cannot be written.
+/// @param key  empty: deletes the stored key
 [[nodiscard]] Status keep_key(const std::string& server, const std::string& key);
 
 }  // namespace hydroprint::cli

@@ -35,31 +35,33 @@ Result<std::string> read_authorities(const std::string& file) {
   if (in && pem.find("-----BEGIN CERTIFICATE-----") != std::string::npos) return pem;
   return fail(Code::kInvalidArgument,
               "--ca (HYDROPRINT_CA) " + file +
-                  ": has no certificate that can be read; name a PEM file of the authority that "
-                  "signed the daemon's");
+                  ": no readable certificate; give a PEM file with the certificate of the "
+                  "authority that signed the daemon's certificate");
 }
 
 std::string check_owner(const std::string& text) {
   const bool good =
       !text.empty() && text.size() <= kOwnerMaxBytes &&
       std::all_of(text.begin(), text.end(), [](char c) { return c > ' ' && c <= '~'; });
-  return good ? "" : "an owner is 1 to 64 printable ASCII characters without blanks";
+  return good ? "" : "use 1 to 64 printable ASCII characters without spaces";
 }
 
 }  // namespace
 
 Program::Program(CLI::App& app) : owner_(login_name()) {
   app.add_option("--server", server_,
-                 "Where hydroprintd listens; over TLS: https://HOST:PORT, which --ca implies")
+                 "Address of hydroprintd; for TLS: https://HOST:PORT, implied by --ca")
       ->type_name("HOST:PORT")
       ->envname("HYDROPRINT_SERVER")
       ->check(check_server)
       ->capture_default_str();
   app.add_option("--ca", ca_file_,
-                 "PEM file of the authorities to trust, in place of the system's; speaks TLS")
+                 "PEM file of trusted authorities, instead of the system's; implies TLS")
       ->type_name("FILE")
       ->envname("HYDROPRINT_CA");
-  app.add_option("--owner", owner_, "In whose name, where there are no users; owners take turns")
+  app.add_option(
+         "--owner", owner_,
+         "Owner of new jobs, if there are no user accounts; the queue alternates between owners")
       ->type_name("NAME")
       ->envname("HYDROPRINT_OWNER")
       ->check(check_owner)
@@ -129,8 +131,9 @@ std::string calibration_name(const std::string& text) {
 }
 
 void add_stale_flag(CLI::App& command, bool& is_allowed) {
-  command.add_flag("--allow-stale-calibration", is_allowed,
-                   "Go by the calibration even if the rig moved since, or it is of another object");
+  command.add_flag(
+      "--allow-stale-calibration", is_allowed,
+      "Use the calibration even if the rig has moved since, or if it is for another object");
 }
 
 void add_job_argument(CLI::App& command, std::string& job) {
@@ -139,7 +142,7 @@ void add_job_argument(CLI::App& command, std::string& job) {
 
 int exit_code(const Error& error) {
   if (error.code == Code::kUnavailable) return kUnreachable;
-  // Damaged at the daemon or on its way to us: no input of the user's is bad.
+  // Damaged at the daemon or in transit: the user's input is not at fault.
   if (error.code == Code::kDataLoss) return static_cast<int>(ExitStatus::kFailed);
   return static_cast<int>(exit_status(error));
 }

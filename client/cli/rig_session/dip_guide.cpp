@@ -25,10 +25,10 @@ using client::Time;
 constexpr double kJogSpeed_mm_per_s = 2;
 constexpr auto kLookAtRigEvery = 200ms;
 constexpr auto kRedrawEvery = 250ms;
-constexpr char kJogKeys[] = "  hold Down/j or Up/k to jog, + and - for the speed";
-constexpr char kConfirmKey[] = "  Enter when that is done; Ctrl-C aborts the dip";
+constexpr char kJogKeys[] = "  hold Down/j or Up/k to jog, + and - change the speed";
+constexpr char kConfirmKey[] = "  Enter when done; Ctrl-C aborts the dip";
 
-// The job as the daemon tells of it, watched on a thread of its own.
+// Watches the job on its own thread.
 class WatchedJob {
  public:
   WatchedJob(const Program& program, client::Job job)
@@ -46,12 +46,12 @@ class WatchedJob {
     const std::lock_guard lock(mutex_);
     return job_;
   }
-  /// What was said since the last call.
+  /// Returns the messages since the last call.
   [[nodiscard]] std::vector<std::string> take_messages() {
     const std::lock_guard lock(mutex_);
     return std::exchange(messages_, {});
   }
-  /// How watching ended; none while it goes on.
+  /// The result of watching; nullopt while it continues.
   [[nodiscard]] std::optional<Result<client::Job>> ended() const {
     const std::lock_guard lock(mutex_);
     return ended_;
@@ -62,7 +62,7 @@ class WatchedJob {
     const std::string name = job().name;
     auto ended = client::watch_job(
         daemon_, name, [this](const client::JobUpdate& update) { take(update); },
-        [this](const Error& error) { say("hydroprint: " + error.message + "; trying again"); });
+        [this](const Error& error) { say("hydroprint: " + error.message + "; retrying"); });
     const std::lock_guard lock(mutex_);
     ended_ = std::move(ended);
   }
@@ -85,7 +85,7 @@ class WatchedJob {
   client::Job job_;
   std::vector<std::string> messages_;
   std::optional<Result<client::Job>> ended_;
-  std::thread watcher_;  // the last: it uses all the others
+  std::thread watcher_;  // last member: it uses all the others
 };
 
 double to_seconds(auto time) { return std::chrono::duration<double>(time).count(); }
@@ -109,7 +109,8 @@ class Guide {
       if (const auto ended = watched_.ended()) return *ended;
       if (program_.is_interrupted()) return fail(Code::kCancelled, "interrupted");
       if (keyboard_.gone())
-        return fail(Code::kCancelled, "the terminal is gone; " + watched_.job().name + " goes on");
+        return fail(Code::kCancelled,
+                    "the terminal was closed; " + watched_.job().name + " continues");
       show(watched_.job());
       take_keys(keyboard_.read(30ms));
       jog();
@@ -129,7 +130,7 @@ class Guide {
     show_clock(job);
   }
 
-  // A new step: what was typed before it could be read was not meant for it.
+  // At a new step, pending keys are discarded: they were not meant for it.
   void begin(const client::DipStatus& status) {
     Keyboard::forget();
     begun_ = std::chrono::system_clock::now();
@@ -182,8 +183,8 @@ class Guide {
   void confirm() {
     const client::Job job = watched_.job();
     if (!waits(job) || !shown_ || shown_->step != job.dip_status->step) return;
-    if (jogger_ && jogger_->is_held()) return;  // let go first: contact is where the axis rests
-    // The next step is shown as soon as it is told of; the answer may be older than that.
+    if (jogger_ && jogger_->is_held()) return;  // release the key first: contact is at standstill
+    // The next step is shown as soon as it is reported; this response may be older.
     const auto next = client::confirm_step(daemon_, job.name, job.dip_status->step, lease_.id());
     if (!next) line_.say("  REFUSED: " + in_our_words(next.error()).message);
   }
@@ -210,11 +211,11 @@ class Guide {
   ProgressLine line_;
   Keyboard keyboard_;
   std::optional<client::DipStatus> shown_;
-  Time begun_;  // when the step shown was first shown
+  Time begun_;  // when the current step was first shown
   std::optional<Jogger> jogger_;
   client::Rig rig_;
   Clock::time_point looked_;
-  Clock::time_point drawn_;  // the live line; what stays is told at once, and a new step drawn
+  Clock::time_point drawn_;  // of the live line; other lines and a new step are shown at once
 };
 
 }  // namespace

@@ -7,11 +7,11 @@
 
 namespace hydroprint::cli {
 
-/// Leads a person at a terminal through a dip: shows each step with its instruction, its clock and
-/// the warnings; Enter confirms a step; where first contact is looked for, the keys of `rig jog`
-/// move the axis.
-/// @param job  the dip as it was created
-/// @return the job as it ended, however it did; kCancelled on Ctrl-C, when the dip still goes on
+/// Guides a person at a terminal through a dip. Shows each step with its instruction, timer and
+/// warnings; Enter confirms a step. While looking for first contact, the keys of `rig jog` move the
+/// axis.
+/// @param job  the new dip
+/// @return the finished job, successful or not; kCancelled on Ctrl-C, while the dip still runs
 [[nodiscard]] Result<client::Job> guide(Program& program, const HeldLease& lease, client::Job job);
 
 }  // namespace hydroprint::cli

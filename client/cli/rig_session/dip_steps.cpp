@@ -9,8 +9,8 @@ namespace hydroprint::cli {
 
 void print_dip(const Program& program, const client::Job& job) {
   if (program.json()) return print(to_json(job));
-  if (job.name.empty()) {  // it was only checked
-    std::cout << "The daemon would take this dip." << std::endl;
+  if (job.name.empty()) {  // only validated
+    std::cout << "The dip is valid." << std::endl;
     return;
   }
   std::cout << job.name << "\n";

@@ -5,7 +5,7 @@
 
 namespace hydroprint::cli {
 
-/// Says where a dip stands and what to do next, or prints it as JSON.
+/// Prints the current step of a dip and the next action, or JSON.
 void print_dip(const Program& program, const client::Job& job);
 
 }  // namespace hydroprint::cli

@@ -21,12 +21,13 @@ std::string at(const std::map<std::string, std::string>& metadata, const char* k
   return found == metadata.end() ? "" : found->second;
 }
 
-// "alice has it for 'calibration' until 2026-03-01T14:05:09Z"; empty if nobody is named.
+// Returns "alice holds it for 'calibration' until 2026-03-01T14:05:09Z"; empty if no holder is
+// given.
 std::string who_has_it(const Error& error) {
   const std::string holder = at(error.metadata, "holder");
   if (holder.empty()) return "";
   const std::string purpose = at(error.metadata, "purpose");
-  return holder + " has it" + (purpose.empty() ? "" : " for '" + purpose + "'") + " until " +
+  return holder + " holds it" + (purpose.empty() ? "" : " for '" + purpose + "'") + " until " +
          at(error.metadata, "expire_time");
 }
 
@@ -36,7 +37,7 @@ std::map<std::string, std::string> metadata_of(const client::Lease& lease) {
           {"expire_time", lease.expire_time ? format_rfc3339(*lease.expire_time) : ""}};
 }
 
-// Time for which a lease still holds, at least kLeaseTime: renewing must not shorten it.
+// Remaining time of a lease, at least kLeaseTime: renewing must not shorten it.
 std::chrono::seconds time_to_renew_to(const client::Lease& lease) {
   if (!lease.expire_time) return kLeaseTime;
   using namespace std::chrono;
@@ -62,7 +63,7 @@ HeldLease::~HeldLease() {
   renewer_.request_stop();
   renewer_.join();
   if (!is_given_back_) return;
-  static_cast<void>(client::release_lease(daemon_, id_));  // else it runs out
+  static_cast<void>(client::release_lease(daemon_, id_));  // otherwise it expires
   forget_lease(server_, id_);
 }
 
@@ -74,7 +75,7 @@ Result<std::unique_ptr<HeldLease>> HeldLease::acquire(Program& program,
 }
 
 Result<std::unique_ptr<HeldLease>> HeldLease::take(Program& program, const std::string& purpose) {
-  static_cast<void>(program.daemon());  // Ctrl-C must be caught before there are other threads
+  static_cast<void>(program.daemon());  // starts Ctrl-C handling before other threads exist
   if (!purpose.empty()) return acquire(program, purpose);
   const auto kept = kept_lease(program.server());
   if (!kept) return tl::unexpected(none_is_kept(program));
@@ -96,7 +97,7 @@ void HeldLease::renew_until(const std::stop_token& stop) {
   std::mutex mutex;
   std::unique_lock lock(mutex);
   std::condition_variable_any bell;
-  // A renewal that fails is told by the next command, which is refused.
+  // A failed renewal is not reported here: the next command is refused.
   while (!bell.wait_for(lock, stop, kLookEvery, [] { return false; }) && !stop.stop_requested()) {
     const auto lease = client::get_lease(daemon_);
     if (!lease || !lease->expire_time) continue;
@@ -108,8 +109,8 @@ void HeldLease::renew_until(const std::stop_token& stop) {
 void add_lease_flag(CLI::App& command, std::string& purpose) {
   command
       .add_option("--with-lease", purpose,
-                  "Take the lease for this command alone, and what for; default: the one that\n"
-                  "'hydroprint rig lease acquire' took")
+                  "Acquire the lease for this command only, with this purpose; default: use the\n"
+                  "lease from 'hydroprint rig lease acquire'")
       ->type_name("PURPOSE");
 }
 
@@ -117,13 +118,13 @@ Error in_our_words(Error error) {
   const std::string who = who_has_it(error);
   if (error.reason == "LEASE_HELD")
     error.message = "the rig's lease is taken" + (who.empty() ? "" : ": " + who) +
-                    "; ask there, or take it away with 'hydroprint rig lease break --reason ...'";
+                    "; ask the holder, or take it with 'hydroprint rig lease break --reason ...'";
   if (error.reason == "LEASE_REQUIRED")
-    error.message = "commanding the rig needs its lease, which is not yours" +
-                    (who.empty() ? "; 'hydroprint rig lease acquire --purpose ...' takes it"
+    error.message = "commanding the rig needs its lease, which you do not hold" +
+                    (who.empty() ? "; acquire it: 'hydroprint rig lease acquire --purpose ...'"
                                  : ": " + who +
-                                       "; ask there, or take it away with 'hydroprint "
-                                       "rig lease break --reason ...'");
+                                       "; ask the holder, or take it with 'hydroprint rig lease "
+                                       "break --reason ...'");
   return error;
 }
 

@@ -12,16 +12,17 @@
 
 namespace hydroprint::cli {
 
-/// The lease under which a command drives the rig: kept by `rig lease acquire`, or taken for this
-/// command alone. For as long as this lives it is renewed before it runs out.
+/// The lease under which a command moves the rig: stored by `rig lease acquire`, or acquired for
+/// this command only. It is renewed as long as this object lives.
 class HeldLease {
  public:
-  /// With a purpose: acquires one, and gives it back in the end. Without: the one kept.
-  /// @return kFailedPrecondition (LEASE_REQUIRED) if none is kept, saying who has it and what to do
+  /// With a purpose: acquires a lease and releases it at the end. Without: uses the stored lease.
+  /// @return kFailedPrecondition (LEASE_REQUIRED) if none is stored; the message names the holder
+  /// and the remedy
   [[nodiscard]] static Result<std::unique_ptr<HeldLease>> take(Program& program,
                                                                const std::string& purpose);
-  /// The one kept if it still holds; otherwise acquires one, keeps it for other commands, and gives
-  /// it back in the end.
+  /// Uses the stored lease if it is still valid. Otherwise acquires one, stores it for other
+  /// commands, and releases it at the end.
   [[nodiscard]] static Result<std::unique_ptr<HeldLease>> take_or_acquire(
       Program& program, const std::string& purpose);
   ~HeldLease();
@@ -29,7 +30,7 @@ class HeldLease {
   HeldLease& operator=(const HeldLease&) = delete;
 
   [[nodiscard]] const std::string& id() const { return id_; }
-  /// It is not given back in the end.
+  /// Keeps the lease at the end.
   void leave() { is_given_back_ = false; }
 
  private:
@@ -39,20 +40,20 @@ class HeldLease {
   void renew_until(const std::stop_token& stop);
 
   std::string server_;
-  client::Connection daemon_;  // goes on when Ctrl-C ends the command's
+  client::Connection daemon_;  // not affected by Ctrl-C
   std::string id_;
   bool is_given_back_;
-  std::jthread renewer_;  // the last: it uses all the others
+  std::jthread renewer_;  // last member: it uses all the others
 };
 
-/// How long a lease is taken for where nobody says how long, and renewed to.
+/// Default duration of a lease, also for renewals.
 inline constexpr std::chrono::minutes kLeaseTime{10};
 
 /// Adds --with-lease PURPOSE.
 void add_lease_flag(CLI::App& command, std::string& purpose);
 
-/// An error as it is, but those about the lease in our words: who has it, what for, until when, and
-/// which command helps.
+/// Rewords errors about the lease: holder, purpose, expiry, and the command that helps. Other
+/// errors are returned unchanged.
 [[nodiscard]] Error in_our_words(Error error);
 
 }  // namespace hydroprint::cli

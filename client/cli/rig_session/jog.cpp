@@ -22,12 +22,12 @@ using namespace std::chrono_literals;
 
 constexpr double kSpeedByKeys_mm_per_s = 2;
 
-// Sleeps until then, or until Ctrl-C.
+// Sleeps until `time`, or until Ctrl-C.
 void sleep_until(Program& program, Clock::time_point time) {
   while (!program.is_interrupted() && Clock::now() < time) std::this_thread::sleep_for(5ms);
 }
 
-// Tells the daemon every 100 ms that somebody is there, until the time is over.
+// Sends a jog command every 100 ms, until the time is over.
 Status jog_for(Program& program, const std::string& lease_id, double speed_mm_per_s,
                double time_s) {
   RigDisplay display(STDERR_FILENO);
@@ -45,8 +45,8 @@ Status jog_for(Program& program, const std::string& lease_id, double speed_mm_pe
 
 // Jogs while keys are held, until q or Ctrl-C.
 Status jog_by_keys(Program& program, const std::string& lease_id, double speed_mm_per_s) {
-  std::cerr << "hold Down or j: down; hold Up or k: up; + and -: faster, slower; q: end; any other "
-               "key, or none: stop"
+  std::cerr << "hold Down or j: down; hold Up or k: up; + and -: faster, slower; q: quit; other "
+               "keys, or none: stop"
             << std::endl;
   LiveLine line(STDERR_FILENO);
   Keyboard keyboard;
@@ -72,9 +72,9 @@ Status jog_by_keys(Program& program, const std::string& lease_id, double speed_m
 Status jog_as_told(Program& program, const JogOptions& options) {
   if (!options.time_s && !Keyboard::is_there())
     return fail(Code::kInvalidArgument,
-                "without a terminal nobody can hold a key: give --speed MM/S and --for TIME");
+                "jogging by keys needs a terminal; use --speed MM/S and --for TIME");
   if (options.time_s && !options.speed_mm_per_s)
-    return fail(Code::kInvalidArgument, "--for needs --speed MM/S, positive for down");
+    return fail(Code::kInvalidArgument, "--for requires --speed MM/S, positive for down");
   HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take(program, options.with_lease));
   if (options.time_s)
     return jog_for(program, lease->id(), *options.speed_mm_per_s, *options.time_s);
@@ -87,7 +87,7 @@ Status jog_as_told(Program& program, const JogOptions& options) {
 Status jog(Program& program, const JogOptions& options) {
   const Status jogged = jog_as_told(program, options);
   const bool cancelled = program.is_interrupted();
-  // What was refused needs no stop; by keys, it was sent when they were let go.
+  // A refused jog needs no stop; with keys, the stop was sent when the key was released.
   const bool lost = !jogged && jogged.error().code == Code::kUnavailable;
   if (!jogged && !cancelled && !lost) return jogged;
   const auto rig = options.time_s ? stop_and_wait(program) : wait_for_rest(program);

@@ -8,14 +8,14 @@
 
 namespace hydroprint::cli {
 
-/// How `rig jog` jogs.
+/// Options of `rig jog`.
 struct JogOptions {
-  std::optional<double> speed_mm_per_s;  ///< positive is down; default: 2 by keys
-  std::optional<double> time_s;          ///< how long; without it: as long as a key is held
+  std::optional<double> speed_mm_per_s;  ///< positive is down; default with keys: 2
+  std::optional<double> time_s;          ///< duration; nullopt: while a key is held
   std::string with_lease;                ///< see add_lease_flag
 };
 
-/// Jogs by keys, or for a time. In the end the axis is stopped.
+/// Jogs by keys or for a given time. The axis is stopped at the end.
 [[nodiscard]] Status jog(Program& program, const JogOptions& options);
 
 }  // namespace hydroprint::cli

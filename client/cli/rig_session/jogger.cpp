@@ -9,9 +9,9 @@ namespace hydroprint::cli {
 namespace {
 
 constexpr double kLeast_mm_per_s = 0.05;
-constexpr double kMost_mm_per_s = 100;  // the rig has its own limit, and says so
+constexpr double kMost_mm_per_s = 100;  // the rig enforces its own limit and reports it
 
-// Refusals that pass: another direction, a motion that has to end first.
+// Temporary refusals: another direction works, or a motion has to end first.
 bool passes(const Error& error) {
   return error.code == Code::kAborted || error.reason == "LIMIT_EXCEEDED";
 }
@@ -27,11 +27,12 @@ Jogger::Jogger(client::Connection& daemon, std::string lease_id, double speed_mm
 
 Jogger::~Jogger() {
   if (!moved_) return;
-  // Ctrl-C ends the calls of the other one.
+  // The stop is sent on a connection that Ctrl-C does not cancel.
   client::ConnectionOptions options = daemon_.options();
   options.stop = {};
   client::Connection daemon(std::move(options));
-  static_cast<void>(client::stop_rig(daemon));  // else the daemon stops it by itself
+  // if this fails, the daemon stops the axis by itself
+  static_cast<void>(client::stop_rig(daemon));
 }
 
 void Jogger::press(Key key, TimePoint now) {
@@ -49,7 +50,7 @@ Result<std::optional<client::Rig>> Jogger::tick(TimePoint now) {
   if (now - told_ < kPeriod) return std::nullopt;
   told_ = now;
   auto rig = client::jog_rig(daemon_, lease_id_, direction_ * speed_mm_per_s_);
-  // What was refused needs no stop, and a stop might hit a motion that is not ours.
+  // A refused jog needs no stop, and a stop might hit another user's motion.
   moved_ = moved_ || rig || may_have_moved(rig.error());
   refusal_ = rig ? "" : rig.error().message;
   if (rig) return std::move(*rig);

@@ -9,18 +9,18 @@
 
 namespace hydroprint::cli {
 
-/// Makes a held key a jog. A terminal tells of a key that is held by repeating it, after a delay
-/// that is the keyboard's (often half a second), and never of its release. So each key event moves
-/// the axis for kHeldFor, the next event prolongs that, and without one the axis is stopped: a tap
-/// is a short step, and a key that is held moves on once it repeats. Bridging the first delay
-/// instead would let go half a second late, every time.
+/// Turns a held key into a jog. A terminal reports a held key by repeating it after a delay (often
+/// half a second), and does not report its release. So each key event moves the axis for kHeldFor,
+/// and the next event prolongs that. Without a further event the axis is stopped: a tap is a short
+/// step, and a held key continues the motion once it repeats. Bridging the first delay instead
+/// would stop the axis half a second late after every release.
 class Jogger {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
 
-  /// Time for which one key event moves the axis.
+  /// Duration of the motion for one key event.
   static constexpr std::chrono::milliseconds kHeldFor{200};
-  /// How often the daemon is told that the key is held.
+  /// Interval of the jog commands while a key is held.
   static constexpr std::chrono::milliseconds kPeriod{100};
 
   /// @param speed_mm_per_s  above 0
@@ -30,18 +30,17 @@ class Jogger {
   Jogger(const Jogger&) = delete;
   Jogger& operator=(const Jogger&) = delete;
 
-  /// Takes a key: a direction holds, faster and slower double and halve the speed, any other lets
-  /// go.
+  /// Handles a key: directions start a jog, faster and slower double and halve the speed, any other
+  /// key stops.
   void press(Key key, TimePoint now);
-  /// To be called at least every 50 ms: jogs while a key is held, and stops the axis when it is let
-  /// go. What the rig refuses for the time being (a limit, a motion that has to end) is told by
-  /// text().
-  /// @return the rig's answer, if it was asked; what makes going on pointless
+  /// Must be called at least every 50 ms. Jogs while a key is held, and stops the axis after its
+  /// release. Temporary refusals of the rig (a limit, a motion that has to end) appear in text().
+  /// @return the rig's response, if a command was sent; an error if jogging cannot continue
   [[nodiscard]] Result<std::optional<client::Rig>> tick(TimePoint now);
 
-  /// "down at 5.00 mm/s", or why not.
+  /// "down at 5.00 mm/s", or the reason why the axis does not move.
   [[nodiscard]] std::string text() const;
-  /// Whether a key is held, or the axis was not told to stop yet.
+  /// Whether a key is held, or the stop has not been sent yet.
   [[nodiscard]] bool is_held() const { return direction_ != 0 || moved_; }
 
  private:
@@ -50,10 +49,10 @@ class Jogger {
   client::Connection& daemon_;
   std::string lease_id_;
   double speed_mm_per_s_;
-  int direction_ = 0;  // 1 down, -1 up, 0 at rest
+  int direction_ = 0;  // 1 down, -1 up, 0 at standstill
   TimePoint pressed_, told_;
-  bool moved_ = false;   // the daemon was told to jog, and not to stop since
-  std::string refusal_;  // why the latest jog was not obeyed
+  bool moved_ = false;   // a jog was sent, and no stop since
+  std::string refusal_;  // why the last jog was refused
 };
 
 }  // namespace hydroprint::cli

@@ -28,8 +28,8 @@ std::filesystem::path folder() {
 
 Status cannot_keep(const std::filesystem::path& file) {
   return fail(Code::kPermissionDenied,
-              file.string() + ": the lease cannot be kept there: " + std::strerror(errno) +
-                  "; set XDG_RUNTIME_DIR to a folder of yours that can be written");
+              file.string() + ": the lease cannot be stored there: " + std::strerror(errno) +
+                  "; set XDG_RUNTIME_DIR to a folder that you can write to");
 }
 
 bool write_new(const std::filesystem::path& file, const std::string& text) {
@@ -52,7 +52,7 @@ std::filesystem::path lease_file(const std::string& server) {
 
 Status keep_lease(const std::string& server, const std::string& lease_id) {
   const auto file = lease_file(server);
-  std::error_code ignored;  // what is wrong shows when the file is written
+  std::error_code ignored;  // writing the file reports the error
   std::filesystem::create_directories(file.parent_path(), ignored);
   ::chmod(file.parent_path().c_str(), 0700);
   const auto part = file.string() + "." + std::to_string(::getpid());

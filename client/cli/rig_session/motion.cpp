@@ -24,20 +24,22 @@ bool moves(const client::Rig& rig) {
 }
 
 std::string position(const client::Rig& rig) {
-  return rig.position_mm ? "at " + format_fixed(*rig.position_mm) + " mm" : "at an unknown place";
+  return rig.position_mm ? "at " + format_fixed(*rig.position_mm) + " mm"
+                         : "at an unknown position";
 }
 
-// Whether the motion of that number has ended, and whatever is to be seen of its end was.
+// Whether the motion has ended, and the axis is at standstill or no longer moving.
 bool is_over(const client::Rig& rig, std::uint64_t number) {
   if (!rig.motion || rig.motion->number != number) return true;
   if (rig.motion->outcome == client::MotionOutcome::kRunning) return false;
   return rig.motion->at_rest || !moves(rig);
 }
 
-// What became of it, where that is not all one could wish.
+// Returns an error if the motion did not reach its target.
 Status judge(const client::Rig& rig, std::uint64_t number) {
   if (!rig.motion || rig.motion->number != number)
-    return fail(Code::kAborted, "another motion came after this one; see 'hydroprint rig status'");
+    return fail(Code::kAborted,
+                "another motion has replaced this one; see 'hydroprint rig status'");
   const client::Motion& motion = *rig.motion;
   if (motion.outcome == client::MotionOutcome::kDone) return {};
   if (motion.outcome == client::MotionOutcome::kStopped)
@@ -51,17 +53,18 @@ Status judge(const client::Rig& rig, std::uint64_t number) {
 Error stopped_on_request(const Program& program) {
   const auto rig = stop_and_wait(program);
   if (!rig)
-    return {rig.error().code, "the axis could not be told to stop: " + rig.error().message,
+    return {rig.error().code, "the stop command failed: " + rig.error().message,
             rig.error().reason};
   if (moves(*rig))
-    return {Code::kCancelled, "interrupted: the axis was told to stop, and still moves", {}};
+    return {Code::kCancelled,
+            "interrupted: the stop was sent, but the axis still moves; use the stop button",
+            {}};
   return {Code::kCancelled, "interrupted: the axis was stopped " + position(*rig), {}};
 }
 
 Error lost(Error error) {
   error.message +=
-      "; what became of the motion is not known: see 'hydroprint rig status', or use the stop "
-      "button";
+      "; the axis may still be moving. See 'hydroprint rig status', or use the stop button";
   return error;
 }
 

@@ -98,7 +98,7 @@ void LiveLine::say(const std::string& text) {
 }
 
 void LiveLine::write(const std::string& text) const {
-  // A terminal that is gone is no reason to stop.
+  // Losing the terminal is not an error.
   [[maybe_unused]] const auto written = ::write(descriptor_, text.data(), text.size());
 }
 

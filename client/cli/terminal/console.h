@@ -8,7 +8,7 @@
 
 namespace hydroprint::cli {
 
-/// Without control characters, so that no name can move a terminal's cursor.
+/// Removes control characters, so that no name can move a terminal's cursor.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// "0:07", "12:30", "1:02:03".
@@ -17,20 +17,20 @@ namespace hydroprint::cli {
 /// "312 B", "4.2 MB".
 [[nodiscard]] std::string format_bytes(std::int64_t bytes);
 
-/// Local time, "2026-03-01 14:05:09"; "-" for none.
+/// Local time, "2026-03-01 14:05:09"; "-" for nullopt.
 [[nodiscard]] std::string format_time(
     const std::optional<std::chrono::system_clock::time_point>& time);
 
 /// UTC, RFC 3339, for JSON.
 [[nodiscard]] std::string format_rfc3339(std::chrono::system_clock::time_point time);
 
-/// "0.05", "-12.30": for millimetres, and millimetres per second.
+/// "0.05", "-12.30": for millimetres and millimetres per second.
 [[nodiscard]] std::string format_fixed(double value);
 
-/// One line at the bottom of a terminal that is written over again and again.
+/// A line at the bottom of a terminal that is updated in place.
 class LiveLine {
  public:
-  /// @param descriptor  of the terminal; if it is none, nothing is ever shown
+  /// @param descriptor  if it is not a terminal, the live line is never shown
   explicit LiveLine(int descriptor);
   ~LiveLine() { clear(); }
   LiveLine(const LiveLine&) = delete;
@@ -38,9 +38,9 @@ class LiveLine {
 
   [[nodiscard]] bool is_terminal() const { return is_terminal_; }
   void show(const std::string& text);
-  /// Takes the line away.
+  /// Erases the line.
   void clear();
-  /// A line that stays, above the live one; shown wherever the descriptor leads.
+  /// Prints a permanent line above the live one, also if the descriptor is not a terminal.
   void say(const std::string& text);
 
  private:
@@ -51,17 +51,17 @@ class LiveLine {
   bool shown_ = false;
 };
 
-/// A live line with a bar.
+/// A live line with a progress bar.
 class ProgressLine {
  public:
   explicit ProgressLine(int descriptor) : line_(descriptor) {}
 
   [[nodiscard]] bool is_terminal() const { return line_.is_terminal(); }
-  /// "label [####----]  48%  text"
+  /// Shows "label [####----]  48%  text".
   void show(const std::string& label, double fraction, const std::string& text);
-  /// Takes the line away.
+  /// Erases the line.
   void clear() { line_.clear(); }
-  /// A line that stays, above the live one; shown wherever the descriptor leads.
+  /// Prints a permanent line above the live one, also if the descriptor is not a terminal.
   void say(const std::string& text) { line_.say(text); }
 
  private:

@@ -8,14 +8,14 @@
 namespace hydroprint::cli {
 namespace {
 
-constexpr int kEnd = SIGUSR1;  // what the destructor sends to the listener
+constexpr int kEnd = SIGUSR1;  // sent by the destructor to the listener
 
 [[noreturn]] void leave(int status) {
   restore_terminal();
   _exit(status);
 }
 
-// Under nohup it is, and a blocked signal would be taken all the same.
+// Whether the signal is ignored, as SIGHUP under nohup. sigwait() would receive it nevertheless.
 bool is_ignored(int signal) {
   struct sigaction action {};
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
@@ -38,7 +38,7 @@ Interrupt::~Interrupt() {
 
 void Interrupt::listen() {
   for (int signal = 0; sigwait(&signals_, &signal) == 0 && signal != kEnd;) {
-    if (signal == SIGHUP) leave(128 + SIGHUP);  // the terminal is gone: nobody asked to stop
+    if (signal == SIGHUP) leave(128 + SIGHUP);  // the terminal was closed; jobs continue
     if (stop_.stop_requested()) leave(static_cast<int>(ExitStatus::kCancelled));
     stop_.request_stop();
   }

@@ -7,7 +7,7 @@
 namespace hydroprint::cli {
 
 /// Turns the first Ctrl-C (or SIGTERM) into a stop request; a second one ends the program at once.
-/// To be made before any other thread, which then inherits that these signals are left to it.
+/// Must be created before any other thread, so that all threads inherit the blocked signals.
 class Interrupt {
  public:
   Interrupt();

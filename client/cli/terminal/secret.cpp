@@ -10,8 +10,8 @@ namespace {
 
 constexpr char kCtrlC = 3;
 
-// The terminal without echo, for as long as this lives. Ctrl-C ends the line instead of the
-// program, which would leave the terminal as it is.
+// Disables the terminal's echo while this object lives. Ctrl-C ends the line instead of the
+// program, which would leave the echo disabled.
 class Unseen {
  public:
   Unseen() {
@@ -36,7 +36,7 @@ class Unseen {
 
 bool is_asked() { return isatty(STDIN_FILENO) == 1; }
 
-// Byte by byte: a line that ends with Ctrl-C has no end for std::getline.
+// Reads byte by byte: std::getline would wait for the rest of a line that ended with Ctrl-C.
 Result<std::string> read_line() {
   std::string line;
   for (char c = 0;;) {
@@ -67,8 +67,8 @@ Result<std::string> ask_secret(const std::string& prompt) {
 Result<std::string> ask_new_password() {
   HP_ASSIGN_OR_RETURN(std::string password, ask_secret("New password: "));
   if (!is_asked()) return password;
-  HP_ASSIGN_OR_RETURN(const std::string again, ask_secret("The same again: "));
-  if (again != password) return fail(Code::kInvalidArgument, "the two are not the same; try again");
+  HP_ASSIGN_OR_RETURN(const std::string again, ask_secret("Repeat password: "));
+  if (again != password) return fail(Code::kInvalidArgument, "the passwords differ; try again");
   return password;
 }
 

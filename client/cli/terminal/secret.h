@@ -6,12 +6,12 @@
 
 namespace hydroprint::cli {
 
-/// Asks for a line that is not shown while it is typed; where standard input is no terminal, its
-/// next line is taken, without asking.
-/// @return kCancelled on Ctrl-C; kInvalidArgument if there is none
+/// Asks for a line without echo. If standard input is not a terminal, reads its next line without a
+/// prompt.
+/// @return kCancelled on Ctrl-C; kInvalidArgument at the end of input
 [[nodiscard]] Result<std::string> ask_secret(const std::string& prompt);
 
-/// As above, but shown.
+/// Same, with echo.
 [[nodiscard]] Result<std::string> ask(const std::string& prompt);
 
 /// Asks for a new password, twice on a terminal.

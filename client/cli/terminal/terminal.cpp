@@ -13,7 +13,7 @@ namespace hydroprint::cli {
 namespace {
 
 std::mutex before_mutex;
-std::optional<termios> before;  // how the terminal was
+std::optional<termios> before;  // settings before the first Keyboard
 
 bool skip(std::string_view& text, std::string_view start) {
   if (!text.starts_with(start)) return false;

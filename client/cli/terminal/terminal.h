@@ -5,12 +5,12 @@
 
 namespace hydroprint::cli {
 
-/// What a key means where the axis is moved by keys.
+/// The meaning of a key in interactive control of the axis.
 enum class Key { kUp, kDown, kFaster, kSlower, kEnter, kQuit, kOther };
 
-/// The keys of the terminal on standard input one by one, as they are pressed and without echo, for
-/// as long as this lives. Ctrl-C still interrupts; Ctrl-Z and Ctrl-\ are keys as any other, since
-/// who moves the axis must not be suspended. At most one at a time.
+/// Reads keys from the terminal on standard input one by one and without echo, while this object
+/// lives. Ctrl-C still interrupts. Ctrl-Z and Ctrl-\ are ordinary keys, because a program that
+/// moves the axis must not be suspended. At most one instance at a time.
 class Keyboard {
  public:
   Keyboard();
@@ -21,9 +21,9 @@ class Keyboard {
   /// Whether standard input is a terminal.
   [[nodiscard]] static bool is_there();
 
-  /// The keys pressed, in their order, as soon as there are any; none once `limit` is over.
+  /// Waits for keys and returns those pressed, in order; empty after `limit`.
   [[nodiscard]] std::vector<Key> read(std::chrono::milliseconds limit);
-  /// Forgets the keys pressed but not read yet.
+  /// Discards keys that were pressed but not read yet.
   static void forget();
   /// True once the terminal is closed.
   [[nodiscard]] bool gone() const { return gone_; }
@@ -32,8 +32,8 @@ class Keyboard {
   bool gone_ = false;
 };
 
-/// Puts the terminal back as it was before a Keyboard changed it, if one did: for whoever ends the
-/// program without ending its objects.
+/// Restores the terminal settings from before a Keyboard changed them. For exits that run no
+/// destructors.
 void restore_terminal();
 
 }  // namespace hydroprint::cli

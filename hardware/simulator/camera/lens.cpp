@@ -6,10 +6,10 @@
 namespace hydroprint::simulated_camera {
 namespace {
 
-/// Half of the ranges that lenses are drawn from, about their middles. Khoshelham and Elberink
-/// (Sensors 12, 2012, table 1): focal length 5.453 mm = 586 px, 1.8 % above the maker's, principal
-/// point 7 and 4 px off. Smisek, Jancosek and Pajdla (3D with Kinect, 2011): 585.6 px, k1 = -0.13,
-/// k2 = 0.45, p1 and p2 of 0.001, depths some per mille to a per cent off.
+/// Half widths of the ranges that lenses are drawn from. Khoshelham and Elberink (Sensors 12, 2012,
+/// table 1): focal length 5.453 mm = 586 px, 1.8 % above the manufacturer's value, principal point
+/// off by 7 and 4 px. Smisek, Jancosek and Pajdla (3D with Kinect, 2011): 585.6 px, k1 = -0.13, k2
+/// = 0.45, p1 and p2 of 0.001, depths off by 0.1 to 1 %.
 constexpr double kFocalSpread = 0.02;
 constexpr double kCentreSpread_px = 8;
 constexpr double kK1 = -0.10, kK1Spread = 0.05;
@@ -18,7 +18,7 @@ constexpr double kTangentialSpread = 0.002;
 constexpr double kDepthSpread = 0.01;
 
 double between(std::mt19937_64& random, double middle, double spread) {
-  // Not std::uniform_real_distribution, which is another one in every library.
+  // std::uniform_real_distribution differs between standard libraries.
   return middle + spread * (static_cast<double>(random() >> 11U) * 0x1p-52 - 1);
 }
 
@@ -54,7 +54,7 @@ Eigen::Vector2d project(const Lens& lens, const Eigen::Vector2d& direction) {
 
 Eigen::Vector2d unproject(const Lens& lens, const Eigen::Vector2d& pixel) {
   const Eigen::Vector2d wanted = (pixel - lens.centre_px) / lens.focal_px;
-  // Distortion moves points by a few per cent, so the fixed point is reached at once.
+  // Distortion moves points by a few per cent, so the fixed-point iteration converges quickly.
   Eigen::Vector2d out = wanted;
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector2d miss = wanted - distorted(lens, out);

@@ -5,26 +5,26 @@
 
 namespace hydroprint::simulated_camera {
 
-/// Size of a frame, its rate, and the range of depths it tells, as a first-generation Kinect's.
+/// Frame size, frame rate and depth range of a first-generation Kinect.
 inline constexpr int kWidth_px = 640;
 inline constexpr int kHeight_px = 480;
 inline constexpr int kRate_hz = 30;
 inline constexpr int kLeast_mm = 400;
 inline constexpr int kMost_mm = 4000;
 
-/// What the maker says: focal length and, with it, the fields of view (57.5 by 45 degrees), and the
-/// distance of the projector beside the camera, along +x (Konolige and Mihelich, Technical
+/// The manufacturer's focal length (it implies the fields of view, 57.5 by 45 degrees) and the
+/// distance of the projector from the camera, along +x (Konolige and Mihelich, Technical
 /// description of Kinect calibration, ROS, 2011: 580 px and 75 mm).
 inline constexpr double kFocal_px = 575.8;
 inline constexpr double kBaseline_mm = 75;
 [[nodiscard]] double horizontal_fov_rad();
 [[nodiscard]] double vertical_fov_rad();
 
-/// How a camera images: a point (X, Y, Z) of camera coordinates, x = X / Z, y = Y / Z, r² = x² +
-/// y², is seen at centre + focal (x_d, y_d) with Brown's
+/// The projection model of a camera. A point (X, Y, Z) of camera coordinates, with x = X / Z, y = Y
+/// / Z, r² = x² + y², is projected to centre + focal (x_d, y_d) with Brown's
 ///   x_d = x (1 + k1 r² + k2 r⁴) + 2 p1 x y + p2 (r² + 2 x²)
 ///   y_d = y (1 + k1 r² + k2 r⁴) + p1 (r² + 2 y²) + 2 p2 x y
-/// in pixels whose centres are at whole numbers, and told at depth Z times depth_scale.
+/// in pixels whose centres are at whole numbers. Its reported depth is Z times depth_scale.
 struct Lens {
   double focal_px = kFocal_px;
   Eigen::Vector2d centre_px{(kWidth_px - 1) / 2.0, (kHeight_px - 1) / 2.0};
@@ -32,13 +32,13 @@ struct Lens {
   double depth_scale = 1;
 };
 
-/// One camera of many, so different from what the maker says as published calibrations are.
+/// Draws a camera that differs from the manufacturer's values as much as published calibrations do.
 [[nodiscard]] Lens drawn_lens(std::uint64_t seed);
 
-/// Where a direction (x, y, 1) is seen.
+/// Returns the pixel of a direction (x, y, 1).
 [[nodiscard]] Eigen::Vector2d project(const Lens& lens, const Eigen::Vector2d& direction);
 
-/// The direction that is seen there: the inverse of project(), to 1e-12.
+/// Returns the direction of a pixel: the inverse of project(), to 1e-12.
 [[nodiscard]] Eigen::Vector2d unproject(const Lens& lens, const Eigen::Vector2d& pixel);
 
 }  // namespace hydroprint::simulated_camera

@@ -17,12 +17,12 @@ namespace {
 
 constexpr int kPacket = 8;
 static_assert(kWidth_px * kHeight_px / 2 % kPacket == 0);
-/// Cosine of the angle to the normal, squared, beyond which nothing is measured.
+/// Squared cosine of the angle to the normal below which nothing is measured.
 const float kFlattest = static_cast<float>(std::pow(std::sin(std::numbers::pi / 18), 2));
-/// Where a ray to the light starts, as a share of its way: clear of the surface that it starts at.
+/// Start of a ray to the light, as a share of its length, so that it does not hit its own surface.
 constexpr float kClear = 5e-4F;
 
-/// Owns a handle of Embree's.
+/// Owns an Embree handle.
 template <class Handle, void (*release)(Handle)>
 class Owned {
  public:
@@ -44,7 +44,7 @@ class Owned {
 using Device = Owned<RTCDevice, rtcReleaseDevice>;
 using Tree = Owned<RTCScene, rtcReleaseScene>;
 
-/// One to add meshes to. Watertight: a ray must not slip through between two triangles.
+/// Creates an empty tree. It is watertight: no ray slips through between two triangles.
 Tree empty_tree(RTCDevice device) {
   Tree out(rtcNewScene(device));
   rtcSetSceneFlags(out.get(), RTC_SCENE_FLAG_ROBUST);
@@ -85,9 +85,9 @@ struct Renderer::Rays {
   Device device;
   Tree hanging;                   // G
   Tree all;                       // F
-  RTCGeometry gripper = nullptr;  // `hanging` within `all`, which owns it
+  RTCGeometry gripper = nullptr;  // instance of `hanging` in `all`, which owns it
   unsigned gripper_id = RTC_INVALID_GEOMETRY_ID;
-  std::vector<simulated_scene::MarkerState> markers;  // as they are in `all`
+  std::vector<simulated_scene::MarkerState> markers;  // state of the markers in `all`
 
   [[nodiscard]] bool build_hanging();
   [[nodiscard]] bool build_all();
@@ -148,16 +148,16 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const simulated_scene::Scener
   }
   rays->device = Device(rtcNewDevice("threads=1,set_affinity=0"));
   if (rays->device.get() == nullptr || !rays->build_hanging() || !rays->build_all()) {
-    return fail(
-        Code::kInternal,
-        "the scene cannot be drawn: Embree refuses it. Use a smaller model, or more memory");
+    return fail(Code::kInternal,
+                "the scene cannot be rendered: Embree reports an error. Use a smaller model, or "
+                "more memory");
   }
   return std::unique_ptr<Renderer>(new Renderer(std::move(rays)));
 }
 
 namespace {
 
-/// What the rays of one packet hit.
+/// Eight rays and their hits.
 struct Packet {
   alignas(32) RTCRayHit8 rays;
   alignas(32) int valid[kPacket];
@@ -184,7 +184,7 @@ void aim(Packet& packet, const Eigen::Vector2f* directions, const Eigen::Isometr
   }
 }
 
-/// Whether a ray has hit a surface that is not seen too flat. `turn`: of what hangs.
+/// Whether a ray has hit a surface at a sufficient angle. `turn`: orientation of the hanging body.
 bool faces(const Packet& packet, int i, const Eigen::Matrix3f& turn) {
   const auto& hit = packet.rays.hit;
   if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) return false;
@@ -196,7 +196,7 @@ bool faces(const Packet& packet, int i, const Eigen::Matrix3f& turn) {
   return along * along >= kFlattest * normal.squaredNorm() * direction.squaredNorm();
 }
 
-/// Rays from what was hit to the light; `valid` says which.
+/// Rays from the hit points to the light; `valid` selects them.
 RTCRay8 towards(const Packet& packet, const Eigen::Vector3f& light) {
   alignas(32) RTCRay8 out;
   const RTCRay8& in = packet.rays.ray;
@@ -235,18 +235,18 @@ Depths Renderer::look(const simulated_scene::Sight& sight, const Pose& X_FC, boo
       aim(packet, &rays_->directions[first], camera);
       rtcIntersect8(packet.valid, all, &context, &packet.rays);
       for (int i = 0; i < kPacket; ++i) packet.valid[i] = faces(packet, i, turn) ? -1 : 0;
-      // Directions have z = 1 in the camera's frame, so the way along one is the depth.
+      // Directions have z = 1 in the camera's frame, so the length along one is the depth.
       RTCRay8 back = towards(packet, light);
       if (lit) rtcOccluded8(packet.valid, all, &context, &back);
       for (int i = 0; i < kPacket; ++i) {
-        const bool is_dark = lit && back.tfar[i] < 0;  // Embree's mark
+        const bool is_dark = lit && back.tfar[i] < 0;  // Embree's result for an occluded ray
         if (packet.valid[i] != 0 && !is_dark) {
           out[first + static_cast<std::size_t>(i)] = packet.rays.ray.tfar[i];
         }
       }
     }
   };
-  // Two threads: one is not quite enough for 30 frames a second.
+  // One thread is too slow for 30 frames per second.
   const std::size_t half = out.size() / 2;
   std::thread lower(trace, half, out.size());
   trace(0, half);

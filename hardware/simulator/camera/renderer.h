@@ -9,25 +9,25 @@
 
 namespace hydroprint::simulated_camera {
 
-/// Looks at a scene with one camera: rays by Embree, a lens in front, a sensor behind. What comes
-/// out depends on the arguments alone. Not for several threads at a time; uses two itself.
+/// Renders a scene with one camera: Embree traces rays, then lens and sensor errors are applied.
+/// The result depends only on the arguments. Not thread-safe; uses two threads itself.
 class Renderer {
  public:
-  /// Refuses (kInternal) if Embree does.
+  /// Returns kInternal if Embree fails.
   [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(
       const simulated_scene::Scenery& scenery, const Lens& lens);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Depths without errors, from a pose X_FC (simulated_scene::camera_pose). Where there is
-  /// nothing, or the surface is seen at less than 10 degrees (Nguyen et al. 2012: no measurements
-  /// there): 0.
-  /// @param lit  only where the projector's light arrives, too
+  /// Renders depths without errors, from a pose X_FC (simulated_scene::camera_pose). A depth is 0
+  /// where nothing is hit, or where the surface is seen at less than 10 degrees (Nguyen et al.
+  /// 2012: no measurements there).
+  /// @param lit  only where the projector's light arrives as well
   [[nodiscard]] Depths look(const simulated_scene::Sight& sight, const Pose& X_FC, bool lit = true);
 
-  /// A frame of the scenery's own camera, where it is at that time, with all of its errors (or
-  /// none, if it has none). A sight whose camera is frozen, black or gone is taken as well.
+  /// Renders a frame of the scenery's own camera at its pose for that time, with all of its errors
+  /// (or none, if it has none). Accepts a sight whose camera is frozen, black or gone.
   [[nodiscard]] Frame photograph(const simulated_scene::Sight& sight);
 
  private:
@@ -36,7 +36,7 @@ class Renderer {
   std::unique_ptr<Rays> rays_;
 };
 
-/// The lens of a scenery's camera: the maker's, if it has no errors.
+/// Returns the lens of a scenery's camera; the manufacturer's values if the camera has no errors.
 [[nodiscard]] Lens lens_of(const simulated_scene::Scenery& scenery);
 
 }  // namespace hydroprint::simulated_camera

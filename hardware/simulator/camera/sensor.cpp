@@ -7,13 +7,13 @@
 namespace hydroprint::simulated_camera {
 namespace {
 
-/// A jump to a neighbour's depth beyond this share of it is an edge; there the correlation window
-/// (9 x 9 pixels, Konolige and Mihelich 2011) sees two surfaces, and as often as not neither is
-/// found.
+/// A relative jump to a neighbour's depth beyond this is an edge. The correlation window (9 x 9
+/// pixels, Konolige and Mihelich 2011) sees two surfaces there, and about half of the pixels have
+/// no measurement.
 constexpr float kEdgeJump = 0.02F;
 constexpr std::uint64_t kMissing = 0x80000000U;  ///< of 2^32
 
-/// A well mixed word for each word (the finaliser of Steele, Lea and Flood's SplitMix, 2014).
+/// Mixes the bits of a word (the finaliser of Steele, Lea and Flood's SplitMix, 2014).
 std::uint64_t mixed(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15U;
   x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
@@ -23,7 +23,7 @@ std::uint64_t mixed(std::uint64_t x) {
 
 constexpr std::size_t kQuantiles = 1U << 14U;
 
-/// Normal numbers of mean 0 and variance 1, at the middles of as many equal shares.
+/// Quantiles of the standard normal distribution, at the midpoints of equal probability intervals.
 std::array<float, kQuantiles> normal_quantiles() {
   std::array<float, kQuantiles> out{};
   double low = -6;

@@ -37,9 +37,9 @@ Result<std::size_t> CameraControl::index_of(const std::string& marker) const {
     names += (names.empty() ? "" : ", ") + scene_.markers[i].name;
     if (scene_.markers[i].name == marker) return i;
   }
-  return fail(Code::kInvalidArgument, "no marker is called \"" + marker.substr(0, 40) +
-                                          "\". Name one of " +
-                                          (names.empty() ? "a --scene's" : names));
+  return fail(Code::kInvalidArgument, "there is no marker \"" + marker.substr(0, 40) +
+                                          "\". Use one of " +
+                                          (names.empty() ? "the markers in --scene" : names));
 }
 
 Status CameraControl::set(const std::string& marker, simulated_scene::MarkerState state) {

@@ -10,33 +10,32 @@
 
 namespace hydroprint::simulated_drive {
 
-/// What the camera of the rig is told when it looks; it draws its frames itself, in whatever
-/// process it is open. Any thread may call.
+/// The data that the rig sends to its cameras, which render their frames themselves, in any
+/// process. Thread-safe.
 class CameraControl {
  public:
   explicit CameraControl(const Scene& scene) : scene_(scene) {}
 
-  /// What there is to see, as one line of JSON (simulated_scene::scenery_of). Refuses what the
-  /// scene's scenery_of refuses.
+  /// The scenery as one line of JSON (simulated_scene::scenery_of). Returns the errors of the
+  /// scene's scenery_of.
   [[nodiscard]] Result<std::string> scenery_json();
 
-  /// What of it changes (simulated_scene::sight_of), with the carriage at `x_mm`.
+  /// The variable part (simulated_scene::sight_of), with the carriage at `x_mm`.
   [[nodiscard]] std::string sight_json(double time_s, double x_mm);
 
   void set(simulated_scene::CameraState state);
-  /// Refuses (kInvalidArgument) a name that no marker has.
+  /// Returns kInvalidArgument if no marker has that name.
   [[nodiscard]] Status set(const std::string& marker, simulated_scene::MarkerState state);
-  /// The marker stands so much farther, for whoever looks anew. Refuses as above.
+  /// Moves the marker by this distance, for cameras that are opened later. Errors: as above.
   [[nodiscard]] Status push(const std::string& marker, const Eigen::Vector2d& by_mm);
-  /// The object hangs otherwise from now on, for whoever looks anew: as the pose file says, in
-  /// place of the scene's, and with a mesh (in mm) another one does. Refuses what read_pose_file
-  /// and scenery_of refuse.
+  /// Changes the object's pose to that of the pose file, for cameras that are opened later; with a
+  /// mesh (in mm), also replaces the object. Errors: those of read_pose_file and scenery_of.
   [[nodiscard]] Status hang(const std::filesystem::path& pose, const std::filesystem::path& mesh);
-  /// Whoever looks anew sees this mesh (in mm) alone, held where the pose file says in the camera's
-  /// frame (x to the right of its image, y down, z forward): a calibration board. Without names the
-  /// rig again. Refuses as `hang` does.
+  /// Shows only this mesh (in mm) to cameras that are opened later, for example a calibration
+  /// board. Its pose is in the camera's frame (x to the right of its image, y down, z forward).
+  /// Without names, shows the rig again. Errors: as for `hang`.
   [[nodiscard]] Status show(const std::filesystem::path& pose, const std::filesystem::path& mesh);
-  /// All well again.
+  /// Clears all faults.
   void clear();
 
  private:
@@ -44,7 +43,7 @@ class CameraControl {
 
   std::mutex mutex_;
   Scene scene_;
-  std::optional<std::string> scenery_;  // once asked for; while something is shown, that
+  std::optional<std::string> scenery_;  // cached; while `show` is active, that scene
   simulated_scene::Sight sight_;
 };
 

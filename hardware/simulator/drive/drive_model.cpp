@@ -9,7 +9,8 @@ namespace {
 using drive::Command;
 
 constexpr double kScan_s = 1e-3;
-constexpr double kCatchUp = 3;  // a carriage let go follows at so many times the largest speed
+// a released carriage catches up at this multiple of the largest speed
+constexpr double kCatchUp = 3;
 
 Goal velocity_goal(const Machine& machine, double v_mm_per_s) {
   return {Goal::Kind::kVelocity, 0, v_mm_per_s, machine.acceleration_mm_per_s2,
@@ -43,7 +44,7 @@ bool is_homing(const Model& model) {
          model.mode == Mode::kHomeToZero;
 }
 
-/// The way in which the drive wants to go: -1, 0, 1.
+/// The direction of the drive's motion: -1, 0, 1.
 int direction(const Model& model) {
   const double ahead = model.goal.kind == Goal::Kind::kPosition
                            ? model.goal.target_mm - model.demand.x_mm
@@ -83,7 +84,7 @@ void look_at_switches(const Machine& machine, Model& model, const Inputs& inputs
 }
 
 void look_at_clocks(const Machine& machine, Model& model) {
-  const double slack = 1e-9;  // of sums of milliseconds
+  const double slack = 1e-9;  // tolerance for sums of milliseconds
   const bool watched =
       machine.watchdog_s > 0 && model.enabled() && machine.watchdog_action == WatchdogAction::kStop;
   if (watched && model.time_s - model.heard_s > machine.watchdog_s - slack) {
@@ -96,7 +97,7 @@ void look_at_clocks(const Machine& machine, Model& model) {
 }
 
 void set_zero(Model& model, double before_mm) {
-  // The switch's edge lies between the last two looks.
+  // The switch's edge lies between the last two samples.
   model.zero_mm = before_mm <= 0 && model.actual.x_mm > 0 ? 0 : model.actual.x_mm;
   model.homed = true;
 }
@@ -145,7 +146,7 @@ void scan(const Machine& machine, Model& model, const Inputs& inputs, double dt_
   if (machine.enables_itself && model.mode == Mode::kOff && may_enable) model.mode = Mode::kHold;
 }
 
-/// Starts motion, unless it is forbidden.
+/// Starts a motion, unless it is forbidden.
 std::optional<Model> start(const Machine& machine, Model model, const Inputs& inputs, Mode mode,
                            const Goal& goal) {
   const bool ready = model.enabled() && model.alarm == kNoAlarm && !inputs.stop_button;

@@ -65,7 +65,7 @@ Words split(std::string_view text, std::string_view separators) {
   return out;
 }
 
-/// Words between blanks; one in double quotes may hold blanks.
+/// Splits at spaces; a word in double quotes may contain spaces.
 Words quoted_words(std::string_view text) {
   Words out;
   std::istringstream in{std::string(text)};
@@ -80,7 +80,7 @@ std::optional<std::int64_t> read_number(std::string_view text) {
   return out;
 }
 
-/// "700ms" or "2s".
+/// Parses "700ms" or "2s".
 std::optional<milliseconds> read_duration(std::string_view text) {
   const bool in_ms = text.ends_with("ms");
   if (!in_ms && !text.ends_with("s")) return std::nullopt;
@@ -94,10 +94,10 @@ std::optional<milliseconds> read_duration(std::string_view text) {
 tl::unexpected<Error> refuse(std::string_view line) {
   return fail(Code::kInvalidArgument,
               "\"" + std::string(line.substr(0, 80)) +
-                  "\" is nothing that can be done. There is: " + std::string(action_help()));
+                  "\" is not a known action. Use: " + std::string(action_help()));
 }
 
-/// COUNT at words[at], if there is one.
+/// Parses COUNT at words[at], if present.
 bool take_count(const Words& words, std::size_t at, ReplyFault& reply_fault) {
   if (words.size() == at) return true;
   if (words.size() > at + 1) return false;
@@ -159,7 +159,7 @@ std::optional<State> look_up_state(const std::string_view (&words)[N], std::stri
   return static_cast<State>(found - std::begin(words));
 }
 
-/// "hang held.json", "hang held.json mug.obj", "show held.json board.obj", "show nothing".
+/// Parses "hang held.json", "hang held.json mug.obj", "show held.json board.obj", "show nothing".
 std::optional<Action> parse_held(const Words& words) {
   Action out;
   const bool is_nothing = words == Words{"show", "nothing"};
@@ -172,7 +172,7 @@ std::optional<Action> parse_held(const Words& words) {
   return out;
 }
 
-/// "marker left pushed 3.5 -2".
+/// Parses "marker left pushed 3.5 -2".
 std::optional<Action> parse_push(const Words& words) {
   if (words.size() != 5 || words[0] != "marker" || words[2] != "pushed") return std::nullopt;
   constexpr double kFarthest_mm = 1000;
@@ -187,7 +187,7 @@ std::optional<Action> parse_push(const Words& words) {
   return out;
 }
 
-/// "camera gone", "marker left hidden".
+/// Parses "camera gone", "marker left hidden".
 std::optional<Action> parse_sight(const Words& words) {
   Action out;
   if (words[0] == "camera" && words.size() == 2) {

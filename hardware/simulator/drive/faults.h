@@ -11,44 +11,44 @@
 
 namespace hydroprint::simulated_drive {
 
-/// What can be wrong with one reply.
+/// A fault of one reply.
 enum class ReplyFaultKind {
   kNone,
-  kLate,           ///< comes `delay` later
-  kDrop,           ///< never comes
-  kTruncate,       ///< half of it comes
-  kWrongId,        ///< from another unit
-  kWrongFunction,  ///< for another function
+  kLate,           ///< arrives `delay` later
+  kDrop,           ///< never arrives
+  kTruncate,       ///< only half arrives
+  kWrongId,        ///< of another unit
+  kWrongFunction,  ///< of another function
   kWrongCrc,       ///< RTU: checksum; TCP: transaction id
-  kWrongLength,    ///< well framed, but a word short; of a write: repeats another value
-  kBusy,           ///< exception 6; the request is not obeyed
-  kDeaf,           ///< the request is not even heard
+  kWrongLength,    ///< well framed, but a word short; of a write: confirms another value
+  kBusy,           ///< exception 6; the request has no effect
+  kDeaf,           ///< the drive does not receive the request
 };
 
-/// A fault and how many replies it strikes.
+/// A fault and the number of replies that it affects.
 struct ReplyFault {
   ReplyFaultKind fault = ReplyFaultKind::kNone;
   std::chrono::milliseconds delay{0};
   int count = 1;  ///< negative: until cleared
 };
 
-/// Something to do to the rig.
+/// An action on the rig.
 struct Action {
   enum class Kind {
     kReplyFault,
-    kClear,    ///< no more faults, nothing pressed, stalled or frozen
+    kClear,    ///< clears all faults, including pressed, stalled and frozen inputs
     kPress,    ///< `input`
     kRelease,  ///< `input`
     kUnplug,
     kReplug,
     kReboot,  ///< silent for `pause`, then switched on
     kCamera,  ///< becomes `camera`
-    kMarker,  ///< that of name `name` becomes `marker`
-    kPush,    ///< the marker `name` by `push_mm`
-    kHang,    ///< the object, or another `mesh`, hangs as the pose file `name` says
-    kShow,    ///< `mesh` is held before the camera as the pose file `name` says; none: nothing
+    kMarker,  ///< the marker `name` becomes `marker`
+    kPush,    ///< moves the marker `name` by `push_mm`
+    kHang,    ///< sets the object's pose from the file `name`, or replaces it by `mesh`
+    kShow,    ///< shows `mesh` to the camera at the pose of the file `name`; empty: nothing
     kState,
-    kScenery,  ///< for the camera's driver: what there is to see, and what of it changes
+    kScenery,  ///< requests of the camera's driver: the scenery and its variable part
     kSight,
     kHelp,
   };
@@ -64,22 +64,22 @@ struct Action {
   std::string mesh = {};
 };
 
-/// Reads one line of the control socket: "fault late 700ms 3", "press stop", "reboot 2s", ...
-/// A name with blanks in it stands in double quotes.
-/// Refuses anything else with kInvalidArgument, saying what there is.
+/// Parses one line of the control socket: "fault late 700ms 3", "press stop", "reboot 2s", ... A
+/// name with spaces must be in double quotes. Otherwise returns kInvalidArgument with the list of
+/// actions.
 [[nodiscard]] Result<Action> parse_action(std::string_view line);
 
-/// An action at a time after the start.
+/// An action at a time, measured from the start.
 struct TimedAction {
   std::chrono::milliseconds at{0};
   Action action;
 };
 
-/// Reads the value of --fault: actions with commas between, "=" for blanks, "@TIME" behind:
-/// "late=700ms@5s,press=stop@8s".
+/// Parses the value of --fault: actions separated by commas, with "=" for spaces and "@TIME" at the
+/// end: "late=700ms@5s,press=stop@8s".
 [[nodiscard]] Result<std::vector<TimedAction>> parse_timed_actions(std::string_view text);
 
-/// What there is to say on a control line, for people.
+/// The actions of the control socket, for people.
 [[nodiscard]] std::string_view action_help();
 
 }  // namespace hydroprint::simulated_drive

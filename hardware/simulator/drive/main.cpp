@@ -1,4 +1,4 @@
-// hydroprint-virtual-rig: stands in for the motor of a rig, able to fail on request.
+// hydroprint-virtual-rig simulates the drive of a rig and can fail on request.
 
 #include <signal.h>
 #include <unistd.h>
@@ -19,7 +19,7 @@ constexpr const char* kFooter = R"(Examples:
   hydroprint-virtual-rig --profile virtual.toml --rtu /tmp/drive --baud 115200 --control /tmp/rig
   hydroprint-virtual-rig --profile virtual.toml --fault late=700ms@5s,press=stop@8s
   printf 'fault drop 3\nstate\n' | socat - UNIX-CONNECT:/tmp/rig
-What --fault and a line of the control socket take:
+Actions for --fault and the control socket:
   )";
 
 struct Arguments {
@@ -101,34 +101,36 @@ int run(const Options& options, bool as_json) {
 }
 
 void declare(CLI::App& app, Arguments& arguments) {
-  app.add_option("--profile", arguments.profile, "Profile of the drive that is played")
+  app.add_option("--profile", arguments.profile, "Profile of the simulated drive")
       ->required()
       ->type_name("FILE");
-  app.add_option("--scene", arguments.scene, "What hangs in the gripper, travel, water")
+  app.add_option("--scene", arguments.scene, "Scene file: object in the gripper, travel, water")
       ->type_name("FILE");
   app.add_option("--tcp", arguments.tcp,
-                 "Port of 127.0.0.1 to listen at, 0: any; default 1502, none with --rtu alone")
+                 "Port of 127.0.0.1 to listen on, 0: any; default 1502, none with --rtu alone")
       ->check(CLI::Range(0, 65535))
       ->type_name("PORT");
-  app.add_option("--rtu", arguments.rtu, "Link to make to a pseudo-terminal")->type_name("PATH");
-  app.add_option("--baud", arguments.baud, "Of the serial line; default 115200");
-  app.add_option("--parity", arguments.parity, "N, E or O; default E");
-  app.add_option("--stop-bits", arguments.stop_bits, "1 or 2; default 1");
-  app.add_option("--control", arguments.control, "Socket to make, which takes actions, one a line")
+  app.add_option("--rtu", arguments.rtu, "Link to create to a pseudo-terminal")->type_name("PATH");
+  app.add_option("--baud", arguments.baud, "Baud rate of the serial line; default 115200");
+  app.add_option("--parity", arguments.parity, "Parity of the serial line: N, E or O; default E");
+  app.add_option("--stop-bits", arguments.stop_bits,
+                 "Stop bits of the serial line: 1 or 2; default 1");
+  app.add_option("--control", arguments.control,
+                 "Control socket to create; it accepts actions, one per line")
       ->type_name("PATH");
-  app.add_option("--fault", arguments.faults, "Actions and when they happen")->type_name("LIST");
+  app.add_option("--fault", arguments.faults, "Actions and their times")->type_name("LIST");
   app.add_option("--watchdog-s", arguments.watchdog_s,
-                 "How the drive's communication watchdog is set; default: as the profile demands")
+                 "Time of the drive's communication watchdog; default: as the profile requires")
       ->check(CLI::Range(0.0, 60.0));
-  app.add_option("--watchdog-action", arguments.watchdog_action, "Register value of its action")
+  app.add_option("--watchdog-action", arguments.watchdog_action,
+                 "Register value of the watchdog's action")
       ->check(CLI::Range(0, 65535));
-  app.add_flag("--json", arguments.json, "Say as JSON where it listens");
+  app.add_flag("--json", arguments.json, "Print the addresses as JSON");
 }
 
 int run_program(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app(
-      "Stands in for the motor of a rig: a drive on Modbus TCP and RTU, on loopback only.");
+  CLI::App app("Simulates the drive of a rig on Modbus TCP and RTU, on loopback only.");
   app.name("hydroprint-virtual-rig");
   app.footer(kFooter + std::string(action_help()));
   app.set_version_flag("--version", "hydroprint-virtual-rig " HYDROPRINT_VERSION);

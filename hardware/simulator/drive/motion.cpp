@@ -10,8 +10,8 @@ namespace {
 constexpr double kTolerance_mm = 1e-9;
 constexpr double kForEver = std::numeric_limits<double>::infinity();
 
-/// Constant acceleration for a time, after which the velocity is exactly `end_v` (no drift) and, if
-/// it is the last piece, the place the target.
+/// Constant acceleration for a time. Afterwards the velocity is exactly `end_v` (no drift) and, in
+/// the last piece, the position is exactly the target.
 struct Piece {
   double acceleration = 0;
   double duration_s = kForEver;
@@ -32,7 +32,7 @@ Piece towards_velocity(double v, const Goal& goal) {
   return ramp(v, wanted, grows ? goal.acceleration_mm_per_s2 : goal.deceleration_mm_per_s2);
 }
 
-// In the direction of the target: `gap` > 0 is what is left, `speed` >= 0.
+// In the direction of the target: `gap` > 0 is the remaining distance, `speed` >= 0.
 Piece towards_gap(double gap, double speed, const Goal& goal) {
   const double braking = goal.deceleration_mm_per_s2;
   const double stop_gap = speed * speed / (2 * braking);
@@ -44,7 +44,7 @@ Piece towards_gap(double gap, double speed, const Goal& goal) {
   if (speed > goal.speed_mm_per_s) return ramp(speed, goal.speed_mm_per_s, braking);
   if (speed == goal.speed_mm_per_s) return {0, (gap - stop_gap) / speed, speed, false};
   const double gain = goal.acceleration_mm_per_s2;
-  // Where accelerating from here meets the braking parabola that ends at the target.
+  // Where acceleration from here meets the braking parabola that ends at the target.
   const double peak =
       std::sqrt((2 * gap * gain * braking + speed * speed * braking) / (gain + braking));
   return ramp(speed, std::min(peak, goal.speed_mm_per_s), gain);

@@ -13,45 +13,46 @@
 
 namespace hydroprint::simulated_drive {
 
-/// What a request gets: unit, function and data (nothing if the drive says nothing), and what is
-/// wrong with it.
+/// The reply to a request: unit, function and data (empty if the drive does not reply), and the
+/// fault to apply.
 struct Answer {
   std::vector<std::uint8_t> reply;
   ReplyFault reply_fault;
 };
 
-/// The one physical state, moved by the one clock. Any thread may call; every call first brings the
-/// state up to now.
+/// The physical state of the rig and its clock. Thread-safe; every call first advances the state to
+/// the current time.
 class Plant {
  public:
   Plant(const Machine& machine, Registers registers, double start_mm);
 
-  /// Obeys a request (unit, function, data), which may be anything.
+  /// Executes a request (unit, function, data), which is untrusted.
   [[nodiscard]] Answer answer(std::span<const std::uint8_t> request);
 
-  /// Brings the state up to now.
+  /// Advances the state to the current time.
   void tick();
 
-  /// From now on strikes replies so.
+  /// Sets the fault for the next replies.
   void set_reply_fault(const ReplyFault& reply_fault);
 
   void press(Action::Input input, bool pressed);
 
-  /// No faults any more, nothing pressed, stalled or frozen.
+  /// Clears all faults, including pressed, stalled and frozen inputs.
   void clear();
 
-  /// Power fails: the brake stops the axis, nothing is heard. Power returns: nothing is known.
+  /// Power failure: the brake stops the axis, and nothing is received. Afterwards the drive has no
+  /// state.
   void power_off();
   void power_on();
 
-  /// The time, and where the carriage truly is then.
+  /// The time and the carriage's true position at that time.
   struct Place {
     double time_s = 0;
     double x_mm = 0;
   };
   [[nodiscard]] Place place();
 
-  /// All of the state as JSON on one line, for people and tests.
+  /// The complete state as one line of JSON, for people and tests.
   [[nodiscard]] std::string state_json();
 
   [[nodiscard]] int unit() const;

@@ -45,7 +45,8 @@ void Registers::make(Space space, std::uint16_t address, int words) {
 
 void Registers::put(const drive::Field& field, double value) {
   const auto words = drive::encode(field.format, value);
-  for (int i = 0; i < field.format.words; ++i) {  // what cannot be told (rounds to 0) is 0
+  // values that cannot be encoded (rounded to 0) are 0
+  for (int i = 0; i < field.format.words; ++i) {
     memory_[{field.space, static_cast<std::uint16_t>(field.address + i)}] =
         words ? (*words)[static_cast<std::size_t>(i)] : std::uint16_t{0};
   }

@@ -13,31 +13,31 @@
 
 namespace hydroprint::simulated_drive {
 
-/// The memory of a drive of a given profile: what a request may read and write, and what commands
-/// are written.
+/// The memory of a drive with a given profile: which registers may be read and written, and which
+/// writes are commands.
 class Registers {
  public:
-  /// Holds the profile's identity, and the watchdog as set. `watchdog_action` is the register's
-  /// value, ignored if the profile has no such register.
+  /// Contains the profile's identity and the given watchdog settings. `watchdog_action` is the
+  /// register's value; it is ignored if the profile has no such register.
   Registers(drive::DriveProfile profile, double watchdog_s, std::uint16_t watchdog_action);
 
-  /// Writes what the drive tells of itself; the bits of `state` count, not its texts.
+  /// Writes the drive's status; only the bits of `state` are used, not its texts.
   void tell(const drive::DriveState& state);
 
-  /// `count` words; none if one of them does not exist (Modbus exception 2).
+  /// Returns `count` words; nullopt if one of them does not exist (Modbus exception 2).
   [[nodiscard]] std::optional<std::vector<std::uint16_t>> read(drive::Space space,
                                                                std::uint16_t address,
                                                                std::size_t count) const;
 
-  /// Keeps words in holding registers; false if one of them does not exist.
+  /// Stores words in holding registers; false if one of them does not exist.
   [[nodiscard]] bool write(std::uint16_t address, std::span<const std::uint16_t> words);
 
-  /// The command whose last write these words are, with its quantities; none if they are no more
-  /// than words. To be asked after write().
+  /// Returns the command that is completed by writing these words, with its quantities; nullopt if
+  /// they do not complete one. Must be called after write().
   [[nodiscard]] std::optional<Order> order(std::uint16_t address,
                                            std::span<const std::uint16_t> words) const;
 
-  /// As the registers say now.
+  /// Values in the registers now.
   [[nodiscard]] double watchdog_s() const;
   [[nodiscard]] WatchdogAction watchdog_action() const;
 

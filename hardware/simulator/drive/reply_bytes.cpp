@@ -37,7 +37,7 @@ void damage(std::vector<std::uint8_t>& reply, ReplyFaultKind fault) {
   }
 }
 
-/// Without the signal that a closed socket would raise.
+/// Sends without the signal that a closed socket would raise.
 ssize_t write_some(int descriptor, std::span<const std::uint8_t> bytes) {
   const ssize_t sent = ::send(descriptor, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   if (sent >= 0 || errno != ENOTSOCK) return sent;

@@ -69,7 +69,7 @@ Camera read_camera(TomlReader from) {
   };
   if (is_looked_at(stand.at_mm) ||
       std::any_of(stand.via_mm.begin(), stand.via_mm.end(), is_looked_at)) {
-    from.refuse("looks_at_mm", "is where the camera itself is. Move one of them");
+    from.refuse("looks_at_mm", "is the camera's own position. Move one of them");
   }
   return out;
 }
@@ -101,7 +101,7 @@ Result<Scene> read_scene(const std::filesystem::path& path) {
 Result<simulated_scene::Scenery> scenery_of(const Scene& scene) {
   if (!scene.camera) {
     return fail(Code::kNotFound,
-                "the virtual rig has no camera. Give it a --scene with a [camera] table",
+                "the virtual rig has no camera. Use a --scene file with a [camera] table",
                 "CAMERA_NOT_FOUND");
   }
   simulated_scene::Scenery out;

@@ -11,7 +11,7 @@
 
 namespace hydroprint::simulated_drive {
 
-/// The depth camera over the rig.
+/// The depth camera above the rig.
 struct Camera {
   simulated_scene::CameraStand stand;
   std::uint64_t seed = 1;
@@ -19,28 +19,29 @@ struct Camera {
   bool counts_frames = false;
 };
 
-/// What hangs in the gripper, where the axis and the water are, and what a camera sees of it.
+/// The object in the gripper, the positions of axis and water, and the view of the camera.
 struct Scene {
-  std::filesystem::path mesh;  ///< empty: nothing hangs there
+  std::filesystem::path mesh;  ///< empty: no object
   double scale = 1;            ///< model units -> mm
-  /// How crookedly it hangs: takes object coordinates to the gripper's frame, whose origin is where
-  /// the gripper holds, z up.
+  /// Pose of the object: transforms object coordinates to the gripper's frame, whose origin is
+  /// where the gripper holds, z up.
   Pose X_GO = Pose::Identity();
   double travel_mm = 300;
-  double start_mm = 50;   ///< where the carriage stands when the rig is switched on
+  double start_mm = 50;   ///< position of the carriage when the rig is switched on
   double water_mm = 200;  ///< axis position at which the gripper's origin is level with the water
-  Eigen::Vector2d film_mm{210, 297};             ///< that the sliding bars are set to
-  std::vector<simulated_scene::Marker> markers;  ///< where they truly stand
-  std::optional<Camera> camera;                  ///< none: there is no camera
+  Eigen::Vector2d film_mm{210, 297};             ///< size that the sliding bars are set to
+  std::vector<simulated_scene::Marker> markers;  ///< true positions
+  std::optional<Camera> camera;                  ///< nullopt: no camera
 };
 
-/// Reads and checks a scene file (hardware/simulator/drive/scene.toml.example); all keys are
-/// optional. Refuses, naming file, line and remedy, unknown keys, wrong types, values out of range,
-/// and a mesh or a pose file that cannot be used. Relative paths start at the file's own folder.
+/// Reads and validates a scene file (hardware/simulator/drive/scene.toml.example); all keys are
+/// optional. Errors name file, line and remedy. They cover unknown keys, wrong types, values out of
+/// range, and an unusable mesh or pose file. Relative paths are relative to the scene file's
+/// folder.
 [[nodiscard]] Result<Scene> read_scene(const std::filesystem::path& path);
 
-/// All that the scene's camera could see: the object's mesh is read for it. Refuses what
-/// mesh::read_model refuses, and a scene without a camera (kNotFound).
+/// Returns everything the scene's camera could see; reads the object's mesh. Errors: those of
+/// mesh::read_model, and kNotFound if the scene has no camera.
 [[nodiscard]] Result<simulated_scene::Scenery> scenery_of(const Scene& scene);
 
 }  // namespace hydroprint::simulated_drive

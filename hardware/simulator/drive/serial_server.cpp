@@ -24,8 +24,9 @@ constexpr std::size_t kCrc = 2;
 constexpr std::size_t kName = 128;
 
 tl::unexpected<Error> refuse(const std::string& what) {
-  return fail(Code::kFailedPrecondition,
-              what + " (" + std::strerror(errno) + "). Give another path, or end who uses it");
+  return fail(
+      Code::kFailedPrecondition,
+      what + " (" + std::strerror(errno) + "). Use another path, or stop the program that uses it");
 }
 
 void make_raw(int terminal) {
@@ -64,7 +65,7 @@ Status SerialServer::open() {
   std::array<char, kName> name{};
   if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0 ||
       ::ptsname_r(master_, name.data(), name.size()) != 0) {
-    return refuse("no pseudo-terminal to be had");
+    return refuse("no pseudo-terminal is available");
   }
   slave_ = ::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (slave_ < 0) return refuse(std::string(name.data()) + ": cannot be opened");
@@ -73,7 +74,7 @@ Status SerialServer::open() {
     ::unlink(line_.device.c_str());
   }
   if (::symlink(name.data(), line_.device.c_str()) != 0) {
-    return refuse(line_.device + ": the link cannot be made");
+    return refuse(line_.device + ": the link cannot be created");
   }
   modbus_ = modbus_new_rtu(name.data(), line_.baud, line_.parity, 8, line_.stop_bits);
   modbus_set_slave(modbus_, plant_.unit());

@@ -13,12 +13,13 @@ struct _modbus;
 
 namespace hydroprint::simulated_drive {
 
-/// Serves Modbus RTU on a pseudo-terminal, in the time that the bytes would take on a wire. The
-/// terminal goes with this: who holds it gets errors at once, as when an adapter is unplugged.
+/// Serves Modbus RTU on a pseudo-terminal, with the timing of a serial line. The destructor closes
+/// the terminal, and its users get errors at once, as when an adapter is unplugged.
 class SerialServer {
  public:
-  /// @param line  device: where a link to the terminal is made (what is there is replaced if it is
-  ///   a link); baud, parity and stop bits count for the time
+  /// @param line  device: path of the link to the terminal (an existing link is replaced); baud,
+  /// parity
+  ///   and stop bits determine the timing
   [[nodiscard]] static Result<std::unique_ptr<SerialServer>> start(Plant& plant,
                                                                    const drive::Endpoint& line);
   ~SerialServer();
@@ -34,10 +35,10 @@ class SerialServer {
   Plant& plant_;
   drive::Endpoint line_;
   int master_ = -1;
-  int slave_ = -1;  // kept open: without one, reading the master fails
+  int slave_ = -1;  // kept open: otherwise reading the master fails
   _modbus* modbus_ = nullptr;
   std::vector<std::uint8_t> adu_;
-  std::chrono::steady_clock::time_point free_at_;  // when the line is silent long enough
+  std::chrono::steady_clock::time_point free_at_;  // when the line has been silent long enough
   std::atomic<bool> ends_ = false;
   std::thread thread_;
 };

@@ -19,8 +19,9 @@ constexpr int kBacklog = 16;
 constexpr int kLook_ms = 20;
 
 tl::unexpected<Error> refuse(const std::string& place, int error) {
-  return fail(Code::kFailedPrecondition, place + ": cannot listen there (" + std::strerror(error) +
-                                             "). Give another place, or end who uses it");
+  return fail(Code::kFailedPrecondition,
+              place + ": cannot listen there (" + std::strerror(error) +
+                  "). Use another address, or stop the program that uses it");
 }
 
 template <class Address>
@@ -89,7 +90,7 @@ void SocketServer::accept_all() {
 
 void SocketServer::admit(int descriptor) {
   const int on = 1;
-  ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);  // fails on local ones
+  ::setsockopt(descriptor, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);  // fails on local sockets
   Client& guest = guests_.emplace_back();
   guest.descriptor = descriptor;
   guest.thread = std::thread([this, &guest] {

@@ -12,21 +12,21 @@
 
 namespace hydroprint::simulated_drive {
 
-/// A socket that listens on loopback or at a path, with a thread for every connection.
+/// A server socket on loopback or at a path, with a thread for every connection.
 class SocketServer {
  public:
-  /// Talks over a connection until it ends; the descriptor is closed afterwards. Must return when
-  /// reading says that the connection is gone.
+  /// Serves a connection until it ends; the descriptor is closed afterwards. Must return when
+  /// reading reports a closed connection.
   using Serve = std::function<void(int descriptor)>;
 
-  /// Listens at a port of 127.0.0.1 (0: any free one).
+  /// Listens on a port of 127.0.0.1 (0: any free port).
   [[nodiscard]] static Result<std::unique_ptr<SocketServer>> tcp(int port, Serve serve);
 
-  /// Listens at a path, for this user alone; what is there is replaced if it is a socket.
+  /// Listens at a path, for this user only; an existing socket is replaced.
   [[nodiscard]] static Result<std::unique_ptr<SocketServer>> local(
       const std::filesystem::path& path, Serve serve);
 
-  /// Ends all connections.
+  /// Closes all connections.
   ~SocketServer();
   SocketServer(const SocketServer&) = delete;
   SocketServer& operator=(const SocketServer&) = delete;
@@ -49,7 +49,7 @@ class SocketServer {
   int port_ = 0;
   Serve serve_;
   std::atomic<bool> ends_ = false;
-  std::list<Client> guests_;  // of the accepting thread
+  std::list<Client> guests_;  // used by the accepting thread
   std::thread thread_;
 };
 

@@ -7,7 +7,7 @@
 
 namespace hydroprint::simulated_drive {
 
-/// Serves Modbus TCP on loopback to any number of clients, each at once.
+/// Serves Modbus TCP on loopback to any number of clients in parallel.
 [[nodiscard]] Result<std::unique_ptr<SocketServer>> serve_tcp(Plant& plant, int port);
 
 }  // namespace hydroprint::simulated_drive

@@ -70,7 +70,7 @@ VirtualRig::~VirtualRig() {
 Status VirtualRig::plug() {
   const std::scoped_lock lock(plugs_);
   if (options_.tcp_port && !tcp_) {
-    // Once a port was found, the same again.
+    // Reuses the port that was found first.
     HP_ASSIGN_OR_RETURN(tcp_, serve_tcp(plant_, tcp_port_ > 0 ? tcp_port_ : *options_.tcp_port));
     if (tcp_port_ == 0) tcp_port_ = tcp_->port();
   }
@@ -86,7 +86,8 @@ void VirtualRig::unplug() {
   serial_.reset();
 }
 
-// A drive that boots keeps its serial line, whose adapter has power, and loses its connections.
+// A drive that boots keeps its serial line, whose adapter has its own power, and loses its TCP
+// connections.
 void VirtualRig::boot() {
   plant_.power_on();
   if (plug()) return;

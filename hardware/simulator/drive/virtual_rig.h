@@ -21,37 +21,39 @@
 
 namespace hydroprint::simulated_drive {
 
-/// What a virtual rig is made of.
+/// Options of a virtual rig.
 struct Options {
-  drive::DriveProfile profile;  ///< of the drive that is played
+  drive::DriveProfile profile;  ///< of the simulated drive
   Scene scene;
-  std::optional<int> tcp_port;                   ///< 0: any free one; none: no TCP
-  std::optional<drive::Endpoint> line;           ///< none: no RTU
-  std::filesystem::path control;                 ///< where actions are taken; empty: nowhere
-  std::optional<double> watchdog_s;              ///< none: the largest that the profile accepts
-  std::optional<std::uint16_t> watchdog_action;  ///< none: the first that stops
+  std::optional<int> tcp_port;          ///< 0: any free port; nullopt: no TCP
+  std::optional<drive::Endpoint> line;  ///< nullopt: no RTU
+  std::filesystem::path control;        ///< path of the control socket; empty: none
+  /// nullopt: the largest value that the profile accepts
+  std::optional<double> watchdog_s;
+  std::optional<std::uint16_t> watchdog_action;  ///< nullopt: the first that stops
   std::vector<TimedAction> actions;
 };
 
-/// The machine that a profile and a scene make.
+/// The machine that results from a profile and a scene.
 [[nodiscard]] Machine machine_of(const drive::DriveProfile& profile, const Scene& scene);
 
-/// A drive on its wires: a plant, what serves it, and a clock that moves it. Any thread may call.
+/// A simulated drive with its connections: a plant, its servers, and a clock. Thread-safe.
 class VirtualRig {
  public:
-  /// Refuses what cannot be listened at, and an object that the camera cannot see.
+  /// Returns an error if an address is in use, or if the object cannot be loaded for the camera.
   [[nodiscard]] static Result<std::unique_ptr<VirtualRig>> start(const Options& options);
   ~VirtualRig();
   VirtualRig(const VirtualRig&) = delete;
   VirtualRig& operator=(const VirtualRig&) = delete;
 
-  /// Does it, and says what a control line gets back: "ok", the state as JSON, or help.
+  /// Performs an action and returns the reply for the control socket: "ok", the state as JSON, or
+  /// help.
   [[nodiscard]] Result<std::string> perform(const Action& action);
 
-  /// The reply to a line of the control socket: perform()'s, or "error: ...".
+  /// Returns the reply to a line of the control socket: perform()'s, or "error: ...".
   [[nodiscard]] std::string reply_to(const std::string& line);
 
-  /// Where the drive is on TCP; port 0 if it is not.
+  /// The drive's TCP port; 0 if TCP is off.
   [[nodiscard]] int tcp_port() const { return tcp_port_; }
 
  private:
@@ -64,9 +66,9 @@ class VirtualRig {
 
   Options options_;
   Plant plant_;
-  int tcp_port_ = 0;  // found before any thread of its own begins, and kept
+  int tcp_port_ = 0;  // determined before any thread starts, then constant
   CameraControl camera_control_;
-  std::mutex plugs_;  // of what follows
+  std::mutex plugs_;  // guards the members below
   std::unique_ptr<SocketServer> tcp_;
   std::unique_ptr<SerialServer> serial_;
   std::optional<std::chrono::steady_clock::time_point> boots_at_;

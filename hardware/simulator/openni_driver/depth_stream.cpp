@@ -51,10 +51,10 @@ OniStatus DepthStream::getProperty(int id, void* data, int* size) {
     case ONI_STREAM_PROPERTY_MIN_VALUE:
       return give(simulated_camera::kLeast_mm, data, size);
     case ONI_STREAM_PROPERTY_MAX_VALUE:
-      // What lies above this would come out of a recording as something else.
+      // Larger depths would be altered by a recording.
       return give(simulated_camera::kMost_mm, data, size);
     case ONI_STREAM_PROPERTY_CROPPING:
-      // Without it the player of recordings drops every frame.
+      // Without this property, the player of recordings drops every frame.
       return give(OniCropping{0, 0, 0, simulated_camera::kWidth_px, simulated_camera::kHeight_px},
                   data, size);
     case ONI_STREAM_PROPERTY_MIRRORING:
@@ -88,7 +88,7 @@ OniStatus DepthStream::start() {
   const auto sight = line->ask_patiently("sight").and_then(
       [](const std::string& text) { return simulated_scene::sight_of(text); });
   if (sight && sight->camera == simulated_scene::CameraState::kHung) {
-    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // as drivers do
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // as real drivers do
   }
   stop();
   ends_ = false;
@@ -120,7 +120,7 @@ void DepthStream::run(RigLine line) {
       return;
     }
     due += kPeriod;
-    // Who draws too slowly loses frames, as a camera does, unless it is frames that count.
+    // A renderer that is too slow loses frames, as a camera does, except with clock = "frames".
     for (; due < Clock::now(); due += kPeriod) {
       if (!counts_frames_) ++index;
     }
@@ -130,7 +130,7 @@ void DepthStream::run(RigLine line) {
 bool DepthStream::tell_frame(RigLine& line, int index) {
   const auto said = line.ask("sight").and_then(
       [](const std::string& text) { return simulated_scene::sight_of(text); });
-  // A rig that is stopped says nothing: then no frame comes, as from a camera that hangs.
+  // A rig that is stopped does not reply: then no frame arrives, as from a camera that hangs.
   if (!said) return said.error().code == Code::kAborted;
   simulated_scene::Sight sight = *said;
   if (sight.camera == simulated_scene::CameraState::kGone) return false;

@@ -13,10 +13,11 @@
 
 namespace hydroprint::openni_driver {
 
-/// Frames of the rig's camera, drawn by a thread of its own, each at its time.
+/// Frames of the rig's camera, rendered on time by a separate thread.
 class DepthStream : public oni::driver::StreamBase {
  public:
-  /// @param on_gone  called from the stream's thread when the camera goes; it ends then
+  /// @param on_gone  called from the stream's thread when the camera disappears; the thread then
+  /// ends
   DepthStream(const simulated_scene::Scenery& scenery, simulated_camera::Renderer& renderer,
               std::string control, std::function<void()> on_gone);
   ~DepthStream() override;
@@ -32,7 +33,7 @@ class DepthStream : public oni::driver::StreamBase {
  private:
   void run(RigLine line);
   [[nodiscard]] bool wait_until(std::chrono::steady_clock::time_point time);
-  /// False once the camera has gone.
+  /// Returns false once the camera has disappeared.
   [[nodiscard]] bool tell_frame(RigLine& line, int index);
   void publish(int index, double time_s);
 

@@ -1,5 +1,5 @@
-// The virtual rig's depth camera as OpenNI2 knows cameras: a driver module, found by its name
-// (lib*.so.0) and opened as hydroprint:CONTROL, the control socket of hydroprint-virtual-rig.
+// The virtual rig's depth camera as an OpenNI2 driver module. OpenNI2 finds it by its file name
+// (lib*.so.0), and opens it as hydroprint:CONTROL, the control socket of hydroprint-virtual-rig.
 
 #include <cstring>
 #include <list>
@@ -24,7 +24,7 @@ Result<simulated_scene::Scenery> ask_scenery(const std::string& control) {
   HP_ASSIGN_OR_RETURN(const std::string now, line.ask_patiently("sight"));
   HP_ASSIGN_OR_RETURN(const simulated_scene::Sight sight, simulated_scene::sight_of(now));
   if (sight.camera == simulated_scene::CameraState::kGone) {
-    return fail(Code::kUnavailable, "it is not plugged in");
+    return fail(Code::kUnavailable, "the camera is not plugged in");
   }
   return simulated_scene::scenery_of(text);
 }
@@ -110,8 +110,8 @@ class Driver : public oni::driver::DriverBase {
     return nullptr;
   }
 
-  /// What OpenNI2 was told of a camera; it is told now if there is one. It knows it by this
-  /// address.
+  /// Returns the camera information registered with OpenNI2, and registers it first if the camera
+  /// exists. OpenNI2 identifies it by this address.
   const OniDeviceInfo* known(std::string_view uri) {
     const std::scoped_lock lock(mutex_);
     for (const OniDeviceInfo& info : infos_) {

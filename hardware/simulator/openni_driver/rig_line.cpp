@@ -17,7 +17,7 @@ constexpr timeval kPatience{1, 0};
 constexpr std::string_view kRefusal = "error: ";
 
 tl::unexpected<Error> gone() {
-  return fail(Code::kUnavailable, "the virtual rig has gone. Start it again");
+  return fail(Code::kUnavailable, "the virtual rig has stopped. Start it again");
 }
 
 tl::unexpected<Error> nobody_at(const std::string& path) {
@@ -71,7 +71,8 @@ Result<std::string> RigLine::ask(const std::string& line) {
     const ssize_t got = ::recv(descriptor_, chunk.data(), chunk.size(), 0);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0 && errno == EAGAIN) {
-      return fail(Code::kAborted, "the virtual rig says nothing. Is it stopped?");
+      return fail(Code::kAborted,
+                  "the virtual rig does not respond. Check whether it is suspended");
     }
     if (got <= 0) return gone();
     heard_.append(chunk.data(), static_cast<std::size_t>(got));

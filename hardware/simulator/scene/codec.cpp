@@ -25,7 +25,7 @@ json json_of(const Body& body) {
   return {{"name", body.name}, {"hangs", body.hangs}, {"points", points}, {"triangles", triangles}};
 }
 
-/// What is not as it should be ends in an exception of the JSON library, as the rest does.
+/// Invalid values throw an exception of the JSON library, like missing fields.
 Body body_of(const json& from) {
   Body out{from.at("name"), {}, from.at("hangs")};
   const json& points = from.at("points");
@@ -57,7 +57,7 @@ CameraStand stand_of(const json& from) {
   return out;
 }
 
-/// A state by its number in the list of words; a word that is none ends as body_of's do.
+/// Returns the state named by a word of the list; throws like body_of for an unknown word.
 template <class State, std::size_t N>
 State state_of(const std::string_view (&words)[N], const json& from) {
   const auto word = from.get<std::string>();
@@ -74,8 +74,8 @@ Result<Value> guarded(std::string_view text, const Read& read) {
     return read(json::parse(text));
   } catch (const json::exception&) {
     return fail(Code::kDataLoss,
-                "what the virtual rig tells of its scene is not understood. Use a rig and a driver "
-                "of one build");
+                "the virtual rig's scene cannot be decoded. Use a rig and a driver of the same "
+                "build");
   }
 }
 

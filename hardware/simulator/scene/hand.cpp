@@ -10,8 +10,8 @@
 namespace hydroprint::simulated_scene {
 namespace {
 
-/// One part of how a hand moves that means to be steady, by frequency. Physiological tremor is at 8
-/// to 12 Hz and of some tenths of a millimetre; below it the arm sways by millimetres (Elble and
+/// A frequency band of the motion of a hand held still. Physiological tremor has 8 to 12 Hz and
+/// some tenths of a millimetre; at lower frequencies the arm sways by millimetres (Elble and
 /// Koller, Tremor, 1990).
 struct Sway {
   double least_hz, most_hz;
@@ -22,14 +22,14 @@ constexpr std::array<Sway, 4> kSways = {{{0.3, 0.7, 2.5, 0.006},
                                          {3.0, 5.0, 0.2, 0.001},
                                          {8.0, 12.0, 0.15, 0.0008}}};
 
-/// Displacement (mm) and turn (rad).
+/// Displacement (mm) and rotation (rad).
 struct Shake {
   Eigen::Vector3d shift_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
 };
 
 double unit(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11U) * 0x1p-53;  // the same with every standard library
+  return static_cast<double>(random() >> 11U) * 0x1p-53;  // independent of the standard library
 }
 
 Shake shake(std::uint64_t seed, double time_s) {
@@ -49,7 +49,7 @@ Shake shake(std::uint64_t seed, double time_s) {
   return out;
 }
 
-/// Closed Catmull-Rom spline through the stand's places.
+/// Closed Catmull-Rom spline through the stand's positions.
 Eigen::Vector3d place(const CameraStand& stand, double time_s) {
   const int count = static_cast<int>(stand.via_mm.size()) + 1;
   if (count == 1) return stand.at_mm;

@@ -6,8 +6,8 @@
 
 namespace hydroprint::simulated_scene {
 
-/// The camera's pose X_FC at a time: takes camera coordinates (x to the right of its image, y down,
-/// z forward along its axis, mm) to F. Smooth; the same for the same stand, seed and time.
+/// The camera's pose X_FC at a time: transforms camera coordinates (x to the right of its image, y
+/// down, z forward along its axis, mm) to F. Smooth and deterministic for a stand, seed and time.
 [[nodiscard]] Pose camera_pose(const CameraStand& stand, std::uint64_t seed, double time_s);
 
 }  // namespace hydroprint::simulated_scene

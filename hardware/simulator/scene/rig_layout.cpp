@@ -8,13 +8,13 @@ namespace hydroprint::simulated_scene {
 namespace {
 
 constexpr double kBarBottom_mm = -4;
-constexpr double kGap_mm = 25;  ///< between bars and the vat's wall
+constexpr double kGap_mm = 25;  ///< between bars and wall of the vat
 constexpr double kWall_mm = 8;  ///< of the vat
-constexpr double kRim_mm = 20;  ///< over the water
+constexpr double kRim_mm = 20;  ///< above the water
 constexpr double kTable_mm = -180;
 constexpr double kTableHalf_mm = 1500;
 
-/// Four boxes round a rectangle of half size `inner`, `width` wide.
+/// Four boxes around a rectangle of half size `inner`, `width` wide.
 Mesh frame(const Eigen::Vector2d& inner, double width, double bottom, double top) {
   const Eigen::Vector2d outer = inner.array() + width;
   return joined({box({-outer.x(), -outer.y(), bottom}, {-inner.x(), outer.y(), top}),
@@ -28,11 +28,11 @@ Mesh frame(const Eigen::Vector2d& inner, double width, double bottom, double top
 std::vector<Marker> nominal_markers(const Eigen::Vector2d& film_mm) {
   const Eigen::Vector2d bar = film_mm.array() / 2 + kBarWidth_mm / 2;
   constexpr double kQuarter = std::numbers::pi / 2;
-  // One that is knocked over falls along its bar.
+  // A marker that is knocked over falls along its bar.
   return {{"left", {-bar.x(), -0.20 * film_mm.y(), kBarTop_mm}, kQuarter},
           {"right", {bar.x(), 0.30 * film_mm.y(), kBarTop_mm}, kQuarter},
           {"near", {-0.15 * film_mm.x(), -bar.y(), kBarTop_mm}, 0},
-          // To the right, where the gripper's rod does not keep the projector's light from it.
+          // To the right, where the gripper's rod does not block the projector's light.
           {"far", {0.30 * film_mm.x(), bar.y(), kBarTop_mm}, 0}};
 }
 

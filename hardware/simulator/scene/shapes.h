@@ -4,7 +4,7 @@
 
 namespace hydroprint::simulated_scene {
 
-/// Width of the square base and height of a marker, mm (the paper's are of this kind, section 5.2).
+/// Width of the square base and height of a marker, mm (as in the paper, section 5.2).
 inline constexpr double kMarkerWidth_mm = 60;
 inline constexpr double kMarkerHeight_mm = 40;
 
@@ -14,16 +14,16 @@ inline constexpr double kMarkerHeight_mm = 40;
 /// Square pyramid on z = 0 over the origin.
 [[nodiscard]] Mesh pyramid(double width_mm, double height_mm);
 
-/// Upright round rod about the z axis.
+/// Upright cylinder around the z axis.
 [[nodiscard]] Mesh rod(double radius_mm, double bottom_mm, double top_mm);
 
-/// The mesh with all its points taken elsewhere.
+/// Returns the mesh with all points transformed.
 [[nodiscard]] Mesh moved(Mesh mesh, const Pose& pose);
 
-/// All of them as one.
+/// Merges meshes into one.
 [[nodiscard]] Mesh joined(const std::vector<Mesh>& meshes);
 
-/// What is to be seen of a marker, F: the pyramid, lying on its side, or a box over it.
+/// The visible mesh of a marker, F: the pyramid, the pyramid on its side, or a box over it.
 [[nodiscard]] Mesh marker_mesh(const Marker& marker, MarkerState state);
 
 }  // namespace hydroprint::simulated_scene

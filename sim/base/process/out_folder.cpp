@@ -27,12 +27,12 @@ constexpr std::array<std::string_view, 17> kArtifacts = {
     "report.html",     "report.json",   "residuals.csv",     "residuals.png", "stretch.png",
     "surface_map.ply", "wrinkles.png"};
 
-/// Every run leaves one of these: what a folder is of is known by it.
+/// Every run writes one of these files; they show that a folder holds artifacts.
 bool is_record(std::string_view name) { return name == "report.json" || name == "frames.json"; }
 
-/// Whether a run may leave a file of that name.
+/// Whether a run may write a file with this name.
 bool is_artifact_name(std::string_view name) {
-  // The pictures of `validate`, the sheets of `print-image` and the frames of a camera are many.
+  // `validate`, `print-image` and cameras write numbered pictures, sheets and frames.
   return is_record(name) ||
          std::find(kArtifacts.begin(), kArtifacts.end(), name) != kArtifacts.end() ||
          ((name.starts_with("validate-") || name.starts_with("frame-")) &&
@@ -65,12 +65,13 @@ Status check_replaceable(const fs::path& dir) {
                 dir.string() + ": cannot be listed. Check its permissions");
   }
   if (!stranger.empty()) {
-    return fail(Code::kAlreadyExists, dir.string() + ": holds " + stranger +
-                                          ", which is no artifact. Choose another --out");
+    return fail(Code::kAlreadyExists,
+                dir.string() + ": holds " + stranger +
+                    ", which is not an artifact of an earlier run. Choose another --out");
   }
   if (!empty && !has_report) {
     return fail(Code::kAlreadyExists,
-                dir.string() + ": not empty and without a report.json. Choose another --out");
+                dir.string() + ": not empty and has no report.json. Choose another --out");
   }
   return {};
 }
@@ -95,7 +96,7 @@ tl::unexpected<Error> system_failure(const fs::path& dir, int error) {
                                            "). Choose another --out");
 }
 
-/// So that after a power cut DIR is there with all its files or not at all.
+/// After a power cut, DIR then has all its files or does not exist.
 void sync_folder(const fs::path& folder) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return;
@@ -112,15 +113,15 @@ bool is_artifact(const std::string& name) {
   return is_artifact_name(name.substr(0, name.find(".part-")));
 }
 
-/// Opens a folder and takes its lock; else -1, errno being ENOENT if it is gone and EWOULDBLOCK if
-/// another process has it.
+/// Opens a folder and locks it. Returns -1 on failure; errno is ENOENT if the folder is gone and
+/// EWOULDBLOCK if another process holds the lock.
 int open_locked(const fs::path& folder) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
   if (file < 0) return -1;
   struct stat ours {};
   struct stat there {};
   int error = ::flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
-  // It may have been removed before it was locked.
+  // The folder may have been removed before it was locked.
   if (error == 0 && (::fstat(file, &ours) != 0 || ::lstat(folder.c_str(), &there) != 0 ||
                      ours.st_ino != there.st_ino)) {
     error = ENOENT;
@@ -131,7 +132,7 @@ int open_locked(const fs::path& folder) {
   return -1;
 }
 
-/// Removes partial folders of `dir` whose process is dead.
+/// Removes partial folders of `dir` whose processes are dead.
 void remove_stale(const fs::path& dir) {
   const std::string prefix = dir.filename().string() + std::string(kPartial);
   std::error_code error;
@@ -145,7 +146,7 @@ void remove_stale(const fs::path& dir) {
   }
   for (const fs::path& folder : stale) {
     const int locked = open_locked(folder);
-    if (locked < 0) continue;  // alive, or a file system without locks: nobody's to remove
+    if (locked < 0) continue;  // in use, or a file system without locks: leave it
     const bool ours = std::all_of(fs::directory_iterator(folder, error), {}, [](const auto& entry) {
       return is_artifact(entry.path().filename().string());
     });
@@ -155,9 +156,9 @@ void remove_stale(const fs::path& dir) {
 }
 
 Status move_into_place(const fs::path& partial, const fs::path& dir) {
-  if (::rename(partial.c_str(), dir.c_str()) == 0) return {};  // DIR was not there, or empty
+  if (::rename(partial.c_str(), dir.c_str()) == 0) return {};  // DIR did not exist, or was empty
   if (::renameat2(AT_FDCWD, partial.c_str(), AT_FDCWD, dir.c_str(), RENAME_EXCHANGE) == 0) {
-    remove_quietly(partial);  // the earlier run's, which has this name now
+    remove_quietly(partial);  // holds the earlier run's files now
     return {};
   }
   // Some file systems cannot exchange names.
@@ -176,7 +177,7 @@ Status move_into_place(const fs::path& partial, const fs::path& dir) {
 
 Result<OutFolder> OutFolder::plan(const fs::path& dir) {
   std::error_code error;
-  // The folder itself, not a link to it, is what gets replaced.
+  // Replaces the folder itself, not a link to it.
   fs::path target = fs::weakly_canonical(fs::absolute(dir, error), error);
   if (!target.has_filename()) target = target.parent_path();
   if (error || !target.has_filename()) {
@@ -210,14 +211,16 @@ OutFolder::~OutFolder() {
 
 Status OutFolder::create() {
   remove_stale(dir_);
-  // Until it is locked, another process may take it for a dead one's and remove it: then once more.
+  // Until the folder is locked, another process may take it for abandoned and remove it. Then try
+  // again.
   for (int attempt = 0; attempt < 100 && lock_ < 0; ++attempt) {
     if (::mkdir(partial_.c_str(), 0777) != 0 && !(created_ && errno == EEXIST)) {
       return system_failure(dir_, errno);
     }
     created_ = true;
     lock_ = open_locked(partial_);
-    if (lock_ < 0 && errno != EWOULDBLOCK && errno != ENOENT) break;  // no locks there
+    // No locks on this file system.
+    if (lock_ < 0 && errno != EWOULDBLOCK && errno != ENOENT) break;
     if (lock_ < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return {};

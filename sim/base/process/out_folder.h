@@ -7,14 +7,15 @@
 
 namespace hydroprint::worker {
 
-/// The artifact folder DIR in the making: files are written to DIR.partial-XXXXXX beside it, which
-/// takes DIR's name as the last step. Whatever ends the program before that, DIR is as it was. Its
-/// process holds a lock on the partial folder, by which the next one for the same DIR knows what a
-/// process that was killed left behind.
+/// The artifact folder DIR while it is being written. Files go to DIR.partial-XXXXXX beside it,
+/// which is renamed to DIR as the last step. If the program ends before that, DIR is unchanged. The
+/// process holds a lock on its partial folder. A partial folder without a lock was left by a killed
+/// process; the next process for the same DIR removes it.
 class OutFolder {
  public:
-  /// Refuses a DIR whose parent folder is missing, that is no folder, or that holds anything but
-  /// artifacts of an earlier run (a report.json and its fellows), which will be replaced.
+  /// Refuses a DIR whose parent folder is missing, that is not a folder, or that contains files
+  /// other than artifacts of an earlier run (report.json etc.). The artifacts of an earlier run
+  /// will be replaced.
   [[nodiscard]] static Result<OutFolder> plan(const std::filesystem::path& dir);
 
   OutFolder(OutFolder&& other) noexcept;
@@ -22,17 +23,18 @@ class OutFolder {
   /// Removes the partial folder unless it was committed.
   ~OutFolder();
 
-  /// Makes the partial folder, and removes those that processes now dead left. Refuses with
-  /// kResourceExhausted (reason DISK_FULL) or kPermissionDenied, naming DIR.
+  /// Creates the partial folder and removes those of dead processes. Errors, naming DIR:
+  /// kResourceExhausted (reason DISK_FULL) or kPermissionDenied.
   [[nodiscard]] Status create();
-  /// Gives the partial folder DIR's name, replacing an earlier run's at once.
+  /// Renames the partial folder to DIR, replacing an earlier run's folder. Atomic if the file
+  /// system can exchange names.
   [[nodiscard]] Status commit();
   /// Removes the partial folder; may be called while another thread still writes into it.
   void abandon() const;
 
   [[nodiscard]] const std::filesystem::path& dir() const { return dir_; }
   [[nodiscard]] const std::filesystem::path& partial() const { return partial_; }
-  /// A message about the partial folder told as one about DIR.
+  /// Rewrites a message about the partial folder as one about DIR.
   [[nodiscard]] std::string in_terms_of_dir(std::string message) const;
 
  private:

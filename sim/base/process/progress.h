@@ -11,33 +11,33 @@
 
 namespace hydroprint::worker {
 
-/// A stage of the work and its usual share of the whole.
+/// A stage of the work and its usual share of the total.
 struct Stage {
   std::string name;
   double weight = 0;
 };
 
-/// How far the work is.
+/// Progress of the work at one moment.
 struct ProgressReport {
   std::string stage;
   double fraction = 0;          ///< of the stage, [0, 1]
   double total_fraction = 0;    ///< of the whole, [0, 1], never decreasing
-  std::optional<double> eta_s;  ///< none: too early to say
+  std::optional<double> eta_s;  ///< nullopt: too early to estimate
 };
 
-/// Turns the stages' own reports into a total, seconds per stage and time left. Owns the clock,
-/// which the simulation has none of.
+/// Turns the stages' own reports into total progress, seconds per stage and time left. It owns the
+/// clock; the simulation has none.
 class Progress {
  public:
-  /// @param stages  in the order of work, one that comes back as often as it does; left out stages
-  ///                count as done, and a stage not ahead among them for nothing in the total
-  /// @param now_s   a clock that never goes back
-  /// @param sink    told of changes: beginning and end of a stage, and at most ten times a second
-  ///                in between
+  /// @param stages  in the order of work; a stage that recurs is listed each time. Skipped stages
+  ///     count as done; a stage not found ahead in the list adds nothing to the total.
+  /// @param now_s   a monotonic clock
+  /// @param sink    called at the beginning and end of each stage, and at most ten times a second
+  ///     in between
   Progress(std::vector<Stage> stages, std::function<double()> now_s,
            std::function<void(const ProgressReport&)> sink);
 
-  /// The listener for Context::report.
+  /// The callback for Context::report.
   void update(std::string_view stage, double fraction);
   /// Seconds spent in each stage so far, in order of first appearance.
   [[nodiscard]] std::vector<std::pair<std::string, double>> stage_seconds() const;
@@ -53,8 +53,8 @@ class Progress {
   double start_s_;
   mutable std::mutex mutex_;
   std::string stage_;
-  std::size_t next_ = 0;  ///< in stages_: the first that is still ahead
-  double before_ = 0;     ///< weight of the stages before the present one
+  std::size_t next_ = 0;  ///< in stages_: the first that has not begun
+  double before_ = 0;     ///< of the stages before the present one
   double weight_ = 0;     ///< of the present one
   double fraction_ = 0;
   double stage_start_s_;

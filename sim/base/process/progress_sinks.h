@@ -4,9 +4,9 @@
 
 namespace hydroprint::worker {
 
-/// Writes reports to a pipe, one JSON object a line (contract, `--progress-fd`):
+/// Writes reports to a pipe, one JSON object per line (contract, `--progress-fd`):
 /// {"stage":"velocity","fraction":0.42,"total_fraction":0.31,"eta_s":3.1}; eta_s is null while
-/// unknown. A reader that is slow misses lines; one that has gone is written to no more.
+/// unknown. A slow reader misses lines. Writing stops when the reader is gone.
 class ProgressPipe {
  public:
   explicit ProgressPipe(int fd) : fd_(fd) {}
@@ -16,11 +16,11 @@ class ProgressPipe {
   int fd_;
 };
 
-/// Keeps one line for people on a terminal: bar, stage, time left. Not a terminal: says nothing.
+/// Shows one progress line on a terminal: bar, stage, time left. Prints nothing elsewhere.
 class ProgressLine {
  public:
   explicit ProgressLine(int fd);
-  /// Leaves the line empty for what is to be said next.
+  /// Clears the line for the output that follows.
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;

@@ -2,9 +2,8 @@
 
 namespace hydroprint::worker {
 
-/// Keeps what libraries print from the process's stderr, where one line per error is promised:
-/// while it lives, descriptor 2 leads nowhere (but for builds with sanitizers, whose reports go
-/// there).
+/// Hides library output on the process's stderr, where one line per error is promised. While it
+/// exists, descriptor 2 is /dev/null, except in sanitizer builds, whose reports go there.
 class QuietStderr {
  public:
   QuietStderr();
@@ -12,9 +11,9 @@ class QuietStderr {
   QuietStderr(const QuietStderr&) = delete;
   QuietStderr& operator=(const QuietStderr&) = delete;
 
-  /// The stderr that the process was given.
+  /// The process's original stderr.
   [[nodiscard]] int own() const { return own_; }
-  /// Gives it back.
+  /// Restores the original stderr.
   void restore() const;
 
  private:

@@ -21,7 +21,7 @@ sigset_t watched() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
     sigaction(number, nullptr, &action);
-    // nohup and a shell's background jobs ask for some to be ignored.
+    // nohup and a shell's background jobs set some signals to be ignored.
     if (action.sa_handler != SIG_IGN) sigaddset(&set, number);
   }
   sigaddset(&set, kWake);
@@ -31,7 +31,7 @@ sigset_t watched() {
 }  // namespace
 
 Termination::Termination(std::function<void()> last_words) : last_words_(std::move(last_words)) {
-  // A reader that goes away and a file beyond the limit are errors of that write, nothing more.
+  // A closed pipe and a file beyond the size limit only fail the write in question.
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
   const sigset_t set = watched();

@@ -8,15 +8,15 @@
 
 namespace hydroprint::worker {
 
-/// How this process ends, decided once: by the main thread, with a result or an error, or by a
-/// signal that came first.
+/// Decides once how this process ends: by the main thread with a result or an error, or by an
+/// earlier signal.
 ///
-/// SIGINT, SIGTERM and SIGHUP ask for the end: `requested()` turns true, which the computation
-/// sees and unwinds. A stage that does not look for it in time (a file in the hands of an importer)
-/// is not waited for: after a grace period, or at a second signal, `last_words` runs and the
-/// process exits with status 130.
+/// SIGINT, SIGTERM and SIGHUP ask the process to end: `requested()` becomes true, and the
+/// computation sees this and unwinds. A stage that does not check it in time (an importer at work
+/// on a file) is not waited for. After a grace period, or at a second signal, `last_words` runs and
+/// the process exits with status 130.
 ///
-/// Must be made before any other thread, which inherit its signal mask.
+/// Must be created before any other thread, because threads inherit its signal mask.
 class Termination {
  public:
   explicit Termination(std::function<void()> last_words);
@@ -26,12 +26,13 @@ class Termination {
   Termination& operator=(const Termination&) = delete;
 
   [[nodiscard]] bool requested() const { return requested_; }
-  /// Asks for the end as a signal does; from any thread.
+  /// Asks the process to end, as a signal does; may be called from any thread.
   void request() { requested_ = true; }
-  /// The main thread alone decides from here on how the process ends. Does not return if the
-  /// signal thread has decided already.
+  /// Leaves it to the main thread alone to decide how the process ends. Does not return if the
+  /// signal thread has already decided.
   void decide();
-  /// What last_words has to clean up; empty: nothing. Returns after a running clean-up has ended.
+  /// Sets the clean-up that runs before `last_words`; empty: nothing. Waits for a clean-up in
+  /// progress.
   void set_cleanup(std::function<void()> cleanup);
 
  private:
@@ -47,7 +48,7 @@ class Termination {
   std::thread thread_;
 };
 
-/// Has something cleaned up if a signal ends the process while this lives.
+/// Runs a clean-up if a signal ends the process during this object's lifetime.
 class CleanupAtTermination {
  public:
   CleanupAtTermination(Termination& termination, std::function<void()> cleanup)

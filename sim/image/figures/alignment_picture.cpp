@@ -12,12 +12,12 @@ namespace hydroprint::image {
 namespace {
 
 constexpr double kPoint_mm = 0.7;  ///< radius of a disc
-constexpr double kDeep_mm = 3;     ///< below the surface, where points are the other side's
-constexpr double kShown = 0.98;    ///< of the points, that the scale is made for
-constexpr int kSteps = 5;          ///< of the scale, each way
+constexpr double kDeep_mm = 3;     ///< points deeper below the surface belong to the other side
+constexpr double kShown = 0.98;    ///< share of the points that the scale covers
+constexpr int kSteps = 5;          ///< of the scale, in each direction
 const Eigen::Vector3f kObject(0.45F, 0.45F, 0.44F);  // linear
 
-/// Blue over white to red, as even in lightness both ways (ColorBrewer's RdBu); sRGB-coded.
+/// Blue over white to red, with equal lightness on both sides (ColorBrewer's RdBu); sRGB-coded.
 Eigen::Vector3f diverging(double t) {
   const Eigen::Vector3f blue(0.13F, 0.40F, 0.67F), white(0.97F, 0.97F, 0.97F),
       red(0.70F, 0.09F, 0.17F);
@@ -26,7 +26,7 @@ Eigen::Vector3f diverging(double t) {
                  : Eigen::Vector3f(white + off * (red - white));
 }
 
-/// The same both ways.
+/// A range that is symmetric about zero.
 Range range_of(std::span<const double> off_mm) {
   std::vector<double> sorted;
   for (const double x : off_mm) sorted.push_back(std::abs(x));

@@ -9,10 +9,10 @@
 
 namespace hydroprint::image {
 
-/// A sheet of views of the plain object (found without tiles), with the points of a scan over it,
-/// coloured by how far they are off its surface: blue inside, red outside.
+/// A sheet of views of the plain object (found without tiles), with the points of a scan over it.
+/// They are coloured by their distance from its surface: blue inside, red outside.
 /// @param points_O  frame O
-/// @param off_mm    one a point, outward
+/// @param off_mm    per point, positive outward
 [[nodiscard]] Result<RgbImage> alignment_picture(const ObjectViews& views,
                                                  std::span<const Eigen::Vector3d> points_O,
                                                  std::span<const double> off_mm,

@@ -12,32 +12,33 @@
 
 namespace hydroprint::image {
 
-/// Height of the room for a legend below the views of a sheet.
+/// Height of the space for a legend below the views of a sheet.
 inline constexpr int kLegend_px = 110;
 
-/// The standard views on one sheet, each drawn by `draw`, with their names, and room for a legend
+/// The standard views on one sheet, each drawn by `draw`, with their names, and space for a legend
 /// below.
 [[nodiscard]] Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px,
                                           const Context& context,
                                           const std::function<void(ViewDrawing&)>& draw);
 
-/// Diagonal stripes in two greys (linear), by samples of a drawing: there is nothing to tell.
+/// Diagonal stripes in two greys (linear), by samples of a drawing; they mark areas without a
+/// value.
 [[nodiscard]] Eigen::Vector3f hatch(int x, int y);
 
-/// Range of a scale, and where its numbers stand.
+/// Range of a scale, and the step between its numbers.
 struct Range {
   double low = 1, high = 2, step = 0.2;
 };
 
-/// What a sheet's colours mean.
+/// The meaning of a sheet's colours.
 struct Scale {
-  std::string label;  ///< letters as draw_text has them
+  std::string label;  ///< in letters that draw_text() supports
   Range range;
-  std::function<Eigen::Vector3f(double)> coded;  ///< sRGB-coded, of the range as [0, 1]
-  std::string hatched;                           ///< what hatch() stands for; empty: nothing
+  std::function<Eigen::Vector3f(double)> coded;  ///< sRGB-coded; takes the range as [0, 1]
+  std::string hatched;                           ///< label of hatch(); empty: not used
 };
 
-/// Draws one into the room that draw_sheet() left for it.
+/// Draws a legend into the space that draw_sheet() left for it.
 void draw_legend(RgbImage& sheet, const Scale& scale);
 
 }  // namespace hydroprint::image

@@ -42,7 +42,7 @@ Box box_in(const mesh::Surface& surface, const Eigen::Matrix3d& rotation) {
   return box;
 }
 
-/// How bright a surface with that normal is, seen along z.
+/// Brightness of a surface with this normal, seen along z.
 float light(Eigen::Vector3d normal) {
   static const Eigen::Vector3d key = Eigen::Vector3d(-0.45, 0.65, 0.9).normalized();
   const double length = normal.norm();
@@ -56,14 +56,14 @@ Corners flat(const std::array<Eigen::Vector3d, 3>& corners) {
   return {corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()};
 }
 
-/// Calls visit(x, y, towards) for every sample inside a triangle, with its place along the
-/// view.
+/// Calls visit(x, y, towards) for every sample inside a triangle; `towards` is its position along
+/// the view.
 /// @param corners  x and y in samples, z along the view
 template <class Visit>
 void for_each_place(const std::array<Eigen::Vector3d, 3>& corners, const Window& window,
                     Visit&& visit) {
   const Corners at = flat(corners);
-  bool is_first = true;  // most tiles have no sample at all
+  bool is_first = true;  // most tiles contain no sample
   double origin = 0, per_x = 0, per_y = 0;
   for_each_span(at, window, [&](int y, int begin, int end) {
     if (std::exchange(is_first, false)) {

@@ -16,23 +16,23 @@
 
 namespace hydroprint::image {
 
-/// A direction to look at the object from, in parallel projection. Rows of `axes`: right, up and
+/// A direction from which to view the object, in parallel projection. Rows of `axes`: right, up and
 /// towards the viewer, in the film frame F.
 struct View {
   std::string name;
   Eigen::Matrix3d axes;
 };
 
-/// Front (from -y), back, three-quarter and from below (where the film takes hold first); +z of F
-/// is up.
+/// Front (from -y), back, three-quarter and from below (the side that the film touches first); +z
+/// of F is up.
 [[nodiscard]] std::vector<View> standard_views();
 
 /// Size of the object as seen: half the width and height about its middle, mm.
 [[nodiscard]] Eigen::Vector2d half_extent_mm(const mesh::Surface& surface, const Pose& X_FO,
                                              const View& view);
 
-/// What can be seen of an object, and of tiles of film on it, from one side, by 2 x 2 samples a
-/// pixel: found once with a depth buffer, for drawings in any colours. Object and tiles must
+/// The visible parts of an object, and of tiles of film on it, from one side, with 2 x 2 samples
+/// per pixel. Found once with a depth buffer, for drawings in any colours. Object and tiles must
 /// outlive it.
 class SeenObject {
  public:
@@ -41,12 +41,12 @@ class SeenObject {
              int height_px, double px_per_mm);
 
   struct Sample {
-    int tile = -1;               ///< whose film is seen there; -1: bare, or background
-    float towards = -HUGE_VALF;  ///< place along the view, mm; -infinity: background
+    int tile = -1;               ///< the tile that is seen there; -1: bare, or background
+    float towards = -HUGE_VALF;  ///< position along the view, mm; -infinity: background
     float light = 1;             ///< from a lamp over the viewer's left shoulder
     [[nodiscard]] bool is_background() const { return towards == -HUGE_VALF; }
   };
-  /// A tile that can be seen, and at which samples.
+  /// A visible tile and its samples.
   struct SeenTile {
     const flow::MappedTriangle& tile;
     std::span<const int> samples;
@@ -69,9 +69,9 @@ class SeenObject {
     return static_cast<std::size_t>(y) * width_ + x;
   }
   [[nodiscard]] std::array<Eigen::Vector3d, 3> corners_of(std::size_t triangle) const;
-  /// Of its corners, one a column, as seen.
+  /// Normals at a triangle's corners, one per column, in the view.
   [[nodiscard]] Eigen::Matrix3d normals_of(std::size_t triangle) const;
-  /// Which triangle of the surface is seen at each sample; -1: none.
+  /// The triangle of the surface that is seen at each sample; -1: none.
   std::vector<int> place_surface();
   void place_tiles();
   void sort_by_tile();
@@ -85,39 +85,40 @@ class SeenObject {
   double samples_per_mm_;
   double depth_step_mm_;  ///< jumps in depth beyond this are outlines
   std::vector<Sample> samples_;
-  /// The tiles that are seen, where the samples of each begin among `by_tile_`, and these.
+  /// The visible tiles, the start of each one's samples in `by_tile_`, and these samples.
   std::vector<int> tile_numbers_, first_of_tile_, by_tile_;
 };
 
-/// A picture of it.
+/// A drawing of a SeenObject.
 class ViewDrawing {
  public:
   explicit ViewDrawing(const SeenObject& seen);
 
-  /// Draws the tiles. `colour_of` is asked once a tile with its corners on the grid of samples and
-  /// returns the linear colour, before light, at a sample from its barycentric coordinates.
+  /// Draws the tiles. `colour_of` is called once per tile with its corners on the grid of samples.
+  /// It returns a function from the barycentric coordinates of a sample to its linear colour,
+  /// before lighting.
   using TileColour = std::function<Eigen::Vector3f(int x, int y, const Eigen::Vector3d&)>;
   using TileColourMaker =
       std::function<TileColour(const flow::MappedTriangle& tile, const Corners& at)>;
   void draw_tiles(const TileColourMaker& colour_of);
 
-  /// Draws the rest of the surface in linear colours, before light, of the sample.
+  /// Draws the rest of the surface in linear colours per sample, before lighting.
   using Colour = std::function<Eigen::Vector3f(int x, int y)>;
   void draw_bare(const Colour& colour);
 
-  /// Draws points as discs over what has been drawn, where the surface does not hide them.
-  /// @param points_O  a point that lies deeper than `deep_mm` below the surface is hidden
-  /// @param colours   linear, one a point
+  /// Draws points as discs over the drawing, where the surface does not hide them.
+  /// @param points_O  points deeper than `deep_mm` below the surface are hidden
+  /// @param colours   linear, one per point
   void draw_points(std::span<const Eigen::Vector3d> points_O,
                    std::span<const Eigen::Vector3f> colours, double radius_mm, double deep_mm);
 
-  /// Puts the drawing, with its outlines, on a picture whose pixels there are background.
+  /// Copies the drawing, with its outlines, onto a picture whose pixels there are background.
   void put_on(RgbImage& picture, int left_px, int top_px) const;
 
  private:
   struct Sample {
     Eigen::Vector3f colour;
-    float towards;  ///< of what is drawn there
+    float towards;  ///< of the drawn surface
   };
   [[nodiscard]] bool is_outline(int x, int y) const;
   [[nodiscard]] Sample& at(int x, int y) {

@@ -7,14 +7,14 @@
 namespace hydroprint::image {
 namespace {
 
-/// How the views stand.
+/// Arrangement of the views.
 struct Layout {
   int columns = 2;
   int width_px = 0, height_px = 0;
   double px_per_mm = 1;
 };
 
-/// Two by two or four in a row: the compact row unless it shows the object much smaller.
+/// Chooses two by two or four in a row: the compact row unless it shows the object much smaller.
 Layout lay_out(const mesh::Surface& surface, const Pose& X_FO, const std::vector<View>& views) {
   Layout best;
   double best_score = 0;

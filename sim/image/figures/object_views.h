@@ -17,8 +17,8 @@ namespace hydroprint::image {
 inline constexpr int kSheetWidth_px = 1360;
 inline constexpr int kMargin_px = 40;
 
-/// The standard views of an object with film on it, as they stand on a sheet, row by row. What is
-/// seen in them is found once for all pictures of it.
+/// The standard views of an object with film on it, in their order on a sheet, row by row. The
+/// visible parts are found once for all pictures.
 struct ObjectViews {
   const mesh::Surface& surface;
   int columns = 2;
@@ -27,9 +27,9 @@ struct ObjectViews {
   std::vector<SeenObject> seen;
 };
 
-/// Looks at an object as it goes into the water (+z of F up). Surface and tiles must outlive the
-/// views.
-/// @param tiles  film that has landed; none: the object alone
+/// Views an object in the orientation in which it enters the water (+z of F up). Surface and tiles
+/// must outlive the views.
+/// @param tiles  film that has landed; empty: the object alone
 [[nodiscard]] Result<ObjectViews> find_views(const mesh::Surface& surface, const Pose& X_FO,
                                              std::span<const flow::MappedTriangle> tiles,
                                              const Context& context);

@@ -14,13 +14,13 @@
 namespace hydroprint::image {
 namespace {
 
-/// Differences of stretch beyond it say nothing: film tears at about 3. The poles of spheres, where
-/// it is hundreds, would take the whole scale.
+/// Differences in stretch above this do not matter, because film tears at about 3. The poles of
+/// spheres, where stretch is in the hundreds, would take up the whole scale.
 constexpr double kMostStretch = 4;
 const Eigen::Vector3f kBareObject(0.72F, 0.72F, 0.71F);  // linear
 
-/// From dark to light at an even pace, and apart for every kind of colour vision: control points of
-/// sRGB colours, evenly spaced.
+/// Colours from dark to light at an even pace, distinguishable for every kind of colour vision:
+/// evenly spaced control points, sRGB.
 constexpr std::array<Rgb8, 9> kScale = {{{68, 1, 84},
                                          {71, 45, 123},
                                          {59, 82, 139},
@@ -42,7 +42,7 @@ Eigen::Vector3f scale_colour(double t) {
   return point(kScale[i]) * (1 - share) + point(kScale[i + 1]) * share;
 }
 
-/// The same in linear light, by table: it is asked for every sample.
+/// Same as scale_colour(), in linear light, from a table because it is called for every sample.
 const Eigen::Vector3f& linear_scale_colour(double t) {
   constexpr int kLast = 1023;
   static const std::vector<Eigen::Vector3f> table = [] {
@@ -104,7 +104,7 @@ Result<RgbImage> stretch_picture(const ObjectViews& views, const flow::SurfaceMa
                                  const Context& context) {
   const auto at_corners = [&](const flow::MappedTriangle& tile) {
     auto values = tile_stretch(views.surface, map, tile, Stretch::kLargest);
-    // Film that lands without having any area: stretched beyond measure.
+    // Film that lands without any area is stretched without limit.
     for (double& value : values) value = std::isfinite(value) ? value : HUGE_VAL;
     return values;
   };

@@ -15,27 +15,27 @@
 namespace hydroprint::image {
 
 /// A sheet of the object's views, coloured by stretch (section 6) from dark blue over green to
-/// yellow, with a legend; hatched grey where no film arrives. The colours stay apart for the
-/// colour-blind and in grey.
+/// yellow, with a legend; hatched grey where no film arrives. The colours are distinguishable for
+/// colour-blind readers and in grey.
 /// @param map  of the tiles in view
 [[nodiscard]] Result<RgbImage> stretch_picture(const ObjectViews& views,
                                                const flow::SurfaceMap& map, const Context& context);
 
-/// Something to colour an object by.
+/// A quantity by which to colour an object.
 struct Quantity {
-  std::string label;           ///< beside the legend; letters as draw_text has them
-  std::vector<double> values;  ///< of which all but the extremes fit the scale; NaN: left out
-  double rest = 0, least_span = 0.1;  ///< the scale holds the one and is no shorter than the other
-  /// At a tile's corners; NaN shows as where no film arrives.
+  std::string label;                  ///< for the legend; in letters that draw_text() supports
+  std::vector<double> values;         ///< the scale fits all but their extremes; NaN: ignored
+  double rest = 0, least_span = 0.1;  ///< the scale contains `rest` and spans at least `least_span`
+  /// At a tile's corners; NaN is drawn as if no film arrived.
   std::function<std::array<double, 3>(const flow::MappedTriangle&)> at_corners;
-  std::string hatched = "no film";  ///< what NaN and bare surface are called
+  std::string hatched = "no film";  ///< label of NaN and bare surface
 };
 
-/// The same, coloured by any quantity.
+/// Same as stretch_picture(), coloured by any quantity.
 [[nodiscard]] Result<RgbImage> quantity_picture(const ObjectViews& views, const Quantity& quantity,
                                                 const Context& context);
 
-/// The same, coloured by the smaller singular value.
+/// Same as stretch_picture(), coloured by the smaller singular value.
 [[nodiscard]] Result<RgbImage> wrinkle_picture(const ObjectViews& views,
                                                const flow::SurfaceMap& map, const Context& context);
 

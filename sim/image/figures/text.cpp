@@ -28,8 +28,7 @@ struct Glyph {
     width = std::max(width, x);
     return *this;
   }
-  /// An arc of an ellipse, degrees counter-clockwise from the right, drawn on from where the pen
-  /// is.
+  /// An arc of an ellipse, degrees counter-clockwise from the right; continues the current stroke.
   Glyph& arc(double x, double y, double rx, double ry, double from_deg, double to_deg) {
     constexpr int kPieces = 16;
     for (int i = 0; i <= kPieces; ++i) {
@@ -108,7 +107,7 @@ const Glyph* glyph(char c) {
   return found == letters.end() ? nullptr : &found->second;
 }
 
-/// How much ink a letter puts on a pixel, from 0 to 1.
+/// Share of a pixel that a letter covers with ink, from 0 to 1.
 double ink(const Glyph& letter, const Eigen::Vector2d& at, double size_px) {
   double nearest = HUGE_VAL;
   for (const auto& stroke : letter.strokes) {

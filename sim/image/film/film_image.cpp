@@ -23,7 +23,7 @@ const std::array<Eigen::Vector2d, kSamples> kOffsets = {
 using SampleSet = unsigned;
 constexpr SampleSet kAllSamples = (1U << kSamples) - 1;
 
-/// Where the samples of each set lie in the mean, from the pixel's middle.
+/// Mean position of the samples of each set, relative to the pixel's middle.
 const std::array<Eigen::Vector2d, kAllSamples + 1>& mean_offsets() {
   static const auto offsets = [] {
     std::array<Eigen::Vector2d, kAllSamples + 1> out;
@@ -39,18 +39,19 @@ const std::array<Eigen::Vector2d, kAllSamples + 1>& mean_offsets() {
   return offsets;
 }
 
-/// How far beyond a tile's edge its colours are believed, as a part of its size.
+/// How far beyond a tile's edge its colours are used, as a share of its size.
 constexpr double kBeyondEdge = 0.5;
 
-/// Where a pixel's colour is looked up, once for all its samples: in its middle, so that tiles that
-/// share the pixel agree, unless that lies far outside a tiny tile.
-/// @param covered  the mean place of the samples that the tile covers
+/// The point at which a pixel's colour is looked up, once for all its samples. It is the pixel's
+/// middle, so that tiles that share the pixel agree, unless the middle lies far outside a tiny
+/// tile.
+/// @param covered  the mean position of the samples that the tile covers
 Eigen::Vector2d look_up_at(const BarycentricMap& map, const Eigen::Vector2d& middle,
                            const Eigen::Vector2d& covered) {
   return map.at(middle.x(), middle.y()).minCoeff() >= -kBeyondEdge ? middle : covered;
 }
 
-/// One block of the image while it is painted: the colour of each sample and when it landed.
+/// A block of the image while it is painted: colour and landing time of each sample.
 class Block {
  public:
   explicit Block(const Window& window)
@@ -81,14 +82,14 @@ class Block {
  private:
   using PerSample = std::array<float, kSamples>;
 
-  /// The samples of one, as long as nothing landed on them of white film.
+  /// The samples of a pixel; white film until something lands on them.
   struct Pixel {
     std::array<PerSample, 3> light = {
         PerSample{1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}};  ///< linear
     PerSample landed_s = {HUGE_VALF, HUGE_VALF, HUGE_VALF, HUGE_VALF};
   };
 
-  /// Contact time over the pixel grid, at the samples of a pixel.
+  /// Contact time as a linear function of the pixel grid, at the samples of a pixel.
   struct TimePlane {
     TimePlane(const BarycentricMap& map, const Eigen::Vector3d& time_s)
         : per_x(map.per_x().dot(time_s)), per_y(map.per_y().dot(time_s)) {
@@ -188,13 +189,14 @@ class Block {
 Status check_size(const film::Outline& outline, double dpi) {
   if (!(dpi >= kMinDpi && dpi <= kMaxDpi)) {
     return fail(Code::kOutOfRange, "dpi " + std::to_string(dpi) +
-                                       ": must lie in 20 to 2400. "
+                                       ": must be from 20 to 2400. "
                                        "Give the resolution of the printer, such as 300 or 600");
   }
   const Eigen::Vector2d size_px = outline.size_mm() * dpi / 25.4;
   if (!(size_px.x() * size_px.y() <= kMaxFilmImage_px)) {
-    return fail(Code::kOutOfRange, "dpi " + std::to_string(dpi) + " on film " + outline.name +
-                                       ": an image of more than 400 million pixels. Lower the dpi");
+    return fail(Code::kOutOfRange,
+                "dpi " + std::to_string(dpi) + " on film " + outline.name +
+                    ": the image would have more than 400 million pixels. Lower the dpi");
   }
   return {};
 }

@@ -14,14 +14,14 @@
 
 namespace hydroprint::image {
 
-/// Square cells over the film, centred on it: cell (i, j) is the one at
-/// left + (i + 1/2) pitch, top - (j + 1/2) pitch, seen from above, row 0 at the top.
+/// Square cells over the film, centred on it. The centre of cell (i, j) is at left + (i + 1/2)
+/// pitch, top - (j + 1/2) pitch, seen from above, row 0 at the top.
 struct FilmGrid {
   int columns = 0, rows = 0;
   double pitch_mm = 1;
   double left_mm = 0, top_mm = 0;
 
-  /// Where a point of the film lies on the grid, in cells; y down.
+  /// Position of a point of the film on the grid, in cells; y down.
   [[nodiscard]] Eigen::Vector2d cell(const Eigen::Vector2d& film_mm) const {
     return {(film_mm.x() - left_mm) / pitch_mm, (top_mm - film_mm.y()) / pitch_mm};
   }
@@ -30,7 +30,7 @@ struct FilmGrid {
 /// The grid of the given pitch; its size is the nearest integer to the film's, at least 1.
 [[nodiscard]] FilmGrid film_grid(const film::Outline& outline, double pitch_mm);
 
-/// A tile's corners in barycentric coordinates of the model's triangle that it is part of.
+/// A tile's corners in barycentric coordinates of the model triangle that contains it.
 [[nodiscard]] std::array<Eigen::Vector3d, 3> model_barycentric(const mesh::Surface& surface,
                                                                const flow::MappedTriangle& tile);
 
@@ -38,11 +38,11 @@ inline constexpr double kMinDpi = 20, kMaxDpi = 2400;
 inline constexpr double kMaxFilmImage_px = 400e6;
 
 /// The image to print (end of section 4.5): every point of the film gets the colour of the surface
-/// where it lands, white where it lands nowhere. Ink side up, seen from above; size and pitch as
-/// the contract has them. Four samples a pixel at the edges of what is covered, the texture
-/// filtered over the pixel's footprint. Film that has landed stays: where tiles overlap the earlier
-/// contact counts. The same bits whatever the number of threads. Refuses (kOutOfRange) dpi outside
-/// [kMinDpi, kMaxDpi] and images beyond kMaxFilmImage_px.
+/// where it lands, or white if it lands nowhere. Ink side up, seen from above; size and pitch
+/// follow the contract. Pixels at edges of the covered region have four samples; the texture is
+/// filtered over the pixel's footprint. Film that has landed stays, so the earlier contact wins
+/// where tiles overlap. The result is bit-identical for any number of threads. Refuses
+/// (kOutOfRange) dpi outside [kMinDpi, kMaxDpi] and images beyond kMaxFilmImage_px.
 [[nodiscard]] Result<RgbImage> film_image(const mesh::Surface& surface,
                                           const std::vector<flow::MappedTriangle>& tiles,
                                           const Paint& paint, const film::Outline& outline,

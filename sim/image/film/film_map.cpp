@@ -39,8 +39,9 @@ void draw(const mesh::Surface& surface, const flow::SurfaceMap& values,
 Result<FilmMap> film_map(const mesh::Surface& surface, const flow::FlowMap& map,
                          const film::Outline& outline, double cell_mm, const Context& context) {
   if (!(cell_mm >= kMinCell_mm && cell_mm <= outline.size_mm().minCoeff())) {
-    return fail(Code::kOutOfRange, "film map: cells of " + std::to_string(cell_mm) +
-                                       " mm. Choose 0.05 mm up to the film's shorter side");
+    return fail(Code::kOutOfRange,
+                "film map: cell size " + std::to_string(cell_mm) +
+                    " mm is out of range. Choose from 0.05 mm to the film's shorter side");
   }
   FilmMap out;
   out.grid = film_grid(outline, cell_mm);

@@ -13,8 +13,8 @@
 
 namespace hydroprint::image {
 
-/// Where each cell of a grid over the film lands: per cell, row 0 at the top (+y). NaN where
-/// nothing is transferred.
+/// The landing point of each cell of a grid over the film, row 0 at the top (+y). NaN where no film
+/// is transferred.
 struct FilmMap {
   FilmGrid grid;
   std::vector<Eigen::Vector3f> contact_mm;  ///< on the object, frame O
@@ -22,8 +22,8 @@ struct FilmMap {
   std::vector<float> stretch;               ///< largest singular value there (section 6)
 };
 
-/// Evaluates the map at the cells' centres; where tiles overlap the earliest contact counts.
-/// Refuses (kOutOfRange) cells below 0.05 mm or larger than the film.
+/// Evaluates the map at the cells' centres; the earliest contact wins where tiles overlap. Refuses
+/// (kOutOfRange) cells below 0.05 mm or larger than the film.
 [[nodiscard]] Result<FilmMap> film_map(const mesh::Surface& surface, const flow::FlowMap& map,
                                        const film::Outline& outline, double cell_mm,
                                        const Context& context);

@@ -10,7 +10,8 @@
 namespace hydroprint::image {
 namespace {
 
-/// Means over blocks of `factor` by `factor` pixels, in linear light; the last ones may be smaller.
+/// Means over blocks of `factor` by `factor` pixels, in linear light; the last blocks may be
+/// smaller.
 Result<Texels> reduce(const RgbImage& image, int factor, const Context& context) {
   HP_CHECK(factor >= 1);
   Texels out;
@@ -72,7 +73,7 @@ Result<FilmTexture> FilmTexture::from_image(const RgbImage& image, const film::O
   const auto [low, size] = image_extent(image.width, image.height, outline);
   const int factor = (std::max(image.width, image.height) + max_side_px - 1) / max_side_px;
   HP_ASSIGN_OR_RETURN(Texels texels, reduce(image, factor, context));
-  // Whole texels: the last column and row may reach beyond the image.
+  // Texels are whole, so the last column and row may extend beyond the image.
   const Eigen::Vector2d whole(size.x() * texels.width * factor / image.width,
                               size.y() * texels.height * factor / image.height);
   HP_ASSIGN_OR_RETURN(Texture texture, Texture::build(std::move(texels), mesh::Wrap::kClamp,

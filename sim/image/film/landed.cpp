@@ -16,8 +16,8 @@ constexpr int kMaxSide_px = 16384;
 
 int wrap_index(int i, int size) { return ((i % size) + size) % size; }
 
-/// Where the tile's corners lie in the texture, in texels, y down, moved by whole textures so that
-/// it starts in the first one. NaN where the model has no coordinates.
+/// The tile's corners in the texture, in texels, y down, shifted by whole textures so that the tile
+/// starts in the first one. NaN if the model has no coordinates.
 Corners texel_corners(const mesh::Model& model, const mesh::Surface& surface,
                       const flow::MappedTriangle& tile, int width, int height) {
   const auto barycentric = model_barycentric(surface, tile);
@@ -45,7 +45,7 @@ class LandedTexture {
   }
 
   void paint(const Corners& at, const std::array<float, 3>& time_s, const Brush& brush) {
-    // Two tiles' worth: a tile that starts near the edge may reach over it.
+    // Two textures wide and high: a tile that starts near the edge may extend beyond it.
     const Window window{0, 0, 2 * image_.width, 2 * image_.height};
     for_each_sample(at, window, [&](int x, int y, const Eigen::Vector3d& b) {
       const std::size_t texel =
@@ -95,12 +95,13 @@ Result<RgbaImage> landed_texture(const mesh::Model& model, const mesh::Surface& 
   if (model.corner_uvs.empty()) {
     return fail(Code::kFailedPrecondition,
                 model.path.string() +
-                    ": has no texture coordinates (UVs) to lay a texture out "
-                    "by. Unwrap the model, or use the colours per vertex");
+                    ": has no texture coordinates (UVs), which a texture needs. "
+                    "Unwrap the model, or use the colours per vertex");
   }
   if (width < 1 || height < 1 || width > kMaxSide_px || height > kMaxSide_px) {
     return fail(Code::kOutOfRange, "landed texture: " + std::to_string(width) + " x " +
-                                       std::to_string(height) + " pixels. Choose 1 to 16384");
+                                       std::to_string(height) +
+                                       " pixels is out of range. Choose sides from 1 to 16384");
   }
   LandedTexture landed(width, height);
   for (std::size_t t = 0; t < tiles.size(); ++t) {

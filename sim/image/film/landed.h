@@ -24,9 +24,9 @@ struct RgbaImage {
   std::vector<std::uint8_t> rgba;
 };
 
-/// What lands, laid out as the object's texture: each texel gets the colour of the film that lands
-/// there, filtered over the texel; white and transparent where none does. Where parts of the
-/// surface share texels the earliest contact counts. Coordinates outside [0, 1] repeat.
+/// The landed film, laid out as the object's texture. Each texel gets the colour of the film that
+/// lands there, filtered over the texel; white and transparent where no film lands. The earliest
+/// contact wins where parts of the surface share texels. Coordinates outside [0, 1] repeat.
 /// Refuses a model without UVs (kFailedPrecondition) and sizes outside 1 to 16384 (kOutOfRange).
 [[nodiscard]] Result<RgbaImage> landed_texture(const mesh::Model& model,
                                                const mesh::Surface& surface,

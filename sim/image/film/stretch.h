@@ -12,11 +12,12 @@ namespace hydroprint::image {
 [[nodiscard]] std::array<Eigen::Vector3d, 3> tile_points(const mesh::Surface& surface,
                                                          const flow::MappedTriangle& tile);
 
-/// Which singular value of the film-to-surface Jacobian.
+/// Selects a singular value of the film-to-surface Jacobian.
 enum class Stretch { kLargest, kLeast };
 
-/// That singular value at a tile's corners (section 6): from the surface's points where all three
-/// round the tile have one, else that of the tile itself; NaN for a tile whose film has no area.
+/// That singular value at a tile's corners (section 6). It is interpolated from the surface's
+/// points if all three around the tile have one; else it is that of the tile itself. NaN for a tile
+/// whose film has no area.
 [[nodiscard]] std::array<double, 3> tile_stretch(const mesh::Surface& surface,
                                                  const flow::SurfaceMap& map,
                                                  const flow::MappedTriangle& tile,

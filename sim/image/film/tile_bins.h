@@ -8,7 +8,7 @@
 
 namespace hydroprint::image {
 
-/// Which tiles may touch which square block of a grid, in the tiles' order.
+/// The tiles that may touch each square block of a grid, in the order of the tiles.
 class TileBins {
  public:
   TileBins(const std::vector<flow::MappedTriangle>& tiles, const FilmGrid& grid, int block);

@@ -1,4 +1,4 @@
-// The only file that knows OpenImageIO; a module of its own (image_codecs.h).
+// The only file that uses OpenImageIO; built as a separate module (codecs.h).
 #include "sim/image/io/codecs.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -31,7 +31,7 @@ tl::unexpected<Error> corrupt(const std::string& name, const std::string& why) {
               name + ": truncated or corrupt image (" + first_line(why) + "). Get the file again");
 }
 
-/// How the channels of a file make a texel.
+/// How the channels of a file form a texel.
 struct Layout {
   int channels = 3;
   int alpha = -1;  ///< channel, -1: none
@@ -124,7 +124,7 @@ Status read_pixels(ImageInput& input, const ImageSpec& spec, const std::string& 
   return {};
 }
 
-/// An image file whose header has been looked at.
+/// An image file whose header has been checked.
 struct Opened {
   std::unique_ptr<ImageInput> input;
   ImageSpec spec;
@@ -183,8 +183,8 @@ Result<Grey16Image> decode_grey16(IOProxy& proxy, const std::string& name) {
   return out;
 }
 
-/// The libraries behind OpenImageIO report through return values, but it is C++: nothing of theirs
-/// may pass this file.
+/// Runs a decoder and turns exceptions into errors. The libraries behind OpenImageIO report errors
+/// through return values, but C++ exceptions are possible and must not leave this file.
 template <class Decode>
 auto safely(const std::string& name, Decode decode) -> decltype(decode()) {
   try {
@@ -197,7 +197,7 @@ auto safely(const std::string& name, Decode decode) -> decltype(decode()) {
   }
 }
 
-/// @param name  for messages; its extension is what the encoder expects
+/// @param name  for messages; must have the extension that the encoder expects
 Result<std::vector<unsigned char>> encode(const std::string& name, const char* encoder,
                                           const ImageSpec& spec, TypeDesc type,
                                           const void* pixels) {
@@ -263,7 +263,8 @@ Result<std::vector<unsigned char>> encode_tiff(const std::string& name, const Pr
   spec.attribute("XResolution", static_cast<float>(dpi));
   spec.attribute("YResolution", static_cast<float>(dpi));
   spec.attribute("ResolutionUnit", "in");
-  // Left out, the library writes the time; so Exif (2.3, tag 306) has one that is not known.
+  // If it is missing, the library writes the current time. This is Exif's unknown time (2.3, tag
+  // 306).
   spec.attribute("DateTime", "    :  :     :  :  ");
   if (image.channels == 4) {
     spec.channelnames = {"C", "M", "Y", "K"};
@@ -284,7 +285,7 @@ Result<std::vector<unsigned char>> encode_exr(const std::string& name, int width
   ImageSpec spec(width, height, static_cast<int>(channels.size()), TypeDesc::FLOAT);
   spec.channelnames = channels;
   spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // else the time of writing: equal images are equal files
+  spec.attribute("DateTime", "");  // else the time of writing; equal images must give equal files
   return encode(name, "openexr", spec, TypeDesc::FLOAT, values.data());
 }
 

@@ -13,9 +13,9 @@
 
 namespace hydroprint::image {
 
-/// What takes an image library to do; each as the function of image_file.h that calls it says.
-/// OpenImageIO brings some two hundred libraries along, a third of a second to load, and much of
-/// what the programs do needs none of them. So they are a module, loaded when first asked for.
+/// The functions that need an image library, each documented with its caller in image_file.h.
+/// OpenImageIO depends on some two hundred libraries that take a third of a second to load, and
+/// most work needs none of them. They are therefore in a module that is loaded on first use.
 struct ImageCodecs {
   Result<ReadImage> (*read_file)(const std::filesystem::path& path, const Context& context);
   Result<ReadImage> (*read_bytes)(const std::vector<unsigned char>& bytes, const std::string& name,
@@ -34,5 +34,5 @@ struct ImageCodecs {
 
 }  // namespace hydroprint::image
 
-/// The one thing that the module exports.
+/// The only symbol that the module exports.
 extern "C" const hydroprint::image::ImageCodecs* hydroprint_image_codecs();

@@ -13,7 +13,7 @@ namespace hydroprint::image {
 [[nodiscard]] Eigen::Vector3f linear_from_srgb(const Eigen::Vector3f& coded);
 [[nodiscard]] Eigen::Vector3f srgb_from_linear(const Eigen::Vector3f& linear);
 
-/// Gives the nearest 8-bit sRGB code, by table: fast enough for every pixel of a film image.
+/// Gives the nearest 8-bit sRGB code from a table: fast enough for every pixel of a film image.
 class Srgb8Encoder {
  public:
   Srgb8Encoder();
@@ -26,11 +26,11 @@ class Srgb8Encoder {
   const std::uint8_t* table_;
 };
 
-/// The same for single values.
+/// Same as Srgb8Encoder, for single values.
 [[nodiscard]] std::uint8_t srgb8_from_linear(float linear);
 
-/// Linear light in 16 bits from 16-bit sRGB codes, by table. 8-bit codes times 257 survive the way
-/// there and back.
+/// Linear light in 16 bits from 16-bit sRGB codes, by table. 8-bit codes times 257 survive the
+/// round trip.
 [[nodiscard]] std::uint16_t linear16_from_srgb16(std::uint16_t coded);
 
 }  // namespace hydroprint::image

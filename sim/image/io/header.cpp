@@ -36,7 +36,7 @@ std::string at_byte(const std::string& name, std::int64_t offset) {
   return name + ", byte " + std::to_string(offset) + ": ";
 }
 
-/// Checksum of a PNG chunk's type and data against the one written behind them.
+/// Compares the checksum of a PNG chunk's type and data with the stored one.
 bool is_chunk_sound(const ByteSource& bytes, std::int64_t offset, std::int64_t length) {
   std::vector<unsigned char> buffer(1 << 16);
   std::uint32_t crc = ~0U;
@@ -67,7 +67,7 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
     }
     const std::int64_t length = big_endian(head.data(), 4);
     const bool is_last = std::memcmp(head.data() + 4, "IEND", 4) == 0;
-    // What stands in for a checksum behind the very last chunk harms nobody.
+    // A wrong checksum after the very last chunk does no harm.
     if (is_last) return {};
     if (at + 12 + length > bytes.size || !is_chunk_sound(bytes, at, length)) {
       return fail(Code::kDataLoss, at_byte(name, at) +
@@ -78,7 +78,8 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
   }
 }
 
-/// Finds the frame header: a progressive JPEG's decoder allocates for all of it on opening.
+/// Finds the frame header: a progressive JPEG's decoder allocates memory for the whole image on
+/// opening.
 Status check_jpeg(const ByteSource& bytes, const std::string& name) {
   Signature head{};
   for (std::int64_t at = 2; bytes.read(head.data(), 4, at) == 4;) {
@@ -140,15 +141,17 @@ Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_siz
                   const std::string& name) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
   if (width < 1 || height < 1) {
-    return fail(Code::kDataLoss, name + ", header: " + size + ". Get the file again");
+    return fail(Code::kDataLoss,
+                name + ", header: impossible size, " + size + ". Get the file again");
   }
   if (width > kMaxImageSide_px || height > kMaxImageSide_px || width * height > kMaxImageArea_px) {
     return fail(Code::kOutOfRange, name + ", header: " + size + ", more than " +
-                                       std::to_string(kMaxImageSide_px) + " a side or " +
+                                       std::to_string(kMaxImageSide_px) + " per side or " +
                                        std::to_string(kMaxImageArea_px / 1'000'000) +
                                        " million in all. Scale the image down");
   }
-  // Deflate packs at most 1032 to 1, here at least one bit a pixel; the others less than this.
+  // Deflate compresses at most 1032 to 1, here at least one bit per pixel; the other formats less
+  // than 5000 to 1.
   const std::int64_t pixels_per_byte = format == Format::kPng ? 8 * 1032 : 8 * 5000;
   if (width * height / pixels_per_byte > file_size) {
     return fail(Code::kDataLoss, name + ", header: announces " + size + " in a file of " +

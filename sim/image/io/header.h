@@ -9,20 +9,21 @@
 
 namespace hydroprint::image {
 
-/// Bytes of a file or of a part of one; `read` fills up to `count` bytes from `offset` and returns
-/// how many there were.
+/// The bytes of a file or of a part of one; `read` copies up to `count` bytes from `offset` and
+/// returns the number copied.
 struct ByteSource {
   std::int64_t size = 0;
   std::function<std::size_t(void* to, std::size_t count, std::int64_t offset)> read;
 };
 
-/// The formats understood, by the names of their decoders.
+/// The supported formats, named after their decoders.
 enum class Format { kPng, kJpeg, kTiff };
 [[nodiscard]] const char* decoder_name(Format format);
 
-/// Tells the format by the first bytes and, before any decoder sees them, refuses PNG and JPEG that
-/// announce more than the limits of image_file.h or more than so many bytes can hold, and PNG whose
-/// chunks are cut short or damaged. (TIFF is left to check_size: its decoder opens it lazily.)
+/// Detects the format from the first bytes. Before any decoder sees them, it refuses PNG and JPEG
+/// that announce more than the limits of image_file.h or more than the file's size can hold. It
+/// also refuses PNG with truncated or damaged chunks. (TIFF is left to check_size(): its decoder
+/// opens it lazily.)
 [[nodiscard]] Result<Format> check_header(const ByteSource& bytes, const std::string& name);
 
 /// Refuses sizes beyond the limits or beyond what `file_size` bytes can hold.

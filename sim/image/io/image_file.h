@@ -12,7 +12,7 @@
 
 namespace hydroprint::image {
 
-/// One texel in linear light, 16 bits a channel; `chart` is Texture's own mark (0 when read).
+/// One texel in linear light, 16 bits per channel; `chart` is set by Texture (0 when read).
 struct Texel {
   std::uint16_t r = 0, g = 0, b = 0, chart = 0;
 };
@@ -25,40 +25,41 @@ struct Texels {
 
 struct ReadImage {
   Texels image;
-  bool had_alpha = false;  ///< some of it was not opaque, and lay on white
+  bool had_alpha = false;  ///< parts were transparent and were laid over white
 };
 
 /// Images larger than this are refused before anything is decoded.
 inline constexpr int kMaxImageSide_px = 16384;
 inline constexpr std::int64_t kMaxImageArea_px = 200'000'000;
 
-/// Loads the image libraries, which else happens when the first image is read. Ahead of what takes
-/// much memory: they end the program where they find none.
+/// Loads the image libraries, which otherwise happens when the first image is read. Call it before
+/// work that takes much memory: the libraries end the program if they find none.
 void load_image_libraries();
 
-/// Reads PNG, JPEG or TIFF (told by their first bytes, not by their name): grey, RGB, palette, with
-/// or without alpha (laid over white in linear light), 8 or 16 bits or floats. Integers are taken
-/// as sRGB-coded, floats as linear.
-/// Refuses, naming the file: other formats (kInvalidArgument), images beyond the limits above
-/// (kOutOfRange), files too short for the size they announce, truncated or corrupt ones
-/// (kDataLoss).
+/// Reads PNG, JPEG or TIFF (detected by content, not by name): grey, RGB or palette, with or
+/// without alpha (laid over white in linear light), 8 or 16 bits or floats. Integers are read as
+/// sRGB-coded, floats as linear.
+/// Errors, naming the file: kInvalidArgument for other formats, kOutOfRange for images beyond the
+/// limits above, kDataLoss for truncated or corrupt files and files too short for the size they
+/// announce.
 [[nodiscard]] Result<ReadImage> read_image(const std::filesystem::path& path,
                                            const Context& context);
 
-/// The same for an image embedded in another file; `name` says where in messages.
+/// Same as above, for an image embedded in another file; `name` is its place in messages.
 [[nodiscard]] Result<ReadImage> read_image(const std::vector<unsigned char>& bytes,
                                            const std::string& name, const Context& context);
 
-/// Resolution stated in pictures that are to be looked at, not printed.
+/// Resolution stated in pictures for the screen.
 inline constexpr double kScreenDpi = 96;
 
 /// Writes a PNG with its resolution (encode_png), under a temporary name that is renamed at the
-/// end. Refuses with kResourceExhausted (reason DISK_FULL) when the disk is full, kPermissionDenied
-/// or kNotFound when the place cannot be written to.
+/// end. Errors: kResourceExhausted (reason DISK_FULL) if the disk is full, kPermissionDenied or
+/// kNotFound if the file cannot be written.
 [[nodiscard]] Status write_png(const std::filesystem::path& path, const RgbImage& image, double dpi,
                                const Context& context = {});
 
-/// The same with an alpha channel (unassociated); `rgba` holds width * height * 4 bytes.
+/// Same as write_png(), with an alpha channel (unassociated); `rgba` holds width * height * 4
+/// bytes.
 [[nodiscard]] Status write_png_rgba(const std::filesystem::path& path, int width, int height,
                                     const std::vector<std::uint8_t>& rgba);
 

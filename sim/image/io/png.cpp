@@ -23,10 +23,10 @@ using Bytes = std::vector<unsigned char>;
 constexpr std::size_t kBandBytes = std::size_t{1} << 20;  ///< not compressed
 constexpr double kMmPerInch = 25.4;
 
-/// Filters of the PNG specification (section 9.2): a byte less the one to its left, or above it.
+/// Filters of the PNG specification (section 9.2): difference to the byte on the left, or above.
 enum Filter : unsigned char { kSub = 1, kUp = 2 };
 
-/// Samples as they lie in memory, row after row.
+/// Samples as stored in memory, row by row.
 struct Rows {
   const std::uint8_t* samples = nullptr;
   int width = 0, height = 0, channels = 3;
@@ -37,7 +37,7 @@ struct Rows {
   [[nodiscard]] const std::uint8_t* row(int y) const { return samples + bytes() * y; }
 };
 
-/// Rows [first, last) of the image, compressed, and the checksum of what they were before that.
+/// Rows [first, last) of the image, compressed, and the checksum of their uncompressed bytes.
 struct Band {
   int first = 0, last = 0;
   Bytes deflated;
@@ -60,14 +60,14 @@ void append_chunk(Bytes& out, std::string_view type, std::span<const unsigned ch
                       crc32_z(0, out.data() + start, static_cast<z_size_t>(out.size() - start))));
 }
 
-/// How far a row's bytes are from zero, taken as signed: the less, the better they compress.
+/// Sum of a row's bytes as signed magnitudes; rows with a smaller sum compress better.
 long weight(std::span<const unsigned char> row) {
   long sum = 0;
   for (const unsigned char byte : row) sum += std::abs(static_cast<signed char>(byte));
   return sum;
 }
 
-/// One row, filtered the better of two ways, behind the number of that filter.
+/// Appends the number of the better of two filters and the row filtered by it.
 void append_row(Bytes& out, const unsigned char* row, const unsigned char* above, std::size_t bytes,
                 std::size_t pixel_bytes) {
   const std::size_t start = out.size();
@@ -98,7 +98,7 @@ Bytes filtered(const Rows& image, int first, int last) {
   return out;
 }
 
-/// Compresses bytes so that what is compressed next can be put behind them as it is.
+/// Compresses bytes so that the next compressed block can be appended directly.
 /// @return false if memory does not suffice
 bool deflate(Bytes& raw, bool is_end, Bytes& out) {
   z_stream stream{};
@@ -162,7 +162,7 @@ Bytes resolution(double dpi) {
   return out;
 }
 
-/// zlib's stream of the compressed bands: its header, they, the checksum of all.
+/// The zlib stream of the compressed bands: header, bands, checksum of all.
 Bytes join(const std::vector<Band>& bands) {
   Bytes out = {0x78, 0x01};
   uLong adler = 1;
@@ -174,7 +174,7 @@ Bytes join(const std::vector<Band>& bands) {
   return out;
 }
 
-/// The chunk that says what the colours mean.
+/// Appends the chunk that states the colour space.
 Status append_colours(Bytes& out, const std::string& icc_profile) {
   if (icc_profile.empty()) {
     append_chunk(out, "sRGB", std::array<unsigned char, 1>{0});
@@ -193,7 +193,7 @@ Status append_colours(Bytes& out, const std::string& icc_profile) {
   return {};
 }
 
-/// An IDAT chunk may hold any part of the stream; a length has 31 bits.
+/// Appends IDAT chunks. Each may hold any part of the stream; its length has 31 bits.
 void append_data(Bytes& out, std::span<const unsigned char> stream) {
   constexpr std::size_t kMost = std::size_t{1} << 24;
   while (!stream.empty()) {
@@ -203,7 +203,7 @@ void append_data(Bytes& out, std::span<const unsigned char> stream) {
   }
 }
 
-/// The image data and the end.
+/// Appends the image data and the end chunk.
 Status append_pixels(Bytes& out, const Rows& image, const Context& context) {
   HP_ASSIGN_OR_RETURN(const Bytes stream, compress_rows(image.samples, image.width, image.height,
                                                         image.channels, context));
@@ -249,7 +249,7 @@ Result<std::vector<unsigned char>> encode_png(const PrinterImage& image, double 
 
 Result<std::vector<unsigned char>> encode_png(const Grey16Image& image, const Context& context) {
   HP_CHECK(image.grey.size() == static_cast<std::size_t>(image.width) * image.height);
-  Bytes bytes;  // of a number, the higher one first
+  Bytes bytes;  // the higher byte of each number first
   bytes.reserve(2 * image.grey.size());
   for (const std::uint16_t value : image.grey) {
     bytes.push_back(static_cast<unsigned char>(value >> 8U));

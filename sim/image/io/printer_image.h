@@ -12,8 +12,8 @@
 
 namespace hydroprint::image {
 
-/// What a printer is given: 8-bit samples, row 0 on top, without padding; 3 a pixel (R G B) or 4
-/// (C M Y K, 255 all of the ink).
+/// An image for a printer: 8-bit samples, row 0 on top, without padding; 3 per pixel (R G B) or 4
+/// (C M Y K, 255 is full ink).
 struct PrinterImage {
   int width = 0, height = 0, channels = 3;
   std::vector<std::uint8_t> samples;
@@ -30,17 +30,17 @@ struct PrinterImage {
 };
 
 /// A PNG file's bytes: an RGB image (3 channels) with its resolution, in the colours of an ICC
-/// profile; empty: sRGB. Fails as compress_rows (png.h) does.
+/// profile; empty: sRGB. Fails as compress_rows() (png.h) does.
 [[nodiscard]] Result<std::vector<unsigned char>> encode_png(const PrinterImage& image, double dpi,
                                                             const std::string& icc_profile,
                                                             const Context& context = {});
 
-/// Writes what a printer is given as a TIFF (LZW) with its resolution and, unless empty, the ICC
-/// profile of its colours; RGB or CMYK by the number of channels. As write_png does.
+/// Writes a printer image as a TIFF (LZW) with its resolution and, unless empty, the ICC profile of
+/// its colours. The number of channels selects RGB or CMYK. Fails as write_png() does.
 [[nodiscard]] Status write_tiff(const std::filesystem::path& path, const PrinterImage& image,
                                 double dpi, const std::string& icc_profile);
 
-/// One row of an image as 8-bit sRGB codes; `rgb` has room for three a texel.
+/// One row of an image as 8-bit sRGB codes; `rgb` has room for three per texel.
 void srgb8_row(const Texels& image, int y, std::uint8_t* rgb);
 
 }  // namespace hydroprint::image

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kRings = 16;
 constexpr double kMaxCover = 64;
-/// Charts that share more than this part of their texels with others lie on them on purpose; less
-/// is rounding along a common border.
+/// Charts that share more than this part of their texels with others overlap on purpose; a smaller
+/// part is rounding along a common border.
 constexpr double kSharedPart = 0.02;
 
 class UnionFind {
@@ -51,7 +51,7 @@ std::uint64_t corner_hash(const UvTriangle& triangle, int corner) {
   return hash;
 }
 
-/// Per triangle the number of its connected piece, 0, 1, ... in order of first triangles.
+/// Per triangle, the number of its connected piece: 0, 1, ... in order of their first triangles.
 std::vector<int> connected_pieces(const std::vector<UvTriangle>& triangles, int& count) {
   std::vector<std::pair<std::uint64_t, int>> edges;
   edges.reserve(3 * triangles.size());
@@ -59,7 +59,7 @@ std::vector<int> connected_pieces(const std::vector<UvTriangle>& triangles, int&
     std::array<std::uint64_t, 3> corners;
     for (int i = 0; i < 3; ++i) corners[i] = corner_hash(triangles[t], i);
     for (int i = 0; i < 3; ++i) {
-      // Symmetric in its two ends.
+      // Symmetric in the edge's two ends.
       edges.emplace_back(corners[i] + corners[(i + 1) % 3], static_cast<int>(t));
     }
   }
@@ -87,7 +87,7 @@ int fold_index(std::int64_t i, int size, mesh::Wrap wrap) {
   return static_cast<int>(folded < n ? folded : period - 1 - folded);
 }
 
-/// The texels under triangles, whatever the tile they lie in.
+/// The texels under triangles, in whichever unit tile the triangles lie.
 class Marker {
  public:
   Marker(Texels& texels, mesh::Wrap u, mesh::Wrap v) : texels_(texels), u_(u), v_(v) {}
@@ -107,7 +107,7 @@ class Marker {
     for (int i = 0; i < 3; ++i) corners[i] = position(triangle.uv[i]);
     const Eigen::Vector2d low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
     if (!low.allFinite() || low.cwiseAbs().maxCoeff() > 1e9) return;
-    // Relative to the triangle's own tile; two tiles' worth covers every texel there is.
+    // Relative to the triangle's own tile; two tiles in each direction cover every texel.
     const std::int64_t x0 = static_cast<std::int64_t>(std::floor(low.x()));
     const std::int64_t y0 = static_cast<std::int64_t>(std::floor(low.y()));
     for (auto& corner : corners)
@@ -135,8 +135,8 @@ double cover(const std::vector<UvTriangle>& triangles) {
 
 std::uint16_t id_of(int piece) { return static_cast<std::uint16_t>(1 + piece % 65535); }
 
-/// Marks the texels of every piece and unites the pieces that lie on each other.
-/// @return per id (1 ... 65535) the id it became
+/// Marks the texels of every piece and unites pieces that overlap.
+/// @return per id (1 ... 65535), the id of its united chart
 std::vector<std::uint16_t> mark(const std::vector<UvTriangle>& triangles,
                                 const std::vector<int>& piece_of, int pieces,
                                 const Marker& marker) {
@@ -162,7 +162,8 @@ std::vector<std::uint16_t> mark(const std::vector<UvTriangle>& triangles,
       marker.for_each(triangles[t], [&](const Texel& texel) { same.unite(texel.chart, id); });
     }
     if (count.all > 0) continue;
-    // Too slim for any texel's centre: it owns what it touches and nobody else has.
+    // The triangle is too slim to contain a texel's centre: it gets the unmarked texels that it
+    // touches.
     const auto& uv = triangles[t].uv;
     for (const Eigen::Vector2d& point : {uv[0], uv[1], uv[2]}) {
       const Eigen::Vector2d p = marker.position(point);
@@ -177,7 +178,7 @@ std::vector<std::uint16_t> mark(const std::vector<UvTriangle>& triangles,
   return became;
 }
 
-/// Calls visit(index) for the up to eight texels round one, nearest first.
+/// Calls visit(index) for the up to eight texels around one, nearest first.
 template <class Visit>
 void for_each_neighbour(const Texels& image, std::size_t at, Visit&& visit) {
   static constexpr std::array<std::array<int, 2>, 8> kAround = {
@@ -191,7 +192,7 @@ void for_each_neighbour(const Texels& image, std::size_t at, Visit&& visit) {
   }
 }
 
-/// Grows all charts by one ring of texels at a time, in step, into the background.
+/// Grows all charts into the background, in step, by one ring of texels at a time.
 void dilate(Texels& image) {
   std::vector<std::size_t> frontier;
   for (std::size_t i = 0; i < image.texels.size(); ++i) {
@@ -214,7 +215,7 @@ void dilate(Texels& image) {
   }
 }
 
-/// Whether [low, high] lies in one unit interval that starts at an integer, give or take rounding.
+/// Whether [low, high] lies in one unit interval that starts at an integer, up to rounding.
 bool is_in_one_tile(double low, double high, double& tile) {
   constexpr double kRounding = 1e-4;
   tile = std::floor(0.5 * (low + high));

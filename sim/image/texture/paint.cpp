@@ -111,7 +111,7 @@ class PaintLoader {
     return !model_.corner_uvs.empty() && is_finite(model_.corner_uvs[triangle]);
   }
 
-  /// --texture FILE: it colours everything that has coordinates.
+  /// --texture FILE: colours all triangles that have coordinates.
   Status lay_texture(const std::filesystem::path& path) {
     const auto& uvs = model_.corner_uvs;
     if (std::none_of(uvs.begin(), uvs.end(), is_finite)) {
@@ -137,7 +137,7 @@ class PaintLoader {
     return {};
   }
 
-  /// The ink for triangles whose material says nothing.
+  /// The ink for triangles whose material states no colour.
   Ink fallback() {
     if (model_.vertex_colours.empty()) return {};
     if (paint_.vertex_colours_.empty()) {
@@ -150,7 +150,8 @@ class PaintLoader {
   }
 
   Status gather_materials() {
-    // Ink 0 is the fallback, 1 + 2 m that of material m, 2 + 2 m what it is without coordinates.
+    // Ink 0 is the fallback, 1 + 2 m that of material m, and 2 + 2 m that of material m without
+    // coordinates.
     const std::size_t materials = model_.materials.size();
     paint_.inks_.assign(1 + 2 * materials, fallback());
     std::vector<bool> is_ready(materials, false);
@@ -171,7 +172,7 @@ class PaintLoader {
     const mesh::Material& material = model_.materials[m];
     Ink& with_uvs = paint_.inks_[1 + 2 * m];
     Ink& without_uvs = paint_.inks_[2 + 2 * m];
-    // Plain white is what exporters write when the vertices carry the colour.
+    // Exporters write plain white if the vertices carry the colour.
     const bool is_white = material.colour == Eigen::Vector3f::Ones();
     if (material.has_colour && !(is_white && !model_.vertex_colours.empty())) {
       without_uvs = {Ink::Kind::kColour, linear_from_srgb(material.colour), -1};
@@ -187,7 +188,7 @@ class PaintLoader {
     return !material.texture.empty() || !material.texture_bytes.empty();
   }
 
-  /// Reads a material's texture, once for all materials that use it in the same way.
+  /// Reads a material's texture, once for all materials with the same texture and wrap modes.
   Result<int> material_texture(const mesh::Material& material) {
     const auto& bytes = material.texture_bytes;
     const std::string_view content(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -203,7 +204,7 @@ class PaintLoader {
       Error error = std::move(read).error();
       if (error.code == Code::kNotFound) {
         error.message = name +
-                        ": no such file. Put the texture there, mend the path in the "
+                        ": no such file. Put the texture there, correct the path in the "
                         "material, or give --texture";
       }
       return tl::unexpected(std::move(error));

@@ -14,23 +14,23 @@
 
 namespace hydroprint::image {
 
-/// The colour of one small piece of the surface, seen through an affine map from some grid of
-/// samples: filtered for that grid.
+/// The colour of a small piece of the surface, seen through an affine map from a grid of samples
+/// and filtered for that grid.
 class Brush {
  public:
-  /// One colour all over: white.
+  /// White everywhere.
   Brush() = default;
-  /// A patch of a texture, which must outlive the brush, as must the chart.
-  /// @param at  three places on the grid of samples
-  /// @param uv  what lies there
+  /// A patch of a texture. Texture and chart must outlive the brush.
+  /// @param at  three points on the grid of samples
+  /// @param uv  their texture coordinates
   Brush(const Texture& texture, const Chart& chart, const Corners& at, const Corners& uv);
 
-  /// Mean colour in linear light over the sample at this place of the grid.
+  /// Mean colour in linear light over the sample at this point of the grid.
   [[nodiscard]] Eigen::Vector3f at(double x, double y) const;
 
  private:
   friend class Paint;
-  const Texture* texture_ = nullptr;  ///< none: colour_ and its slopes hold
+  const Texture* texture_ = nullptr;  ///< nullptr: colour_ and its slopes apply
   const Chart* chart_ = nullptr;
   Texture::Footprint footprint_;
   Texture::Shortcut shortcut_;
@@ -41,25 +41,25 @@ class Brush {
   Eigen::Matrix<float, 3, 2> colour_per_sample_ = Eigen::Matrix<float, 3, 2>::Zero();
 };
 
-/// What the object is to look like: a colour for every point of its surface.
+/// The desired look of the object: a colour for every point of its surface.
 class Paint {
  public:
-  /// False: the model says nothing about colour, and the film stays white everywhere.
+  /// False if the model states no colours; then the film stays white everywhere.
   [[nodiscard]] bool has_colour() const { return has_colour_; }
   /// Size of the largest texture; zero if there is none.
   [[nodiscard]] Eigen::Vector2i texture_size_px() const;
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 
   /// @param model_triangle  into Model::triangles
-  /// @param at  where three points of that triangle lie on the grid of samples (sample (i, j) at
-  ///            (i + 1/2, j + 1/2))
+  /// @param at  three points of that triangle on the grid of samples (sample (i, j) at (i + 1/2, j
+  ///     + 1/2))
   /// @param barycentric  the three points, in that triangle
   [[nodiscard]] Brush brush(int model_triangle, const Corners& at,
                             const std::array<Eigen::Vector3d, 3>& barycentric) const;
 
  private:
   friend class PaintLoader;
-  /// Where the colour of a triangle comes from; several triangles share one.
+  /// The source of a triangle's colour; several triangles may share one.
   struct Ink {
     enum class Kind { kNone, kColour, kTexture, kVertices };
     Kind kind = Kind::kNone;
@@ -78,11 +78,11 @@ class Paint {
   std::vector<Eigen::Vector3f> vertex_colours_;  ///< linear
 };
 
-/// Gathers a model's colours: `texture` on its UVs if given, else its materials' textures and
+/// Collects a model's colours: `texture` on its UVs if given, else its materials' textures and
 /// colours, else its vertex colours, else none.
-/// Refuses, naming file and remedy: a texture for a model without UVs (kInvalidArgument), a
-/// material's texture that is missing (kNotFound), and what read_image refuses; more than
-/// kMaxImageArea_px in all textures together (kOutOfRange).
+/// Fails as read_image() does. Other errors, naming file and remedy: kInvalidArgument for a texture
+/// without UVs in the model, kNotFound for a material's missing texture, kOutOfRange for more than
+/// kMaxImageArea_px in all textures together.
 [[nodiscard]] Result<Paint> load_paint(const mesh::Model& model,
                                        const std::optional<std::filesystem::path>& texture,
                                        const Context& context);

@@ -9,8 +9,8 @@
 
 namespace hydroprint::image {
 
-/// Which samples may be visited: columns [x0, x1), rows [y0, y1). Sample (i, j) sits at
-/// (i + 1/2, j + 1/2), y down.
+/// The samples that may be visited: columns [x0, x1), rows [y0, y1). Sample (i, j) is at (i + 1/2,
+/// j + 1/2), y down.
 struct Window {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
@@ -21,9 +21,9 @@ namespace raster_detail {
 
 __extension__ typedef __int128 Int128;
 
-/// Corners are rounded to 1/1024 of a sample; from there on everything is exact.
+/// Corners are rounded to 1/1024 of a sample; after that everything is exact.
 inline constexpr int kOne = 1024;
-/// Corners up to here fit 64-bit edge functions, up to kWide 128-bit ones.
+/// Corners up to kNarrow fit 64-bit edge functions, up to kWide 128-bit ones.
 inline constexpr double kNarrow = 1 << 19;
 inline constexpr double kWide = static_cast<double>(std::int64_t{1} << 40);
 
@@ -33,12 +33,12 @@ Int floor_div(Int a, Int b) {  // b > 0
   return q - (a % b < 0 ? 1 : 0);
 }
 
-/// One edge, oriented so that the inside is where its function is positive.
+/// One edge, oriented so that its function is positive on the inner side.
 template <class Int>
 struct Edge {
   Int ax, ay, dx, dy;
   Int threshold;  ///< 0 for top and left edges, which own the samples exactly on them, else 1
-  Int per_row;    ///< what `dy` comes to over a sample, without its sign
+  Int per_row;    ///< |dy| over one sample
   double reciprocal;
 
   Edge(Int ax_, Int ay_, Int bx, Int by)
@@ -50,8 +50,8 @@ struct Edge {
         per_row((dy < 0 ? -dy : dy) * kOne),
         reciprocal(1 / static_cast<double>(per_row)) {}
 
-  /// Exactly floor(k / per_row). Processors divide 64-bit integers slowly: what the reciprocal
-  /// gives is off by one at most.
+  /// Exactly floor(k / per_row). Multiplies by the reciprocal, because 64-bit division is slow;
+  /// that result is off by one at most.
   Int rows(Int k) const {
     if constexpr (sizeof(Int) > sizeof(std::int64_t)) {
       return floor_div<Int>(k, per_row);
@@ -130,7 +130,7 @@ void for_each_span(const Corners& corners, const Window& window, Span&& span) {
   }
 }
 
-/// Barycentric coordinates as an affine function of position; made once per triangle.
+/// Barycentric coordinates as an affine function of position; constructed once per triangle.
 class BarycentricMap {
  public:
   explicit BarycentricMap(const Corners& corners) : origin_(corners[0]) {
@@ -141,7 +141,7 @@ class BarycentricMap {
     per_y_ = Eigen::Vector3d((b.x() - a.x()) / area, -b.x() / area, a.x() / area);
   }
 
-  /// May lie slightly outside [0, 1] at samples that rounding of the corners let in.
+  /// May lie slightly outside [0, 1] at samples that are inside only because corners are rounded.
   [[nodiscard]] Eigen::Vector3d at(double x, double y) const {
     return Eigen::Vector3d::UnitX() + per_x_ * (x - origin_.x()) + per_y_ * (y - origin_.y());
   }
@@ -153,7 +153,8 @@ class BarycentricMap {
   Eigen::Vector3d per_x_ = Eigen::Vector3d::Zero(), per_y_ = Eigen::Vector3d::Zero();
 };
 
-/// Calls sample(x, y, barycentric) for every sample inside a triangle, as for_each_span.
+/// Calls sample(x, y, barycentric) for every sample inside a triangle, as for_each_span() finds
+/// them.
 template <class Sample>
 void for_each_sample(const Corners& corners, const Window& window, Sample&& sample) {
   const BarycentricMap map(corners);

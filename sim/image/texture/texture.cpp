@@ -11,7 +11,8 @@ namespace {
 constexpr int kMaxProbes = 16;
 constexpr int kRowsAtOnce = 32;
 
-/// Mean of up to four texels, of the chart that most of them belong to (0: none of them any).
+/// Mean of up to four texels, over those of their most frequent chart (0: none of them has a
+/// chart).
 Texel mean(const std::array<const Texel*, 4>& children, int count) {
   std::uint16_t chart = 0;
   int most = 0;
@@ -63,7 +64,7 @@ Status halve(const Texels& from, Texels& to, const Context& context) {
   });
 }
 
-/// std::floor is a library call on plain x86-64; this is not. Exact up to 2^62, else 0.
+/// std::floor is a library call on plain x86-64; this is inlined. Exact up to 2^62, else 0.
 inline double fast_floor(double t) {
   if (!(std::abs(t) < 4e18)) return 0;
   const auto whole = static_cast<double>(static_cast<std::int64_t>(t));
@@ -91,7 +92,7 @@ double fold_axis(double t, mesh::Wrap wrap, bool in_one_tile, double tile) {
   return clamp01(t);
 }
 
-/// Two neighbouring texels along one axis, and how much of the second to take.
+/// Two neighbouring texels along one axis, and the weight of the second.
 struct Taps {
   int first = 0, second = 0;
   float blend = 0;
@@ -112,14 +113,14 @@ inline Taps taps_at(double position, int size, bool wraps) {
 using Shorts = std::uint16_t __attribute__((vector_size(8)));
 using Floats = float __attribute__((vector_size(16)));
 
-/// r, g, b and what is of no use, all four at once.
+/// r, g, b and an unused value, all four at once.
 inline Floats floats(const Texel& texel) {
   return __builtin_convertvector(std::bit_cast<Shorts>(texel), Floats);
 }
 
 inline Floats lerp(const Floats& a, const Floats& b, float blend) { return a + blend * (b - a); }
 
-/// Among four texels.
+/// Bilinear interpolation between four texels.
 inline Eigen::Vector3f mix(const std::array<const Texel*, 4>& texel, float right, float down) {
   const Floats above = lerp(floats(*texel[0]), floats(*texel[1]), right);
   const Floats below = lerp(floats(*texel[2]), floats(*texel[3]), right);
@@ -241,7 +242,7 @@ Texture::Sum Texture::trilinear(const Eigen::Vector2d& folded, const Footprint& 
   Sum sum = bilinear(folded, footprint.level, chart);
   if (footprint.blend <= 0) return sum;
   const Sum coarse = bilinear(folded, footprint.level + 1, chart);
-  // Each level counts by its share, however little of it belongs to the chart.
+  // Each level counts by its share, even if little of it belongs to the chart.
   if (coarse.weight <= 0) return sum;
   if (sum.weight <= 0) return coarse;
   sum.colour = sum.colour / sum.weight * (1 - footprint.blend) +
@@ -279,7 +280,7 @@ Eigen::Vector3f Texture::sample(const Eigen::Vector2d& uv, const Footprint& foot
 
 Eigen::Vector3f Texture::finer(const Eigen::Vector2d& uv, const Footprint& footprint,
                                const Chart& chart) const {
-  // Coarse texels round a narrow chart may all belong to its neighbours: finer ones know better.
+  // Coarse texels around a narrow chart may all belong to its neighbours; finer ones may not.
   const Eigen::Vector2d folded = fold(uv, chart);
   for (int level = footprint.level - 1; level >= 0; --level) {
     const Sum sum = bilinear(folded, level, chart);

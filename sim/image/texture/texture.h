@@ -12,16 +12,16 @@
 
 namespace hydroprint::image {
 
-/// A picture to be sampled at any size: linear light, a pyramid of halved copies, averages that
-/// keep to one chart.
+/// An image that can be sampled at any size: linear light, a pyramid of halved copies, and averages
+/// that stay within one chart.
 class Texture {
  public:
-  /// Takes the texels as level 0 and builds the rest: 8 bytes a texel, a third more for the
-  /// pyramid.
+  /// Takes the texels as level 0 and builds the other levels: 8 bytes per texel, a third more for
+  /// the pyramid.
   [[nodiscard]] static Result<Texture> build(Texels texels, mesh::Wrap wrap_u, mesh::Wrap wrap_v,
                                              const Context& context);
 
-  /// How the neighbourhood of one sample lies on the texture; the same all over an affine patch.
+  /// The shape of a sample's neighbourhood on the texture; constant over an affine patch.
   struct Footprint {
     int level = 0;
     float blend = 0;  ///< share of the next level
@@ -31,21 +31,21 @@ class Texture {
   /// @param uv_per_sample  columns: change of (u, v) from one sample to the next in x and in y
   [[nodiscard]] Footprint footprint(const Eigen::Matrix2d& uv_per_sample) const;
 
-  /// Mean colour, linear light, of the footprint round a point (v up).
+  /// Mean colour, linear light, of the footprint around a point (v up).
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector2d& uv, const Footprint& footprint,
                                        const Chart& chart) const;
 
-  /// The short way to the samples of an affine patch, for those that are no larger than a texel and
-  /// lie among four of their chart, away from the texture's edges: most do. The texture must
-  /// outlive it, and not move.
+  /// A fast path for samples of an affine patch. It applies to samples no larger than a texel that
+  /// lie among four texels of their chart, away from the texture's edges; most do. The texture must
+  /// outlive it, and must not move.
   class Shortcut {
    public:
-    /// Leads nowhere.
+    /// Never applies.
     Shortcut() = default;
-    /// As sample(), but for rounding.
+    /// Same as Texture::sample(), up to rounding.
     /// @param offset  from the patch's origin, in samples
     /// @param colour  linear light, in [0, 1]
-    /// @return false, and no colour, where the long way has to be gone
+    /// @return false, without a colour, if Texture::sample() has to be used
     [[nodiscard]] bool sample(const Eigen::Vector2d& offset, Eigen::Vector3f& colour) const;
 
    private:

@@ -11,17 +11,17 @@ class Model;
 
 namespace hydroprint::mesh {
 
-/// A glTF accessor whose every element is known to lie within its buffer.
+/// A glTF accessor whose elements all lie within its buffer.
 class GltfAccessor {
  public:
-  /// @return nothing if the accessor does not exist, is sparse, or reaches out of its buffer
+  /// @return nullopt if the accessor does not exist, is sparse, or exceeds its buffer
   [[nodiscard]] static std::optional<GltfAccessor> open(const tinygltf::Model& model, int index);
 
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] int components() const { return components_; }
-  /// Components of element i, normalised if the file says so; those beyond components() are 1.
+  /// Components of element i, normalised if the file requires it; those beyond components() are 1.
   [[nodiscard]] std::array<double, 4> values(std::size_t i) const;
-  /// First component of element i as an index; UINT32_MAX if it is none.
+  /// First component of element i as an index; UINT32_MAX if it is not an index.
   [[nodiscard]] std::uint32_t index(std::size_t i) const;
 
  private:

@@ -31,7 +31,7 @@ class ObjChecker {
   }
 
  private:
-  /// Largest index seen, and where; more may be defined further down.
+  /// Largest index so far and its line; the element may be defined further down.
   struct Largest {
     std::int64_t index = 0;
     std::size_t line = 0;
@@ -61,7 +61,7 @@ class ObjChecker {
     return {};
   }
 
-  /// @return how many numbers the line holds
+  /// @return the number of values in the line
   Result<std::size_t> numbers(std::string_view line, std::array<double, 8>& values) {
     std::size_t count = 0;
     for (auto word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {

@@ -122,7 +122,7 @@ class PlyChecker {
     const auto [end, error] =
         std::from_chars(word.data(), word.data() + word.size(), element.count);
     if (error != std::errc() || end != word.data() + word.size())
-      return bad_header("the number of elements is none");
+      return bad_header("the number of elements is malformed");
     elements_.push_back(std::move(element));
     return {};
   }
@@ -177,7 +177,7 @@ class PlyChecker {
     return std::any_of(element.properties.begin(), element.properties.end(), predicate);
   }
 
-  /// Before anything is walked: could that many items be there at all?
+  /// Checks that the file can hold that many items, before any is read.
   Status check_size(const Element& element) {
     std::uint64_t least = 0;
     for (const auto& p : element.properties)
@@ -211,7 +211,8 @@ class PlyChecker {
     for (double k = 0; k < count; ++k) {
       const auto value = next(property.type);
       if (!value)
-        return bad_item(element, item, "is cut short or holds something that is no finite number");
+        return bad_item(element, item,
+                        "is cut short or contains a value that is not a finite number");
       if (property.is_corners && !(*value >= 0 && *value < static_cast<double>(facts_.vertices)))
         return bad_item(element, item,
                         "uses a vertex out of range; there are " + std::to_string(facts_.vertices));
@@ -219,7 +220,7 @@ class PlyChecker {
     return {};
   }
 
-  /// The next number, if there is one and it is finite.
+  /// The next number; nullopt if it is missing or not finite.
   std::optional<double> next(const Type& type) {
     if (format_ == Format::kAscii) return parse_number(next_word(item_));
     if (rest_.size() < type.bytes) return std::nullopt;
@@ -243,7 +244,7 @@ class PlyChecker {
   }
 
   std::string_view rest_;
-  std::string_view item_;  ///< what is left of an ASCII item's line
+  std::string_view item_;  ///< the rest of an ASCII item's line
   const std::filesystem::path& path_;
   Format format_ = Format::kAscii;
   std::size_t line_ = 0;

@@ -8,7 +8,7 @@
 
 namespace hydroprint::mesh {
 
-/// What the check of a PLY file finds on its way.
+/// Facts collected by the check of a PLY file.
 struct PlyFacts {
   std::size_t vertices = 0;
   std::size_t faces = 0;
@@ -16,9 +16,9 @@ struct PlyFacts {
   bool has_face_uvs = false;  ///< texture coordinates listed per face
 };
 
-/// Walks a PLY file from its header to its last byte, since the importer believes every count it is
-/// told and reads past the end. Refuses, with the vertex or face: headers that lie, truncated
-/// files, numbers that are none or not finite, faces of fewer than three corners, indices out of
+/// Reads a PLY file from its header to its last byte, because the importer trusts every count and
+/// reads past the end. Refuses, naming the vertex or face: headers with wrong counts, truncated
+/// files, malformed or non-finite numbers, faces with fewer than three corners, indices out of
 /// range.
 [[nodiscard]] Result<PlyFacts> check_ply(std::string_view bytes, const std::filesystem::path& path,
                                          const Context& context);

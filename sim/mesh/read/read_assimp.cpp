@@ -16,12 +16,12 @@
 namespace hydroprint::mesh {
 namespace {
 
-/// Leaves only the one importer wanted: a file never reaches any of the other forty.
+/// Unregisters all other importers, so that a file never reaches any of those forty.
 void keep_only(Assimp::Importer& importer, const std::string& extension) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     if (importer.GetImporterIndex(extension.c_str()) == i) continue;
     const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
-    importer.UnregisterLoader(other.get());  // which leaves it to us
+    importer.UnregisterLoader(other.get());  // we own it after this
   }
 }
 
@@ -75,7 +75,7 @@ Result<Model> import(const std::string& bytes, const std::filesystem::path& path
     HP_RETURN_IF_ERROR(append(*scene->mMeshes[m], path, model));
   return model;
 } catch (const std::bad_alloc&) {
-  throw;  // says nothing about the file
+  throw;  // not a fault of the file
 } catch (const std::exception& e) {
   return bad_input(path, "", e.what());
 }

@@ -84,16 +84,16 @@ class GltfImporter {
     if (with_colours_ == 0) model_.vertex_colours.clear();
     if (with_uvs_ > 0 && with_uvs_ < primitives_)
       warn("faces_without_uv",
-           "some parts have no texture coordinates: they take the texture's "
+           "some parts have no texture coordinates: they take the colour of the texture's "
            "lower left corner");
     if (skinned_ > 0)
       warn("skin_ignored", std::to_string(skinned_) +
-                               " parts are bent by a skeleton, which is not followed: they are "
-                               "taken as they were modelled, where their node stands");
+                               " parts are deformed by a skeleton, which is not supported: they "
+                               "are used in their modelled shape, at their node's position");
     if (morphing_ > 0)
       warn("morph_ignored", std::to_string(morphing_) +
-                                " parts have morph targets, which are not mixed in: their base "
-                                "shape is taken");
+                                " parts have morph targets, which are not supported: their base "
+                                "shape is used");
     if (skipped_ > 0)
       warn("not_a_surface", std::to_string(skipped_) + " sets of points or lines were left out");
     if (model_.materials.empty()) model_.triangle_material.clear();
@@ -109,7 +109,7 @@ class GltfImporter {
     model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
   }
 
-  /// Of the default scene, else the first, else every node that is no child.
+  /// The root nodes: of the default scene, else of the first, else every node that is not a child.
   [[nodiscard]] std::vector<int> roots() const {
     const auto* scene = entry(source_.scenes, std::max(source_.defaultScene, 0));
     if (scene != nullptr) return scene->nodes;
@@ -182,7 +182,7 @@ class GltfImporter {
     return {};
   }
 
-  /// Triangles of the primitive, into its own vertices.
+  /// Triangles of the primitive, as indices of its own vertices.
   Result<std::vector<Eigen::Vector3i>> corner_indices(const tinygltf::Primitive& primitive,
                                                       int mode, const std::string& place) {
     std::vector<int> order;
@@ -268,7 +268,7 @@ class GltfImporter {
     return result;
   }
 
-  /// KHR_texture_transform: scale, then turn, then shift.
+  /// KHR_texture_transform: scale, then rotate, then shift.
   static Eigen::Affine2d texture_transform(const tinygltf::Material* material) {
     Eigen::Affine2d result = Eigen::Affine2d::Identity();
     if (material == nullptr) return result;
@@ -340,8 +340,8 @@ class GltfImporter {
   std::size_t morphing_ = 0;
 };
 
-/// What the importer may open: buffers below the model's folder. Images stay closed (the importer
-/// is compiled so), the texture loader opens the one that is needed.
+/// Limits the importer to buffers below the model's folder. It is compiled so that it does not open
+/// images; the texture loader opens the one that is needed.
 tinygltf::FsCallbacks file_access(std::filesystem::path& folder) {
   tinygltf::FsCallbacks callbacks{};
   callbacks.user_data = &folder;
@@ -369,7 +369,7 @@ tinygltf::FsCallbacks file_access(std::filesystem::path& folder) {
   return callbacks;
 }
 
-/// Keeps the image file as it is; decoding is the texture loader's.
+/// Keeps the image file unchanged; the texture loader decodes it.
 bool keep_image(tinygltf::Image* image, int, std::string*, std::string*, int, int,
                 const unsigned char* bytes, int size, void*) {
   image->image.assign(bytes, bytes + size);
@@ -403,7 +403,7 @@ Result<Model> read_gltf(std::string bytes, const std::filesystem::path& path,
   if (!loaded) return bad_input(path, "", error.substr(0, 200) + std::string(kExportAgain));
   return GltfImporter(source, path).run();
 } catch (const std::bad_alloc&) {
-  throw;  // says nothing about the file
+  throw;  // not a fault of the file
 } catch (const std::exception& e) {
   return bad_input(path, "", e.what());
 }

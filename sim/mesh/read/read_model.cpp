@@ -59,7 +59,7 @@ Status check_indices(const Model& model) {
   return {};
 }
 
-/// Keeps the entries of `values` whose triangle is kept.
+/// Removes the entries of `values` whose triangle is dropped.
 template <class T>
 void keep(std::vector<T>& values, const std::vector<bool>& kept) {
   if (values.empty()) return;
@@ -98,8 +98,8 @@ Status drop_degenerate(Model& model) {
 Result<Model> read_model(const std::filesystem::path& path, double scale, const Context& context) {
   if (!(scale > kMinScale && scale < kMaxScale))
     return fail(Code::kOutOfRange, path.string() +
-                                       ": the scale must lie between 1e-6 and 1e6; give --scale "
-                                       "the number of mm that one unit of the model is");
+                                       ": the scale must lie between 1e-6 and 1e6; set "
+                                       "--scale to the millimetres per unit of the model");
   const Reader reader = reader_for(path);
   if (reader == nullptr)
     return bad_input(path, "", "unknown format; give an OBJ, STL, PLY, glTF or GLB file");

@@ -11,16 +11,16 @@ namespace hydroprint::mesh {
 /// Models of more faces than this are refused.
 inline constexpr std::size_t kMaxFaces = 20'000'000;
 
-/// Reads OBJ (with MTL), STL, PLY, glTF or GLB, told apart by the name's ending. Polygons are cut
-/// into triangles; vertices keep the file's order (STL: three per facet; glTF: as the scene's nodes
-/// are visited, node transforms applied).
+/// Reads OBJ (with MTL), STL, PLY, glTF or GLB; the file extension selects the format. Polygons are
+/// split into triangles. Vertices keep the file's order (STL: three per facet; glTF: in the order
+/// of the scene's nodes, with node transforms applied).
 /// @param scale  model units to mm, more than 1e-6 and less than 1e6
-/// Refuses, in one line that names file, place and remedy: a missing file (kNotFound); a scale out
-/// of range (kOutOfRange); unknown formats, truncated files, headers that announce more than is
-/// there, coordinates that are not finite or beyond 1 km, indices out of range, no faces, no face
-/// with an area, more than kMaxFaces faces (kInvalidArgument). A missing material file or material
-/// is a warning; textures are named in the materials and not opened. Faces without area are dropped
-/// with the warning `zero_area_faces`.
+/// Errors are one line that names file, place and remedy. kNotFound: missing file. kOutOfRange:
+/// scale out of range. kInvalidArgument: unknown formats, truncated files, headers that announce
+/// more than the file contains, coordinates that are not finite or beyond 1 km, indices out of
+/// range, no faces, no face with an area, more than kMaxFaces faces. A missing material file or
+/// material is a warning. Textures are named in the materials and not opened. Faces without area
+/// are dropped with the warning `zero_area_faces`.
 [[nodiscard]] Result<Model> read_model(const std::filesystem::path& path, double scale,
                                        const Context& context);
 

@@ -26,7 +26,7 @@ class MemoryBuffer : public std::streambuf {
   }
 };
 
-/// Lines that end with a backslash go on; the importer does not know that.
+/// Joins lines that continue after a backslash; the importer does not support them.
 void join_continued_lines(std::string& text) {
   for (auto at = text.find('\\'); at != text.npos; at = text.find('\\', at + 1)) {
     const auto end = text.compare(at + 1, 2, "\r\n") == 0 ? at + 3
@@ -36,7 +36,7 @@ void join_continued_lines(std::string& text) {
   }
 }
 
-/// The importer would take a comment behind a face for more corners.
+/// Blanks comments behind faces, which the importer would read as more corners.
 void blank_face_comments(std::string& text) {
   for (auto at = text.find('#'); at != text.npos; at = text.find('#', at)) {
     const auto begin = text.find_last_of("\r\n", at) + 1;  // npos + 1 is 0: the first line
@@ -50,7 +50,7 @@ void blank_face_comments(std::string& text) {
 struct MaterialFile {
   std::vector<tinyobj::material_t> materials;
   std::map<std::string, int> by_name;
-  std::set<std::string> coloured;  ///< those with a Kd line, which the importer does not tell
+  std::set<std::string> coloured;  ///< those with a Kd line, which the importer does not report
   std::filesystem::path folder;
 };
 
@@ -121,7 +121,7 @@ class ObjImporter {
       if (candidate.empty() || !std::filesystem::is_regular_file(candidate)) continue;
       read_materials(candidate);
       found = true;
-      if (&candidate == &candidates.front()) break;  // the whole line was one name
+      if (&candidate == &candidates.front()) break;  // the whole line is one name
     }
     if (!found)
       warn("material_file_missing",
@@ -155,7 +155,7 @@ class ObjImporter {
     transforms_.push_back(transform_);
   }
 
-  /// The material as the files state it; if they do not, one without colour.
+  /// The material as defined in the files; one without colour if it is not defined.
   Material find(const std::string& name) {
     Material material;
     material.name = name;
@@ -184,7 +184,7 @@ class ObjImporter {
     return material;
   }
 
-  /// Corners may come before their vertices, so faces wait until all is read.
+  /// Corners may precede their vertices in the file, so faces are resolved at the end.
   void keep_face(std::span<const tinyobj::index_t> corners) {
     const auto resolve = [](int index, std::size_t count) {
       return index < 0 ? static_cast<int>(count) + index : index - 1;
@@ -233,7 +233,7 @@ class ObjImporter {
     else if (without_uvs_ > 0)
       warn("faces_without_uv", std::to_string(without_uvs_) +
                                    " faces have no texture coordinates: " +
-                                   "they take the texture's lower left corner");
+                                   "they take the colour of the texture's lower left corner");
     if (model_.materials.empty())
       model_.triangle_material.clear();
     else
@@ -289,7 +289,7 @@ Result<Model> read_obj(std::string bytes, const std::filesystem::path& path,
   HP_RETURN_IF_ERROR(check_face_count(facts.triangles, path));
   return ObjImporter(path, std::move(facts)).run(bytes);
 } catch (const std::bad_alloc&) {
-  throw;  // says nothing about the file
+  throw;  // not a fault of the file
 } catch (const std::exception& e) {
   return bad_input(path, "", e.what());
 }

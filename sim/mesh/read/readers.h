@@ -8,9 +8,9 @@
 
 namespace hydroprint::mesh {
 
-/// One reader a format, each in the file of its name. They take the file's bytes, check them and
-/// hand them to their importer; what they return has all faces as triangles, indices in range and
-/// finite coordinates in the file's units, faces without area still among them.
+/// One reader per format, each in the file of its name. They check the file's bytes and pass them
+/// to their importer. The returned model has only triangles, indices in range and finite
+/// coordinates in the file's units; it still contains faces without area.
 [[nodiscard]] Result<Model> read_obj(std::string bytes, const std::filesystem::path& path,
                                      const Context& context);
 [[nodiscard]] Result<Model> read_stl(std::string bytes, const std::filesystem::path& path,

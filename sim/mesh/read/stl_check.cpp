@@ -97,7 +97,7 @@ class AsciiChecker {
   int corners_ = 0;
 };
 
-/// Binary files may begin with "solid" too: their length tells.
+/// Whether the file is binary. Binary files may begin with "solid" too, so the length decides.
 bool is_binary(std::string_view bytes) {
   if (bytes.size() >= kHeaderBytes &&
       bytes.size() == kHeaderBytes + kFacetBytes * std::uint64_t{read_at<std::uint32_t>(bytes, 80)})

@@ -7,9 +7,9 @@
 
 namespace hydroprint::mesh {
 
-/// Checks an STL file, binary (its length must be what its facet count says) or ASCII (read to its
-/// last word). Refuses, with the line or facet: lying counts, truncated files, facets that do not
-/// have three corners, numbers that are none or not finite.
+/// Checks an STL file, binary (its length must match its facet count) or ASCII (read to its last
+/// word). Refuses, naming the line or facet: wrong counts, truncated files, facets without three
+/// corners, malformed or non-finite numbers.
 /// @return number of facets
 [[nodiscard]] Result<std::size_t> check_stl(std::string_view bytes,
                                             const std::filesystem::path& path,

@@ -5,8 +5,9 @@
 
 namespace hydroprint::mesh {
 
-/// Where a texture lies that a model in `folder` names: as named, with backslashes for slashes, or
-/// by its bare name beside the model, whichever exists first; as named if none does.
+/// The path of a texture named by a model in `folder`. Candidates are the name itself, the name
+/// with slashes for backslashes, and its bare file name beside the model. Returns the first that
+/// exists, else the name itself.
 [[nodiscard]] std::filesystem::path resolve_texture(const std::filesystem::path& folder,
                                                     std::string name);
 

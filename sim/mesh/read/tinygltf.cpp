@@ -1,5 +1,5 @@
-// The importer's code, compiled here and kept out of sight (hidden visibility) instead of linked:
-// libdraco, which assimp brings along, exports another version of the same names, and which of the
-// two a program would call depended on the order of its libraries.
+// The importer's code is compiled here with hidden visibility instead of being linked. libdraco, a
+// dependency of assimp, exports another version of the same symbols, and the order of a program's
+// libraries decided which of the two it called.
 #define TINYGLTF_IMPLEMENTATION
 #include <tiny_gltf.h>

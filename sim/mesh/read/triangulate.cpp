@@ -10,7 +10,7 @@ namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;
 
-/// The polygon seen from where it runs counter-clockwise.
+/// The polygon projected onto a plane in which it runs counter-clockwise.
 std::vector<Eigen::Vector2d> flatten(const std::vector<Eigen::Vector3d>& points,
                                      std::span<const int> polygon) {
   const auto point = [&](std::size_t i) -> const Eigen::Vector3d& {
@@ -58,7 +58,7 @@ class EarClipper {
     while (left_.size() > 3) {
       std::size_t tried = 0;
       while (tried < left_.size() && !is_ear(at % left_.size())) ++at, ++tried;
-      clip(at % left_.size());  // no ear in a polygon that crosses itself: any corner
+      clip(at % left_.size());  // a self-intersecting polygon may have no ear: any corner will do
     }
     triangles_.push_back({left_[0], left_[1], left_[2]});
     return std::move(triangles_);
@@ -97,7 +97,7 @@ class EarClipper {
   Triangles triangles_;
 };
 
-/// Beyond this many corners clipping (quadratic at best) is not worth its time.
+/// With more corners than this, ear clipping (quadratic at best) takes too long.
 constexpr std::size_t kMaxClipped = 4096;
 
 }  // namespace

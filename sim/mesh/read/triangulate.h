@@ -7,11 +7,11 @@
 
 namespace hydroprint::mesh {
 
-/// Cuts a polygon into triangles that tile it: a fan from its first corner where every triangle of
-/// the fan looks the polygon's way, else by clipping ears (concave polygons). Polygons that cross
-/// themselves or are not flat get some tiling with the same boundary.
+/// Splits a polygon into triangles that tile it. Uses a fan from the first corner if all its
+/// triangles have the polygon's orientation, else ear clipping (concave polygons). Polygons that
+/// are self-intersecting or not planar get some tiling with the same boundary.
 /// @param polygon  at least three indices into points
-/// @return polygon.size() - 2 triples of positions in `polygon`, in its own sense of rotation
+/// @return polygon.size() - 2 triples of positions in `polygon`, in its own orientation
 [[nodiscard]] std::vector<std::array<int, 3>> triangulate(
     const std::vector<Eigen::Vector3d>& points, std::span<const int> polygon);
 

@@ -15,9 +15,10 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr double kJump_mm = 12;
-constexpr double kLeastSize = 0.8, kMostSize = 1.2;  ///< of a piece over the board's diagonal
+constexpr double kLeastSize = 0.8,
+                 kMostSize = 1.2;  ///< of a piece, relative to the board's diagonal
 constexpr std::size_t kMostStarts = 6;
-constexpr double kLeastPaired = 0.6, kSurely = 0.85;  ///< share on the board, over misfit
+constexpr double kLeastPaired = 0.6, kSurely = 0.85;  ///< share of points on the board over rms
 constexpr double kStartReach_mm = 25, kLeastFacing = 0.2;
 constexpr std::size_t kFewestViews = 5;
 constexpr int kCell_px = 80;
@@ -26,7 +27,7 @@ constexpr double kLeastTilt_rad = 25 * std::numbers::pi / 180;
 constexpr double kLeastRange = 0.15;
 
 double across(const scan::Cloud& cloud, const std::vector<int>& piece) {
-  // The farthest two of the points that lie farthest along some directions.
+  // The largest distance between the two extreme points along any of several directions.
   double most = 0;
   constexpr int kDirections = 24;
   for (int i = 0; i < kDirections; ++i) {
@@ -44,7 +45,7 @@ double across(const scan::Cloud& cloud, const std::vector<int>& piece) {
   return most;
 }
 
-/// Facing the camera, as the board's writing would stand upright.
+/// The pose in which the board faces the camera upright.
 Pose facing() {
   Pose out = Pose::Identity();
   out.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
@@ -61,10 +62,10 @@ std::vector<scan::ScanPoint> one_a_patch(const scan::Cloud& cloud, const std::ve
   return out;
 }
 
-/// The board's plates slope away from its ridge, so normals vary most across it. That tells how the
-/// board is held, but for half a turn.
+/// The board's plates slope away from its ridge, so normals vary most across it. That determines
+/// the board's orientation up to half a turn.
 std::array<Pose, 2> by_its_bend(const std::vector<scan::ScanPoint>& points, const Shape& board) {
-  // By area of the board, not of the image.
+  // Weighted by area on the board, not in the image.
   double area = 0;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero(), mean = middle;
   Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
@@ -130,7 +131,7 @@ Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud, const Shap
 std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens) {
   if (views.size() < kFewestViews)
     return "the board was found in " + std::to_string(views.size()) +
-           " views: take at least five, the board whole and clear of what is behind it";
+           " views. Record at least five, with the whole board in view and clear of the background";
   std::set<int> cells;
   double tilt = 0, nearest = 1e9, farthest = 0;
   for (const BoardView& a : views) {
@@ -143,11 +144,13 @@ std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens)
   }
   const int all = (lens.width_px / kCell_px) * (lens.height_px / kCell_px);
   if (static_cast<double>(cells.size()) < kLeastCovered * all)
-    return "the board covers too little of the image: hold it into the corners, too";
+    return "the board covers too little of the image. Also record it in the corners of the image";
   if (tilt < kLeastTilt_rad)
-    return "the board is tilted alike in all views: tilt it by 30 degrees, each way";
+    return "the board has about the same tilt in all views. Tilt it by 30 degrees in each "
+           "direction";
   if (farthest - nearest < kLeastRange * nearest)
-    return "the board is equally far in all views: take some nearer and some farther";
+    return "the board has about the same distance in all views. Record some nearer and some "
+           "farther";
   return {};
 }
 

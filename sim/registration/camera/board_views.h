@@ -12,17 +12,17 @@ namespace hydroprint::registration {
 
 /// A board in one image.
 struct BoardView {
-  std::vector<scan::ScanPoint> points;  ///< one a patch
+  std::vector<scan::ScanPoint> points;  ///< one for each patch
   Pose X_CB = Pose::Identity();
 };
 
-/// The board in a cloud: the piece that has its size, aligned as fits best.
-/// @return nothing if there is none
+/// Finds the board in a cloud: the piece of its size with the best fit.
+/// @return nullopt if there is none
 [[nodiscard]] Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud,
                                                           const Shape& board, int patch_px,
                                                           const Context& context);
 
-/// What a set of views lacks to calibrate a camera by; empty: nothing.
+/// Describes why the views are not enough to calibrate a camera; empty if they are.
 [[nodiscard]] std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens);
 
 }  // namespace hydroprint::registration

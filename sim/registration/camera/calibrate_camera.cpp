@@ -23,7 +23,7 @@ using scan::Lens;
 constexpr int kLens = Lens::kParameters;
 constexpr int kMostIterations = 25;
 constexpr double kFirstReach_mm = 12, kLeastReach_mm = 6, kReachShrinks = 0.8;
-constexpr double kSettled = 1e-4;  ///< of what was believed
+constexpr double kSettled = 1e-4;  ///< largest last step, relative to the prior's uncertainty
 constexpr double kMostSigmas = 2;
 constexpr double kToldShare = 1.0 / 3;
 constexpr std::array kNames{"focal length across", "focal length down", "image centre across",
@@ -112,7 +112,8 @@ class Adjuster {
     return {};
   }
 
-  /// How far off each is from what the others of its patch say, in standard deviations.
+  /// Deviation of each sighting from the prediction of the others of its patch, in standard
+  /// deviations.
   [[nodiscard]] std::vector<double> sigmas_off() const {
     std::vector<double> out;
     out.reserve(sightings_.size());
@@ -129,7 +130,8 @@ class Adjuster {
     return out;
   }
 
-  /// Leaves out first what is far off by itself, then what is by the others of its patch.
+  /// Downweights sightings with large residuals, then those that disagree with the others of their
+  /// patch.
   void weigh() {
     std::vector<double> off;
     for (const Sighting& s : sightings_) off.push_back(s.pair.residual_mm / s.pair.sigma_mm());
@@ -141,8 +143,8 @@ class Adjuster {
     }
   }
 
-  /// Where the board is, not where the scan has it: noise in the rows would go with that in the
-  /// residuals, and pull relief flat, by its variance over that of the relief (3 %).
+  /// Evaluated on the board, not at the scan point. Otherwise noise in the rows would correlate
+  /// with noise in the residuals and flatten the relief by the ratio of their variances (3 %).
   [[nodiscard]] SightingRow row_of(const Sighting& s) const {
     const Pair& pair = s.pair;
     const double reported_mm = pair.on_mm.z() / lens_.depth_scale;
@@ -154,11 +156,11 @@ class Adjuster {
     return out;
   }
 
-  /// The normal equations, each patch's constant noise eliminated: it is one more unknown, the same
-  /// in every view, whose mean is 0 and whose standard deviation is known.
+  /// The normal equations, with each patch's constant noise eliminated. That noise is one more
+  /// unknown for each patch, the same in every view, with mean 0 and a known standard deviation.
   [[nodiscard]] System build() const {
     System out(views_.size());
-    out.matrix.topLeftCorner<kLens, kLens>().setIdentity();  // what was believed
+    out.matrix.topLeftCorner<kLens, kLens>().setIdentity();  // the prior
     out.right.head<kLens>() = (nominal_.parameters() - lens_.parameters()).cwiseQuotient(believed_);
     MatrixXd eliminated = MatrixXd::Zero(out.right.size(), static_cast<Index>(sightings_.size()));
     Index patches = 0;
@@ -199,13 +201,12 @@ class Adjuster {
     out.views = views_.size();
     judge(out);
     if (out.rms_sigmas > kMostSigmas)
-      return poor(
-          "the board does not have its shape in them; is it the right board, standing still?");
+      return poor("the board's shape does not match them. Use the right board, and hold it still");
     for (std::size_t j = 0; j < kLens; ++j) {
       const auto i = static_cast<Index>(j);
       if (std::sqrt(scaled(i, i)) > kToldShare)
-        return poor(std::string("they do not tell the ") + kNames[j] +
-                    ": take more, nearer, and tilted more");
+        return poor(std::string("they do not determine the ") + kNames[j] +
+                    ". Record more views, nearer and with more tilt");
     }
     out.pattern = learn_pattern(sightings_, [this](const Sighting& s) { return row_of(s); }, all,
                                 spread_, {lens_.width_px, lens_.height_px, patch_px_});
@@ -225,8 +226,8 @@ class Adjuster {
   }
 
   std::vector<BoardView> views_;
-  std::vector<Sighting> sightings_;  ///< by patch; refer to the views' points
-  double spread_ = 1;                ///< how much farther off they are than noise explains
+  std::vector<Sighting> sightings_;  ///< sorted by patch; they refer to the views' points
+  double spread_ = 1;                ///< ratio of the residuals' spread to their noise
   const Shape& board_;
   const Lens& nominal_;
   int patch_px_;

@@ -9,25 +9,26 @@
 
 namespace hydroprint::registration {
 
-/// A camera as views of a board tell it.
+/// A camera calibrated with views of a board.
 struct CameraCalibration : scan::Camera {
-  double rms_mm = 0;      ///< of the board's points from the board, along its normals
-  double rms_sigmas = 0;  ///< the same in units of what noise explains
-  std::size_t views = 0;  ///< in which the board was found
+  double rms_mm = 0;      ///< rms distance of the scanned points from the board, along its normals
+  double rms_sigmas = 0;  ///< the same in units of the noise
+  std::size_t views = 0;  ///< number of views in which the board was found
 };
 
-/// Lens and depth scale for which a board of known shape has its shape in every view: least squares
-/// over the lens and the board's pose in each view together. One point a patch of constant noise is
-/// used; that noise is taken to be the same in every view, and comes out with the lens.
-/// @param views    each of a board (calibration_board(), say) that nothing else touches in the
-///                 image, more than 30 mm before what is behind it, seen whole
-/// @param nominal  believed to a tenth in focal length, 15 pixels in the middle, 0.3 and 1 in
-/// radial and
-///                 0.01 in tangential distortion, and a twentieth in scale
-/// Refuses (kFailedPrecondition, POOR_VIEWS), with what to add: fewer than five views with the
-/// board in them; the image covered by less than 60 %; all views less than 25 degrees apart in
-/// tilt; distances within 15 %; residuals beyond twice the noise; a parameter that the views tell
-/// no better than to a third of what was believed.
+/// Finds the lens and the depth scale with which a board of known shape has its shape in every
+/// view: least squares over the lens and the board's pose in all views together. Uses one point per
+/// patch of constant noise. That noise is taken to be the same in every view, and is determined
+/// together with the lens.
+/// @param views    each shows the whole board (such as calibration_board()), more than 30 mm in
+///                 front of the background, with nothing else touching it in the image
+/// @param nominal  prior with these standard deviations: a tenth of the focal length, 15 pixels for
+///                 the image centre, 0.3 and 1 for radial and 0.01 for tangential distortion, and a
+///                 twentieth of the scale
+/// Fails (kFailedPrecondition, POOR_VIEWS) with a message on how to improve the views: if fewer
+/// than five show the board, they cover less than 60 % of the image, their tilts are within 25
+/// degrees, their distances are within 15 %, residuals exceed twice the noise, or a parameter is
+/// known no better than to a third of its prior standard deviation.
 [[nodiscard]] Result<CameraCalibration> calibrate_camera(std::span<const scan::FusedFrame> views,
                                                          const mesh::Surface& board,
                                                          const scan::Lens& nominal,

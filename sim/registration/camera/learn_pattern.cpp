@@ -11,10 +11,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr Index kLens = scan::Lens::kParameters;
-constexpr Index kMostOthers = 72;  ///< unknowns beside the lens's, all of twelve views
+constexpr Index kMostOthers = 72;  ///< unknowns besides the lens's; enough for twelve views
 
-/// The same errors by fewer unknowns: the strongest combinations of those beside the lens's, which
-/// are as independent as the unknowns are. What is left out counts as each patch's own.
+/// Reduces the number of unknowns: keeps the lens's, and the strongest combinations of the others,
+/// which are also independent of each other. The rest is added to each patch's own error.
 MatrixXd strongest(const MatrixXd& shared, std::vector<float>& sigma) {
   const Index others = shared.rows() - kLens;
   if (others <= kMostOthers) return shared;
@@ -45,7 +45,7 @@ scan::FixedPattern learn_pattern(const std::vector<Sighting>& sightings,
   for_each_patch(sightings, [&](std::span<const Sighting> patch) {
     const Constant constant = constant_of(patch);
     const int place = patch.front().pair.scan->patch;
-    // What is too deep lies inward.
+    // A depth that is too large lies inward, which is negative here.
     const auto i = static_cast<std::size_t>(place);
     out.offset[i] = static_cast<float>(-constant.pull / constant.square);
     out.sigma[i] = static_cast<float>(std::min(1.0, spread / std::sqrt(constant.square)));

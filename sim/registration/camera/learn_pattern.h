@@ -7,13 +7,13 @@
 
 namespace hydroprint::registration {
 
-/// The camera's fixed pattern by what the views of a board leave unexplained.
+/// Computes the camera's fixed pattern from the residuals of the views of a board.
 /// @param sightings   sorted by patch
-/// @param row_of      the row of a sighting
-/// @param covariance  of all unknowns: of the lens, in units of what was believed, then of each
-/// pose
-/// @param spread      how much farther off sightings are than noise explains
-/// @param empty       nothing known, of the image's size and the noise's squares
+/// @param row_of      returns the row of a sighting
+/// @param covariance  of all unknowns: the lens in units of its prior standard deviations, then the
+///                    pose of each view
+/// @param spread      ratio of the sightings' spread to their noise
+/// @param empty       an unknown pattern with the size of the image and of the patches
 [[nodiscard]] scan::FixedPattern learn_pattern(
     const std::vector<Sighting>& sightings,
     const std::function<SightingRow(const Sighting&)>& row_of, const Eigen::MatrixXd& covariance,

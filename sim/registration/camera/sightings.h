@@ -11,21 +11,21 @@
 
 namespace hydroprint::registration {
 
-/// A point of one view on the board, as lens and pose are believed now.
+/// A point of one view on the board, at the current estimate of lens and pose.
 struct Sighting {
   std::size_t view;
   Pair pair;
-  double robust = 1;  ///< its weight
+  double robust = 1;  ///< robust weight
 
   [[nodiscard]] double weight() const { return robust / std::pow(pair.own_sigma_mm(), 2); }
 };
 
-/// What the sightings of one patch say of its constant noise, in units of its standard deviation:
-/// pull over square, outward; its variance is one over square.
+/// Estimate of the constant noise of a patch from its sightings, in units of its standard
+/// deviation: pull / square, positive outward, with variance 1 / square.
 struct Constant {
   double square = 1, pull = 0;
 
-  /// @param sign  -1 takes a sighting out again
+  /// @param sign  -1 removes a sighting again
   void add(const Sighting& s, double sign = 1) {
     const double by_constant = sign * s.weight() * s.pair.constant_sigma_mm;
     square += by_constant * s.pair.constant_sigma_mm;
@@ -53,11 +53,11 @@ void for_each_patch(const std::vector<Sighting>& sightings, Use use) {
   }
 }
 
-/// How a sighting's residual goes with the lens's parameters, in units of what was believed of
-/// them, and with the pose of its view.
+/// Derivative of a sighting's residual by the lens's parameters, in units of their prior standard
+/// deviations, and by the pose of its view.
 using SightingRow = Eigen::Matrix<double, scan::Lens::kParameters + 6, 1>;
 
-/// Where a view's pose stands among all unknowns: after the lens.
+/// Index of a view's pose among all unknowns; the lens comes first.
 [[nodiscard]] inline Eigen::Index place_of(std::size_t view) {
   return scan::Lens::kParameters + 6 * static_cast<Eigen::Index>(view);
 }

@@ -7,12 +7,12 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kPlaced_mm = 0.2;  ///< to which markers stand on their marks and the lens is known
+constexpr double kPlaced_mm = 0.2;      ///< accuracy of the markers' placement and of the lens
 constexpr double kOnceIn10000 = 3.719;  ///< standard deviations of a normal distribution
 constexpr int kSteps = 5;
 
 struct Spot {
-  std::size_t marker;  ///< of the layout
+  std::size_t marker;  ///< index in the layout
   Eigen::Vector3d layout_F, found_C;
   Eigen::Matrix3d covariance;
 };
@@ -32,7 +32,7 @@ std::vector<Spot> spots_of(const Matching& matching, const std::vector<FoundMark
   return out;
 }
 
-/// A pose, and how far off the spots are from it.
+/// A pose, and chi-square of the spots at that pose.
 struct Settled {
   Pose X_CF;
   double square = 0;
@@ -59,7 +59,7 @@ Settled settled(const std::vector<Spot>& spots, Pose pose) {
   return {pose, square};
 }
 
-/// Quantile of chi-square (Wilson and Hilferty 1931).
+/// Compares with a quantile of chi-square (Wilson and Hilferty 1931).
 bool is_chance(double square, std::size_t spots) {
   const double freedom = 3 * static_cast<double>(spots) - 6, share = 2 / (9 * freedom);
   return square < freedom * std::pow(1 - share + kOnceIn10000 * std::sqrt(share), 3);

@@ -6,10 +6,10 @@
 
 namespace hydroprint::registration {
 
-/// Whether markers stand to each other as the layout says: least squares of their places, each with
-/// what its own fit leaves open, over the frame's pose. While they do not (chi-square beyond what
-/// chance does once in 10000 times) and there are more than three, the one without which the others
-/// agree best is left out.
+/// Checks the markers' relative positions against the layout. Fits the frame's pose to their
+/// positions by least squares, with the covariance of each marker's own fit. They disagree if
+/// chi-square exceeds the value that chance reaches once in 10000 times. While they disagree and
+/// there are more than three, the marker without which the others agree best is left out.
 /// @param matching  of at least three markers
 [[nodiscard]] Matching agreeing(Matching matching, const std::vector<FoundMarker>& found,
                                 const MarkerLayout& layout);

@@ -17,7 +17,7 @@ constexpr std::size_t kFewestMarkers = 3;
 constexpr std::size_t kSightSamples = 600;
 constexpr double kSight_mm = 8;
 constexpr double kHiddenShare = 0.5;
-constexpr double kMoved_mm = 40;  ///< a marker found so near to its place is that marker
+constexpr double kMoved_mm = 40;  ///< a marker found this near to a place belongs there
 constexpr double kWeak_mm = 5;
 
 std::string in_mm(double value) {
@@ -26,7 +26,7 @@ std::string in_mm(double value) {
   return buffer;
 }
 
-/// The pyramids that are used, at their places: one body in the film frame.
+/// The pyramids that are used, at their places in the layout, as one body in the film frame.
 Shape body_of(const MarkerLayout& layout, const Matching& matching) {
   mesh::Surface all;
   for (std::size_t a = 0; a < layout.markers.size(); ++a) {
@@ -68,14 +68,14 @@ std::string reason(const Marker& marker, const MarkerLayout& layout,
       continue;
     const double off = (found[i].place_C() - X_CM.translation()).norm();
     if (off < kMoved_mm)
-      return "it stands " + in_mm(off) + " from its place: move it back to its mark";
+      return "it stands " + in_mm(off) + " from its place. Move it back to its mark";
   }
   const Shape shape(pyramid(layout.width_mm, layout.height_mm));
   const Sight sight = look_at(visible(shape, X_CM, kSightSamples), depth, lens, kSight_mm);
   if (sight.out_of_view > kHiddenShare) return "it is out of the camera's view";
   if (sight.before + sight.without_depth + sight.out_of_view > kHiddenShare)
-    return "it is hidden: clear the camera's view of it";
-  return "what is seen in its place has not its shape: it is knocked over, dirty or gone";
+    return "it is hidden. Clear the camera's view of it";
+  return "the scan does not show its shape. It may be knocked over, dirty or missing";
 }
 
 scan::DepthFrame depths_of(const scan::Cloud& cloud) {
@@ -112,13 +112,13 @@ tl::unexpected<Error> too_few(const std::string& what) {
   return fail(Code::kFailedPrecondition, what, "TOO_FEW_MARKERS");
 }
 
-/// What is wrong, as far as the nominal pose of the camera tells.
+/// Describes the missing markers, as far as the nominal pose of the camera allows.
 tl::unexpected<Error> no_match(const std::vector<FoundMarker>& found, const MarkerLayout& layout,
                                const Pose& nominal_CF) {
   if (found.size() >= kFewestMarkers)
     return too_few(std::to_string(found.size()) +
-                   " markers are seen, but not so far from each other as the configuration says: "
-                   "move them back to their marks");
+                   " markers are seen, but their distances differ from the configuration. "
+                   "Move them back to their marks");
   std::vector<bool> is_seen(layout.markers.size());
   for (const FoundMarker& f : found) {
     const auto distance = [&](const Marker& marker) {
@@ -129,11 +129,10 @@ tl::unexpected<Error> no_match(const std::vector<FoundMarker>& found, const Mark
         [&](const Marker& a, const Marker& b) { return distance(a) < distance(b); });
     is_seen[static_cast<std::size_t>(nearest - layout.markers.begin())] = true;
   }
-  std::string text = "only " + std::to_string(found.size()) + " markers can be used, of three";
+  std::string text = "only " + std::to_string(found.size()) + " of at least three markers are seen";
   for (std::size_t a = 0; a < is_seen.size(); ++a)
     if (!is_seen[a])
-      text += "; \"" + layout.markers[a].name +
-              "\" is not seen: it is hidden, knocked over, dirty or gone";
+      text += "; \"" + layout.markers[a].name + "\" may be hidden, knocked over, dirty or missing";
   return too_few(text);
 }
 
@@ -142,7 +141,8 @@ tl::unexpected<Error> no_match(const std::vector<FoundMarker>& found, const Mark
 Result<FilmFrame> find_film_frame(const scan::Cloud& cloud, const MarkerLayout& layout,
                                   const Pose& nominal_CF, const Context& context) {
   if (layout.markers.size() < kFewestMarkers)
-    return fail(Code::kInvalidArgument, "the rig's configuration names fewer than three markers");
+    return fail(Code::kInvalidArgument,
+                "the rig's configuration names fewer than three markers. Add markers to it");
   HP_ASSIGN_OR_RETURN(const Plane level, find_plane(cloud, nominal_CF.linear().col(2)));
   HP_ASSIGN_OR_RETURN(const auto found, find_markers(cloud, level, layout, context));
   Matching matching = match(found, layout, nominal_CF);
@@ -151,8 +151,8 @@ Result<FilmFrame> find_film_frame(const scan::Cloud& cloud, const MarkerLayout& 
   matching = agreeing(std::move(matching), found, layout);
   if (!matching.agrees)
     return too_few(
-        "the three markers that can be used do not stand to each other as the configuration says: "
-        "move them back to their marks, or calibrate the camera");
+        "the distances between the three usable markers differ from the configuration. Move them "
+        "back to their marks, or calibrate the camera");
   FitOptions options;
   options.weak_sigma_mm = kWeak_mm;
   options.reach_mm = kSight_mm;

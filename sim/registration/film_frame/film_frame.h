@@ -7,24 +7,24 @@
 
 namespace hydroprint::registration {
 
-/// What became of one marker.
+/// The result for one marker.
 struct MarkerReport {
   std::string name;
   bool used = false;
-  double rms_mm = 0;       ///< of its points from its surface, in the frame of all
-  double residual_mm = 0;  ///< of its own place from where the frame of all puts it
-  std::string why_not;     ///< where it is not used: hidden, moved, not its shape
+  double rms_mm = 0;       ///< of its points from its surface, placed by the fit of all markers
+  double residual_mm = 0;  ///< distance of its own fit from its place in the fit of all markers
+  std::string why_not;     ///< if not used: hidden, moved or not its shape
 };
 
-/// The film frame as the markers tell it.
+/// The film frame, found from the markers.
 struct FilmFrame {
   PoseFit fit;                        ///< of F in the camera frame
   std::vector<MarkerReport> markers;  ///< in the layout's order
-  Warnings warnings;                  ///< `marker_left_out`, one each
+  Warnings warnings;                  ///< `marker_left_out` for each unused marker
 
   [[nodiscard]] const Pose& X_CF() const { return fit.X_CB; }
-  /// How `motion` of the frame's twist goes with the camera's unknowns; nothing of a frame that no
-  /// camera found.
+  /// Derivative of `motion` times the frame's twist by the camera's unknowns; zero if the frame was
+  /// not found with a camera.
   template <int Rows>
   [[nodiscard]] Eigen::Matrix<double, Rows, Eigen::Dynamic> camera_gain(
       const Eigen::Matrix<double, Rows, 6>& motion, Eigen::Index unknowns) const {
@@ -34,14 +34,13 @@ struct FilmFrame {
   }
 };
 
-/// Finds the markers (find_markers), tells which is which by the distances between them (match),
-/// leaves out those that do not stand where the layout says (agreeing), and fits all others
-/// together.
-/// @param nominal_CF  where the rig's configuration has the film, to some 30 degrees: it tells up,
-///                    and which end is which of a layout that looks the same turned round
-/// Refuses with kInvalidArgument a layout of fewer than three markers, with kFailedPrecondition
-/// what find_plane refuses, and TOO_FEW_MARKERS where fewer than three can be used or three do not
-/// agree, saying what is wrong with each.
+/// Finds the markers (find_markers), identifies them by the distances between them (match), leaves
+/// out those that disagree with the layout (agreeing), and fits all others together.
+/// @param nominal_CF  the film's pose in the rig's configuration, accurate to about 30 degrees. It
+///                    defines up, and tells the two ends of a symmetrical layout apart
+/// Fails with kInvalidArgument if the layout has fewer than three markers, as find_plane() does,
+/// and with TOO_FEW_MARKERS (kFailedPrecondition) if fewer than three can be used or three do not
+/// agree. The message states the problem of each marker.
 [[nodiscard]] Result<FilmFrame> find_film_frame(const scan::Cloud& cloud,
                                                 const MarkerLayout& layout, const Pose& nominal_CF,
                                                 const Context& context);

@@ -15,12 +15,12 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr double kJump_mm = 10;
-constexpr double kCut_mm = 8;  ///< over what is level, where pieces are cut off
+constexpr double kCut_mm = 8;  ///< height over a level area at which pieces are cut off
 constexpr double kSameCut_mm = 4;
-constexpr double kAboveBase_mm = 4;     ///< points of a marker below that may be the bar's
-constexpr double kSlack_mm = 12;        ///< of a piece's height
-constexpr double kMargin_mm = 6;        ///< round a marker, of points that are taken for its own
-constexpr double kLeastOfHeight = 0.3;  ///< of a marker's, that a piece has
+constexpr double kAboveBase_mm = 4;     ///< lower points may belong to the bar
+constexpr double kSlack_mm = 12;        ///< tolerance of a piece's height
+constexpr double kMargin_mm = 6;        ///< around a marker; points within it count as its own
+constexpr double kLeastOfHeight = 0.3;  ///< smallest height of a piece, relative to a marker's
 constexpr std::size_t kFewestPoints = 80;
 constexpr std::size_t kTargetSamples = 1500;
 constexpr std::size_t kIcpPoints = 400;
@@ -31,9 +31,9 @@ constexpr double kMostSigmas = 1.8;
 constexpr double kLeastPaired = 0.75;
 constexpr double kSurelyPaired = 0.9;
 constexpr double kSame_mm = 20;
-constexpr double kAny_mm = 1e3;  ///< nothing is known of it but by the scan
+constexpr double kAny_mm = 1e3;  ///< no direction is weak: there is no nominal pose
 
-/// What all candidates share.
+/// Data that all candidates share.
 struct Search {
   const scan::Cloud& cloud;
   const Plane& level;
@@ -42,8 +42,8 @@ struct Search {
   std::unique_ptr<const Icp> icp;
 };
 
-/// Heights at which pieces that stand on something level are cut off from it: the level itself may
-/// be the markers', or, where that is not seen, the water below.
+/// Heights at which pieces are cut off from the level area that they stand on. That area may be the
+/// markers' own level or, if it is not seen, the water below.
 std::vector<double> cuts(const Search& s) {
   double lowest = INFINITY;
   for (const Marker& m : s.layout.markers) lowest = std::min(lowest, m.X_FM.translation().z());
@@ -57,7 +57,7 @@ std::vector<double> cuts(const Search& s) {
   return out;
 }
 
-/// Pieces over a cut that are no taller than a pyramid, nor much smaller.
+/// Pieces over a cut that are about as tall and as wide as a pyramid.
 std::vector<std::vector<int>> candidates(const Search& s, double cut_mm) {
   const auto& points = s.cloud.points;
   std::vector<bool> chosen(points.size());
@@ -80,8 +80,8 @@ std::vector<std::vector<int>> candidates(const Search& s, double cut_mm) {
   return pieces;
 }
 
-/// Where the tip is, about. The highest tenth of what a pyramid shows above a fifth of its height
-/// is, on average, a sixth of its height below its tip.
+/// Approximate position of the tip. Of the part of a pyramid above a fifth of its height, the
+/// highest tenth is, on average, a sixth of the pyramid's height below the tip.
 Eigen::Vector3d tip_of(const Search& s, std::vector<int> piece) {
   const auto at = [&](int i) -> const Eigen::Vector3d& {
     return s.cloud.points[static_cast<std::size_t>(i)].point_mm;
@@ -95,7 +95,7 @@ Eigen::Vector3d tip_of(const Search& s, std::vector<int> piece) {
   return sum / static_cast<double>(tenth) + s.layout.height_mm / 6 * s.level.normal;
 }
 
-/// The points round a marker that stands there, but for those of what it stands on.
+/// The points around a marker at the given pose, without those of its base.
 std::vector<scan::ScanPoint> around(const Search& s, const Pose& X_CM) {
   std::vector<scan::ScanPoint> out;
   const Pose X_MC = X_CM.inverse();
@@ -123,7 +123,7 @@ bool is_pyramid(const Search& s, const PoseFit& fit) {
          fit.rms_sigmas < kMostSigmas && fit.paired_share > kLeastPaired;
 }
 
-/// ICP, then twice the points that are the marker's by what is known of it, and a fit to them.
+/// Aligns with ICP, then twice selects the marker's points by its current pose and fits to them.
 std::optional<FoundMarker> fitted_from(const Search& s, Pose X_CM, const Context& context) {
   FitOptions options;
   options.weak_sigma_mm = kAny_mm;
@@ -144,7 +144,7 @@ std::optional<FoundMarker> fitted_from(const Search& s, Pose X_CM, const Context
   return out;
 }
 
-/// The best of three ways to turn it: the shape repeats after a quarter.
+/// The best fit from three starting turns within a quarter, after which the shape repeats.
 std::optional<FoundMarker> fitted(const Search& s, const Eigen::Vector3d& tip,
                                   const Context& context) {
   std::optional<FoundMarker> best;

@@ -16,8 +16,7 @@ struct Marker {
   Pose X_FM = Pose::Identity();
 };
 
-/// Where the rig has its pyramids (paper, section 5.2), all of one size. z = 0 is the water's
-/// nominal level.
+/// The rig's pyramids (paper, section 5.2), all of one size. z = 0 is the nominal water level.
 struct MarkerLayout {
   double width_mm = 60;
   double height_mm = 40;
@@ -35,10 +34,9 @@ struct FoundMarker {
   [[nodiscard]] Eigen::Vector3d place_C() const { return fit.X_CB.translation(); }
 };
 
-/// Every upright pyramid of the layout's size that stands on something level, wherever it is:
-/// pieces of about that size and height, aligned by ICP and fit_pose(); what does not have the
-/// shape is left out.
-/// @param level  a plane that tells up (find_plane)
+/// Finds all upright pyramids of the layout's size that stand on a level area. Pieces of about that
+/// size and height are aligned by ICP and fit_pose(); pieces of another shape are left out.
+/// @param level  a plane that defines up (find_plane)
 [[nodiscard]] Result<std::vector<FoundMarker>> find_markers(const scan::Cloud& cloud,
                                                             const Plane& level,
                                                             const MarkerLayout& layout,

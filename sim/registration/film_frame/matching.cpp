@@ -10,9 +10,9 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kNear_mm = 4;      ///< of a marker from its place
-constexpr double kAsGood_mm = 0.7;  ///< between matchings, rms
-constexpr double kTriangle_mm = 8;  ///< of the sides of two triangles of markers
+constexpr double kNear_mm = 4;      ///< distance of a marker from its place
+constexpr double kAsGood_mm = 0.7;  ///< difference of rms between equally good matchings
+constexpr double kTriangle_mm = 8;  ///< difference of side lengths between two triangles of markers
 constexpr double kThin_mm = 30;     ///< least height of a triangle of markers
 
 Pose between(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
@@ -76,7 +76,8 @@ class Matcher {
     if (grown.count() >= 3) out.push_back(grown);
   }
 
-  /// Every marker that stands near its place under a pose, and the pose anew from all of them.
+  /// Assigns all markers that are near their places at the given pose, and recomputes the pose from
+  /// them.
   [[nodiscard]] Matching grow(Pose pose) const {
     Matching out;
     for (int round = 0; round < 2; ++round) {

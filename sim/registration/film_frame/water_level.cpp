@@ -15,7 +15,7 @@ constexpr std::size_t kFewest = 200;
 constexpr double kSearch_mm = 15;
 constexpr double kNear_mm = 4;
 constexpr double kLeastLevel = 0.8;   ///< cosine between a point's normal and up
-constexpr std::size_t kLooked = 500;  ///< points by which the camera is judged
+constexpr std::size_t kLooked = 500;  ///< points used for the camera's part of the error
 
 struct Height {
   double z_mm;
@@ -38,7 +38,7 @@ std::vector<Height> heights(const scan::Cloud& cloud, const Pose& X_FC,
   return out;
 }
 
-/// Variance of the mean height by noise.
+/// Variance of the mean height due to noise.
 double noise_of_mean(const std::vector<Height>& all) {
   HP_CHECK(!all.empty());
   const auto count = static_cast<double>(all.size());
@@ -52,7 +52,7 @@ double noise_of_mean(const std::vector<Height>& all) {
   return variance;
 }
 
-/// Variance of the water's height by the film frame, and by the camera that both are seen through.
+/// Variance of the water's height due to the film frame and to the camera, which both share.
 double frame_and_camera(const std::vector<Height>& all, const scan::Camera& camera,
                         const FilmFrame& frame) {
   const scan::CameraErrors errors(camera);
@@ -79,8 +79,8 @@ Result<WaterLevel> water_level(const scan::Cloud& cloud, const FilmFrame& frame,
   const Pose X_FC = frame.X_CF().inverse();
   auto all = heights(cloud, X_FC, half_film_mm);
   if (all.size() < kFewest)
-    return fail(Code::kFailedPrecondition, "too little of the water is in view to tell its level",
-                "NO_WATER");
+    return fail(Code::kFailedPrecondition,
+                "too little of the water is in view to measure its level", "NO_WATER");
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end(),
                    [](const Height& a, const Height& b) { return a.z_mm < b.z_mm; });

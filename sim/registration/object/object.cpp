@@ -27,7 +27,8 @@ constexpr double kLeastOn = 0.85;
 constexpr double kMostThrough = 0.12;
 constexpr double kMostMisfit_mm = 1;
 constexpr double kAsGood = 0.03;
-constexpr double kOtherShare = 0.08;  ///< of the points, in one piece: another object
+constexpr double kOtherShare =
+    0.08;  ///< share of the points in one piece that means a second object
 constexpr double kOtherJump_mm = 12;
 constexpr double kMostlySeen = 0.6;
 constexpr double kOutOfView = 0.15;
@@ -94,7 +95,7 @@ class Finder {
       HP_ASSIGN_OR_RETURN(Candidate candidate, judged(*fit));
       tried.push_back(std::move(candidate));
     }
-    if (tried.empty()) return not_this("no way to hold the mesh brings it near the scan");
+    if (tried.empty()) return not_this("no orientation of the mesh comes near the scan");
     const Candidate& chosen = choose(tried);
     HP_ASSIGN_OR_RETURN(const PoseFit fit, fit_pose(shape_, points_, camera_, chosen.fit.X_CB,
                                                     nominal_, options_, context_));
@@ -102,13 +103,13 @@ class Finder {
   }
 
   [[nodiscard]] static tl::unexpected<Error> not_this(const std::string& why) {
-    return fail(
-        Code::kFailedPrecondition,
-        "what hangs there is not this object: " + why + "; give the mesh of what is in the gripper",
-        "NOT_THIS_OBJECT");
+    return fail(Code::kFailedPrecondition,
+                "the object in view does not match the mesh: " + why +
+                    ". Give the mesh of the object in the gripper",
+                "NOT_THIS_OBJECT");
   }
 
-  /// The largest piece of what does not lie on the mesh, as a share of the scan.
+  /// The largest connected piece of points off the mesh, as a share of the scan.
   [[nodiscard]] double other_share(const Candidate& candidate, const scan::Cloud& cloud) const {
     std::vector<bool> off(cloud.points.size());
     const Pose X_BC = candidate.fit.X_CB.inverse();
@@ -146,7 +147,8 @@ class Finder {
     return out;
   }
 
-  /// Of those about as good as the best: the one turned least from the nominal pose.
+  /// Of the candidates about as good as the best, chooses the one turned least from the nominal
+  /// pose.
   [[nodiscard]] const Candidate& choose(const std::vector<Candidate>& tried) const {
     double least = 1e9;
     for (const Candidate& c : tried) least = std::min(least, c.mismatch());
@@ -174,13 +176,13 @@ std::string percent(double share) {
 std::string how_wrong(const Candidate& c) {
   char buffer[160];
   std::snprintf(buffer, sizeof buffer,
-                "at best %.0f %% of the scan lies on the mesh, %.1f mm off on average, and the "
-                "camera sees through %.0f %% of it",
+                "at best %.0f %% of the scan lies on the mesh, with a misfit of %.1f mm (rms), and "
+                "the camera sees through %.0f %% of the mesh",
                 100 * c.on_share, c.misfit_mm, 100 * c.sight.through);
   return buffer;
 }
 
-/// Into the film frame, with what the frame and the camera add to what is not known.
+/// Transforms the pose into the film frame. Adds the uncertainty of that frame and of the camera.
 void place_in_film(const FilmFrame& frame, ObjectPose& out) {
   const Pose X_FC = frame.X_CF().inverse();
   const PoseFit& fit = out.fit;
@@ -200,17 +202,17 @@ void warn(ObjectPose& out) {
   if (out.sight.out_of_view > kOutOfView)
     out.warnings.push_back({"object_partly_out_of_view",
                             percent(out.sight.out_of_view) +
-                                " of what the camera could see of the object is out of its view: "
-                                "move the camera",
+                                " of the surface that faces the camera is out of its view. "
+                                "Move the camera",
                             "object"});
   if (out.sight.before + out.sight.without_depth > kHidden)
     out.warnings.push_back({"object_partly_hidden",
                             percent(out.sight.before + out.sight.without_depth) +
-                                " of what the camera could see of the object is hidden",
+                                " of the surface that faces the camera is hidden",
                             "object"});
   for (const std::string& weak : out.weak)
     out.warnings.push_back({"pose_unconstrained",
-                            "the scan does not tell this, the nominal pose does: " + weak,
+                            "not determined by the scan, so taken from the nominal pose: " + weak,
                             "object"});
 }
 
@@ -223,7 +225,7 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
   const auto& points = found.all;
   if (points.size() < kFewestPoints)
     return fail(Code::kFailedPrecondition,
-                "no object in view above the water: hang it there, or raise it", "NO_OBJECT");
+                "no object is in view above the water. Hang it there, or raise it", "NO_OBJECT");
   const Shape shape(task.surface);
   HP_RETURN_IF_ERROR(check_size(shape, std::span(points).first(found.largest)));
   const Pose nominal_CO = film_frame.X_CF() * task.nominal_FO;
@@ -231,17 +233,16 @@ Result<ObjectPose> find_object(const scan::Cloud& cloud, const scan::DepthFrame&
   HP_ASSIGN_OR_RETURN(const Candidate best, finder.best());
   const double other = finder.other_share(best, cloud);
   if (other > kOtherShare && best.sight.on > kMostlySeen && best.sight.through < kMostThrough)
-    return fail(
-        Code::kFailedPrecondition,
-        "a second object is in view (" + percent(other) + " of what hangs there): take it away",
-        "TWO_OBJECTS");
+    return fail(Code::kFailedPrecondition,
+                "a second object is in view (" + percent(other) + " of the scan). Remove it",
+                "TWO_OBJECTS");
   if (!best.explains()) {
     const Shape mirror(mirrored(task.surface));
     const auto turned_round =
         Finder(mirror, points, depth, cloud.camera, nominal_CO, task.fit, context).best();
     if (turned_round && turned_round->explains())
       return fail(Code::kFailedPrecondition,
-                  "the object is the mesh's mirror image: export the mesh without mirroring",
+                  "the object is the mesh's mirror image. Export the mesh without mirroring",
                   "MIRRORED");
     return Finder::not_this(how_wrong(best));
   }

@@ -6,26 +6,27 @@
 
 namespace hydroprint::registration {
 
-/// What of a scan cannot be the object; film frame.
+/// The parts of a scan that cannot be the object; film frame.
 struct Surroundings {
-  double clear_mm = 16;  ///< points lower than this over the water are water's, film's or bars'
-  /// The gripper: all within an upright cylinder, from this height on.
+  double clear_mm = 16;  ///< points below this height over the water are water, film or bars
+  /// The gripper lies within an upright cylinder above this height.
   Eigen::Vector2d gripper_mm = Eigen::Vector2d::Zero();
   double gripper_radius_mm = 28;
-  double gripper_from_mm = 1e9;  ///< none
-  /// Where the object may be: within this of the film's centre in x and in y.
+  double gripper_from_mm = 1e9;  ///< the default means that there is no gripper
+  /// The object is within this distance of the film's centre in x and in y.
   Eigen::Vector2d reach_mm{140, 180};
-  MarkerLayout layout;  ///< as find_film_frame() was given it
+  MarkerLayout layout;  ///< the layout given to find_film_frame()
 };
 
-/// What of a scan may be the object.
+/// The points of a scan that may be the object.
 struct ObjectPoints {
   std::vector<scan::ScanPoint> all;  ///< without specks; the largest connected piece first
-  std::size_t largest = 0;           ///< how many that piece has
+  std::size_t largest = 0;           ///< number of points in that piece
 };
 
-/// @param frame  its markers are left out, and what lies round the places of those that are not
-///               where they should be
+/// Selects the points that may be the object.
+/// @param frame  points at its markers are left out, with a wider margin around markers that are
+///               not at their places
 [[nodiscard]] ObjectPoints object_points(const scan::Cloud& cloud, const FilmFrame& frame,
                                          const Surroundings& surroundings);
 

@@ -18,7 +18,8 @@ struct Unit {
 };
 constexpr std::array kUnits{Unit{1000, "metres"}, Unit{25.4, "inches"}, Unit{10, "centimetres"}};
 
-/// Distance from a point farthest from the middle to the one farthest from that.
+/// Approximate diameter: takes the point farthest from the middle, and returns the largest distance
+/// of another point from it.
 double across(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   for (const auto& p : points) from += p / static_cast<double>(points.size());
@@ -38,7 +39,7 @@ double across(const std::vector<Eigen::Vector3d>& points) {
 
 std::string sizes(double mesh_mm, double scan_mm) {
   char buffer[120];
-  std::snprintf(buffer, sizeof buffer, "the mesh is %.3g mm across, what hangs there %.3g mm",
+  std::snprintf(buffer, sizeof buffer, "the mesh is %.3g mm across, the object in view %.3g mm",
                 mesh_mm, scan_mm);
   return buffer;
 }
@@ -76,12 +77,13 @@ Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points) {
   }
   const std::string what = sizes(mesh_mm, scan_mm);
   if (best == nullptr)
-    return fail(Code::kFailedPrecondition, what + ": this is another object, or a part of it",
+    return fail(Code::kFailedPrecondition,
+                what + ". Give the mesh of the object in the gripper, all of it",
                 "NOT_THIS_OBJECT");
-  const std::string remedy = too_large ? ": its lengths were taken for " + std::string(best->name) +
-                                             "; give a scale " + number(best->mm) + " times smaller"
-                                       : ": its file seems to be in " + std::string(best->name) +
-                                             "; give a scale " + number(best->mm) + " times larger";
+  const std::string remedy = too_large ? ". Its lengths were read as " + std::string(best->name) +
+                                             ". Give a scale " + number(best->mm) + " times smaller"
+                                       : ". Its file seems to be in " + std::string(best->name) +
+                                             ". Give a scale " + number(best->mm) + " times larger";
   return fail(Code::kFailedPrecondition, what + remedy, "WRONG_UNITS");
 }
 

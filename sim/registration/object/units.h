@@ -7,9 +7,9 @@
 
 namespace hydroprint::registration {
 
-/// @param points  of one piece
-/// Refuses (kFailedPrecondition) a scan that is far larger or smaller than the mesh: WRONG_UNITS
-/// where metres, inches or centimetres explain it, else NOT_THIS_OBJECT.
+/// Fails (kFailedPrecondition) if the scan is far larger or smaller than the mesh: with WRONG_UNITS
+/// if metres, inches or centimetres explain it, otherwise with NOT_THIS_OBJECT.
+/// @param points  of one connected piece
 [[nodiscard]] Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points);
 
 }  // namespace hydroprint::registration

@@ -12,21 +12,22 @@
 // For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
-/// A task that leaves an artifact folder with a report.json.
+/// A task that writes an artifact folder with a report.json.
 class ArtifactTask : public Task {
  public:
-  /// @param verb  as report.json states it
+  /// @param verb  name for report.json
   explicit ArtifactTask(std::string verb) : verb_(std::move(verb)) {}
 
   [[nodiscard]] Result<Finished> run(const RunOptions& options, Termination& termination,
                                      int stderr_fd) final;
 
-  /// The stages of a run in order, repeated ones as often as they come, each with its rough share
-  /// of the total time, for the time left. A run may skip stages.
+  /// The stages of a run in order, each with its rough share of the total time, from which the
+  /// remaining time is estimated. A repeated stage is listed once per repetition. A run may skip
+  /// stages.
   [[nodiscard]] virtual std::vector<Stage> stages() const = 0;
 
  protected:
-  /// Files that must be readable before anything is computed. report.json lists them.
+  /// Files that must be readable before the computation starts. report.json lists them.
   [[nodiscard]] virtual std::vector<InputPath> input_files() const = 0;
 
   /// Computes, creates `folder` and writes the artifacts into it. Adds warnings, artifacts and
@@ -34,11 +35,11 @@ class ArtifactTask : public Task {
   [[nodiscard]] virtual Status compute(OutFolder& folder, Report& report,
                                        const Context& context) = 0;
 
-  /// After compute(): the verb's own keys of report.json, in their order.
+  /// After compute(): the verb's own keys of report.json, in order.
   [[nodiscard]] virtual Json findings(const Report& report) const = 0;
-  /// After compute(): the figures of the summary for programs.
+  /// After compute(): the figures of the summary with `--json`.
   [[nodiscard]] virtual Json figures() const = 0;
-  /// After compute(): the summary for people, with line ends.
+  /// After compute(): the summary for people; each line ends with a newline.
   [[nodiscard]] virtual std::string summary(const Report& report,
                                             const std::filesystem::path& dir) const = 0;
 

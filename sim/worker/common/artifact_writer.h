@@ -16,13 +16,13 @@ namespace hydroprint::worker {
 /// A file to write: its name, and the function that writes it to a path.
 using FileTask = std::pair<std::string, std::function<Status(const std::filesystem::path&)>>;
 
-/// surface_map.ply; the dip must live until it is written.
+/// Writes surface_map.ply. The dip must live until the file is written.
 [[nodiscard]] FileTask surface_map_file(const pipeline::Dip& dip);
-/// A PNG; the image and the context must live until it is written.
+/// Writes a PNG. The image and the context must live until the file is written.
 [[nodiscard]] FileTask png_file(const std::string& name, const image::RgbImage& image, double dpi,
                                 const Context& context);
 
-/// Writes files into a folder and reports progress of the stage `writing`.
+/// Writes files into a folder and reports the progress of the stage `writing`.
 /// @return the files' names. Fails as image::write_artifact does.
 [[nodiscard]] Result<std::vector<std::string>> write_files(const std::filesystem::path& folder,
                                                            const std::vector<FileTask>& files,

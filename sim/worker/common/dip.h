@@ -15,7 +15,7 @@ namespace hydroprint::worker {
 struct DipOptions {
   ObjectOptions object;
   std::filesystem::path profile;   ///< empty: the defaults of film::Profile
-  std::optional<double> depth_mm;  ///< none: full
+  std::optional<double> depth_mm;  ///< nullopt: full depth
   double dip_speed_mm_per_s = 5;
 };
 
@@ -31,18 +31,18 @@ Result<DipOptions> dip_options(const Spec& spec, const InputFolder& inputs) {
   return out;
 }
 
-/// Reads film and profile.
+/// Reads the film and its profile.
 [[nodiscard]] Result<pipeline::DipOptions> read_dip(const DipOptions& options);
 
-/// The same with the ink on the film, if an image of it is given. Adds the profile's own files to
-/// the report's inputs.
+/// Same as read_dip(), and reads the ink on the film if `ink_image` is not empty. Adds the
+/// profile's own files to the report's inputs.
 [[nodiscard]] Result<pipeline::DipOptions> read_inked_dip(const DipOptions& options,
                                                           const std::filesystem::path& ink_image,
                                                           Report& report, const Context& context);
 
-/// Parameters in report.json of every verb with a dip.
-/// @param dip   as read
-/// @param X_FO  as used
+/// The parameters in report.json that all verbs with a dip share.
+/// @param dip   the result of read_dip() or read_inked_dip()
+/// @param X_FO  the pose of the computed dip
 [[nodiscard]] Json dip_parameters_json(const DipOptions& options, const pipeline::DipOptions& dip,
                                        const Pose& X_FO, int threads);
 

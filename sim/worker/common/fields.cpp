@@ -23,7 +23,7 @@ struct Range {
   double min, max;
 };
 
-/// Fields mean the same in every spec.
+/// A field has the same meaning and range in every spec.
 constexpr std::array kRanges = {Range{"scale", 1e-6, 1e6},
                                 Range{"dpi", image::kMinDpi, image::kMaxDpi},
                                 Range{"dip_speed_mm_per_s", 1e-3, 1000},

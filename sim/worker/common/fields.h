@@ -10,13 +10,13 @@ class Message;
 
 namespace hydroprint::worker {
 
-/// An error about a field of the spec. Its metadata has the field's name ("dpi"), its message only
-/// the problem; name_field() puts the two together.
+/// An error about a field of the spec. Its metadata holds the field's name ("dpi") and its message
+/// only the problem; name_field() combines the two.
 [[nodiscard]] tl::unexpected<Error> fail_field(Code code, const std::string& field,
                                                std::string problem);
 
-/// The error with the field in its message, in the words of the user: "--ink-passes: ..." for
-/// flags, "ink_passes: ..." for a spec. Other errors stay as they are.
+/// Adds the field to the error's message as the user wrote it: "--ink-passes: ..." for flags,
+/// "ink_passes: ..." for a spec. Errors without a field are returned unchanged.
 [[nodiscard]] Error name_field(Error error, bool as_flag);
 
 /// "--ink-passes" for "ink_passes".

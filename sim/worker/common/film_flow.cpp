@@ -55,25 +55,27 @@ void add_flow_flags(Flags& flags) {
   add_dip_flags(flags);
   flags.add("dpi", "Resolution of the film image", {.default_value = default_text(defaults.dpi)});
   flags.add("model",
-            "How the film moves: as a viscous sheet or as Stokes flow, which is faster and good "
+            "Model of the film: viscous sheet or Stokes flow. Stokes flow is faster, and good "
             "while the film is stretched less than 1.3 times",
             {.default_value = "sheet"});
   flags.add("inertia",
-            "The sheet moves with inertia (Young's modulus, density and Poisson's ratio of the "
-            "profile). Slower; only Poisson's ratio changes the result");
+            "Simulate the sheet with inertia (Young's modulus, density and Poisson's ratio of the "
+            "profile). Slower; of these, only Poisson's ratio affects the result");
   flags.add("ink_passes",
-            "Passes that take the thickness of the image's own ink into account; 0: none. Only "
-            "with the sheet",
+            "Number of passes that account for the thickness of the image's own ink. Only with "
+            "--model sheet",
             {.default_value = default_text(defaults.ink_passes)});
-  flags.add("ink_image", "What is printed on the film, in place of --ink-passes: an RGB film image",
+  flags.add("ink_image",
+            "RGB film image whose ink thickness is used, instead of computing it with --ink-passes",
             {.type = "FILE.png"});
-  flags.add("artifacts", "map: only the map and report.json", {.default_value = "all"});
+  flags.add("artifacts", "Files to write; map: only the surface map and report.json",
+            {.default_value = "all"});
 }
 
 Status choose(FlowOptions& options, v1::Model model, bool inertia, v1::ArtifactSet artifacts) {
   if (inertia && model == v1::MODEL_STOKES) {
     return fail_field(Code::kInvalidArgument, "inertia",
-                      "Stokes flow has none. Use it with model sheet");
+                      "not available with Stokes flow. Use it with model sheet");
   }
   if (model == v1::MODEL_STOKES) options.film_model = pipeline::FilmModel::kStokes;
   options.inertia = inertia;

@@ -17,7 +17,7 @@ enum Model : int;
 enum ArtifactSet : int;
 }  // namespace hydroprint::v1
 
-// What simulate and predict share. For inclusion in .cpp files only.
+// Options and findings that simulate and predict share. For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
 /// A dip whose film carries an image.
@@ -27,17 +27,17 @@ struct FlowOptions {
   pipeline::FilmModel film_model = pipeline::FilmModel::kSheet;
   bool inertia = false;
   int ink_passes = 1;
-  std::filesystem::path ink_image;  ///< empty: none
+  std::filesystem::path ink_image;  ///< empty: no ink image
   bool map_only = false;            ///< `--artifacts map`
 
-  /// Passes over the image's own ink; an ink image takes their place.
+  /// Passes that take the image's own ink into account; an ink image replaces them.
   [[nodiscard]] int passes() const { return ink_image.empty() ? ink_passes : 0; }
   [[nodiscard]] bool is_sheet() const { return film_model == pipeline::FilmModel::kSheet; }
 };
 
 void add_flow_flags(Flags& flags);
 
-/// Sets the fields that are choices. Fails with fail_field() if they exclude each other.
+/// Sets the options that are choices. Fails with fail_field() if they exclude each other.
 [[nodiscard]] Status choose(FlowOptions& options, v1::Model model, bool inertia,
                             v1::ArtifactSet artifacts);
 
@@ -52,25 +52,25 @@ Result<FlowOptions> flow_options(const Spec& spec, const InputFolder& inputs) {
   return out;
 }
 
-/// Stages of a run. The weights are roughly the percentages that dips of a globe and of a cow took
-/// with the default options; the sheet takes three times as long with inertia.
+/// Stages of a run. The weights are rough percentages of the time, measured with dips of a globe
+/// and of a cow with the default options. With inertia the sheet takes three times as long.
 [[nodiscard]] std::vector<Stage> simulate_stages(const FlowOptions& options);
 [[nodiscard]] std::vector<Stage> predict_stages(const FlowOptions& options);
 
-/// Reads what the options name.
+/// Reads the files that the options name.
 [[nodiscard]] Result<pipeline::DipOptions> read_flow(const FlowOptions& options, Report& report,
                                                      const Context& context);
 
-/// The dip as report.json and the summaries show it.
+/// The dip's figures for report.json and for the summaries.
 class DipFindings {
  public:
   DipFindings() = default;
-  /// @param dip     what was computed
-  /// @param result  what came of it
+  /// @param dip     the dip's options
+  /// @param result  the computed dip
   DipFindings(const pipeline::DipOptions& dip, const mesh::Model& model,
               const pipeline::Dip& result);
 
-  /// @param film_image_px  zeros: no film image
+  /// @param film_image_px  width and height; zeros: no film image
   [[nodiscard]] Json report(const FlowOptions& options, std::array<int, 2> film_image_px,
                             int threads) const;
   [[nodiscard]] Json figures() const;

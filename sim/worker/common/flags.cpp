@@ -19,8 +19,8 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-/// The names of a choice as flags have them: "sheet" for MODEL_SHEET. The first value of an enum
-/// is MODEL_UNSPECIFIED, which no flag names.
+/// The names of a choice on the command line: "sheet" for MODEL_SHEET. The first value of each enum
+/// (MODEL_UNSPECIFIED) has no name there.
 std::vector<std::string> choices(const google::protobuf::EnumDescriptor& type) {
   const std::string& unspecified = type.value(0)->name();
   const std::size_t prefix = unspecified.size() - std::string("UNSPECIFIED").size();
@@ -57,7 +57,7 @@ void set_depth(Message& spec, const FieldDescriptor& field, const std::string& t
   const auto parsed = std::from_chars(text.data(), end, depth_mm);
   if (parsed.ec != std::errc() || parsed.ptr != end) {
     throw CLI::ValidationError(flag_of(field.name()),
-                               "'" + text + "' is not a number. Give mm, or full");
+                               "'" + text + "' is not a number. Give a depth in mm, or full");
   }
   spec.GetReflection()->SetDouble(&spec, &field, depth_mm);
 }
@@ -143,7 +143,7 @@ void Flags::add_pose() {
 
 void Flags::add_depth() {
   const FieldDescriptor* const to = &field("depth_mm");
-  add_text(flag_of(to->name()), "Immersion at the end of the dip",
+  add_text(flag_of(to->name()), "Immersion at the end of the dip, mm",
            [spec = &spec_, to](const std::string& text) { set_depth(*spec, *to, text); })
       .default_str("full")
       ->type_name("D|full");

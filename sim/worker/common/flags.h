@@ -17,7 +17,7 @@ class Message;
 
 namespace hydroprint::worker {
 
-/// Details of a flag in the help text; empty: by the field's type.
+/// Details of a flag in the help text. Empty texts are derived from the field's type.
 struct FlagHelp {
   std::string default_value = {};
   std::string type = {};
@@ -30,21 +30,21 @@ class Flags {
   /// Both must live while the command line is parsed.
   Flags(CLI::App& app, google::protobuf::Message& spec) : app_(app), spec_(spec) {}
 
-  /// A flag for a number, choice, text, switch, list of names or file.
+  /// Adds a flag for a number, choice, text, switch, list of names or file.
   void add(const std::string& field, const std::string& description, const FlagHelp& help = {});
-  /// A flag for a file that must be given.
+  /// Adds a required flag for a file.
   void require(const std::string& field, const std::string& description, const FlagHelp& help = {});
 
-  /// `--pose FILE.json`, which read_pose() reads.
+  /// Adds `--pose FILE.json`; read_pose() reads the file.
   void add_pose();
-  /// `--depth-mm D|full`
+  /// Adds `--depth-mm D|full`.
   void add_depth();
-  /// A flag for folders, at most `most`; 0: any number. Each stands for the file of that name in
-  /// it.
+  /// Adds a flag for at most `most` folders; 0: any number. The spec gets the path of `file` in
+  /// each folder.
   void require_folders(const std::string& field, const std::string& file,
                        const std::string& description, int most);
 
-  /// After parsing: fills in the pose from the file that `--pose` names, if it names one. Fails as
+  /// After parsing: fills in the pose from the file of `--pose`, if the flag was given. Fails as
   /// read_pose_file() does.
   [[nodiscard]] Status read_pose();
   [[nodiscard]] const std::filesystem::path& pose_file() const { return pose_file_; }
@@ -61,7 +61,7 @@ class Flags {
   std::filesystem::path pose_file_;
 };
 
-/// A default value for Flags::Help: "300", "0.5".
+/// A default value for FlagHelp: "300", "0.5".
 [[nodiscard]] std::string default_text(double value);
 
 }  // namespace hydroprint::worker

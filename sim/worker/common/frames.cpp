@@ -37,7 +37,7 @@ Result<std::vector<std::filesystem::path>> frames_folders(
   }
   if (folders.empty()) {
     return fail_field(Code::kInvalidArgument, "frames",
-                      "no FOLDER/frames.json among them. Name what hydroprint-capture wrote");
+                      "no FOLDER/frames.json among them. Name the files of hydroprint-capture");
   }
   if (most > 0 && folders.size() > most) {
     return fail_field(
@@ -57,7 +57,8 @@ void add_frames_flag(Flags& flags, const std::string& description, int most) {
 }
 
 void add_camera_flag(Flags& flags) {
-  flags.add("camera", "The camera's lens, of calibrate-camera; default: what its driver says",
+  flags.add("camera",
+            "Camera calibration, from calibrate-camera; default: the lens that the driver reports",
             {.type = "FILE.json"});
 }
 

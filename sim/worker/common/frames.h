@@ -13,15 +13,16 @@
 #include "sim/worker/common/input_folder.h"
 #include "sim/worker/common/report.h"
 
-// What calibrate, calibrate-camera and fuse share. For inclusion in .cpp files only.
+// Reading of depth frames, for calibrate, calibrate-camera and fuse. For inclusion in .cpp files
+// only.
 namespace hydroprint::worker {
 
-/// Folders of hydroprint-capture among the files of a spec: those with a frames.json. Fails with
-/// fail_field() if there is none or more than `most`; 0: any number.
+/// Finds the folders of hydroprint-capture among the files of a spec: those with a frames.json.
+/// Fails with fail_field() if there are none, or more than `most` (0: any number).
 [[nodiscard]] Result<std::vector<std::filesystem::path>> frames_folders(
     const std::vector<std::filesystem::path>& files, std::size_t most);
 
-/// The same of the field `frames`.
+/// Same as above, for the spec's field `frames`.
 template <class Spec>
 Result<std::vector<std::filesystem::path>> frames_folders(const Spec& spec,
                                                           const InputFolder& inputs,
@@ -31,11 +32,11 @@ Result<std::vector<std::filesystem::path>> frames_folders(const Spec& spec,
   return frames_folders(files, most);
 }
 
-/// The input files of report.json that stand for the frames.
+/// Adds the frames.json of each folder to the input files of report.json.
 void append_frames(std::vector<InputPath>& files,
                    const std::vector<std::filesystem::path>& folders);
 
-/// `--frames DIR`
+/// Adds `--frames DIR`.
 void add_frames_flag(Flags& flags, const std::string& description, int most);
 void add_camera_flag(Flags& flags);
 
@@ -45,11 +46,12 @@ struct Scan {
   registration::CameraCalibration camera;
 };
 
-/// Reads the frames of a folder. The camera is that of the file or, without one, the driver's.
+/// Reads the frames of a folder, and the camera from its file. If `camera` is empty, the camera is
+/// described by its driver's values.
 [[nodiscard]] Result<Scan> read_scan(const std::filesystem::path& folder,
                                      const std::filesystem::path& camera, const Context& context);
 
-/// Where the camera was, how well the markers fit together, and which of them were used.
+/// The camera's pose, the rms misfit of the markers, and the markers that were used.
 [[nodiscard]] Json film_frame_json(const registration::FilmFrame& frame);
 
 }  // namespace hydroprint::worker

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kMaxRows = 1'000'000;
 constexpr double kMaxOffset_mm = 1e4;
 
-/// What is wrong with a row after the one before it; empty if nothing is.
+/// Describes why `row` cannot follow the rows of `motion`; empty if it can.
 std::string objection(const waterline::Motion& motion, const waterline::Motion::Row& row) {
   if (row.offset_mm.cwiseAbs().maxCoeff() > kMaxOffset_mm || row.immersion_mm > kMaxOffset_mm) {
     return "farther than 1e4 mm from the start. Is it in mm?";
@@ -20,7 +20,7 @@ std::string objection(const waterline::Motion& motion, const waterline::Motion::
     return "t_s does not increase. Sort the rows by time and remove repeated ones";
   }
   if (row.immersion_mm < motion.rows.back().immersion_mm) {
-    return "z_mm rises. Cut the file to the way down";
+    return "z_mm rises. Keep only the rows of the way down";
   }
   return {};
 }

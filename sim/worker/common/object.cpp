@@ -11,7 +11,7 @@
 namespace hydroprint::worker {
 namespace {
 
-/// Adds the numbers as a key unless there are none.
+/// Adds the numbers under `key`, unless there are none.
 void add_key(nlohmann::json& json, const std::string& key,
              const google::protobuf::RepeatedField<double>& numbers) {
   if (!numbers.empty()) json[key] = std::vector<double>(numbers.begin(), numbers.end());
@@ -25,12 +25,13 @@ bool all_finite(const google::protobuf::RepeatedField<double>& numbers) {
 
 void add_object_flags(Flags& flags) {
   flags.require("mesh", "Model: OBJ, STL, PLY, glTF or GLB");
-  flags.add("scale", "Model units to mm", {.default_value = default_text(ObjectOptions{}.scale)});
+  flags.add("scale", "Millimetres per model unit",
+            {.default_value = default_text(ObjectOptions{}.scale)});
   flags.add_pose();
 }
 
 void add_film_flag(Flags& flags) {
-  flags.add("film", "A4, A3, letter, WxH, circle:RADIUS (mm) or polygon:FILE.json",
+  flags.add("film", "Film: A4, A3, letter, WxH or circle:RADIUS (in mm), or polygon:FILE.json",
             {.default_value = ObjectOptions{}.film, .type = "FILM"});
 }
 
@@ -40,14 +41,14 @@ InputPath film_file(const std::string& film) {
 
 Result<Pose> pose_of(const v1::Pose& pose) {
   if (!all_finite(pose.rotation_wxyz()) || !all_finite(pose.translation_mm())) {
-    return fail_field(Code::kInvalidArgument, "pose", "not all numbers are finite");
+    return fail_field(Code::kInvalidArgument, "pose", "contains a number that is not finite");
   }
   nlohmann::json json = nlohmann::json::object();
   add_key(json, "rotation_wxyz", pose.rotation_wxyz());
   add_key(json, "translation_mm", pose.translation_mm());
   const auto file = parse_pose(json, "pose");
   if (!file) {
-    // "pose: rotation_wxyz: ..."
+    // The message is "pose: rotation_wxyz: ...", and fail_field() adds the field again.
     return fail_field(file.error().code, "pose",
                       file.error().message.substr(std::string("pose: ").size()));
   }

@@ -21,15 +21,15 @@ namespace hydroprint::worker {
 struct ObjectOptions {
   std::filesystem::path mesh;
   double scale = 1;                 ///< model units to mm
-  std::optional<Pose> X_FO;         ///< none: as in the file, centred on the film
-  std::filesystem::path pose_file;  ///< file of X_FO; empty: none
+  std::optional<Pose> X_FO;         ///< nullopt: as in the mesh file, centred on the film
+  std::filesystem::path pose_file;  ///< file of X_FO; empty: not from a file
   std::string film = "A4";          ///< for film::parse_outline()
 };
 
 void add_object_flags(Flags& flags);
 void add_film_flag(Flags& flags);
 
-/// Files of a film for report.json: those of a polygon.
+/// The input file of a film for report.json: that of a polygon, otherwise an empty path.
 [[nodiscard]] InputPath film_file(const std::string& film);
 
 /// Reads the field `pose`. Fails with fail_field() if it is not a rigid transform.

@@ -5,13 +5,13 @@
 #include "sim/worker/common/flags.h"
 #include "sim/worker/common/report.h"
 
-// What print-image and template share. For inclusion in .cpp files only.
+// Page options that print-image and template share. For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
 /// Flags for the paper and the text on it.
 void add_page_flags(Flags& flags);
 
-/// Sets the paper's size. Fails as print::parse_paper() does.
+/// Sets the paper size. Fails as print::parse_paper() does.
 [[nodiscard]] Status set_paper(print::PageSettings& page, const std::string& paper);
 
 template <class Spec>
@@ -24,7 +24,7 @@ Result<print::PageSettings> page_settings(const Spec& spec) {
   return out;
 }
 
-/// The page among the parameters of report.json.
+/// The page's part of the parameters in report.json.
 [[nodiscard]] Json page_parameters_json(const print::PageSettings& page,
                                         const film::Outline& outline, int threads);
 

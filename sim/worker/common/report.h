@@ -14,7 +14,7 @@ namespace hydroprint::worker {
 
 using Json = nlohmann::ordered_json;
 
-/// A file that a run reads, by its role in report.json ("mesh", "pose", ...).
+/// A file that a run reads, with its role in report.json ("mesh", "pose", ...).
 struct InputPath {
   std::string role;
   std::filesystem::path path;  ///< empty: not given
@@ -33,15 +33,15 @@ struct Report {
   std::vector<std::pair<std::string, double>> stage_seconds;
   double total_s = 0;
   Warnings warnings;
-  std::vector<std::string> artifacts;  ///< file names without report.json
+  std::vector<std::string> artifacts;  ///< file names; report.json is not among them
 };
 
-/// Adds the files with their digests to the report's inputs; skips empty paths. Fails as
+/// Adds the files with their digests to the report's inputs, and skips empty paths. Fails as
 /// digest_file() does.
 [[nodiscard]] Status add_inputs(Report& report, const std::vector<InputPath>& files);
 
-/// Content of report.json. `findings` holds the keys of the verb itself, in their order; values
-/// that are not finite become null.
+/// Content of report.json. `findings` holds the verb's own keys, in order. Values that are not
+/// finite become null.
 [[nodiscard]] std::string report_json(const std::string& verb, const Json& findings,
                                       const Report& report);
 

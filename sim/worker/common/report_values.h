@@ -17,7 +17,7 @@ namespace hydroprint::worker {
 /// [x, y, z]
 [[nodiscard]] Json list_of(const Eigen::Vector3d& v);
 
-/// A pose as pose files have it (contract, `--pose`).
+/// A pose in the format of pose files (contract, `--pose`).
 [[nodiscard]] Json pose_json(const Pose& X_FO);
 
 [[nodiscard]] Json film_json(const film::Outline& outline);
@@ -25,7 +25,7 @@ namespace hydroprint::worker {
 /// [{code, message, where}]
 [[nodiscard]] Json warnings_json(const Warnings& warnings);
 
-/// Size of a mesh as its file has it.
+/// Size of a mesh in its file.
 struct MeshSize {
   std::size_t vertices = 0, triangles = 0;
 };

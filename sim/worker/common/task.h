@@ -13,10 +13,10 @@ struct RunOptions {
   std::filesystem::path out;
   int threads = 1;
   bool json = false;
-  int progress_fd = -1;  ///< -1: none
+  int progress_fd = -1;  ///< -1: no progress
 };
 
-/// What the program prints at the end of a successful run.
+/// The output of a successful run.
 struct Finished {
   std::string summary;  ///< for stdout; JSON if RunOptions::json
   Warnings warnings;
@@ -30,11 +30,11 @@ class Task {
   Task(const Task&) = delete;
   Task& operator=(const Task&) = delete;
 
-  /// The main input, for error messages: a file name, or the verb if it reads no file.
+  /// The main input, for error messages: a file name, or the verb's name if it reads no file.
   [[nodiscard]] virtual std::string subject() const = 0;
 
-  /// Runs to the end. Reports progress to the pipe of the options and, if it is a terminal, to
-  /// `stderr_fd`. Leaves nothing behind on failure.
+  /// Runs to the end. Reports progress to `progress_fd` of the options and, if it is a terminal, to
+  /// `stderr_fd`. On failure no files remain.
   [[nodiscard]] virtual Result<Finished> run(const RunOptions& options, Termination& termination,
                                              int stderr_fd) = 0;
 };

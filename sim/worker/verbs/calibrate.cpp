@@ -26,9 +26,10 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kExamples =
-    R"(calibration.json: the object's pose in the film frame with its covariance, what the scan does not tell and the
-nominal pose does, what became of each marker, and the water's level. pose.json: the pose for simulate --pose.
-alignment.png: the scan's points over the mesh by how far they are off; error.png: how well the surface's place is known.
+    R"(calibration.json: the object's pose in the film frame with its covariance, the directions taken from the nominal
+pose because the scan does not determine them, the fit of each marker, and the water level. pose.json: the pose for
+simulate --pose. alignment.png: the scan's points over the mesh, coloured by distance. error.png: the uncertainty of the
+surface's position.
 
 Examples:
   hydroprint-capture --seconds 2 --out frames
@@ -42,17 +43,17 @@ struct CalibrateOptions {
   std::filesystem::path frames;
   std::filesystem::path layout;
   std::filesystem::path camera;      ///< empty: the driver's lens
-  std::optional<double> gripper_mm;  ///< none: not in view
+  std::optional<double> gripper_mm;  ///< nullopt: not in view
 };
 
 void add_flags(Flags& flags) {
-  add_frames_flag(flags, "Depth frames: a folder of hydroprint-capture", 1);
+  add_frames_flag(flags, "Depth frames: a folder written by hydroprint-capture", 1);
   flags.require("layout", "The rig's markers and camera", {.type = "FILE.toml"});
   add_camera_flag(flags);
   add_object_flags(flags);
   add_film_flag(flags);
   flags.add("gripper_mm",
-            "Height of the gripper's lower end over the water, which holds the object's top; "
+            "Height above the water of the lower end of the gripper that holds the object, mm; "
             "default: the gripper is not in view");
 }
 
@@ -100,7 +101,7 @@ Status write_pictures(const std::filesystem::path& folder, const mesh::Surface& 
   return image::write_png(folder / "error.png", error, image::kScreenDpi, context);
 }
 
-/// z of the lowest point where the object hangs.
+/// z of the lowest point of the object at the given pose.
 double lowest_mm(const mesh::Surface& surface, const Pose& X_FO) {
   double out = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& p : surface.points) out = std::min(out, (X_FO * p).z());
@@ -242,13 +243,13 @@ std::string Calibrate::summary(const Report& report, const std::filesystem::path
       std::count_if(markers.begin(), markers.end(), [](const auto& m) { return m.used; });
   std::array<char, 200> line{};
   std::snprintf(line.data(), line.size(),
-                "%d of %zu markers; the object lies within %.2f mm of the mesh, its place is known "
-                "to %.2f mm\n",
+                "used %d of %zu markers; residual of the object's fit %.2f mm (rms), uncertainty "
+                "of the surface %.2f mm (95th percentile)\n",
                 static_cast<int>(used), markers.size(), found_.object.fit.rms_mm,
                 share_of(found_.error_mm, 0.95));
   std::string weak;
   for (const std::string& what : found_.object.weak)
-    weak += "from the nominal pose: " + what + "\n";
+    weak += "taken from the nominal pose: " + what + "\n";
   return artifacts_line(dir, report) + line.data() + weak;
 }
 
@@ -263,7 +264,7 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 
 Verb calibrate_verb() {
   return {
-      "calibrate", "From depth frames to the object's pose over the film, and how well it is known",
+      "calibrate", "Find the object's pose over the film, with its uncertainty, from depth frames",
       kExamples,   &v1::CalibrateSpec::default_instance(),
       add_flags,   plan};
 }

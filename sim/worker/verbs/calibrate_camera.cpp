@@ -16,8 +16,9 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kExamples =
-    R"(Each view: 1 s of frames of the calibration board (sim/registration), held still, whole in view and 30 mm before what
-is behind it; twelve views, tilted each way by 30 degrees, near and far, and out to the corners of the image.
+    R"(Record twelve views of the calibration board (sim/registration), each with 1 s of frames. Hold the board still, wholly
+in view, and at least 30 mm in front of the background. Tilt it by 30 degrees in each direction, hold it near and far, and
+move it to the corners of the image.
 
 Example:
   hydroprint-worker calibrate-camera --frames view1 view2 view3 view4 view5 view6 --out camera
@@ -29,10 +30,10 @@ constexpr std::size_t kFramesForSteps = 10;
 using Views = std::vector<std::filesystem::path>;
 
 void add_flags(Flags& flags) {
-  add_frames_flag(flags, "Views of the board: folders of hydroprint-capture", 0);
+  add_frames_flag(flags, "Views of the board: folders written by hydroprint-capture", 0);
 }
 
-/// Depth steps of the camera, from all views: one view alone need not show them.
+/// Finds the camera's depth steps from all views, because a single view may not show them.
 Result<std::optional<scan::DepthSteps>> depth_steps(const std::vector<std::filesystem::path>& views,
                                                     const Context& context) {
   scan::DepthCounts counts;
@@ -106,7 +107,8 @@ Status CalibrateCamera::compute(OutFolder& folder, Report& report, const Context
 std::string CalibrateCamera::summary(const Report& report, const std::filesystem::path& dir) const {
   std::array<char, 200> line{};
   std::snprintf(line.data(), line.size(),
-                "%zu views; focal length %.1f px, depths %+.2f %%; the board fits to %.2f mm\n",
+                "%zu views; focal length %.1f px, depth scale %+.2f %%; residual of the board "
+                "%.2f mm (rms)\n",
                 camera_.views, camera_.lens.fx_px, 100 * (camera_.lens.depth_scale - 1),
                 camera_.rms_mm);
   return artifacts_line(dir, report) + line.data();
@@ -122,10 +124,12 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb calibrate_camera_verb() {
-  return {
-      "calibrate-camera", "From views of the calibration board to a camera's lens and depth scale",
-      kExamples,          &v1::CalibrateCameraSpec::default_instance(),
-      add_flags,          plan};
+  return {"calibrate-camera",
+          "Find a camera's lens and depth scale from views of the calibration board",
+          kExamples,
+          &v1::CalibrateCameraSpec::default_instance(),
+          add_flags,
+          plan};
 }
 
 }  // namespace hydroprint::worker

@@ -24,9 +24,9 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kExamples =
-    R"(The measured points: film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm, a header and then one point a line: where it was printed on
-the film, and where it was found on the object (mesh coordinates after --scale). What the points cannot tell keeps the
-value of --profile, and report.json says why.
+    R"(The file of measured points has the header film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm and then one point per line: its printed
+position on the film and its measured position on the object (mesh coordinates after --scale). A parameter that the points
+do not determine keeps its value from --profile; report.json gives the reason.
 
 Examples:
   hydroprint-worker fit --mesh ball.ply --film circle:105 --points measured.csv --ink-image film.png --out fitted
@@ -38,7 +38,7 @@ Exit status: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130 can
 struct FitOptions {
   DipOptions dip;
   std::filesystem::path points;
-  std::filesystem::path ink_image;  ///< empty: none
+  std::filesystem::path ink_image;  ///< empty: no ink image
   fit::Options fit;
 };
 
@@ -46,14 +46,15 @@ void add_flags(Flags& flags) {
   add_dip_flags(flags);
   flags.require("points", "Measured landing points", {.type = "FILE.csv"});
   flags.add("ink_image",
-            "What was printed on the film: an RGB film image. Without it the ink ratio cannot be "
+            "RGB film image that was printed on the film. Without it the ink ratio cannot be "
             "fitted",
             {.type = "FILE.png"});
   flags.add("free",
-            "What to fit: ink_ratio, drag, swelling; default: all that the points determine",
+            "Parameters to fit: ink_ratio, drag, swelling; default: all that the points determine",
             {.type = "NAME[,NAME]"});
   flags.add("drop_outliers",
-            "Leave out points beyond 4 robust standard deviations; else they are only named");
+            "Leave out points beyond 4 robust standard deviations; by default they are only "
+            "reported");
 }
 
 Result<FitOptions> read_options(const v1::FitSpec& spec, const InputFolder& inputs) {
@@ -69,7 +70,7 @@ Result<FitOptions> read_options(const v1::FitSpec& spec, const InputFolder& inpu
   return out;
 }
 
-/// The shortest text that reads back as the same number; empty if there is none.
+/// The shortest text that reads back as the same number; empty if the number is not finite.
 std::string cell(double value) {
   if (!std::isfinite(value)) return {};
   std::array<char, 32> buffer{};
@@ -97,9 +98,9 @@ std::string residuals_csv(const std::vector<fit::PointResult>& points) {
 constexpr const char* kMethod =
     "Gauss-Newton least squares of predicted minus measured printed points on the film, drag "
     "fitted as 1/drag_length_mm^2; covariance by leaving out one point at a time (linearised "
-    "jackknife), to which the computation's own error is added: what is left of the difference "
-    "that 0.6 times finer meshes and steps make; intervals by Student's t, cut where the profile's "
-    "range ends, one-sided for an estimate that lies there";
+    "jackknife), plus the discretisation error, extrapolated from a run with meshes and steps of "
+    "0.6 times the size; intervals by Student's t, limited to the profile's range, one-sided for "
+    "an estimate at the end of that range";
 
 /// JSON has no infinity: an infinite drag length becomes null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(); }
@@ -165,7 +166,7 @@ Json names_json(const fit::Outcome& outcome) {
   return out;
 }
 
-/// "drag_length_mm = 60.2  (95 %: 57 to 63.5)"; a drag length without end is no drag.
+/// "drag_length_mm = 60.2  (95 %: 57 to 63.5)"; an infinite drag length means no drag.
 std::string estimate_text(const fit::Estimate& e) {
   const auto text = [](double value) -> std::string {
     if (!std::isfinite(value)) return "none";
@@ -271,7 +272,7 @@ Status Fit::write(const std::filesystem::path& folder) const {
 
 std::string Fit::summary(const Report& /*report*/, const std::filesystem::path& dir) const {
   std::array<char, 120> rms{};
-  std::snprintf(rms.data(), rms.size(), "residuals %.3f mm rms, %.3f mm before the fit\n",
+  std::snprintf(rms.data(), rms.size(), "residuals %.3f mm (rms), %.3f mm before the fit\n",
                 outcome_.rms_after_mm, outcome_.rms_before_mm);
   std::string out = dir.string() + "/film_profile.toml: " + rms.data();
   for (const fit::Estimate& e : outcome_.estimates) out += estimate_text(e);
@@ -291,7 +292,7 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb fit_verb() {
-  return {"fit",     "From measured landing points to the film profile that explains them",
+  return {"fit",     "Fit a film profile to measured landing points",
           kExamples, &v1::FitSpec::default_instance(),
           add_flags, plan};
 }

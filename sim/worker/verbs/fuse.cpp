@@ -21,29 +21,30 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kExamples =
-    R"(scan.ply: the surface that a camera saw while it was swept by hand, by volume of signed distances, in mm; with
---layout in the film frame and cut off outside the bars, else in the camera's frame at its first depth frame.
-camera_path.csv: where the camera was. Begin with the markers in view, keep 0.6 to 1.2 m away, and take 10 s.
+    R"(scan.ply: the surface that a camera saw while it was swept by hand, from a volume of signed distances, in mm. With
+--layout it is in the film frame and cut off outside the bars; otherwise it is in the camera's frame at its first depth
+frame. camera_path.csv: the camera's path. Begin with the markers in view, keep 0.6 to 1.2 m away, and sweep for 10 s.
 
 Examples:
   hydroprint-capture --seconds 10 --record sweep.oni --out sweep
   hydroprint-worker fuse --frames sweep --layout rig_layout.toml --camera camera.json --out fused
 
-Exit status: 0 done, 2 bad usage, 3 bad input (the camera was lost among it), 4 the computation failed, 130 cancelled.)";
+Exit status: 0 done, 2 bad usage, 3 bad input (also if tracking of the camera failed), 4 the computation failed, 130
+cancelled.)";
 
 struct FuseOptions {
   std::filesystem::path frames;
-  std::filesystem::path layout;  ///< empty: no markers
+  std::filesystem::path layout;  ///< empty: no markers are used
   std::filesystem::path camera;  ///< empty: the driver's lens
   double voxel_mm = 3;
 };
 
 void add_flags(Flags& flags) {
-  add_frames_flag(flags, "Depth frames of a camera swept by hand: a folder of hydroprint-capture",
-                  1);
+  add_frames_flag(
+      flags, "Depth frames of a camera swept by hand: a folder written by hydroprint-capture", 1);
   flags.add("layout", "The rig's markers and camera", {.type = "FILE.toml"});
   add_camera_flag(flags);
-  flags.add("voxel_mm", "Resolution of the volume",
+  flags.add("voxel_mm", "Voxel size of the volume",
             {.default_value = default_text(FuseOptions{}.voxel_mm)});
 }
 
@@ -58,7 +59,7 @@ Result<FuseOptions> read_options(const v1::FuseSpec& spec, const InputFolder& in
 }
 
 /// The camera's path, one line for each registered frame: its time, and the camera's pose in the
-/// mesh's frame.
+/// coordinate frame of the mesh.
 std::string path_csv(const scan::Path& path, const std::vector<double>& times_s) {
   std::string out = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n";
   for (std::size_t i = 0; i < path.X_WC.size(); ++i) {
@@ -175,8 +176,8 @@ Status Fuse::compute(OutFolder& folder, Report& report, const Context& context) 
 std::string Fuse::summary(const Report& report, const std::filesystem::path& dir) const {
   std::array<char, 200> line{};
   std::snprintf(line.data(), line.size(),
-                "%zu frames, %zu of them lost; smoothed, they lie within %.2f mm (rms) of the "
-                "surface of %zu triangles\n",
+                "%zu frames, %zu of them not registered; after smoothing they lie %.2f mm (rms) "
+                "from the surface of %zu triangles\n",
                 swept_.path.X_WC.size(), swept_.path.lost(), swept_.path.rms_mm,
                 swept_.mesh.triangles.size());
   return artifacts_line(dir, report) + line.data();
@@ -192,7 +193,7 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb fuse_verb() {
-  return {"fuse",    "From depth frames of a camera swept by hand to the surface that they show",
+  return {"fuse",    "Compute a surface from the depth frames of a camera swept by hand",
           kExamples, &v1::FuseSpec::default_instance(),
           add_flags, plan};
 }

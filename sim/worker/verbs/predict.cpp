@@ -30,7 +30,8 @@ struct PredictOptions {
 void add_flags(Flags& flags) {
   add_flow_flags(flags);
   flags.require("film_image", "The film image as printed");
-  flags.add("motion", "Path as driven: t_s,x_mm,y_mm,z_mm", {.type = "FILE.csv"});
+  flags.add("motion", "Measured path of the dip, with the header t_s,x_mm,y_mm,z_mm",
+            {.type = "FILE.csv"});
 }
 
 Result<PredictOptions> read_options(const v1::PredictSpec& spec, const InputFolder& inputs) {
@@ -126,7 +127,7 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb predict_verb() {
-  return {"predict", "From a film image as printed to the colours that land",
+  return {"predict", "Predict the colours that a printed film image leaves on the object",
           kExamples, &v1::PredictSpec::default_instance(),
           add_flags, plan};
 }

@@ -4,7 +4,7 @@
 
 namespace hydroprint::worker {
 
-/// From a film image as printed to the colours that land on the object: landed.ply, landed.png for
+/// Predicts the colours that a printed film image leaves on the object: landed.ply, landed.png for
 /// models with texture coordinates, and predicted.png.
 [[nodiscard]] Verb predict_verb();
 

@@ -27,11 +27,11 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kExamples =
-    R"(For programs: reads the model once, then a request a line on stdin, like
+    R"(For programs: reads the model once, and then one request per line from stdin, such as
   {"id": 7, "pose": {"rotation_wxyz": [1, 0, 0, 0], "translation_mm": [0, 0, 0]}, "film": "A3"}
-and answers on stdout where film lands and how far it is stretched, roughly and in a fraction of a second, by a line of
-JSON and as many bytes as its "bytes" says (four floats a vertex: film_x, film_y, contact_time, stretch). The model
-itself comes first. A newer request ends the one that is being computed. All in sim/worker/verbs/preview.h.
+Each answer on stdout is a line of JSON, followed by binary data whose length is its "bytes" (four floats per vertex:
+film_x, film_y, contact_time, stretch). It is a rough result, computed in a fraction of a second. The first answer is the
+model itself. A newer request cancels the current one. sim/worker/verbs/preview.h describes the protocol.
 
 Example:
   echo '{"id": 1}' | hydroprint-worker preview --mesh ball.ply | head -n 1
@@ -44,8 +44,8 @@ Status write_all(std::string_view bytes) {
     const ssize_t written = ::write(STDOUT_FILENO, bytes.data(), bytes.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) {
-      return fail(Code::kInternal,
-                  std::string("stdout: ") + std::strerror(errno) + ". Nobody reads the answers");
+      return fail(Code::kInternal, std::string("stdout: ") + std::strerror(errno) +
+                                       ". Read all answers from stdout");
     }
     bytes.remove_prefix(static_cast<std::size_t>(written));
   }
@@ -94,8 +94,7 @@ Result<double> read_number(const nlohmann::json& value, const std::string& key, 
   const double number =
       value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
   if (number >= least && number <= most) return number;
-  return fail(Code::kInvalidArgument,
-              key + ": not a number in mm or mm/s within what is possible. Correct it");
+  return fail(Code::kInvalidArgument, key + ": not a number, or out of range. Give mm or mm/s");
 }
 
 struct Request {
@@ -114,17 +113,18 @@ Status take(Request& request, const std::string& key, const nlohmann::json& valu
   } else if (key == "dip_speed_mm_per_s") {
     HP_ASSIGN_OR_RETURN(request.dip.dip_speed_mm_per_s, read_number(value, key, 1e-3, 1000));
   } else if (key != "id") {
-    return fail(Code::kInvalidArgument, key + ": not known, or not its kind of value. See --help");
+    return fail(Code::kInvalidArgument,
+                key + ": unknown key, or a value of the wrong type. See --help");
   }
   return {};
 }
 
-/// @param request  gets the id even if the rest is refused
+/// @param request  its id is set even if the rest is refused
 Status read_request(const std::string& line, const pipeline::DipOptions& otherwise,
                     Request& request) {
   const auto json = nlohmann::json::parse(line, nullptr, false);
   if (!json.is_object()) {
-    return fail(Code::kInvalidArgument, "a request is a JSON object on one line");
+    return fail(Code::kInvalidArgument, "not a JSON object. Write each request as one on one line");
   }
   request.dip = otherwise;
   const auto id = json.find("id");
@@ -225,7 +225,7 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb preview_verb() {
-  return {"preview",     "How a dip would roughly go, again and again while a pose changes",
+  return {"preview",     "Answer requests for fast approximate dips while the pose changes",
           kExamples,     &v1::SimulateSpec::default_instance(),
           add_dip_flags, plan,
           false};

@@ -16,9 +16,9 @@
 namespace hydroprint::worker {
 namespace {
 
-// A signal is seen this late at most.
+// The interval at which next() checks whether to end.
 constexpr std::chrono::milliseconds kLook{100};
-// A client that writes faster than it reads loses the oldest.
+// If a client writes faster than it reads, its oldest lines are dropped.
 constexpr std::size_t kMostWaiting = 64;
 
 }  // namespace
@@ -28,7 +28,7 @@ struct PreviewRequests::Shared {
   std::condition_variable changed;
   std::vector<std::string> lines;
   bool closed = false;
-  std::atomic<bool> newer = false;  // there are lines
+  std::atomic<bool> newer = false;  // `lines` is not empty
 
   void add(std::string line) {
     const std::lock_guard lock(mutex);
@@ -47,7 +47,7 @@ struct PreviewRequests::Shared {
 
 namespace {
 
-/// Cuts what comes in into lines.
+/// Splits the input into lines.
 class Lines {
  public:
   template <class Take>

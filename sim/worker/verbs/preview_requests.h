@@ -9,24 +9,25 @@
 
 namespace hydroprint::worker {
 
-/// Lines that come in on a descriptor while something else is computed. The latest counts: whoever
-/// turns an object wants to see where it is now.
+/// Receives lines on a descriptor while a preview is computed. Only the latest line matters,
+/// because the user wants to see the object's current pose.
 class PreviewRequests {
  public:
-  /// What is longer arrives as an empty line, which is no request.
+  /// A longer line is replaced with an empty one, which is not a valid request.
   static constexpr std::size_t kMostBytes = std::size_t{64} << 10;
 
-  /// Reads `fd`, which stays the caller's, from now to its end, in a thread that is left to the
-  /// end of the process.
+  /// Starts a thread that reads `fd` to its end. The caller keeps `fd` and must not close it, and
+  /// the thread is never joined.
   explicit PreviewRequests(int fd);
 
   struct Next {
     std::string line;
-    std::vector<std::string> passed_over;  ///< those before it that were not begun
+    std::vector<std::string> passed_over;  ///< earlier lines that next() has not returned
   };
-  /// The latest line, once there is one; none after the last, or once `ended` says so.
+  /// Waits for a line and returns the latest one; nullopt at the end of the input, or if `ended`
+  /// returns true.
   [[nodiscard]] std::optional<Next> next(const std::function<bool()>& ended);
-  /// True if a newer one is there.
+  /// True if a newer line has arrived.
   [[nodiscard]] bool has_newer() const;
 
  private:

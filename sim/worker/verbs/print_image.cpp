@@ -23,9 +23,9 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kExamples =
-    R"(Files: print.pdf, pages of the paper's size with registration marks, rulers, an arrow and a line of text wherever
-no film is; print.png and print.tif, the film image (of each sheet, where it takes several) alone. Print them at 100 %,
-without fitting to the page. The same options give the same files, bit for bit.
+    R"(print.pdf: pages of the paper's size, with registration marks, rulers, an arrow and a line of text outside the film.
+print.png and print.tif: only the film image, one file per sheet if it takes several. Print them at 100 %, without
+fitting to the page. The same options give the same files, bit for bit.
 
 Examples:
   hydroprint-worker print-image --film-image film.png --out paper
@@ -42,29 +42,31 @@ struct PrintImageOptions {
   std::filesystem::path film_image;
   std::string film;
   print::PrintSettings print;
-  std::vector<Format> formats;  ///< empty: by the colours
+  std::vector<Format> formats;  ///< empty: chosen by the colours
 };
 
 void add_flags(Flags& flags) {
   const print::PrintSettings defaults;
-  flags.require("film_image", "The film image: film.png of simulate");
+  flags.require("film_image", "Film image: film.png from simulate");
   add_film_flag(flags);
-  flags.add("dpi", "Resolution of the film image; default: the whole number that its size means");
+  flags.add("dpi", "Resolution of the film image; default: computed from its size, in whole dpi");
   add_page_flags(flags);
   flags.add("bar_mm",
-            "Length of the sliding bars that hold the film, for marks at their ends; 0: marks at "
-            "their middles only",
+            "Length of the sliding bars that hold the film, for marks at their ends; 0: only marks "
+            "at their middles",
             {.default_value = default_text(defaults.page.bar_mm)});
-  flags.add("overlap_mm", "Overlap of neighbouring sheets where the film takes several",
+  flags.add("overlap_mm", "Overlap of neighbouring sheets if the film takes several",
             {.default_value = default_text(defaults.page.overlap_mm)});
-  flags.add("mirror", "Print it mirrored; else it is seen from above, ink side up");
-  flags.add("no_marks", "Nothing except the film image");
-  flags.add("colours", "rgb: sRGB; cmyk: plain CMYK", {.default_value = "rgb"});
-  flags.add("icc_profile", "The printer's ICC output profile, CMYK or RGB, in place of --colours",
+  flags.add("mirror", "Print the image mirrored; default: as seen from above, ink side up");
+  flags.add("no_marks", "Print only the film image, without marks and text");
+  flags.add("colours", "Colour space; rgb: sRGB; cmyk: plain CMYK", {.default_value = "rgb"});
+  flags.add("icc_profile",
+            "The printer's ICC output profile, CMYK or RGB; used instead of --colours",
             {.type = "FILE.icc"});
-  flags.add("ink_limit", "Largest C + M + Y + K of a pixel; only for CMYK",
+  flags.add("ink_limit", "Limit of C + M + Y + K in each pixel; only for CMYK",
             {.default_value = default_text(defaults.colours.ink_limit)});
-  flags.add("formats", "pdf, png, tiff; default: pdf, and png for RGB or tiff for CMYK",
+  flags.add("formats",
+            "Files to write: pdf, png, tiff; default: pdf, and png for RGB or tiff for CMYK",
             {.type = "FORMAT[,FORMAT]"});
 }
 
@@ -114,7 +116,7 @@ std::vector<Format> formats_of(const PrintImageOptions& options, bool cmyk) {
   return {Format::kPdf, cmyk ? Format::kTiff : Format::kPng};
 }
 
-/// print.png of a single sheet, print-1.png and so on of several.
+/// "print.png" for a single sheet; "print-1.png" and so on for several.
 std::string sheet_name(std::size_t index, std::size_t sheets, const char* extension) {
   return "print" + (sheets > 1 ? "-" + std::to_string(index + 1) : std::string()) + extension;
 }
@@ -229,7 +231,7 @@ class PrintImage final : public ArtifactTask {
  private:
   PrintImageOptions options_;
   film::Outline outline_;
-  print::Print print_;  ///< its pages only until they are written
+  print::Print print_;  ///< its pages are cleared once they are written
 };
 
 Status PrintImage::compute(OutFolder& folder, Report& report, const Context& context) {
@@ -244,7 +246,7 @@ Status PrintImage::compute(OutFolder& folder, Report& report, const Context& con
   const bool has_png = std::find(formats.begin(), formats.end(), Format::kPng) != formats.end();
   if (print_.document.cmyk && has_png) {
     return fail_field(Code::kInvalidArgument, "formats",
-                      "PNG has no CMYK. Leave png out, or print in RGB");
+                      "PNG does not support CMYK. Leave png out, or print in RGB");
   }
   report.warnings = print_.warnings;
   HP_RETURN_IF_ERROR(folder.create());
@@ -257,9 +259,10 @@ std::string PrintImage::summary(const Report& report, const std::filesystem::pat
   const std::size_t sheets = print_.layout.sheets.size();
   const Eigen::Vector2d& size = print_.layout.sheets.front().size_mm;
   std::array<char, 160> line{};
-  std::snprintf(line.data(), line.size(),
-                "%zu sheet%s of %g x %g mm at %g dpi; print at 100 %%, not fitted to the page\n",
-                sheets, sheets > 1 ? "s" : "", size.x(), size.y(), print_.dpi);
+  std::snprintf(
+      line.data(), line.size(),
+      "%zu sheet%s of %g x %g mm at %g dpi; print at 100 %%, without fitting to the page\n", sheets,
+      sheets > 1 ? "s" : "", size.x(), size.y(), print_.dpi);
   return artifacts_line(dir, report) + line.data();
 }
 
@@ -273,7 +276,7 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb print_image_verb() {
-  return {"print-image", "From a film image to the files to print, at exact scale on paper",
+  return {"print-image", "Make printable pages of a film image, at exact scale",
           kExamples,     &v1::PrintImageSpec::default_instance(),
           add_flags,     plan};
 }

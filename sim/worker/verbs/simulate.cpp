@@ -30,7 +30,7 @@ struct SimulateOptions {
 
 void add_flags(Flags& flags) {
   add_flow_flags(flags);
-  flags.add("texture", "PNG, JPEG or TIFF; default: the model's own materials");
+  flags.add("texture", "Texture: PNG, JPEG or TIFF; default: the model's own materials");
 }
 
 Result<SimulateOptions> read_options(const v1::SimulateSpec& spec, const InputFolder& inputs) {
@@ -40,7 +40,7 @@ Result<SimulateOptions> read_options(const v1::SimulateSpec& spec, const InputFo
   return out;
 }
 
-/// Refuses before the dip a film image that would be too large after it.
+/// Checks the size of the film image before the dip is computed.
 Status check_film_image(const film::Outline& outline, double dpi) {
   const image::FilmGrid grid = image::film_grid(outline, 25.4 / dpi);
   const double pixels = static_cast<double>(grid.columns) * grid.rows;
@@ -167,7 +167,7 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb simulate_verb() {
-  return {"simulate", "From a textured model to the film image to print",
+  return {"simulate", "Compute the film image to print from a textured model",
           kExamples,  &v1::SimulateSpec::default_instance(),
           add_flags,  plan};
 }

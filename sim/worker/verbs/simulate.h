@@ -4,7 +4,7 @@
 
 namespace hydroprint::worker {
 
-/// From a textured model to the film image to print.
+/// Computes the film image to print from a textured model.
 [[nodiscard]] Verb simulate_verb();
 
 }  // namespace hydroprint::worker

@@ -21,9 +21,9 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr const char* kExamples =
-    R"(placement.pdf: the film's edge and axes, what of the object the water meets first and the silhouette of all of it,
-seen from above at exact scale; and a page with pictures of the orientation. For a rig without a camera: print it at
-100 %, lay it where the film will float, and bring the object over it.
+    R"(placement.pdf shows the film's edge and axes, the part of the object that meets the water first, and the outline of
+the whole object, seen from above at exact scale. A further page shows the object's orientation. For a rig without a
+camera: print it at 100 %, lay it where the film will float, and position the object over it.
 
 Example:
   hydroprint-worker template --mesh mug.obj --scale 10 --pose pose.json --job-name "mug 7" --out placement
@@ -76,7 +76,7 @@ class Template final : public ArtifactTask {
     parameters.update({{"scale", options_.object.scale}, {"pose", pose_json(placement_.X_FO)}});
     return {{"parameters", parameters}, {"mesh", mesh_json(mesh_)}, {"placement", figures()}};
   }
-  /// Where the object meets the water, in F.
+  /// Where the object first meets the water, in F.
   [[nodiscard]] Json figures() const override {
     return {{"contact_mm", pair_of(placement_.contact_mm)},
             {"contact_size_mm", pair_of(placement_.contact_size_mm)},
@@ -89,7 +89,7 @@ class Template final : public ArtifactTask {
   TemplateOptions options_;
   film::Outline outline_;
   MeshSize mesh_;
-  print::Placement placement_;  ///< its pages only until they are written
+  print::Placement placement_;  ///< its pages are cleared once they are written
 };
 
 Status Template::compute(OutFolder& folder, Report& report, const Context& context) {
@@ -100,7 +100,7 @@ Status Template::compute(OutFolder& folder, Report& report, const Context& conte
   HP_ASSIGN_OR_RETURN(const mesh::Model model,
                       mesh::read_model(object.mesh, object.scale, context));
   mesh_ = {model.vertices.size(), model.triangles.size()};
-  // A drawing needs no finer triangles than the model's own.
+  // The model's own triangles are fine enough for a drawing.
   HP_ASSIGN_OR_RETURN(const mesh::Surface surface,
                       mesh::make_surface(model, std::numeric_limits<double>::infinity(), context));
   HP_ASSIGN_OR_RETURN(placement_,
@@ -120,7 +120,8 @@ Status Template::compute(OutFolder& folder, Report& report, const Context& conte
 std::string Template::summary(const Report& report, const std::filesystem::path& dir) const {
   std::array<char, 160> line{};
   std::snprintf(line.data(), line.size(),
-                "first contact around x %.2f, y %.2f mm; print at 100 %%, not fitted to the page\n",
+                "first contact near x %.2f, y %.2f mm; print at 100 %%, without fitting to the "
+                "page\n",
                 placement_.contact_mm.x(), placement_.contact_mm.y());
   return artifacts_line(dir, report) + line.data();
 }
@@ -135,7 +136,7 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb template_verb() {
-  return {"template", "A page that shows where the object belongs, for a rig without a camera",
+  return {"template", "Draw a page for placing the object over the film without a camera",
           kExamples,  &v1::TemplateSpec::default_instance(),
           add_flags,  plan};
 }

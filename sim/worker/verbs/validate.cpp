@@ -21,13 +21,13 @@ constexpr const char* kExamples = R"(Examples:
   hydroprint-worker validate --out validation                         # then open validation/report.html
   hydroprint-worker validate --only accuracy,bowl --quick --out glance
 
-Exit status: 0 done, whatever the figures are; 2 bad usage, 4 the computation failed, 130 cancelled.)";
+Exit status: 0 done, even if figures are beyond their limits; 2 bad usage, 4 the computation failed, 130 cancelled.)";
 
 void add_flags(Flags& flags) {
   std::string names;
   for (const auto& kind : validate::kinds()) names += (names.empty() ? "" : ", ") + kind.name;
   flags.add("only", "Experiments to run: " + names + "; default: all", {.type = "NAME[,NAME]"});
-  flags.add("quick", "A coarse run: it shows that everything works, not how accurate it is");
+  flags.add("quick", "Run coarsely, to check that everything works; the figures are not accurate");
 }
 
 Result<validate::Options> read_options(const v1::ValidateSpec& spec) {
@@ -98,7 +98,7 @@ class Validate final : public ArtifactTask {
   [[nodiscard]] Json figures() const override {
     return {{"passed", validation_.passed}, {"failed", validation_.failed}};
   }
-  /// One line, and one for each figure beyond its limit.
+  /// One line for the whole run, and one for each figure beyond its limit.
   [[nodiscard]] std::string summary(const Report& report,
                                     const std::filesystem::path& dir) const override;
 
@@ -136,7 +136,7 @@ Status Validate::compute(OutFolder& folder, Report& report, const Context& conte
 std::string Validate::summary(const Report& /*report*/, const std::filesystem::path& dir) const {
   std::string out = dir.string() + "/report.html: " + std::to_string(validation_.passed) + " of " +
                     std::to_string(validation_.passed + validation_.failed) +
-                    " figures lie within their limits\n";
+                    " figures are within their limits\n";
   for (const validate::Experiment& e : validation_.experiments) {
     for (const validate::Figure& f : e.figures) {
       if (f.passes()) continue;
@@ -157,7 +157,7 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb validate_verb() {
-  return {"validate", "The paper's experiments in silico, as a report with pictures",
+  return {"validate", "Run the paper's experiments in silico; writes a report with pictures",
           kExamples,  &v1::ValidateSpec::default_instance(),
           add_flags,  plan};
 }

@@ -10,7 +10,7 @@
 namespace hydroprint::client {
 namespace {
 
-TEST(ReadFile, GivesEveryByteFromTheOffsetOn) {
+TEST(ReadFile, ReadsEveryByteFromTheOffset) {
   const testing::TemporaryFolder folder;
   std::string content(200000, 'x');
   content[70000] = 'y';
@@ -22,7 +22,7 @@ TEST(ReadFile, GivesEveryByteFromTheOffsetOn) {
   EXPECT_EQ(read, content.substr(69999));
 }
 
-TEST(ReadFile, NamesTheFileThatIsNotThere) {
+TEST(ReadFile, NamesAMissingFile) {
   const auto status = read_file("/no/such/file", 0, [](std::string_view) { return true; });
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().code, Code::kNotFound);
@@ -36,7 +36,7 @@ TEST(ReadFile, RefusesAFolder) {
   EXPECT_EQ(status.error().code, Code::kInvalidArgument);
 }
 
-TEST(DigestFile, IsThatOfItsBytes) {
+TEST(DigestFile, MatchesTheFilesBytes) {
   const testing::TemporaryFolder folder;
   const std::string content(100001, 'z');
   const auto result = digest_file(folder.write("a", content), {});

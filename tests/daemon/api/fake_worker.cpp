@@ -108,7 +108,12 @@ void obey(const std::string& line) {
   } else if (command == "crash") {
     std::abort();
   } else if (command == "eat") {
-    eat();
+    try {
+      eat();
+    } catch (const std::bad_alloc&) {
+      std::cout << R"({"error":{"reason":"OUT_OF_MEMORY"}})" << std::endl;
+      std::_Exit(4);
+    }
   } else if (command == "huge") {
     std::ofstream(flags["--out"] + "/huge") << std::string(64 << 20, 'x') << std::flush;
   } else if (command == "fill") {

@@ -265,7 +265,7 @@ TEST_F(PrintApi, APrinterThatGoesInTheMiddleIsLost) {
   const v1::Job ended = done(job);
   EXPECT_EQ(ended.state(), v1::Job::FAILED);
   EXPECT_EQ(ended.error().reason(), "PRINTER_LOST");
-  EXPECT_TRUE(has(ended.error().message(), "may have been printed or not"));
+  EXPECT_TRUE(has(ended.error().message(), "may or may not have been printed"));
 }
 
 TEST_F(PrintApi, ADaemonThatIsKilledLeavesThePrintInterruptedAndSendsNothingAgain) {

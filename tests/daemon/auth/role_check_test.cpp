@@ -1,14 +1,9 @@
-// Who is let through to a service, over the network and within the process.
 #include "daemon/auth/role_check.h"
 
 #include <google/protobuf/descriptor.pb.h>
-#include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
-
 #include "hydroprint/v1/access.pb.h"
-#include "hydroprint/v1/queue_service.grpc.pb.h"
 #include "tests/daemon/auth/accounts_fixture.h"
 
 namespace hydroprint::daemon {
@@ -16,8 +11,8 @@ namespace {
 
 using auth::Role;
 
-// A service with one method of these options.
-class Stated : public ::testing::Test {
+/// A service with one method that has these options.
+class MethodOptions : public ::testing::Test {
  protected:
   Result<Need> need(const google::protobuf::MethodOptions& options) {
     google::protobuf::FileDescriptorProto file;
@@ -41,26 +36,26 @@ class Stated : public ::testing::Test {
   int count_ = 0;
 };
 
-TEST_F(Stated, AMethodThatSaysNothingIsRefused) {
+TEST_F(MethodOptions, AMethodWithoutARoleIsRefused) {
   const auto refused = need({});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("MadeService.Do"), std::string::npos);
 }
 
-TEST_F(Stated, AMethodThatSaysBothOrAnUnknownRoleIsRefused) {
+TEST_F(MethodOptions, AMethodWithARoleAndWithoutSignInIsRefused) {
   google::protobuf::MethodOptions options;
   options.SetExtension(v1::role, v1::MAKER);
   options.SetExtension(v1::without_sign_in, true);
   EXPECT_FALSE(need(options));
 }
 
-TEST_F(Stated, AnUnspecifiedRoleIsNone) {
+TEST_F(MethodOptions, AnUnspecifiedRoleIsRefused) {
   google::protobuf::MethodOptions options;
   options.SetExtension(v1::role, v1::ROLE_UNSPECIFIED);
   EXPECT_FALSE(need(options));
 }
 
-TEST_F(Stated, ARoleOrNobodysIsTaken) {
+TEST_F(MethodOptions, ARoleOrWithoutSignInIsAccepted) {
   google::protobuf::MethodOptions role, none;
   role.SetExtension(v1::role, v1::MAKER);
   EXPECT_EQ(need(role).value(), Role::kMaker);
@@ -70,139 +65,105 @@ TEST_F(Stated, ARoleOrNobodysIsTaken) {
   EXPECT_FALSE(open->has_value());
 }
 
-// Says whom it saw.
-class Inner final : public v1::QueueService::Service {
- public:
-  explicit Inner(const Authenticator& access) : access_(access) {}
-  grpc::Status GetQueue(grpc::ServerContext* context, const v1::GetQueueRequest*,
-                        v1::Queue* reply) override {
-    ++calls;
-    const auto caller = access_.caller(*context);
-    if (!caller) return {grpc::StatusCode::INTERNAL, caller.error().message};
-    reply->set_pause_reason(caller->name + " " + caller->via + " " + peer_address(*context));
-    return grpc::Status::OK;
-  }
-  grpc::Status PauseQueue(grpc::ServerContext*, const v1::PauseQueueRequest*, v1::Queue*) override {
-    ++calls;
-    return grpc::Status::OK;
-  }
+const std::string kGet = "/hydroprint.v1.QueueService/GetQueue";      // VIEWER
+const std::string kPause = "/hydroprint.v1.QueueService/PauseQueue";  // OPERATOR
+const std::string kStop = "/hydroprint.v1.RigService/StopMotion";     // VIEWER
+const std::string kSignIn = "/hydroprint.v1.PeopleService/SignIn";    // without sign-in
 
-  static inline std::atomic<int> calls = 0;
-
- private:
-  const Authenticator& access_;
-};
-
-class Gate : public auth::PeopleTest {
+class Admission : public auth::PeopleTest {
  protected:
-  Gate() {
-    Inner::calls = 0;
-    gate_ = guarded("hydroprint.v1.QueueService", std::make_unique<Inner>(access_), access_, {})
-                .value();
-    grpc::ServerBuilder builder;
-    int port = 0;
-    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
-    builder.RegisterService(gate_.get());
-    server_ = builder.BuildAndStart();
-    over_network = v1::QueueService::NewStub(grpc::CreateChannel(
-        "127.0.0.1:" + std::to_string(port), grpc::InsecureChannelCredentials()));
-    within = v1::QueueService::NewStub(server_->InProcessChannel({}));
+  static auth::Credentials from(const std::string& peer) { return {"", "", std::nullopt, peer}; }
+  static auth::Credentials named(const std::string& owner) { return {"", "", owner, "127.0.0.1"}; }
+  static auth::Credentials with_key(const std::string& secret) {
+    return {"Bearer " + secret, "", std::nullopt, "192.0.2.7"};
+  }
+  static auth::Credentials with_session(const std::string& token) {
+    return {"", token, std::nullopt, "192.0.2.7"};
+  }
+  std::string reason_of_refusal(const std::string& method, const auth::Credentials& credentials) {
+    const auto caller = check.admit(method, credentials);
+    return caller ? "" : caller.error().reason;
   }
 
-  using Metadata = std::vector<std::pair<std::string, std::string>>;
-  grpc::Status get(v1::QueueService::Stub& stub, const Metadata& metadata) {
-    grpc::ClientContext context;
-    for (const auto& [name, value] : metadata) context.AddMetadata(name, value);
-    v1::Queue queue;
-    const auto status = stub.GetQueue(&context, {}, &queue);
-    seen = queue.pause_reason();
-    return status;
-  }
-  grpc::Status pause(v1::QueueService::Stub& stub, const Metadata& metadata) {
-    grpc::ClientContext context;
-    for (const auto& [name, value] : metadata) context.AddMetadata(name, value);
-    v1::PauseQueueRequest request;
-    request.set_reason(std::string(100'000, 'x'));  // on the heap, where a leak would show
-    v1::Queue queue;
-    return stub.PauseQueue(&context, request, &queue);
-  }
-
-  std::unique_ptr<v1::QueueService::Stub> over_network, within;
-  std::string seen;
-
- private:
-  Authenticator access_{*accounts, true};
-  std::unique_ptr<grpc::Service> gate_;
-  std::unique_ptr<grpc::Server> server_;
+  Authenticator authenticator{*accounts, true};
+  RoleCheck check =
+      RoleCheck::make(authenticator, {"hydroprint.v1.QueueService", "hydroprint.v1.RigService",
+                                      "hydroprint.v1.PeopleService"})
+          .value();
 };
 
-TEST_F(Gate, WithoutUsersThisMachineIsAdminUnderTheNameItGives) {
-  EXPECT_TRUE(get(*over_network, {{"hydroprint-owner", "ann"}}).ok());
-  EXPECT_EQ(seen, "ann loopback 127.0.0.1");
-  EXPECT_TRUE(pause(*over_network, {}).ok());
-  EXPECT_TRUE(get(*within, {{"hydroprint-peer", "127.0.0.1"}}).ok());
-  EXPECT_EQ(seen, "anonymous loopback 127.0.0.1");
-  EXPECT_TRUE(get(*within, {{"hydroprint-peer", "::1"}}).ok());
+TEST_F(Admission, WithoutUsersCallersOnThisMachineAreAdminsUnderTheNameTheyGive) {
+  const auto caller = check.admit(kPause, named("ann")).value().value();
+  EXPECT_EQ(caller.name, "ann");
+  EXPECT_EQ(caller.via, "loopback");
+  EXPECT_EQ(caller.role, Role::kAdmin);
+  EXPECT_FALSE(caller.is_user);
+  EXPECT_EQ(check.admit(kGet, from("::1")).value()->name, "anonymous");
 }
 
-TEST_F(Gate, WithoutUsersOtherMachinesAreNobody) {
-  const auto status = get(*within, {{"hydroprint-peer", "192.0.2.7"}});
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
-  EXPECT_EQ(Inner::calls.load(), 0);
+TEST_F(Admission, WithoutUsersCallersOnOtherMachinesMustSignIn) {
+  EXPECT_EQ(reason_of_refusal(kGet, from("192.0.2.7")), "SIGN_IN_NEEDED");
 }
 
-TEST_F(Gate, APeerIsBelievedWithinTheProcessAlone) {
-  EXPECT_TRUE(get(*over_network, {{"hydroprint-peer", "192.0.2.7"}}).ok());
-  EXPECT_EQ(seen, "anonymous loopback 127.0.0.1");
+TEST_F(Admission, AMalformedNameIsRefusedUnlessTheCallStopsMotion) {
+  EXPECT_EQ(reason_of_refusal(kGet, named("two words")), "SPEC_INVALID");
+  EXPECT_EQ(check.admit(kStop, named("two words")).value()->name, "anonymous");
 }
 
-TEST_F(Gate, WithAUserCredentialsAreNeededEverywhere) {
+TEST_F(Admission, WithUsersEveryCallerNeedsCredentials) {
   add("ann", Role::kAdmin);
-  for (auto* const stub : {over_network.get(), within.get()}) {
-    for (const Metadata& metadata :
-         {Metadata{}, Metadata{{"hydroprint-owner", "ann"}},
-          Metadata{{"authorization", "Bearer x"}}, Metadata{{"authorization", "Basic YTpi"}},
-          Metadata{{"hydroprint-session", "x"}}}) {
-      EXPECT_EQ(get(*stub, metadata).error_code(), grpc::StatusCode::UNAUTHENTICATED);
-    }
+  for (const auto& credentials : {from("127.0.0.1"), named("ann"), with_key("x"), with_session("x"),
+                                  auth::Credentials{"Basic YTpi", "", std::nullopt, "127.0.0.1"}}) {
+    EXPECT_EQ(reason_of_refusal(kGet, credentials), "SIGN_IN_NEEDED");
+    EXPECT_EQ(reason_of_refusal(kStop, credentials), "SIGN_IN_NEEDED");
   }
-  EXPECT_EQ(Inner::calls.load(), 0);
 }
 
-TEST_F(Gate, KeysAndSessionsTellWhoCalls) {
+TEST_F(Admission, KeysAndSessionsIdentifyTheCaller) {
   add("ann", Role::kAdmin);
   const auto key = accounts->create_key({"ann", "", Role::kViewer, 0}).value();
   const auto session = accounts->sign_in("ann", kPassword, "p").value();
-  for (auto* const stub : {over_network.get(), within.get()}) {
-    EXPECT_TRUE(get(*stub, {{"authorization", "Bearer " + key.second}}).ok());
-    EXPECT_TRUE(seen.starts_with("ann key " + key.first.id)) << seen;
-    EXPECT_TRUE(
-        get(*stub, {{"hydroprint-session", session.token}, {"hydroprint-owner", "bob"}}).ok());
-    EXPECT_TRUE(seen.starts_with("ann session")) << seen;
-  }
+  const auto by_key = check.admit(kGet, with_key(key.second)).value().value();
+  EXPECT_EQ(by_key.name, "ann");
+  EXPECT_EQ(by_key.via, "key " + key.first.id);
+  const auto by_session = check.admit(kGet, with_session(session.token)).value().value();
+  EXPECT_EQ(by_session.name, "ann");
+  EXPECT_EQ(by_session.via, "session");
 }
 
-TEST_F(Gate, AKeyThatDoesNotHoldIsNotMadeUpForByASession) {
+TEST_F(Admission, AnInvalidKeyIsRefusedBesideAValidSession) {
   add("ann", Role::kAdmin);
-  const auto session = accounts->sign_in("ann", kPassword, "p").value();
-  const auto status = get(
-      *over_network, {{"hydroprint-session", session.token}, {"authorization", "Bearer hp_a_b"}});
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  auto credentials = with_session(accounts->sign_in("ann", kPassword, "p")->token);
+  credentials.authorization = "Bearer hp_a_b";
+  EXPECT_EQ(reason_of_refusal(kGet, credentials), "SIGN_IN_NEEDED");
 }
 
-TEST_F(Gate, WhoeverMayNotIsTurnedAwayBeforeTheServiceSeesIt) {
+TEST_F(Admission, ALesserRoleIsRefused) {
   add("ann", Role::kAdmin);
   const auto viewer = accounts->create_key({"ann", "", Role::kViewer, 0})->second;
-  const auto admin = accounts->create_key({"ann", "", Role::kOperator, 0})->second;
-  for (auto* const stub : {over_network.get(), within.get()}) {
-    for (int i = 0; i < 20; ++i) {
-      EXPECT_EQ(pause(*stub, {{"authorization", "Bearer " + viewer}}).error_code(),
-                grpc::StatusCode::PERMISSION_DENIED);
-    }
-  }
-  EXPECT_EQ(Inner::calls.load(), 0);
-  EXPECT_TRUE(pause(*within, {{"authorization", "Bearer " + admin}}).ok());
-  EXPECT_EQ(Inner::calls.load(), 1);
+  const auto operator_key = accounts->create_key({"ann", "", Role::kOperator, 0})->second;
+  EXPECT_EQ(reason_of_refusal(kPause, with_key(viewer)), "ROLE_TOO_LOW");
+  EXPECT_TRUE(check.admit(kPause, with_key(operator_key)));
+}
+
+TEST_F(Admission, MethodsWithoutSignInAreOpenToUnknownCallers) {
+  add("ann", Role::kAdmin);
+  const auto caller = check.admit(kSignIn, from("192.0.2.7"));
+  ASSERT_TRUE(caller);
+  EXPECT_FALSE(caller->has_value());
+}
+
+TEST_F(Admission, UnknownMethodsAreRefused) {
+  EXPECT_EQ(reason_of_refusal("/hydroprint.v1.QueueService/Get", from("")), "METHOD_NOT_FOUND");
+}
+
+TEST_F(Admission, AStreamEndsWithItsSession) {
+  add("ann", Role::kAdmin);
+  const auto session = accounts->sign_in("ann", kPassword, "p").value();
+  const auto caller = check.admit(kGet, with_session(session.token)).value().value();
+  EXPECT_TRUE(authenticator.check_still(caller));
+  ASSERT_TRUE(accounts->end_session(caller.session));
+  EXPECT_FALSE(authenticator.check_still(caller));
 }
 
 }  // namespace

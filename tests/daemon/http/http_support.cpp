@@ -34,7 +34,15 @@ void HttpLimits::serve(const http::Limits& limits) {
     if (!identity) throw std::runtime_error(identity.error().message);
     options.identity = [shown = *identity] { return shown; };
   }
-  http::Sources sources{[] { return http::Health{true, "{}"}; }, [] { return std::string(); }};
+  // The daemon behind it decides for itself.
+  const auto admit = [](std::string_view, const auth::Credentials&) {
+    return Result<std::optional<auth::Caller>>(std::nullopt);
+  };
+  http::Sources sources{admit,
+                        [] {
+                          return http::Health{true, "{}"};
+                        },
+                        [] { return std::string(); }};
   auto started = http::Server::start(options, client.channel, sources);
   if (!started) throw std::runtime_error(started.error().message);
   server = std::move(*started);

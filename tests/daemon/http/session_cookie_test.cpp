@@ -59,6 +59,15 @@ TEST_F(HttpSession, WhatChangesSomethingNeedsWhatOnlyThePageKnows) {
   EXPECT_EQ(pause(admin.both()).status, 200);
 }
 
+TEST_F(HttpSession, TheCallerIsCheckedBeforeTheBodyIsRead) {
+  for (const char* const request : {"POST /v1/jobs", "PATCH /v1/uploads/x"}) {
+    HttpConnection connection(daemon.http());
+    connection.send(std::string(request) +
+                    " HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000\r\n\r\n");
+    EXPECT_EQ(connection.read_answer().status, 401) << request;
+  }
+}
+
 TEST_F(HttpSession, OfAnotherBrowserOpensNothing) {
   const Browser viewer = sign_in_there("viewer");
   const Browser admin = sign_in_there("admin");

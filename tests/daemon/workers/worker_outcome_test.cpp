@@ -50,11 +50,19 @@ TEST(Outcome, EachEndHasItsReason) {
   EXPECT_EQ(reason(SIGXFSZ), "OUTPUT_LIMIT");
   EXPECT_EQ(reason(SIGKILL, "", StoppedFor::kTime), "TIME_LIMIT");
   EXPECT_EQ(reason(SIGKILL, "", StoppedFor::kMemory), "MEMORY_LIMIT");
-  EXPECT_EQ(reason(exited(4), "out of memory"), "MEMORY_LIMIT");
-  EXPECT_EQ(reason(exited(3), "out/film.png: the disk is full. Free some space"), "DISK_FULL");
-  EXPECT_EQ(reason(exited(3), "film.png: beyond the limit on file sizes. Raise it"),
-            "OUTPUT_LIMIT");
-  EXPECT_EQ(reason(SIGABRT, "terminate called: std::bad_alloc"), "MEMORY_LIMIT");
+}
+
+TEST(Outcome, LimitsAreToldByReasonCodesAndNotByWords) {
+  const auto told = [](const std::string& reason) {
+    return judge(exited(4), StoppedFor::kNothing, "words",
+                 R"({"error":{"reason":")" + reason + "\"}}")
+        ->error;
+  };
+  EXPECT_EQ(told("OUT_OF_MEMORY").reason, "MEMORY_LIMIT");
+  EXPECT_EQ(told("DISK_FULL").reason, "DISK_FULL");
+  EXPECT_EQ(told("FILE_LIMIT").reason, "OUTPUT_LIMIT");
+  EXPECT_EQ(told("DISK_FULL").code, Code::kResourceExhausted);
+  EXPECT_EQ(reason(exited(4), "out of memory, the disk is full"), "COMPUTATION_FAILED");
 }
 
 TEST(Outcome, WordsBecomeOnePrintableLine) {

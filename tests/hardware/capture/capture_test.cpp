@@ -1,4 +1,4 @@
-// hydroprint-capture and the camera of hydroprint-virtual-rig, with OpenNI2 between them.
+// Tests hydroprint-capture with the camera of hydroprint-virtual-rig, through OpenNI2.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -26,9 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_literals;
 
-/// The program and its first arguments. Under AddressSanitizer leaks are not looked for in it:
-/// OpenNI2 frees not all when it unloads its drivers, and what has been unloaded has no name that a
-/// suppression could give.
+/// The program and its first arguments. Leak detection of AddressSanitizer is off: OpenNI2 does not
+/// free everything when it unloads its drivers, and unloaded code has no name for a suppression.
 #ifdef __SANITIZE_ADDRESS__
 const std::vector<std::string> kCapture = {"/usr/bin/env", "ASAN_OPTIONS=detect_leaks=0",
                                            HYDROPRINT_BIN_DIR "/hydroprint-capture"};
@@ -37,7 +36,7 @@ const std::vector<std::string> kCapture = {HYDROPRINT_BIN_DIR "/hydroprint-captu
 #endif
 const std::string kRig = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
 
-/// Patience, in s, with what is slow on a busy machine but does not hang.
+/// Timeout, in s, for operations that are slow on a busy machine but do not hang.
 constexpr const char* kLong = "400";
 
 constexpr const char* kScene = R"(
@@ -87,7 +86,7 @@ class Capture : public ::testing::Test {
     return capture(all);
   }
 
-  /// A capture of a minute, once its first frames have come.
+  /// Starts a capture of a minute and waits for its first frames.
   std::unique_ptr<testing::Process> long_capture(const std::string& patience_s = kLong) {
     testing::ProcessOptions options;
     options.files = {{3, path("progress")}};
@@ -106,7 +105,7 @@ class Capture : public ::testing::Test {
     return out;
   }
 
-  /// Fails unless a capture failed like this, in one line, and left nothing.
+  /// Expects that a capture failed with this status and reason, in one line, and left no files.
   void expect_failure(const testing::Ended& ended, int status, const std::string& reason) {
     EXPECT_EQ(ended.status, status) << ended.err;
     EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
@@ -135,7 +134,7 @@ nlohmann::json frames_of(const fs::path& folder) {
   return nlohmann::json::parse(bytes_of(folder / "frames.json"));
 }
 
-TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
+TEST_F(Capture, LiveAndRecordedFramesMatchTheSceneBitForBit) {
   const auto recording = path("take.oni");
   const auto live = capture_live({"--seconds", "0.1", "--record", recording.string()});
   ASSERT_EQ(live.status, 0) << live.err;
@@ -169,7 +168,7 @@ TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
   ASSERT_EQ(again.status, 0) << again.err;
   const auto played = frames_of(path("again"));
   const std::string first = png_of(path("again"), played["frames"][0]);
-  // The recording began before the first was taken.
+  // The recording started before the first captured frame.
   const int latest = told["frames"][0]["index"].get<int>() + 1;
   int start = 1;
   while (start < latest && first != expected(start)) ++start;
@@ -179,7 +178,7 @@ TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
     EXPECT_TRUE(png_of(path("again"), frame) == expected(index)) << index;
     recorded.insert(index);
   }
-  // That one may have come earlier still.
+  // That frame may have arrived even earlier.
   for (std::size_t i = 1; i < told["frames"].size(); ++i) {
     EXPECT_TRUE(recorded.contains(told["frames"][i]["index"].get<int>())) << i;
   }
@@ -187,7 +186,7 @@ TEST_F(Capture, FramesAreThoseOfTheSceneBitForBitLiveAndPlayedBack) {
               1e-6);
 }
 
-TEST_F(Capture, CameraThatIsNotThereIsNamedWithARemedy) {
+TEST_F(Capture, MissingCameraIsNamedWithARemedy) {
   expect_failure(
       capture({"--device", "hydroprint:/nowhere", "--out", path("out").string(), "--json"}), 3,
       "CAMERA_NOT_FOUND");
@@ -195,7 +194,7 @@ TEST_F(Capture, CameraThatIsNotThereIsNamedWithARemedy) {
   expect_failure(capture_live({}), 3, "CAMERA_NOT_FOUND");
 }
 
-TEST_F(Capture, CameraThatIsUnpluggedIsGoneAndBackWhenItIsPluggedIn) {
+TEST_F(Capture, UnpluggedCameraFailsAndWorksAgainAfterReplugging) {
   const auto capture = long_capture();
   testing::talk(control(), "camera gone\n");
   expect_failure(capture->wait(), 4, "CAMERA_GONE");
@@ -204,13 +203,13 @@ TEST_F(Capture, CameraThatIsUnpluggedIsGoneAndBackWhenItIsPluggedIn) {
   EXPECT_EQ(again.status, 0) << again.err;
 }
 
-TEST_F(Capture, CameraWhoseRigDiesIsGone) {
+TEST_F(Capture, CameraIsGoneWhenItsRigDies) {
   const auto capture = long_capture();
   rig_->signal(SIGKILL);
   expect_failure(capture->wait(), 4, "CAMERA_GONE");
 }
 
-TEST_F(Capture, FrozenAndBlackCamerasAreNoticed) {
+TEST_F(Capture, FrozenAndBlackCamerasAreDetected) {
   for (const auto& [line, reason] :
        {std::pair{"camera frozen\n", "CAMERA_FROZEN"}, {"camera black\n", "CAMERA_BLACK"}}) {
     testing::talk(control(), "camera well\n");
@@ -221,30 +220,30 @@ TEST_F(Capture, FrozenAndBlackCamerasAreNoticed) {
   }
 }
 
-TEST_F(Capture, CameraThatSaysNothingIsNotWaitedForLong) {
+TEST_F(Capture, SilentCameraTimesOut) {
   const auto capture = long_capture("1");
   rig_->signal(SIGSTOP);
   expect_failure(capture->wait(), 4, "CAMERA_STALLED");
   rig_->signal(SIGCONT);
 }
 
-TEST_F(Capture, DriverThatHangsIsNotWaitedForLong) {
+TEST_F(Capture, HangingDriverTimesOut) {
   testing::talk(control(), "camera hung\n");
   expect_failure(capture_live({}, "1"), 4, "CAMERA_STALLED");
 }
 
-TEST_F(Capture, CancelLeavesNothing) {
+TEST_F(Capture, CancellingLeavesNoFiles) {
   const auto capture = long_capture();
   capture->signal(SIGTERM);
   expect_failure(capture->wait(), 130, "");
 }
 
-TEST_F(Capture, RecordingsThatAreNoneOrCutShortAreRefused) {
+TEST_F(Capture, InvalidOrTruncatedRecordingsAreRefused) {
   const auto recording = path("take.oni");
   const auto taken = capture_live({"--seconds", "0.15", "--record", recording.string()});
   ASSERT_EQ(taken.status, 0) << taken.err;
   fs::remove_all(path("out"));
-  // Its second half is zeros that OpenNI2 leaves there; nothing is lost with them.
+  // The second half of the file is zeros written by OpenNI2; truncating them loses no data.
   std::string whole = bytes_of(recording);
   whole.resize(whole.find_last_not_of('\0') + 1);
   std::vector<std::string> files = {"", "junk", std::string(100000, 'x'), whole.substr(0, 100)};
@@ -261,7 +260,7 @@ TEST_F(Capture, RecordingsThatAreNoneOrCutShortAreRefused) {
       3, "");
 }
 
-/// What --live said: heads with their pictures, and what followed the last.
+/// The output of --live: heads with their pictures, and the remaining text.
 struct Told {
   std::vector<std::pair<nlohmann::json, std::string>> pictures;
   std::string rest;
@@ -281,7 +280,7 @@ Told told_by(const std::string& bytes) {
   }
 }
 
-TEST_F(Capture, LivePicturesComeUntilASignalAndShowWhatIsNearAndFar) {
+TEST_F(Capture, LivePicturesShowNearAndFarUntilASignal) {
   testing::ProcessOptions options;
   options.files = {{1, path("live")}};
   std::vector<std::string> all = kCapture;
@@ -306,7 +305,7 @@ TEST_F(Capture, LivePicturesComeUntilASignalAndShowWhatIsNearAndFar) {
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->image.width, head["width"]);
   EXPECT_EQ(read->image.height, head["height"]);
-  // Viridis ends in yellow and in violet; grey is what was not measured.
+  // Viridis ranges from yellow to violet; grey means not measured.
   std::size_t near = 0, far = 0, grey = 0;
   for (const image::Texel& texel : read->image.texels) {
     if (texel.r == texel.g && texel.g == texel.b) ++grey;
@@ -319,7 +318,7 @@ TEST_F(Capture, LivePicturesComeUntilASignalAndShowWhatIsNearAndFar) {
   EXPECT_NEAR(static_cast<double>(grey) / pixels, 1 - head["measured_share"].get<double>(), 0.1);
 }
 
-TEST_F(Capture, LiveCameraThatGoesIsTold) {
+TEST_F(Capture, LiveModeReportsALostCamera) {
   testing::talk(control(), "camera black\n");
   const auto ended = capture({"--live", "--device", uri(), "--patience-s", kLong, "--json"});
   EXPECT_EQ(ended.status, 4) << ended.err;

@@ -13,7 +13,7 @@ DepthFrame frame(std::uint16_t first) {
 
 DepthFrame black() { return {20, 10, std::vector<std::uint16_t>(200, 0)}; }
 
-TEST(FrameWatch, LetsFramesPassThatChangeInOnePixel) {
+TEST(FrameWatch, AcceptsFramesThatDifferInOnePixel) {
   FrameWatch watch("camera");
   for (std::uint16_t i = 0; i < 100; ++i) {
     EXPECT_TRUE(watch.look(frame(static_cast<std::uint16_t>(700 + i % 2))));
@@ -21,7 +21,7 @@ TEST(FrameWatch, LetsFramesPassThatChangeInOnePixel) {
   }
 }
 
-TEST(FrameWatch, SameFrameTenTimesOverIsAFrozenCamera) {
+TEST(FrameWatch, TenIdenticalFramesMeanAFrozenCamera) {
   FrameWatch watch("camera");
   for (int i = 0; i < FrameWatch::kMostBad; ++i) {
     EXPECT_TRUE(watch.look(frame(700)));
@@ -32,7 +32,7 @@ TEST(FrameWatch, SameFrameTenTimesOverIsAFrozenCamera) {
   EXPECT_EQ(frozen.error().reason, "CAMERA_FROZEN");
 }
 
-TEST(FrameWatch, NothingSeenTenTimesIsBlackAndAFewTimesIsWarmingUp) {
+TEST(FrameWatch, TenEmptyFramesMeanABlackCameraButAFewDoNot) {
   FrameWatch watch("camera");
   for (int round = 0; round < 3; ++round) {
     for (int i = 1; i < FrameWatch::kMostBad; ++i) {

@@ -6,7 +6,7 @@
 namespace hydroprint::drive {
 namespace {
 
-TEST(Endpoint, TextIsReadBack) {
+TEST(Endpoint, ParsingTheTextGivesTheSameEndpoint) {
   for (const char* text : {"tcp:192.168.1.20:502", "rtu:/dev/ttyUSB0?baud=9600&parity=N&stop=2",
                            "rtu:/dev/serial/by-id/usb-A_b?baud=115200&parity=E&stop=1"}) {
     const auto endpoint = parse_endpoint(text);
@@ -15,13 +15,13 @@ TEST(Endpoint, TextIsReadBack) {
   }
 }
 
-TEST(Endpoint, WhatIsLeftOutIsUsual) {
+TEST(Endpoint, OmittedOptionsHaveDefaults) {
   EXPECT_EQ(parse_endpoint("rtu:/dev/ttyUSB0")->text(),
             "rtu:/dev/ttyUSB0?baud=115200&parity=E&stop=1");
   EXPECT_EQ(parse_endpoint("tcp:localhost:1502")->text(), "tcp:127.0.0.1:1502");
 }
 
-TEST(Endpoint, RefusalsSayWhatToWrite) {
+TEST(Endpoint, ErrorsNameTheExpectedFormat) {
   for (const char* text :
        {"", "tcp", "tcp:", "tcp:1.2.3.4", "tcp:1.2.3.4:0", "tcp:1.2.3.4:65536", "tcp:drive.lan:502",
         "tcp:1.2.3:502", "tcp:1.2.3.4:5x", "rtu:", "rtu:ttyUSB0", "rtu:/dev/a?baud=12345",
@@ -30,12 +30,12 @@ TEST(Endpoint, RefusalsSayWhatToWrite) {
     const auto endpoint = parse_endpoint(text);
     ASSERT_FALSE(endpoint) << text;
     EXPECT_EQ(endpoint.error().code, Code::kInvalidArgument);
-    EXPECT_NE(endpoint.error().message.find("Write tcp:192.168.1.20:502"), std::string::npos);
+    EXPECT_NE(endpoint.error().message.find("Use tcp:192.168.1.20:502"), std::string::npos);
     EXPECT_EQ(endpoint.error().message.find('\n'), std::string::npos);
   }
 }
 
-TEST(SerialLine, BytesAndGapsTakeTheirTime) {
+TEST(SerialLine, BytesAndGapsHaveTheSpecifiedDuration) {
   // 8E1: 11 bits. 8N1: 10 bits. Above 19200 baud the gap is 1.75 ms, below 3.5 characters.
   const auto ms = [](auto time) { return std::chrono::duration<double, std::milli>(time).count(); };
   EXPECT_NEAR(ms(wire_time(*parse_endpoint("rtu:/a?baud=9600&parity=E"), 8)), 9.1667, 1e-3);

@@ -17,21 +17,21 @@ const Request kWriteOneWord{1, Function::kWriteOne, 0x0001, 0, {0x0003}};
 const Request kWriteTwoWords{1, Function::kWriteMany, 0x0001, 0, {0x000a, 0x0102}};
 
 // The examples of the Modbus application protocol, 6.3, 6.6 and 6.12.
-TEST(Frame, RequestsAreTheSpecificationsExamples) {
+TEST(Frame, RequestsMatchTheExamplesInTheSpecification) {
   EXPECT_EQ(encode_request(kRead), Bytes({1, 3, 0x00, 0x6b, 0x00, 0x03}));
   EXPECT_EQ(encode_request(kWriteOneWord), Bytes({1, 6, 0x00, 0x01, 0x00, 0x03}));
   EXPECT_EQ(encode_request(kWriteTwoWords),
             Bytes({1, 0x10, 0x00, 0x01, 0x00, 0x02, 0x04, 0x00, 0x0a, 0x01, 0x02}));
 }
 
-TEST(Frame, RepliesAreTheSpecificationsExamples) {
+TEST(Frame, RepliesMatchTheExamplesInTheSpecification) {
   EXPECT_EQ(*decode_reply(kRead, Bytes({1, 3, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64})),
             Words({0x022b, 0x0000, 0x0064}));
   EXPECT_EQ(*decode_reply(kWriteOneWord, Bytes({1, 6, 0x00, 0x01, 0x00, 0x03})), Words());
   EXPECT_EQ(*decode_reply(kWriteTwoWords, Bytes({1, 0x10, 0x00, 0x01, 0x00, 0x02})), Words());
 }
 
-TEST(Frame, ExceptionsAreTheDrivesAnswer) {
+TEST(Frame, ExceptionsAreReportedAsTheDrivesReply) {
   const auto refused = decode_reply(kRead, Bytes({1, 0x83, 2}));
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, "DRIVE_REFUSED");
@@ -40,7 +40,7 @@ TEST(Frame, ExceptionsAreTheDrivesAnswer) {
   EXPECT_EQ(decode_reply(kRead, Bytes({1, 0x83, 6})).error().reason, "DRIVE_BUSY");
 }
 
-TEST(Frame, AnythingElseIsNoReply) {
+TEST(Frame, OtherBytesAreNotAReply) {
   const Bytes good = {1, 3, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64};
   std::vector<std::pair<Request, Bytes>> cases = {
       {kRead, {2, 3, 6, 0x02, 0x2b, 0x00, 0x00, 0x00, 0x64}},     // unit
@@ -63,7 +63,7 @@ TEST(Frame, AnythingElseIsNoReply) {
   }
 }
 
-TEST(Frame, NoBytesWhateverCrashOrGiveMoreThanWasAskedFor) {
+TEST(Frame, RandomBytesNeitherCrashNorGiveExtraWords) {
   std::mt19937 random(testing::campaign_seed(3));
   for (int i = 0; i < testing::campaign_rounds(20000); ++i) {
     Bytes reply(random() % 20);

@@ -19,7 +19,7 @@ Result<DriveProfile> profile(const std::string& toml) {
   return read_drive_profile(folder.write("drive.toml", toml));
 }
 
-/// The virtual drive's profile with `from` turned into `to`, which must stand there.
+/// The virtual drive's profile with `from`, which must occur, replaced by `to`.
 std::string changed(const std::string& from, const std::string& to) {
   std::string text = virtual_profile();
   const std::size_t at = text.find(from);
@@ -27,7 +27,7 @@ std::string changed(const std::string& from, const std::string& to) {
   return text.replace(at, from.size(), to);
 }
 
-TEST(DriveProfile, VirtualDriveIsReadAsWritten) {
+TEST(DriveProfile, VirtualDriveIsReadCorrectly) {
   const auto read = profile(virtual_profile());
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->name, "virtual drive");
@@ -50,7 +50,7 @@ TEST(DriveProfile, VirtualDriveIsReadAsWritten) {
   EXPECT_EQ(read->alarms.at(0x30).text.substr(0, 21), "communication timeout");
 }
 
-TEST(DriveProfile, StoppingDistanceIsThatOfTheNotes) {
+TEST(DriveProfile, StoppingDistanceMatchesTheNotes) {
   DriveProfile drive;
   drive.stopping_deceleration_mm_per_s2 = 200;
   // Daemon notes 3.6: 20 mm/s, 0.25 s + 0.5 s, 200 mm/s^2: 15 + 1 mm.
@@ -61,7 +61,7 @@ TEST(DriveProfile, StoppingDistanceIsThatOfTheNotes) {
 struct Wrong {
   const char* from;
   const char* to;
-  const char* what;  ///< what the message must say besides file and line
+  const char* what;  ///< required text of the message, besides file and line
 };
 
 class WrongProfile : public ::testing::TestWithParam<Wrong> {};
@@ -81,8 +81,8 @@ INSTANTIATE_TEST_SUITE_P(
     All, WrongProfile,
     ::testing::Values(
         Wrong{"unit = 1 ", "unit = 0 ",
-              "unit is no whole number in range. Give a whole number from 1 to 247"},
-        Wrong{"unit = 1 ", "unit = \"1\" ", "unit is no whole number"},
+              "unit is not a whole number in range. Give a whole number from 1 to 247"},
+        Wrong{"unit = 1 ", "unit = \"1\" ", "unit is not a whole number"},
         Wrong{"unit = 1 ", "units = 1 ", "units is not a known key here. Use "},
         Wrong{"name = \"virtual drive\"", "", "name is missing. Add it"},
         Wrong{"max_speed_mm_per_s = 20.0", "max_speed_mm_per_s = 0", "motion.max_speed_mm_per_s"},
@@ -91,10 +91,10 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"worst_delay_s = 0.25", "worst_delay_s = \"long\"", "timing.worst_delay_s"},
         Wrong{"address = 0x0001", "address = 0x10000", "identity.address"},
         Wrong{"mask = 0xff00", "mask = 0xff00\nvalue2 = 1", "not a known key"},
-        Wrong{"value = 0x0100\nmask", "value = 0x0101\nmask", "leaves out bits of the value"},
+        Wrong{"value = 0x0100\nmask", "value = 0x0101\nmask", "omits bits of the value"},
         Wrong{"count = 9", "count = 126", "block.count"},
-        Wrong{"count = 9", "count = 8", "demand lies in no block"},
-        Wrong{"address = 0x0100, value", "address = 0x0109, value", "lies outside of its block"},
+        Wrong{"count = 9", "count = 8", "demand is not in any block"},
+        Wrong{"address = 0x0100, value", "address = 0x0109, value", "lies outside its block"},
         Wrong{"words = 2                     #", "words = 3 #", "position.words"},
         Wrong{"counts_per_mm = 10000.0       #", "counts_per_mm = 0 #", "position.counts_per_mm"},
         Wrong{"space = \"input\"\naddress = 0x0103", "space = \"coil\"\naddress = 0x0103",
@@ -107,18 +107,18 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"largest_time_s = 0.25", "largest_time_s = 0", "watchdog.largest_time_s"},
         Wrong{"stopping_actions = [1]", "stopping_actions = [\"halt\"]",
               "watchdog.stopping_actions"},
-        Wrong{"code = 0x20", "code = 0x10", "stands here twice"},
+        Wrong{"code = 0x20", "code = 0x10", "appears twice"},
         Wrong{"[motion]", "[motion", "Correct the TOML there"}));
 
-TEST(DriveProfile, TwoBlocksOfOneLengthAreRefused) {
+TEST(DriveProfile, BlocksOfEqualLengthAreRefused) {
   const auto read = profile(virtual_profile() +
                             "\n[[block]]\nspace = \"input\"\naddress = 0x0400\ncount = 9\n"
                             "mark = { address = 0x0400, value = 1 }\n");
   ASSERT_FALSE(read);
-  EXPECT_NE(read.error().message.find("late replies could be mistaken"), std::string::npos);
+  EXPECT_NE(read.error().message.find("late replies could be confused"), std::string::npos);
 }
 
-TEST(DriveProfile, ARefusalIsOneLineWhateverTheFilesKeysHold) {
+TEST(DriveProfile, AnErrorIsOneLineForAnyContent) {
   for (const std::string& text :
        {"\"a\\nb\" = 1\n" + virtual_profile(), changed("[timing]", "[timing]\n\"x\\u001by\" = 1"),
         std::string("name = \"\\q\n")}) {
@@ -130,7 +130,7 @@ TEST(DriveProfile, ARefusalIsOneLineWhateverTheFilesKeysHold) {
   }
 }
 
-TEST(DriveProfile, LineIsThatOfTheKey) {
+TEST(DriveProfile, ErrorsNameTheLineOfTheKey) {
   const std::string text = changed("bit = 2 }", "bit = 16 }");
   const auto line =
       1 + std::count(text.begin(),
@@ -139,7 +139,7 @@ TEST(DriveProfile, LineIsThatOfTheKey) {
             std::string::npos);
 }
 
-TEST(DriveProfile, AllThatAreShippedAreReadAndSayWhetherTheyWereTried) {
+TEST(DriveProfile, ShippedProfilesAreValidAndSayWhetherTheyWereTried) {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(HYDROPRINT_PROFILES)) {
     const auto read = read_drive_profile(entry.path());

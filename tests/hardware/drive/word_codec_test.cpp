@@ -18,7 +18,7 @@ Words encoded(const Format& format, double value) {
   return words.value_or(Words{});
 }
 
-TEST(Codec, WordsAreWhatAManualSays) {
+TEST(Codec, WordsMatchAManual) {
   EXPECT_EQ(encoded({1, false, false, 10, false}, 20), Words({200}));
   EXPECT_EQ(encoded({1, true, false, 1, false}, -2), Words({0xfffe}));
   EXPECT_EQ(encoded({2, true, false, 10000, false}, 12.3456), Words({0x0001, 0xe240}));
@@ -33,7 +33,7 @@ TEST(Codec, ARampGivenAsATimeIsTheInverse) {
   EXPECT_NEAR(decode(format, Words{417}), 199.84, 0.01);
 }
 
-TEST(Codec, WhatWasEncodedIsDecodedToWithinHalfACount) {
+TEST(Codec, DecodingReversesEncodingWithinHalfACount) {
   std::mt19937 random(testing::campaign_seed(7));
   for (const bool is_signed : {false, true}) {
     for (const int words : {1, 2}) {
@@ -54,7 +54,7 @@ TEST(Codec, WhatWasEncodedIsDecodedToWithinHalfACount) {
   }
 }
 
-TEST(Codec, WhatRegistersCannotHoldIsRefused) {
+TEST(Codec, ValuesThatDoNotFitTheRegistersAreRefused) {
   const std::vector<std::pair<Format, double>> cases = {
       {{1, false, false, 1, false}, 65536}, {{1, false, false, 1, false}, -1},
       {{1, true, false, 1, false}, 32768},  {{2, true, false, 1e6, false}, 3000},

@@ -19,7 +19,7 @@ TEST(PrinterAddress, ReadsHostPortAndPath) {
   EXPECT_TRUE(tls->encrypted);
 }
 
-TEST(PrinterAddress, RefusesWhatIsNone) {
+TEST(PrinterAddress, RefusesInvalidAddresses) {
   for (const char* uri :
        {"", "office.local", "http://office.local/ipp", "ipp://", "ipp:///ipp/print",
         "lpd://office.local/queue", "ipp://office.local:99999/ipp"}) {

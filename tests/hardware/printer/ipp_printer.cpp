@@ -12,7 +12,7 @@
 namespace hydroprint::printer {
 namespace {
 
-/// A port that is free now.
+/// Returns a free port.
 int free_port() {
   const int file = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in at{};
@@ -27,7 +27,7 @@ int free_port() {
 }
 
 void wait_until(const std::function<bool()>& is_so, const std::string& program) {
-  for (int i = 0; i < 2400; ++i) {  // a busy machine takes its time
+  for (int i = 0; i < 2400; ++i) {  // a busy machine is slow
     if (is_so()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
@@ -65,7 +65,8 @@ std::filesystem::path IppPrinter::spooled() const {
   std::vector<std::filesystem::path> out;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(folder_.path() / "spool")) {
-    if (entry.path().extension() != ".prn") out.push_back(entry.path());  // what its command said
+    // except the output of its command
+    if (entry.path().extension() != ".prn") out.push_back(entry.path());
   }
   if (out.size() != 1) throw std::runtime_error(std::to_string(out.size()) + " files spooled");
   return out.front();

@@ -19,7 +19,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// Quick to ask and to give up one that is gone, but patient with one that answers slowly.
+/// Short poll intervals and short patience with a lost printer, but a long timeout for slow
+/// replies.
 Timing quick() {
   Timing timing;
   timing.connect = timing.answer = milliseconds(60000);
@@ -40,7 +41,7 @@ std::string content(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// A socket that takes connections; what happens on them is the test's.
+/// A socket that accepts connections; the test decides what happens on them.
 class Listener {
  public:
   Listener() : file_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -67,7 +68,7 @@ class Listener {
   int port_ = 0;
 };
 
-TEST(Printer, TellsFormatsPaperAndMargins) {
+TEST(Printer, ReportsFormatsPaperAndMargins) {
   const IppPrinter there("exit 0");
   const auto attributes = Printer(there.address()).attributes();
   ASSERT_TRUE(attributes) << attributes.error().message;
@@ -84,8 +85,8 @@ TEST(Printer, TellsFormatsPaperAndMargins) {
   EXPECT_LT(attributes->margins_mm.maxCoeff(), 20);
 }
 
-TEST(Printer, PrintsTheVeryBytesOnThePaperUnscaledAndSeesTheEnd) {
-  // It prints until it was seen to.
+TEST(Printer, PrintsTheExactBytesUnscaledAndReportsCompletion) {
+  // The job lasts until the test has seen it.
   const IppPrinter there(std::string("env | grep ^IPP_ > \"$0.env\"\n") +
                          IppPrinter::kUntilFinished);
   const auto bytes = some_bytes(3'000'001);
@@ -109,7 +110,7 @@ TEST(Printer, PrintsTheVeryBytesOnThePaperUnscaledAndSeesTheEnd) {
   EXPECT_NE(environment.find("IPP_JOB_NAME=mug 7"), std::string::npos) << environment;
 }
 
-TEST(Printer, SaysThatAJobWasAborted) {
+TEST(Printer, ReportsAnAbortedJob) {
   const IppPrinter there("exit 1");
   const Printer printer(there.address(), quick());
   const auto sent = printer.print({some_bytes(1000)});
@@ -120,8 +121,8 @@ TEST(Printer, SaysThatAJobWasAborted) {
   EXPECT_NE(ended.error().message.find("aborted"), std::string::npos);
 }
 
-TEST(Printer, CancelsAJobAndSeesItsEnd) {
-  // It prints on, cancelled or not, until it was seen to have been asked to stop.
+TEST(Printer, CancelsAJobAndReportsItsEnd) {
+  // The job lasts, cancelled or not, until the test has seen the cancel request.
   const IppPrinter there(IppPrinter::kUntilFinished);
   const Printer printer(there.address(), quick());
   const auto sent = printer.print({some_bytes(1000)});
@@ -140,19 +141,19 @@ TEST(Printer, CancelsAJobAndSeesItsEnd) {
   EXPECT_FALSE(printer.cancel(sent->id));
 }
 
-TEST(Printer, IsLeftAloneWhereWhoeverAsksGivesUp) {
+TEST(Printer, EndsEveryCallWhenTheCallerGivesUp) {
   const Listener silent;
   std::atomic<bool> gives_up = false;
   const Printer printer(silent.address(), quick(), [&] { return gives_up.load(); });
   std::thread asked([&] { EXPECT_EQ(printer.attributes().error().reason, "PRINTER_LEFT"); });
-  (void)silent.accept();  // there is a connection, on which nothing comes
+  (void)silent.accept();  // connected, but no data arrives
   gives_up = true;
   asked.join();
   EXPECT_EQ(printer.print({some_bytes(1000)}).error().reason, "PRINTER_LEFT");
   EXPECT_EQ(printer.follow(1).error().reason, "PRINTER_LEFT");
 }
 
-TEST(Printer, NamesAFormatThatThePrinterDoesNotTake) {
+TEST(Printer, ReportsAnUnsupportedFormat) {
   const IppPrinter there("exit 0");
   const auto sent = Printer(there.address()).print({some_bytes(2'000'000), "image/tiff"});
   ASSERT_FALSE(sent);
@@ -160,12 +161,12 @@ TEST(Printer, NamesAFormatThatThePrinterDoesNotTake) {
   EXPECT_EQ(sent.error().reason, "FORMAT_NOT_SUPPORTED") << sent.error().message;
 }
 
-TEST(Printer, DoesNotKnowAJobThatIsNone) {
+TEST(Printer, ReportsAnUnknownJob) {
   const IppPrinter there("exit 0");
   EXPECT_EQ(Printer(there.address()).job(4711).error().code, Code::kNotFound);
 }
 
-TEST(Printer, NoticesThatAPrinterIsGoneInTheMiddleOfAJob) {
+TEST(Printer, DetectsAPrinterThatIsLostDuringAJob) {
   IppPrinter there(IppPrinter::kUntilFinished);
   const Printer printer(there.address(), quick());
   const auto sent = printer.print({some_bytes(1000)});
@@ -175,10 +176,10 @@ TEST(Printer, NoticesThatAPrinterIsGoneInTheMiddleOfAJob) {
   });
   ASSERT_FALSE(ended);
   EXPECT_EQ(ended.error().reason, "PRINTER_LOST");
-  EXPECT_NE(ended.error().message.find("may have been printed or not"), std::string::npos);
+  EXPECT_NE(ended.error().message.find("may or may not have been printed"), std::string::npos);
 }
 
-TEST(Printer, StopsWaitingForOneThatNeverAnswers) {
+TEST(Printer, TimesOutWhenThePrinterNeverResponds) {
   const Listener silent;
   Timing timing = quick();
   timing.connect = milliseconds(5000);
@@ -186,15 +187,15 @@ TEST(Printer, StopsWaitingForOneThatNeverAnswers) {
   timing.upload = milliseconds(700);
   const Printer printer(silent.address(), timing);
   EXPECT_EQ(printer.attributes().error().reason, "PRINTER_SILENT");
-  // Larger than what the system's buffers take for it.
+  // Larger than the system's socket buffers.
   const std::vector<unsigned char> large(40'000'000);
   const auto sent = printer.print({large});
   ASSERT_FALSE(sent);
   EXPECT_EQ(sent.error().reason, "PRINTER_SILENT");
-  EXPECT_NE(sent.error().message.find("It may have taken the job"), std::string::npos);
+  EXPECT_NE(sent.error().message.find("The printer may have accepted the job"), std::string::npos);
 }
 
-TEST(Printer, StopsWaitingForOneThatAnswersByteByByte) {
+TEST(Printer, TimesOutWhenThePrinterRespondsByteByByte) {
   const Listener listener;
   std::atomic<bool> stop = false;
   std::thread dawdler([&] {
@@ -213,7 +214,7 @@ TEST(Printer, StopsWaitingForOneThatAnswersByteByByte) {
   dawdler.join();
 }
 
-TEST(Printer, NamesWhatIsNoPrinter) {
+TEST(Printer, ReportsServersThatAreNotPrinters) {
   const Listener listener;
   std::thread server([&] {
     const int file = listener.accept();
@@ -221,7 +222,7 @@ TEST(Printer, NamesWhatIsNoPrinter) {
     (void)!::read(file, buffer, sizeof buffer);
     const std::string reply = "HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n";
     (void)!::write(file, reply.data(), reply.size());
-    // Closed with something unread, the connection would be reset and the reply with it.
+    // Closing a socket with unread data would reset the connection and lose the reply.
     while (::read(file, buffer, sizeof buffer) > 0) {
     }
     ::close(file);

@@ -5,7 +5,7 @@
 
 namespace hydroprint::rig {
 
-/// What the tests compute with: round numbers.
+/// The profile used in tests, with round numbers.
 inline drive::DriveProfile test_profile() {
   drive::DriveProfile profile;
   profile.name = "test drive";

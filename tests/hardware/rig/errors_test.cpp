@@ -9,7 +9,7 @@
 namespace hydroprint::rig {
 namespace {
 
-TEST(Errors, EveryCauseHasItsNameItsReasonAndARemedy) {
+TEST(Errors, EveryCauseHasANameAReasonAndARemedy) {
   std::set<std::string_view> names;
   for (int i = 1; i <= static_cast<int>(Cause::kStopButton); ++i) {
     const auto cause = static_cast<Cause>(i);
@@ -21,11 +21,11 @@ TEST(Errors, EveryCauseHasItsNameItsReasonAndARemedy) {
   }
 }
 
-TEST(Errors, TheStopButtonHasAReasonOfItsOwn) {
+TEST(Errors, TheStopButtonHasItsOwnReason) {
   EXPECT_EQ(failed(Cause::kStopButton).reason, "STOP_BUTTON");
 }
 
-TEST(Errors, NoRefusalInvitesToTryAgainBlindly) {
+TEST(Errors, NoRefusalIsRetriedAutomatically) {
   for (int i = 0; i <= static_cast<int>(Refusal::kConfigUnsafe); ++i) {
     const auto refusal = static_cast<Refusal>(i);
     const Error error = refused(refusal, {State::kFault, Motion::kNone, Cause::kAlarm});
@@ -39,10 +39,11 @@ TEST(Errors, NoRefusalInvitesToTryAgainBlindly) {
   }
 }
 
-TEST(Errors, AFaultSaysWhatHappened) {
+TEST(Errors, AFaultIsDescribed) {
   const Error error =
       refused(Refusal::kFaulted, {State::kFault, Motion::kNone, Cause::kFollowingError});
-  EXPECT_NE(error.message.find("not where it was told to be"), std::string::npos) << error.message;
+  EXPECT_NE(error.message.find("not at its commanded position"), std::string::npos)
+      << error.message;
 }
 
 }  // namespace

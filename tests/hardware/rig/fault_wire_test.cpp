@@ -1,4 +1,4 @@
-// The event table of hardware/rig/README.md, each row over the wire.
+// Tests of each row of the fault table in hardware/rig/README.md, over the wire.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using Outcome = MotionReport::Outcome;
 class Fault : public simulated_drive::OnBothWires {};
 HP_ON_BOTH_WIRES(Fault);
 
-/// After a fault: nothing moves until reset, armed and homed, in this order.
+/// After a fault, nothing moves until reset, arming and homing, in this order.
 void expect_the_long_way_back(WiredRig& rig) {
   ASSERT_TRUE(rig.becomes(State::kFault));
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_FAULTED");
@@ -28,7 +28,7 @@ void expect_the_long_way_back(WiredRig& rig) {
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "STATE_FORBIDS");
   ASSERT_EQ(refusal(rig->arm()), "");
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_NOT_HOMED");
-  EXPECT_EQ(rig.drive().position_mm(), at_mm) << "a reset restarts nothing";
+  EXPECT_EQ(rig.drive().position_mm(), at_mm) << "a reset starts no motion";
   const Answer home = rig->home().get();
   ASSERT_TRUE(home);
   EXPECT_EQ(rig.finish(*home).outcome, Outcome::kDone);
@@ -50,12 +50,12 @@ TEST_P(Fault, ALostLinkStopsTheAxisWithinItsStoppingDistance) {
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_OFFLINE");
   const std::uint64_t ticks = rig->snapshot().jitter.ticks;
   EXPECT_TRUE(wait_for([&] { return rig->snapshot().jitter.ticks > ticks + 10; }))
-      << "it goes on looking";
+      << "it keeps polling";
   rig.drive().act("replug");
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItAnswersAgain) {
+TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItRespondsAgain) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
@@ -69,7 +69,7 @@ TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItAnswersAgain) {
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, OneReplyThatIsNoneLetsADipGoOn) {
+TEST_P(Fault, OneInvalidReplyDoesNotEndADip) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const Answer dip = rig->dip({{12, 10, 0}}).get();
@@ -80,7 +80,7 @@ TEST_P(Fault, OneReplyThatIsNoneLetsADipGoOn) {
   EXPECT_EQ(rig.finish(*dip).outcome, Outcome::kDone);
 }
 
-TEST_P(Fault, ThreeRepliesThatAreNoneStopIt) {
+TEST_P(Fault, ThreeInvalidRepliesStopTheAxis) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
@@ -91,11 +91,11 @@ TEST_P(Fault, ThreeRepliesThatAreNoneStopIt) {
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, AStopGetsThroughWhileRepliesHang) {
+TEST_P(Fault, AStopWorksWhileRepliesHang) {
   WiredRig rig(GetParam());
   rig.make_ready();
   (void)rig.start_move(100, 10);
-  rig.drive().act("fault drop all");  // heard and obeyed, never answered
+  rig.drive().act("fault drop all");  // received and executed, but without a reply
   std::this_thread::sleep_for(std::chrono::milliseconds(40));
   const auto asked = Clock::now();
   const double asked_s = rig.drive().now_s();
@@ -105,7 +105,7 @@ TEST_P(Fault, AStopGetsThroughWhileRepliesHang) {
   EXPECT_LT(rig.drive().rested_s() - asked_s, 0.25);
 }
 
-TEST_P(Fault, APowerCycleAtRestWantsResetArmingAndHoming) {
+TEST_P(Fault, APowerCycleAtRestRequiresResetArmingAndHoming) {
   WiredRig rig(GetParam());
   rig.make_ready();
   rig.drive().act("reboot 300ms");
@@ -113,7 +113,7 @@ TEST_P(Fault, APowerCycleAtRestWantsResetArmingAndHoming) {
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, APowerCycleInMotionStopsAndNothingGoesOnAfterwards) {
+TEST_P(Fault, APowerCycleInMotionStopsTheAxisForGood) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
@@ -139,7 +139,7 @@ TEST_P(Fault, TheStopButtonLatchesUntilReleasedResetArmedAndHomed) {
   const double rest_mm = rig.drive().position_mm();
   rig.drive().act("release stop");
   ASSERT_TRUE(wait_for([&] { return !rig->snapshot().bits.button; }));
-  EXPECT_EQ(rig.state(), State::kEstopped) << "released is not reset";
+  EXPECT_EQ(rig.state(), State::kEstopped) << "releasing does not reset";
   ASSERT_EQ(refusal(rig->reset()), "");
   EXPECT_EQ(rig.state(), State::kDisarmed);
   ASSERT_EQ(refusal(rig->arm()), "");
@@ -149,7 +149,7 @@ TEST_P(Fault, TheStopButtonLatchesUntilReleasedResetArmedAndHomed) {
   EXPECT_TRUE(rig.becomes(State::kIdle, 30));
 }
 
-TEST_P(Fault, AnEndSwitchStopsIt) {
+TEST_P(Fault, ALimitSwitchStopsTheAxis) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
@@ -188,23 +188,23 @@ TEST_P(Fault, AFrozenPositionIsAFollowingError) {
   expect_the_long_way_back(rig);
 }
 
-TEST_P(Fault, ALateReplyIsNeverTakenForAnother) {
+TEST_P(Fault, ALateReplyIsNeverTakenForAnotherOne) {
   WiredRig rig(GetParam());
   rig.make_ready();
   for (int i = 0; i < 3; ++i) {
     const std::uint64_t missed = rig->snapshot().missed_polls;
     rig.drive().act("fault late 200ms 1");
     ASSERT_TRUE(wait_for([&] { return rig->snapshot().missed_polls > missed; }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // by now it has come
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the reply has arrived by now
   }
-  // At rest all along: whatever was read says so.
+  // The axis was at rest all the time, so all samples must show that.
   const auto samples = rig->samples(rig.report(rig->snapshot().motion).last_sample + 1, UINT64_MAX);
   ASSERT_FALSE(samples.empty());
   for (const Sample& sample : samples) EXPECT_NEAR(sample.position_mm, 0, 0.01);
   EXPECT_NE(rig.state(), State::kMoving);
 }
 
-TEST_P(Fault, AnotherDriveThanThePlannedOneIsNotArmedAndNotCommanded) {
+TEST_P(Fault, AnUnexpectedDriveIsNeitherArmedNorCommanded) {
   WiredDrive drive(GetParam());
   drive::DriveProfile other = drive.profile();
   other.identity.back().value = static_cast<std::uint16_t>(other.identity.back().value + 0x0100);
@@ -231,11 +231,11 @@ TEST_P(Fault, AWatchdogThatIsOffTooSlowOrDoesNotStopPreventsArming) {
   }
 }
 
-TEST(FaultOfOne, ADriveThatIsNotThereYetIsFoundLater) {
+TEST(FaultOfOne, AnAbsentDriveIsFoundLater) {
   WiredDrive drive("tcp");
   drive.act("unplug");
   const auto controller = Controller::make({}, drive.profile(), drive.endpoint());
-  ASSERT_TRUE(controller) << "the controller runs all the same";
+  ASSERT_TRUE(controller) << "the controller runs nevertheless";
   ASSERT_TRUE(wait_for([&] { return (*controller)->trouble().has_value(); }));
   const auto asked = Clock::now();
   EXPECT_EQ(refusal((*controller)->arm()), "RIG_OFFLINE");
@@ -246,7 +246,7 @@ TEST(FaultOfOne, ADriveThatIsNotThereYetIsFoundLater) {
   EXPECT_FALSE((*controller)->trouble());
 }
 
-TEST(FaultOfOne, MotionThatSomebodyElseCommandsIsStopped) {
+TEST(FaultOfOne, MotionCommandedByAnotherProgramIsStopped) {
   WiredRig rig("tcp");
   rig.make_ready();
   drive::Drive& intruder = rig.drive().drive();

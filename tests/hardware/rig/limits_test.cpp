@@ -15,7 +15,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(Limits, TheStoppingDistanceIsThatOfTheNotes) {
+TEST(Limits, TheStoppingDistanceMatchesTheNotes) {
   // 20 mm/s, 0.25 s + 0.5 s, 200 mm/s^2: 15 + 1 mm, and the slack.
   RigConfig config = test_config();
   config.slack_mm = 3;
@@ -24,7 +24,7 @@ TEST(Limits, TheStoppingDistanceIsThatOfTheNotes) {
   EXPECT_NEAR(stopping_distance_mm(config, test_profile(), 0), 3, 1e-12);
 }
 
-TEST(Limits, TheStoppingDistanceIsWhatAnAxisThatBrakesLastDoesCover) {
+TEST(Limits, TheStoppingDistanceMatchesASimulatedBraking) {
   const RigConfig config = test_config();
   const drive::DriveProfile profile = test_profile();
   const double v0 = config.max_speed_mm_per_s, dt_s = 1e-5;
@@ -40,7 +40,7 @@ TEST(Limits, TheStoppingDistanceIsWhatAnAxisThatBrakesLastDoesCover) {
   EXPECT_NEAR(stopping_time_s(config, profile), t_s, 1e-4);
 }
 
-TEST(Config, AKeepOutShorterThanTheStoppingDistanceIsRefusedAndSaysWhatItMustBe) {
+TEST(Config, AKeepOutShorterThanTheStoppingDistanceIsRefusedWithTheRequiredValue) {
   RigConfig config = test_config();
   config.max_speed_mm_per_s = 20;
   config.keep_out_mm = 17;  // exactly v T + v^2 / 2a + slack
@@ -54,14 +54,14 @@ TEST(Config, AKeepOutShorterThanTheStoppingDistanceIsRefusedAndSaysWhatItMustBe)
       << refused.error().message;
 }
 
-TEST(Config, TheDefaultsAreSoundForTheShippedVirtualDrive) {
+TEST(Config, TheDefaultsAreValidForTheShippedVirtualDrive) {
   const auto profile = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
   ASSERT_TRUE(profile) << profile.error().message;
   const Status sound = check(RigConfig{}, *profile);
   EXPECT_TRUE(sound) << sound.error().message;
 }
 
-TEST(Config, EveryValueOutOfRangeIsRefusedByItsName) {
+TEST(Config, EveryValueOutOfRangeIsRefusedByName) {
   struct Case {
     std::string key;
     double RigConfig::*member;
@@ -94,7 +94,7 @@ TEST(Config, SlowerThan50HzIsRefused) {
   EXPECT_FALSE(check(config, test_profile()));
 }
 
-TEST(Config, ASpeedThatTheDriveDoesNotHaveIsRefused) {
+TEST(Config, ASpeedAboveTheDrivesLimitIsRefused) {
   RigConfig config = test_config();
   config.max_speed_mm_per_s = 25;
   config.keep_out_mm = 100;
@@ -103,7 +103,7 @@ TEST(Config, ASpeedThatTheDriveDoesNotHaveIsRefused) {
   EXPECT_NE(refused.error().message.find("test drive"), std::string::npos);
 }
 
-TEST(Config, EndsWithNothingBetweenTheirKeepOutsAreRefused) {
+TEST(Config, EndsWithoutSpaceBetweenTheKeepOutsAreRefused) {
   RigConfig config = test_config();
   config.end_high_mm = config.end_low_mm + 2 * config.keep_out_mm;
   EXPECT_FALSE(check(config, test_profile()));
@@ -123,7 +123,7 @@ TEST(Limits, ATargetIsRefusedExactlyOutsideTheSoftLimits) {
   }
 }
 
-TEST(Limits, ASpeedIsRefusedOutsideZeroToTheHighest) {
+TEST(Limits, ASpeedOutsideItsRangeIsRefused) {
   const RigConfig config = test_config();
   EXPECT_TRUE(check_speed(config, 10));
   EXPECT_TRUE(check_speed(config, 1e-3));
@@ -132,7 +132,7 @@ TEST(Limits, ASpeedIsRefusedOutsideZeroToTheHighest) {
   }
 }
 
-TEST(Limits, TheGuardLetsAnAxisThatRestsOutsideComeInButNotGoFurtherOut) {
+TEST(Limits, AnAxisOutsideTheLimitsMayOnlyMoveInwards) {
   const RigConfig config = test_config();
   EXPECT_FALSE(outside_limits(config, 0 - config.slack_mm, 10));
   EXPECT_TRUE(outside_limits(config, 0 - config.slack_mm - 0.01, 10));
@@ -143,7 +143,7 @@ TEST(Limits, TheGuardLetsAnAxisThatRestsOutsideComeInButNotGoFurtherOut) {
   EXPECT_TRUE(outside_limits(config, kNaN, 10));
 }
 
-TEST(Limits, AJogMayGoOnJustAsLongAsItCanStillBrakeBeforeTheLimit) {
+TEST(Limits, AJogMayContinueWhileItCanStillBrakeBeforeTheLimit) {
   const RigConfig config = test_config();  // soft limits 0 to 300
   const drive::DriveProfile profile = test_profile();
   const double v = 10, looks_mm = v * 3 * config.poll_period_s;

@@ -1,4 +1,4 @@
-// Whoever owns the drive dies or hangs in the middle of a dip: the drive has to stop by itself.
+// The owner of the drive dies or hangs during a dip: the drive must stop by itself.
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -31,7 +31,7 @@ bool is_dipping(WiredDrive& drive) {
   return drive.speed_mm_per_s() > 0.99 * kSpeed_mm_per_s && drive.position_mm() > 2;
 }
 
-/// The drive stands still within its own watchdog's time and way, counted from now.
+/// The drive stops within its own watchdog's time and distance, counted from now.
 void expect_to_stop_by_itself(WiredDrive& drive) {
   const drive::DriveProfile& profile = drive.profile();
   const double watchdog_s = profile.watchdog->largest_time_s;
@@ -44,7 +44,7 @@ void expect_to_stop_by_itself(WiredDrive& drive) {
   EXPECT_LE(drive.position_mm() - from_mm, RigConfig{}.keep_out_mm);
 }
 
-/// A new owner moves nothing and wants it reset, armed and homed.
+/// A new owner starts no motion and requires reset, arming and homing.
 void expect_a_cold_start(WiredDrive& drive) {
   const double rest_mm = drive.position_mm();
   const auto next = Controller::make({}, drive.profile(), drive.endpoint());
@@ -52,7 +52,7 @@ void expect_a_cold_start(WiredDrive& drive) {
   const auto condition = [&] { return (*next)->snapshot().condition; };
   ASSERT_TRUE(wait_for([&] { return condition().link == Link::kSafe; }))
       << (*next)->trouble().value_or(Error{}).message;
-  // FAULT by the drive's own alarm; DISARMED if the owner had stopped it before.
+  // FAULT after the drive's own alarm; DISARMED if the owner had stopped the drive before.
   const std::string refused = refusal((*next)->move_to(20, 5));
   EXPECT_TRUE(refused == "RIG_FAULTED" || refused == "STATE_FORBIDS") << refused;
   EXPECT_EQ(refusal((*next)->reset()), "");
@@ -61,7 +61,7 @@ void expect_a_cold_start(WiredDrive& drive) {
   EXPECT_EQ(drive.position_mm(), rest_mm);
 }
 
-TEST_P(LostOwner, KilledAtAnyMomentTheDriveStopsByItself) {
+TEST_P(LostOwner, TheDriveStopsByItselfWhenTheOwnerIsKilled) {
   std::mt19937 random(testing::campaign_seed(1));
   std::uniform_int_distribution<int> moment_ms(0, 400);
   for (int i = 0; i < testing::campaign_rounds(4); ++i) {
@@ -76,7 +76,7 @@ TEST_P(LostOwner, KilledAtAnyMomentTheDriveStopsByItself) {
   }
 }
 
-TEST_P(LostOwner, HungTheDriveStopsByItselfAndNothingGoesOnWhenItWakes) {
+TEST_P(LostOwner, TheDriveStopsByItselfWhenTheOwnerHangs) {
   WiredDrive drive(GetParam());
   testing::Process owner = own(drive);
   ASSERT_TRUE(wait_for([&] { return is_dipping(drive); }, 20));
@@ -93,8 +93,8 @@ TEST_P(LostOwner, HungTheDriveStopsByItselfAndNothingGoesOnWhenItWakes) {
   expect_a_cold_start(drive);
 }
 
-TEST(StopChannel, StopsADriveWhoseOwnerDoesNotLookAnyMore) {
-  // The drive's own watchdog is slow here, so it is the stop_channel that is seen to act.
+TEST(StopChannel, StopsADriveThatIsNoLongerPolled) {
+  // The drive's own watchdog is slow here, so the effect must be that of the stop_channel.
   const testing::TemporaryFolder folder;
   simulated_drive::BenchOptions options;
   std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);

@@ -9,7 +9,7 @@ namespace hydroprint::rig {
 namespace {
 
 TEST(Travel, IsATrapezoidOfSpeed) {
-  // 10 mm/s at 100 mm/s^2: 0.1 s and 0.5 mm of ramp at either end, 1.9 s between.
+  // 10 mm/s at 100 mm/s^2: ramps of 0.1 s and 0.5 mm at both ends, 1.9 s between them.
   const Travel travel(5, 25, 10, 100);
   EXPECT_NEAR(travel.duration_s(), 2.1, 1e-12);
   EXPECT_NEAR(travel.cruise_begin_s(), 0.1, 1e-12);
@@ -22,15 +22,15 @@ TEST(Travel, IsATrapezoidOfSpeed) {
   EXPECT_NEAR(travel.position_mm(3), 25, 1e-12);
 }
 
-TEST(Travel, AShortOneNeverReachesItsSpeed) {
-  const Travel travel(0, 0.25, 10, 100);  // up to 5 mm/s and down again
+TEST(Travel, AShortMoveNeverReachesItsSpeed) {
+  const Travel travel(0, 0.25, 10, 100);  // accelerates to 5 mm/s and brakes again
   EXPECT_NEAR(travel.speed_mm_per_s(), 5, 1e-12);
   EXPECT_NEAR(travel.duration_s(), 0.1, 1e-12);
   EXPECT_NEAR(travel.cruise_begin_s(), travel.cruise_end_s(), 1e-12);
   EXPECT_NEAR(travel.position_mm(0.05), 0.125, 1e-12);
 }
 
-TEST(Travel, NowhereToGoTakesNoTime) {
+TEST(Travel, AMoveOfZeroLengthTakesNoTime) {
   const Travel travel(7, 7, 10, 100);
   EXPECT_EQ(travel.duration_s(), 0);
   EXPECT_EQ(travel.position_mm(1), 7);

@@ -26,14 +26,14 @@ drive::DriveState axis(double t_s, double position_mm, bool moving) {
   return out;
 }
 
-/// When a supervisor ends, and how.
+/// When and how a supervisor ends.
 struct End {
   std::optional<Kind> event;
   double t_s = 0;
   int legs = 0;
 };
 
-/// Plays a supervisor on an axis whose position, some time after the leg's start, `where` tells.
+/// Runs a supervisor on an axis whose position, some time after the leg's start, `where` returns.
 End play(MotionSupervisor& supervisor, const std::function<double(const Travel&, double)>& where,
          double latest_s = 60) {
   End end;
@@ -71,7 +71,7 @@ TEST(MotionSupervisor, AMoveIsDoneWhenTheAxisRestsAtItsTarget) {
   EXPECT_NEAR(end.t_s, Travel(10, 30, 10, 100).duration_s(), 0.05);
 }
 
-TEST(MotionSupervisor, ADipGoesEachLegAndHolds) {
+TEST(MotionSupervisor, ADipPerformsEachLegAndHold) {
   MotionSupervisor supervisor(test_config(), test_profile(),
                               {Motion::kDip, {{60, 5, 3}, {20, 10, 0}, {10, 10, 1}}}, at(0), 10);
   const End end = play(supervisor, on_time);
@@ -80,11 +80,11 @@ TEST(MotionSupervisor, ADipGoesEachLegAndHolds) {
   EXPECT_NEAR(end.t_s, 10 + 0.05 + 3 + 4 + 0.1 + 1 + 0.1 + 1, 0.2);
 }
 
-TEST(MotionSupervisor, AStalledAxisIsFoundBeforeItIsFurtherBehindThanTheBand) {
+TEST(MotionSupervisor, AStalledAxisIsDetectedWithinTheBand) {
   for (const double speed : {1.0, 5.0, 10.0}) {
     MotionSupervisor supervisor = move_supervisor(200, speed);
     const End end = play(supervisor, [](const Travel& t, double s) {
-      return t.position_mm(std::min(s, 1.0));  // held from 1 s on
+      return t.position_mm(std::min(s, 1.0));  // blocked from 1 s on
     });
     EXPECT_EQ(end.event, Kind::kFollowingError);
     const RigConfig config = test_config();
@@ -93,14 +93,14 @@ TEST(MotionSupervisor, AStalledAxisIsFoundBeforeItIsFurtherBehindThanTheBand) {
   }
 }
 
-TEST(MotionSupervisor, AnAxisThatLagsWithinTheBandIsLetGoOn) {
+TEST(MotionSupervisor, AnAxisThatLagsWithinTheBandContinues) {
   MotionSupervisor supervisor = move_supervisor(100, 10);
   const End end =
       play(supervisor, [](const Travel& t, double s) { return t.position_mm(s - 0.1); });
   EXPECT_EQ(end.event, Kind::kMotionDone);
 }
 
-TEST(MotionSupervisor, AFrozenPositionAndNoPositionAreFollowingErrors) {
+TEST(MotionSupervisor, AFrozenOrMissingPositionIsAFollowingError) {
   MotionSupervisor frozen = move_supervisor(100, 10);
   EXPECT_EQ(play(frozen, [](const Travel&, double) { return 10.0; }).event, Kind::kFollowingError);
   MotionSupervisor none = move_supervisor(100, 10);
@@ -129,12 +129,12 @@ MotionSupervisor home_supervisor() {
 }
 
 drive::DriveState homing(double t_s, bool moving, bool homed) {
-  drive::DriveState out = axis(t_s, 500, moving);  // means nothing before homing
+  drive::DriveState out = axis(t_s, 500, moving);  // meaningless before homing
   out.homed = homed;
   return out;
 }
 
-TEST(MotionSupervisor, HomingIsDoneAtRestAndHomedOnceItWasSeenToMove) {
+TEST(MotionSupervisor, HomingIsDoneWhenHomedAndAtRestAfterMotion) {
   MotionSupervisor supervisor = home_supervisor();
   EXPECT_FALSE(supervisor.look(homing(0.02, false, true)).event)
       << "an earlier home does not count";
@@ -143,7 +143,7 @@ TEST(MotionSupervisor, HomingIsDoneAtRestAndHomedOnceItWasSeenToMove) {
   EXPECT_EQ(supervisor.look(homing(0.08, false, true)).event, Kind::kMotionDone);
 }
 
-TEST(MotionSupervisor, HomingThatEndsWithoutHomeOrTakesForEverFails) {
+TEST(MotionSupervisor, HomingFailsWithoutHomeOrAfterATimeout) {
   MotionSupervisor ends = home_supervisor();
   EXPECT_FALSE(ends.look(homing(0.04, true, false)).event);
   EXPECT_EQ(ends.look(homing(0.06, false, false)).event, Kind::kFollowingError);
@@ -154,7 +154,7 @@ TEST(MotionSupervisor, HomingThatEndsWithoutHomeOrTakesForEverFails) {
             Kind::kFollowingError);
 }
 
-TEST(MotionSupervisor, AJogGoesOnWhileItIsHeldAndNoLonger) {
+TEST(MotionSupervisor, AJogLastsAsLongAsItIsHeld) {
   MotionSupervisor supervisor(test_config(), test_profile(), {Motion::kJog, {}, 5}, at(0), 100);
   for (double t_s = 0; t_s < 3; t_s += 0.2) {
     supervisor.hold_jog(at(t_s), 5);
@@ -174,7 +174,7 @@ TEST(MotionSupervisor, AJogEndsBeforeTheSoftLimit) {
   EXPECT_EQ(supervisor.look(axis(0.01, 299.9, true)).event, Kind::kJogOver);
 }
 
-TEST(Plan, IsRefusedAsAWholeIfOneLegIsOutOfReach) {
+TEST(Plan, IsRefusedIfOneLegIsOutOfReach) {
   const RigConfig config = test_config();
   EXPECT_TRUE(check(config, {Motion::kDip, {{60, 5, 3}, {20, 10, 0}}}));
   EXPECT_FALSE(check(config, {Motion::kDip, {{60, 5, 3}, {301, 10, 0}}}));

@@ -29,7 +29,7 @@ TEST_P(Wired, NothingMovesBeforeArmingAndOnlyHomingBeforeHoming) {
   EXPECT_EQ(rig.drive().position_mm(), 1);
 }
 
-TEST_P(Wired, AMoveEndsAtItsTargetAndIsRecordedAllTheWay) {
+TEST_P(Wired, AMoveEndsAtItsTargetAndIsFullyRecorded) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const MotionReport done = rig.finish(rig.start_move(12, 10));
@@ -40,12 +40,13 @@ TEST_P(Wired, AMoveEndsAtItsTargetAndIsRecordedAllTheWay) {
   ASSERT_GT(samples.size(), 20 * 1.2) << "20 Hz";
   for (const Sample& sample : samples) {
     EXPECT_EQ(sample.motion, done.number);
-    if (!std::isfinite(sample.expected_mm)) continue;  // the first, before the order was sent
+    // the first sample, before the command was sent
+    if (!std::isfinite(sample.expected_mm)) continue;
     EXPECT_NEAR(sample.position_mm, sample.expected_mm, following_band_mm(rig->config(), 10));
   }
 }
 
-TEST_P(Wired, ADipIsAtConstantSpeedHoldsAndComesBack) {
+TEST_P(Wired, ADipHasConstantSpeedHoldsAndRetracts) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const Answer dip = rig->dip({{15, 5, 0.3}, {5, 10, 0}}).get();
@@ -65,7 +66,7 @@ TEST_P(Wired, ADipIsAtConstantSpeedHoldsAndComesBack) {
             << " % of speed\n";
 }
 
-TEST_P(Wired, ASecondCommandIsRefusedAndTheFirstGoesOn) {
+TEST_P(Wired, ASecondCommandIsRefusedAndTheFirstContinues) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const std::uint64_t first = rig.start_move(12, 10);
@@ -79,7 +80,7 @@ TEST_P(Wired, ASecondCommandIsRefusedAndTheFirstGoesOn) {
   EXPECT_NEAR(rig.drive().position_mm(), 12, 0.01);
 }
 
-TEST_P(Wired, WhatIsOutOfReachIsRefusedBeforeItMoves) {
+TEST_P(Wired, TargetsOutOfReachAreRefusedBeforeAnyMotion) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const double at_mm = rig.drive().position_mm();
@@ -93,7 +94,7 @@ TEST_P(Wired, WhatIsOutOfReachIsRefusedBeforeItMoves) {
   EXPECT_EQ(rig.drive().position_mm(), at_mm);
 }
 
-TEST_P(Wired, AJogGoesOnWhileItIsHeldAndStopsWithin500MsOfItsLoss) {
+TEST_P(Wired, AJogContinuesWhileHeldAndStopsWithin500MsAfterwards) {
   WiredRig rig(GetParam());
   rig.make_ready();
   const auto begun = Clock::now();
@@ -112,7 +113,7 @@ TEST_P(Wired, AJogGoesOnWhileItIsHeldAndStopsWithin500MsOfItsLoss) {
   EXPECT_TRUE(rig.becomes(State::kIdle));
 }
 
-TEST_P(Wired, AHeldJogComesToRestBeforeTheSoftLimit) {
+TEST_P(Wired, AHeldJogStopsBeforeTheSoftLimit) {
   WiredRig rig(GetParam());
   rig.make_ready();
   ASSERT_EQ(rig.finish(rig.start_move(8, 10)).outcome, Outcome::kDone);
@@ -125,7 +126,7 @@ TEST_P(Wired, AHeldJogComesToRestBeforeTheSoftLimit) {
   EXPECT_LT(rig.drive().position_mm(), range.low_mm + 2);
 }
 
-TEST_P(Wired, AStopBringsToRestAndIsAcceptedInEveryState) {
+TEST_P(Wired, AStopIsAcceptedInEveryStateAndStopsTheAxis) {
   WiredRig rig(GetParam());
   rig->stop();
   ASSERT_TRUE(rig.becomes(State::kDisarmed));
@@ -145,7 +146,7 @@ TEST_P(Wired, AStopBringsToRestAndIsAcceptedInEveryState) {
   std::cout << "at rest after " << rest_s << " s\n";
 }
 
-TEST_P(Wired, AMoveGivenBeforeAStopDoesNotBeginAfterIt) {
+TEST_P(Wired, AMoveOrderedBeforeAStopDoesNotStartAfterIt) {
   WiredRig rig(GetParam());
   rig.make_ready();
   for (int i = 0; i < 12; ++i) {
@@ -160,7 +161,7 @@ TEST_P(Wired, AMoveGivenBeforeAStopDoesNotBeginAfterIt) {
   }
 }
 
-TEST_P(Wired, LettingGoOfTheControllerInMotionLeavesTheDriveAtRestWithoutTorque) {
+TEST_P(Wired, DestroyingTheControllerInMotionLeavesTheDriveAtRestWithoutTorque) {
   WiredDrive drive(GetParam(), starting_at(50));
   auto controller = Controller::make({}, drive.profile(), drive.endpoint());
   ASSERT_TRUE(controller);

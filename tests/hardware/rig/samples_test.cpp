@@ -14,7 +14,7 @@ struct Heavy {
   std::array<std::uint64_t, 9> same{};
 };
 
-TEST(Seqlock, AReaderNeverSeesHalfOfAValue) {
+TEST(Seqlock, AReaderNeverSeesAPartialValue) {
   Seqlock<Heavy> lock;
   std::atomic<bool> end{false};
   std::thread writer([&] {
@@ -46,7 +46,7 @@ Sample at(double t_s, double position_mm, std::uint64_t motion = 1, bool cruisin
   return sample;
 }
 
-TEST(SampleRing, KeepsTheLatestInOrder) {
+TEST(SampleRing, KeepsTheLatestSamplesInOrder) {
   SampleRing ring;
   EXPECT_EQ(ring.newest(), 0U);
   EXPECT_TRUE(ring.copy(0, 10).empty());
@@ -60,7 +60,7 @@ TEST(SampleRing, KeepsTheLatestInOrder) {
   EXPECT_EQ(ring.copy(200, 202).size(), 3U);
 }
 
-TEST(SampleRing, WhatIsCopiedWhileItIsWrittenIsStillWhole) {
+TEST(SampleRing, CopiesDuringWritesAreConsistent) {
   SampleRing ring;
   std::atomic<bool> end{false};
   std::thread writer([&] {
@@ -76,7 +76,7 @@ TEST(SampleRing, WhatIsCopiedWhileItIsWrittenIsStillWhole) {
   writer.join();
 }
 
-TEST(ConstantSpeed, OfAStraightLineIsItsSlopeWithoutDeviation) {
+TEST(ConstantSpeed, OfAStraightLineIsItsSlopeWithZeroDeviation) {
   std::vector<Sample> samples;
   for (int i = 0; i < 100; ++i) samples.push_back(at(0.02 * i, 3 - 5 * 0.02 * i));
   const ConstantSpeed speed = constant_speed(samples, 1, 0);
@@ -87,8 +87,8 @@ TEST(ConstantSpeed, OfAStraightLineIsItsSlopeWithoutDeviation) {
 }
 
 TEST(ConstantSpeed, FindsASineOfKnownSize) {
-  // x = 5 t + A sin(w t), over many whole periods: the line keeps the slope 5, the deviation is A,
-  // and over a window of half a period the mean speed differs by 2 A / (T / 2).
+  // x = 5 t + A sin(w t), over many whole periods: the line keeps the slope 5 and the deviation is
+  // A. Over a window of half a period the mean speed differs by 2 A / (T / 2).
   const double amplitude_mm = 0.05, period_s = 0.4;
   std::vector<Sample> samples;
   for (int i = 0; i <= 4000; ++i) {
@@ -101,9 +101,9 @@ TEST(ConstantSpeed, FindsASineOfKnownSize) {
   EXPECT_NEAR(speed.largest_share, 2 * amplitude_mm / (period_s / 2) / 5, 2e-3);
 }
 
-TEST(ConstantSpeed, ErrorsInTimeAreNoDeviation) {
-  // A constant 5 mm/s whose samples have times that are wrong by anything up to what they state, a
-  // few of them by a lot.
+TEST(ConstantSpeed, TimeErrorsAreNotADeviation) {
+  // A constant 5 mm/s; the times of the samples are wrong by up to their stated error, which is
+  // large for a few of them.
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> share(-1, 1);
   std::vector<Sample> samples;
@@ -119,8 +119,8 @@ TEST(ConstantSpeed, ErrorsInTimeAreNoDeviation) {
   EXPECT_NEAR(speed.way_uncertainty_mm, 5 * 0.02, 1e-4);
 }
 
-TEST(ConstantSpeed, ADeviationIsFoundAmongErrorsInTime) {
-  // The axis hangs back by 0.08 mm for a second in eight; all times are within 1 ms.
+TEST(ConstantSpeed, ADeviationIsFoundDespiteTimeErrors) {
+  // The axis lags by 0.08 mm for one second in eight; all times are accurate within 1 ms.
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> share(-1, 1);
   std::vector<Sample> samples;
@@ -131,7 +131,7 @@ TEST(ConstantSpeed, ADeviationIsFoundAmongErrorsInTime) {
     samples.back().time_error_s = 0.001;
   }
   const ConstantSpeed speed = constant_speed(samples, 1, 0);
-  EXPECT_GT(speed.largest_way_mm, 0.06);  // the line gives way by an eighth, a time by 0.005 mm
+  EXPECT_GT(speed.largest_way_mm, 0.06);  // the fit absorbs an eighth, the time error 0.005 mm
   EXPECT_LT(speed.largest_way_mm, 0.08);
   EXPECT_GT(speed.largest_share, 0.06);  // 0.08 mm of the 1 mm in 0.2 s
 }

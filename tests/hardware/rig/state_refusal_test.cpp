@@ -21,7 +21,7 @@ TEST(State, OnlyCommandsAreRefusedAndARefusalChangesNothing) {
   });
 }
 
-TEST(State, ASecondMotionIsRefusedAndTheFirstGoesOn) {
+TEST(State, ASecondMotionIsRefusedAndTheFirstContinues) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (!is_start(event)) return;
     if (!in_motion(c.state) && c.state != State::kStopping) return;
@@ -31,7 +31,7 @@ TEST(State, ASecondMotionIsRefusedAndTheFirstGoesOn) {
   });
 }
 
-TEST(State, ARefusalNamesTheReasonThatHolds) {
+TEST(State, ARefusalNamesTheRightReason) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (!is_start(event)) return;
     const std::map<State, std::string_view> reasons = {{State::kOffline, "RIG_OFFLINE"},

@@ -27,11 +27,11 @@ TEST(State, EveryStateCanBeReachedAndEveryReachableConditionMakesSense) {
   EXPECT_EQ(states.size(), 9U);
   std::size_t sensible = 0;
   for (const Condition& c : all_conditions()) sensible += makes_sense(c) ? 1 : 0;
-  std::cout << reachable().size() << " conditions of " << sensible << " that make sense\n";
+  std::cout << reachable().size() << " reachable conditions of " << sensible << " sensible ones\n";
 }
 
-TEST(State, NoValueWhateverMakesAStepThatStartsWhatItMayNot) {
-  // Even from conditions that cannot come about: what is sent to the drive is safe.
+TEST(State, NoConditionOrEventStartsForbiddenMotion) {
+  // Even from unreachable conditions, only safe commands are sent to the drive.
   const auto events = all_events();
   for (const Condition& c : all_conditions()) {
     for (const Event& event : events) {
@@ -97,7 +97,7 @@ TEST(State, BeforeHomingOnlyHomingMoves) {
   });
 }
 
-TEST(State, WhatIsNotHomedBecomesSoOnlyByAHomingThatWasDone) {
+TEST(State, OnlyACompletedHomingSetsHomed) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (c.homed || !taken.next.homed) return;
     EXPECT_EQ(c.motion, Motion::kHome);
@@ -105,12 +105,12 @@ TEST(State, WhatIsNotHomedBecomesSoOnlyByAHomingThatWasDone) {
   });
 }
 
-TEST(State, AResetStartsNothingAndAsksForArmingAndHomingAgain) {
+TEST(State, AResetStartsNoMotionAndRequiresArmingAndHoming) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (event.kind != Kind::kReset || taken.refusal) return;
     EXPECT_FALSE(taken.actions.start || taken.actions.enable);
     EXPECT_FALSE(in_motion(taken.next.state));
-    EXPECT_EQ(taken.next.state, c.state);  // the drive has to show first that all is well
+    EXPECT_EQ(taken.next.state, c.state);  // the drive must first show that the fault is cleared
   });
   for_each_step([](const Condition& c, const Event&, const Step& taken) {
     if (c.cause == Cause::kNone || taken.next.cause != Cause::kNone) return;
@@ -120,7 +120,7 @@ TEST(State, AResetStartsNothingAndAsksForArmingAndHomingAgain) {
   });
 }
 
-TEST(State, WhatOwesAResetCannotBeArmedWithoutOne) {
+TEST(State, ArmingRequiresAResetAfterAFault) {
   const auto owing = those(
       [](const Condition& c) { return c.cause != Cause::kNone && c.pending == Pending::kNone; });
   reach(owing, all_but(Kind::kReset), [](const Condition&, const Event&, const Step& taken) {
@@ -128,23 +128,24 @@ TEST(State, WhatOwesAResetCannotBeArmedWithoutOne) {
   });
 }
 
-TEST(State, ThePressedButtonLatchesWhateverElseHappens) {
+TEST(State, APressedButtonLatchesInEveryCase) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (!has_bits(event) || !event.bits.button) return;
-    if (event.kind == Kind::kSample && c.link == Link::kNone) return;  // nobody was there to see
+    // without a link, nothing is seen
+    if (event.kind == Kind::kSample && c.link == Link::kNone) return;
     EXPECT_EQ(taken.next.state, State::kEstopped);
     EXPECT_TRUE(taken.actions.stop || c.cause == Cause::kStopButton);
   });
   const auto pressed = those([](const Condition& c) { return c.state == State::kEstopped; });
   const auto kept_pressed = [](const Event& e) { return !has_bits(e) || e.bits.button; };
   for (const Condition& c : reach(pressed, kept_pressed)) {
-    // A reset that was asked for once it was seen released is undone by the next look.
+    // If a reset was requested after the release was seen, the next poll reverts it.
     EXPECT_TRUE(c.state == State::kEstopped || c.state == State::kOffline);
     EXPECT_EQ(c.cause, Cause::kStopButton);
   }
 }
 
-TEST(State, AReleasedButtonAloneLeavesItLatched) {
+TEST(State, ReleasingTheButtonDoesNotUnlatchIt) {
   const auto latched = those([](const Condition& c) {
     return c.cause == Cause::kStopButton && c.pending == Pending::kNone;
   });
@@ -157,7 +158,7 @@ TEST(State, AReleasedButtonAloneLeavesItLatched) {
 TEST(State, StoppingEndsAtStandstillOnly) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     if (c.state != State::kStopping || taken.next.state == State::kStopping) return;
-    if (taken.next.state == State::kEstopped) return;  // see the next test
+    if (taken.next.state == State::kEstopped) return;  // covered by the next test
     if (event.kind == Kind::kStandstillAssumed) {
       EXPECT_EQ(c.link, Link::kNone);
       EXPECT_EQ(taken.next.state, State::kOffline);
@@ -189,7 +190,7 @@ TEST(State, AMotionEndsByBeingDoneOrByAStop) {
   });
 }
 
-TEST(State, WhatGoesWrongInMotionStopsItAndIsKept) {
+TEST(State, AFaultInMotionStopsTheAxisAndIsKept) {
   const std::map<Kind, Cause> causes = {{Kind::kLost, Cause::kLinkLost},
                                         {Kind::kOutsideLimits, Cause::kGuard},
                                         {Kind::kFollowingError, Cause::kFollowingError}};
@@ -217,7 +218,7 @@ TEST(State, WhatGoesWrongInMotionStopsItAndIsKept) {
   });
 }
 
-TEST(State, AnAxisThatMovesUnbiddenIsStopped) {
+TEST(State, AnAxisThatMovesWithoutACommandIsStopped) {
   for_each_step([](const Condition& c, const Event& event, const Step& taken) {
     const bool moves = has_bits(event) && event.bits.moving && event.bits.enabled;
     if (!moves || in_motion(c.state) || c.pending == Pending::kArm) return;
@@ -235,8 +236,8 @@ TEST(State, AfterOfflineFaultAndDisarmingItIsNotHomed) {
   }
 }
 
-TEST(State, FromEverywhereThereIsAWayBackToIdle) {
-  // Backwards from IDLE along the steps of a drive that behaves.
+TEST(State, IdleCanBeReachedFromEveryCondition) {
+  // Searches backwards from IDLE along the steps of a well-behaved drive.
   std::map<Condition, Conditions, ByFields> before;
   reach({Condition{}}, anything, [&](const Condition& c, const Event& event, const Step& taken) {
     if (event.bits.alarm || event.bits.button || event.bits.limit) return;

@@ -18,7 +18,8 @@ simulated_drive::BenchOptions starting_at(double start_mm) {
 double WiredDrive::speed_mm_per_s() { return std::abs(truth("velocity_mm_per_s")); }
 
 double WiredDrive::rested_s() {
-  if (!wait_for([&] { return speed_mm_per_s() == 0; })) throw std::runtime_error("it goes on");
+  if (!wait_for([&] { return speed_mm_per_s() == 0; }))
+    throw std::runtime_error("the axis keeps moving");
   return truth("rested_s");
 }
 

@@ -72,7 +72,7 @@ TEST(ParallelFor, ReturnsTheSmallestIndexSeenToFail) {
   }
 }
 
-TEST(ParallelFor, ReportsGrowingSharesThatEndAtOne) {
+TEST(ParallelFor, ReportsIncreasingProgressUpToOne) {
   Context context = with_threads(3);
   std::vector<double> shares;
   context.report = [&](std::string_view stage, double share) {
@@ -124,7 +124,7 @@ TEST(ParallelFor, StopsSoonAfterAFailure) {
   EXPECT_EQ(calls, 5);
 }
 
-TEST(Context, WithoutListenersIsSilentAndNeverCancelled) {
+TEST(Context, WithoutCallbacksIsSilentAndNeverCancelled) {
   const Context context;
   context.progress("x", 0.5);
   EXPECT_FALSE(context.is_cancelled());

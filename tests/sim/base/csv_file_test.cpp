@@ -12,7 +12,7 @@ Result<CsvTable> table(const std::string& csv, std::size_t most_rows = 100) {
   return read_csv(folder.write("table.csv", csv), "a_mm,b", most_rows);
 }
 
-TEST(CsvFile, BlanksAndEmptyLinesAtTheEndCountForNothing) {
+TEST(CsvFile, BlanksAndEmptyLinesAtTheEndAreIgnored) {
   const auto read = table(" a_mm , b\r\n1, -2.5e3\r\n 0.25 ,4\r\n\r\n  \n");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(read->values, (std::vector<double>{1, -2500, 0.25, 4}));
@@ -24,7 +24,7 @@ TEST(CsvFile, BlanksAndEmptyLinesAtTheEndCountForNothing) {
   EXPECT_EQ(none->rows(), 0u);
 }
 
-TEST(CsvFile, WhatIsNoSuchTableIsRefusedByLineWithARemedy) {
+TEST(CsvFile, MalformedTablesAreRefusedByLineWithARemedy) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "line 1: not the header: no column a_mm. Write a_mm,b"},
       {"1,2\n", "line 1: not the header: no column a_mm. Write a_mm,b"},
@@ -50,7 +50,7 @@ TEST(CsvFile, WhatIsNoSuchTableIsRefusedByLineWithARemedy) {
   }
 }
 
-TEST(CsvFile, RowsAreCountedBeforeTheyAreKept) {
+TEST(CsvFile, TooManyRowsAreRefusedBeforeTheyAreStored) {
   EXPECT_TRUE(table("a_mm,b\n1,2\n3,4\n", 2));
   const auto read = table("a_mm,b\n1,2\n3,4\n5,6\n", 2);
   ASSERT_FALSE(read);

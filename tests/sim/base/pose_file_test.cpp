@@ -21,13 +21,13 @@ TEST(PoseFile, QuaternionIsWxyzAndNormalised) {
   EXPECT_NEAR((*read * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(1, 3, 3)).norm(), 0, 1e-12);
 }
 
-TEST(PoseFile, WhatIsLeftOutIsNoMotion) {
+TEST(PoseFile, MissingKeysMeanIdentity) {
   const auto read = pose("{}");
   ASSERT_TRUE(read);
   EXPECT_TRUE(read->isApprox(Pose::Identity()));
 }
 
-TEST(PoseFile, WhatIsNoPoseIsRefusedByFileAndKey) {
+TEST(PoseFile, InvalidPosesAreRefusedByFileAndKey) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {R"({"rotation": [1,0,0,0]})", "rotation: not a known key"},
       {R"({"rotation_wxyz": [0,0,0,0]})", "rotation_wxyz: too short"},
@@ -49,7 +49,7 @@ TEST(PoseFile, WhatIsNoPoseIsRefusedByFileAndKey) {
   }
 }
 
-TEST(PoseFile, QuaternionOfHugeNumbersStillHasItsDirection) {
+TEST(PoseFile, QuaternionOfHugeNumbersKeepsItsDirection) {
   const auto read = pose(R"({"rotation_wxyz": [1e200, 0, 0, 1e200]})");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_NEAR((*read * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(0, 1, 0)).norm(), 0, 1e-12);

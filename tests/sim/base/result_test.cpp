@@ -12,11 +12,11 @@ TEST(ExitStatus, CancelledIs130) {
   EXPECT_EQ(static_cast<int>(ExitStatus::kCancelled), 130);
 }
 
-TEST(ExitStatus, WhatIsNotBuiltYetIsBadUsage) {
+TEST(ExitStatus, UnimplementedIsBadUsage) {
   EXPECT_EQ(static_cast<int>(status_of(Code::kUnimplemented)), 2);
 }
 
-TEST(ExitStatus, WhatTheUserCanMendInTheInputIsBadInput) {
+TEST(ExitStatus, InputThatTheUserCanCorrectIsBadInput) {
   for (const Code code : {Code::kInvalidArgument, Code::kNotFound, Code::kAlreadyExists,
                           Code::kPermissionDenied, Code::kFailedPrecondition, Code::kOutOfRange,
                           Code::kResourceExhausted, Code::kDataLoss, Code::kUnauthenticated}) {
@@ -24,7 +24,7 @@ TEST(ExitStatus, WhatTheUserCanMendInTheInputIsBadInput) {
   }
 }
 
-TEST(ExitStatus, WhatIsOurFaultIsFailed) {
+TEST(ExitStatus, InternalErrorsAreFailed) {
   for (const Code code : {Code::kInternal, Code::kUnavailable, Code::kAborted}) {
     EXPECT_EQ(static_cast<int>(status_of(code)), 4) << static_cast<int>(code);
   }
@@ -46,7 +46,7 @@ Result<int> quarter(int value) {
   return half(once);
 }
 
-TEST(Result, AnErrorTravelsThroughTheMacrosWhole) {
+TEST(Result, MacrosPassErrorsOnUnchanged) {
   EXPECT_EQ(quarter(8).value(), 2);
   for (const int value : {3, 6}) {
     const auto result = quarter(value);

@@ -1,4 +1,4 @@
-// calibrate through a camera that calibrate-camera calibrated.
+// The verb calibrate with a camera that was calibrated by calibrate-camera.
 #include <cmath>
 
 #include "sim/registration/camera/calibration_board.h"
@@ -14,7 +14,7 @@ using testing::Rig;
 
 constexpr int kViews = 10;
 
-/// The board held towards the corners in turn, tilted each way, near and far.
+/// The board held towards each corner in turn, tilted in each direction, near and far.
 Pose held(int i) {
   const Eigen::Vector3d about(std::cos(1.7 * i), std::sin(1.7 * i), 0);
   Pose X_CB = Pose::Identity();
@@ -25,7 +25,7 @@ Pose held(int i) {
   return X_CB;
 }
 
-/// How far a pose file is off at the object's middle, and how much it is turned.
+/// Error of a pose file: the shift at the object's middle, and the rotation.
 std::pair<Eigen::Vector3d, double> off(const json& pose, const Pose& truth) {
   const auto& q = pose["rotation_wxyz"];
   const auto& t = pose["translation_mm"];
@@ -36,7 +36,7 @@ std::pair<Eigen::Vector3d, double> off(const json& pose, const Pose& truth) {
           Eigen::AngleAxisd(found.linear().transpose() * truth.linear()).angle()};
 }
 
-TEST_F(Calibrate, FindsTheObjectThroughACameraThatItCalibrated) {
+TEST_F(Calibrate, FindsTheObjectWithACalibratedCamera) {
   take_frames(8);
   Rig bench;
   bench.lens = rig.lens;
@@ -59,11 +59,11 @@ TEST_F(Calibrate, FindsTheObjectThroughACameraThatItCalibrated) {
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json found = read(path("out/calibration.json"));
   const auto [off_mm, rad] = off(found["pose"], X_FO);
-  // The camera sees no upright face of the board that looks along x.
+  // The camera does not see an upright face of the board that faces x.
   EXPECT_LT(off_mm.tail<2>().norm(), 0.8);
   ASSERT_EQ(found["from_nominal_pose"].size(), 1U);
   std::string along = found["from_nominal_pose"][0];
-  std::erase(along, '-');  // one way or the other
+  std::erase(along, '-');  // in either direction
   EXPECT_EQ(along.substr(0, 15), "shift along (1.");
   EXPECT_LT(rad, 0.2 * kDegree);
   EXPECT_EQ(found["pose"], read(path("out/pose.json")));
@@ -74,7 +74,7 @@ TEST_F(Calibrate, FindsTheObjectThroughACameraThatItCalibrated) {
   EXPECT_EQ(report["warnings"][0]["code"], "pose_unconstrained");
   for (const char* picture : {"out/alignment.png", "out/error.png"})
     EXPECT_GT(fs::file_size(path(picture)), 10000U) << picture;
-  // What simulate takes.
+  // The verb template accepts the result as its pose.
   EXPECT_EQ(run({"template", "--mesh", path("board.obj"), "--pose", path("out/pose.json"), "--out",
                  path("template")})
                 .status,

@@ -22,7 +22,7 @@ inline nlohmann::json read(const std::filesystem::path& path) {
   return nlohmann::json::parse(std::ifstream(path));
 }
 
-/// As hydroprint-capture writes them.
+/// Writes frames in the format of hydroprint-capture.
 inline void write_frames(const std::filesystem::path& folder,
                          const std::vector<scan::DepthFrame>& frames) {
   std::filesystem::create_directories(folder);
@@ -48,7 +48,7 @@ inline void write_obj(const std::filesystem::path& path, const mesh::Surface& su
     out << "f " << (t.array() + 1).transpose() << "\n";
 }
 
-/// A board in the gripper before a camera.
+/// A board in the gripper, seen by a camera.
 class Calibrate : public ::testing::Test {
  protected:
   [[nodiscard]] std::string path(const std::string& name) const { return folder.path() / name; }

@@ -1,4 +1,4 @@
-// calibrate through the program, from frames of the virtual camera.
+// The verb calibrate, with frames of the virtual camera.
 #include <algorithm>
 
 #include "sim/calibrate/camera_file.h"
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::Ended;
 
-TEST_F(Calibrate, NamesAMarkerThatIsHidden) {
+TEST_F(Calibrate, NamesAHiddenMarker) {
   rig.states[2] = simulated_scene::MarkerState::kHidden;
   take_frames(4);
   registration::CameraCalibration camera;
@@ -22,14 +22,14 @@ TEST_F(Calibrate, NamesAMarkerThatIsHidden) {
       calibrate({"--camera", path("camera.json"), "--gripper-mm", std::to_string(rig.gripper_mm)});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json out = json::parse(ended.out);
-  ASSERT_EQ(out["warnings"].size(), 2U) << out["warnings"];  // the other: what the scan cannot tell
+  ASSERT_EQ(out["warnings"].size(), 2U) << out["warnings"];  // the other: an unconstrained pose
   EXPECT_EQ(out["warnings"][0]["code"], "marker_left_out");
   EXPECT_EQ(out["warnings"][0]["where"], "near");
 }
 
-TEST_F(Calibrate, SaysThatNobodyCalibratedTheCamera) {
+TEST_F(Calibrate, WarnsOfAnUncalibratedCamera) {
   take_frames(4);
-  // The driver's lens may be so far off that the markers do not agree: that is said, too.
+  // With the driver's lens the markers may disagree; then the error says so.
   const Ended ended = calibrate({"--gripper-mm", std::to_string(rig.gripper_mm)});
   const json out = json::parse(ended.out);
   if (ended.status != 0) {
@@ -42,7 +42,7 @@ TEST_F(Calibrate, SaysThatNobodyCalibratedTheCamera) {
   EXPECT_TRUE(is_said);
 }
 
-TEST_F(Calibrate, RefusesInOneLineWhatIsNoScan) {
+TEST_F(Calibrate, RefusesBadScansInOneLine) {
   const auto refusal = [&](const Ended& ended, const std::string& words) {
     EXPECT_EQ(ended.status, 3) << ended.err;
     EXPECT_NE(ended.err.find(words), std::string::npos) << ended.err;
@@ -62,7 +62,7 @@ TEST_F(Calibrate, RefusesInOneLineWhatIsNoScan) {
   refusal(calibrate({}), "layout.toml: line 2: markers.width_mm");
 }
 
-TEST_F(Calibrate, RefusesACameraThatSeesNothing) {
+TEST_F(Calibrate, RefusesEmptyFrames) {
   write_frames(path("frames"),
                std::vector<scan::DepthFrame>(3, {640, 480, std::vector<float>(640 * 480)}));
   const Ended ended = calibrate({});

@@ -1,4 +1,4 @@
-// A camera's calibration as a file, with and without what is known of its fixed pattern.
+// A camera's calibration as a file, with and without its fixed pattern.
 #include "sim/calibrate/camera_file.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// With a pattern of squares that are not whole at the image's edges.
+/// A camera whose pattern has incomplete squares at the image's edges.
 registration::CameraCalibration camera() {
   registration::CameraCalibration out;
   out.lens.width_px = 66;
@@ -38,7 +38,7 @@ class CameraFile : public ::testing::Test {
   [[nodiscard]] Result<registration::CameraCalibration> read(const std::string& text) const {
     return read_camera(folder.write("camera.json", text));
   }
-  /// Why a file is refused that differs in its pattern.
+  /// The error for a file whose pattern has another value for `key`.
   [[nodiscard]] std::string refusal(const std::string& key, const Json& value) const {
     Json json = Json::parse(camera_json(camera()));
     json["pattern"][key] = value;
@@ -51,7 +51,7 @@ class CameraFile : public ::testing::Test {
   testing::TemporaryFolder folder;
 };
 
-TEST_F(CameraFile, ReadsBackAsTheVerySameCamera) {
+TEST_F(CameraFile, ReadsBackAsTheSameCamera) {
   const auto wrote = camera();
   const auto read_back = read(camera_json(wrote));
   ASSERT_TRUE(read_back) << read_back.error().message;
@@ -68,7 +68,7 @@ TEST_F(CameraFile, ReadsBackAsTheVerySameCamera) {
   EXPECT_EQ(read_back->pattern.shared, wrote.pattern.shared);
 }
 
-TEST_F(CameraFile, OneWithoutAPatternIsOneWhosePatternIsNotKnown) {
+TEST_F(CameraFile, WithoutAPatternThePatternIsUnknown) {
   const auto found = read(camera_summary_json(camera()));
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_FALSE(found->pattern.is_known());
@@ -81,14 +81,14 @@ TEST_F(CameraFile, APatternOfAnotherImageIsRefused) {
   json["height_px"] = 480;
   const auto found = read(json.dump());
   ASSERT_FALSE(found);
-  EXPECT_NE(found.error().message.find("not of its image's size. Calibrate the camera anew"),
+  EXPECT_NE(found.error().message.find("does not match the image size. Calibrate the camera again"),
             std::string::npos)
       << found.error().message;
   EXPECT_NE(refusal("patch_px", 8).find("pattern"), std::string::npos);
 }
 
 TEST_F(CameraFile, ABrokenPatternIsRefused) {
-  const std::string broken = "camera.json: its pattern is broken";
+  const std::string broken = "camera.json: the fixed pattern is invalid";
   EXPECT_NE(refusal("offset", "!!!!").find(broken), std::string::npos);
   EXPECT_NE(refusal("offset", "AAAA").find(broken), std::string::npos);
   EXPECT_NE(refusal("sigma", "").find(broken), std::string::npos);
@@ -98,7 +98,7 @@ TEST_F(CameraFile, ABrokenPatternIsRefused) {
     EXPECT_NE(refusal("patch_px", patch_px).find(broken), std::string::npos) << patch_px;
   EXPECT_NE(refusal("offset", 3).find("not a camera's calibration"), std::string::npos);
   EXPECT_NE(refusal("sigma", nullptr).find("not a camera's calibration"), std::string::npos);
-  // Numbers that are none: 0x7fc00000 in all of them.
+  // All values are NaN (0x7fc00000).
   std::vector<unsigned char> nan;
   for (std::size_t i = 0; i < camera().pattern.patches(); ++i)
     nan.insert(nan.end(), {0, 0, 0xc0, 0x7f});

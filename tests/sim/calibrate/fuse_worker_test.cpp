@@ -1,4 +1,4 @@
-// fuse through the program, from frames of a virtual camera that is swept by hand.
+// The verb fuse, with frames of a virtual camera that is swept by hand.
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +34,7 @@ class Fuse : public Calibrate {
       {{"block", simulated_scene::box({-40, -25, 30}, {35, 30, 90}), false}}};
 };
 
-TEST_F(Fuse, GivesTheRigsSurfaceInTheFilmFrameAndTheCamerasPath) {
+TEST_F(Fuse, WritesTheRigsSurfaceInTheFilmFrameAndTheCamerasPath) {
   write_frames(path("frames"), camera.frames(10));
   const Ended ended = fuse({"--layout", layout, "--threads", "2"});
   ASSERT_EQ(ended.status, 0) << ended.err;
@@ -59,7 +59,7 @@ TEST_F(Fuse, GivesTheRigsSurfaceInTheFilmFrameAndTheCamerasPath) {
   EXPECT_NEAR(top[top.size() / 2], 90, 1);
 }
 
-TEST_F(Fuse, SaysWhenTheCameraIsLostAndLeavesNothing) {
+TEST_F(Fuse, ALostCameraIsAnErrorAndLeavesNothing) {
   std::vector<scan::DepthFrame> frames = camera.frames(2);
   for (int i = 0; i < 11; ++i) frames.push_back(testing::wall_frame(600));
   write_frames(path("frames"), frames);

@@ -111,7 +111,7 @@ TEST(Outline, BrokenJsonIsNamedByLineAndColumn) {
       << outline.error().message;
 }
 
-TEST(Outline, SizesOutOfRangeAreRefusedAsSuch) {
+TEST(Outline, SizesOutOfRangeAreRefused) {
   for (const std::string text : {"9.9x100", "100x2001", "-100x100", "0x0", "nanx100", "infx100",
                                  "circle:4", "circle:1001", "circle:-50", "circle:nan"}) {
     const auto outline = parse_outline(text);
@@ -121,7 +121,7 @@ TEST(Outline, SizesOutOfRangeAreRefusedAsSuch) {
   EXPECT_EQ(polygon("[[0,0],[5,0],[0,5]]").error().code, Code::kOutOfRange);
 }
 
-TEST(Outline, WordsItDoesNotKnowAreRefused) {
+TEST(Outline, UnknownWordsAreRefused) {
   for (const std::string text : {"", "A5", "x", "210x", "x297", "210x297mm", "210 x 297",
                                  "circle:", "circle:5mm", "210x297x3"}) {
     const auto outline = parse_outline(text);

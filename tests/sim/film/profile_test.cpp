@@ -31,7 +31,7 @@ void expect_equal(const Profile& a, const Profile& b) {
   EXPECT_EQ(a.activator_wait_s, b.activator_wait_s);
 }
 
-/// The keys that the refusal of an unknown one lists.
+/// The keys listed in the error for an unknown key.
 std::vector<std::string> known_keys() {
   const std::string message = profile("no_such_key = 1").error().message;
   std::istringstream list(message.substr(message.find("Use ") + 4));
@@ -73,7 +73,7 @@ TEST(Profile, EveryKeyReachesItsMember) {
   EXPECT_EQ(read->ink_icc_profile, "/icc/printer.icc");
 }
 
-TEST(Profile, RelativeIccProfilesLieBesideTheFile) {
+TEST(Profile, RelativeIccProfilesStartAtTheFilesFolder) {
   const testing::TemporaryFolder folder;
   const auto file = folder.write("film.toml", "ink_icc_profile = \"icc/printer.icc\"");
   const auto read = read_profile(file);
@@ -97,7 +97,7 @@ TEST(Profile, ExampleShowsEveryKeyWithItsDefault) {
   }
 }
 
-TEST(Profile, InkAddsToTheThicknessInProportion) {
+TEST(Profile, InkAddsProportionallyToTheThickness) {
   Profile film;
   EXPECT_DOUBLE_EQ(rest_thickness_mm(film, 0), 0.5);
   EXPECT_DOUBLE_EQ(rest_thickness_mm(film, 4), 0.7);
@@ -106,7 +106,7 @@ TEST(Profile, InkAddsToTheThicknessInProportion) {
   EXPECT_DOUBLE_EQ(rest_thickness_mm(film, 1.5), 0.043);
 }
 
-TEST(Profile, WhatIsWrongIsNamedWithItsLineAndARemedy) {
+TEST(Profile, ErrorsNameTheirLineAndARemedy) {
   struct Case {
     std::string toml, line, remedy;
     Code code;
@@ -150,7 +150,7 @@ TEST(Profile, FilesThatCannotBeReadAreRefused) {
   EXPECT_EQ(read_profile("/").error().code, Code::kInvalidArgument);
 }
 
-TEST(Profile, WhatIsWrittenReadsBackAsTheSame) {
+TEST(Profile, WrittenProfilesReadBackUnchanged) {
   Profile odd;
   odd.thickness_mm = 0.1 + 0.2;
   odd.ink_ratio_mm = 1.0 / 3;

@@ -1,4 +1,4 @@
-// Fits of landing points that a finer computation made.
+// Fits of landing points that were computed at a finer resolution.
 #include "sim/fit/fit.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ class Ball : public ::testing::Test {
     return fit(with.model, with.dip, of, options, testing::two_threads());
   }
 
-  /// The scene when all is known but how far the film has swollen.
+  /// The scene with all parameters known except the swelling.
   static Scene told(const Eigen::Vector2d& swelling) {
     Scene known = *scene;
     known.dip.profile = truth();
@@ -82,15 +82,15 @@ class Ball : public ::testing::Test {
 Scene* Ball::scene = nullptr;
 std::vector<Point>* Ball::points = nullptr;
 
-TEST_F(Ball, WhatMadeThePointsLiesWithinTheIntervals) {
-  // All four at once settle only where dips are fine enough for their scatter not to matter.
+TEST_F(Ball, IntervalsContainTheTrueValues) {
+  // A fit of all four settles only if dips are so fine that their scatter does not matter.
   const Scene fine = ball(1.6);
   const auto outcome = fitted({}, fine, measured(fine, truth(), 0.5, 0.1, 1));
   ASSERT_TRUE(outcome) << outcome.error().message;
   ASSERT_EQ(outcome->estimates.size(), 4u);
   EXPECT_TRUE(outcome->settled);
   expect_within_intervals(*outcome, truth());
-  // Intervals that say something: narrower than the way from where the fit began.
+  // Useful intervals are narrower than the distance from the start of the fit.
   EXPECT_LT(find(*outcome, "ink_ratio_mm")->high - find(*outcome, "ink_ratio_mm")->low, 0.07);
   EXPECT_LT(find(*outcome, "swelling_x")->standard_error, 0.005);
   EXPECT_LT(find(*outcome, "drag_length_mm")->high, 100);
@@ -112,14 +112,14 @@ TEST_F(Ball, WithoutInkTheInkRatioIsNotDetermined) {
   expect_within_intervals(*outcome, truth());
 }
 
-TEST_F(Ball, EvenInkSaysNothingOfTheInkRatioEither) {
+TEST_F(Ball, EvenInkDoesNotDetermineTheInkRatio) {
   Scene even = told({1, 1.02});
   even.dip.profile.ink_ratio_mm = film::Profile().ink_ratio_mm;
   even.dip.ink =
       ink::InkField::from_function(ink::ink_grid(even.dip.outline), [](const Eigen::Vector2d&) {
         return 2.0;
       }).value();
-  // Fitted without noise, which must not make up for it.
+  // Fitted without noise, so that noise cannot hide a bias.
   const auto outcome = fitted({{Parameter::kInkRatio, Parameter::kDrag, Parameter::kSwellingX}},
                               even, measured(even, truth(), 1, 0, 2));
   ASSERT_TRUE(outcome) << outcome.error().message;
@@ -128,7 +128,7 @@ TEST_F(Ball, EvenInkSaysNothingOfTheInkRatioEither) {
   EXPECT_NEAR(outcome->profile.swelling.x(), 1.04, 0.002);
 }
 
-TEST_F(Ball, WhatIsNotFreeIsHeld) {
+TEST_F(Ball, ParametersThatAreNotFreeAreHeld) {
   const auto outcome = fitted({{Parameter::kSwellingX, Parameter::kSwellingY}}, told({1, 1}));
   ASSERT_TRUE(outcome) << outcome.error().message;
   ASSERT_EQ(outcome->estimates.size(), 2u);
@@ -198,7 +198,7 @@ TEST_F(Ball, TooFewPointsAndPointsOnOneSpotAreRefused) {
   EXPECT_EQ(exit_status(spot.error()), ExitStatus::kBadInput);
 }
 
-TEST_F(Ball, FourPointsCloseTogetherDoNotMakeUpADrag) {
+TEST_F(Ball, FourPointsCloseTogetherDoNotDetermineADrag) {
   std::vector<Point> close;
   for (const Point& p : *points) {
     if (p.film_mm.norm() < 6) close.push_back(p);
@@ -210,7 +210,7 @@ TEST_F(Ball, FourPointsCloseTogetherDoNotMakeUpADrag) {
   EXPECT_EQ(outcome->profile.drag_length_mm, 0);
 }
 
-TEST_F(Ball, CancelEndsIt) {
+TEST_F(Ball, CancelStopsTheFit) {
   Context context = testing::two_threads();
   int asked = 0;
   context.threads = 1;
@@ -221,7 +221,7 @@ TEST_F(Ball, CancelEndsIt) {
 }
 
 TEST(Fit, WarnsWhereTheSheetDoesNotSettle) {
-  // Film between two legs that come together below is drawn both ways until it folds.
+  // Film between two legs that join at the bottom is drawn both ways until it folds.
   Scene bend{sample::make_model("ubend").value(), {}};
   bend.dip.outline = film::parse_outline("A4").value();
   bend.dip = pipeline::scaled_resolution(bend.dip, 3);
@@ -229,7 +229,7 @@ TEST(Fit, WarnsWhereTheSheetDoesNotSettle) {
   for (const Eigen::Vector3d& p : bend.model.vertices) {
     if (p.z() > 1 && p.z() < 15) feet.push_back({p.head<2>(), p});
   }
-  const Options nothing{{}};  // that is fitted: one dip will do
+  const Options nothing{{}};  // to fit: one dip is enough
   for (const std::optional<double> depth_mm : {std::optional<double>(), std::optional(20.0)}) {
     bend.dip.depth_mm = depth_mm;
     const auto outcome = fit(bend.model, bend.dip, feet, nothing, testing::two_threads());

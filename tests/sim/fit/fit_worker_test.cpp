@@ -1,4 +1,4 @@
-// `hydroprint-worker fit` as its users see it.
+// The verb `hydroprint-worker fit` from a user's point of view.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -64,8 +64,8 @@ film::Profile truth() {
   return profile;
 }
 
-/// Small enough that the program's usual settings take no time: a ball of 12 mm in a film of 60 mm
-/// by 70, dipped to its equator, half of it black.
+/// Inputs small enough to be fast at the program's usual settings: a ball of 12 mm in a film of 60
+/// x 70 mm, dipped to its equator, half of the film black.
 class FitWorker : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -84,7 +84,7 @@ class FitWorker : public ::testing::Test {
   }
   static void TearDownTestSuite() { delete inputs; }
 
-  /// Where a fit of the drag lies that was run once, by two threads, for whoever asks.
+  /// Output of a fit of the drag with two threads; run once and shared by the tests.
   static const fs::path& drag_fit() {
     static const fs::path out = inputs->path() / "drag";
     static const int status =
@@ -112,7 +112,7 @@ class FitWorker : public ::testing::Test {
     all.insert(all.end(), more.begin(), more.end());
     return all;
   }
-  /// The same with --out, unless there is one.
+  /// Same as command(), with --out added unless it is there.
   [[nodiscard]] Arguments fit(const Arguments& more = {}, bool with_points = true) const {
     Arguments all = command(more, with_points);
     const bool has_out = std::find(more.begin(), more.end(), "--out") != more.end();
@@ -145,7 +145,7 @@ json named(const json& list, const std::string& name) {
   return {};
 }
 
-TEST_F(FitWorker, MakesAProfileThatItReadsBackAndThatExplainsThePoints) {
+TEST_F(FitWorker, WritesAProfileThatReadsBackAndExplainsThePoints) {
   const Ended ended =
       testing::run(fit({"--free", "drag,swelling", "--ink-image", input("film.png"), "--json"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
@@ -173,7 +173,7 @@ TEST_F(FitWorker, MakesAProfileThatItReadsBackAndThatExplainsThePoints) {
     EXPECT_FALSE(named(fit_found.at("undetermined"), name).is_null()) << name;
   }
   EXPECT_EQ(json::parse(ended.out).at("estimates"), fit_found.at("estimates"));
-  // Given back as the start, it leaves nothing to do.
+  // A second fit that starts with the result changes nothing.
   ASSERT_EQ(testing::run(fit({"--free", "drag", "--ink-image", input("film.png"), "--profile",
                               out() + "/film_profile.toml", "--out", out("again")}))
                 .status,
@@ -184,7 +184,7 @@ TEST_F(FitWorker, MakesAProfileThatItReadsBackAndThatExplainsThePoints) {
   EXPECT_LT(again.at("rms_after_mm").get<double>(), fit_found.at("rms_before_mm").get<double>());
 }
 
-TEST_F(FitWorker, TellsOfEveryPointBeforeAndAfter) {
+TEST_F(FitWorker, ReportsEveryPointBeforeAndAfter) {
   const fs::path& made = drag_fit();
   std::istringstream lines(content(made / "residuals.csv"));
   std::string header;
@@ -218,7 +218,7 @@ TEST_F(FitWorker, TellsOfEveryPointBeforeAndAfter) {
   EXPECT_GT(picture->image.width, 1000);
 }
 
-TEST_F(FitWorker, WithoutAnInkImageItSaysWhyTheInkRatioIsHeld) {
+TEST_F(FitWorker, ExplainsWhyTheInkRatioIsHeldWithoutAnInkImage) {
   const Ended ended = testing::run(fit({"--free", "ink_ratio"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   const json ink = named(report().at("fit").at("undetermined"), "ink_ratio_mm");

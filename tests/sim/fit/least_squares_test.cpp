@@ -35,7 +35,7 @@ Residuals curve_through(const VectorXd& truth) {
   };
 }
 
-TEST(LeastSquares, FindsWhatMadeTheCurve) {
+TEST(LeastSquares, FindsTheTrueParameters) {
   const Vector2d truth(0.8, 0.3);
   const auto found = minimise(curve_through(truth), Vector2d(0.1, 0), wide(2), 1e-4).value();
   EXPECT_TRUE(found.settled);
@@ -43,7 +43,7 @@ TEST(LeastSquares, FindsWhatMadeTheCurve) {
   EXPECT_LE(found.iterations, 6);
 }
 
-TEST(LeastSquares, StaysInTheDomainAndMakesTheBestOfIt) {
+TEST(LeastSquares, StaysInTheDomainAndFindsItsBestPoint) {
   Domain domain = wide(2);
   domain.low[1] = 0.5;
   const auto residuals = curve_through(Vector2d(0.8, 0.3));
@@ -79,7 +79,7 @@ TEST(LeastSquares, StepsAreThoseOfTheNormalEquations) {
   EXPECT_LT((step - exact).norm(), 1e-10);
 }
 
-TEST(LeastSquares, ErrorsOfTheComputationComeThrough) {
+TEST(LeastSquares, ErrorsOfTheComputationAreReturned) {
   const Residuals failing = [](const VectorXd& /*u*/) -> Result<VectorXd> {
     return fail(Code::kCancelled, "cancelled");
   };

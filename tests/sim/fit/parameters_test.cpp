@@ -19,7 +19,7 @@ TEST(Parameters, ScaledValuesReadBackAsTheyWereSet) {
   }
 }
 
-TEST(Parameters, NoDragIsZeroAndItsLengthHasNoEnd) {
+TEST(Parameters, NoDragIsZeroAndItsLengthIsInfinite) {
   film::Profile profile;
   EXPECT_EQ(scaled_value(Parameter::kDrag, profile), 0);
   EXPECT_TRUE(std::isinf(natural_value(Parameter::kDrag, 0, profile)));
@@ -30,7 +30,7 @@ TEST(Parameters, NoDragIsZeroAndItsLengthHasNoEnd) {
   EXPECT_EQ(profile.drag_length_mm, 0) << "as profiles write it";
 }
 
-TEST(Parameters, BoundsStayWithinWhatProfilesTake) {
+TEST(Parameters, BoundsStayWithinTheLimitsOfProfiles) {
   film::Profile profile;
   profile.thickness_mm = 0.7;
   for (const Parameter parameter : kAllParameters) {
@@ -46,7 +46,7 @@ TEST(Parameters, BoundsStayWithinWhatProfilesTake) {
   }
 }
 
-TEST(Parameters, NamesAreThoseOfTheCommandLine) {
+TEST(Parameters, NamesMatchTheCommandLine) {
   EXPECT_EQ(parse_parameters({})->size(), 4u);
   EXPECT_EQ(
       parse_parameters({"swelling", "drag", "drag"}).value(),

@@ -14,7 +14,7 @@ Result<std::vector<Point>> points(const std::string& csv) {
   return read_points(folder.write("measured.csv", csv));
 }
 
-TEST(Points, FilmComesFirstAndThenTheSurface) {
+TEST(Points, FilmColumnsPrecedeSurfaceColumns) {
   const auto read = points(kHeader + "1,2,3,4,5\n-1.5,0,0,1e2,-7\n");
   ASSERT_TRUE(read) << read.error().message;
   ASSERT_EQ(read->size(), 2u);

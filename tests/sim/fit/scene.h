@@ -16,20 +16,20 @@
 
 namespace hydroprint::testing {
 
-/// A body, and how it goes through a film that carries ink.
+/// A body, and its dip through a film with ink.
 struct Scene {
   mesh::Model model;
   pipeline::DipOptions dip;
 };
 
-/// Two strong patches of ink, right and above, and none elsewhere: t of a printed point.
+/// Ink amount t at a printed point: two strong patches, right and above, and no ink elsewhere.
 inline double patches(const Eigen::Vector2d& p) {
   const bool is_right = p.x() > 8 && p.x() < 32 && std::abs(p.y()) < 25;
   const bool is_above = p.y() > 10 && p.y() < 40 && p.x() < -5 && p.x() > -35;
   return is_right ? 2 : is_above ? 3 : 0;
 }
 
-/// A ball a little off the middle of a round film, to 110 degrees, computed coarsely.
+/// A ball slightly off the middle of a round film, dipped to 110 degrees, at a coarse resolution.
 inline Scene ball(double coarseness = 2.5) {
   Scene scene{sample::icosphere(30, 4), {}};
   scene.dip.outline = film::parse_outline("circle:80").value();
@@ -46,8 +46,8 @@ inline Context two_threads() {
   return context;
 }
 
-/// Where a printed grid, turned by 10 degrees, lands by a dip of this profile and fineness, and how
-/// somebody measures it whose hand shakes by `noise_mm` in each direction.
+/// Landing points of a printed grid, rotated by 10 degrees, for a dip with this profile and
+/// resolution. Measured with noise of `noise_mm` in each direction.
 inline std::vector<fit::Point> measured(const Scene& scene, const film::Profile& profile,
                                         double fineness, double noise_mm, unsigned seed,
                                         double pitch_mm = 5) {

@@ -27,9 +27,9 @@ TEST(Selection, FourPlacesAreEnoughAndManyPointsOnOneSpotAreNot) {
   EXPECT_FALSE(check_enough(std::vector<PointResult>(50, point({20, 10})), "measured.csv"));
 }
 
-TEST(Selection, OutliersAreThoseBeyondFourRobustSigmas) {
+TEST(Selection, OutliersAreBeyondFourRobustSigmas) {
   std::mt19937 random(2);
-  // Within 0.24 mm, where four robust standard deviations are 0.5: none is an outlier by chance.
+  // All within 0.24 mm, while four robust standard deviations are 0.5: no outlier by chance.
   std::uniform_real_distribution<double> error(-0.17, 0.17);
   std::vector<PointResult> points;
   for (int i = 0; i < 300; ++i) {

@@ -21,7 +21,7 @@ Vector3d place(const mesh::Surface& surface, const Spot& spot) {
   return out;
 }
 
-TEST(Spots, AreNoFartherThanAnyPointTriedByBruteForce) {
+TEST(Spots, AreNoFartherThanPointsFoundByBruteForce) {
   const mesh::Surface surface =
       mesh::make_surface(sample::icosphere(10, 2), mesh::kMaxEdgeMm, {}).value();
   std::mt19937 random(7);

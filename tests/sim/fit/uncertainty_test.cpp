@@ -1,5 +1,5 @@
-// Whether intervals are honest: fits of drawn noise in the linearised form, where nothing but the
-// statistics is at stake.
+// Coverage of the intervals: fits of random noise in the linearised form, where only the statistics
+// matter.
 #include "sim/fit/uncertainty.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 constexpr int kDraws = 1000;
 
-/// As a print gives it: ink that moves few points, drag that moves far ones, and swelling.
+/// Typical of a print: ink that moves few points, drag that moves distant points, and swelling.
 MatrixXd jacobian_of(int points) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> place(-60, 60);
@@ -37,8 +37,8 @@ MatrixXd jacobian_of(int points) {
   return jacobian;
 }
 
-/// What became of many fits: the errors over their standard errors, and how many 95 % intervals
-/// held the truth.
+/// Statistics of many fits: errors divided by their standard errors, and the number of 95 %
+/// intervals that contain the true value.
 struct Coverage {
   VectorXd normalised_rms, held;
 };
@@ -75,14 +75,14 @@ void expect_honest(const Coverage& coverage) {
   }
 }
 
-TEST(Uncertainty, IsHonestForEqualErrors) {
+TEST(Uncertainty, CoversEqualErrors) {
   expect_honest(cover(jacobian_of(80), [](int, double x, double y) -> Vector2d {
     return {0.1 * x, 0.1 * y};
   }));
 }
 
-TEST(Uncertainty, IsHonestForErrorsThatDifferAndGoTogether) {
-  // Film that was gathered has larger errors, and in one direction; here those of the far points.
+TEST(Uncertainty, CoversUnequalCorrelatedErrors) {
+  // Compressed film has larger errors, in one direction; here at the distant points.
   const MatrixXd jacobian = jacobian_of(150);
   expect_honest(cover(jacobian, [&](int i, double x, double y) -> Vector2d {
     const bool is_far = jacobian.block<2, 1>(2 * i, 1).norm() > 3;
@@ -90,7 +90,7 @@ TEST(Uncertainty, IsHonestForErrorsThatDifferAndGoTogether) {
   }));
 }
 
-TEST(Uncertainty, OfEqualErrorsIsThatOfTheTextbook) {
+TEST(Uncertainty, OfEqualErrorsMatchesTheTextbook) {
   const MatrixXd jacobian = jacobian_of(2000);
   std::mt19937 random(5);
   std::normal_distribution<double> normal(0, 0.1);
@@ -101,7 +101,7 @@ TEST(Uncertainty, OfEqualErrorsIsThatOfTheTextbook) {
   for (Index j = 0; j < 4; ++j) EXPECT_NEAR(std::sqrt(ours(j, j) / textbook(j, j)), 1, 0.1) << j;
 }
 
-TEST(Uncertainty, QuantilesAreThoseOfTheTables) {
+TEST(Uncertainty, QuantilesMatchTheTables) {
   EXPECT_NEAR(student_t(0.975, 5), 2.5706, 1e-4);
   EXPECT_NEAR(student_t(0.95, 30), 1.6973, 1e-4);
   EXPECT_NEAR(student_t(0.975, 1e6), 1.95997, 1e-4);
@@ -113,15 +113,15 @@ VectorXd noise(Index rows, double sigma) {
   return VectorXd::NullaryExpr(rows, [&] { return normal(random); });
 }
 
-TEST(Unknowns, AreNoneWhereAllIsKnown) {
+TEST(Unknowns, AreEmptyIfAllIsKnown) {
   const MatrixXd jacobian = jacobian_of(80);
   EXPECT_TRUE(unknowns({noise(160, 0.1), jacobian}, 0.003, 2).empty());
 }
 
-TEST(Unknowns, AreWhatMovesNothing) {
+TEST(Unknowns, IncludeParametersThatMoveNothing) {
   MatrixXd jacobian = jacobian_of(80);
   jacobian.col(1) *= 1e-4;
-  for (const double sigma : {0.1, 0.0}) {  // without noise, too
+  for (const double sigma : {0.1, 0.0}) {  // also without noise
     const auto found = unknowns({noise(160, sigma), jacobian}, 0.003, 2);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].parameter, 1);
@@ -130,14 +130,14 @@ TEST(Unknowns, AreWhatMovesNothing) {
   }
 }
 
-TEST(Unknowns, AreWhatIsLostInTheNoise) {
+TEST(Unknowns, IncludeParametersLostInTheNoise) {
   const MatrixXd jacobian = jacobian_of(80);
   const auto found = unknowns({noise(160, 8), jacobian}, 0.003, 2);
   ASSERT_FALSE(found.empty());
   EXPECT_EQ(found[0].parameter, 0) << "ink moves the points least";
 }
 
-TEST(Unknowns, OfTwoThatDoTheSameOneIsNamedWithTheOther) {
+TEST(Unknowns, OneOfTwoEquivalentParametersIsNamedWithTheOther) {
   MatrixXd jacobian = jacobian_of(80);
   jacobian.col(1) = 0.5 * jacobian.col(2) + 1e-5 * jacobian.col(1);
   for (const double sigma : {0.1, 0.0}) {
@@ -171,13 +171,13 @@ TEST(Estimates, LieInTheMiddleOfTheirScaledIntervals) {
   EXPECT_NEAR(all[0].high - all[0].value, t * all[0].standard_error, 1e-9);
   EXPECT_NEAR(all[0].value - all[0].low, t * all[0].standard_error, 1e-9);
   EXPECT_NEAR(all[2].value, 1.06, 1e-12);
-  // Drag is fitted as 1 / length^2: the ends change places, and the middle is not one.
+  // Drag is fitted as 1 / length^2, so the ends are swapped and the middle is not the middle.
   EXPECT_NEAR(1 / std::pow(all[1].low, 2) - 0.002, 0.002 - 1 / std::pow(all[1].high, 2), 1e-9);
   EXPECT_NEAR(all[1].value, std::sqrt(500), 1e-9);
   EXPECT_FALSE(all[1].is_one_sided);
 }
 
-TEST(Estimates, AtABoundHaveAnIntervalOnOneSide) {
+TEST(Estimates, AtABoundHaveAOneSidedInterval) {
   const auto at_bound = estimates(0, -0.05);
   EXPECT_TRUE(at_bound[1].is_one_sided);
   EXPECT_TRUE(std::isinf(at_bound[1].value));
@@ -188,7 +188,7 @@ TEST(Estimates, AtABoundHaveAnIntervalOnOneSide) {
   EXPECT_FALSE(at_bound[0].is_one_sided);
 }
 
-TEST(Estimates, AreWiderByTheComputationsOwnError) {
+TEST(Estimates, IncludeTheComputationsOwnError) {
   const MatrixXd jacobian = jacobian_of(80);
   const Domain domain{VectorXd::Zero(4), VectorXd::Constant(4, 3), VectorXd::Constant(4, 0.01)};
   const VectorXd u = VectorXd::Constant(4, 0.2);

@@ -1,4 +1,4 @@
-// Exact solutions of field-notes section 2, and three more of the same kind.
+// Exact solutions of section 2 of the field notes, and three more of the same kind.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -27,7 +27,7 @@ double depth_at(double radius_mm, double degrees) {
 
 Vector2d direction(double azimuth_rad) { return {std::cos(azimuth_rad), std::sin(azimuth_rad)}; }
 
-/// Where a point of a centred sphere meets the water.
+/// The point at which a point of a centred sphere meets the water.
 Landing on_sphere(double radius_mm, double theta_rad, double azimuth_rad) {
   const Vector2d outward = direction(azimuth_rad);
   return {radius_mm * std::sin(theta_rad) * outward, radius_mm * (1 - std::cos(theta_rad)),
@@ -75,7 +75,7 @@ TEST(ExactSphere, FilmIsTracedBackToItsRadius) {
   }
   EXPECT_LT(errors.rms(), 0.01);
 
-  // The map of the mesh itself, and its stretch (section 6), on the same dip.
+  // The map on the mesh itself, and its stretch (section 6), for the same dip.
   MapOptions options;
   options.make_tiles = false;
   options.dip_speed_mm_per_s = 4;
@@ -138,7 +138,7 @@ TEST(ExactCone, InACircularVat) {
       ASSERT_TRUE(film) << a;
       const double exact_mm =
           vat * std::sqrt(1 - std::pow(1 - a * a / (vat * vat), 1 / std::cos(slope)));
-      // The tip lies within the first steps, which are long beside its waterline.
+      // The tip lies within the first steps, which are long compared with its waterline.
       EXPECT_NEAR(film->norm(), exact_mm, a < 1 ? 0.1 : 0.02)
           << "cone of " << slope_degrees << " at " << a;
     }
@@ -146,7 +146,7 @@ TEST(ExactCone, InACircularVat) {
 }
 
 TEST(ExactWedge, InAStrip) {
-  // A ridge far longer than the strip is wide; its ends do not matter in the middle.
+  // The ridge is far longer than the strip is wide, so its ends do not matter in the middle.
   const double half_width = 25, slope = 50 * kDegree;
   DipSetting setting;
   setting.film = testing::film_of("50x170");
@@ -170,7 +170,7 @@ TEST(ExactWedge, InAStrip) {
 }
 
 // A vertical wall pulls with tan 45 degrees = 1. With u = A r + B / r and s = 1 - r^2 / Rv^2, film
-// outside a cylinder of radius a obeys ds/dz = 2 a s / (Rv^2 - a^2).
+// outside a cylinder of radius a satisfies ds/dz = 2 a s / (Rv^2 - a^2).
 TEST(ExactCylinder, FilmIsDrawnUpItsWall) {
   const double a = 15, vat = 50;
   DipSetting setting;
@@ -190,7 +190,7 @@ TEST(ExactCylinder, FilmIsDrawnUpItsWall) {
   }
 }
 
-// Inside, u = r / a: film that lands at height z was at a exp(-z / a).
+// Inside, u = r / a: film that lands at height z started at a exp(-z / a).
 TEST(ExactCup, TrappedFilmIsSpreadOverWallAndCeiling) {
   const double a = 15;
   DipSetting setting;

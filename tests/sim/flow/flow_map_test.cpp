@@ -22,7 +22,7 @@ FlowMap mapped(const SolvedDip& dip, MapOptions options = {}) {
   return make_flow_map(dip.surface, dip.body, dip.field, {}, options, {}).value();
 }
 
-/// Either all of a point's figures are numbers or none is.
+/// Expects that a point's figures are either all numbers or all NaN.
 void expect_numbers_or_nothing(const SurfaceMap& map) {
   for (std::size_t v = 0; v < map.film_mm.size(); ++v) {
     const bool reached = !std::isnan(map.film_mm[v].x());
@@ -37,7 +37,7 @@ void expect_numbers_or_nothing(const SurfaceMap& map) {
   }
 }
 
-TEST(FlowMap, IsNothingBeyondTheDepthOfTheDip) {
+TEST(FlowMap, IsEmptyBeyondTheDepthOfTheDip) {
   DipSetting setting;
   setting.film = testing::film_of("100x100");
   setting.depth_mm = 12;
@@ -50,7 +50,7 @@ TEST(FlowMap, IsNothingBeyondTheDepthOfTheDip) {
   }
 }
 
-TEST(FlowMap, IsNothingInACupMouthUp) {
+TEST(FlowMap, IsEmptyInACupMouthUp) {
   DipSetting setting;
   setting.film = testing::film_of("100x100");
   const SolvedDip dip = testing::solve_dip(testing::cup(12, 16, 25, 4, true, 48), setting);
@@ -72,7 +72,7 @@ TEST(FlowMap, IsNothingInACupMouthUp) {
   EXPECT_GT(walls, 500);
 }
 
-TEST(FlowMap, IsNothingInsideTheUnionOfTheParts) {
+TEST(FlowMap, IsEmptyInsideTheUnionOfTheParts) {
   DipSetting setting;
   setting.film = testing::film_of("100x100");
   setting.depth_mm = 14;
@@ -99,7 +99,7 @@ TEST(FlowMap, IsNothingInsideTheUnionOfTheParts) {
   EXPECT_GT(buried, 50);
 }
 
-TEST(FlowMap, IsNothingWhereFilmCannotFollow) {
+TEST(FlowMap, IsEmptyWhereFilmCannotFollow) {
   DipSetting setting;
   setting.film = testing::film_of("80x80");
   const SolvedDip dip = testing::solve_dip(sample::icosphere(15, 5), setting);
@@ -114,7 +114,7 @@ TEST(FlowMap, IsNothingWhereFilmCannotFollow) {
   EXPECT_GT(beyond, 10);
 }
 
-TEST(FlowMap, OfACupIsNothingInsideAWallOfATenthOfAMillimetre) {
+TEST(FlowMap, IsEmptyInACupWithAWallOfATenthOfAMillimetre) {
   DipSetting setting;
   setting.film = testing::film_of("80x80");
   const SolvedDip dip = testing::solve_dip(testing::cup(12, 12.1, 20, 4, true, 64), setting);
@@ -146,8 +146,8 @@ TEST(FlowMap, OfASwollenFilmIsGivenOnTheFilmAsPrinted) {
   }
 }
 
-TEST(FlowMap, GivesPointsThatAreOneOneFilmPoint) {
-  // As from an STL file: every face has corners of its own.
+TEST(FlowMap, CoincidentPointsHaveOneFilmPoint) {
+  // As from an STL file: every face has its own corners.
   const mesh::Model sphere = sample::icosphere(15, 3);
   mesh::Model torn;
   torn.path = "torn";
@@ -191,7 +191,7 @@ TEST(FlowMap, StopsWhenCancelled) {
   }
 }
 
-TEST(TraceBack, OfALandingOffTheFilmOrPastTheDipIsNothing) {
+TEST(TraceBack, OfALandingOffTheFilmOrPastTheDipIsEmpty) {
   DipSetting setting;
   setting.film = testing::film_of("80x80");
   setting.depth_mm = 10;

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// An egg without any symmetry that matters, off the film's centre.
+/// An egg without relevant symmetries, off the film's centre.
 mesh::Model egg() {
   mesh::Model model = sample::icosphere(1, 5);
   const Eigen::Matrix3d tilt =
@@ -37,7 +37,7 @@ std::vector<Vector2d> film_of(const mesh::Model& model, const testing::DipSettin
       .surface.film_mm;
 }
 
-/// @param only_first  points that the model itself has
+/// @param points  number of points to compare: those of the model itself
 void expect_same(const std::vector<Vector2d>& got, const std::vector<Vector2d>& expected,
                  std::size_t points) {
   double square = 0, most = 0;
@@ -83,7 +83,7 @@ TEST(FlowMap, OfTheTurnedDipIsTheTurnedMap) {
   expect_same(film_of(turned, setting), expected, model.vertices.size());
 }
 
-TEST(FlowMap, OfADipDrivenAlongAConstantOffsetIsThatOfTheObjectMovedThere) {
+TEST(FlowMap, AConstantOffsetOfTheMotionEqualsAMovedObject) {
   const mesh::Model model = egg();
   testing::DipSetting setting;
   setting.film = testing::film_of("120x150");

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-/// Film to surface.
+/// The map from film to surface.
 using Jacobian = Eigen::Matrix<double, 3, 2>;
 
 const std::array<Vector2d, 3> kFilm = {Vector2d(1, 2), Vector2d(3, 2.5), Vector2d(0.5, 4)};
@@ -53,7 +53,7 @@ TEST(Stretch, IsTheSingularValuesOfAnyJacobian) {
   }
 }
 
-TEST(Stretch, OfFilmDrawnOutToALineIsInfinite) {
+TEST(Stretch, OfFilmStretchedToALineIsInfinite) {
   const Gradient line = gradient_of({Vector2d(0, 0), Vector2d(1, 1), Vector2d(2, 2)},
                                     {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)});
   EXPECT_TRUE(std::isinf(stretch_of(line).most));
@@ -61,7 +61,7 @@ TEST(Stretch, OfFilmDrawnOutToALineIsInfinite) {
   EXPECT_TRUE(std::isinf(stretch_of(Gradient::Zero()).least));
 }
 
-TEST(Gradient, TakesStepsAlongTheSurfaceToStepsOnTheFilm) {
+TEST(Gradient, MapsStepsAlongTheSurfaceToStepsOnTheFilm) {
   Jacobian J;
   J << 1, 0.3, -0.2, 2, 0.5, 0.7;
   const auto surface = image(J);
@@ -78,9 +78,9 @@ TEST(Gradient, OfASurfaceTriangleWithoutAreaIsZero) {
             Gradient(Gradient::Zero()));
 }
 
-TEST(PointGradients, LeaveOutWhatIsNotReachedAndWhatLiesTheWrongWayUp) {
+TEST(PointGradients, IgnoreUnreachedAndInvertedTriangles) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  // A square whose outside looks down: right turns on the film for left turns on the surface.
+  // A square that faces down, so its orientation on the film is reversed.
   const std::vector<Vector3d> surface = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
   const std::vector<Eigen::Vector3i> triangles = {{0, 1, 2}, {0, 2, 3}};
   const auto flat = [](const Vector3d& p) { return Vector2d(2 * p.head<2>()); };
@@ -94,7 +94,7 @@ TEST(PointGradients, LeaveOutWhatIsNotReachedAndWhatLiesTheWrongWayUp) {
   auto gradients = point_gradients(film, surface, triangles);
   EXPECT_TRUE(std::isnan(gradients[3](0, 0)));
   EXPECT_NEAR(stretch_of(gradients[0]).most, 0.5, 1e-12);
-  film[3] = Vector2d(-5, 9);  // over the other triangle
+  film[3] = Vector2d(-5, 9);  // on the side of the other triangle
   gradients = point_gradients(film, surface, triangles);
   EXPECT_TRUE(std::isnan(gradients[3](0, 0)));
 }

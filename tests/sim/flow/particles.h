@@ -9,9 +9,9 @@
 
 namespace hydroprint::flow::reference {
 
-/// The paper's way (section 4.5), as plainly as possible: film points advected with the velocity
-/// field, interpolated linearly in depth, by small steps of the fourth-order Runge-Kutta rule,
-/// until the way of the point through the water's surface crosses a triangle of the body.
+/// The paper's method (section 4.5) in its simplest form. Film points are advected with the
+/// velocity field, interpolated linearly in depth, by small fourth-order Runge-Kutta steps. They
+/// stop when the point's path through the water's surface crosses a triangle of the body.
 class Particles {
  public:
   Particles(const waterline::Body& body, const DipField& dip, double step_mm);
@@ -21,7 +21,7 @@ class Particles {
     Eigen::Vector3d barycentric;
   };
 
-  /// Where the film point lands; nothing if it still floats at the end of the dip.
+  /// The landing point of a film point; nullopt if it still floats at the end of the dip.
   [[nodiscard]] std::optional<Contact> follow(Eigen::Vector2d film_mm) const;
 
  private:

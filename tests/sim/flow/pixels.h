@@ -14,19 +14,19 @@ namespace hydroprint::flow::reference {
 
 using Pixel = Eigen::Vector2i;  ///< column and row of a film image
 
-/// The fast map as the film image takes it: which tile lies under the middle of each pixel, that of
-/// the earliest contact where there are several.
+/// The fast map as used by the film image: the tile under the middle of each pixel. If there are
+/// several, the one with the earliest contact.
 class PixelMap {
  public:
   /// Body and tiles must outlive the map.
   PixelMap(const waterline::Body& body, const std::vector<MappedTriangle>& tiles,
            const image::FilmGrid& grid);
 
-  /// What lands on a pixel's middle.
+  /// The landing point of a pixel's middle.
   struct Spot {
     int triangle = 0;
     Eigen::Vector3d barycentric;
-    Eigen::Vector3d point_mm;   ///< as the body lies
+    Eigen::Vector3d point_mm;   ///< on the body in its place over the film
     Gradient film_per_surface;  ///< of the tile
   };
   [[nodiscard]] std::optional<Spot> at(const Pixel& pixel) const;
@@ -34,8 +34,8 @@ class PixelMap {
   [[nodiscard]] Eigen::Vector2d film_mm(const Pixel& pixel) const;
   [[nodiscard]] const image::FilmGrid& grid() const { return grid_; }
 
-  /// True if the map jumps, begins or ends between the pixel and the next in its row or column: it
-  /// goes further than its gradient says by more than a pixel.
+  /// True if the map jumps, begins or ends between the pixel and the next one in its row or column:
+  /// it moves farther than its gradient predicts by more than a pixel.
   [[nodiscard]] bool is_at_jump(const Pixel& pixel) const;
 
  private:
@@ -49,30 +49,31 @@ class PixelMap {
   std::vector<int> tile_;  ///< per pixel; -1: nothing lands there
 };
 
-/// What the fast map and a particle say of one pixel.
+/// Comparison of the fast map and a particle at one pixel.
 struct PixelError {
-  bool lands = false;     ///< by either of them
-  bool is_ruled = false;  ///< the particle meets a face that film cannot follow, by rule: no error
-  /// How far on the film the particle would have to start to land where the map says; infinite if
-  /// only one of them lands.
+  bool lands = false;     ///< in the map or as a particle
+  bool is_ruled = false;  ///< the particle meets a face excluded by rule for film: not an error
+  /// Distance on the film between the particle and one that would land where the map says; infinite
+  /// if only one of map and particle lands.
   double error_mm = 0;
 };
 
-/// One particle per pixel, against the fast map.
+/// Compares one particle per pixel with the fast map.
 class PixelComparison {
  public:
   PixelComparison(const PixelMap& map, const waterline::Body& body, const Particles& particles);
 
   [[nodiscard]] PixelError at(const Pixel& pixel) const;
 
-  /// How far on the film other particles land from these; 0 where neither lands, infinite where one
-  /// of them does or the map knows of no film there.
+  /// Distance on the film between the landing points of other particles and these. 0 if neither
+  /// lands; infinite if only one lands or the map has no film there.
   [[nodiscard]] double moved_mm(const Pixel& pixel, const Particles& others) const;
 
-  /// By how much the map misplaces a jump at this pixel, on the film: the distance to the nearest
-  /// particle that does what the map says of the pixel (up to half a pixel), or that lands apart
-  /// from where the pixel's own does: the particles' jump lies between the two then. Looked for on
-  /// rings of growing radius; 0 where map and particle agree, infinite beyond 4 mm.
+  /// Error of the map, on the film, in the position of a jump at this pixel. It is the distance to
+  /// the nearest particle that agrees with the map at this pixel (up to half a pixel), or that
+  /// lands apart from the pixel's own particle. In the second case the particles' jump lies between
+  /// the two. The search uses rings of growing radius. 0 if map and particle agree, infinite beyond
+  /// 4 mm.
   [[nodiscard]] double jump_distance_mm(const Pixel& pixel) const;
 
  private:

@@ -1,4 +1,4 @@
-// The fast map pixel by pixel against the paper's way, one particle per pixel.
+// Compares the fast map with the paper's method pixel by pixel, with one particle per pixel.
 #include "tests/sim/flow/pixels.h"
 
 #include <gtest/gtest.h>
@@ -18,11 +18,11 @@ namespace {
 using hydroprint::testing::DipSetting;
 using hydroprint::testing::SolvedDip;
 
-/// Of a pixel: 0.04 mm at 600 dpi.
+/// In pixels: 0.04 mm at 600 dpi.
 constexpr double kTolerance_px = 0.945;
 
-/// The tiles of a dip at the default settings for a resolution, and particles in one of closer
-/// steps: they take velocities as linear between waterlines.
+/// The tiles of a dip at the default settings for a resolution, and particles in a dip with smaller
+/// steps. Particles need these because they interpolate velocities linearly between waterlines.
 class Trial {
  public:
   Trial(const mesh::Model& model, DipSetting setting, double dpi = 600)
@@ -36,7 +36,7 @@ class Trial {
         particles_(dip_.body, close_.field, 0.1),
         comparison_(map_, dip_.body, particles_) {}
 
-  /// Share of random pixels, of those on which something lands, that are right.
+  /// Share of correct pixels among random pixels with a landing.
   [[nodiscard]] double share_within(int count) const {
     std::mt19937 random(23);
     int landed = 0, within = 0;
@@ -50,7 +50,7 @@ class Trial {
     return static_cast<double>(within) / landed;
   }
 
-  /// The largest distance on the film by which the map misplaces a jump.
+  /// The largest error, on the film, in the position of a jump.
   [[nodiscard]] double largest_jump_distance_mm(int count) const {
     std::mt19937 random(29);
     double most = 0;

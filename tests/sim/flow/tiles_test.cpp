@@ -44,7 +44,7 @@ class Raster {
          y < std::min(rows_, static_cast<int>(high.y()) + 2); ++y) {
       for (int x = std::max(0, static_cast<int>(low.x()) - 1);
            x < std::min(columns_, static_cast<int>(high.x()) + 2); ++x) {
-        // An odd place in the cell: on no edge of any tile.
+        // An irregular position in the cell, so that it is not on the edge of a tile.
         const Vector2d at(x + 0.50137, y + 0.49771);
         bool inside = true;
         for (int i = 0; i < 3; ++i) {
@@ -65,7 +65,7 @@ class Raster {
     }
   }
 
-  /// Area covered, and by how much more than once.
+  /// Area covered, and area covered more than once.
   [[nodiscard]] std::pair<double, double> covered_and_doubled() const {
     double covered = 0, doubled = 0;
     for (const int n : count_) {
@@ -88,7 +88,7 @@ FlowMap tiled(const SolvedDip& dip, const MapOptions& options = {}) {
   return make_flow_map(dip.surface, dip.body, dip.field, {}, options, context).value();
 }
 
-/// At random places of random tiles the film is traced anew and compared with the tile's own.
+/// Traces the film at random points of random tiles and compares it with the tile's interpolation.
 void expect_linear(const SolvedDip& dip, const FlowMap& map, const MapOptions& options,
                    double most_off = 0.002, double worst_mm = 0.5) {
   std::mt19937 random(33);
@@ -146,7 +146,7 @@ void expect_sound(const SolvedDip& dip, const FlowMap& map, double overlap = 1e-
   EXPECT_NEAR(area / covered, 1, overlap + 1e-3);
 }
 
-TEST(Tiles, OfASphereCoverTheDiscThatItTakes) {
+TEST(Tiles, OfASphereCoverTheDiscThatLandsOnIt) {
   DipSetting setting;
   setting.film = testing::round_film(60, 90);
   setting.depth_mm = 25 * (1 - std::cos(2.1));
@@ -184,16 +184,16 @@ TEST(Tiles, OfTwoFeetAndTheirBridgeOverlapLittle) {
   const MapOptions options;
   const FlowMap map = tiled(dip, options);
   expect_sound(dip, map);
-  // Along sharp upright edges eq. (1) turns at once by a right angle, and so does the map.
+  // Along sharp upright edges eq. (1) turns by a right angle at once, and so does the map.
   expect_linear(dip, map, options, 0.15, 0.4);
 }
 
 TEST(Tiles, OfASphereOnAStalkOverlapLittle) {
-  // The stalk parts film that the overhanging sphere then brings down round it.
+  // The stalk parts the film; the overhanging sphere then brings it down around the stalk.
   DipSetting setting;
   setting.film = testing::film_of("110x100");
   setting.depth_mm = 34;
-  setting.schedule.swept_mm = 1.3;  // the tiles are on trial, not the steps
+  setting.schedule.swept_mm = 1.3;  // this test is about tiles, not about steps
   const SolvedDip dip =
       testing::solve_dip(testing::together({testing::moved(testing::cylinder(4, 20, 48), {3, 2, 0}),
                                             testing::moved(sample::icosphere(18, 4), {0, 0, 30})}),
@@ -204,7 +204,7 @@ TEST(Tiles, OfASphereOnAStalkOverlapLittle) {
   expect_linear(dip, map, options, 0.02, 0.25);
 }
 
-TEST(Tiles, KeepToAFinerTolerance) {
+TEST(Tiles, RespectAFinerTolerance) {
   DipSetting setting;
   setting.film = testing::film_of("80x80");
   setting.depth_mm = 20;

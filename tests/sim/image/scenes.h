@@ -23,7 +23,7 @@ inline constexpr std::array<int, 3> kWhite = {255, 255, 255}, kBlack = {0, 0, 0}
                                     kGrey = {128, 128, 128}, kRed = {255, 0, 0},
                                     kGreen = {0, 255, 0}, kBlue = {0, 0, 255};
 
-/// A folder of its own for each test, gone at the end.
+/// A folder for one test, removed at its end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -65,7 +65,7 @@ inline film::Outline rectangle(double width_mm, double height_mm) {
   return outline;
 }
 
-/// A flat rectangle in the plane z = 0 as `n` by `m` pairs of triangles, UVs over all of it.
+/// A flat rectangle in the plane z = 0 as `n` by `m` pairs of triangles; UVs cover all of it.
 inline mesh::Model plate(double x0, double y0, double x1, double y1, int n = 1, int m = 1) {
   mesh::Model model;
   model.path = "plate.obj";
@@ -111,7 +111,7 @@ inline mesh::Surface surface_of(const mesh::Model& model) {
   return surface;
 }
 
-/// One tile per triangle; `map` says where on the film a point of the object comes from.
+/// One tile per triangle; `map` gives the point of the film for a point of the object.
 inline std::vector<flow::MappedTriangle> tiles_of(
     const mesh::Surface& surface,
     const std::function<Eigen::Vector2d(const Eigen::Vector3d&)>& map) {

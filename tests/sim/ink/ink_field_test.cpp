@@ -21,7 +21,7 @@ InkField field_of(const film::Outline& outline, const std::function<double(const
   return *InkField::from_function(ink_grid(outline, cell_mm), t);
 }
 
-/// Every cell its own: the hardest a field can be.
+/// Every cell is independent, which is the hardest kind of field.
 InkField noise(const film::Outline& outline, double cell_mm) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> amount(0, kMostInk);
@@ -70,7 +70,7 @@ std::vector<Triangle> random_triangles(double edge_mm, double reach_mm, int coun
   return out;
 }
 
-TEST(InkGrid, CoversTheBoundingBoxExactlyInCellsOfAboutTheSizeAskedFor) {
+TEST(InkGrid, CoversTheBoundingBoxWithCellsOfAboutTheRequestedSize) {
   for (const char* film : {"A4", "123.4x10", "circle:77", "2000x2000"}) {
     const film::Outline outline = outline_of(film);
     const InkGrid grid = ink_grid(outline);
@@ -87,14 +87,14 @@ TEST(InkGrid, CoversTheBoundingBoxExactlyInCellsOfAboutTheSizeAskedFor) {
   EXPECT_EQ(ink_grid(outline_of("10x10"), 1e-300).count(), std::size_t{2048} * 2048);
 }
 
-TEST(InkField, NoneMeansNoInk) {
+TEST(InkField, DefaultMeansNoInk) {
   const InkField none;
   EXPECT_EQ(none.at({0, 0}), 0);
   EXPECT_EQ(none.mean({0, 0}, {10, 0}, {0, 10}), 0);
   EXPECT_EQ(none.total_mm2(), 0);
 }
 
-TEST(InkField, AmountsThatAreNoInkAreRefusedByTheirCell) {
+TEST(InkField, InvalidAmountsAreRefusedByTheirCell) {
   const InkGrid grid = ink_grid(outline_of("10x10"), 5);
   ASSERT_EQ(grid.count(), 4u);
   for (const double bad : {-1e-9, 4.0001, std::nan(""), std::numeric_limits<double>::infinity()}) {
@@ -144,7 +144,7 @@ TEST(InkField, MeanIsThatOfManySamples) {
   }
 }
 
-TEST(InkField, WhatLiesBeyondTheFilmCountsAsNoInk) {
+TEST(InkField, ThereIsNoInkBeyondTheFilm) {
   const InkField field = field_of(outline_of("20x20"), [](const Vector2d&) { return 3; });
   EXPECT_NEAR(field.mean({5, -5}, {15, -5}, {5, 5}), 3 * 0.75, 1e-12) << "a quarter hangs over";
   EXPECT_NEAR(field.mean({-40, -40}, {40, -40}, {0, 40}), 3 * 400 / 3200.0, 1e-12)
@@ -153,13 +153,13 @@ TEST(InkField, WhatLiesBeyondTheFilmCountsAsNoInk) {
   EXPECT_NEAR(field.mean({-15, -30}, {15, 0}, {-15, 30}), 3 * 375 / 900.0, 1e-12);
 }
 
-TEST(InkField, TrianglesThatCoverTheFilmShareOutAllItsInk) {
+TEST(InkField, TrianglesThatCoverTheFilmContainAllItsInk) {
   const film::Outline outline = outline_of("97.3x61.9");
   for (const double cell_mm : {0.5, 3.0, 100.0}) {
     const InkField field = noise(outline, cell_mm);
     std::mt19937 random(3);
     for (int trial = 0; trial < 20; ++trial) {
-      // A fan from a point of the film round its edge, which random points divide.
+      // A fan around a random point of the film; random points divide the film's edge.
       std::uniform_real_distribution<double> share(0.05, 0.95);
       const Vector2d hub =
           outline.min_mm + outline.size_mm().cwiseProduct(Vector2d(share(random), share(random)));
@@ -197,7 +197,7 @@ TEST(InkField, PartsOfATriangleAddUpToIt) {
   }
 }
 
-TEST(InkField, MeanIsTheSameEitherWayRoundAndFromEveryCorner) {
+TEST(InkField, MeanDoesNotDependOnOrientationOrFirstCorner) {
   const InkField field = noise(outline_of("100x100"), 0.5);
   for (const Triangle& t : random_triangles(3, 55, 100)) {
     EXPECT_NEAR(field.mean(t[0], t[1], t[2]), field.mean(t[0], t[2], t[1]), 1e-11);
@@ -207,7 +207,7 @@ TEST(InkField, MeanIsTheSameEitherWayRoundAndFromEveryCorner) {
 
 TEST(InkField, EdgesAlongTheGridLoseNothing) {
   const InkField field = noise(outline_of("10x10"), 0.5);
-  // From centre to centre, from edge to edge, and both ways across.
+  // From centre to centre, from edge to edge, and split along both diagonals.
   for (const double from : {-4.75, -5.0, 0.0}) {
     const Vector2d a(from, from), b(from + 4, from), c(from + 4, from + 4), d(from, from + 4);
     const double whole = field.mean(a, b, c) + field.mean(a, c, d);
@@ -215,7 +215,7 @@ TEST(InkField, EdgesAlongTheGridLoseNothing) {
   }
 }
 
-TEST(InkField, RingOfInkIsFoundWhereItIs) {
+TEST(InkField, ARingOfInkIsAtItsPlace) {
   const auto ring = [](const Vector2d& p) { return p.norm() > 20 && p.norm() < 30 ? 2.0 : 0.0; };
   const InkField field = field_of(outline_of("circle:105"), ring);
   EXPECT_EQ(field.at({25, 0}), 2);

@@ -74,7 +74,7 @@ TEST(InkOf, PlainColoursArePlainInk) {
   }
 }
 
-TEST(InkOf, NoInkIsLostOrWonWhateverTheSizeOfTheImage) {
+TEST(InkOf, NoInkIsLostOrGainedForAnyImageSize) {
   const film::Outline outline = outline_of("60x40");
   const std::vector<std::pair<int, int>> sizes = {{1, 1},    {3, 2},    {7, 500},
                                                   {130, 80}, {121, 79}, {997, 661}};
@@ -90,20 +90,20 @@ TEST(InkOf, NoInkIsLostOrWonWhateverTheSizeOfTheImage) {
   }
 }
 
-TEST(InkOf, ImagesOfWholeDotsPerInchLieAtTheirOwnPitch) {
-  // 10 dpi: 2.54 mm a pixel; 24 x 16 of them are 60.96 x 40.64 mm, a little more than the film.
+TEST(InkOf, ImagesOfWholeDotsPerInchKeepTheirPitch) {
+  // 10 dpi is 2.54 mm per pixel; 24 x 16 pixels are 60.96 x 40.64 mm, slightly more than the film.
   const image::RgbImage image = picture(24, 16, [](int x, int) {
     return x < 12 ? std::array<int, 3>{255, 0, 0} : std::array<int, 3>{255, 255, 255};
   });
   const InkField more = ink(image, outline_of("60x40"));
   EXPECT_NEAR(more.total_mm2(), 2 * 30 * 40, 1e-9) << "what hangs over the film is cut off";
-  // And a little less than this one.
+  // The image is slightly smaller than this film.
   const InkField less = ink(image, outline_of("62x41"));
   EXPECT_NEAR(less.total_mm2(), 2 * 12 * 2.54 * 16 * 2.54, 1e-9);
   EXPECT_NEAR(less.at({-15, 0}), 2, 1e-12);
 }
 
-TEST(InkOf, EachPixelsInkIsFoundWhereThePixelLies) {
+TEST(InkOf, EachPixelsInkIsAtThePixelsPlace) {
   // Not symmetric: red top left, black bottom right.
   const film::Outline outline = outline_of("40x20");
   const image::RgbImage image = picture(4, 2, [](int x, int y) {
@@ -128,7 +128,7 @@ TEST(InkOf, ConvertsPixelsBeforeItAveragesThem) {
   for (const double amount : cells(ink(image, outline))) ASSERT_NEAR(amount, 0.5, 1e-12);
 }
 
-TEST(InkOf, IccProfilesInkIsKeptTooAndNamedIfItCannotBe) {
+TEST(InkOf, IccProfilesKeepTheInkAndErrorsNameTheProfile) {
   const hydroprint::testing::TemporaryFolder folder;
   InkOptions options;
   options.icc_profile = folder.write("printer.icc", testing::icc_profile({}));
@@ -146,7 +146,7 @@ TEST(InkOf, IccProfilesInkIsKeptTooAndNamedIfItCannotBe) {
   EXPECT_NE(refused.error().message.find("none.icc"), std::string::npos);
 }
 
-TEST(InkOf, SameBitsWhateverTheNumberOfThreads) {
+TEST(InkOf, IsBitIdenticalForAnyNumberOfThreads) {
   const hydroprint::testing::TemporaryFolder folder;
   const image::RgbImage image = noise(1234, 777);
   InkOptions icc;
@@ -159,7 +159,7 @@ TEST(InkOf, SameBitsWhateverTheNumberOfThreads) {
   }
 }
 
-TEST(InkOf, CancelEndsIt) {
+TEST(InkOf, StopsWhenCancelled) {
   Context context;
   context.cancelled = [] { return true; };
   const auto field = ink_of(noise(10, 10), outline_of("A4"), {}, context);
@@ -187,7 +187,7 @@ TEST(ReadInkImage, ClearFilmCarriesNoInk) {
   EXPECT_NEAR(field->at({15, 0}), 2, 1e-12);
 }
 
-TEST(ReadInkImage, FilesThatAreNoImagesAreRefused) {
+TEST(ReadInkImage, OtherFilesAreRefused) {
   const hydroprint::testing::TemporaryFolder folder;
   const auto missing = read_ink_image(folder.path() / "ink.png", outline_of("A4"), {}, {});
   ASSERT_FALSE(missing);

@@ -29,7 +29,7 @@ cmsInt32Number ink_of_lab(const cmsUInt16Number lab[], cmsUInt16Number cmyk[], v
   return 1;
 }
 
-/// Linear in L*, so two grid points say it all.
+/// Linear in L*, so two grid points are enough.
 void write_table(cmsHPROFILE profile, cmsTagSignature tag, double share) {
   cmsPipeline* table = cmsPipelineAlloc(nullptr, 3, 4);
   cmsStage* clut = cmsStageAllocCLut16bit(nullptr, 2, 3, 4, nullptr);

@@ -5,8 +5,8 @@
 
 namespace hydroprint::ink::testing {
 
-/// What a made-up CMYK printer's profile says: each of C, M, Y and K gets share * (1 - L* / 100) of
-/// ink, by rendering intent.
+/// The profile of a fictitious CMYK printer: each of C, M, Y and K gets the amount share * (1 - L*
+/// / 100), with the share depending on the rendering intent.
 struct Printer {
   double perceptual = 0.25, colorimetric = 0.75;
 };
@@ -14,8 +14,8 @@ struct Printer {
 /// An ICC profile (version 4) of that printer, as the bytes of a file.
 [[nodiscard]] std::string icc_profile(const Printer& printer);
 
-/// sRGB's own profile (a display, RGB), a CMYK profile that is no printer's, and one of a printer
-/// that takes RGB.
+/// The profile of sRGB (a display, RGB), a CMYK profile that does not belong to a printer, and the
+/// profile of an RGB printer.
 [[nodiscard]] std::string srgb_profile();
 [[nodiscard]] std::string cmyk_link_profile();
 [[nodiscard]] std::string rgb_printer_profile();

@@ -150,7 +150,7 @@ TEST(IccSeparation, ProfilesOfOtherDevicesAreRefused) {
   expect_refused(separation_from(testing::rgb_printer_profile()), Code::kInvalidArgument, "RGB");
 }
 
-TEST(IccSeparation, FilesThatAreNotThereOrNoProfilesAreRefused) {
+TEST(IccSeparation, MissingFilesAndOtherFilesAreRefused) {
   const hydroprint::testing::TemporaryFolder folder;
   expect_refused(make_separation(folder.path() / "printer.icc"), Code::kNotFound, "missing");
   EXPECT_EQ(make_separation(folder.path()).error().code, Code::kInvalidArgument);
@@ -161,7 +161,7 @@ TEST(IccSeparation, FilesThatAreNotThereOrNoProfilesAreRefused) {
   expect_refused(separation_from(std::string(4096, 'x')), Code::kDataLoss, "text");
 }
 
-TEST(IccSeparation, ProfilesCutShortAnywhereAreRefused) {
+TEST(IccSeparation, TruncatedProfilesAreRefused) {
   const hydroprint::testing::TemporaryFolder folder;
   const std::string whole = icc_profile({});
   const auto path = folder.write("printer.icc", whole);
@@ -195,14 +195,14 @@ TEST(IccSeparation, HugeTablesThatAHeaderAnnouncesAreNotAllocated) {
     expect_refused(separation_from(lying), Code::kDataLoss, "grid points");
   }
   EXPECT_LT(peak_kib() - before, 64 * 1024);
-  for (const std::size_t at : {std::size_t{0}, std::size_t{128}}) {  // its size, how many tags
+  for (const std::size_t at : {std::size_t{0}, std::size_t{128}}) {  // its size, its number of tags
     std::string lying = whole;
     lying.replace(at, 4, 4, '\xFF');
     expect_refused(separation_from(lying), Code::kDataLoss, "sizes");
   }
 }
 
-TEST(IccSeparation, DamagedBytesAreRefusedOrGiveAnAmountOfInk) {
+TEST(IccSeparation, DamagedProfilesAreRefusedOrGiveAnAmountOfInk) {
   const std::string whole = icc_profile({});
   std::mt19937 random(5);
   for (int trial = 0; trial < 60; ++trial) {

@@ -14,7 +14,7 @@
 
 namespace hydroprint::mesh {
 
-/// A folder of a test's own, removed with it.
+/// A folder for one test, removed with this object.
 class Folder {
  public:
   Folder() {
@@ -47,7 +47,7 @@ void put(std::string& bytes, T value) {
   bytes.append(raw, sizeof raw);
 }
 
-/// Model of the file, which must be readable.
+/// Reads the model in the file, which must succeed.
 inline Model read(const std::filesystem::path& path, double scale = 1) {
   auto model = read_model(path, scale, {});
   if (!model) {
@@ -57,7 +57,7 @@ inline Model read(const std::filesystem::path& path, double scale = 1) {
   return *model;
 }
 
-/// The file must be refused with one line that names it and holds `words`.
+/// Expects that the file is refused with one line that names it and contains `words`.
 inline void expect_refused(const std::filesystem::path& path, const std::string& words,
                            Code code = Code::kInvalidArgument) {
   const auto model = read_model(path, 1, {});

@@ -14,7 +14,7 @@
 namespace hydroprint::mesh {
 namespace {
 
-/// An axis-aligned box of quads, each cut in two, looking outward.
+/// An axis-aligned box of quads, each split in two, facing outward.
 Model box(const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
   Model model;
   model.path = "box";
@@ -44,7 +44,7 @@ Model turned(Model model) {
   return model;
 }
 
-/// Each triangle with three points of its own, as in an STL file.
+/// Each triangle with its own three points, as in an STL file.
 Model torn(const Model& model) {
   Model apart;
   apart.path = model.path;
@@ -92,7 +92,7 @@ double longest_edge(const Surface& s) {
   return longest;
 }
 
-/// The welded edges that do not have exactly two sides running opposite ways.
+/// The number of welded edges that do not have exactly two sides with opposite directions.
 std::size_t bad_edges(const Surface& s) {
   std::size_t bad = 0;
   const Edges edges(s.triangles, s.weld);
@@ -206,7 +206,7 @@ TEST(MakeSurface, CornerNormalsOfABoxAreItsFaceNormals) {
   }
 }
 
-TEST(MakeSurface, InsideOutModelIsTurnedOverAndSaysSo) {
+TEST(MakeSurface, InsideOutModelIsTurnedOverWithAWarning) {
   const Surface surface = made(turned(sample::icosphere(10, 3)));
   EXPECT_GT(volume(surface), 0);
   EXPECT_TRUE(has_warning(surface, "inside_out"));
@@ -233,7 +233,7 @@ TEST(MakeSurface, OneShellInsideOutAmongTwoIsTurnedOver) {
   EXPECT_TRUE(has_warning(surface, "many_shells"));
 }
 
-TEST(MakeSurface, AHollowInsideAnotherShellStaysAHollow) {
+TEST(MakeSurface, ACavityInsideAnotherShellStaysACavity) {
   const Surface surface =
       made(join(box({0, 0, 0}, {20, 20, 20}), turned(box({5, 5, 5}, {15, 15, 15}))));
   EXPECT_NEAR(volume(surface), 8000 - 1000, 1e-6);
@@ -242,7 +242,7 @@ TEST(MakeSurface, AHollowInsideAnotherShellStaysAHollow) {
 
 TEST(MakeSurface, OpenMeshIsReportedWithItsBoundaryEdges) {
   Model model = box({0, 0, 0}, {10, 10, 10});
-  model.triangles.resize(10);  // the last quad goes
+  model.triangles.resize(10);  // removes the last quad
   const Surface surface = made(model);
   EXPECT_FALSE(surface.closed);
   ASSERT_TRUE(has_warning(surface, "mesh_open"));
@@ -303,7 +303,7 @@ TEST(MakeSurface, AnEdgeLengthThatIsNotPositiveIsRefused) {
   }
 }
 
-TEST(MakeSurface, CancelEndsTheWork) {
+TEST(MakeSurface, StopsWhenCancelled) {
   Context context;
   context.cancelled = [] { return true; };
   const auto surface = make_surface(box({0, 0, 0}, {100, 100, 100}), kMaxEdgeMm, context);
@@ -324,7 +324,7 @@ TEST(MakeSurface, AStripWithOneSideIsReportedAndKept) {
     model.vertices.push_back(30 * radial + 5 * across);
   }
   for (int i = 0; i < n; ++i) {
-    const bool last = i + 1 == n;  // the strip closes with its sides exchanged
+    const bool last = i + 1 == n;  // the strip closes with its sides swapped
     const int c = last ? 1 : 2 * i + 2;
     const int d = last ? 0 : 2 * i + 3;
     model.triangles.emplace_back(2 * i, c, 2 * i + 1);
@@ -335,7 +335,7 @@ TEST(MakeSurface, AStripWithOneSideIsReportedAndKept) {
   EXPECT_FALSE(surface.closed);
 }
 
-TEST(Icosphere, HasTheTrianglesOfItsLevelAndLooksOutward) {
+TEST(Icosphere, HasTheTrianglesOfItsLevelAndFacesOutward) {
   const Model model = sample::icosphere(40, 6);
   EXPECT_EQ(model.triangles.size(), 81920U);
   EXPECT_EQ(model.vertices.size(), 40962U);

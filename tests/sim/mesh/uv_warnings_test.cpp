@@ -36,7 +36,7 @@ TEST(UvWarnings, TextureUsedTwiceIsReportedWithItsShare) {
   EXPECT_EQ(codes(model), "uv_overlapping 25 %;");
 }
 
-TEST(UvWarnings, RepetitionIsOverlapToo) {
+TEST(UvWarnings, RepetitionCountsAsOverlap) {
   Model model;
   add_square(model, 0, 0.5F, false);
   add_square(model, 1, 1.5F, false);

@@ -1,5 +1,5 @@
-// How accurate a dip is at the default settings, which are also the fast ones; tests/bench prints
-// the same figures against finer runs than there is time for here.
+// Accuracy of a dip at the default settings, which are also the fast ones. tests/bench prints the
+// same figures with finer runs, which would take too long here.
 #include <gtest/gtest.h>
 
 #include "sim/pipeline/dip.h"

@@ -51,7 +51,7 @@ TEST(Dip, AFlatBottomMapsToItselfAndTheWallsAreReached) {
   EXPECT_TRUE(warns(d, "theta_clamped"));
 }
 
-TEST(Dip, ACupMouthDownTakesFilmInsideAndMouthUpDoesNot) {
+TEST(Dip, OnlyACupWithItsMouthDownTakesFilmInside) {
   for (const bool mouth_up : {false, true}) {
     const Dip d = dipped(bodies::cup(14, 18, 24, 4, mouth_up, 64), options_for("100x90"));
     int inside = 0;
@@ -69,7 +69,7 @@ TEST(Dip, ACupMouthDownTakesFilmInsideAndMouthUpDoesNot) {
   }
 }
 
-TEST(Dip, ARingTakesTheFilmInsideItOnItsInside) {
+TEST(Dip, FilmInsideARingLandsOnItsInside) {
   const Dip d = dipped(bodies::torus(24, 7, 64, 32), options_for("100x90"));
   int inside = 0, outside = 0;
   for_each_point(d, [&](const Vector3d& p, const Vector2d& film) {
@@ -106,7 +106,7 @@ TEST(Dip, FilmBetweenTwoFeetIsSharedBetweenThem) {
   EXPECT_EQ(left, right);
 }
 
-TEST(Dip, AnObjectThatReachesPastTheFilmEndsThere) {
+TEST(Dip, EndsWhereTheObjectReachesTheFilmsEdge) {
   const Dip d = dipped(bodies::wedge(std::numbers::pi / 4, 40, 20), options_for("50x80"));
   EXPECT_TRUE(d.figures.stopped_at_edge);
   EXPECT_TRUE(warns(d, "film_edge_reached"));
@@ -130,7 +130,7 @@ TEST(Dip, AContactThatMissesTheFilmIsRefused) {
   EXPECT_EQ(d.error().reason, "CONTACT_MISSES_FILM");
 }
 
-TEST(Dip, GoesNoDeeperThanAskedAndNoDeeperThanTheObject) {
+TEST(Dip, GoesNoDeeperThanRequestedOrThanTheObject) {
   for (const double depth : {0.5, 7.0, 1000.0}) {
     DipOptions options = options_for("60x60");
     options.depth_mm = depth;
@@ -147,14 +147,14 @@ TEST(Dip, GoesNoDeeperThanAskedAndNoDeeperThanTheObject) {
   }
 }
 
-TEST(Dip, OfDepthZeroIsNoError) {
+TEST(Dip, DepthZeroIsNotAnError) {
   DipOptions options = options_for("60x60");
   options.depth_mm = 0;
   const Dip d = dipped(bodies::box({-5, -5, 0}, {5, 5, 10}), options);
   EXPECT_EQ(d.figures.depth_mm, 0);
 }
 
-TEST(Dip, CentresTheObjectUnlessToldOtherwise) {
+TEST(Dip, CentresTheObjectByDefault) {
   const mesh::Model model = bodies::moved(sample::icosphere(10, 3), {300, -200, 77});
   DipOptions options = options_for("60x60");
   options.depth_mm = 8;
@@ -185,7 +185,7 @@ TEST(Dip, IgnoresTheZOfThePose) {
   }
 }
 
-TEST(Dip, GivesTheSameBitsForOneAndTwoThreads) {
+TEST(Dip, IsBitIdenticalForOneAndTwoThreads) {
   DipOptions options = options_for("90x80");
   options.map.make_tiles = true;
   options.depth_mm = 16;
@@ -228,7 +228,7 @@ TEST(Dip, StopsAtAnyStageWhenCancelled) {
   }
 }
 
-TEST(Dip, DeliversTheFilmAsPrintedWhenItSwells) {
+TEST(Dip, ReturnsPointsOfThePrintedFilmWhenItSwells) {
   DipOptions options = options_for("60x60");
   options.profile.swelling = {1.25, 1.1};
   const Dip d = dipped(bodies::box({-5, -5, 0}, {5, 5, 3}), options);
@@ -238,7 +238,7 @@ TEST(Dip, DeliversTheFilmAsPrintedWhenItSwells) {
   });
 }
 
-TEST(Dip, TakesOpenSheetsAndBrokenBodies) {
+TEST(Dip, AcceptsOpenSheetsAndBrokenBodies) {
   mesh::Model broken = sample::icosphere(12, 3);
   broken.triangles.resize(broken.triangles.size() * 4 / 5);
   EXPECT_GT(dipped(broken, options_for("60x60")).figures.coverage, 0.3);
@@ -249,7 +249,7 @@ TEST(Dip, TakesOpenSheetsAndBrokenBodies) {
   EXPECT_GE(dipped(sheet, options_for("60x60")).figures.coverage, 0);
 }
 
-TEST(Dip, TakesPartsThatAbutWithinRounding) {
+TEST(Dip, AcceptsPartsThatTouchUpToRounding) {
   for (const double gap_mm : {1e-3, 1e-5, 2e-6}) {
     pipeline::DipOptions options;
     options.outline = film::parse_outline("80x80").value();

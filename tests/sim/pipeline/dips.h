@@ -27,7 +27,7 @@ inline DipOptions options_for(const std::string& film, FilmModel model = FilmMod
   return options;
 }
 
-/// What holds for every dip: numbers or NaN, as documented.
+/// Checks the properties of every dip: numbers or NaN, as documented.
 inline void expect_sound(const Dip& dip, const DipOptions& options) {
   const flow::SurfaceMap& map = dip.map.surface;
   const std::size_t points = dip.surface.points.size();
@@ -62,7 +62,7 @@ inline void expect_sound(const Dip& dip, const DipOptions& options) {
   }
 }
 
-/// Dips what is expected to go through, and checks what holds for every dip.
+/// Runs a dip that must succeed, and checks the properties of every dip.
 inline Dip dipped(const mesh::Model& model, const DipOptions& options) {
   auto result = dip(model, options, two_threads());
   if (!result) {
@@ -73,7 +73,7 @@ inline Dip dipped(const mesh::Model& model, const DipOptions& options) {
   return std::move(*result);
 }
 
-/// The warning of that code; empty code if there is none.
+/// The warning with this code; its code is empty if there is none.
 inline Warning warning_of(const Dip& dip, const std::string& code) {
   const auto it = std::find_if(dip.warnings.begin(), dip.warnings.end(),
                                [&](const Warning& w) { return w.code == code; });
@@ -84,7 +84,7 @@ inline bool warns(const Dip& dip, const std::string& code) {
   return !warning_of(dip, code).code.empty();
 }
 
-/// Calls `visit` with each point as it lies in F, its immersion as z, and the film there.
+/// Calls `visit` for each point with its position in F, its immersion as z, and its film.
 template <class Visit>
 void for_each_point(const Dip& dip, Visit&& visit) {
   for (std::size_t v = 0; v < dip.surface.points.size(); ++v) {

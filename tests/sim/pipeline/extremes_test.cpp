@@ -1,4 +1,4 @@
-// Long thin films, tiny bodies, bodies at the film's edge: in both models.
+// Long thin films, tiny bodies, bodies at the film's edge, with both film models.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -35,7 +35,7 @@ double depth_at(double radius_mm, double degrees) {
 
 Pose at(double x_mm, double y_mm) { return Pose(Eigen::Translation3d(x_mm, y_mm, 0)); }
 
-/// Distances on a centred sphere between where its points are and where their film lands exactly.
+/// Errors of the landing points on a centred sphere, from the exact solution.
 struct Errors {
   double rms_mm = 0, max_mm = 0;
   int count = 0;
@@ -60,7 +60,7 @@ Errors errors_of(const Dip& dip, double radius_mm, double vat_mm, double degrees
   return out;
 }
 
-TEST_P(Extremes, TinySpheresAreAsExactInMillimetresAsLargeOnes) {
+TEST_P(Extremes, TinySpheresAreAsAccurateInMillimetresAsLargeOnes) {
   for (const auto& [radius_mm, vat_mm] :
        {std::pair{5.0, 105.0}, {1.0, 105.0}, {1.0, 6.0}, {0.25, 6.0}}) {
     DipOptions options = options_for("circle:" + std::to_string(vat_mm), GetParam());
@@ -73,8 +73,8 @@ TEST_P(Extremes, TinySpheresAreAsExactInMillimetresAsLargeOnes) {
   }
 }
 
-TEST_P(Extremes, AlongALongThinFilmTheMapIsTheSameEverywhere) {
-  // Twelve times as far from either end as the film is wide, or more.
+TEST_P(Extremes, TheMapIsTheSameEverywhereAlongALongThinFilm) {
+  // The distance from either end is at least twelve times the film's width.
   const mesh::Model sphere = sample::icosphere(4, 5);
   DipOptions options = options_for("600x12", GetParam());
   options.depth_mm = depth_at(4, 121);
@@ -90,14 +90,14 @@ TEST_P(Extremes, AlongALongThinFilmTheMapIsTheSameEverywhere) {
     if (z > depth_at(4, 120)) continue;
     const Vector2d there = aside.map.surface.film_mm[v] - Vector2d(150.3, 0);
     EXPECT_LT((here - there).norm(), 0.02) << middle.surface.points[v].transpose();
-    // Across, there is no film beyond the edge to draw in.
+    // Across the strip, no film can come from beyond the edge.
     EXPECT_LT(std::abs(here.y()), 6);
     ++reached;
   }
   EXPECT_GT(reached, 7000);
 }
 
-TEST_P(Extremes, ASphereNearTheEdgeIsDippedUntilItsWaterlineReachesIt) {
+TEST_P(Extremes, ASphereNearTheEdgeIsDippedUntilItsWaterlineReachesTheEdge) {
   constexpr double kRadius_mm = 10;
   for (const double gap_mm : {8.0, 4.0, 1.0}) {  // from its lowest point to the edge
     DipOptions options = options_for("60x80", GetParam());
@@ -118,8 +118,8 @@ TEST_P(Extremes, ASphereNearTheEdgeIsDippedUntilItsWaterlineReachesIt) {
   }
 }
 
-TEST_P(Extremes, ABoxBesideTheEdgeTakesWhatFilmThereIsBetween) {
-  // Its upright side 0.4, 0.05 and 0 mm from the film's edge at x = 30.
+TEST_P(Extremes, ABoxNearTheEdgeTakesTheFilmBetween) {
+  // The distances of its upright side from the film's edge at x = 30 are 0.4, 0.05 and 0 mm.
   for (const double gap_mm : {0.4, 0.05, 0.0}) {
     const mesh::Model box = bodies::box({10, -10, 0}, {30 - gap_mm, 10, 8});
     DipOptions options = options_for("60x80", GetParam());
@@ -138,14 +138,14 @@ TEST_P(Extremes, ABoxBesideTheEdgeTakesWhatFilmThereIsBetween) {
   }
 }
 
-TEST_P(Extremes, ANeedleThroughTheFilmMovesNoneOfItFarAway) {
-  // 0.4 mm across and 30 mm long: every length below the mesh's own.
+TEST_P(Extremes, ANeedleDoesNotMoveFilmFarAway) {
+  // 0.4 mm wide and 30 mm long: every length is below those of the mesh.
   const mesh::Model needle = bodies::turned({{0, 0}, {0.2, 1}, {0.2, 30}, {0, 30}}, 16);
   DipOptions options = options_for("A4", GetParam());
   const Dip d = dipped(needle, options);
   EXPECT_GT(d.figures.coverage, 0.9);
   for_each_point(d, [&](const Vector3d& p, const Vector2d& film) {
-    // Film for a wall of that area, and no more, comes from round about.
+    // Only the film for a wall of that area comes from the surroundings.
     if (film.allFinite()) {
       EXPECT_LT(film.norm(), 0.2 + p.z()) << p.transpose();
     }

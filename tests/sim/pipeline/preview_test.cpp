@@ -16,7 +16,7 @@ using testing::dipped;
 using testing::options_for;
 namespace bodies = hydroprint::testing;
 
-TEST(Preview, ShowsWhereFilmGoesToAboutAMillimetre) {
+TEST(Preview, ShowsLandingPointsToAboutAMillimetre) {
   for (const double radius_mm : {60.0, 20.0}) {
     const mesh::Model sphere = sample::icosphere(radius_mm, 5);
     DipOptions options = options_for("A4", FilmModel::kStokes);
@@ -40,7 +40,7 @@ TEST(Preview, ShowsWhereFilmGoesToAboutAMillimetre) {
   }
 }
 
-TEST(Preview, TakesTheModelsOwnTriangles) {
+TEST(Preview, UsesTheModelsOwnTriangles) {
   const mesh::Model box = bodies::box({-15, -10, 0}, {15, 10, 20});
   const Dip rough = dipped(box, preview_of(options_for("100x90")));
   EXPECT_EQ(rough.surface.triangles.size(), box.triangles.size());

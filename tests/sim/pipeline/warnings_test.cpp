@@ -15,7 +15,7 @@
 #include "tests/sim/support/bodies.h"
 #include "tests/support/temporary_folder.h"
 
-// Each warning by a body made to provoke it, and beside it one that is like it but for that.
+// For each warning, a body that provokes it and a similar one that does not.
 
 namespace hydroprint::pipeline {
 namespace {
@@ -54,7 +54,7 @@ TEST(Warnings, FilmTornIsForMoreThanTheProfilesStretch) {
     options.profile.tear_stretch = 1.8;
     const Dip torn = dipped(sphere, options);
     EXPECT_TRUE(warns(torn, "film_torn"));
-    // In a film without end from 112.5 degrees on; the clamped edge makes it a little sooner.
+    // In an infinite film from 112.5 degrees on; slightly earlier because of the clamped edge.
     const double share = (std::cos(1.9635) - std::cos(2 * std::numbers::pi / 3)) / 2;
     EXPECT_GT(torn.figures.torn_share, 0.9 * share);
     EXPECT_LT(torn.figures.torn_share, 2 * share);
@@ -62,7 +62,7 @@ TEST(Warnings, FilmTornIsForMoreThanTheProfilesStretch) {
 }
 
 TEST(Warnings, FilmWrinkledIsForLessThanTheProfilesStretch) {
-  // Round the sphere cos(theta / 2): 0.6 at 106 degrees.
+  // Around the sphere cos(theta / 2): 0.6 at 106 degrees.
   const mesh::Model sphere = sample::icosphere(20, 4);
   for (const FilmModel model : {FilmModel::kStokes, FilmModel::kSheet}) {
     EXPECT_FALSE(warns(dipped(sphere, to_angle(95, model)), "film_wrinkled"));
@@ -70,7 +70,7 @@ TEST(Warnings, FilmWrinkledIsForLessThanTheProfilesStretch) {
   }
 }
 
-TEST(Warnings, FilmWrinkledComesWithAMapOfWhere) {
+TEST(Warnings, FilmWrinkledComesWithAPicture) {
   const hydroprint::testing::TemporaryFolder folder;
   std::ostringstream obj;
   const mesh::Model sphere = sample::icosphere(20, 3);
@@ -83,7 +83,7 @@ TEST(Warnings, FilmWrinkledComesWithAMapOfWhere) {
   options.dpi = 50;
   for (const double theta_deg : {95.0, 118.0}) {
     options.dip = to_angle(theta_deg);
-    options.dip.map.tolerance_mm = 0.5;  // coarse pictures will do
+    options.dip.map.tolerance_mm = 0.5;  // coarse pictures are enough
     options.dip.map.least_edge_mm = 1;
     const auto simulation = simulate(options, {});
     ASSERT_TRUE(simulation) << simulation.error().message;
@@ -96,14 +96,14 @@ TEST(Warnings, FilmWrinkledComesWithAMapOfWhere) {
   }
 }
 
-TEST(Warnings, ThetaClampedIsForFacesThatLookUp) {
-  // A cone's level top, and a spindle that is pointed at both ends.
+TEST(Warnings, ThetaClampedIsForFacesThatFaceUp) {
+  // The level top of a cone, and a spindle that is pointed at both ends.
   EXPECT_TRUE(warns(dipped(bodies::cone(0.8, 12, 48), options_on("90x90")), "theta_clamped"));
   const mesh::Model spindle = bodies::turned({{0, 0}, {12, 12}, {0, 24}}, 48);
   EXPECT_FALSE(warns(dipped(spindle, options_on("90x90")), "theta_clamped"));
 }
 
-TEST(Warnings, PartsNotReachedIsForWhatTheWaterDoesNotTouch) {
+TEST(Warnings, PartsNotReachedIsForPartsThatStayDry) {
   const mesh::Model spindle = bodies::turned({{0, 0}, {24, 24}, {0, 48}}, 48);
   DipOptions options = options_on("150x150");
   EXPECT_FALSE(warns(dipped(spindle, options), "parts_not_reached"));
@@ -129,8 +129,8 @@ TEST(Warnings, DragIgnoredIsForStokes) {
   EXPECT_FALSE(warns(dipped(sphere, with_drag), "drag_ignored"));
 }
 
-// By figures: slits too narrow to mesh are closed before, so bodies that still get here are few and
-// odd.
+// Tested with figures, because slits too narrow to mesh are closed beforehand, so few bodies still
+// get here.
 TEST(Warnings, WaterlinesPassedOverAreCountedAndTheFirstIsNamed) {
   EXPECT_TRUE(warnings_of_motion(20, {}, 0).empty());
   const Warnings some = warnings_of_motion(18, {3.5, 7}, 0);
@@ -141,7 +141,7 @@ TEST(Warnings, WaterlinesPassedOverAreCountedAndTheFirstIsNamed) {
 }
 
 TEST(Warnings, SheetUnsettledIsForFilmThatFolds) {
-  // Two legs that come together below: film between them is drawn both ways until it folds.
+  // Two legs that join at the bottom: film between them is drawn both ways until it folds.
   const Result<mesh::Model> bend = sample::make_model("ubend");
   ASSERT_TRUE(bend) << bend.error().message;
   DipOptions options = options_on("A4", FilmModel::kSheet);
@@ -164,7 +164,7 @@ TEST(Warnings, ARingTrapsFilmButNoAir) {
   ASSERT_EQ(ring.figures.traps.size(), 1U);
   const waterline::Trap& trap = ring.figures.traps[0];
   EXPECT_LT(trap.immersion_mm, 0.1);
-  // From the inner edge of the facet that it lies on.
+  // From the inner edge of the facet on which it lies.
   const double area_mm2 = round_area_mm2(24 - 7 * std::sin(std::numbers::pi / 32));
   EXPECT_NEAR(trap.area_mm2, area_mm2, 0.01 * area_mm2);
   EXPECT_LT(trap.place_mm.norm(), 0.1);
@@ -183,7 +183,7 @@ TEST(Warnings, ARingWithAGapTrapsNothing) {
 }
 
 TEST(Warnings, ACupMouthDownTrapsFilmAndAir) {
-  // 14 mm inside, its ceiling 20 mm up.
+  // 14 mm inner radius, its ceiling 20 mm up.
   const Dip down = dipped(bodies::cup(14, 18, 24, 4, false, 64), options_on("100x90"));
   EXPECT_TRUE(warns(down, "film_trapped"));
   EXPECT_TRUE(warns(down, "air_trapped"));
@@ -202,7 +202,7 @@ TEST(Warnings, ACupMouthUpOrWithAVentTrapsNoAir) {
   const Dip up = dipped(bodies::cup(14, 18, 24, 4, true, 64), options_on("100x90"));
   EXPECT_FALSE(warns(up, "film_trapped"));
   EXPECT_FALSE(warns(up, "air_trapped"));
-  // A square cup mouth down with a hole in its bottom.
+  // A square cup with its mouth down and a hole in its bottom.
   const Dip vented =
       dipped(bodies::blocks({-18, -14, -3, 3, 14, 18}, {-18, -14, -3, 3, 14, 18}, {0, 20, 24},
                             [](int i, int j, int k) {
@@ -224,8 +224,8 @@ TEST(Warnings, AirIsTrappedEvenIfTheDipEndsBelowTheCeiling) {
   EXPECT_FALSE(warns(ring, "air_trapped"));
 }
 
-TEST(Warnings, AHollowThatClosesAboveTheRimIsToldByItsImmersion) {
-  // Four legs of 10 mm under a square cup mouth down: the waterline closes at the rim.
+TEST(Warnings, ACavityThatClosesAboveTheRimIsReportedByItsImmersion) {
+  // Four legs of 10 mm under a square cup with its mouth down: the waterline closes at the rim.
   const Dip legs = dipped(bodies::blocks({-20, -14, 14, 20}, {-20, -14, 14, 20}, {0, 10, 16, 20},
                                          [](int i, int j, int k) {
                                            const bool is_leg = i != 1 && j != 1;
@@ -237,7 +237,7 @@ TEST(Warnings, AHollowThatClosesAboveTheRimIsToldByItsImmersion) {
   ASSERT_FALSE(legs.figures.traps.empty());
   EXPECT_NEAR(legs.figures.traps[0].immersion_mm, 10, 0.05);
   EXPECT_NEAR(legs.figures.traps[0].air_mm3, 28 * 28 * 6, 0.02 * 28 * 28 * 6);
-  // The same without the rim: a table, whose top the air gets away under.
+  // The same without the rim: a table, from under whose top the air can escape.
   const Dip table =
       dipped(bodies::blocks({-20, -14, 14, 20}, {-20, -14, 14, 20}, {0, 16, 20},
                             [](int i, int j, int k) { return k == 1 || (i != 1 && j != 1); }),
@@ -246,8 +246,8 @@ TEST(Warnings, AHollowThatClosesAboveTheRimIsToldByItsImmersion) {
   EXPECT_FALSE(warns(table, "air_trapped"));
 }
 
-TEST(Warnings, AClosedCavityIsNoTrap) {
-  // Inside the solid, neither film nor water ever come near it.
+TEST(Warnings, AClosedCavityIsNotATrap) {
+  // The cavity is inside the solid, so neither film nor water reaches it.
   const Dip hollow =
       dipped(bodies::together({bodies::box({-15, -15, 0}, {15, 15, 20}),
                                bodies::inside_out(bodies::box({-8, -8, 5}, {8, 8, 15}))}),

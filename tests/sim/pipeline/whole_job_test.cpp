@@ -1,5 +1,5 @@
-// Every sample, and the real models when they are there, through the whole chain and back: each
-// colour that lands is the one the texture wants at that place.
+// Every sample, and the real models if they are present, through the whole chain and back. Each
+// landed colour must match the texture at that point.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -24,18 +24,18 @@ using Eigen::Vector3f;
 
 struct Body {
   std::string name;
-  fs::path mesh;  ///< empty: the sample of that name
+  fs::path mesh;  ///< empty: the sample named `name`
   double scale = 1;
   double turn_x_rad = 0;
   double least_coverage = 0;
-  double least_right = 0.97;  ///< share of points that get their colour
+  double least_right = 0.97;  ///< share of points with the correct colour
 };
 
 void PrintTo(const Body& body, std::ostream* out) { *out << body.name; }
 
 Vector3f wanted(const Vector2f& uv) { return {uv.x(), uv.y(), 0.4F}; }
 
-/// A texture whose colour tells the place: red grows with u, green with v.
+/// A texture whose colour encodes the position: red grows with u, green with v.
 fs::path write_gradient(const fs::path& folder) {
   constexpr int kSide = 256;
   image::RgbImage gradient{kSide, kSide, std::vector<std::uint8_t>(3 * kSide * kSide)};
@@ -52,7 +52,7 @@ fs::path write_gradient(const fs::path& folder) {
   return folder / "gradient.png";
 }
 
-/// Per point of the surface its texture coordinate; none at seams, where it has several.
+/// The texture coordinate of each point of the surface; nullopt at seams, where it has several.
 std::vector<std::optional<Vector2f>> point_uvs(const mesh::Model& model,
                                                const mesh::Surface& surface) {
   std::vector<std::optional<Vector2f>> uvs(surface.points.size());
@@ -76,7 +76,7 @@ std::vector<std::optional<Vector2f>> point_uvs(const mesh::Model& model,
 
 class WholeJobOf : public ::testing::TestWithParam<Body> {};
 
-TEST_P(WholeJobOf, LandsEachColourWhereTheTextureWantsIt) {
+TEST_P(WholeJobOf, EachColourLandsWhereTheTextureHasIt) {
   const Body& body = GetParam();
   if (!body.mesh.empty() && !fs::exists(body.mesh)) GTEST_SKIP() << body.mesh << " is not here";
   const testing::TemporaryFolder folder;
@@ -114,7 +114,7 @@ TEST_P(WholeJobOf, LandsEachColourWhereTheTextureWantsIt) {
   const auto uvs = point_uvs(simulation->model, simulation->dip.surface);
   int compared = 0, right = 0;
   for (std::size_t v = 0; v < uvs.size(); ++v) {
-    // Where film is drawn out to several times its length, a film pixel covers too much to tell.
+    // Where film is stretched to several times its length, a film pixel covers too large an area.
     const bool is_telling = map.stretch[v] < 3 && map.least_stretch[v] > 0.3;
     if (!uvs[v] || !is_telling || !landed[v].allFinite()) continue;
     ++compared;
@@ -140,11 +140,11 @@ INSTANTIATE_TEST_SUITE_P(
                       Body{"bunny", kModels / "bunny/bunny_with_uv.obj", 300, kUpright, 0.8},
                       Body{"head", kModels / "head/LeePerrySmith_converted.obj", 7, kUpright, 0.6},
                       Body{"mug_scan", kModels / "mug/mug.obj", 6, kUpright, 0.4},
-                      // Three open shells that meet in rings, where film lands on either.
+                      // three open shells that meet in rings, where film lands on either
                       Body{"bottle", kModels / "bottle/WaterBottle.gltf", 400, kUpright, 0.6,
                            0.94}));
 
-TEST(WholeJob, OfAModelWithoutColourIsAWhiteFilm) {
+TEST(WholeJob, AModelWithoutColourGivesAWhiteFilm) {
   const fs::path cat = kModels / "cat/cat-low-resolution.obj";
   if (!fs::exists(cat)) GTEST_SKIP() << cat << " is not here";
   SimulateOptions options;

@@ -31,7 +31,7 @@ int total(const std::uint8_t* c) { return c[0] + c[1] + c[2] + c[3]; }
 
 ColourSettings plain_cmyk(double limit = 4) { return {true, {}, limit}; }
 
-TEST(PrinterColours, PlainCmykOfPureColoursIsWhatTheyAre) {
+TEST(PrinterColours, PlainCmykOfPureColoursIsExact) {
   const auto got = printer_coloured(
       row_of({{255, 255, 255}, {0, 0, 0}, {255, 0, 0}, {0, 255, 0}, {0, 0, 255}, {128, 128, 128}}),
       plain_cmyk(), {});
@@ -43,7 +43,7 @@ TEST(PrinterColours, PlainCmykOfPureColoursIsWhatTheyAre) {
   EXPECT_EQ(got->limited_share, 0);
 }
 
-TEST(PrinterColours, RgbWithoutAProfileIsLeftAsItIs) {
+TEST(PrinterColours, RgbWithoutAProfileIsUnchanged) {
   const image::RgbImage image = noise(31, 17);
   const auto got = printer_coloured(image, {}, {});
   ASSERT_TRUE(got);
@@ -68,7 +68,7 @@ TEST(PrinterColours, NoPixelExceedsTheInkLimitAndBlackStays) {
       ++changed;
       EXPECT_GE(total(cmyk), static_cast<int>(limit * 255) - 3);
       EXPECT_EQ(cmyk[3], std::min<int>(before[3], static_cast<int>(limit * 255)));
-      // The same hue: shares of C, M and Y within what rounding to 8 bits does.
+      // The same hue: shares of C, M and Y match within 8-bit rounding.
       const double colour = before[0] + before[1] + before[2], left = cmyk[0] + cmyk[1] + cmyk[2];
       for (int c = 0; colour > 0 && c < 3; ++c) {
         EXPECT_NEAR(cmyk[c], before[c] * left / colour, 2);
@@ -80,7 +80,7 @@ TEST(PrinterColours, NoPixelExceedsTheInkLimitAndBlackStays) {
   }
 }
 
-TEST(PrinterColours, AProfileLaysDownTheInkThatTheSimulationReckonsWith) {
+TEST(PrinterColours, AProfileUsesTheInkThatTheSimulationAssumes) {
   const testing::TemporaryFolder folder;
   const auto icc = folder.write("printer.icc", ink::testing::icc_profile({0.25, 0.75}));
   const image::RgbImage image = noise(40, 30);
@@ -96,7 +96,7 @@ TEST(PrinterColours, AProfileLaysDownTheInkThatTheSimulationReckonsWith) {
   }
 }
 
-TEST(PrinterColours, WhiteIsNoInkWhateverTheProfileSays) {
+TEST(PrinterColours, WhiteIsNoInkForAnyProfile) {
   const testing::TemporaryFolder folder;
   for (const std::string& bytes :
        {ink::testing::icc_profile({0.25, 0.75}), ink::testing::rgb_printer_profile()}) {
@@ -117,7 +117,7 @@ TEST(PrinterColours, AreTheSameForAnyNumberOfThreads) {
             printer_coloured(image, plain_cmyk(1.5), many)->image.samples);
 }
 
-TEST(PrinterColours, RefuseLimitsThatMeanNothing) {
+TEST(PrinterColours, RefuseInvalidInkLimits) {
   const image::RgbImage image = noise(2, 2);
   for (const double limit : {0.0, -1.0, 4.1, static_cast<double>(NAN)}) {
     EXPECT_EQ(printer_coloured(image, plain_cmyk(limit), {}).error().code, Code::kOutOfRange);

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-TEST(FreeSpace, WhatItFindsKeepsItsDistanceFromAnyPolygon) {
+TEST(FreeSpace, FreeBoxesKeepTheirDistanceFromAnyPolygon) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> radius(15, 70), side(2, 40), at(0, 200);
   for (int round = 0; round < 40; ++round) {
@@ -41,7 +41,7 @@ TEST(FreeSpace, WhatItFindsKeepsItsDistanceFromAnyPolygon) {
   }
 }
 
-TEST(FreeSpace, FindsTheLastPlaceThereIs) {
+TEST(FreeSpace, FindsTheLastFreePlace) {
   FreeSpace space(Box{{0, 0}, {100, 100}});
   space.take(Box{{0, 0}, {100, 90}});
   space.take(Box{{20, 90}, {100, 100}});

@@ -32,8 +32,8 @@ Layout laid(const std::string& film, const PageSettings& settings, double dpi = 
   return *layout;
 }
 
-/// Every stroke, at places 0.25 mm apart along it and with its pen's width, on paper that can be
-/// printed and a millimetre off the film.
+/// Checks every stroke with its pen's width, at points 0.25 mm apart: it must be within the
+/// printable area and a millimetre away from the film.
 void expect_marks_off_film(const Layout& layout, double margin_mm) {
   for (const Sheet& sheet : layout.sheets) {
     for (const Stroke& stroke : sheet.marks) {
@@ -52,7 +52,7 @@ void expect_marks_off_film(const Layout& layout, double margin_mm) {
   }
 }
 
-TEST(Layout, AFilmOfThePapersSizeHasNoRoomForMarksAndSaysSo) {
+TEST(Layout, AFilmOfThePapersSizeWarnsOfDroppedMarks) {
   const Layout layout = laid("A4", on("A4"));
   ASSERT_EQ(layout.sheets.size(), 1U);
   EXPECT_TRUE(layout.sheets[0].marks.empty());
@@ -62,7 +62,7 @@ TEST(Layout, AFilmOfThePapersSizeHasNoRoomForMarksAndSaysSo) {
   EXPECT_NE(layout.warnings[0].message.find("upright ruler"), std::string::npos);
 }
 
-TEST(Layout, WithRoomAllMarksAreThereAndNothingIsWarnedOf) {
+TEST(Layout, WithRoomAllMarksAreDrawnWithoutWarnings) {
   const Layout layout = laid("A4", on("A3"));
   ASSERT_EQ(layout.sheets.size(), 1U);
   EXPECT_EQ(layout.sheets[0].drawn,
@@ -109,12 +109,12 @@ TEST(Layout, RegistrationMarksPointAtTheMiddlesAndEndsOfTheBars) {
   EXPECT_EQ(found, 12);
 }
 
-TEST(Layout, PaperIsTurnedWhereTheFilmElseWouldNotFit) {
+TEST(Layout, PaperIsRotatedIfTheFilmWouldNotFitOtherwise) {
   EXPECT_EQ(laid("280x100", on("A4")).sheets[0].size_mm, Vector2d(297, 210));
   EXPECT_EQ(laid("100x280", on("A4")).sheets[0].size_mm, Vector2d(210, 297));
 }
 
-TEST(Layout, SheetsCoverALargerFilmAndOverlapAsAsked) {
+TEST(Layout, SheetsCoverALargerFilmAndOverlapAsRequested) {
   for (const double overlap_mm : {0.0, 7.3, 15.0}) {
     for (const std::string film : {"A3", "500x200", "211x297", "900x1200"}) {
       PageSettings settings = on("A4");
@@ -132,7 +132,7 @@ TEST(Layout, SheetsCoverALargerFilmAndOverlapAsAsked) {
         EXPECT_EQ(own.x1 == grid.columns, sheet.column == layout.columns - 1);
         EXPECT_EQ(own.y0 == 0, sheet.row == 0);
         EXPECT_EQ(own.y1 == grid.rows, sheet.row == layout.rows - 1);
-        // All of it within the printer's reach.
+        // All of it is within the printable area.
         EXPECT_EQ(sheet.printable.width(), own.width());
         EXPECT_EQ(sheet.printable.height(), own.height());
         if (sheet.column > 0) {
@@ -162,7 +162,7 @@ TEST(Layout, AMirroredFilmLiesMirroredOnThePage) {
   }
 }
 
-TEST(Layout, RefusesWhatMakesNoSense) {
+TEST(Layout, RefusesSettingsOutOfRange) {
   const film::Outline outline = outline_of("900x1200");
   const auto refused = [&](PageSettings settings) {
     const auto layout = lay_out(image::film_grid(outline, 0.254), outline, settings);

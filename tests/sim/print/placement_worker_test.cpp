@@ -1,4 +1,4 @@
-// template through the program; its page is read by other programs and measured.
+// The verb template; other programs read its page, and the test measures it.
 
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ struct Extent {
   double x0 = HUGE_VAL, x1 = -HUGE_VAL, y0 = HUGE_VAL, y1 = -HUGE_VAL;
 };
 
-/// Of the stroke with that pen that reaches farthest, in mm of the page.
+/// Extent of all strokes with this pen, in mm on the page.
 Extent extent_of_strokes(const std::string& trace, double pen_mm) {
   Extent out;
   const std::regex stroke("<stroke_path[^>]*linewidth=\"([^\"]+)\"[^]*?</stroke_path>");
@@ -59,27 +59,27 @@ Extent extent_of_strokes(const std::string& trace, double pen_mm) {
   return out;
 }
 
-TEST_F(Template, ShowsFirstContactWhereThePosePutsItAtExactScale) {
+TEST_F(Template, ShowsFirstContactAtThePoseAndAtExactScale) {
   const Ended ended = run({"--pose", path("pose.json")});
   ASSERT_EQ(ended.status, 0) << ended.err;
   const auto report = nlohmann::json::parse(bytes_of(path("out/report.json")));
   EXPECT_NEAR(report["placement"]["contact_mm"][0], 25, 1e-3);
   EXPECT_NEAR(report["placement"]["contact_mm"][1], -23, 1e-3);
-  // Half a millimetre above its tip the pyramid is a hundredth of its top's size.
+  // Half a millimetre above its tip the pyramid has a hundredth of its size at the top.
   EXPECT_NEAR(report["placement"]["contact_size_mm"][0], 0.6, 1e-3);
   EXPECT_NEAR(report["placement"]["contact_size_mm"][1], 0.4, 1e-3);
   const std::string trace = traced_by_mupdf(path("out/placement.pdf"));
   const Extent contact = extent_of_strokes(trace, 0.6);
   EXPECT_NEAR(contact.x0, 105 + 25 - 0.3, 1e-2);
   EXPECT_NEAR(contact.x1, 105 + 25 + 0.3, 1e-2);
-  // Coordinates of the page run up, as the film's do.
+  // Coordinates of the page run upwards, like the film's.
   EXPECT_NEAR(contact.y0, 148.5 - 23 - 0.2, 1e-2);
   EXPECT_NEAR(contact.y1, 148.5 - 23 + 0.2, 1e-2);
   const Ended info = testing::run({"/usr/bin/pdfinfo", path("out/placement.pdf")});
   EXPECT_NE(info.out.find("Pages:           2"), std::string::npos) << info.out;
 }
 
-TEST_F(Template, IsTheSameFileEveryTime) {
+TEST_F(Template, IsByteIdenticalEveryTime) {
   ASSERT_EQ(run({"--date", "2025-03-14"}, "one").status, 0);
   ASSERT_EQ(run({"--date", "2025-03-14", "--threads", "1"}, "two").status, 0);
   EXPECT_TRUE(bytes_of(path("one/placement.pdf")) == bytes_of(path("two/placement.pdf")));

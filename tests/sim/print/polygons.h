@@ -5,7 +5,7 @@
 
 namespace hydroprint::print {
 
-/// How far a place is from a simple polygon; inside of it, 0.
+/// Distance of a point from a simple polygon; 0 inside.
 [[nodiscard]] double distance_to_polygon(const std::vector<Eigen::Vector2d>& polygon,
                                          const Eigen::Vector2d& p);
 

@@ -1,4 +1,4 @@
-// print-image through the program; its files are read by other programs and measured.
+// The verb print-image; other programs read its files, and the test measures them.
 
 #include <gtest/gtest.h>
 
@@ -72,7 +72,7 @@ class PrintImage : public ::testing::Test {
   testing::TemporaryFolder folder;
 };
 
-/// Middles of the dark lines that a row or column of grey values crosses, in pixels.
+/// Middles of the dark lines in a row or column of grey values, in pixels.
 std::vector<double> lines_in(const std::vector<int>& grey) {
   std::vector<double> out;
   double weight = 0, sum = 0;
@@ -112,15 +112,15 @@ TEST_F(PrintImage, ThePdfsScaleIsExactOverTheWholeFilm) {
   const auto across = lines_in(row), along = lines_in(column);
   ASSERT_EQ(along.size(), 2U);
   ASSERT_EQ(across.size(), 2U);
-  // Poppler draws an image from whole pixel to whole pixel of its own.
+  // Poppler aligns images to its own whole pixels.
   EXPECT_NEAR((along[1] - along[0]) * kMmPerPixel, (y1 - y0) * kPitch_mm, 0.05);
   EXPECT_NEAR((across[1] - across[0]) * kMmPerPixel, (x1 - x0) * kPitch_mm, 0.05);
-  // The film's middle is the paper's.
+  // The film's middle is at the paper's middle.
   EXPECT_NEAR(along[0] * kMmPerPixel, 148.5 + (y0 + 0.5 - 877) * kPitch_mm, 0.05);
   EXPECT_NEAR(across[0] * kMmPerPixel, 105 + (x0 + 0.5 - 620) * kPitch_mm, 0.05);
 }
 
-TEST_F(PrintImage, TheImageOnThePageIsItsSizeToTheMicrometreAndSoIsTheRuler) {
+TEST_F(PrintImage, ImageAndRulerSizesAreExactToTheMicrometre) {
   film(scenery(787, 787));  // 200 mm at 100 dpi
   print({"--film", "200x200", "--paper", "A3", "--formats", "pdf"});
   const std::string trace = traced_by_mupdf(path("out/print.pdf"));
@@ -129,7 +129,7 @@ TEST_F(PrintImage, TheImageOnThePageIsItsSizeToTheMicrometreAndSoIsTheRuler) {
   ASSERT_TRUE(std::regex_search(trace, match, placed)) << trace.substr(0, 2000);
   EXPECT_NEAR(std::abs(std::stod(match[1])) * 25.4 / 72, 787 * 0.254, 1e-3);
   EXPECT_NEAR(std::abs(std::stod(match[2])) * 25.4 / 72, 787 * 0.254, 1e-3);
-  // Lines of two points; the longest of them are the rulers'.
+  // Lines that have two points; the longest are those of the rulers.
   const std::regex line(
       "<moveto x=\"([^\"]+)\" y=\"([^\"]+)\"/>\\s*<lineto x=\"([^\"]+)\" y=\"([^\"]+)\"/>\\s*</");
   int rulers = 0;
@@ -168,7 +168,7 @@ TEST_F(PrintImage, PngAndTiffHoldTheFilmImageUnchangedWithItsResolution) {
   EXPECT_EQ(tiff[262], 2);  // RGB
 }
 
-TEST_F(PrintImage, CmykReachesPdfAndTiffAsItIsAndKeepsToTheInkLimit) {
+TEST_F(PrintImage, CmykIsUnchangedInPdfAndTiffAndRespectsTheInkLimit) {
   image::RgbImage image = blank(400, 300);
   fill(image, 0, 0, 100, 300, {0, 0, 0});
   fill(image, 100, 0, 200, 300, {255, 0, 0});
@@ -202,7 +202,7 @@ TEST_F(PrintImage, CmykReachesPdfAndTiffAsItIsAndKeepsToTheInkLimit) {
   EXPECT_EQ(tiff[277], 4);
 }
 
-TEST_F(PrintImage, TilesJoinToTheVeryImage) {
+TEST_F(PrintImage, TilesJoinToTheOriginalImage) {
   const image::RgbImage image = scenery(1181, 827);  // 300 x 210 mm at 100 dpi
   film(image);
   const auto report = print(
@@ -234,7 +234,7 @@ TEST_F(PrintImage, TilesJoinToTheVeryImage) {
       << info.out;
 }
 
-TEST_F(PrintImage, AReprintIsTheSameFileBitForBit) {
+TEST_F(PrintImage, AReprintIsByteIdentical) {
   film(scenery(620, 877));
   const Arguments flags = {"--film",    "105x148.5",    "--paper",    "A4",
                            "--formats", "pdf,png,tiff", "--job-name", "mug 3",
@@ -243,7 +243,8 @@ TEST_F(PrintImage, AReprintIsTheSameFileBitForBit) {
   one.insert(one.end(), {"--threads", "1"});
   two.insert(two.end(), {"--threads", "3"});
   print(one, "one");
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // a date of now would differ
+  // The current time in a file would differ.
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   print(two, "two");
   for (const std::string name : {"/print.pdf", "/print.png", "/print.tif"}) {
     EXPECT_TRUE(bytes_of(path("one") + name) == bytes_of(path("two") + name)) << name;
@@ -268,14 +269,14 @@ TEST_F(PrintImage, AnImageInThePrintersMarginIsCutOffWithAWarning) {
   image::RgbImage image = blank(827, 1169);  // A4 at 100 dpi
   fill(image, 400, 500, 500, 600, {0, 0, 255});
   film(image);
-  EXPECT_EQ(print({"--printer-margin-mm", "5"})["warnings"].size(), 1U);  // marks alone
+  EXPECT_EQ(print({"--printer-margin-mm", "5"})["warnings"].size(), 1U);  // for marks only
   fill(image, 0, 500, 400, 600, {0, 0, 255});
   film(image);
   const auto report = print({"--printer-margin-mm", "5", "--formats", "png"});
   ASSERT_EQ(report["warnings"].size(), 2U);
   EXPECT_EQ(report["warnings"][1]["code"], "image_in_printer_margin");
   EXPECT_EQ(report["warnings"][1]["where"], "sheet 1: left");
-  // 5 mm of a strip 25.4 mm high, to whole pixels.
+  // 5 mm of a strip 25.4 mm high, rounded to whole pixels.
   EXPECT_NEAR(report["print"]["cut_off_mm2"], 5 * 25.4, 0.254 * 25.4);
   const auto read = image::read_image(path("out/print.png"), {});
   std::vector<std::uint8_t> row(3U * 827);
@@ -284,7 +285,7 @@ TEST_F(PrintImage, AnImageInThePrintersMarginIsCutOffWithAWarning) {
   EXPECT_EQ(row[3 * 21], 0);
 }
 
-TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksAndSaysSo) {
+TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksWithAWarning) {
   film(blank(827, 1169));
   const Ended ended = testing::run(command({}));
   EXPECT_EQ(ended.status, 0);
@@ -294,7 +295,7 @@ TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksAndSaysSo) {
   EXPECT_EQ(nlohmann::json::parse(bytes_of(path("silent/report.json")))["warnings"].size(), 0U);
 }
 
-TEST_F(PrintImage, TheProfileGoesAlong) {
+TEST_F(PrintImage, TheProfileIsEmbedded) {
   film(blank(118, 118));
   const std::string icc = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
   print({"--film", "30x30", "--icc-profile", icc});

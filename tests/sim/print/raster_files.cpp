@@ -16,7 +16,7 @@ void run(const std::vector<std::string>& command) {
   if (ended.status != 0) throw std::runtime_error(command[0] + ": " + ended.err);
 }
 
-/// The header's words up to the pixels; comments are not expected.
+/// Reads the header up to the pixels; does not support comments.
 Raster read_pam(std::istream& in) {
   Raster out;
   std::string word;

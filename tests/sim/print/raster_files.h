@@ -8,7 +8,7 @@
 
 namespace hydroprint::print {
 
-/// Pixels as other programs give them.
+/// Pixels as rendered by other programs.
 struct Raster {
   int width = 0, height = 0, channels = 0;
   std::vector<std::uint8_t> samples;
@@ -18,19 +18,19 @@ struct Raster {
   }
 };
 
-/// A PGM, PPM or PAM of 8 bits; throws std::runtime_error at anything else.
+/// Reads a PGM, PPM or PAM with 8 bits; throws std::runtime_error for anything else.
 [[nodiscard]] Raster read_netpbm(const std::filesystem::path& path);
 
-/// A page of a PDF, in grey, drawn by poppler.
+/// A page of a PDF, rendered in grey by poppler.
 [[nodiscard]] Raster drawn_by_poppler(const std::filesystem::path& pdf, int dpi, int page = 1);
 
-/// A page of a PDF, or a TIFF, drawn by MuPDF with its amounts of ink untouched.
+/// A page of a PDF, or a TIFF, rendered by MuPDF with its amounts of ink unchanged.
 [[nodiscard]] Raster inks_by_mupdf(const std::filesystem::path& file, int dpi, int page = 1);
 
-/// What a PDF's pages are drawn with, by MuPDF, as text.
+/// The drawing operations of a PDF's pages, as text, by MuPDF.
 [[nodiscard]] std::string traced_by_mupdf(const std::filesystem::path& pdf);
 
-/// Numbers of a TIFF's first directory by their tags (rationals as quotients).
+/// Numbers in a TIFF's first directory by their tags (rationals as quotients).
 [[nodiscard]] std::map<int, double> tiff_tags(const std::filesystem::path& path);
 
 /// Pixels per metre, across and down.

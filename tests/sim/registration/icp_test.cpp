@@ -1,4 +1,4 @@
-// What PCL's alignment does with starts that are off.
+// PCL's alignment from inaccurate starts.
 #include "sim/registration/icp.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace hydroprint::registration {
 namespace {
 
-/// What a camera sees of a board: one face, and so no more than three of its motions.
+/// The view of a board: one face, which determines only three of its motions.
 std::vector<SurfacePoint> seen_face() {
   std::vector<SurfacePoint> out;
   for (int i = -10; i <= 10; ++i)
@@ -21,7 +21,7 @@ std::vector<SurfacePoint> seen_face() {
   return out;
 }
 
-TEST(Icp, TurnsAFlatFaceOntoItsBody) {
+TEST(Icp, AlignsAFlatFaceWithItsBody) {
   const auto icp = make_icp(Shape(testing::box({-60, -60, 0}, {60, 60, 10})).samples(3000)).value();
   Pose off(Eigen::Translation3d(2, -1, 6));
   off.rotate(Eigen::AngleAxisd(8 * std::numbers::pi / 180, Eigen::Vector3d(1, 2, 0).normalized()));
@@ -29,7 +29,7 @@ TEST(Icp, TurnsAFlatFaceOntoItsBody) {
   const Eigen::Vector3d normal = found.pose.linear().col(2);
   EXPECT_LT(std::acos(std::min(1.0, normal.z())), 0.001);
   EXPECT_NEAR((found.pose * Eigen::Vector3d(0, 0, 10)).z(), 10, 0.05);
-  // Nor does it slide away along what nothing tells.
+  // It must not drift along directions that the points do not determine.
   EXPECT_LT((found.pose * Eigen::Vector3d(0, 0, 10)).head<2>().norm(), 5);
 }
 

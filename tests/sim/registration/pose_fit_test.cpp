@@ -1,4 +1,4 @@
-// Poses from points that tell only some of the motions.
+// Poses from points that determine only some of the motions.
 #include "sim/registration/pose_fit.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace hydroprint::registration {
 namespace {
 
-/// Points in the middle of a plate across the camera's axis.
+/// Points in the middle of a plate perpendicular to the camera's axis.
 std::vector<scan::ScanPoint> points_of_a_plate(double z_mm) {
   std::vector<scan::ScanPoint> out;
   for (int v = -10; v <= 10; ++v) {
@@ -29,12 +29,12 @@ std::vector<scan::ScanPoint> points_of_a_plate(double z_mm) {
   return out;
 }
 
-/// However much may be believed of the scan: what no point tells must not become a step without
-/// bounds, nor one that is no number.
-TEST(PoseFit, MakesNoStepAlongWhatNothingTells) {
+/// Motions that no point determines must not lead to an unbounded or NaN step, even if the weak
+/// directions are not limited.
+TEST(PoseFit, MakesNoStepAlongUndeterminedMotions) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   const auto points = points_of_a_plate(800);
-  const Pose start(Eigen::Translation3d(3, -2, 802));  // its underside looks at the camera
+  const Pose start(Eigen::Translation3d(3, -2, 802));  // its underside faces the camera
   FitOptions options;
   options.weak_sigma_mm = std::numeric_limits<double>::infinity();
   const auto fit = fit_pose(plate, points, {}, start, start, options, testing::two_threads());
@@ -65,9 +65,9 @@ std::vector<scan::ScanPoint> points_of_two_faces(double z_mm) {
   return out;
 }
 
-/// The better a camera is known, the less far off a point may be by chance; but before a fit has
-/// found its way, points are far off whatever the noise.
-TEST(PoseFit, ANarrowSideIsReachedHoweverWellTheCameraIsKnown) {
+/// The better a camera is known, the smaller the chance that a point is far off. Before a fit has
+/// converged, points are far off regardless of the noise.
+TEST(PoseFit, ConvergesOntoANarrowSideForAnyCameraAccuracy) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   const auto points = points_of_two_faces(800);
   const Pose truth(Eigen::Translation3d(-300, 0, 800));
@@ -82,7 +82,7 @@ TEST(PoseFit, ANarrowSideIsReachedHoweverWellTheCameraIsKnown) {
   EXPECT_NEAR(fit->X_CB.translation().x(), -300, 0.1);
 }
 
-TEST(PoseFit, RefusesAStartThatIsNoNumber) {
+TEST(PoseFit, RefusesANanStart) {
   const Shape plate(testing::box({-60, -60, 0}, {60, 60, 10}));
   Pose start = Pose::Identity();
   start.translation().x() = std::numeric_limits<double>::quiet_NaN();

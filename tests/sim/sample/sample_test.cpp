@@ -18,10 +18,10 @@
 namespace hydroprint::sample {
 namespace {
 
-/// What write_sample leaves.
+/// The files written by write_sample().
 struct Written {
   hydroprint::testing::TemporaryFolder folder;
-  mesh::Model model;  ///< as read again
+  mesh::Model model;  ///< as read back
 };
 
 /// Each kind is written and read once for all tests of this program.
@@ -49,7 +49,7 @@ std::string content(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-TEST_P(EverySample, IsAClosedManifoldThatLooksOutward) {
+TEST_P(EverySample, IsAClosedManifoldFacingOutward) {
   EXPECT_TRUE(model.warnings.empty());
   const auto surface = mesh::make_surface(model, mesh::kMaxEdgeMm, {});
   ASSERT_TRUE(surface);
@@ -85,7 +85,7 @@ TEST_P(EverySample, FitsOnA4AndStandsOnItsFeet) {
   EXPECT_GT(box.sizes().maxCoeff(), 50);
 }
 
-TEST_P(EverySample, IsTheSameBytesEveryTime) {
+TEST_P(EverySample, IsByteIdenticalEveryTime) {
   const auto again = folder / "again" / "deeper";
   ASSERT_TRUE(write_sample(GetParam(), again));
   for (const std::string ending : {".obj", ".mtl", ".png"})
@@ -101,7 +101,7 @@ std::vector<std::string> names() {
 INSTANTIATE_TEST_SUITE_P(All, EverySample, ::testing::ValuesIn(names()),
                          [](const auto& test) { return test.param; });
 
-TEST(Sample, SizesAreThePapersOwn) {
+TEST(Sample, SizesMatchThePaper) {
   EXPECT_EQ(names(),
             (std::vector<std::string>{"globe", "sphere80", "board", "ubend", "mug", "bowl"}));
   const mesh::Model& globe = written("globe").model;
@@ -171,7 +171,7 @@ TEST(Sample, UnknownKindsAreRefusedWithTheKnownOnes) {
             std::string::npos);
 }
 
-TEST(Sample, FoldersThatCannotBeMadeAreRefused) {
+TEST(Sample, FoldersThatCannotBeCreatedAreRefused) {
   EXPECT_FALSE(write_sample("board", "/dev/null/folder"));
 }
 

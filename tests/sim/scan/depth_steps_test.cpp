@@ -1,4 +1,4 @@
-// The steps in which a structured-light camera tells depth, found from its frames.
+// The depth steps of a structured-light camera, found from its frames.
 #include "sim/scan/depth_steps.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ double stepped(double depth_mm) {
   return kScale_mm / (std::round(kScale_mm / depth_mm - kShift) + kShift);
 }
 
-/// A slope from one depth to another, along the image, with noise, in steps, told in whole mm.
+/// A slope from one depth to another, across the image, with noise and steps, in whole mm.
 DepthFrame slope(double from_mm, double to_mm, std::uint32_t seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0, DepthNoise{}.changing_sigma_mm(from_mm));
@@ -33,7 +33,7 @@ DepthFrame slope(double from_mm, double to_mm, std::uint32_t seed) {
   return out;
 }
 
-TEST(DepthSteps, AreFoundAndTheirRoundingIsTakenBack) {
+TEST(DepthSteps, AreFoundAndTheirRoundingIsCorrected) {
   const std::vector frames{slope(700, 950, 1)};
   const auto steps = find_depth_steps(frames);
   ASSERT_TRUE(steps);
@@ -42,7 +42,7 @@ TEST(DepthSteps, AreFoundAndTheirRoundingIsTakenBack) {
     EXPECT_NEAR(steps->before_rounding_mm(told), stepped(told), 0.05);
 }
 
-TEST(DepthSteps, AreNotFoundWhereThereAreNone) {
+TEST(DepthSteps, AreNotFoundInSmoothDepths) {
   DepthFrame smooth{kAcross, kDown, {}}, whole = smooth;
   for (int i = 0; i < kAcross * kDown; ++i) {
     smooth.depth_mm.push_back(700 + 0.01F * static_cast<float>(i));
@@ -50,11 +50,11 @@ TEST(DepthSteps, AreNotFoundWhereThereAreNone) {
   }
   EXPECT_FALSE(find_depth_steps(std::vector{smooth}));
   EXPECT_FALSE(find_depth_steps(std::vector{whole}));
-  EXPECT_FALSE(find_depth_steps(std::vector{slope(800, 805, 2)}));  // too few to tell
+  EXPECT_FALSE(find_depth_steps(std::vector{slope(800, 805, 2)}));  // too few for a result
   EXPECT_FALSE(find_depth_steps(DepthCounts{}));
 }
 
-/// By how much the worst depth of many frames' mean is off that all pixels of it share.
+/// The largest error of many frames' mean that all pixels of a depth share.
 double shared_error_mm(double from_mm, double to_mm, const std::optional<DepthSteps>& steps) {
   constexpr int kFrames = 30;
   std::vector<DepthFrame> frames;
@@ -76,8 +76,8 @@ TEST(DepthSteps, LeaveNoErrorThatAllPixelsOfADepthShare) {
   EXPECT_GT(shared_error_mm(700, 950, {}), 0.3);
 }
 
-/// Steps shorter than 1 mm are not told by frames that have no others.
-TEST(DepthSteps, OfFramesFartherAwayHelpThoseThatAreNear) {
+/// Frames that only contain steps shorter than 1 mm do not reveal them.
+TEST(DepthSteps, OfFarFramesHelpNearFrames) {
   const std::vector near{slope(480, 590, 1)}, far{slope(700, 950, 1)};
   EXPECT_FALSE(find_depth_steps(near));
   DepthCounts counts;

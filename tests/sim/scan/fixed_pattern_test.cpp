@@ -1,4 +1,4 @@
-// What is known of a camera's constant noise is taken off its depths.
+// The known part of a camera's constant noise is subtracted from its depths.
 #include "sim/scan/fixed_pattern.h"
 
 #include <gtest/gtest.h>
@@ -25,7 +25,7 @@ Lens lens_of_64() {
   return out;
 }
 
-/// Up and down over the image; the last unknown is one that all offsets have in common.
+/// Waves over the image; the last unknown is common to all offsets.
 FixedPattern wavy_pattern() {
   FixedPattern out{kPatternWidth, kPatternHeight, kPatternPatch};
   for (std::size_t i = 0; i < out.patches(); ++i)
@@ -37,7 +37,7 @@ FixedPattern wavy_pattern() {
   return out;
 }
 
-/// What a camera with such a pattern reports of a wall that it looks straight at.
+/// The frame of a camera with such a pattern that looks straight at a wall.
 FusedFrame wall_through(const FixedPattern& pattern) {
   FusedFrame out{
       {kPatternWidth, kPatternHeight, std::vector<float>(kPatternWidth * kPatternHeight)},
@@ -51,7 +51,7 @@ FusedFrame wall_through(const FixedPattern& pattern) {
   return out;
 }
 
-TEST(FixedPattern, WhatIsKnownIsTakenOffAndTheRestIsLeft) {
+TEST(FixedPattern, KnownOffsetsAreSubtractedAndTheRestRemains) {
   const FixedPattern pattern = wavy_pattern();
   const auto cloud = make_cloud(wall_through(pattern), {lens_of_64(), {}, pattern}, {}, {});
   ASSERT_TRUE(cloud) << cloud.error().message;
@@ -66,7 +66,7 @@ TEST(FixedPattern, WhatIsKnownIsTakenOffAndTheRestIsLeft) {
   }
 }
 
-TEST(FixedPattern, WithoutOneDepthsAreTakenAsTheyAre) {
+TEST(FixedPattern, WithoutAPatternDepthsStayUnchanged) {
   const FusedFrame fused = wall_through(wavy_pattern());
   const auto cloud = make_cloud(fused, {lens_of_64()}, {}, {});
   ASSERT_TRUE(cloud) << cloud.error().message;
@@ -77,7 +77,7 @@ TEST(FixedPattern, WithoutOneDepthsAreTakenAsTheyAre) {
   }
 }
 
-TEST(FixedPattern, OfAnotherImageOrOtherSquaresIsRefused) {
+TEST(FixedPattern, OfAnotherImageOrSquareSizeIsRefused) {
   FixedPattern other = wavy_pattern();
   other.height_px = 2 * kPatternHeight;
   const FusedFrame fused = wall_through(wavy_pattern());
@@ -91,7 +91,7 @@ TEST(FixedPattern, OfAnotherImageOrOtherSquaresIsRefused) {
   EXPECT_FALSE(make_cloud(fused, {lens_of_64(), {}, wavy_pattern()}, noise, {}));
 }
 
-TEST(FixedPattern, WhatOffsetsShareIsKeptToTheStep) {
+TEST(FixedPattern, SharedErrorsAreStoredToWithinAStep) {
   Eigen::MatrixXd shared = Eigen::MatrixXd::Random(12, 192);
   shared.row(3).setZero();
   FixedPattern pattern = wavy_pattern();
@@ -101,7 +101,7 @@ TEST(FixedPattern, WhatOffsetsShareIsKeptToTheStep) {
   EXPECT_LT((kept - shared).cwiseAbs().maxCoeff(), 0.51 / 127);
 }
 
-/// Where a point goes when the camera's unknowns do.
+/// The shift of a point for a change of the camera's unknowns.
 TEST(CameraErrors, AreTheDerivativesOfAPointByLensAndPattern) {
   Camera camera{lens_of_64(), {}, wavy_pattern()};
   const Lens::Matrix mixed = Lens::Matrix::Random();

@@ -27,7 +27,7 @@ std::vector<DepthFrame> noisy(int count) {
   return out;
 }
 
-TEST(Fusion, MeanSeesBetweenTheStepsOfDepthAndStatesItsError) {
+TEST(Fusion, MeanResolvesDepthsBetweenStepsAndStatesItsError) {
   const auto fused = fuse(noisy(60), {}, {});
   ASSERT_TRUE(fused) << fused.error().message;
   double squares = 0, stated = 0;
@@ -38,7 +38,7 @@ TEST(Fusion, MeanSeesBetweenTheStepsOfDepthAndStatesItsError) {
   EXPECT_NEAR(std::sqrt(squares / stated), 1, 0.05);
 }
 
-TEST(Fusion, AFewWildDepthsMoveNothing) {
+TEST(Fusion, AFewOutliersDoNotChangeTheResult) {
   auto frames = noisy(60);
   for (std::size_t k = 0; k < 10; ++k) frames[k].depth_mm[5] = 1900;
   const auto with = fuse(frames, {}, {});
@@ -62,7 +62,7 @@ std::string reason(const std::vector<DepthFrame>& frames) {
   return fused ? "" : fused.error().reason;
 }
 
-TEST(Fusion, RefusesWhatACameraInTroubleGives) {
+TEST(Fusion, RefusesFramesOfAFaultyCamera) {
   EXPECT_EQ(reason({flat(0)}), "CAMERA_BLACK");
   EXPECT_EQ(reason({flat(800), flat(800), flat(800)}), "CAMERA_FROZEN");
   std::vector<DepthFrame> moving;
@@ -79,7 +79,7 @@ TEST(Fusion, RefusesNoFramesAndFramesOfTwoSizes) {
   EXPECT_NE(fused.error().message.find("frame 1"), std::string::npos);
 }
 
-TEST(Cloud, PlaneHasItsNormalTowardsTheCameraAndEdgesAreLeftOut) {
+TEST(Cloud, PlaneNormalsPointToTheCameraAndEdgesAreLeftOut) {
   Lens lens;
   lens.width_px = kWidth;
   lens.height_px = kHeight;

@@ -19,7 +19,7 @@ Lens bent() {
   return lens;
 }
 
-TEST(Lens, SeesEveryPointAtThePixelWhoseRayItLiesOn) {
+TEST(Lens, PixelsAndRaysAreConsistent) {
   const Lens lens = bent();
   for (const double u : {0.0, 100.5, 320.0, 639.0}) {
     for (const double v : {0.0, 47.25, 240.0, 479.0}) {
@@ -34,7 +34,7 @@ TEST(Lens, DepthIsAlongTheAxisTimesScale) {
   EXPECT_NEAR(bent().point(500, 20, 1000).z(), 1.01 * 1000, 1e-9);
 }
 
-TEST(Lens, DerivativesTellWhatASmallChangeDoes) {
+TEST(Lens, DerivativesMatchSmallChanges) {
   const Lens lens = bent();
   Lens::Vector change;
   change << 0.3, -0.2, 0.1, 0.2, 1e-3, -2e-3, 2e-4, 1e-4, 5e-4;

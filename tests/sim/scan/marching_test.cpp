@@ -17,7 +17,7 @@ using Eigen::Vector3i;
 constexpr int kCount = 24;
 constexpr double kSpacing_mm = 2;
 
-/// The surface of a ball of 17 mm, not in the middle of anything.
+/// The surface of a ball of 17 mm, away from all symmetric positions.
 TriangleMesh ball() {
   const Vector3d middle(24.3, 23.1, 24.9);
   MarchingTetrahedra marching(Vector3i::Constant(kCount), Vector3d::Zero(), kSpacing_mm);
@@ -35,7 +35,7 @@ TriangleMesh ball() {
   return std::move(marching).mesh();
 }
 
-TEST(MarchingTetrahedra, BallIsClosedTurnedOutwardAndOfItsSize) {
+TEST(MarchingTetrahedra, BallIsClosedFacesOutwardAndHasItsSize) {
   const TriangleMesh mesh = ball();
   std::map<std::pair<int, int>, int> edges;
   double volume_mm3 = 0;

@@ -1,4 +1,4 @@
-// Smoothed frames, against the planes and steps that were drawn.
+// Smoothed frames, compared with the planes and steps in them.
 #include "sim/scan/smooth.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ DepthFrame drawn(const std::function<double(int u, int v)>& depth_mm) {
   return out;
 }
 
-/// A plane at 45 degrees, as a camera of 575.8 px sees it.
+/// A plane at 45 degrees, seen by a camera with a focal length of 575.8 px.
 double plane_mm(int u, int /*v*/) { return 800 / (1 - (u - kWidth_px / 2.0) / 575.8); }
 
 DepthFrame smoothed(const DepthFrame& frame) {
@@ -42,7 +42,7 @@ double rms_mm(const DepthFrame& frame, int margin_px) {
   return std::sqrt(squares / count);
 }
 
-TEST(Smooth, LeavesAPlaneAndGapsAsTheyAre) {
+TEST(Smooth, LeavesAPlaneAndGapsUnchanged) {
   DepthFrame frame = drawn(plane_mm);
   frame.depth_mm[frame.index(50, 40)] = 0;
   const DepthFrame out = smoothed(frame);
@@ -50,8 +50,8 @@ TEST(Smooth, LeavesAPlaneAndGapsAsTheyAre) {
     EXPECT_NEAR(out.depth_mm[i], frame.depth_mm[i], 0.001);
 }
 
-/// Of 25 patches of noise a fifth remains.
-TEST(Smooth, TakesOutWhatPatchesAddToEveryFrame) {
+/// A fifth of the noise of 25 patches remains.
+TEST(Smooth, RemovesTheNoiseOfPatchesInEveryFrame) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0, 1.1);
   std::vector<double> patches(static_cast<std::size_t>(kWidth_px * kHeight_px) / 16);
@@ -63,7 +63,7 @@ TEST(Smooth, TakesOutWhatPatchesAddToEveryFrame) {
   EXPECT_LT(rms_mm(smoothed(frame), 8), 0.3);
 }
 
-TEST(Smooth, LeavesAStepWhereItIs) {
+TEST(Smooth, LeavesAStepInPlace) {
   const DepthFrame frame = drawn([](int u, int) { return u < 60 ? 800 : 820; });
   const DepthFrame out = smoothed(frame);
   for (std::size_t i = 0; i < frame.depth_mm.size(); ++i)

@@ -1,4 +1,4 @@
-// A camera swept over the rig, against where it was and what was there.
+// A camera swept over the rig, compared with its true path and the true scene.
 #include "sim/scan/sweep.h"
 
 #include <gtest/gtest.h>
@@ -40,14 +40,14 @@ Result<Sweep> fuse(const std::vector<DepthFrame>& frames, const Lens& lens,
   return fuse(frames, Camera{lens}, context);
 }
 
-/// What calibrate-camera would tell of a camera's constant noise at best.
+/// The best possible result of calibrate-camera for a camera's constant noise.
 FixedPattern pattern_of(std::uint64_t seed) {
   FixedPattern out{640, 480, 4, simulated_camera::constant_noise(seed)};
   out.sigma.assign(out.patches(), 0);
   return out;
 }
 
-/// How far the tracked camera is off, at worst.
+/// The largest position error of the tracked camera.
 double farthest_mm(const Sweep& sweep, const SweptCamera& camera) {
   double out = 0;
   for (std::size_t i = 0; i < sweep.path.X_WC.size(); ++i) {
@@ -58,7 +58,7 @@ double farthest_mm(const Sweep& sweep, const SweptCamera& camera) {
   return out;
 }
 
-/// How far the surface is off, of the share of its points that are nearest.
+/// The surface error, over the given share of its points with the smallest errors.
 double surface_mm(const Sweep& sweep, const SweptCamera& camera, double share) {
   const registration::Shape truth(camera.scene());
   const double sigma_mm = DepthNoise{}.sigma_mm(800);
@@ -72,7 +72,7 @@ double surface_mm(const Sweep& sweep, const SweptCamera& camera, double share) {
   return off[static_cast<std::size_t>(share * static_cast<double>(off.size() - 1))];
 }
 
-TEST(Sweep, FollowsACameraWithoutErrors) {
+TEST(Sweep, TracksACameraWithoutErrors) {
   const SweptCamera camera(block(), 4, false);
   const auto sweep = fuse(camera.frames(10), camera.lens());
   ASSERT_TRUE(sweep) << sweep.error().message;
@@ -80,7 +80,7 @@ TEST(Sweep, FollowsACameraWithoutErrors) {
   EXPECT_LT(farthest_mm(*sweep, camera), 0.3);
 }
 
-TEST(Sweep, FollowsACameraWithAllErrorsAndFindsTheSurface) {
+TEST(Sweep, TracksACameraWithAllErrorsAndFindsTheSurface) {
   const SweptCamera camera(block());
   const auto sweep = fuse(camera.frames(25), camera.lens());
   ASSERT_TRUE(sweep) << sweep.error().message;
@@ -89,7 +89,7 @@ TEST(Sweep, FollowsACameraWithAllErrorsAndFindsTheSurface) {
   EXPECT_LT(surface_mm(*sweep, camera, 0.5), 0.4);
 }
 
-TEST(Sweep, TakesTheCamerasFixedPatternOff) {
+TEST(Sweep, SubtractsTheCamerasFixedPattern) {
   constexpr std::uint64_t kSeed = 4;
   const SweptCamera camera(block(), kSeed);
   const auto frames = camera.frames(10);
@@ -106,7 +106,7 @@ TEST(Sweep, TakesTheCamerasFixedPatternOff) {
       << refused.error().message;
 }
 
-TEST(Sweep, IsTheSameWhateverTheNumberOfThreads) {
+TEST(Sweep, IsTheSameForAnyNumberOfThreads) {
   const SweptCamera camera(block());
   const auto frames = camera.frames(7);
   const auto one = fuse(frames, camera.lens(), {});
@@ -117,7 +117,7 @@ TEST(Sweep, IsTheSameWhateverTheNumberOfThreads) {
   EXPECT_EQ(one->volume.surface().points_mm, two->volume.surface().points_mm);
 }
 
-TEST(Sweep, SaysWhichFrameLostItsPlace) {
+TEST(Sweep, NamesTheFrameThatWasLost) {
   const SweptCamera camera(block());
   std::vector<DepthFrame> frames = camera.frames(4);
   for (int i = 0; i < 12; ++i) frames.push_back(testing::wall_frame(600));  // turned away
@@ -128,10 +128,10 @@ TEST(Sweep, SaysWhichFrameLostItsPlace) {
       << lost.error().message;
 }
 
-/// What each frame after a jump is worth: it is lost, or where it was.
+/// After a jump, each frame is either lost or placed correctly.
 TEST(Sweep, LosesFramesAfterAJumpRatherThanMisplaceThem) {
   const SweptCamera camera(block());
-  for (const int jump : {9, 70}) {  // 50 mm, half a metre
+  for (const int jump : {9, 70}) {  // 50 mm and half a metre
     std::vector<DepthFrame> frames = camera.frames(4);
     for (int i = 0; i < 2; ++i) frames.push_back(camera.frame(3 + jump + i));
     const auto sweep = fuse(frames, camera.lens());
@@ -145,7 +145,7 @@ TEST(Sweep, LosesFramesAfterAJumpRatherThanMisplaceThem) {
   }
 }
 
-TEST(Sweep, FindsItsPlaceAgainAfterFramesThatShowNothingOfIt) {
+TEST(Sweep, RelocalisesAfterFramesThatShowNothing) {
   const SweptCamera camera(block());
   std::vector<DepthFrame> frames = camera.frames(6);
   frames[4] = testing::wall_frame(600);
@@ -155,7 +155,7 @@ TEST(Sweep, FindsItsPlaceAgainAfterFramesThatShowNothingOfIt) {
   EXPECT_LT(farthest_mm(*sweep, camera), 0.6);
 }
 
-TEST(Sweep, RefusesWhatACameraInTroubleGives) {
+TEST(Sweep, RefusesFramesOfAFaultyCamera) {
   const Lens lens;
   const DepthFrame dark{640, 480, std::vector<float>(640 * 480)};
   const DepthFrame flat = testing::wall_frame(800);
@@ -167,7 +167,7 @@ TEST(Sweep, RefusesWhatACameraInTroubleGives) {
   EXPECT_EQ(reason({flat, flat, flat}), "CAMERA_FROZEN");
   std::vector<DepthFrame> wall(12, flat);
   for (std::size_t i = 0; i < wall.size(); ++i) wall[i].depth_mm[i] = 810;
-  EXPECT_EQ(reason(wall), "CAMERA_LOST");  // a plane tells nothing of motion along it
+  EXPECT_EQ(reason(wall), "CAMERA_LOST");  // a plane does not determine motion along itself
   EXPECT_FALSE(fuse({}, lens));
   Lens other;
   other.width_px = 320;
@@ -176,7 +176,7 @@ TEST(Sweep, RefusesWhatACameraInTroubleGives) {
   EXPECT_FALSE(fuse_sweep({frames, std::vector<double>{0, 0}, {lens}, {}, {}}, {}));
 }
 
-TEST(Sweep, StopsWhenToldTo) {
+TEST(Sweep, StopsWhenCancelled) {
   const SweptCamera camera(block());
   Context context;
   context.cancelled = [] { return true; };

@@ -1,4 +1,4 @@
-// Signed distances fused from exact frames, against what the frames show.
+// Signed distances fused from exact frames, compared with the scene in the frames.
 #include "sim/scan/volume.h"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ Lens small_lens() {
   return out;
 }
 
-/// How far along a ray (from, unit direction) a surface is; none: it is missed.
+/// Distance along a ray (from, unit direction) to a surface; nullopt if the ray misses it.
 using Surface = std::function<std::optional<double>(const Vector3d&, const Vector3d&)>;
 
 const Vector3d kMiddle(10, -20, 800);
@@ -74,9 +74,9 @@ Volume fused(const Surface& surface, const Optics& optics) {
   return out;
 }
 
-/// The nearest pixel's depth counts, so that a point is off by up to the plane's slope over half a
-/// pixel (4 mm from corner to middle); all together are not.
-TEST(Volume, HoldsAPlaneWithinItsPixels) {
+/// The nearest pixel's depth counts, so a point's error is at most the plane's slope over half a
+/// pixel (4 mm from corner to middle). The errors cancel on average.
+TEST(Volume, ReproducesAPlaneToWithinPixels) {
   const Volume volume = fused(plane, Optics(small_lens()));
   int asked = 0;
   double sum = 0;
@@ -95,8 +95,8 @@ TEST(Volume, HoldsAPlaneWithinItsPixels) {
   EXPECT_NEAR(sum / asked, 0, 0.05);
 }
 
-/// Pixels are 5.6 mm wide here, and the surface between them is taken for flat to the nearest.
-TEST(Volume, BallsSurfaceAndViewLieOnTheBall) {
+/// Pixels are 5.6 mm wide here, and the surface within each is treated as flat.
+TEST(Volume, SurfaceAndViewOfABallAreOnTheBall) {
   const Optics optics(small_lens());
   const Volume volume = fused(meets_ball, optics);
   const TriangleMesh mesh = volume.surface();
@@ -124,15 +124,15 @@ constexpr double kBehind_mm = 950;
 const Vector3d kDisc(0, 0, 800);
 constexpr double kDiscRadius_mm = 60;
 
-/// A disc before a wall.
+/// A disc in front of a wall.
 std::optional<double> disc(const Vector3d& from, const Vector3d& along) {
   const double way = (kDisc.z() - from.z()) / along.z();
   const bool is_hit = (from + way * along - kDisc).norm() < kDiscRadius_mm;
   return is_hit ? way : (kBehind_mm - from.z()) / along.z();
 }
 
-/// Between what is seen past an edge and what is taken to lie behind it there is no surface.
-TEST(Volume, GrowsNoSurfaceFromAnEdgeBackwards) {
+/// There must be no surface between an edge and the background seen past it.
+TEST(Volume, HasNoSurfaceBehindAnEdge) {
   const Optics optics(small_lens());
   Volume volume = around();
   ASSERT_TRUE(volume.add(seen(disc, optics, Pose::Identity()), optics, {}, Pose::Identity(), {}));
@@ -162,7 +162,7 @@ TEST(Volume, SlopesAwayFromAWallAlongTheRays) {
   EXPECT_FALSE(volume.slope(Vector3d::Zero(), 3));
 }
 
-TEST(Volume, ForgetsWhatItSeesThrough) {
+TEST(Volume, RemovesSurfacesThatItSeesThrough) {
   const Optics optics(small_lens());
   Volume volume = around();
   const DepthFrame with = seen(meets_ball, optics, Pose::Identity());
@@ -175,7 +175,7 @@ TEST(Volume, ForgetsWhatItSeesThrough) {
   EXPECT_GT(volume.distance_mm(front).value_or(0), 3);
 }
 
-TEST(Volume, RefusesWhatIsTooLargeAndALensOfAnotherSize) {
+TEST(Volume, RefusesTooManyVoxelsAndALensOfAnotherSize) {
   const Optics optics(small_lens());
   Volume::Options options;
   options.most_blocks = 20;

@@ -1,4 +1,4 @@
-// The sheet through whole dips, against exact and one-dimensional solutions.
+// The sheet in whole dips, compared with exact and one-dimensional solutions.
 #include "sim/sheet/sheet_flow.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ double ringed_mm(double r) {
   return kBase_mm + kBase_mm * (smoothstep((r - 25) / 3) - smoothstep((r - 40) / 3));
 }
 
-/// Means over a triangle by the middles of the 64 equal ones in it.
+/// Means over a triangle, from the middles of its 64 congruent parts.
 RestThickness mean_of(const std::function<double(double)>& thickness_mm) {
   return [thickness_mm](const std::array<Vector2d, 3>& p) {
     const int n = 8;
@@ -122,7 +122,7 @@ TEST(SheetFlow, WithARingOfInkIsTheOneDimensionalSolution) {
   const SolvedDip dip = sphere_in_a_vat(40, 105, 121);
   const flow::DipField field = sheet_of(dip, mean_of(ringed_mm));
   EXPECT_LT(rms_from({105, ringed_mm, kBase_mm, 0}, field, 40), 0.02);
-  // The ring matters: without it the answer is another one.
+  // The ring matters: the result without it differs.
   const flow::DipField plain = sheet_of(dip, uniform);
   EXPECT_GT(rms_from({105, ringed_mm, kBase_mm, 0}, plain, 40), 0.1);
 }
@@ -198,9 +198,9 @@ TEST(SheetFlow, KeepsTheVolumeOfTheFilm) {
     const Vector2d ac = mesh.vertices_mm[v[2]] - mesh.vertices_mm[v[0]];
     floating += h[t] * 0.5 * (ab.x() * ac.y() - ab.y() * ac.x());
   }
-  flow::DipField wetted = field;  // what is on the body where the last waterline is
+  flow::DipField wetted = field;  // the film on the body at the last waterline
   wetted.depth_mm = field.immersion_mm[last];
-  flow::MapOptions fine;  // tiles end up to a tile's width below the waterline
+  flow::MapOptions fine;  // tiles may end up to a tile's width below the waterline
   fine.least_edge_mm = 0.01;
   const auto map =
       flow::make_flow_map(dip.surface, dip.body, wetted, {}, fine, two_threads()).value();
@@ -246,7 +246,7 @@ TEST(SheetFlow, IsMirroredWithTheBodyAndItsInk) {
   for (std::size_t i = 0; i < right.size(); ++i) EXPECT_LT((right[i] - left[i]).norm(), 0.02);
 }
 
-TEST(SheetFlow, IsTheSameBitForBitWhateverTheNumberOfThreads) {
+TEST(SheetFlow, IsBitIdenticalForAnyNumberOfThreads) {
   pipeline::DipOptions options;
   options.outline = testing::film_of("90x80");
   options.depth_mm = 20;
@@ -267,9 +267,9 @@ TEST(SheetFlow, IsTheSameBitForBitWhateverTheNumberOfThreads) {
   }
 }
 
-TEST(SheetFlow, OfASwollenFilmIsThatOfALargerOne) {
-  // Printed on a circle of 60 mm, floating as one of 72: the exact map of the larger, printed
-  // small.
+TEST(SheetFlow, OfASwollenFilmEqualsThatOfALargerFilm) {
+  // Printed on a circle of 60 mm, floating as one of 72 mm: the exact map of the larger film,
+  // scaled down for printing.
   pipeline::DipOptions options;
   options.outline = testing::film_of("circle:60");
   options.profile.swelling = {1.2, 1.2};

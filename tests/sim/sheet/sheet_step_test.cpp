@@ -30,7 +30,7 @@ constexpr double kDensity_kg_per_m3 = 1300;
 constexpr double kDipSpeed_mm_per_s = 5;
 const Vector2d kUnknown = Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
 
-/// A round body off the middle of a rectangular film with a band of thicker film beside it.
+/// A round body off the middle of a rectangular film, with a band of thicker film next to it.
 struct Scene {
   waterline::Waterline line;
   FilmMesh mesh;
@@ -58,7 +58,7 @@ Scene scene() {
   return out;
 }
 
-/// The film that has this viscosity in steps of this length.
+/// A film that has this viscosity with steps of this length.
 StepFilm film_of(double viscosity_mpa_s, double step_s, double density_kg_per_m3) {
   return {{3 * viscosity_mpa_s / step_s, 0.5}, density_kg_per_m3};
 }
@@ -82,22 +82,22 @@ double difference(const Velocities& a, const Velocities& b) {
 
 constexpr double kGrowth_per_s = 0.2;  ///< a dip of some seconds
 
-/// A step of film without mass.
+/// A step of a film without mass.
 Velocities light_step(const Scene& s, double step_s) {
   return sheet_step(s.mesh, s.thickness_mm, film_of(kViscosity_mpa_s, step_s, 0), step_s, {},
                     s.fixed)
       .value();
 }
 
-/// A step while the dip makes the film's boundary move faster and faster, by the share
-/// kGrowth_per_s of what it does now; before it, the film moved as without mass.
+/// A step during which the film's boundary accelerates by the share kGrowth_per_s of its present
+/// velocity. Before the step, the film moved as if it had no mass.
 Velocities heavy_step(const Scene& s, double step_s, double density_kg_per_m3) {
   return sheet_step(s.mesh, s.thickness_mm, film_of(kViscosity_mpa_s, step_s, density_kg_per_m3),
                     step_s, scaled(light_step(s, step_s), 1 - kGrowth_per_s * step_s), s.fixed)
       .value();
 }
 
-TEST(SheetStep, TendsToTheQuasistaticSheetWithTheFirstPowerOfItsLengthAtFixedViscosity) {
+TEST(SheetStep, ConvergesToTheQuasistaticSheetLinearlyAtFixedViscosity) {
   const Scene s = scene();
   double coarse = difference(light_step(s, 0.08), s.quasistatic);
   for (const double step_s : {0.04, 0.02, 0.01, 0.005}) {
@@ -109,10 +109,10 @@ TEST(SheetStep, TendsToTheQuasistaticSheetWithTheFirstPowerOfItsLengthAtFixedVis
   EXPECT_GT(coarse, 1e-6 * largest(s.quasistatic));
 }
 
-TEST(SheetStep, StopsDifferingFromItAtTheFloorThatInertiaSets) {
-  // What the nonlinear strain of a step does vanishes with the step. What is left is the film's
-  // acceleration, which is real: the velocity lags by the time mass takes to follow times how fast
-  // it changes. That does not depend on the step, and goes with the density.
+TEST(SheetStep, DiffersFromTheQuasistaticSheetByAFloorDueToInertia) {
+  // The effect of the nonlinear strain vanishes with the step. The effect of the film's
+  // acceleration remains, and is real: the velocity lags by its rate of change times the response
+  // time of the mass. This lag does not depend on the step and is proportional to the density.
   const Scene s = scene();
   const auto lag_mm_per_s = [&](double step_s, double density_kg_per_m3) {
     return difference(heavy_step(s, step_s, density_kg_per_m3), light_step(s, step_s));
@@ -120,15 +120,15 @@ TEST(SheetStep, StopsDifferingFromItAtTheFloorThatInertiaSets) {
   const double lag = lag_mm_per_s(1e-3, kDensity_kg_per_m3);
   EXPECT_NEAR(lag_mm_per_s(1e-3, 2 * kDensity_kg_per_m3) / lag, 2, 0.05);
   EXPECT_NEAR(lag_mm_per_s(1e-2, kDensity_kg_per_m3) / lag, 1, 0.05);
-  // rho L^2 / mu over pi^2, L about the width of the film.
+  // rho L^2 / mu over pi^2, with L about the width of the film.
   const double decay_s =
       kDensity_kg_per_m3 * 1e-12 * 50 * 50 / (kViscosity_mpa_s * std::pow(std::numbers::pi, 2));
   const double estimate = decay_s * kGrowth_per_s * largest(s.quasistatic);
   EXPECT_LT(lag, estimate);
   EXPECT_GT(lag, 0.01 * estimate);
-  // The paper's step is far above that floor, steps of microseconds are at it.
+  // The paper's step is far above that floor; steps of microseconds are at it.
   EXPECT_GT(difference(heavy_step(s, 0.02, kDensity_kg_per_m3), s.quasistatic), 100 * lag);
-  // (Steps shorter than mass takes to follow have to be many, for the velocity to lag at all.)
+  // (With steps shorter than the response time, many are needed before the velocity lags.)
   const double step_s = 2e-6;
   const StepFilm film = film_of(kViscosity_mpa_s, step_s, kDensity_kg_per_m3);
   Velocities u = scaled(s.quasistatic, 1 - kGrowth_per_s * 75 * step_s);
@@ -141,7 +141,7 @@ TEST(SheetStep, StopsDifferingFromItAtTheFloorThatInertiaSets) {
   EXPECT_NEAR(difference(u, s.quasistatic) / lag, 1, 0.3);
 }
 
-TEST(SheetStep, ForgetsWhereItBeganWithinMilliseconds) {
+TEST(SheetStep, ForgetsItsInitialVelocityWithinMilliseconds) {
   const Scene s = scene();
   const double step_s = 1e-4;
   const StepFilm film = film_of(kViscosity_mpa_s, step_s, kDensity_kg_per_m3);
@@ -158,7 +158,7 @@ TEST(SheetStep, ForgetsWhereItBeganWithinMilliseconds) {
   }
 }
 
-TEST(SheetStep, DependsOnTheRatioOfDensityToYoungsModulusAlone) {
+TEST(SheetStep, DependsOnlyOnTheRatioOfDensityToYoungsModulus) {
   const Scene s = scene();
   const Velocities rest(s.mesh.node_count(), Vector2d::Zero());
   const auto step = [&](double y_mpa, double density, double nu) {
@@ -167,18 +167,18 @@ TEST(SheetStep, DependsOnTheRatioOfDensityToYoungsModulusAlone) {
   const double speed = largest(s.quasistatic);
   const Velocities paper = step(1.82, 1300, 0.5);
   EXPECT_LT(difference(paper, step(18.2, 13000, 0.5)), 1e-9 * speed);
-  // Without mass Young's modulus drops out; with it, a softer film lags more.
+  // Without mass, Young's modulus drops out; with mass, a softer film lags more.
   const Velocities light = step(1.82, 0, 0.5);
   EXPECT_LT(difference(light, step(0.001, 0, 0.5)), 1e-9 * speed);
   const double lag = difference(paper, light), soft_lag = difference(step(0.91, 1300, 0.5), light);
   EXPECT_GT(lag, 1e-5 * speed);
   EXPECT_NEAR(soft_lag / lag, 2, 0.1);
   EXPECT_NEAR(difference(step(1.82, 2600, 0.5), light) / lag, 2, 0.1);
-  // Poisson's ratio does not: film that changes its volume moves otherwise.
+  // Poisson's ratio does not drop out: film that changes its volume moves differently.
   EXPECT_GT(difference(light, step(1.82, 0, 0.3)), 1e-3 * speed);
 }
 
-TEST(SheetStep, FeelsTheWatersDragAsTheQuasistaticSheetDoes) {
+TEST(SheetStep, HasTheSameWaterDragAsTheQuasistaticSheet) {
   const Scene s = scene();
   const double drag_per_mm = 0.5 / (30 * 30);  // drag length 30 mm
   const Velocities quasistatic = Sheet(s.mesh, drag_per_mm, s.fixed).solve(s.thickness_mm).value();
@@ -200,7 +200,7 @@ ElementVector drawn(std::mt19937& random, double most) {
 
 constexpr Elasticity kElasticity = {1.82, 0.4};
 
-TEST(MembraneEnergy, HasItsForcesForGradientAndTheirsForHessian) {
+TEST(MembraneEnergy, ForcesAndHessianAreItsDerivatives) {
   const FilmMesh mesh = irregular_mesh();
   std::mt19937 random(7);
   for (std::size_t t = 0; t < 40; ++t) {
@@ -241,7 +241,7 @@ TEST(MembraneEnergy, OfALinearDisplacementIsEquationFour) {
   }
 }
 
-TEST(MembraneEnergy, DoesNotFeelRotationOfAnySize) {
+TEST(MembraneEnergy, IsInvariantUnderRotationOfAnySize) {
   const FilmMesh mesh = irregular_mesh();
   std::mt19937 random(3);
   const ElementVector d = drawn(random, 0.1);
@@ -259,9 +259,9 @@ TEST(MembraneEnergy, DoesNotFeelRotationOfAnySize) {
   }
 }
 
-TEST(MembraneEnergy, HasAPositiveHessianToFallBackOnWhereTheTrueOneIsNot) {
+TEST(MembraneEnergy, HasAPositiveHessianAsFallback) {
   const FilmMesh mesh = irregular_mesh();
-  ElementVector pressed;  // to half its size
+  ElementVector pressed;  // compressed to half its size
   const auto node = nodes_of(mesh, 0);
   for (int i = 0; i < 6; ++i) pressed.segment<2>(2 * i) = -0.5 * place_of(mesh, node[i]);
   const auto least = [&](Hessian kind) {
@@ -280,7 +280,7 @@ Velocities everywhere(const FilmMesh& mesh, const Function& f) {
   return out;
 }
 
-/// The velocities that take the film to F x within one step.
+/// The velocities that deform the film by F within one step.
 Function to(const Matrix2d& F, double step_s) {
   return [=](const Vector2d& p) { return Vector2d((F - Matrix2d::Identity()) * p / step_s); };
 }
@@ -299,7 +299,7 @@ TEST(SheetStep, PassesThePatchTestForStrainsOfAnySize) {
   }
 }
 
-TEST(SheetStep, TurnsTheFilmAsAWholeWhateverItsThickness) {
+TEST(SheetStep, RotatesTheFilmAsAWholeForAnyThickness) {
   const FilmMesh mesh = irregular_mesh();
   std::vector<double> thickness_mm;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -313,7 +313,7 @@ TEST(SheetStep, TurnsTheFilmAsAWholeWhateverItsThickness) {
   EXPECT_LT(difference(*u, exact), 1e-7 * largest(*u));
 }
 
-TEST(SheetStep, KeepsTheMomentumOfAFilmThatNothingHolds) {
+TEST(SheetStep, ConservesTheMomentumOfAFreeFilm) {
   const Scene s = scene();
   const StepFilm film = {{1.82, 0.5}, kDensity_kg_per_m3};
   const double step_s = 1e-3;  // long enough for the film to push, too short for it to come to rest
@@ -322,7 +322,8 @@ TEST(SheetStep, KeepsTheMomentumOfAFilmThatNothingHolds) {
   });
   const Velocities nothing_held(s.mesh.node_count(), kUnknown);
   const auto after = sheet_step(s.mesh, s.thickness_mm, film, step_s, before, nothing_held).value();
-  // Linear momentum and, round the origin and with the film where the step leaves it, angular.
+  // Linear momentum, and angular momentum around the origin with the film's position after the
+  // step.
   Vector2d linear_before(0, 0), linear_after(0, 0);
   double angular_before = 0, angular_after = 0, energy_before = 0, energy_after = 0;
   for (std::size_t t = 0; t < s.mesh.triangles.size(); ++t) {
@@ -350,7 +351,7 @@ TEST(SheetStep, KeepsTheMomentumOfAFilmThatNothingHolds) {
   EXPECT_GT(difference(after, before), 0.1 * largest(before));
 }
 
-TEST(SheetStep, ConvergesForStepsFarLongerThanItsUsersTakeAndSaysSoWhenItDoesNot) {
+TEST(SheetStep, ConvergesForVeryLongStepsOrReportsAnError) {
   const Scene s = scene();
   const Velocities rest(s.mesh.node_count(), Vector2d::Zero());
   const auto step = [&](double step_s) {

@@ -37,7 +37,7 @@ TEST(Sheet, ReproducesLinearFields) {
             1e-10);
 }
 
-TEST(Sheet, TurnsAsAWholeWhateverItsThickness) {
+TEST(Sheet, RotatesAsAWholeForAnyThickness) {
   const FilmMesh mesh = irregular_mesh();
   std::vector<double> thickness;
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
@@ -47,7 +47,7 @@ TEST(Sheet, TurnsAsAWholeWhateverItsThickness) {
             1e-9);
 }
 
-// div(2 (D + tr(D) I)) = Laplace(u) + 3 grad(div u), which these quadratics make vanish.
+// div(2 (D + tr(D) I)) = Laplace(u) + 3 grad(div u), which is zero for these quadratics.
 TEST(Sheet, ReproducesItsQuadraticSolutions) {
   const FilmMesh mesh = irregular_mesh();
   const std::vector<double> thickness(mesh.triangles.size(), 1);
@@ -63,8 +63,8 @@ TEST(Sheet, ReproducesItsQuadraticSolutions) {
             1e-9);
 }
 
-// A strip drawn along x, its sides given what they would do of themselves: 4 h u' = const.
-TEST(Sheet, IsDrawnWhereItIsThin) {
+// A strip drawn along x; its sides get their natural velocities: 4 h u' = const.
+TEST(Sheet, IsStretchedWhereItIsThin) {
   const FilmMesh mesh =
       mesh_film(film::parse_outline("80x20").value(), testing::line_round({}), {}).value();
   const auto thickness_at = [](double x) { return 1 + 0.5 * std::tanh(x / 10); };
@@ -86,7 +86,7 @@ TEST(Sheet, IsDrawnWhereItIsThin) {
         (mesh.vertices_mm[t[0]] + mesh.vertices_mm[t[1]] + mesh.vertices_mm[t[2]]).x() / 3;
     thickness.push_back(thickness_at(x));
   }
-  // u_y = 0 makes N_yy = 2 h u' vary along y not at all, and so the film is in balance.
+  // With u_y = 0, N_yy = 2 h u' does not vary along y, so the film is in balance.
   EXPECT_LT(error_of(mesh, thickness, [&](const Vector2d& p) { return Vector2d(drawn(p.x()), 0); }),
             0.02 * drawn(40));
 }

@@ -12,16 +12,16 @@
 
 namespace hydroprint::testing {
 
-/// How a test dips: like the pipeline, but every stage stays at hand.
+/// Settings of a test's dip: like the pipeline, but with access to every stage.
 struct DipSetting {
   film::Outline film;
-  double depth_mm = 1e9;  ///< no deeper than the body is high
+  double depth_mm = 1e9;  ///< limited to the body's height
   waterline::ScheduleOptions schedule;
   velocity::MeshOptions mesh;
   waterline::Motion motion;
   double max_edge_mm = 2;
 
-  /// Every length of the discretisation multiplied.
+  /// Multiplies every length of the discretisation.
   void coarsen(double factor);
 };
 
@@ -31,7 +31,7 @@ struct SolvedDip {
   flow::DipField field;
 };
 
-/// Waterlines, film meshes and velocities of a dip of the model where its own coordinates put it.
+/// Waterlines, film meshes and velocities of a dip of the model at its own coordinates.
 [[nodiscard]] SolvedDip solve_dip(const mesh::Model& model, const DipSetting& setting);
 
 /// A regular polygon with the area of a circle: a circular film with few corners.

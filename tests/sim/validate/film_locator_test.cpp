@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// A square of 10 mm, standing upright; film lies on it as (x, z), times two.
+/// A square of 10 mm, standing upright; the film on it is at (x, z), times two.
 mesh::Surface upright_square() {
   mesh::Surface surface;
   surface.points = {{0, 0, 0}, {10, 0, 0}, {10, 0, 10}, {0, 0, 10}};
@@ -43,7 +43,7 @@ TEST(FilmLocator, FindsWhereEachPointOfTheFilmLands) {
   }
 }
 
-TEST(FilmLocator, FilmBesideTheTilesLandsNowhereUnlessItIsAsGoodAsOnThem) {
+TEST(FilmLocator, FilmBesideTheTilesLandsNowhereUnlessItIsVeryClose) {
   const mesh::Surface surface = upright_square();
   const std::vector tiles = {whole(surface, 0, 1), whole(surface, 1, 1)};
   const FilmLocator locator(surface, tiles);

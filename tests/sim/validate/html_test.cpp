@@ -11,7 +11,7 @@ Figure figure(double value, double least, double most, const std::string& unit) 
   return {"f", "a figure", unit, value, Limit{least, most, "why"}};
 }
 
-TEST(ReportHtml, EscapesWhatItIsGiven) {
+TEST(ReportHtml, EscapesItsInput) {
   Report report;
   Experiment experiment;
   experiment.name = "one";
@@ -24,16 +24,16 @@ TEST(ReportHtml, EscapesWhatItIsGiven) {
   EXPECT_NE(page.find("alt=\"&lt;script&gt;\""), std::string::npos);
 }
 
-TEST(ReportHtml, SaysWhatPlaysTheExperimentAndWhatThatCannotShow) {
+TEST(ReportHtml, ExplainsTheReferenceAndItsLimits) {
   const std::string page = report_html({}, "1.0");
-  EXPECT_NE(page.find("a finer computation plays the physical experiment"), std::string::npos);
+  EXPECT_NE(page.find("A finer computation stands for the physical experiment"), std::string::npos);
   EXPECT_NE(page.find("It cannot show"), std::string::npos);
   for (const char* unknown : {"activator", "trapped air", "the person who lays the film"}) {
     EXPECT_NE(page.find(unknown), std::string::npos) << unknown;
   }
 }
 
-TEST(ReportHtml, LimitsReadAsPeopleSayThem) {
+TEST(ReportHtml, LimitsAreInPlainEnglish) {
   EXPECT_EQ(limit_text(figure(1, 0, 0.15, "mm")), "at most 0.15 mm");
   EXPECT_EQ(limit_text(figure(1, 3, 1e300, "")), "at least 3");
   EXPECT_EQ(limit_text(figure(1, 0.97, 1.03, "")), "0.97 to 1.03");
@@ -41,7 +41,7 @@ TEST(ReportHtml, LimitsReadAsPeopleSayThem) {
   EXPECT_EQ(limit_text({"f", "a figure", "mm", 1, std::nullopt}), "");
 }
 
-TEST(Figure, PassesWithinItsLimitsAndWithoutAny) {
+TEST(Figure, PassesWithinItsLimitsOrWithoutLimits) {
   EXPECT_TRUE(figure(0.15, 0, 0.15, "mm").passes());
   EXPECT_FALSE(figure(0.16, 0, 0.15, "mm").passes());
   EXPECT_FALSE(figure(std::nan(""), 0, 0.15, "mm").passes());

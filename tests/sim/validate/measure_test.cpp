@@ -7,7 +7,7 @@
 namespace hydroprint::validate {
 namespace {
 
-TEST(Summary, LeavesOutWhatIsNotFinite) {
+TEST(Summary, LeavesOutNonFiniteValues) {
   const Summary s = summarise({3, std::nan(""), 1, HUGE_VAL, 2});
   EXPECT_EQ(s.count, 3U);
   EXPECT_DOUBLE_EQ(s.mean, 2);
@@ -19,7 +19,7 @@ TEST(Summary, LeavesOutWhatIsNotFinite) {
 }
 
 TEST(Share, IsByAreaAndOfTheRegionAlone) {
-  mesh::Surface surface;  // a triangle of area 1/2 and, apart from it, one of area 2
+  mesh::Surface surface;  // a triangle of area 1/2 and a separate one of area 2
   surface.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {7, 0, 0}, {5, 2, 0}};
   surface.triangles = {{0, 1, 2}, {3, 4, 5}};
   EXPECT_DOUBLE_EQ(share_where(surface, everywhere, [](std::size_t v) { return v < 3; }), 0.2);
@@ -33,7 +33,7 @@ TEST(LandingErrors, AreDistancesOnTheObject) {
   pipeline::Dip plan;
   plan.surface.points = {{0, 0, 0}, {10, 0, 0}, {0, 10, 0}, {10, 10, 0}};
   plan.surface.triangles = {{0, 1, 2}};
-  flow::MappedTriangle tile;  // film drawn out to twice its length along x
+  flow::MappedTriangle tile;  // film stretched to twice its length along x
   tile.film_mm = {{{0, 0}, {5, 0}, {0, 10}}};
   for (int i = 0; i < 3; ++i) tile.barycentric[i] = Eigen::Vector3f::Unit(i);
   pipeline::Dip truth = plan;

@@ -1,4 +1,5 @@
-// `hydroprint-worker validate` as its users see it: the experiments, coarse, and their report.
+// The verb `hydroprint-worker validate` from a user's point of view: coarse experiments and their
+// report.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -41,7 +42,7 @@ std::set<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// One quick run of everything, for all tests of its report.
+/// One quick run of all experiments, shared by all tests of its report.
 class QuickReport : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
@@ -58,7 +59,7 @@ class QuickReport : public ::testing::Test {
   static fs::path out() { return folder_->path() / "out"; }
   static json report() { return json::parse(content(out() / "report.json")); }
   static double value(const std::string& name) {
-    const json all = report();  // which the loop must not outlive
+    const json all = report();  // must outlive the loop
     for (const json& experiment : all.at("experiments")) {
       for (const json& figure : experiment.at("figures")) {
         if (figure.at("name") == name) return figure.at("value");
@@ -75,7 +76,7 @@ class QuickReport : public ::testing::Test {
 testing::TemporaryFolder* QuickReport::folder_ = nullptr;
 Ended* QuickReport::ended_ = nullptr;
 
-TEST_F(QuickReport, HasEveryExperimentWithItsPicturesAndNothingElse) {
+TEST_F(QuickReport, HasExactlyTheExperimentsAndTheirPictures) {
   const json all = report();
   EXPECT_EQ(all.at("verb"), "validate");
   EXPECT_EQ(all.at("parameters").at("quick"), true);
@@ -141,16 +142,16 @@ TEST_F(QuickReport, PageIsWellFormedAndItsLinksLeadSomewhere) {
     EXPECT_TRUE(link.starts_with("#") ? ids.contains(link.substr(1)) : fs::exists(out() / link))
         << link;
   }
-  const json all = report();  // which the loop must not outlive
+  const json all = report();  // must outlive the loop
   for (const json& experiment : all.at("experiments")) {
     EXPECT_NE(page.find("<h2>" + experiment.at("title").get<std::string>() + "</h2>"),
               std::string::npos);
   }
 }
 
-TEST_F(QuickReport, CountsWhatPassed) {
+TEST_F(QuickReport, CountsPassedFigures) {
   int passed = 0, failed = 0;
-  const json all = report();  // which the loop must not outlive
+  const json all = report();  // must outlive the loop
   for (const json& experiment : all.at("experiments")) {
     for (const json& figure : experiment.at("figures")) {
       if (!figure.contains("limit")) continue;
@@ -170,8 +171,8 @@ TEST_F(QuickReport, CountsWhatPassed) {
   EXPECT_GT(passed, 10);
 }
 
-TEST_F(QuickReport, FilmLandsUnmovedWhereTheObjectFirstTouches) {
-  // Whatever the drawn errors are, the landing there strays as they do.
+TEST_F(QuickReport, FilmIsUndisplacedAtFirstContact) {
+  // The landing point there varies by the same amount as the drawn errors.
   EXPECT_NEAR(value("spread_at_contact_ratio"), 1, 0.01);
   EXPECT_NEAR(value("sphere_stretch_at_contact"), 1, 0.01);
   // Four standard deviations of 0.3 mm, 0.3 degrees at 60 mm and 0.5 mm, in two directions.
@@ -179,25 +180,25 @@ TEST_F(QuickReport, FilmLandsUnmovedWhereTheObjectFirstTouches) {
   EXPECT_LT(value("spread_at_contact_mm"), 2);
 }
 
-TEST_F(QuickReport, WhatPlaysTheExperimentIsNearerToTheExactSolution) {
-  // Second order: lengths 0.6 times as long leave 0.36 of the error, were it not for the mesh of
-  // triangles that stands for the sphere.
+TEST_F(QuickReport, TheReferenceIsCloserToTheExactSolution) {
+  // Second order: 0.6 times the lengths leaves 0.36 of the error, plus the error of the mesh of
+  // triangles that represents the sphere.
   EXPECT_LT(value("exact_sphere_fine_max_mm"), 0.6 * value("exact_sphere_usual_max_mm"));
   EXPECT_LT(value("exact_sphere_fine_max_mm"), 0.2);
   EXPECT_GT(value("sphere_far_pole_max_mm"), value("sphere_to_equator_max_mm"));
 }
 
-TEST_F(QuickReport, KnowingTheInkTakesItsErrorAway) {
+TEST_F(QuickReport, KnownInkReducesItsError) {
   EXPECT_GT(value("thickness_off_mean_mm"), 0.1);
   EXPECT_LT(value("thickness_on_to_off"), 0.25);
   EXPECT_LT(value("second_pass_to_first"), 0.5);
 }
 
-TEST_F(QuickReport, ModelsPartWhereTheFilmHasBeenDrawnOut) {
+TEST_F(QuickReport, FilmModelsDifferWhereTheFilmIsStretched) {
   EXPECT_GT(value("bend_to_legs_ratio"), 1);
 }
 
-TEST_F(QuickReport, BowlIsRecognisedAsOneThatCannotBePrinted) {
+TEST_F(QuickReport, BowlIsRecognisedAsUnprintable) {
   EXPECT_EQ(value("mouth_down_recognised"), 1);
   EXPECT_EQ(value("upright_recognised"), 1);
   EXPECT_GT(value("floor_stretch"), 3);
@@ -221,7 +222,7 @@ class Validate : public ::testing::Test {
   testing::TemporaryFolder folder;
 };
 
-TEST_F(Validate, RefusesWhatItDoesNotKnow) {
+TEST_F(Validate, RefusesBadFlags) {
   expect_refusal({"--out", out(), "--only", "acuracy"},
                  "--only: there is no experiment 'acuracy'. Choose from repeatability, accuracy");
   expect_refusal({"--out", out(), "--mesh", "ball.obj"}, "--mesh");
@@ -229,7 +230,7 @@ TEST_F(Validate, RefusesWhatItDoesNotKnow) {
   expect_refusal({"--quick"}, "--out");
 }
 
-TEST_F(QuickReport, IsReplacedByTheNextWhichRunsWhatItIsAskedFor) {
+TEST_F(QuickReport, IsReplacedByTheNextRunWithTheRequestedExperiments) {
   const testing::TemporaryFolder folder;
   const fs::path again = folder.path() / "out";
   fs::copy(out(), again);
@@ -246,7 +247,7 @@ TEST_F(QuickReport, IsReplacedByTheNextWhichRunsWhatItIsAskedFor) {
   }
   EXPECT_GT(wanted.size(), 2U);
   EXPECT_EQ(names_in(again), wanted);
-  // Bodies and films are shared, but no experiment changes what another one finds.
+  // Experiments share bodies and films, but none changes the input of another.
   const auto models_of = [](const fs::path& in) {
     const json all = json::parse(content(in / "report.json"));
     for (const json& e : all.at("experiments")) {

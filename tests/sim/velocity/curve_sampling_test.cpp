@@ -34,7 +34,7 @@ TEST(SampleLoop, ChordsKeepToSpacingAndTolerance) {
 }
 
 TEST(SampleLoop, KeepsCorners) {
-  // A square whose corners are not where a walk with even steps would stop.
+  // A square whose corners are not at multiples of the sampling step.
   Curve square;
   for (const Vector2d& corner :
        {Vector2d(0, 0), Vector2d(10.3, 0), Vector2d(10.3, 7.7), Vector2d(0, 7.7)}) {

@@ -47,7 +47,7 @@ double least_angle_deg(const FilmMesh& mesh) {
   return least;
 }
 
-/// Film under solids that lie side by side: area, orientation, edges and velocities are in order.
+/// Checks the film around solids that lie side by side: area, orientation, edges and velocities.
 void expect_sound(const film::Outline& film, const std::vector<Curve>& solids,
                   double tolerance_mm = 0.011) {
   const waterline::Waterline line = testing::line_round(solids);
@@ -110,7 +110,7 @@ TEST(FilmMesh, CoversTheFilmOutsideTheSolids) {
                {testing::circle({-40, 0}, 25, 400), testing::circle({40, 10}, 30, 400)});
 }
 
-TEST(FilmMesh, WithoutWaterlineIsTheWholeFilm) {
+TEST(FilmMesh, WithoutAWaterlineCoversTheWholeFilm) {
   const FilmMesh mesh = meshed(outline_of("100x80"), testing::line_round({}));
   EXPECT_NEAR(total_area(mesh), 8000, 1e-6);
   for (const EdgeKind kind : mesh.edge_kind) EXPECT_NE(kind, EdgeKind::kWaterline);
@@ -179,7 +179,7 @@ TEST(FilmMesh, TinyContoursSurvive) {
     const Curve solid = testing::circle({7, -11}, radius, 24);
     const waterline::Waterline line = testing::line_round({solid});
     const FilmMesh mesh = meshed(film, line);
-    // Chords of 0.1 mm (MeshOptions::least_mm) may cut off much of the smallest, but not all.
+    // Chords of 0.1 mm (MeshOptions::least_mm) may cut off much of the smallest solid, but not all.
     const double share = (8000 - total_area(mesh)) / waterline::signed_area(solid);
     EXPECT_GT(share, 0.5) << radius;
     EXPECT_LT(share, 1.0001) << radius;
@@ -189,7 +189,7 @@ TEST(FilmMesh, TinyContoursSurvive) {
 
 TEST(FilmMesh, ThinSolidsSurvive) {
   for (const double half : {0.5, 0.1, 0.03}) {
-    // The ends of the thinnest are below MeshOptions::least_mm and become points.
+    // The ends of the thinnest solids are below MeshOptions::least_mm and become points.
     expect_sound(outline_of("100x80"), {{{-20, -half}, {20, -half}, {20, half}, {-20, half}}},
                  half > 0.05 ? 0.011 : half);
   }
@@ -202,8 +202,8 @@ TEST(FilmMesh, SolidsThatTouchAtACornerAreMeshed) {
   EXPECT_NEAR(total_area(meshed(film, line)), 8000 - 800, 1e-6);
 }
 
-TEST(FilmMesh, LeavesOutWhatHoldsNoFilm) {
-  // A ring with an island in its hole, with film in the hole and without.
+TEST(FilmMesh, LeavesOutRegionsWithoutFilm) {
+  // A ring with an island in its hole, with and without film in the hole.
   const film::Outline film = outline_of("100x80");
   waterline::Waterline line = testing::line_round({testing::circle({0, 0}, 30, 600)});
   Curve hole = testing::circle({0, 0}, 20, 600);
@@ -217,7 +217,7 @@ TEST(FilmMesh, LeavesOutWhatHoldsNoFilm) {
   EXPECT_NEAR(total_area(meshed(film, line)), 8000 - kPi * 900, 3);
 }
 
-TEST(FilmMesh, OfCurvesThatAllButTouchIsRefusedBeforeItGrowsWithoutBound) {
+TEST(FilmMesh, NearlyTouchingCurvesAreRefusedBeforeTheMeshGrowsTooLarge) {
   // The edges along a gap are divided until they are about as short as it is wide.
   const film::Outline film = outline_of("100x100");
   const auto solids = [](double gap_mm) {

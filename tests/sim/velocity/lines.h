@@ -18,7 +18,7 @@ namespace hydroprint::velocity::testing {
 
 using Curve = std::vector<Eigen::Vector2d>;
 
-/// A closed curve given by its radius against the angle round a centre.
+/// A closed curve, given by its radius as a function of the angle around a centre.
 template <class Radius>
 Curve curve_round(const Eigen::Vector2d& centre_mm, int corners, Radius radius_mm) {
   Curve curve;
@@ -34,7 +34,7 @@ inline Curve circle(const Eigen::Vector2d& centre_mm, double radius_mm, int corn
   return curve_round(centre_mm, corners, [&](double) { return radius_mm; });
 }
 
-/// Smooth, without any symmetry.
+/// A smooth curve without symmetry.
 inline Curve bean(const Eigen::Vector2d& centre_mm, double radius_mm) {
   return curve_round(centre_mm, 400, [&](double angle) {
     return radius_mm *
@@ -88,7 +88,7 @@ inline film::Outline outline_of(const std::string& text) {
   return film::parse_outline(text).value();
 }
 
-/// A function's values at the nodes of the film's edges, NaN inside.
+/// A function's values at the nodes on the film's edges, NaN inside.
 inline std::vector<Eigen::Vector2d> prescribed(const FilmMesh& mesh, const Function& f) {
   std::vector<Eigen::Vector2d> fixed(
       mesh.node_count(), Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN()));
@@ -101,7 +101,7 @@ inline std::vector<Eigen::Vector2d> prescribed(const FilmMesh& mesh, const Funct
   return fixed;
 }
 
-/// A film with a bean and a quadrilateral in it, no two triangles alike.
+/// A film with a bean and a quadrilateral in it; no two triangles are alike.
 inline FilmMesh irregular_mesh() {
   return mesh_film(outline_of("100x80"),
                    line_round({bean({-12, 5}, 15), {{15, -20}, {30, -22}, {33, -5}, {20, -12}}}),

@@ -85,7 +85,7 @@ TEST(Locator, FindsEveryVertexAndEdgeMiddle) {
   }
 }
 
-TEST(Locator, OfNothingAndOfNaNFindsNothing) {
+TEST(Locator, FindsNothingInAnEmptyMeshOrForNan) {
   EXPECT_EQ(Locator().find({0, 0}).triangle, -1);
   EXPECT_EQ(Locator(FilmMesh()).find({0, 0}).triangle, -1);
   const Locator locator(mesh_of("70x60"));
@@ -118,7 +118,7 @@ TEST(VelocityField, InterpolatesQuadraticsExactly) {
   EXPECT_GT(tested, 1000);
 }
 
-TEST(VelocityField, ReachesOutsideTheFilmAsFarAsTold) {
+TEST(VelocityField, ReachesOutsideTheFilmUpToTheGivenDistance) {
   const FilmMesh mesh = mesh_of("70x60");
   std::vector<Vector2d> nodes;
   for (std::size_t n = 0; n < mesh.node_count(); ++n) nodes.push_back(place_of(mesh, n));

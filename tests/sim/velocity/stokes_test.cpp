@@ -16,7 +16,7 @@ using testing::irregular_mesh;
 using testing::outline_of;
 using testing::prescribed;
 
-/// Largest error at any node when only the film's edges are given.
+/// Largest error at any node if only the velocities on the film's edges are given.
 double error_at_nodes(const FilmMesh& mesh, const Function& f) {
   const auto velocity = solve_stokes(mesh, prescribed(mesh, f));
   if (!velocity) return std::numeric_limits<double>::infinity();
@@ -161,7 +161,7 @@ TEST(BoundaryVelocities, AreThePullAtTheWaterlineAndZeroAtTheVat) {
   }
 }
 
-TEST(BoundaryVelocities, AtACornerAreTheMeanOfItsSides) {
+TEST(BoundaryVelocities, AtACornerAreTheMeanOfBothSides) {
   const testing::Curve square = {{-10, -10}, {10, -10}, {10, 10}, {-10, 10}};
   auto line = testing::line_round({square});
   waterline::Contour contour;
@@ -183,7 +183,7 @@ TEST(BoundaryVelocities, AtACornerAreTheMeanOfItsSides) {
   EXPECT_EQ(corners, 4);
 }
 
-TEST(BoundaryVelocities, WhereTwoSolidsTouchAreNoLargerThanElsewhere) {
+TEST(BoundaryVelocities, AreNotLargerWhereTwoSolidsTouch) {
   const waterline::Waterline line = testing::line_round(
       {{{-20, -20}, {0, -20}, {0, 0}, {-20, 0}}, {{0, 0}, {20, 0}, {20, 20}, {0, 20}}});
   const FilmMesh mesh = mesh_film(outline_of("100x80"), line, {}).value();

@@ -14,13 +14,13 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Outward normal of a surface met at contact angle `theta`, facing `azimuth`.
+/// Outward normal of a surface with contact angle `theta`, facing `azimuth`.
 Vector3d normal_at(double theta_rad, double azimuth_rad) {
   return {std::sin(theta_rad) * std::cos(azimuth_rad), std::sin(theta_rad) * std::sin(azimuth_rad),
           -std::cos(theta_rad)};
 }
 
-TEST(Pull, IsTheTangentOfHalfThetaTowardsTheObject) {
+TEST(Pull, PointsToTheObjectWithTheTangentOfHalfTheta) {
   for (const double degrees : {1e-4, 0.1, 5.0, 45.0, 90.0, 120.0, 160.0, 169.9}) {
     for (const double azimuth : {0.0, 0.7, 3.0, -2.0}) {
       const double theta = degrees * kDegree;
@@ -48,7 +48,7 @@ TEST(Pull, OfLevelFacesIsZeroAndNeverNaN) {
   }
 }
 
-TEST(Place, PutsTheLowestPointOnTheWaterWhateverTheZOfThePose) {
+TEST(Place, PutsTheLowestPointOnTheWaterForAnyZOfThePose) {
   const mesh::Surface surface = testing::surface_of(testing::box({1, 2, 7}, {4, 6, 12}));
   for (const double z : {0.0, 55.0, -1e4}) {
     Pose X_FO = Pose::Identity();
@@ -80,7 +80,7 @@ TEST(Place, TurnsPointsAndNormalsTogether) {
   }
 }
 
-TEST(Place, IgnoresPointsThatNoFaceUses) {
+TEST(Place, IgnoresUnusedPoints) {
   mesh::Model model = testing::box({0, 0, 0}, {2, 2, 2});
   model.vertices.emplace_back(50, 50, -100);
   Pose X_FO = Pose::Identity();
@@ -89,7 +89,7 @@ TEST(Place, IgnoresPointsThatNoFaceUses) {
   EXPECT_NEAR(centred_pose(surface).translation().x(), -1, 1e-12);
 }
 
-TEST(CentredPose, CentresTheBoundingBoxAndTurnsNothing) {
+TEST(CentredPose, CentresTheBoundingBoxWithoutRotation) {
   const Pose X_FO = centred_pose(testing::surface_of(testing::box({10, 20, 30}, {14, 30, 60})));
   EXPECT_NEAR(X_FO.translation().x(), -12, 1e-12);
   EXPECT_NEAR(X_FO.translation().y(), -25, 1e-12);

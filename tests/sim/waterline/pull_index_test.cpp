@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Pull of the nearest segment, tried one by one.
+/// Pull of the nearest segment, by brute force.
 Vector2d nearest_pull(const std::vector<Contour>& contours, const Vector2d& p) {
   double best = std::numeric_limits<double>::infinity();
   Vector2d pull = Vector2d::Zero();
@@ -54,7 +54,7 @@ TEST(PullIndex, WithoutSegmentsGivesZero) {
   EXPECT_EQ(PullIndex(std::vector<Contour>()).at({1, 2}), Vector2d(0, 0));
 }
 
-TEST(PullIndex, TakesSegmentsWithoutLength) {
+TEST(PullIndex, AcceptsSegmentsWithoutLength) {
   const PullIndex index({{{{1, 1}, {1, 1}, {3, 4}, {3, 4}}}});
   EXPECT_EQ(index.at({50, 50}), Vector2d(3, 4));
 }

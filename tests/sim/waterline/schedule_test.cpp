@@ -41,7 +41,7 @@ TEST(Schedule, DividesASphereEvenlyInTheta) {
 }
 
 TEST(Schedule, IsCloserWhereTheSurfaceBendsSharply) {
-  // A drum whose rim is rounded: from flat to upright within a quarter circle.
+  // A drum with a rounded rim: from level to upright within a quarter circle.
   const double bend = 6, radius = 40;
   std::vector<Eigen::Vector2d> profile{{0, 0}};
   for (int i = 0; i <= 18; ++i) {
@@ -72,7 +72,7 @@ TEST(Schedule, StartsJustAfterContactAndEndsJustBeforeTheTop) {
   EXPECT_NEAR(depths.back(), body.height_mm - options.event_gap_mm, 1e-9);
 }
 
-TEST(Schedule, EndsAtTheDepthAskedFor) {
+TEST(Schedule, EndsAtTheRequestedDepth) {
   const Body body = testing::body_of(sample::icosphere(40, 4));
   const auto depths = schedule(body, 23.5);
   expect_increasing_in(depths, 23.5);
@@ -93,7 +93,7 @@ TEST(Schedule, TakesBothSidesOfAShelf) {
 }
 
 TEST(Schedule, TakesBothSidesOfALevelEdge) {
-  // A cone that goes over into a cylinder.
+  // A cone that continues as a cylinder.
   const Body body = testing::body_of(testing::turned({{0, 0}, {15, 15}, {15, 30}, {0, 30}}, 64));
   const ScheduleOptions options;
   const auto depths = schedule(body, body.height_mm, options);

@@ -36,7 +36,7 @@ double area_of(const CrossSection& section) {
   return area;
 }
 
-/// A quarter-open pipe: the wall of a half cylinder round the z axis, on the side of +x.
+/// A quarter-open pipe: the wall of a half cylinder around the z axis, on the side of +x.
 mesh::Model half_pipe(double radius_mm, double height_mm, int segments) {
   mesh::Model model;
   model.path = "half pipe";
@@ -56,7 +56,7 @@ mesh::Model half_pipe(double radius_mm, double height_mm, int segments) {
 TEST(Slicer, CutOfABoxIsItsOutlineWithTheSolidOnTheLeft) {
   const Body body = testing::body_of(testing::box({-3, -5, 0}, {7, 5, 8}));
   const Slicer slicer(body);
-  for (const double z : {0.001, 1.0, 2.0, 4.0, 7.3, 7.999}) {  // also at levels with vertices
+  for (const double z : {0.001, 1.0, 2.0, 4.0, 7.3, 7.999}) {  // also at the levels of vertices
     const auto contours = slicer.cut(z);
     ASSERT_EQ(contours.size(), 1U) << z;
     EXPECT_TRUE(is_closed(contours[0]));
@@ -124,7 +124,7 @@ TEST(Slicer, CutsOfIrregularBodiesAreClosedAtEveryLevel) {
   }
 }
 
-TEST(Slicer, FacesInsideOutAreTurnedRoundWithTheirPull) {
+TEST(Slicer, InvertedFacesAreTurnedOverWithTheirPull) {
   const Body body = testing::body_of(sample::icosphere(20, 4));
   Body spoilt = body;
   std::mt19937 random(3);
@@ -160,7 +160,7 @@ TEST(Slicer, OpenSurfacesAreClosedByStraightLines) {
 }
 
 TEST(Slicer, AnOpenBowlIsSolidAtEachLevel) {
-  // A hemisphere of no thickness, mouth up: half of an icosphere's faces.
+  // A hemisphere without thickness, mouth up: half of an icosphere's faces.
   mesh::Model model = sample::icosphere(20, 4);
   std::erase_if(model.triangles, [&](const Eigen::Vector3i& t) {
     return model.vertices[t[0]].z() > 1e-9 || model.vertices[t[1]].z() > 1e-9 ||
@@ -188,7 +188,7 @@ TEST(Slicer, AMissingFaceIsBridged) {
   }
 }
 
-TEST(Slicer, TakesABodyWithoutHeight) {
+TEST(Slicer, AcceptsABodyWithoutHeight) {
   mesh::Model model;
   model.path = "sheet";
   model.vertices = {{0, 0, 0}, {5, 0, 0}, {0, 5, 0}};
@@ -215,7 +215,7 @@ TEST(Unite, ABoxWithinABoxVanishes) {
   EXPECT_NEAR(area_of(section), 100, 1e-4);
 }
 
-TEST(Unite, AHollowIsAHole) {
+TEST(Unite, ACavityIsAHole) {
   const Body body = testing::body_of(
       testing::together({testing::box({0, 0, 0}, {10, 10, 5}),
                          testing::inside_out(testing::box({3, 3, 1}, {7, 7, 4}))}));

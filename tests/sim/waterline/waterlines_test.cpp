@@ -27,7 +27,7 @@ Waterlines taken(const mesh::Model& model, const std::string& film = "A4",
   return *lines;
 }
 
-/// The last waterline taken before the given immersion.
+/// The last waterline before the given immersion.
 const Waterline& before(const Waterlines& waterlines, double immersion_mm) {
   const Waterline* found = &waterlines.lines.front();
   for (const Waterline& line : waterlines.lines) {
@@ -62,7 +62,7 @@ TEST(Waterlines, ACupMouthDownHoldsFilmUpToItsCeiling) {
   EXPECT_NEAR(w.depth_mm, 30, 1e-9);
 }
 
-TEST(Waterlines, ACupMouthUpHoldsNone) {
+TEST(Waterlines, ACupMouthUpHoldsNoFilm) {
   const Waterlines w = taken(testing::cup(15, 20, 30, 5, true, 48));
   for (const Waterline& line : w.lines) {
     expect_loops(line, 1, 0, 0, line.immersion_mm < 5 ? 0 : 1);
@@ -91,7 +91,7 @@ TEST(Waterlines, APostInTrappedFilmIsAnIslandThatBoundsFilm) {
   expect_loops(before(w, 25), 2, 1, 0, 0);
 }
 
-TEST(Waterlines, APostInACupMouthUpBoundsNone) {
+TEST(Waterlines, APostInACupMouthUpBoundsNoFilm) {
   const Waterlines w =
       taken(testing::together({testing::cup(25, 30, 30, 5, true, 48),
                                testing::moved(testing::cylinder(6, 22, 24), {0, 0, 3})}));
@@ -99,8 +99,8 @@ TEST(Waterlines, APostInACupMouthUpBoundsNone) {
   expect_loops(before(w, 30), 1, 0, 0, 1);
 }
 
-TEST(Waterlines, AHollowAboveAClosedCeilingStaysDry) {
-  // Cells from below: open at the bottom, a floor, open at the top.
+TEST(Waterlines, ACavityAboveAClosedCeilingStaysDry) {
+  // Layers of cells from below: open at the bottom, a floor, open at the top.
   const Waterlines w =
       taken(testing::blocks({-20, -12, 12, 20}, {-20, -12, 12, 20}, {0, 10, 15, 25},
                             [](int i, int j, int k) { return k == 1 || i != 1 || j != 1; }));
@@ -109,7 +109,7 @@ TEST(Waterlines, AHollowAboveAClosedCeilingStaysDry) {
   expect_loops(before(w, 25), 1, 0, 0, 1);
 }
 
-TEST(Waterlines, FilmIsTrappedWhenARingClosesRoundIt) {
+TEST(Waterlines, FilmIsTrappedWhenARingClosesAroundIt) {
   // A ring with a gap in its side up to 12 mm.
   const Waterlines w = taken(
       testing::blocks({-20, -12, 12, 20}, {-20, -12, 12, 20}, {0, 12, 25}, [](int i, int j, int k) {
@@ -120,7 +120,7 @@ TEST(Waterlines, FilmIsTrappedWhenARingClosesRoundIt) {
   expect_loops(before(w, 25), 1, 1, 0, 0);
 }
 
-TEST(Waterlines, ADryHollowStaysDryWhileItNarrowsAndWidens) {
+TEST(Waterlines, ADryCavityStaysDryWhileItNarrowsAndWidens) {
   // A vase mouth up, its inside from 15 mm wide to 8 and back.
   const Waterlines w =
       taken(testing::turned({{0, 0}, {25, 0}, {25, 40}, {15, 40}, {8, 22}, {15, 5}, {0, 5}}, 48));
@@ -129,8 +129,9 @@ TEST(Waterlines, ADryHollowStaysDryWhileItNarrowsAndWidens) {
   }
 }
 
-TEST(Waterlines, AreTakenCloselyWhereContoursMerge) {
-  const double radius = 20, apart = 16;  // two spheres that overlap: one contour from some depth on
+TEST(Waterlines, AreCloserWhereContoursMerge) {
+  // Two overlapping spheres, which share one contour from some depth on.
+  const double radius = 20, apart = 16;
   const Waterlines w =
       taken(testing::together({testing::moved(sample::icosphere(radius, 5), {apart, 0, 0}),
                                testing::moved(sample::icosphere(radius, 5), {-apart, 0, 0})}));
@@ -139,7 +140,7 @@ TEST(Waterlines, AreTakenCloselyWhereContoursMerge) {
   bool found = false;
   for (std::size_t i = 1; i < w.lines.size(); ++i) {
     if (loops(w.lines[i - 1], false, true) == 2 && loops(w.lines[i], false, true) == 1) {
-      // No film fits between them once the gap is a slit (0.3 mm).
+      // No film fits between them when the gap is narrower than a slit (0.3 mm).
       EXPECT_LE(w.lines[i].immersion_mm, merge_mm + 0.02);
       EXPECT_GE(w.lines[i].immersion_mm, slit_mm - 0.02);
       EXPECT_LE(w.lines[i].immersion_mm - w.lines[i - 1].immersion_mm, 0.0101);
@@ -154,7 +155,7 @@ TEST(Waterlines, TheDipEndsWhereTheWaterlineReachesTheFilm) {
   // A ridge along y: its waterline is at x = +-immersion.
   const Waterlines w = taken(testing::wedge(slope, 60, 30), "80x120");
   EXPECT_TRUE(w.stopped_at_edge);
-  EXPECT_NEAR(w.depth_mm, 40, 0.06);  // the edge counts as reached a little before it is
+  EXPECT_NEAR(w.depth_mm, 40, 0.06);  // the edge counts as reached slightly early
   EXPECT_LT(w.depth_mm, 40 + 1e-9);
   ASSERT_FALSE(w.lines.empty());
   EXPECT_LE(w.lines.back().immersion_mm, w.depth_mm);
@@ -185,21 +186,21 @@ TEST(Waterlines, AFirstContactThatMissesTheFilmIsRefused) {
   }
 }
 
-TEST(Waterlines, AFirstContactInARingRoundTheFilmIsRefused) {
+TEST(Waterlines, AFirstContactInARingAroundTheFilmIsRefused) {
   const Body body = testing::body_of(testing::cup(70, 80, 30, 5, false, 48));
   const auto lines = take_waterlines(body, outline_of("80x80"), body.height_mm, {}, {}, {});
   ASSERT_FALSE(lines);
   EXPECT_EQ(lines.error().code, Code::kFailedPrecondition);
 }
 
-TEST(Waterlines, AFirstContactBroughtOffTheFilmByTheMotionIsRefused) {
+TEST(Waterlines, AMotionThatMovesFirstContactOffTheFilmIsRefused) {
   Motion motion;
   motion.rows = {{0, 0, {55, 0}}, {1, 5, {55, 0}}};
   const Body body = testing::body_of(sample::icosphere(15, 3));
   EXPECT_FALSE(take_waterlines(body, outline_of("80x80"), body.height_mm, motion, {}, {}));
 }
 
-TEST(Waterlines, FollowTheMotionAndShareItsDrift) {
+TEST(Waterlines, FollowTheMotionAndItsDrift) {
   Motion motion;
   motion.rows = {{0, 0, {0, 0}}, {2, 10, {0, 0}}, {4, 20, {5, -3}}, {6, 30, {5, -3}}};
   const mesh::Model model = testing::cylinder(15, 40, 48);
@@ -222,7 +223,7 @@ TEST(Waterlines, FollowTheMotionAndShareItsDrift) {
   }
 }
 
-TEST(Motion, BeforeItsFirstRowAndAfterItsLastStandsStill) {
+TEST(Motion, IsConstantBeforeItsFirstAndAfterItsLastRow) {
   Motion motion;
   motion.rows = {{0, 2, {1, 1}}, {1, 4, {2, 3}}, {1, 4, {2, 4}}};
   EXPECT_EQ(offset_at(motion, 0), Vector2d(1, 1));

@@ -15,7 +15,7 @@ struct Ply {
   std::vector<std::array<std::int32_t, 3>> faces;
 };
 
-/// Fails the test if the file's size is not what its header says.
+/// Fails the test if the file's size does not match its header.
 [[nodiscard]] Ply read_ply(const std::filesystem::path& path);
 
 /// A vertex of landed.ply.

@@ -37,7 +37,7 @@ TEST(Registry, EveryKindOfJobThatTheWorkerComputesHasAVerbWithItsSpec) {
   }
 }
 
-TEST(Registry, EverySpecSaysHowManyThreadsToUse) {
+TEST(Registry, EverySpecHasAFieldForThreads) {
   for (const Verb& verb : verbs()) {
     EXPECT_NE(verb.spec_template->GetDescriptor()->FindFieldByName("threads"), nullptr)
         << verb.name;

@@ -1,4 +1,4 @@
-// What the program makes: the artifact folder and what stands in its files.
+// The program's output: the artifact folder and the contents of its files.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST_F(Worker, SimulateMakesTheArtifactsOfTheContract) {
+TEST_F(Worker, SimulateWritesTheArtifactsOfTheContract) {
   const Ended ended = testing::run(simulate({"--texture", path("texture.png")}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(names_in(out()),
@@ -43,12 +43,12 @@ TEST_F(Worker, FilmImageHasTheFilmsSizeAndIsNotJustWhite) {
   const auto& texels = film->image.texels;
   const auto coloured = std::count_if(texels.begin(), texels.end(),
                                       [](const image::Texel& t) { return t.r != 65535; });
-  // The lower half of the sphere alone takes a disc of film of at least its own size.
+  // The lower half of the sphere alone needs a disc of film of at least its own size.
   EXPECT_GT(static_cast<double>(coloured), 3.1 * 120 * 120);
   EXPECT_EQ(texels.front().r, 65535);
 }
 
-TEST_F(Worker, APictureThatLiesInTheModelIsPrintedAndIsNoInputOfItsOwn) {
+TEST_F(Worker, AnEmbeddedPictureIsPrintedAndIsNotASeparateInput) {
   folder.write("body.gltf", mesh::textured_gltf(content(path("texture.png"))));
   const Ended ended = testing::run(
       simulate({"--mesh", path("body.gltf"), "--scale", "20", "--model", "stokes"}, false));
@@ -64,7 +64,7 @@ TEST_F(Worker, APictureThatLiesInTheModelIsPrintedAndIsNoInputOfItsOwn) {
   })) << "the picture's colours";
 }
 
-TEST_F(Worker, MapOnlyMakesTheMapAndTheReport) {
+TEST_F(Worker, MapOnlyWritesTheMapAndTheReport) {
   const Ended ended = testing::run(simulate({"--artifacts", "map"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_EQ(names_in(out()), (std::set<std::string>{"report.json", "surface_map.ply"}));
@@ -112,7 +112,7 @@ TEST_F(Worker, SurfaceMapHasTheFilesVerticesFirstAndNanWhereNoFilmArrives) {
   }
 }
 
-TEST_F(Worker, ReportTellsInputsParametersAndFigures) {
+TEST_F(Worker, ReportHasInputsParametersAndFigures) {
   folder.write("pose.json", R"({"rotation_wxyz": [2, 0, 0, 0], "translation_mm": [3, -4, 99]})");
   folder.write("film.toml", "thickness_mm = 0.25\n");
   const Ended ended =
@@ -172,13 +172,13 @@ TEST_F(Worker, ThreadsDoNotChangeTheArtifacts) {
       if (threads == "1") first[name] = bytes;
       EXPECT_TRUE(first[name] == bytes) << name;
     }
-    // Files that tell when they were written would differ.
+    // Files that contain the time of writing would differ.
     if (threads == "1") std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   }
   EXPECT_GE(first.size(), 5U);
 }
 
-TEST_F(Worker, AnEarlierRunIsReplacedAndStrangersAreNot) {
+TEST_F(Worker, EarlierRunsAreReplacedAndForeignFilesAreNot) {
   ASSERT_EQ(testing::run(simulate()).status, 0);
   ASSERT_EQ(testing::run(simulate({"--artifacts", "map"})).status, 0);
   EXPECT_EQ(names_in(out()), (std::set<std::string>{"report.json", "surface_map.ply"}));

@@ -1,4 +1,4 @@
-// Small files, values and places that cannot be, and a disk that is full.
+// Small files, impossible values and paths, and a full disk.
 
 #include <gtest/gtest.h>
 #include <sys/mount.h>
@@ -35,7 +35,7 @@ TEST_F(Worker, ValuesOutOfRangeAreBadInput) {
     SCOPED_TRACE(flags[1]);
     expect_refusal(3, simulate(flags), {flags[0] + ": "});
   }
-  // Each in range, but not together.
+  // Each is in range, but the combination is not.
   expect_refusal(3, simulate({"--film", "2000x2000", "--dpi", "2400"}), {"dpi"});
 }
 
@@ -51,14 +51,14 @@ TEST_F(Worker, BadSmallFilesAreRefusedByNameAndPlace) {
                  {"no.json: no such file"});
 }
 
-TEST_F(Worker, AFileBeyondTheLimitIsToldOfAndNothingStays) {
+TEST_F(Worker, AFileBeyondTheLimitIsReportedAndNothingStays) {
   ProcessOptions limited;
   limited.limits = {{RLIMIT_FSIZE, 20000}};
   expect_refusal(3, simulate({"--texture", path("texture.png")}),
                  {"out", "beyond the limit on file sizes"}, limited);
 }
 
-TEST_F(Worker, AFullFileSystemIsToldOfAndNothingStays) {
+TEST_F(Worker, AFullFileSystemIsReportedAndNothingStays) {
   const fs::path disk = folder.path() / "disk";
   fs::create_directory(disk);
   if (::mount("none", disk.c_str(), "tmpfs", 0, "size=16k") != 0) GTEST_SKIP() << "needs root";
@@ -69,7 +69,7 @@ TEST_F(Worker, AFullFileSystemIsToldOfAndNothingStays) {
   ::umount2(disk.c_str(), MNT_DETACH);
 }
 
-TEST_F(Worker, AnOutFolderThatCannotBeMadeIsRefusedFirst) {
+TEST_F(Worker, AnOutFolderThatCannotBeCreatedIsRefusedFirst) {
   Arguments command = simulate();
   *std::next(std::find(command.begin(), command.end(), "--out")) = path("no/out");
   expect_refusal(3, command, {"no: no such folder", "--out"});

@@ -1,4 +1,4 @@
-// Models and textures that are none: one line that names the file, and nothing left behind.
+// Invalid models and textures: one line that names the file, and nothing left behind.
 
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ std::string big_endian(std::uint32_t value) {
   return bytes;
 }
 
-/// The beginning of a PNG that announces a size, with a chunk of data of no use.
+/// The beginning of a PNG that announces a size, with a chunk of useless data.
 std::string png_announcing(std::uint32_t width, std::uint32_t height) {
   const auto chunk = [](const std::string& type, const std::string& data) {
     return big_endian(static_cast<std::uint32_t>(data.size())) + type + data +
@@ -96,7 +96,7 @@ TEST_F(Worker, BadModelsAreRefusedInOneLine) {
   expect_refusal(3, simulate({"--mesh", folder.path()}, false), {"not a regular file"});
 }
 
-TEST_F(Worker, ModelsThatLieAboutTheirSizeTakeNoMemory) {
+TEST_F(Worker, ModelsWithFalseSizesTakeNoMemory) {
   if (!kAddressSpaceIsOurs) GTEST_SKIP() << "address space cannot be limited";
   ProcessOptions little;
   little.limits = {{RLIMIT_AS, rlim_t{1} << 30}};
@@ -140,7 +140,7 @@ TEST_F(Worker, MissingPartsOfAModelAreRefusedByName) {
                std::string("mtllib notexture.mtl\n") + tetrahedron + "usemtl skin\n" + faces);
   expect_refusal(3, simulate({"--mesh", path("notexture.obj")}, false), {"absent skin.png"});
 
-  // A texture on the command line answers for all of them.
+  // A texture on the command line replaces all of them.
   const Ended ended = testing::run(
       simulate({"--mesh", path("nomtl.obj"), "--texture", path("texture.png")}, false));
   EXPECT_EQ(ended.status, 0) << ended.err;

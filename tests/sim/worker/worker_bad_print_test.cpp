@@ -1,4 +1,4 @@
-// What print-image and template cannot put on paper.
+// Inputs that print-image and template cannot put on paper.
 
 #include <gtest/gtest.h>
 
@@ -35,16 +35,17 @@ class BadPrint : public Worker {
   }
 };
 
-TEST_F(BadPrint, PrintImageRefusesInOneLineWhatItCannotDo) {
+TEST_F(BadPrint, PrintImageErrorsAreOneLine) {
   expect_refusal(3, print_image({"--film", "A3"}),
                  {"film.png: 827 x 1169 pixels, but a film image of A3 at 71 dpi"});
   expect_refusal(3, print_image({"--dpi", "300"}), {"has 2480 x 3508"});
   expect_refusal(2, print_image({"--paper", "A99"}), {"paper 'A99'"});
   expect_refusal(3, print_image({"--paper", "30x30"}), {"paper: too small for the film"});
   expect_refusal(3, print_image({"--printer-margin-mm", "200"}), {"printer margin"});
-  expect_refusal(3, print_image({"--ink-limit", "3"}), {"ink limit: RGB"});
+  expect_refusal(3, print_image({"--ink-limit", "3"}), {"ink limit: does not apply to RGB"});
   expect_refusal(3, print_image({"--colours", "cmyk", "--ink-limit", "7"}), {"ink limit: 7"});
-  expect_refusal(3, print_image({"--colours", "cmyk", "--formats", "png"}), {"PNG has no CMYK"});
+  expect_refusal(3, print_image({"--colours", "cmyk", "--formats", "png"}),
+                 {"PNG does not support CMYK"});
   expect_refusal(2, print_image({"--formats", "gif"}), {"'gif' is unknown"});
   expect_refusal(2, print_image({"--colours", "hsv"}), {"--colours"});
   expect_refusal(3, print_image({"--icc-profile", path("none.icc")}), {"none.icc: "});
@@ -52,7 +53,7 @@ TEST_F(BadPrint, PrintImageRefusesInOneLineWhatItCannotDo) {
   expect_refusal(3, print_image({}), {"film.png: "});
 }
 
-TEST_F(BadPrint, TemplateRefusesInOneLineWhatItCannotShow) {
+TEST_F(BadPrint, TemplateErrorsAreOneLine) {
   expect_refusal(3, placement({"--pose", path("far.json")}), {"misses the film A4"});
   expect_refusal(3, placement({"--film", "A3"}), {"paper: smaller than the film A3"});
 }

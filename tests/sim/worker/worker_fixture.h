@@ -21,14 +21,15 @@ using Arguments = std::vector<std::string>;
 
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool kAddressSpaceIsOurs = false;  // the sanitizer itself maps terabytes
-constexpr bool kStderrIsOurs = false;        // its reports must not be lost, nor is libraries' talk
+// Neither its reports nor libraries' output may be lost.
+constexpr bool kStderrIsOurs = false;
 #else
 constexpr bool kAddressSpaceIsOurs = true;
 constexpr bool kStderrIsOurs = true;
 #endif
 
-/// The program as its users see it: command line in, artifact folder, one line and exit status out;
-/// run in a folder with a small textured sphere.
+/// The program from a user's point of view: command line in; artifact folder, one line and exit
+/// status out. Runs in a folder with a small textured sphere.
 class Worker : public ::testing::Test {
  protected:
   void SetUp() override;
@@ -36,14 +37,14 @@ class Worker : public ::testing::Test {
   [[nodiscard]] std::string path(const std::string& name) const { return folder.path() / name; }
   [[nodiscard]] std::string out() const { return path("out"); }
 
-  /// simulate on the sphere with a small film, unless the flags say otherwise.
+  /// The command line of simulate on the sphere with a small film, unless `more` says otherwise.
   [[nodiscard]] Arguments simulate(const Arguments& more = {}, bool with_mesh = true) const;
 
-  /// predict of film.png on the sphere with a small film.
+  /// The command line of predict with film.png on the sphere with a small film.
   [[nodiscard]] Arguments predict(const Arguments& more) const;
 
-  /// Runs, and sees to it that it fails as promised: that status, one line that holds all of the
-  /// words, nothing on stdout, and a folder as it was before.
+  /// Runs the program and checks that it fails as promised: this status, one line with all of the
+  /// words, nothing on stdout, and an unchanged folder.
   void expect_refusal(int status, const Arguments& command, const Arguments& words,
                       const ProcessOptions& options = {}) const;
 

@@ -1,4 +1,4 @@
-// The other direction: from a film image to what lands.
+// The opposite direction: from a film image to the landed colours.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace hydroprint::worker {
 namespace {
 
-/// A film image of four colours, one a quarter: red on the right and above, and so on round.
+/// A film image of four colours, one per quarter.
 image::RgbImage quarters(int width, int height) {
   image::RgbImage film{width, height, std::vector<std::uint8_t>(3 * width * height)};
   for (int y = 0; y < height; ++y) {
@@ -29,7 +29,7 @@ image::RgbImage quarters(int width, int height) {
   return film;
 }
 
-TEST_F(Worker, PredictLandsEveryQuarterOfTheFilmOnItsSideOfTheSphere) {
+TEST_F(Worker, PredictedQuartersOfTheFilmLandOnTheirSideOfTheSphere) {
   ASSERT_TRUE(image::write_png(path("film.png"), quarters(240, 280), 100));
   const Ended ended = testing::run(predict({"--depth-mm", "12"}));
   ASSERT_EQ(ended.status, 0) << ended.err;
@@ -41,8 +41,7 @@ TEST_F(Worker, PredictLandsEveryQuarterOfTheFilmOnItsSideOfTheSphere) {
       EXPECT_EQ(colour, (std::array<std::uint8_t, 4>{255, 255, 255, 0})) << "above the water";
       continue;
     }
-    // Vertices on the borders of the quarters, and where a film of one piece pulls them over,
-    // aside.
+    // Skips vertices near the borders of the quarters, where the film's motion shifts the colours.
     if (std::min(std::abs(xyz[0]), std::abs(xyz[1])) < 1.5 || xyz[2] > -0.5) continue;
     const std::array<std::uint8_t, 4> expected = {static_cast<std::uint8_t>(xyz[0] > 0 ? 255 : 0),
                                                   static_cast<std::uint8_t>(xyz[1] > 0 ? 0 : 255),
@@ -56,7 +55,7 @@ TEST_F(Worker, PredictLandsEveryQuarterOfTheFilmOnItsSideOfTheSphere) {
 
 TEST_F(Worker, PredictFollowsThePathAsDriven) {
   ASSERT_TRUE(image::write_png(path("film.png"), quarters(240, 280), 100));
-  // The object strays 4 mm to the right on its way down: what lands comes from farther right.
+  // The object drifts 4 mm to the right on its way down, so the film comes from farther right.
   folder.write("driven.csv", "t_s,x_mm,y_mm,z_mm\n0,0,0,50\n1,4,0,45\n2,4,0,38\n");
   ASSERT_EQ(testing::run(predict({"--depth-mm", "12", "--artifacts", "map"})).status, 0);
   const Ply straight = read_ply(out() + "/surface_map.ply");

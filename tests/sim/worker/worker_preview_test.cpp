@@ -1,4 +1,5 @@
-// The verb that stays: requests in, answers out, as a page sees it on which an object is turned.
+// The verb that keeps running: requests in, answers out, as used by a page on which an object is
+// turned.
 
 #include <fcntl.h>
 #include <signal.h>
@@ -15,7 +16,7 @@
 namespace hydroprint::worker {
 namespace {
 
-/// One end of a pipe, which children do not inherit by themselves.
+/// One end of a pipe, which child processes do not inherit by default.
 class End {
  public:
   explicit End(int fd) : fd_(fd) { ::fcntl(fd, F_SETFD, FD_CLOEXEC); }
@@ -42,7 +43,7 @@ struct Answer {
   std::vector<float> floats;  ///< its bytes
 };
 
-/// The program, and whoever talks to it.
+/// The program and its client.
 class Session {
  public:
   explicit Session(const Arguments& arguments, std::array<int, 2> in = make_pipe(),
@@ -61,7 +62,7 @@ class Session {
               static_cast<ssize_t>(lines.size()));
   }
   void hang_up() { requests_.close(); }
-  /// Asks one thing and hears of it.
+  /// Sends one request and waits for its answer.
   Answer answer_to(const nlohmann::json& request) {
     ask(request.dump() + "\n");
     return next();
@@ -110,7 +111,7 @@ class Preview : public Worker {
   }
 };
 
-TEST_F(Preview, TellsTheModelFirstAndThenWhereFilmLandsOnIt) {
+TEST_F(Preview, SendsTheModelFirstAndThenItsLandingPoints) {
   Session session(preview());
   const Answer model = session.next();
   const std::size_t vertices = model.head.at("vertices");
@@ -153,7 +154,7 @@ TEST_F(Preview, TellsTheModelFirstAndThenWhereFilmLandsOnIt) {
   EXPECT_EQ(session.wait().status, 0);
 }
 
-TEST_F(Preview, IsAskedAgainWithAnotherPose) {
+TEST_F(Preview, AnswersASecondPose) {
   Session session(preview());
   const Answer model = session.next();
   const Answer upright = session.answer_to(turned(1, 0));
@@ -170,7 +171,7 @@ TEST_F(Preview, IsAskedAgainWithAnotherPose) {
   EXPECT_NEAR(first_to_touch(turned_over), 12, 1e-3);
 }
 
-TEST_F(Preview, ANewerRequestEndsTheOneBefore) {
+TEST_F(Preview, ANewerRequestCancelsThePreviousOne) {
   Session session(preview());
   ASSERT_GT(session.next().floats.size(), 0u);
   constexpr int kMany = 40;
@@ -193,7 +194,7 @@ TEST_F(Preview, ANewerRequestEndsTheOneBefore) {
   EXPECT_LT(done, kMany) << "not all were computed";
 }
 
-TEST_F(Preview, RefusesWhatIsNoRequestAndGoesOn) {
+TEST_F(Preview, RefusesInvalidRequestsAndContinues) {
   Session session(preview());
   ASSERT_GT(session.next().floats.size(), 0u);
   const auto refused = [&](const std::string& line, int id) {
@@ -215,12 +216,12 @@ TEST_F(Preview, RefusesWhatIsNoRequestAndGoesOn) {
   refused(R"({"id":3,"depth_mm":-1})", 3);
   refused(R"({"id":4,"depth_mm":1e999})", -1);
   refused(R"({"id":5,"pose":{"rotation_wxyz":[0,0,0,0]}})", 5);
-  refused(R"({"id":6,"pose":{"translation_mm":[400,0,0]}})", 6);  // beside the film
+  refused(R"({"id":6,"pose":{"translation_mm":[400,0,0]}})", 6);  // next to the film
   refused(R"({"id":7,"colour":"red"})", 7);
   EXPECT_FALSE(session.answer_to(turned(8, 1)).head.contains("error"));
 }
 
-TEST_F(Preview, AnswersTheLastRequestThoughNothingFollows) {
+TEST_F(Preview, AnswersTheLastRequestAtEndOfInput) {
   Session session(preview());
   session.ask(turned(1, 0).dump() + "\n");
   session.hang_up();

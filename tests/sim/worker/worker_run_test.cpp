@@ -1,4 +1,4 @@
-// Progress, cancel and trouble on the way.
+// Progress, cancellation and failures during a run.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ TEST_F(Worker, ProgressOnAPipeRisesToTheEnd) {
   }
 }
 
-TEST_F(Worker, AProgressReaderThatGoesAwayOrSleepsChangesNothing) {
+TEST_F(Worker, AStalledOrClosedProgressReaderHasNoEffect) {
   std::array<int, 2> pipe_ends{};
   ASSERT_EQ(::pipe2(pipe_ends.data(), O_CLOEXEC), 0);
   ProcessOptions options;
@@ -62,7 +62,7 @@ TEST_F(Worker, AProgressReaderThatGoesAwayOrSleepsChangesNothing) {
   ::close(pipe_ends[1]);
 }
 
-TEST_F(Worker, AClosedStdoutIsNoTrouble) {
+TEST_F(Worker, AClosedStdoutIsHarmless) {
   ProcessOptions options;
   options.close_stdout = true;
   const Ended ended = testing::run(simulate({"--json"}), options);
@@ -71,7 +71,7 @@ TEST_F(Worker, AClosedStdoutIsNoTrouble) {
   EXPECT_EQ(report["verb"], "simulate") << "the summary went into no artifact";
 }
 
-/// A run that takes long, started and seen at work.
+/// A long run that was started and has reported progress.
 class LongRun : public Worker {
  protected:
   void start() {
@@ -107,14 +107,14 @@ TEST_F(LongRun, SigintCancelsToo) {
   EXPECT_EQ(process->wait().status, 130);
 }
 
-TEST_F(LongRun, KilledOutrightItLeavesNoFolderOfThatName) {
+TEST_F(LongRun, KilledLeavesNoFolderOfThatName) {
   start();
   process->signal(SIGKILL);
   EXPECT_EQ(process->wait().signal, SIGKILL);
   EXPECT_FALSE(fs::exists(out()));
 }
 
-TEST_F(Worker, OutOfMemoryIsAnErrorLikeAnother) {
+TEST_F(Worker, OutOfMemoryIsAnOrdinaryError) {
   if (!kAddressSpaceIsOurs) GTEST_SKIP() << "address space cannot be limited";
   folder.write("big.obj", sphere_obj(60, 700));
   ProcessOptions options;

@@ -12,7 +12,7 @@
 namespace hydroprint::worker {
 namespace {
 
-TEST_F(Worker, InkPassesAreReportedWithHowFarTheyMovedTheFilm) {
+TEST_F(Worker, InkPassesAreReportedWithTheFilmsMoves) {
   ASSERT_EQ(testing::run(
                 simulate({"--texture", path("texture.png"), "--ink-passes", "2", "--dpi", "600"}))
                 .status,
@@ -41,7 +41,7 @@ TEST_F(Worker, InkPassesEndWhenTheFilmMovesByLessThanAPixel) {
   }
 }
 
-TEST_F(Worker, InkGivenDirectlyTakesThePlaceOfPasses) {
+TEST_F(Worker, GivenInkReplacesPasses) {
   ASSERT_EQ(testing::run(simulate({"--ink-image", path("texture.png")})).status, 0);
   const auto report = nlohmann::json::parse(content(out() + "/report.json"));
   EXPECT_EQ(report["parameters"]["ink_passes"], 0);
@@ -51,7 +51,7 @@ TEST_F(Worker, InkGivenDirectlyTakesThePlaceOfPasses) {
                           [](const auto& input) { return input["role"] == "ink_image"; }));
 }
 
-TEST_F(Worker, StokesKnowsNoInkAndSaysThatItKnowsNoDrag) {
+TEST_F(Worker, StokesIgnoresInkAndWarnsThatItIgnoresDrag) {
   folder.write("film.toml", "drag_length_mm = 5\n");
   ASSERT_EQ(testing::run(simulate({"--model", "stokes", "--profile", path("film.toml")})).status,
             0);
@@ -78,7 +78,7 @@ class Inertia : public Worker {
   }
 };
 
-/// How far apart, at most, the film lies that two maps bring to a vertex.
+/// Largest distance on the film between the points that two maps bring to a vertex.
 double apart_mm(const Ply& a, const Ply& b) {
   EXPECT_EQ(a.vertices.size(), b.vertices.size());
   double most = 0;
@@ -94,15 +94,15 @@ double apart_mm(const Ply& a, const Ply& b) {
   return most;
 }
 
-TEST_F(Inertia, MakesTheQuasistaticMapWithVolumeKeptAndAnotherOneWithout) {
+TEST_F(Inertia, MatchesTheQuasistaticMapOnlyIfVolumeIsKept) {
   const Ply quasistatic = map_of({});
   const Ply inertial = map_of({"--inertia"});
   EXPECT_TRUE(nlohmann::json::parse(content(out() + "/report.json"))["parameters"]["inertia"]);
   // A step of 0.01 mm displaces film by at most the share 0.01 / 12 of the radius, down to the
-  // equator: its velocity is off by less than half of that, over 12 mm (sim/sheet/README.md).
+  // equator. The error of its velocity is less than half of that, over 12 mm (sim/sheet/README.md).
   const double bound_mm = 0.5 * 0.01 / 12 * 12;
   EXPECT_LT(apart_mm(inertial, quasistatic), bound_mm);
-  // The bound is narrow enough to tell other models apart, and the flags do arrive.
+  // The bound is narrow enough to distinguish other models, and to show that the flags take effect.
   EXPECT_GT(apart_mm(map_of({"--model", "stokes"}), quasistatic), bound_mm);
   folder.write("film.toml", "poisson_ratio = 0.3\n");
   EXPECT_GT(apart_mm(map_of({"--inertia", "--profile", path("film.toml")}), quasistatic), bound_mm);

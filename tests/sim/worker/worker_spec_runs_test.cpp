@@ -1,4 +1,4 @@
-// The same run by flags and by a spec.
+// The same run from flags and from a spec.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -16,8 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-/// report.json without times and memory. A spec holds its pose itself, so that there is no file of
-/// it.
+/// report.json without times and memory. A spec contains its pose, so there is no pose file.
 std::string comparable(const std::string& report) {
   Json json = Json::parse(report);
   for (const char* key : {"stage_seconds", "total_seconds", "peak_memory_bytes"}) json.erase(key);
@@ -172,7 +171,7 @@ TEST_F(SpecRun, OfTemplateMakesTheSameArtifactsAsFlags) {
                {"jobName", "mug 7"}});
 }
 
-TEST_F(SpecRun, TakesItsFilesFromTheInputsFolderAndThreadsFromTheFlag) {
+TEST_F(SpecRun, UsesTheInputsFolderAndTheThreadsFlag) {
   fs::create_directory(path("in"));
   fs::rename(path("sphere.obj"), path("in/sphere.obj"));
   folder.write(
@@ -185,7 +184,7 @@ TEST_F(SpecRun, TakesItsFilesFromTheInputsFolderAndThreadsFromTheFlag) {
   EXPECT_EQ(report["parameters"]["threads"], 1);
 }
 
-TEST_F(SpecRun, ComesFromStdinToo) {
+TEST_F(SpecRun, ReadsStdinToo) {
   folder.write("spec.json", R"({"mesh": {"name": "sphere.obj"}, "film": "60x70", "artifacts": 2})");
   ProcessOptions options;
   const int spec = ::open(path("spec.json").c_str(), O_RDONLY | O_CLOEXEC);

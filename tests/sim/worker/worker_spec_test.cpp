@@ -11,7 +11,7 @@ namespace {
 
 class BadSpec : public Worker {
  protected:
-  /// A run of `verb` with spec.json, which gets this content.
+  /// Runs `verb` with a spec.json that has this content.
   [[nodiscard]] Arguments run_of(const std::string& verb, const std::string& json) const {
     folder.write("spec.json", json);
     return {
@@ -32,7 +32,7 @@ TEST_F(BadSpec, UnknownFieldsAreRefusedByName) {
   expect_bad_spec("validate", R"({"mesh": {"name": "sphere.obj"}})", {"mesh"});
 }
 
-TEST_F(BadSpec, ValuesOfAnotherTypeAreRefusedByField) {
+TEST_F(BadSpec, ValuesOfTheWrongTypeAreRefusedByField) {
   const std::string mesh = R"({"mesh": {"name": "sphere.obj"}, )";
   expect_bad_spec("simulate", mesh + R"("dpi": "many"})", {"dpi"});
   expect_bad_spec("simulate", mesh + R"("model": "MODEL_HONEY"})", {"model"});
@@ -56,7 +56,7 @@ TEST_F(BadSpec, FieldsThatOnlyADaemonCanResolveAreRefusedByName) {
   expect_bad_spec("calibrate-camera", R"({"captureJobs": ["jobs/1"]})", {"capture_jobs: "});
 }
 
-TEST_F(BadSpec, FilesThatAreMissingAreRefusedByField) {
+TEST_F(BadSpec, MissingFilesAreRefusedByField) {
   expect_bad_spec("simulate", R"({"mesh": {"name": "no.obj"}})",
                   {"mesh: ", "no.obj: no such file"});
   expect_bad_spec("simulate",
@@ -120,7 +120,7 @@ TEST_F(BadSpec, ErrorsAsJsonNameTheField) {
   EXPECT_EQ(error["metadata"]["field"], "dpi");
 }
 
-TEST_F(BadSpec, AFilmImageThatIsTooLargeIsToldByItsField) {
+TEST_F(BadSpec, ATooLargeFilmImageIsNamedByItsField) {
   expect_refusal(
       3,
       run_of("simulate", R"({"mesh": {"name": "sphere.obj"}, "film": "2000x2000", "dpi": 2400})"),

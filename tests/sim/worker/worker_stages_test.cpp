@@ -1,4 +1,4 @@
-// The stages that runs report, against those that the time left is reckoned with.
+// The stages that runs report, compared with the stages used for the estimated time.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ class Stages : public Worker {
     std::filesystem::copy_file(path("texture.png"), path("film.png"));
   }
 
-  /// The stages of a run, one after the other, from its progress pipe.
+  /// The stages of a run in order, from its progress pipe.
   [[nodiscard]] Names reported(Arguments command) const {
     ProcessOptions options;
     options.files = {{5, folder.path() / "progress"}};
@@ -56,7 +56,7 @@ Names listed(const Arguments& command) {
   return names;
 }
 
-/// Whether `some` is `all` with names left out.
+/// Whether `some` is `all` with some names removed.
 bool is_part_of(const Names& some, const Names& all) {
   auto next = all.begin();
   for (const std::string& name : some) {
@@ -95,8 +95,8 @@ TEST_F(Stages, OfAPredictionComeAsListed) {
   }
 }
 
-TEST_F(Stages, ThatARunHasNoUseForAreLeftOut) {
-  const Arguments colourless = simulate({"--artifacts", "map"});  // and so without ink
+TEST_F(Stages, UnusedStagesAreLeftOut) {
+  const Arguments colourless = simulate({"--artifacts", "map"});  // and therefore without ink
   const Arguments patient =
       simulate({"--artifacts", "map", "--texture", path("texture.png"), "--ink-passes", "20"});
   for (const Arguments& command : {colourless, patient}) {

@@ -45,7 +45,7 @@ TEST_F(Worker, HelpAndVersionGoToStdout) {
   EXPECT_TRUE(testing::run({worker, "--version"}).out.starts_with("hydroprint-worker 0."));
 }
 
-TEST_F(Worker, ErrorsAreJsonWhereAsked) {
+TEST_F(Worker, ErrorsAreJsonOnRequest) {
   const Ended ended = testing::run(simulate({"--mesh", path("no.obj"), "--json"}, false));
   EXPECT_EQ(ended.status, 3);
   const auto error = nlohmann::json::parse(ended.out)["error"];

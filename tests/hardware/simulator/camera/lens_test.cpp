@@ -5,7 +5,7 @@
 namespace hydroprint::simulated_camera {
 namespace {
 
-TEST(Lens, UnprojectingUndoesProjectingAllOverTheFrameOfAnyCamera) {
+TEST(Lens, UnprojectInvertsProjectAcrossTheWholeFrame) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Lens lens = drawn_lens(seed);
     for (int y = 0; y < kHeight_px; y += 479) {
@@ -18,14 +18,14 @@ TEST(Lens, UnprojectingUndoesProjectingAllOverTheFrameOfAnyCamera) {
   }
 }
 
-TEST(Lens, ThatOfTheMakerIsAPinhole) {
+TEST(Lens, TheManufacturersLensIsAPinhole) {
   const Eigen::Vector2d corner = unproject(Lens{}, {-0.5, -0.5});
   EXPECT_NEAR(corner.x(), -std::tan(horizontal_fov_rad() / 2), 1e-12);
   EXPECT_NEAR(corner.y(), -std::tan(vertical_fov_rad() / 2), 1e-12);
   EXPECT_NEAR(horizontal_fov_rad() * 180 / M_PI, 58.1, 0.1);
 }
 
-TEST(Lens, CamerasDifferAndEachIsTheSameAgain) {
+TEST(Lens, CamerasDifferAndAreReproducible) {
   double least = 1, most = 1;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const Lens lens = drawn_lens(seed);

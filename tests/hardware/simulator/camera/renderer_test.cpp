@@ -1,4 +1,4 @@
-// What the camera sees, without noise, against closed forms.
+// Compares the rendered depths, without noise, with closed forms.
 #include "hardware/simulator/camera/renderer.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ using simulated_scene::Scenery;
 using simulated_scene::Sight;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Rays are of single precision, 6e-5 mm at 800 mm.
+/// Rays have single precision, 6e-5 mm at 800 mm.
 constexpr double kExact_mm = 2e-3;
 
 /// A half-space n . x <= c.
@@ -57,12 +57,12 @@ Depths look(const Scenery& scenery, const Lens& lens, const Pose& X_FC, const Si
 
 Body ground() { return {"ground", simulated_scene::box({-2e3, -2e3, -10}, {2e3, 2e3, 0}), false}; }
 
-TEST(Renderer, PyramidOnAPlaneIsExactThroughAnyLens) {
+TEST(Renderer, APyramidOnAPlaneIsExactWithEveryLens) {
   Scenery scenery;
   scenery.bodies = {ground(), {"pyramid", simulated_scene::pyramid(60, 40), false}};
   const Lens lens = drawn_lens(11);
   simulated_scene::CameraStand stand;
-  stand.at_mm = {0, -200, 770};  // so that no side is seen too flat
+  stand.at_mm = {0, -200, 770};  // so that no side is at a grazing angle
   const Pose X_FC = simulated_scene::camera_pose(stand, 1, 0);
   const Depths seen = look(scenery, lens, X_FC);
   int on_pyramid = 0, at_its_edge = 0;
@@ -79,7 +79,7 @@ TEST(Renderer, PyramidOnAPlaneIsExactThroughAnyLens) {
   EXPECT_LE(at_its_edge, 2);
 }
 
-/// A sphere of triangles, every point on it.
+/// A sphere of triangles with all vertices on it.
 Mesh sphere(double radius_mm, int around) {
   Mesh out;
   const int down = around / 2;
@@ -102,7 +102,7 @@ Mesh sphere(double radius_mm, int around) {
   return out;
 }
 
-TEST(Renderer, SphereInTheGripperIsWhereTheDriveHasIt) {
+TEST(Renderer, ASphereInTheGripperFollowsTheDrive) {
   constexpr double kRadius_mm = 40;
   Scenery scenery;
   scenery.bodies = {{"sphere", sphere(kRadius_mm, 800), true}};
@@ -120,7 +120,7 @@ TEST(Renderer, SphereInTheGripperIsWhereTheDriveHasIt) {
       const double b = from.dot(along);
       const double root = b * b - a * (from.squaredNorm() - kRadius_mm * kRadius_mm);
       const double facing = root > 0 ? std::sqrt(root / a) / kRadius_mm : 0;
-      if (facing < 0.3) continue;  // near the outline triangles and sphere part
+      if (facing < 0.3) continue;  // near the outline, triangles and sphere differ
       ++hits;
       // Triangles lie up to R (1 - cos(pi / 800)) = 0.3 um below the sphere.
       ASSERT_NEAR(seen[i], (-b - std::sqrt(root)) / a, 3 * kExact_mm);
@@ -129,7 +129,7 @@ TEST(Renderer, SphereInTheGripperIsWhereTheDriveHasIt) {
   }
 }
 
-TEST(Renderer, WhatTheProjectorDoesNotReachIsNotMeasured) {
+TEST(Renderer, SurfacesWithoutProjectorLightAreNotMeasured) {
   Scenery scenery;
   const double height_mm = 100;
   scenery.bodies = {ground(),
@@ -143,7 +143,7 @@ TEST(Renderer, WhatTheProjectorDoesNotReachIsNotMeasured) {
   for (int x = 0; x < kWidth_px; ++x) {
     if (row[x] == 0) ++(x < kWidth_px / 2 ? left : right);
   }
-  // The edge of the top at x = -50 hides the ground down to where the projector's ray over it
+  // The edge of the top at x = -50 shadows the ground up to where the projector's ray over the edge
   // lands.
   const double end_mm = 50 + (50 + kBaseline_mm) * height_mm / (800 - height_mm);
   const double start_mm = 50 * 800 / (800 - height_mm);
@@ -151,7 +151,7 @@ TEST(Renderer, WhatTheProjectorDoesNotReachIsNotMeasured) {
   EXPECT_EQ(right, 0);
 }
 
-TEST(Renderer, SurfacesSeenTooFlatAreNotMeasured) {
+TEST(Renderer, SurfacesAtGrazingAnglesAreNotMeasured) {
   Scenery scenery;
   scenery.bodies = {ground()};
   for (const double degrees : {9.0, 11.0}) {
@@ -164,7 +164,7 @@ TEST(Renderer, SurfacesSeenTooFlatAreNotMeasured) {
   }
 }
 
-TEST(Renderer, MarkersAreSeenWellHiddenAndKnockedOver) {
+TEST(Renderer, MarkersAreRenderedInEveryState) {
   Scenery scenery;
   scenery.markers = simulated_scene::nominal_markers({210, 297});
   const Pose X_FC = simulated_scene::camera_pose({}, 1, 0);
@@ -182,10 +182,10 @@ TEST(Renderer, MarkersAreSeenWellHiddenAndKnockedOver) {
     sight.markers[2] = state;
     EXPECT_NE(count(sight), well);
   }
-  EXPECT_EQ(count({}), well) << "and stands again";
+  EXPECT_EQ(count({}), well) << "the marker stands again";
 }
 
-TEST(Renderer, SameSceneSeedAndTimeSameBits) {
+TEST(Renderer, TheSameSceneSeedAndTimeGiveTheSameBits) {
   Scenery scenery;
   scenery.bodies = simulated_scene::standing_bodies({210, 297});
   scenery.markers = simulated_scene::nominal_markers({210, 297});

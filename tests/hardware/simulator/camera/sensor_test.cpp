@@ -1,4 +1,4 @@
-// The errors of the sensor, measured on flat planes and held against the formulas.
+// Measures the errors of the sensor on planes and compares them with the formulas.
 #include "hardware/simulator/camera/sensor.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ constexpr double kRoundingVariance = 1.0 / 12;  // of whole millimetres
 
 Depths plane(double depth_mm) { return Depths(kPixels, static_cast<float>(depth_mm)); }
 
-/// Mean and unbiased variance over time of every pixel.
+/// Mean and unbiased variance of every pixel over time.
 struct OverTime {
   std::vector<double> mean, variance;
 };
@@ -48,7 +48,7 @@ double spread(const std::vector<double>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-TEST(Sensor, SigmaIsThatOfTheFormulaAndHalfOfTheVarianceStays) {
+TEST(Sensor, SigmaMatchesTheFormulaAndHalfTheVarianceIsConstant) {
   constexpr int kFrames = 12;
   for (const double z_mm : {500.0, 800.0, 1500.0, 3000.0}) {
     const double beyond = z_mm / 1000 - 0.4;
@@ -57,13 +57,13 @@ TEST(Sensor, SigmaIsThatOfTheFormulaAndHalfOfTheVarianceStays) {
     const double passing = average(seen.variance);
     const double constant = spread(seen.mean) - passing / kFrames;
     EXPECT_NEAR(passing, variance / 2 + kRoundingVariance, 0.01 * variance) << z_mm;
-    // Of 19200 patches: 1 % is one standard deviation.
+    // With 19200 patches, one standard deviation is 1 %.
     EXPECT_NEAR(constant, variance / 2, 0.04 * variance / 2) << z_mm;
     EXPECT_NEAR(average(seen.mean), 0, 4 * std::sqrt(variance / 2 / 19200)) << z_mm;
   }
 }
 
-TEST(Sensor, WhatStaysIsTheSameOverPatchesOfFourPixels) {
+TEST(Sensor, TheConstantPartIsTheSameOverPatchesOfFourPixels) {
   constexpr int kFrames = 20;
   const double half = std::pow(noise_sigma_mm(800), 2) / 2;
   const OverTime seen = watch(800, {true, false, false}, kFrames);
@@ -79,7 +79,7 @@ TEST(Sensor, WhatStaysIsTheSameOverPatchesOfFourPixels) {
   EXPECT_NEAR(spread(across), passing + 2 * half, 0.05 * 2 * half);
 }
 
-TEST(Sensor, DisparityComesInEighthsOfAPixel) {
+TEST(Sensor, DisparityHasStepsOfAnEighthPixel) {
   Depths ramp(kPixels);
   for (std::size_t i = 0; i < kPixels; ++i) {
     ramp[i] = 600 + 0.4F * static_cast<float>(i) / kWidth_px;
@@ -124,7 +124,7 @@ TEST(Sensor, PixelsAreMissingAtEdgesAndNowhereElse) {
   EXPECT_NEAR(missing, kHeight_px, 4 * std::sqrt(kHeight_px / 2.0)) << "half of two columns";
 }
 
-TEST(Sensor, DepthIsScaledAndOutOfRangeItIsNotMeasured) {
+TEST(Sensor, DepthIsScaledAndNotMeasuredOutOfRange) {
   const Errors none{false, false, false};
   EXPECT_EQ(sense(plane(800), 1.01, none, 1, 0)[5], 808);
   EXPECT_EQ(sense(plane(399), 1, none, 1, 0)[5], 0);
@@ -132,7 +132,7 @@ TEST(Sensor, DepthIsScaledAndOutOfRangeItIsNotMeasured) {
   EXPECT_EQ(sense(plane(0), 1, {}, 1, 0)[5], 0);
 }
 
-TEST(Sensor, SameSeedAndTimeSameBits) {
+TEST(Sensor, TheSameSeedAndTimeGiveTheSameBits) {
   const Frame frame = sense(plane(800), 1, {}, 5, 1.25);
   EXPECT_EQ(frame, sense(plane(800), 1, {}, 5, 1.25));
   EXPECT_NE(frame, sense(plane(800), 1, {}, 6, 1.25));

@@ -72,7 +72,7 @@ drive::DriveState BenchRig::poll_until(const std::function<bool(const drive::Dri
   for (;;) {
     const auto state = need(drive_->poll());
     if (done(state)) return state;
-    if (Clock::now() > end) throw std::runtime_error("it never happened");
+    if (Clock::now() > end) throw std::runtime_error("the condition did not become true");
     std::this_thread::sleep_for(kPollEvery);
   }
 }

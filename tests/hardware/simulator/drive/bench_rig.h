@@ -19,16 +19,16 @@ class VirtualRig;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-/// What a test may want otherwise.
+/// Options of a BenchRig.
 struct BenchOptions {
   double start_mm = 50;
   int baud = 115200;
-  std::string profile = HYDROPRINT_PROFILES "/virtual.toml";  ///< that the rig plays
+  std::string profile = HYDROPRINT_PROFILES "/virtual.toml";  ///< of the virtual rig
   std::optional<double> watchdog_s = {};
   std::optional<std::uint16_t> watchdog_action = {};
 };
 
-/// A virtual rig and the real client on its wire: "tcp" or "rtu".
+/// A virtual rig and the real client, connected over "tcp" or "rtu".
 class BenchRig {
  public:
   explicit BenchRig(const std::string& wire, const BenchOptions& options = {});
@@ -36,20 +36,20 @@ class BenchRig {
   BenchRig(const BenchRig&) = delete;
   BenchRig& operator=(const BenchRig&) = delete;
 
-  /// Connected, polled, enabled.
+  /// Connects, polls and enables the drive.
   void make_ready();
 
-  /// Does what a control line says.
+  /// Executes a line of the control socket.
   void act(const std::string& line);
 
-  /// A number, or truth as 0 or 1, of the rig's own state.
+  /// A number or Boolean (as 0 or 1) from the rig's true state.
   [[nodiscard]] double truth(const std::string& key);
   [[nodiscard]] std::string mode();
 
-  /// Polls every 20 ms until `done` or 5 s are over; the last state.
+  /// Polls every 20 ms until `done` or for 5 s; returns the last state.
   drive::DriveState poll_until(const std::function<bool(const drive::DriveState&)>& done);
 
-  /// A link of its own to the same place.
+  /// Another link to the same drive.
   [[nodiscard]] std::unique_ptr<drive::Link> other_link(const drive::LinkTiming& timing) const;
 
   [[nodiscard]] drive::Drive& drive() { return *drive_; }
@@ -62,7 +62,7 @@ class BenchRig {
   std::unique_ptr<drive::Drive> drive_;
 };
 
-/// Seconds that a call takes.
+/// Duration of a call in seconds.
 template <class Call>
 double seconds_of(const Call& call) {
   const auto start = Clock::now();
@@ -70,12 +70,12 @@ double seconds_of(const Call& call) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Both wires.
+/// Fixture for TCP and RTU.
 class OnBothWires : public ::testing::TestWithParam<const char*> {};
 
 }  // namespace hydroprint::simulated_drive
 
-/// Runs a test once over TCP and once over RTU.
+/// Runs a test over TCP and over RTU.
 #define HP_ON_BOTH_WIRES(suite)                                          \
   INSTANTIATE_TEST_SUITE_P(Wire, suite, ::testing::Values("tcp", "rtu"), \
                            [](const auto& wire) { return std::string(wire.param); })

@@ -1,4 +1,4 @@
-// A reply that comes after its time is never taken for another request's.
+// A late reply is never taken for the reply to another request.
 #include <thread>
 
 #include "tests/hardware/simulator/drive/bench_rig.h"
@@ -9,7 +9,7 @@ namespace {
 using drive::Function;
 using drive::Request;
 
-// Two registers that hold different words, read with requests of one length.
+// Two registers with different contents, read by requests of the same length.
 const Request kMaker{1, Function::kReadHolding, 0x0000, 1, {}};
 const Request kWatchdogTime{1, Function::kReadHolding, 0x0200, 1, {}};
 constexpr std::uint16_t kMakerWord = 0x4850;
@@ -18,9 +18,9 @@ constexpr std::uint16_t kWatchdogWord = 250;
 class CleanLine : public OnBothWires {};
 HP_ON_BOTH_WIRES(CleanLine);
 
-// The hazard is real: with no silence after a timeout, the late word of one register is the answer
-// to the question for another. Without this, the next test would prove nothing.
-TEST(CleanLineSerial, WithoutSilenceALateReplyWouldPassForAnothers) {
+// Shows that the hazard exists: without silence after a timeout, the late word of one register is
+// taken for that of another. Without this, the next test would prove nothing.
+TEST(CleanLineSerial, WithoutSilenceALateReplyWouldBeTakenForAnotherOne) {
   BenchRig bench("rtu");
   const auto hasty = bench.other_link({milliseconds(500), milliseconds(100), milliseconds(0)});
   HP_ASSERT_OK(hasty->connect());
@@ -31,7 +31,7 @@ TEST(CleanLineSerial, WithoutSilenceALateReplyWouldPassForAnothers) {
   EXPECT_EQ((*words)[0], kMakerWord) << "the other register's";
 }
 
-TEST_P(CleanLine, WithItsSilenceALateReplyIsNeverTakenForAnothers) {
+TEST_P(CleanLine, WithSilenceALateReplyIsNeverTakenForAnotherOne) {
   BenchRig bench(GetParam());
   const auto link = bench.other_link({milliseconds(500), milliseconds(60), milliseconds(200)});
   HP_ASSERT_OK(link->connect());
@@ -45,8 +45,8 @@ TEST_P(CleanLine, WithItsSilenceALateReplyIsNeverTakenForAnothers) {
   }
 }
 
-// The second line of defence, for a drive that is even slower than its profile says.
-TEST(CleanLineSerial, AStateIsNotMadeOfAnotherRequestsReply) {
+// The second line of defence, for a drive that is slower than its profile says.
+TEST(CleanLineSerial, AReplyToAnotherRequestIsNotDecodedAsState) {
   BenchRig bench("rtu");
   const auto link = std::make_shared<drive::Link>(
       bench.endpoint(), drive::LinkTiming{milliseconds(500), milliseconds(100), milliseconds(0)});
@@ -56,12 +56,12 @@ TEST(CleanLineSerial, AStateIsNotMadeOfAnotherRequestsReply) {
   bench.act("fault late 180ms");
   ASSERT_FALSE(link->transact(kMaker));
   const auto state = drive.poll();
-  ASSERT_FALSE(state) << "made of another request's words";
+  ASSERT_FALSE(state) << "decoded from words of another request";
   EXPECT_EQ(state.error().reason, "REPLY_INVALID");
   EXPECT_EQ(drive.enable().error().reason, "RIG_OFFLINE");
 }
 
-TEST_P(CleanLine, AStateIsNotMadeOfWordsWithoutTheirMark) {
+TEST_P(CleanLine, WordsWithoutTheirMarkAreNotDecodedAsState) {
   BenchRig bench(GetParam());
   drive::DriveProfile profile = bench.profile();
   profile.blocks[0].mark.value = 0x1234;
@@ -74,13 +74,13 @@ TEST_P(CleanLine, AStateIsNotMadeOfWordsWithoutTheirMark) {
   EXPECT_EQ(drive.enable().error().reason, "RIG_OFFLINE");
 }
 
-TEST_P(CleanLine, EveryCallEndsWithinItsTime) {
+TEST_P(CleanLine, EveryCallEndsWithinItsTimeLimit) {
   BenchRig bench(GetParam());
   bench.make_ready();
   bench.act("silent");
   const double first_s = seconds_of([&] { EXPECT_FALSE(bench.drive().poll()); });
   EXPECT_LT(first_s, 0.1 + 0.05);
-  // On a serial line, the silence that follows, and the time for the reply once more.
+  // On a serial line, also the silence that follows, and the time for another reply.
   const double second_s = seconds_of([&] { EXPECT_FALSE(bench.drive().poll()); });
   EXPECT_LT(second_s, 0.25 + 0.1 + 0.05);
 }

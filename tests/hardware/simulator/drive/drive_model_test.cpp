@@ -10,7 +10,7 @@ namespace {
 
 using drive::Command;
 
-/// A machine and a drive whose master keeps talking to it.
+/// A machine and a drive that receives messages regularly.
 struct Bench {
   Machine machine;
   Inputs inputs;
@@ -33,7 +33,7 @@ struct Bench {
   }
 };
 
-TEST(DriveModel, HomesToTheSwitchesEdgeFromEitherSideOfIt) {
+TEST(DriveModel, HomesToTheEdgeOfTheSwitchFromEitherSide) {
   for (const double start_mm : {30.0, 0.2, -0.001, -4.0}) {
     Bench bench;
     bench.start(start_mm);
@@ -47,7 +47,7 @@ TEST(DriveModel, HomesToTheSwitchesEdgeFromEitherSideOfIt) {
   }
 }
 
-TEST(DriveModel, HomingWithoutASwitchEndsAtTheEndSwitch) {
+TEST(DriveModel, HomingWithoutASwitchEndsAtTheLimitSwitch) {
   Bench bench;
   bench.start(30);
   bench.inputs.negative_end = true;
@@ -62,22 +62,22 @@ TEST(DriveModel, HomingWithoutASwitchEndsAtTheEndSwitch) {
   EXPECT_EQ(bench.model.mode, Mode::kOff);
 }
 
-TEST(DriveModel, SilenceStopsItWithinWatchdogTimeAndStoppingDistance) {
+TEST(DriveModel, SilenceStopsTheAxisWithinWatchdogTimeAndStoppingDistance) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.order(Command::kMove, 100, 10));
   bench.run(1);
   const double x_mm = bench.model.actual.x_mm;
-  bench.model = step(bench.machine, bench.model, bench.inputs, 5);  // nobody talks
+  bench.model = step(bench.machine, bench.model, bench.inputs, 5);  // no messages
   EXPECT_EQ(bench.model.alarm, kWatchdog);
   EXPECT_EQ(bench.model.mode, Mode::kOff);
-  // The last word came at most one slice of 10 ms before x was read.
+  // The last message came at most one slice of 10 ms before x was read.
   const double most_mm = 10 * 0.25 + 10.0 * 10 / (2 * 200);
   EXPECT_LE(bench.model.actual.x_mm - x_mm, most_mm + 1e-9);
   EXPECT_GE(bench.model.actual.x_mm - x_mm, most_mm - 10 * 0.011);
 }
 
-TEST(DriveModel, WatchdogThatDoesNothingLetsItRunOn) {
+TEST(DriveModel, WatchdogWithoutActionDoesNotStopTheAxis) {
   Bench bench;
   bench.machine.watchdog_action = WatchdogAction::kNothing;
   bench.start();
@@ -102,7 +102,7 @@ TEST(DriveModel, JogEndsWhenItIsNotCommandedAgain) {
   EXPECT_EQ(bench.model.mode, Mode::kHold);
 }
 
-TEST(DriveModel, EndSwitchesStopItAndLetItGoBackOnly) {
+TEST(DriveModel, LimitSwitchesStopTheAxisAndOnlyAllowMotionAwayFromThem) {
   Bench bench;
   bench.start(290);
   ASSERT_TRUE(bench.order(Command::kMove, 100, 20));
@@ -113,7 +113,7 @@ TEST(DriveModel, EndSwitchesStopItAndLetItGoBackOnly) {
   EXPECT_FALSE(bench.order(Command::kEnable)) << "before the reset";
   ASSERT_TRUE(bench.order(Command::kResetFault));
   ASSERT_TRUE(bench.order(Command::kEnable));
-  EXPECT_EQ(bench.model.mode, Mode::kHold) << "a reset moves nothing";
+  EXPECT_EQ(bench.model.mode, Mode::kHold) << "a reset starts no motion";
   EXPECT_FALSE(bench.order(Command::kJogPositive, 0, 5));
   ASSERT_TRUE(bench.order(Command::kJogNegative, 0, 5));
   bench.run(0.1);
@@ -121,7 +121,7 @@ TEST(DriveModel, EndSwitchesStopItAndLetItGoBackOnly) {
   EXPECT_EQ(bench.model.alarm, kNoAlarm);
 }
 
-TEST(DriveModel, StopButtonBrakesAndHoldsOff) {
+TEST(DriveModel, StopButtonBrakesAndDisables) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.order(Command::kMove, 100, 10));
@@ -134,7 +134,7 @@ TEST(DriveModel, StopButtonBrakesAndHoldsOff) {
   EXPECT_FALSE(bench.order(Command::kEnable));
   bench.inputs.stop_button = false;
   bench.run(1);
-  EXPECT_EQ(bench.model.mode, Mode::kOff) << "letting go starts nothing";
+  EXPECT_EQ(bench.model.mode, Mode::kOff) << "releasing it starts no motion";
   EXPECT_TRUE(bench.order(Command::kEnable));
 }
 
@@ -151,7 +151,7 @@ TEST(DriveModel, StallIsAFollowingError) {
   EXPECT_EQ(bench.model.mode, Mode::kOff);
 }
 
-TEST(DriveModel, FrozenEncoderTellsNothingNewWhileTheCarriageMoves) {
+TEST(DriveModel, FrozenEncoderReportsAConstantPositionWhileTheCarriageMoves) {
   Bench bench;
   bench.start();
   ASSERT_TRUE(bench.order(Command::kMove, 100, 10));
@@ -169,7 +169,7 @@ TEST(DriveModel, NothingMovesUnlessEnabled) {
   for (const Command command : {Command::kHome, Command::kMove, Command::kJogPositive}) {
     EXPECT_FALSE(bench.order(command, 10, 5));
   }
-  EXPECT_TRUE(bench.order(Command::kStop)) << "is always obeyed";
+  EXPECT_TRUE(bench.order(Command::kStop)) << "is always accepted";
   EXPECT_TRUE(bench.order(Command::kDisable));
   bench.run(1);
   EXPECT_EQ(bench.model.actual.x_mm, 50);

@@ -10,7 +10,7 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using std::chrono::milliseconds;
 
-TEST(Faults, LinesOfTheControlSocketAreUnderstood) {
+TEST(Faults, LinesOfTheControlSocketAreParsed) {
   const auto late = parse_action("fault late 700ms 3");
   ASSERT_TRUE(late) << late.error().message;
   EXPECT_EQ(late->kind, Action::Kind::kReplyFault);
@@ -47,7 +47,7 @@ TEST(Faults, LinesOfTheControlSocketAreUnderstood) {
   EXPECT_EQ(parse_action("show nothing")->mesh, "");
 }
 
-TEST(Faults, OtherLinesAreRefusedWithWhatThereIs) {
+TEST(Faults, OtherLinesAreRefusedWithTheListOfActions) {
   for (const char* line : {"",
                            " ",
                            "fault",
@@ -77,11 +77,11 @@ TEST(Faults, OtherLinesAreRefusedWithWhatThereIs) {
                            "marker left gone"}) {
     const auto action = parse_action(line);
     ASSERT_FALSE(action) << line;
-    EXPECT_NE(action.error().message.find("There is: "), std::string::npos);
+    EXPECT_NE(action.error().message.find("is not a known action. Use: "), std::string::npos);
   }
 }
 
-TEST(Faults, CommandLineSaysWhen) {
+TEST(Faults, CommandLineFaultsHaveTimes) {
   const auto actions = parse_timed_actions("late=700ms@5s,press=stop@8s,stall");
   ASSERT_TRUE(actions) << actions.error().message;
   ASSERT_EQ(actions->size(), 3U);
@@ -96,11 +96,11 @@ TEST(Faults, CommandLineSaysWhen) {
 }
 
 // The reply of the Modbus specification's serial line guide: unit 2, function 7; CRC 12 41.
-TEST(Wire, ChecksumIsThatOfTheSpecification) {
+TEST(Wire, ChecksumMatchesTheSpecification) {
   EXPECT_EQ(serial_frame({0x02, 0x07}, ReplyFaultKind::kNone), Bytes({0x02, 0x07, 0x41, 0x12}));
 }
 
-TEST(Wire, EveryFaultChangesWhatItSays) {
+TEST(Wire, EveryFaultChangesTheBytesItNames) {
   const Bytes reply = {1, 3, 4, 0xab, 0xcd, 0x12, 0x34};
   const Bytes header = {0, 7, 0, 0, 0, 6};
   const Bytes tcp = tcp_frame(header, reply, ReplyFaultKind::kNone);

@@ -10,8 +10,8 @@ namespace {
 
 struct Outcome {
   const char* fault;
-  const char* reason;  ///< of the poll that it strikes
-  bool timeout;        ///< whether nothing came in time
+  const char* reason;  ///< of the poll that it affects
+  bool timeout;        ///< whether no reply came in time
   bool state_is_known = false;
 };
 
@@ -24,7 +24,7 @@ constexpr Outcome kOutcomes[] = {
 
 class LineFault : public ::testing::TestWithParam<std::tuple<const char*, Outcome>> {};
 
-TEST_P(LineFault, HasItsOutcomeAndIsGotOver) {
+TEST_P(LineFault, HasItsStatedOutcomeAndTheLinkRecovers) {
   const auto& [wire, outcome] = GetParam();
   BenchRig bench(wire);
   bench.make_ready();
@@ -35,7 +35,7 @@ TEST_P(LineFault, HasItsOutcomeAndIsGotOver) {
   EXPECT_EQ(struck.error().metadata.contains("timeout"), outcome.timeout);
   if (!outcome.state_is_known) {
     const Status blind = bench.drive().move_to(5, 5);
-    ASSERT_FALSE(blind) << "a move while the state is not known";
+    ASSERT_FALSE(blind) << "a move while the state is unknown";
     EXPECT_EQ(blind.error().reason, "RIG_OFFLINE");
   }
   if (!bench.drive().connected()) HP_ASSERT_OK(bench.drive().connect());
@@ -75,7 +75,7 @@ TEST_P(MachineFault, SilentDriveIsOfflineAndStopsByItself) {
   EXPECT_EQ(bench.drive().poll()->alarm_code, kWatchdog);
 }
 
-TEST_P(MachineFault, WhenALostReplyHidesWhetherItObeyedNothingIsSentAgain) {
+TEST_P(MachineFault, NothingIsSentAgainAfterALostReply) {
   BenchRig bench(GetParam());
   bench.make_ready();
   const double requests = bench.truth("requests");
@@ -86,7 +86,7 @@ TEST_P(MachineFault, WhenALostReplyHidesWhetherItObeyedNothingIsSentAgain) {
   EXPECT_EQ(bench.truth("requests"), requests + 1);
 }
 
-TEST_P(MachineFault, UnplugIsToldAtOnceAndPluggingInIsGotOver) {
+TEST_P(MachineFault, UnpluggingIsReportedAtOnceAndTheLinkRecovers) {
   BenchRig bench(GetParam());
   bench.make_ready();
   bench.act("unplug");
@@ -108,7 +108,7 @@ TEST_P(MachineFault, UnplugIsToldAtOnceAndPluggingInIsGotOver) {
   HP_ASSERT_OK(bench.drive().poll());
 }
 
-TEST_P(MachineFault, RebootForgetsHomeAndEnabling) {
+TEST_P(MachineFault, RebootClearsHomeAndEnable) {
   BenchRig bench(GetParam(), {1.0});
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().home());
@@ -123,7 +123,7 @@ TEST_P(MachineFault, RebootForgetsHomeAndEnabling) {
   EXPECT_FALSE(state->homed || state->enabled || state->moving);
 }
 
-TEST_P(MachineFault, StopButtonIsSeenAndNothingMovesUntilItIsLetGo) {
+TEST_P(MachineFault, StopButtonIsReportedAndNothingMovesUntilItIsReleased) {
   BenchRig bench(GetParam());
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().move_to(30, 10));
@@ -140,7 +140,7 @@ TEST_P(MachineFault, StopButtonIsSeenAndNothingMovesUntilItIsLetGo) {
   HP_ASSERT_OK(bench.drive().enable());
 }
 
-TEST_P(MachineFault, EndSwitchStopsAndIsNamed) {
+TEST_P(MachineFault, LimitSwitchStopsTheAxisAndIsNamed) {
   BenchRig bench(GetParam());
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().move_to(30, 10));
@@ -148,7 +148,7 @@ TEST_P(MachineFault, EndSwitchStopsAndIsNamed) {
   const auto state = bench.poll_until([](const auto& s) { return s.alarm && !s.moving; });
   EXPECT_TRUE(state.positive_end);
   EXPECT_EQ(state.alarm_code, kPositiveEnd);
-  EXPECT_EQ(state.alarm_text, "lower end switch hit");
+  EXPECT_EQ(state.alarm_text, "lower limit switch hit");
 }
 
 TEST_P(MachineFault, StallIsAnAlarm) {
@@ -160,7 +160,7 @@ TEST_P(MachineFault, StallIsAnAlarm) {
   EXPECT_EQ(state.alarm_code, kFollowingError);
 }
 
-TEST_P(MachineFault, FrozenPositionShowsAgainstTheDrivesOwnTrajectory) {
+TEST_P(MachineFault, FrozenPositionDivergesFromTheDrivesTrajectory) {
   BenchRig bench(GetParam());
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().move_to(30, 10));
@@ -168,7 +168,7 @@ TEST_P(MachineFault, FrozenPositionShowsAgainstTheDrivesOwnTrajectory) {
   bench.act("freeze");
   const auto state = bench.poll_until([](const auto& s) { return *s.demand_mm > 4; });
   EXPECT_LT(state.position_mm, 3);
-  EXPECT_FALSE(state.alarm) << "the drive does not know";
+  EXPECT_FALSE(state.alarm) << "the drive does not notice";
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ Goal move_to(double target_mm, double speed, double gain, double braking) {
   return {Goal::Kind::kPosition, target_mm, speed, gain, braking};
 }
 
-/// Distance from rest to rest after t, with equal ramps (pen and paper).
+/// Distance from rest after t, with equal ramps (computed by hand).
 double trapezoid(double distance, double speed, double ramp, double t) {
   const double top = std::min(speed, std::sqrt(distance * ramp));
   const double ramp_s = top / ramp;
@@ -28,7 +28,7 @@ double trapezoid(double distance, double speed, double ramp, double t) {
   return top * (t - ramp_s / 2);
 }
 
-TEST(Motion, IsTheTrapezoidHoweverTimeIsCut) {
+TEST(Motion, IsATrapezoidForAnyTimeSteps) {
   std::mt19937 random(5);
   for (const double distance : {40.0, 0.3, -25.0}) {
     for (const double cut_s : {1.0, 0.1, 1e-3}) {
@@ -57,7 +57,7 @@ TEST(Motion, SpeedIsExactlyConstantBetweenTheRamps) {
   }
 }
 
-TEST(Motion, NeverGoesBeyondItsLimitsWhateverGoalFollowsWhatever) {
+TEST(Motion, NeverExceedsItsLimitsForAnySequenceOfGoals) {
   std::mt19937 random(testing::campaign_seed(9));
   std::uniform_real_distribution<double> place(-50, 50);
   Kinematics now;
@@ -78,14 +78,14 @@ TEST(Motion, NeverGoesBeyondItsLimitsWhateverGoalFollowsWhatever) {
   }
 }
 
-TEST(Motion, StopTakesTheDistanceOfItsDeceleration) {
+TEST(Motion, StopCoversTheDistanceOfItsDeceleration) {
   const Goal stop{Goal::Kind::kVelocity, 0, 0, 200, 80};
   const Kinematics end = advance({10, -8}, stop, 5);
   EXPECT_EQ(end.v_mm_per_s, 0);
   EXPECT_NEAR(end.x_mm, 10 - 8.0 * 8 / (2 * 80), 1e-12);
 }
 
-TEST(Motion, AGoalBehindIsReachedByTurningRound) {
+TEST(Motion, AGoalBehindIsReachedByReversing) {
   const Goal goal = move_to(0, 5, 100, 100);
   const Kinematics end = advance({1, 10}, goal, 20);
   EXPECT_EQ(end.x_mm, 0);

@@ -1,4 +1,4 @@
-// Motion as the client sees it, through the wire.
+// Motion as the client sees it, over the wire.
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kCount_mm = 1e-4;  // of the virtual drive
 
-/// From rest to rest, as pen and paper have it.
+/// Distance from rest, computed by hand.
 double trapezoid_mm(double distance, double speed, double ramp, double t) {
   const double ramp_s = speed / ramp;
   const double total_s = distance / speed + ramp_s;
@@ -25,7 +25,7 @@ double seconds(Clock::duration time) { return std::chrono::duration<double>(time
 class Motion : public OnBothWires {};
 HP_ON_BOTH_WIRES(Motion);
 
-TEST_P(Motion, IsTheTrapezoidWithinTheTimeThatAMessageTakes) {
+TEST_P(Motion, IsATrapezoidWithinTheDurationOfAMessage) {
   BenchRig bench(GetParam());
   bench.make_ready();
   const auto before = Clock::now();
@@ -85,7 +85,7 @@ TEST_P(Motion, StopBrakesWithinItsDistanceAndKeepsTheDriveEnabled) {
   EXPECT_LE(bench.truth("position_mm") - x_mm, 10 * (sent_s + 0.002) + 10.0 * 10 / (2 * 200));
 }
 
-TEST_P(Motion, JogGoesOnWhileItIsCommandedAndEndsByItself) {
+TEST_P(Motion, JogContinuesWhileCommandedAndThenEndsByItself) {
   BenchRig bench(GetParam());
   bench.make_ready();
   for (int i = 0; i < 8; ++i) {
@@ -93,7 +93,7 @@ TEST_P(Motion, JogGoesOnWhileItIsCommandedAndEndsByItself) {
     std::this_thread::sleep_for(milliseconds(50));
   }
   EXPECT_EQ(bench.drive().poll()->velocity_mm_per_s, -10);
-  // Polled all the while: it is the dead-man that ends it, not the watchdog.
+  // The drive is polled throughout, so the dead-man timer ends the jog, not the watchdog.
   const auto begin = Clock::now();
   const auto state = bench.poll_until([](const auto& s) { return !s.moving; });
   EXPECT_LT(seconds(Clock::now() - begin), bench.profile().jog_dead_man_s + 0.1);
@@ -101,7 +101,7 @@ TEST_P(Motion, JogGoesOnWhileItIsCommandedAndEndsByItself) {
   EXPECT_TRUE(state.enabled);
 }
 
-TEST_P(Motion, SilenceOfTheClientStopsItWithinWatchdogTimeAndStoppingDistance) {
+TEST_P(Motion, SilenceOfTheClientStopsTheAxisWithinWatchdogTimeAndStoppingDistance) {
   BenchRig bench(GetParam());
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().move_to(100, 10));
@@ -114,7 +114,7 @@ TEST_P(Motion, SilenceOfTheClientStopsItWithinWatchdogTimeAndStoppingDistance) {
   EXPECT_EQ(bench.truth("alarm_code"), kWatchdog);
   const double allowed_mm = drive::stopping_distance_mm(bench.profile(), 10, watchdog_s);
   EXPECT_LE(bench.truth("position_mm") - x_mm, allowed_mm + 10 * 0.002);
-  // Back again: the alarm is told and explained, and a reset starts nothing.
+  // After reconnecting, the alarm is reported and explained, and a reset starts no motion.
   HP_ASSERT_OK(bench.drive().connect());
   const auto state = bench.drive().poll();
   HP_ASSERT_OK(state);
@@ -126,7 +126,7 @@ TEST_P(Motion, SilenceOfTheClientStopsItWithinWatchdogTimeAndStoppingDistance) {
   EXPECT_FALSE(reset->alarm || reset->moving || reset->enabled);
 }
 
-TEST_P(Motion, WhatCannotBeDrivenIsRefusedBeforeAnythingIsSent) {
+TEST_P(Motion, ImpossibleMotionsAreRefusedBeforeAnythingIsSent) {
   BenchRig bench(GetParam());
   bench.make_ready();
   const double requests = bench.truth("requests");

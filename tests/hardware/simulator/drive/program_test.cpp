@@ -15,7 +15,7 @@ namespace {
 const std::string kProgram = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
 const std::string kProfile = HYDROPRINT_PROFILES "/virtual.toml";
 
-TEST(Program, SaysWhereItListensTakesActionsAndEndsCleanly) {
+TEST(Program, PrintsItsAddressesAcceptsActionsAndExitsCleanly) {
   const testing::TemporaryFolder folder;
   const auto control = folder.path() / "control";
   const auto line = folder.path() / "drive";
@@ -25,7 +25,7 @@ TEST(Program, SaysWhereItListensTakesActionsAndEndsCleanly) {
   EXPECT_EQ(reply.substr(0, 3), "ok\n");
   const auto state = nlohmann::json::parse(reply.substr(3, reply.find('\n', 3) - 3));
   EXPECT_TRUE(state.at("stop_button").get<bool>());
-  EXPECT_NE(reply.find("error: \"dance\" is nothing that can be done"), std::string::npos);
+  EXPECT_NE(reply.find("error: \"dance\" is not a known action"), std::string::npos);
 
   const auto profile = drive::read_drive_profile(kProfile);
   drive::Drive drive(*profile,
@@ -44,7 +44,7 @@ TEST(Program, SaysWhereItListensTakesActionsAndEndsCleanly) {
   EXPECT_FALSE(std::filesystem::is_symlink(line));
 }
 
-TEST(Program, FaultsOfTheCommandLineHappen) {
+TEST(Program, FaultsOfTheCommandLineTakeEffect) {
   const testing::TemporaryFolder folder;
   const auto control = folder.path() / "control";
   testing::Process rig({kProgram, "--profile", kProfile, "--tcp", "0", "--control",
@@ -55,7 +55,7 @@ TEST(Program, FaultsOfTheCommandLineHappen) {
   EXPECT_TRUE(state().at("stop_button").get<bool>());
 }
 
-TEST(Program, RefusalsAreOneLineAndTheContractsExitStatus) {
+TEST(Program, ErrorsAreOneLineWithTheContractsExitStatus) {
   const testing::TemporaryFolder folder;
   const auto bad = folder.write("bad.toml", "name = 3\n").string();
   const auto torn = folder.write("torn.toml", "\"a\\nb\" = 3\n").string();

@@ -1,5 +1,5 @@
-// The profiles of real drives, played by the virtual rig: that they hang together, not that they
-// are true of the hardware.
+// Runs the profiles of real drives on the virtual rig. This checks their consistency, not that they
+// match the hardware.
 #include <cmath>
 
 #include "sim/base/input_file.h"
@@ -19,7 +19,7 @@ class RealDrive : public ::testing::TestWithParam<const char*> {
  protected:
   static std::string path() { return std::string(HYDROPRINT_PROFILES "/") + GetParam() + ".toml"; }
 
-  /// The profile as it is, or with a watchdog that its drive does not have: else it never moves.
+  /// The profile as shipped, or with a watchdog that its drive lacks, so that it can move.
   [[nodiscard]] BenchOptions options(bool with_watchdog) const {
     BenchOptions out;
     out.start_mm = 2;
@@ -36,7 +36,7 @@ class RealDrive : public ::testing::TestWithParam<const char*> {
 INSTANTIATE_TEST_SUITE_P(All, RealDrive, ::testing::Values("leadshine_em2rs", "oriental_az"),
                          [](const auto& value) { return std::string(value.param); });
 
-TEST_P(RealDrive, IsToldAndArmedOnlyIfItHasAWatchdog) {
+TEST_P(RealDrive, IsArmedOnlyIfItHasAWatchdog) {
   BenchRig bench("rtu", options(false));
   const auto found = bench.drive().connect();
   HP_ASSERT_OK(found);
@@ -46,7 +46,7 @@ TEST_P(RealDrive, IsToldAndArmedOnlyIfItHasAWatchdog) {
   EXPECT_FALSE(state->moving || state->alarm || state->homed || state->stop_input);
 }
 
-TEST_P(RealDrive, HomesMovesJogsAndStopsByItsOwnRegisters) {
+TEST_P(RealDrive, HomesMovesJogsAndStopsWithItsOwnRegisters) {
   BenchRig bench("rtu", options(true));
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().home());

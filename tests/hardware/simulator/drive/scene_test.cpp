@@ -17,7 +17,7 @@ class SceneFile : public ::testing::Test {
   testing::TemporaryFolder folder_;
 };
 
-TEST_F(SceneFile, EmptyOneHasNothingInTheGripper) {
+TEST_F(SceneFile, AnEmptyFileHasNoObjectInTheGripper) {
   const auto read = scene("");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_TRUE(read->mesh.empty());
@@ -25,7 +25,7 @@ TEST_F(SceneFile, EmptyOneHasNothingInTheGripper) {
   EXPECT_EQ(read->travel_mm, 300);
 }
 
-TEST_F(SceneFile, SaysWhatHangsThereAndHow) {
+TEST_F(SceneFile, DescribesTheObjectAndItsPose) {
   folder_.write("held.json", R"({"rotation_wxyz": [0, 1, 0, 0], "translation_mm": [1, 2, -40]})");
   const auto read = scene(
       "[object]\nmesh = \"thing.obj\"\nscale = 10\npose = \"held.json\"\n"
@@ -39,7 +39,7 @@ TEST_F(SceneFile, SaysWhatHangsThereAndHow) {
   EXPECT_EQ(read->water_mm, 90);
 }
 
-TEST_F(SceneFile, SaysWhatTheCameraSees) {
+TEST_F(SceneFile, DescribesTheCamera) {
   const auto read = scene(
       "[film]\nsize_mm = [297, 420]\n[[marker]]\nname = \"right\"\noff_mm = [1, -2]\nturned_deg = "
       "90\n"
@@ -73,13 +73,13 @@ TEST_F(SceneFile, ObjectHangsInTheGripperAtItsTruePose) {
   EXPECT_EQ(scenery->markers.size(), 4U);
 }
 
-TEST_F(SceneFile, WithoutACameraThereIsNothingToSee) {
+TEST_F(SceneFile, WithoutACameraThereIsNoScenery) {
   const auto scenery = scenery_of(*scene(""));
   ASSERT_FALSE(scenery);
   EXPECT_EQ(scenery.error().reason, "CAMERA_NOT_FOUND");
 }
 
-TEST_F(SceneFile, WhatIsWrongIsRefusedWithFileLineAndRemedy) {
+TEST_F(SceneFile, ErrorsNameFileLineAndRemedy) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"[object]\nmesh = \"nothing.obj\"", "no such file. Check the path"},
       {"[object]\nmesh = \".\"", "not a regular file"},
@@ -89,14 +89,14 @@ TEST_F(SceneFile, WhatIsWrongIsRefusedWithFileLineAndRemedy) {
       {"[axis]\ntravel_mm = 5", "axis.travel_mm"},
       {"[axis]\nstart_mm = 301", "axis.start_mm"},
       {"[water]\nheight_mm = 5", "water.at_mm is missing"},
-      {"[film]\nsize_mm = [210]", "film.size_mm is no list of 2 numbers"},
+      {"[film]\nsize_mm = [210]", "film.size_mm is not a list of 2 numbers"},
       {"[[marker]]\nname = \"middle\"", "\"left\", \"right\", \"near\", \"far\""},
-      {"[camera]\nat_mm = [0, 0, nan]", "camera.at_mm is no list of 3 numbers"},
-      {"[camera]\nat_mm = [0, 0, 0]", "is where the camera itself is"},
-      {"[camera.sweep]\nvia_mm = [[0, 0, 500], [0, 0, 0]]", "is where the camera itself is"},
+      {"[camera]\nat_mm = [0, 0, nan]", "camera.at_mm is not a list of 3 numbers"},
+      {"[camera]\nat_mm = [0, 0, 0]", "is the camera's own position"},
+      {"[camera.sweep]\nvia_mm = [[0, 0, 500], [0, 0, 0]]", "is the camera's own position"},
       {"[camera]\nclock = \"mine\"", "camera.clock is not known"},
       {"[camera.sweep]\nperiod_s = 3", "camera.sweep.via_mm is missing"},
-      {"[camera.sweep]\nvia_mm = [3]", "camera.sweep.via_mm is no list"},
+      {"[camera.sweep]\nvia_mm = [3]", "camera.sweep.via_mm is not a list"},
       {"[camera]\nnoise = 1", "noise is not a known key"}};
   for (const auto& [toml, what] : cases) {
     const auto read = scene(toml);

@@ -1,4 +1,4 @@
-// The serial line: its time, who owns it, and an independent client.
+// The serial line: its timing, its lock, and an independent client.
 #include <modbus/modbus.h>
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace hydroprint::simulated_drive {
 namespace {
 
-/// Seconds that a poll of the virtual drive takes: request 8 bytes, reply 5 + 18, of 11 bits each
-/// (8E1), and a gap behind either.
+/// Duration of a poll of the virtual drive in seconds: request 8 bytes, reply 5 + 18, of 11 bits
+/// each (8E1), and a gap after each.
 double arithmetic_s(double baud, double gap_s) { return (8 + 23) * 11 / baud + 2 * gap_s; }
 
-/// The least of many polls, for the machine's own delays only add: until one is as fast as the
-/// wire lets it be, or 5 s are over.
+/// Minimum over many polls, since the machine only adds delays. Ends when a poll is as fast as the
+/// wire allows, or after 5 s.
 double measured_s(int baud, double expected_s) {
   BenchOptions options;
   options.baud = baud;
@@ -24,7 +24,7 @@ double measured_s(int baud, double expected_s) {
   const Clock::time_point begun = Clock::now();
   double least_s = 1;
   do {
-    // Two at a time, for the gap behind a frame is waited out before the next.
+    // Two polls at a time, because the gap after a frame delays the next one.
     const double two_s = seconds_of([&] {
       EXPECT_TRUE(bench.drive().poll());
       EXPECT_TRUE(bench.drive().poll());
@@ -34,31 +34,32 @@ double measured_s(int baud, double expected_s) {
   return least_s;
 }
 
-TEST(SerialLine, TakesTheTimeOfItsWireAt9600) {
+TEST(SerialLine, HasTheTimingOfALineAt9600Baud) {
   const double expected_s = arithmetic_s(9600, 3.5 * 11 / 9600.0);
   EXPECT_NEAR(measured_s(9600, expected_s), expected_s, 0.2 * expected_s);
 }
 
-TEST(SerialLine, TakesTheTimeOfItsWireAt115200) {
+TEST(SerialLine, HasTheTimingOfALineAt115200Baud) {
   const double expected_s = arithmetic_s(115200, 1.75e-3);
   EXPECT_NEAR(measured_s(115200, expected_s), expected_s, 0.2 * expected_s);
 }
 
-TEST(SerialLine, IsOnePrograms) {
+TEST(SerialLine, IsLockedByOneProgram) {
   BenchRig bench("rtu");
   HP_ASSERT_OK(bench.drive().connect());
   const auto other = bench.other_link({});
   const Status taken = other->connect();
   ASSERT_FALSE(taken);
   EXPECT_EQ(taken.error().reason, "RIG_OFFLINE");
-  EXPECT_NE(taken.error().message.find("in use by another program. End it"), std::string::npos)
+  EXPECT_NE(taken.error().message.find("in use by another program. Stop that program"),
+            std::string::npos)
       << taken.error().message;
   HP_ASSERT_OK(bench.drive().poll());
   bench.drive().disconnect();
   HP_ASSERT_OK(other->connect());
 }
 
-TEST(SerialLine, RefusalsSayWhatToDo) {
+TEST(SerialLine, ErrorsNameTheRemedy) {
   const testing::TemporaryFolder folder;
   const auto message = [](const std::string& device) {
     drive::Link link(*drive::parse_endpoint("rtu:" + device), {});
@@ -66,10 +67,11 @@ TEST(SerialLine, RefusalsSayWhatToDo) {
     return opened ? std::string("opened") : opened.error().message;
   };
   EXPECT_NE(message((folder.path() / "none").string()).find("Plug in"), std::string::npos);
-  EXPECT_NE(message(folder.write("file", "x").string()).find("no serial line"), std::string::npos);
+  EXPECT_NE(message(folder.write("file", "x").string()).find("not a serial line"),
+            std::string::npos);
 }
 
-TEST(Tcp, AConnectionThatIsNotThereIsToldAtOnce) {
+TEST(Tcp, AMissingConnectionIsReportedAtOnce) {
   drive::Link link(*drive::parse_endpoint("tcp:127.0.0.1:1"), {});
   const double took_s = seconds_of([&] { EXPECT_FALSE(link.connect()); });
   EXPECT_LT(took_s, 0.05);
@@ -78,8 +80,8 @@ TEST(Tcp, AConnectionThatIsNotThereIsToldAtOnce) {
   EXPECT_EQ(words.error().reason, "RIG_OFFLINE");
 }
 
-// libmodbus's own client shares no line with ours but the wire.
-TEST(VirtualDrive, AnswersAnIndependentClientByTheMap) {
+// libmodbus's own client, which shares no code with ours.
+TEST(VirtualDrive, RespondsToAnIndependentClient) {
   BenchRig bench("tcp");
   modbus_t* peer = modbus_new_tcp("127.0.0.1", bench.endpoint().port);
   ASSERT_EQ(modbus_connect(peer), 0);
@@ -89,7 +91,7 @@ TEST(VirtualDrive, AnswersAnIndependentClientByTheMap) {
   EXPECT_EQ(words[0], 0x4850);
   ASSERT_EQ(modbus_read_input_registers(peer, 0x0100, 9, words.data()), 9);
   EXPECT_EQ(words[0], 0xa55a);
-  EXPECT_EQ(words[1], 0x0080) << "nothing but the stop button, which is normally closed";
+  EXPECT_EQ(words[1], 0x0080) << "only the stop button, which is normally closed";
   ASSERT_EQ(modbus_write_register(peer, 0x0300, 1), 1);
   // To 1.5 mm at 20 mm/s with 200 mm/s^2.
   const std::array<std::uint16_t, 6> move = {4, 0, 15000, 0, 20000, 2000};

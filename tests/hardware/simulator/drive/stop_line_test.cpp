@@ -1,4 +1,4 @@
-// Stop has its own way to the drive.
+// Stop has its own path to the drive.
 #include "hardware/drive/stop_line.h"
 
 #include <thread>
@@ -11,7 +11,7 @@ namespace {
 class Stop : public OnBothWires {};
 HP_ON_BOTH_WIRES(Stop);
 
-/// How long a stop takes while another thread waits for a reply that never comes.
+/// Duration of a stop while another thread waits for a reply that never arrives.
 double stop_while_stuck_s(BenchRig& bench, drive::StopLine& stop) {
   bench.act("fault drop");
   const double requests = bench.truth("requests");
@@ -22,29 +22,30 @@ double stop_while_stuck_s(BenchRig& bench, drive::StopLine& stop) {
   return out_s;
 }
 
-TEST(StopTcp, DoesNotWaitForTheStuckOne) {
+TEST(StopTcp, DoesNotWaitForABlockedThread) {
   BenchRig bench("tcp");
   bench.make_ready();
   drive::StopLine stop(bench.drive());
   HP_ASSERT_OK(stop.connect());
   HP_ASSERT_OK(bench.drive().move_to(100, 10));
-  EXPECT_LT(stop_while_stuck_s(bench, stop), 0.08) << "the stuck one waits 0.1 s";
+  EXPECT_LT(stop_while_stuck_s(bench, stop), 0.08) << "the blocked thread waits 0.1 s";
   std::this_thread::sleep_for(milliseconds(60));
   EXPECT_EQ(bench.mode(), "hold") << "stopped, not timed out";
 }
 
-TEST(StopSerial, GoesNextOnTheOneLineThereIs) {
+TEST(StopSerial, PrecedesOtherRequestsOnTheLine) {
   BenchRig bench("rtu");
   bench.make_ready();
   drive::StopLine stop(bench.drive());
   HP_ASSERT_OK(bench.drive().move_to(100, 10));
-  // At most the rest of the stuck one's 0.1 s and wire time; not the silence that follows it.
+  // At most the rest of the other thread's 0.1 s and the transmission time, without the silence
+  // that follows.
   EXPECT_LT(stop_while_stuck_s(bench, stop), 0.1 + 0.04);
   std::this_thread::sleep_for(milliseconds(60));
   EXPECT_EQ(bench.mode(), "hold");
 }
 
-TEST_P(Stop, ConnectsByItselfAndSaysWhenItCannot) {
+TEST_P(Stop, ConnectsByItselfAndReportsFailure) {
   BenchRig bench(GetParam());
   bench.make_ready();
   drive::StopLine stop(bench.drive());

@@ -1,4 +1,4 @@
-// Drives that must not be armed, and drives that are not the profile's.
+// Drives that must not be armed, and drives that do not match the profile.
 #include "sim/base/input_file.h"
 #include "tests/hardware/simulator/drive/bench_rig.h"
 
@@ -8,7 +8,7 @@ namespace {
 class UnsafeDrive : public OnBothWires {};
 HP_ON_BOTH_WIRES(UnsafeDrive);
 
-/// What connect() holds against the drive; it must be readable, but must not move.
+/// Returns connect()'s verdict on the drive; the drive must be readable but must not move.
 Error held_against(BenchRig& bench) {
   const auto found = bench.drive().connect();
   if (!found || !found->unsafe) {
@@ -28,7 +28,7 @@ Error held_against(BenchRig& bench) {
   return *found->unsafe;
 }
 
-TEST_P(UnsafeDrive, WatchdogThatDoesNotStopIsHeldAgainstIt) {
+TEST_P(UnsafeDrive, WatchdogThatDoesNotStopIsUnsafe) {
   BenchOptions options;
   options.watchdog_action = 0;
   BenchRig bench(GetParam(), options);
@@ -39,14 +39,14 @@ TEST_P(UnsafeDrive, WatchdogThatDoesNotStopIsHeldAgainstIt) {
   EXPECT_NE(error.message.find("0x0201"), std::string::npos) << error.message;
 }
 
-TEST_P(UnsafeDrive, WatchdogThatIsOffIsHeldAgainstIt) {
+TEST_P(UnsafeDrive, WatchdogThatIsOffIsUnsafe) {
   BenchOptions options;
   options.watchdog_s = 0;
   BenchRig bench(GetParam(), options);
   EXPECT_NE(held_against(bench).message.find("is off"), std::string::npos);
 }
 
-TEST_P(UnsafeDrive, WatchdogThatWaitsTooLongIsHeldAgainstIt) {
+TEST_P(UnsafeDrive, WatchdogThatWaitsTooLongIsUnsafe) {
   BenchOptions options;
   options.watchdog_s = 0.3;
   BenchRig bench(GetParam(), options);
@@ -55,7 +55,7 @@ TEST_P(UnsafeDrive, WatchdogThatWaitsTooLongIsHeldAgainstIt) {
       << error.message;
 }
 
-TEST_P(UnsafeDrive, GoodSettingsAreToldAndHeldAgainstNothing) {
+TEST_P(UnsafeDrive, GoodSettingsAreSafe) {
   BenchOptions options;
   options.watchdog_s = 0.2;
   BenchRig bench(GetParam(), options);
@@ -77,7 +77,7 @@ TEST_P(UnsafeDrive, DriveWithoutAWatchdogIsNeverSafe) {
   EXPECT_NE(found->unsafe->message.find("has no communication watchdog"), std::string::npos);
 }
 
-TEST_P(UnsafeDrive, AnotherDriveIsRefusedAndLeftAlone) {
+TEST_P(UnsafeDrive, AnotherDriveIsRefusedAndDisconnected) {
   const testing::TemporaryFolder folder;
   std::string text = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
   const std::string maker = "value = 0x4850";
@@ -98,7 +98,7 @@ TEST_P(UnsafeDrive, AnotherDriveIsRefusedAndLeftAlone) {
   EXPECT_FALSE(drive.enable());
 }
 
-TEST_P(UnsafeDrive, ARegisterThatDoesNotExistIsAnotherDriveToo) {
+TEST_P(UnsafeDrive, AMissingRegisterMeansAnotherDrive) {
   BenchRig bench(GetParam());
   drive::DriveProfile profile = bench.profile();
   profile.identity[0].address = 0x7000;

@@ -19,7 +19,7 @@ Scenery scenery() {
   return out;
 }
 
-TEST(Codec, GivesTheVerySameValuesBack) {
+TEST(Codec, DecodingGivesIdenticalValues) {
   const std::string text = to_json(scenery());
   EXPECT_EQ(text.find('\n'), std::string::npos);
   const auto back = scenery_of(text);
@@ -35,7 +35,7 @@ TEST(Codec, GivesTheVerySameValuesBack) {
   EXPECT_EQ(again->markers, sight.markers);
 }
 
-TEST(Codec, EverythingElseIsRefused) {
+TEST(Codec, OtherInputIsRefused) {
   const std::string good = to_json(scenery());
   for (std::size_t cut = 0; cut < good.size(); cut += 97) {
     EXPECT_FALSE(scenery_of(good.substr(0, cut)));
@@ -49,7 +49,7 @@ TEST(Codec, EverythingElseIsRefused) {
   }
   std::string state = to_json(Sight{});
   state.replace(state.find("\"well\""), 6, "\"cross-eyed\"");
-  EXPECT_FALSE(sight_of(state)) << "a state that there is not";
+  EXPECT_FALSE(sight_of(state)) << "an unknown state";
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ CameraStand swept() {
   return out;
 }
 
-TEST(Hand, StandStandsStillAndLooksWhereItIsToldWithTheFarSideUp) {
+TEST(Hand, AStandIsStillAndLooksAtItsTargetWithTheFarSideUp) {
   const CameraStand stand;
   const Pose pose = camera_pose(stand, 1, 0);
   EXPECT_TRUE(pose.isApprox(camera_pose(stand, 2, 7.7)));
@@ -24,7 +24,7 @@ TEST(Hand, StandStandsStillAndLooksWhereItIsToldWithTheFarSideUp) {
   EXPECT_NEAR(pose.linear().determinant(), 1, 1e-12);
 }
 
-TEST(Hand, SweepsThroughItsPlacesAndIsBackAfterThePeriod) {
+TEST(Hand, SweepsThroughItsPositionsAndReturnsAfterThePeriod) {
   CameraStand stand = swept();
   stand.trembles = false;
   for (int i = 0; i < 3; ++i) {
@@ -34,7 +34,7 @@ TEST(Hand, SweepsThroughItsPlacesAndIsBackAfterThePeriod) {
   EXPECT_TRUE(camera_pose(stand, 1, 3.3).isApprox(camera_pose(stand, 1, 3.3 + stand.period_s)));
 }
 
-TEST(Hand, TremblesByMillimetresSmoothlyAndTheSameForOneSeed) {
+TEST(Hand, TremblesByMillimetresSmoothlyAndReproducibly) {
   const CameraStand stand = swept();
   CameraStand steady = stand;
   steady.trembles = false;

@@ -7,7 +7,7 @@
 namespace hydroprint::simulated_scene {
 namespace {
 
-/// The volume that a mesh encloses, positive if its faces turn outward.
+/// The enclosed volume of a mesh, positive if its faces point outward.
 double volume(const Mesh& mesh) {
   double out = 0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
@@ -16,7 +16,7 @@ double volume(const Mesh& mesh) {
   return out;
 }
 
-TEST(Shapes, EncloseTheirVolumesAndFaceOutward) {
+TEST(Shapes, HaveTheirVolumesAndFaceOutward) {
   EXPECT_NEAR(volume(box({1, 2, 3}, {4, 6, 8})), 3 * 4 * 5, 1e-9);
   EXPECT_NEAR(volume(pyramid(60, 40)), 60 * 60 * 40 / 3.0, 1e-9);
   EXPECT_NEAR(volume(rod(10, -5, 95)), M_PI * 100 * 100, 0.01 * M_PI * 1e4);
@@ -24,7 +24,7 @@ TEST(Shapes, EncloseTheirVolumesAndFaceOutward) {
   EXPECT_GT(volume(gripper().mesh), 0);
 }
 
-TEST(Shapes, MarkerKnockedOverLiesOnItsSideAlongItsBar) {
+TEST(Shapes, AMarkerKnockedOverLiesOnItsSideAlongItsBar) {
   for (const Marker& marker : nominal_markers({210, 297})) {
     const Mesh lying = marker_mesh(marker, MarkerState::kKnockedOver);
     const Mesh upright = marker_mesh(marker, MarkerState::kWell);
@@ -38,7 +38,7 @@ TEST(Shapes, MarkerKnockedOverLiesOnItsSideAlongItsBar) {
   }
 }
 
-TEST(Shapes, HiddenMarkerIsInsideWhatCoversIt) {
+TEST(Shapes, AHiddenMarkerIsInsideItsCover) {
   for (const Marker& marker : nominal_markers({210, 297})) {
     const Mesh cover = marker_mesh(marker, MarkerState::kHidden);
     Eigen::AlignedBox3d inside;
@@ -49,7 +49,7 @@ TEST(Shapes, HiddenMarkerIsInsideWhatCoversIt) {
   }
 }
 
-TEST(Shapes, NoTurnOfTheRigTakesMarkersIntoEachOther) {
+TEST(Shapes, NoRotationMapsMarkersOntoEachOther) {
   const auto markers = nominal_markers({210, 297});
   for (int i = 1; i < 4; ++i) {
     const Eigen::AngleAxisd turn(i * M_PI / 2, Eigen::Vector3d::UnitZ());

@@ -25,7 +25,7 @@ std::size_t entries(const fs::path& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
 }
 
-/// Plans, makes and commits DIR with a report of that text.
+/// Plans, creates and commits DIR with a report that contains this text.
 Status make(const fs::path& dir, const std::string& report) {
   HP_ASSIGN_OR_RETURN(OutFolder folder, OutFolder::plan(dir));
   HP_RETURN_IF_ERROR(folder.create());
@@ -33,7 +33,7 @@ Status make(const fs::path& dir, const std::string& report) {
   return folder.commit();
 }
 
-TEST(OutFolder, TakesItsNameOnlyWhenCommitted) {
+TEST(OutFolder, GetsItsNameOnlyWhenCommitted) {
   const testing::TemporaryFolder place;
   const fs::path dir = place.path() / "out";
   auto folder = OutFolder::plan(dir);
@@ -46,7 +46,7 @@ TEST(OutFolder, TakesItsNameOnlyWhenCommitted) {
   EXPECT_EQ(entries(place.path()), 1u);
 }
 
-TEST(OutFolder, WithoutCommitNothingIsLeft) {
+TEST(OutFolder, NothingIsLeftWithoutCommit) {
   const testing::TemporaryFolder place;
   {
     auto folder = OutFolder::plan(place.path() / "out");
@@ -71,7 +71,7 @@ TEST(OutFolder, AnEarlierRunIsReplacedAsAWhole) {
   EXPECT_EQ(entries(place.path()), 1u);
 }
 
-/// Has a process write half an artifact folder and die of SIGKILL.
+/// Lets a process write half an artifact folder and die of SIGKILL.
 void leave_half_of(const fs::path& dir) {
   const pid_t child = ::fork();
   if (child == 0) {
@@ -88,7 +88,7 @@ void leave_half_of(const fs::path& dir) {
   ASSERT_TRUE(WIFSIGNALED(status));
 }
 
-TEST(OutFolder, WhatAKilledProcessLeftIsRemovedByTheNextForTheSameFolder) {
+TEST(OutFolder, PartialFoldersOfKilledProcessesAreRemovedByTheNextRun) {
   const testing::TemporaryFolder place;
   leave_half_of(place.path() / "out");
   leave_half_of(place.path() / "other");
@@ -100,7 +100,7 @@ TEST(OutFolder, WhatAKilledProcessLeftIsRemovedByTheNextForTheSameFolder) {
   EXPECT_EQ(content(place.path() / "other" / "report.json"), "new");
 }
 
-TEST(OutFolder, WhatALivingProcessWritesAndWhatIsNotOursStays) {
+TEST(OutFolder, FoldersOfLivingProcessesAndForeignFilesStay) {
   const testing::TemporaryFolder place;
   const fs::path dir = place.path() / "out";
   auto living = OutFolder::plan(dir);
@@ -128,7 +128,7 @@ TEST(OutFolder, AnEmptyFolderAndALinkToAFolderAreFilled) {
   EXPECT_EQ(content(dir / "report.json"), "new");
 }
 
-TEST(OutFolder, WhatIsNotOursIsNeverReplaced) {
+TEST(OutFolder, ForeignFilesAreNeverReplaced) {
   const testing::TemporaryFolder place;
   const fs::path without_report = place.path() / "a";
   fs::create_directory(without_report);
@@ -149,7 +149,7 @@ TEST(OutFolder, WhatIsNotOursIsNeverReplaced) {
   EXPECT_EQ(content(file), "mine");
 }
 
-TEST(OutFolder, AParentThatIsMissingIsNamed) {
+TEST(OutFolder, AMissingParentIsNamed) {
   const testing::TemporaryFolder place;
   const Status status = make(place.path() / "no" / "out", "new");
   ASSERT_FALSE(status);

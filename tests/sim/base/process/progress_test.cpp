@@ -34,7 +34,7 @@ TEST(Progress, TotalWeighsTheStages) {
   EXPECT_EQ(bench.told[2].fraction, 0.5);
 }
 
-TEST(Progress, NeitherFractionNorTotalEverFalls) {
+TEST(Progress, FractionAndTotalNeverDecrease) {
   Bench bench;
   bench.update(0, "velocity", 0.8);
   bench.update(1, "velocity", 0.3);
@@ -47,7 +47,7 @@ TEST(Progress, NeitherFractionNorTotalEverFalls) {
   EXPECT_EQ(bench.told[3].fraction, 1);
 }
 
-TEST(Progress, AStageThatComesBackIsTheNextOfItsNameAndOneLeftOutCountsAsDone) {
+TEST(Progress, RecurringStagesAreMatchedInOrderAndSkippedStagesCountAsDone) {
   Bench bench{{{"reading", 1}, {"flow map", 2}, {"sheet", 3}, {"flow map", 4}}};
   const auto total_at = [&](const char* stage, double fraction) {
     bench.update(0, stage, fraction);
@@ -70,14 +70,14 @@ TEST(Progress, TimeLeftIsProportionalAndNotGuessedTooEarly) {
   EXPECT_DOUBLE_EQ(*bench.told.back().eta_s, 30);
 }
 
-TEST(Progress, TellsAtMostTenTimesASecondWithinAStage) {
+TEST(Progress, ReportsAtMostTenTimesASecondWithinAStage) {
   Bench bench;
   for (int i = 0; i <= 1000; ++i) bench.update(i / 1000.0, "velocity", i / 1000.0);
   EXPECT_GE(bench.told.size(), 9u);
   EXPECT_LE(bench.told.size(), 12u);
 }
 
-TEST(Progress, TheEndOfAStageIsAlwaysToldAndOnce) {
+TEST(Progress, TheEndOfAStageIsReportedExactlyOnce) {
   Bench bench;
   bench.update(0, "velocity", 0);
   for (int i = 1; i < 5; ++i) bench.update(0.01 * i, "velocity", 1);
@@ -85,7 +85,7 @@ TEST(Progress, TheEndOfAStageIsAlwaysToldAndOnce) {
   EXPECT_EQ(bench.told[1].total_fraction, 1);
 }
 
-TEST(Progress, SecondsAreCountedPerStageAlsoWhenOneComesBack) {
+TEST(Progress, SecondsAreSummedPerStageEvenIfItRecurs) {
   Bench bench;
   bench.update(0, "reading", 0);
   bench.update(2, "velocity", 0);

@@ -39,7 +39,7 @@ bool is(const RgbImage& image, int x, int y, std::array<int, 3> colour) {
   return p[0] == colour[0] && p[1] == colour[1] && p[2] == colour[2];
 }
 
-TEST(FilmImage, SizesAreThoseOfTheContract) {
+TEST(FilmImage, SizesMatchTheContract) {
   const FilmGrid a4 = film_grid(rectangle(210, 297), 25.4 / 600);
   EXPECT_EQ(a4.columns, 4961);
   EXPECT_EQ(a4.rows, 7016);
@@ -51,7 +51,7 @@ TEST(FilmImage, SizesAreThoseOfTheContract) {
   EXPECT_NEAR(a4.cell({0, 0}).y(), 7016 / 2.0, 1e-9);
 }
 
-TEST(FilmImage, AnInchAtHundredDpiIsExactlyHundredPixelsInTheirPlaces) {
+TEST(FilmImage, AnInchAt100DpiIsExactly100Pixels) {
   // Lower left corner at (0, 0) of a 100 x 80 mm film: 394 x 315 pixels.
   const mesh::Model model = plate(0, 0, 25.4, 25.4);
   const Paint paint = paint_of(model, make_image(4, 4, [](int, int) { return kRed; }));
@@ -80,7 +80,7 @@ TEST(FilmImage, IsSeenFromAboveWithXToTheRightAndYUp) {
   EXPECT_TRUE(is(image, 94, 94, kGrey));
 }
 
-TEST(FilmImage, AnIdentityMapGivesTheTextureBack) {
+TEST(FilmImage, AnIdentityMapReproducesTheTexture) {
   // One texel per pixel: every pixel must be that texel's colour, to the bit.
   const auto pattern = [](int x, int y) {
     return std::array<int, 3>{(x * 37 + y * 11) % 256, (x * 5 + y * 91) % 256, (x ^ y) % 256};
@@ -94,11 +94,11 @@ TEST(FilmImage, AnIdentityMapGivesTheTextureBack) {
   for (std::size_t i = 0; i < image.rgb.size(); ++i) {
     worst = std::max(worst, std::abs(int{image.rgb[i]} - int{texture.rgb[i]}));
   }
-  // UVs are floats: a texel's neighbour may count by 1e-5.
+  // UVs are floats, so a neighbouring texel may contribute 1e-5.
   EXPECT_LE(worst, 1);
 }
 
-TEST(FilmImage, HalfCoveredPixelsAreHalfwayToWhiteInLinearLight) {
+TEST(FilmImage, HalfCoveredPixelsAreBlendedWithWhiteInLinearLight) {
   // The left edge runs through the middle of column 10 of a 20 pixel wide image.
   const double pixel = 25.4 / 100;
   const mesh::Model model = plate(0.5 * pixel, -1, 100, 1);
@@ -161,7 +161,7 @@ TEST(FilmImage, FilmThatHasLandedStays) {
   }
 }
 
-TEST(FilmImage, IsTheSameToTheBitForAnyNumberOfThreads) {
+TEST(FilmImage, IsBitIdenticalForAnyNumberOfThreads) {
   const RgbImage texture = make_image(300, 200, [](int x, int y) {
     return std::array<int, 3>{x * 7 % 256, y * 13 % 256, (x * y) % 256};
   });
@@ -244,7 +244,7 @@ TEST(WritePng, KeepsPixelsAndResolution) {
   EXPECT_EQ(pixels, image.rgb);
 }
 
-TEST(WritePng, AFileBeyondTheLimitIsSaidSoAndLeavesNothingBehind) {
+TEST(WritePng, AFileBeyondTheLimitIsReportedAndLeavesNothingBehind) {
   // Random pixels do not compress.
   const TemporaryFolder folder;
   unsigned state = 1;
@@ -268,7 +268,7 @@ TEST(WritePng, AFileBeyondTheLimitIsSaidSoAndLeavesNothingBehind) {
   EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
 }
 
-TEST(WritePng, LeavesNothingBehindWhereItCannotWrite) {
+TEST(WritePng, LeavesNothingBehindIfItCannotWrite) {
   const TemporaryFolder folder;
   const RgbImage image = make_image(4, 4, [](int, int) { return kRed; });
   const Status missing = write_png(folder / "nowhere/film.png", image, 300);

@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing;
 
-/// A plate at z = 7 that lands drawn out by 3 along x and by 2 along y.
+/// A plate at z = 7 whose film is stretched by 3 along x and by 2 along y.
 struct Scene {
   mesh::Surface surface;
   flow::FlowMap map;
@@ -42,7 +42,7 @@ Scene drawn_out() {
   return scene;
 }
 
-TEST(FilmMap, HoldsTheContactPointOfEachCellsCentreAndNotANumberElsewhere) {
+TEST(FilmMap, HoldsTheContactPointOfEachCellsCentreAndNanElsewhere) {
   const Scene scene = drawn_out();
   const auto map = film_map(scene.surface, scene.map, rectangle(40, 30), 1, {});
   ASSERT_TRUE(map);
@@ -78,7 +78,7 @@ TEST(FilmMap, TheEarliestContactCounts) {
   const auto map = film_map(scene.surface, scene.map, rectangle(40, 30), 1, {});
   ASSERT_TRUE(map);
   EXPECT_NEAR(map->time_s[15 * 40 + 20], 4.05, 1e-5);  // (0.5, -0.5): both
-  EXPECT_NEAR(map->time_s[15 * 40 + 9], 100, 1e-4);    // (-10.5, -0.5): only the late one
+  EXPECT_NEAR(map->time_s[15 * 40 + 9], 100, 1e-4);    // (-10.5, -0.5): only the later one
 }
 
 TEST(FilmMap, AnExrKeepsNamesAndValues) {
@@ -117,7 +117,7 @@ TEST(FilmMap, RefusesCellsOutOfRange) {
   }
 }
 
-TEST(TileStretch, IsTheTilesOwnWhereTheSurfaceHasNone) {
+TEST(TileStretch, IsTheTilesOwnIfTheSurfaceHasNone) {
   Scene scene = drawn_out();
   EXPECT_NEAR(tile_stretch(scene.surface, scene.map.surface, scene.map.tiles[0])[1], 3, 1e-12);
   scene.map.surface.stretch.assign(scene.surface.points.size(), std::nan(""));

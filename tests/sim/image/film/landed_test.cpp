@@ -40,7 +40,7 @@ struct Printed {
   }
 };
 
-TEST(Landed, ColoursPerPointAreThoseOfTheTexture) {
+TEST(Landed, ColoursPerPointMatchTheTexture) {
   const Printed printed;
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "film.png", printed.film, 127));
@@ -64,7 +64,7 @@ TEST(Landed, ColoursPerPointAreThoseOfTheTexture) {
   }
 }
 
-TEST(Landed, TheTextureComesBackFromTheFilm) {
+TEST(Landed, TheFilmReproducesTheTexture) {
   const Printed printed;
   const auto film = FilmTexture::from_image(printed.film, printed.outline, 5000, {});
   ASSERT_TRUE(film);
@@ -99,7 +99,7 @@ TEST(Landed, TextureIsWhiteAndTransparentWhereNothingLands) {
   }
 }
 
-TEST(Landed, AModelWithoutUvsHasNoTextureToLayOut) {
+TEST(Landed, AModelWithoutUvsIsRefusedForATexture) {
   Printed printed;
   printed.model.corner_uvs.clear();
   const auto film = FilmTexture::from_image(printed.film, printed.outline, 5000, {});
@@ -111,7 +111,7 @@ TEST(Landed, AModelWithoutUvsHasNoTextureToLayOut) {
 }
 
 TEST(FilmTexture, AnImageOfAnySizeIsFittedToTheFilm) {
-  // 37 x 23 pixels over 80 x 60 mm: no whole resolution, so the corners are the film's.
+  // 37 x 23 pixels over 80 x 60 mm: not a whole resolution, so the image is fitted to the film.
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "odd.png", smooth_texture(37, 23), 72));
   const auto film = FilmTexture::read(folder / "odd.png", rectangle(80, 60), {});
@@ -131,7 +131,7 @@ std::set<std::array<int, 3>> colours_of(const RgbImage& image) {
   return colours;
 }
 
-TEST(Pictures, ShowTheObjectWithAndWithoutFilmOnAnySide) {
+TEST(Pictures, ShowTheObjectWithAndWithoutFilmFromAnySide) {
   Printed printed;
   const auto film = FilmTexture::from_image(printed.film, printed.outline, kPictureFilmSide_px, {});
   ASSERT_TRUE(film);
@@ -172,7 +172,7 @@ TEST(Pictures, AreTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(a->rgb, b->rgb);
 }
 
-TEST(Pictures, NothingReachedAndNothingFiniteIsStillAPicture) {
+TEST(Pictures, AreDrawnEvenWithoutReachedOrFiniteValues) {
   const Printed printed;
   flow::FlowMap map;
   map.surface.stretch.assign(printed.surface.points.size(), std::nan(""));

@@ -34,7 +34,7 @@ RgbImage ramp(int width, int height) {
   });
 }
 
-/// Pixels of a PNG as OpenImageIO, and so libpng, reads them.
+/// Pixels of a PNG as read by OpenImageIO, which uses libpng.
 std::vector<std::uint8_t> decoded(const std::vector<unsigned char>& file, int& width, int& height) {
   OIIO::Filesystem::IOMemReader memory(file.data(), file.size());
   const auto input = OIIO::ImageInput::open("image.png", nullptr, &memory);
@@ -48,7 +48,7 @@ std::vector<std::uint8_t> decoded(const std::vector<unsigned char>& file, int& w
   return pixels;
 }
 
-TEST(EncodePng, Grey16IsReadBackAsItWas) {
+TEST(EncodePng, Grey16ReadsBackUnchanged) {
   Grey16Image image{641, 480, {}};
   for (int i = 0; i < 641 * 480; ++i) {
     image.grey.push_back(static_cast<std::uint16_t>(i * 2654435761U >> 15U));
@@ -65,7 +65,7 @@ TEST(EncodePng, Grey16IsReadBackAsItWas) {
   EXPECT_TRUE(grey == image.grey);
 }
 
-TEST(EncodePng, IsReadBackAsItWasWhateverTheSizeOfTheImage) {
+TEST(EncodePng, ReadsBackUnchangedForAnyImageSize) {
   // One pixel, one row, one column, one band of rows and several, a row longer than a band.
   for (const auto& [width, height] :
        {std::pair{1, 1}, {700, 1}, {1, 700}, {300, 200}, {2480, 500}, {400000, 3}}) {
@@ -80,14 +80,14 @@ TEST(EncodePng, IsReadBackAsItWasWhateverTheSizeOfTheImage) {
   }
 }
 
-TEST(EncodePng, GivesTheSameBytesForAnyNumberOfThreads) {
+TEST(EncodePng, IsByteIdenticalForAnyNumberOfThreads) {
   const RgbImage image = ramp(2480, 1200);
   Context one, three;
   three.threads = 3;
   EXPECT_EQ(*encode_png(image, 300, one), *encode_png(image, 300, three));
 }
 
-TEST(EncodePng, CompressesWhatIsEven) {
+TEST(EncodePng, CompressesUniformImages) {
   RgbImage white = ramp(2480, 1200);
   const std::size_t bytes = white.rgb.size();
   EXPECT_LT(encode_png(white, 300)->size(), bytes / 20);

@@ -16,7 +16,7 @@ using OIIO::ImageOutput;
 using OIIO::ImageSpec;
 using OIIO::TypeDesc;
 
-/// Writes an image through OpenImageIO itself, so that formats we never write can be read.
+/// Writes an image with OpenImageIO, to test reading formats that this project never writes.
 template <class Value>
 void write(const std::filesystem::path& path, ImageSpec spec, TypeDesc type,
            const std::vector<Value>& values) {
@@ -56,7 +56,7 @@ void expect_refused(const Result<ReadImage>& read, Code code, const std::string&
   EXPECT_EQ(read.error().message.find('\n'), std::string::npos) << read.error().message;
 }
 
-TEST(ReadImage, EightBitCodesSurviveTheWayThroughLinearLight) {
+TEST(ReadImage, EightBitCodesSurviveConversionToLinearLight) {
   for (int code = 0; code < 256; ++code) {
     const auto linear = linear16_from_srgb16(static_cast<std::uint16_t>(code * 257));
     EXPECT_EQ(srgb8_from_linear(static_cast<float>(linear) / 65535.0F), code);
@@ -84,7 +84,7 @@ TEST(ReadImage, PngAndTiffGiveTheirPixels) {
   }
 }
 
-TEST(ReadImage, GreyAndSixteenBitsAndFloatsAreUnderstood) {
+TEST(ReadImage, GreySixteenBitAndFloatImagesAreRead) {
   const TemporaryFolder folder;
   const std::vector<std::uint8_t> grey(64, 100);
   write(folder / "grey.png", ImageSpec(8, 8, 1, TypeDesc::UINT8), TypeDesc::UINT8, grey);
@@ -138,7 +138,7 @@ TEST(ReadImage, AlphaIsLaidOverWhiteInLinearLight) {
   EXPECT_EQ(srgb8(read->image.texels[3]), (std::array<int, 3>{50, 50, 50}));
 }
 
-/// A 2 x 2 PNG with palette {red, green, blue, white}, two bits a pixel, written by hand.
+/// A 2 x 2 PNG with palette {red, green, blue, white}, two bits per pixel, written by hand.
 const std::vector<unsigned char> kPalettePng = {
     0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D, 0x49, 0x48, 0x44, 0x52,
     0x00, 0x00, 0x00, 0x02, 0x00, 0x00, 0x00, 0x02, 0x02, 0x03, 0x00, 0x00, 0x00, 0x0F, 0xD8, 0xE5,
@@ -156,7 +156,7 @@ TEST(ReadImage, PalettesAreLookedUp) {
   EXPECT_EQ(srgb8(read->image.texels[3]), (std::array<int, 3>{255, 255, 255}));
 }
 
-TEST(ReadImage, TheNameDoesNotMatterTheContentDoes) {
+TEST(ReadImage, TheFormatIsDetectedByContentNotByName) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "a.png", gradient(9, 9), 72));
   std::filesystem::rename(folder / "a.png", folder / "a.jpg");
@@ -176,7 +176,7 @@ void lie_about_size(std::vector<char>& png, unsigned width, unsigned height) {
   }
 }
 
-TEST(ReadImage, APngThatLiesAboutItsSizeIsRefusedBeforeDecoding) {
+TEST(ReadImage, APngWithAFalseSizeIsRefusedBeforeDecoding) {
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "a.png", gradient(64, 64), 72));
   std::vector<char> png = bytes_of(folder / "a.png");
@@ -194,7 +194,7 @@ TEST(ReadImage, APngThatLiesAboutItsSizeIsRefusedBeforeDecoding) {
   expect_refused(read_image(folder / "one_more.png", {}), Code::kDataLoss, "one_more.png");
 }
 
-TEST(ReadImage, AJpegThatAnnouncesTooMuchIsRefusedBeforeDecoding) {
+TEST(ReadImage, AJpegWithATooLargeSizeIsRefusedBeforeDecoding) {
   const TemporaryFolder folder;
   write(folder / "a.jpg", ImageSpec(64, 64, 3, TypeDesc::UINT8), TypeDesc::UINT8,
         gradient(64, 64).rgb);
@@ -238,7 +238,7 @@ TEST(ReadImage, ADamagedPngIsRefused) {
   expect_refused(read_image(folder / "bad.png", {}), Code::kDataLoss, "bad.png");
 }
 
-TEST(ReadImage, BytesFlippedAnywhereNeverCrash) {
+TEST(ReadImage, FlippedBytesNeverCrash) {
   const TemporaryFolder folder;
   const RgbImage image = gradient(32, 32);
   ASSERT_TRUE(write_png(folder / "a.png", image, 72));

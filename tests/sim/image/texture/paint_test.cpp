@@ -36,8 +36,7 @@ Paint load(const mesh::Model& model, const RgbImage& texture) {
   return std::move(*paint);
 }
 
-/// One triangle somewhere in the texture; its texels (those with their centre inside) are red,
-/// all others blue.
+/// A triangle in the texture; its texels (those with their centre inside) are red, all others blue.
 RgbImage red_triangle_on_blue(const Corners& uv, int size) {
   RgbImage image = make_image(size, size, [](int, int) { return kBlue; });
   Corners at;
@@ -48,9 +47,8 @@ RgbImage red_triangle_on_blue(const Corners& uv, int size) {
   return image;
 }
 
-TEST(Paint, ARedChartOnBlueShowsNotATraceOfBlue) {
-  // A sharp-cornered chart that lies askew to the texels, at sizes from magnified to 30 times
-  // minified.
+TEST(Paint, ARedChartOnBlueShowsNoBlue) {
+  // A chart with sharp corners, at an angle to the texels, from magnified to 30 times minified.
   const Corners uv = {Eigen::Vector2d(0.13, 0.17), Eigen::Vector2d(0.81, 0.23),
                       Eigen::Vector2d(0.66, 0.41)};
   mesh::Model model;
@@ -64,7 +62,7 @@ TEST(Paint, ARedChartOnBlueShowsNotATraceOfBlue) {
       const RgbImage image = print(model, paint, 64, 44, dpi);
       int red = 0;
       for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-        // Red paler towards the edge, never darker or bluer.
+        // Red may get paler towards the edge, but never darker or bluer.
         ASSERT_EQ(image.rgb[i], 255) << size << " texels, " << dpi << " dpi";
         ASSERT_EQ(image.rgb[i + 1], image.rgb[i + 2]);
         red += image.rgb[i + 1] == 0 ? 1 : 0;
@@ -143,7 +141,7 @@ TEST(Paint, MirroredHalvesOnTheSameTexelsAreBothPainted) {
   }
 }
 
-TEST(Paint, WrapModesSayWhatLiesOutside) {
+TEST(Paint, WrapModesDefineTheTextureOutside) {
   // UVs from -1 to 2 in both directions over a texture that is dark on its left.
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "t.png",
@@ -156,7 +154,7 @@ TEST(Paint, WrapModesSayWhatLiesOutside) {
   model.materials[0].name = "m";
   model.materials[0].texture = folder / "t.png";
   model.triangle_material = {0, 0};
-  // Which thirds' halves are dark, from left to right.
+  // The dark halves, for each third from left to right.
   const auto dark = [&](mesh::Wrap wrap) {
     model.materials[0].wrap_u = wrap;
     const auto paint = load_paint(model, {}, {});
@@ -173,7 +171,7 @@ TEST(Paint, WrapModesSayWhatLiesOutside) {
   EXPECT_EQ(dark(mesh::Wrap::kClamp), "dddrrr");
 }
 
-TEST(Paint, ATextureThatFillsItsTileDoesNotWrapRoundAtItsEdges) {
+TEST(Paint, ATextureThatFillsItsTileDoesNotWrapAroundAtItsEdges) {
   // Left edge red, right edge blue: repeat must not mix them at the border of the chart.
   const mesh::Model model = plate(-20, -20, 20, 20);
   const Paint paint =
@@ -227,7 +225,7 @@ TEST(Paint, AnUnusedMaterialsTextureNeedNotExist) {
   for (const char* part : {"plate.obj", "skin", "/nowhere/skin.png"}) {
     EXPECT_NE(paint.error().message.find(part), std::string::npos) << paint.error().message;
   }
-  // Given another texture, nobody asks for it.
+  // If another texture is given, the missing one is not needed.
   const TemporaryFolder folder;
   ASSERT_TRUE(write_png(folder / "t.png", make_image(4, 4, [](int, int) { return kRed; }), 72));
   EXPECT_TRUE(load_paint(model, folder / "t.png", {}));
@@ -266,7 +264,7 @@ TEST(Paint, ATextureForAModelWithoutUvsIsRefused) {
   }
 }
 
-TEST(Paint, SaysWhatItAssumed) {
+TEST(Paint, WarnsOfItsAssumptions) {
   const TemporaryFolder folder;
   std::vector<std::uint8_t> rgba(16, 100);
   ASSERT_TRUE(write_png_rgba(folder / "t.png", 2, 2, rgba));
@@ -278,7 +276,7 @@ TEST(Paint, SaysWhatItAssumed) {
   EXPECT_TRUE(has_warning(*paint, "uvs_missing_in_part"));
 }
 
-TEST(Texture, ShortcutsLeadWhereTheLongWayDoes) {
+TEST(Texture, ShortcutsMatchFullSampling) {
   std::mt19937 random(5);
   const auto number = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);

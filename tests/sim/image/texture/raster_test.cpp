@@ -21,7 +21,7 @@ std::vector<int> visits(const std::vector<Corners>& triangles, const Window& win
 }
 
 TEST(Raster, TrianglesOfARandomMeshVisitEachSampleExactlyOnce) {
-  // A grid of jittered vertices, some of them exactly on samples, cut along either diagonal.
+  // A grid of jittered vertices, some of them exactly on samples, split along either diagonal.
   std::mt19937 random(7);
   std::uniform_real_distribution<double> jitter(-1.4, 1.4);
   constexpr int kCells = 24;
@@ -51,7 +51,7 @@ TEST(Raster, TrianglesOfARandomMeshVisitEachSampleExactlyOnce) {
   for (const int count : visits(triangles, {0, 0, 8 * kCells, 8 * kCells})) ASSERT_EQ(count, 1);
 }
 
-TEST(Raster, ASliverFanLosesAndDoublesNothing) {
+TEST(Raster, ASliverFanCoversEachSampleOnce) {
   std::vector<Corners> fan;
   const Eigen::Vector2d centre(50.5, 50.5);
   constexpr int kBlades = 20000;
@@ -79,7 +79,7 @@ TEST(Raster, HugeTrianglesAreExactWithinTheWindow) {
   for (const int count : visits(halves, {-20, -20, 20, 20})) ASSERT_EQ(count, 1);
 }
 
-TEST(Raster, NotANumberInfinityAndNoAreaHaveNoSamples) {
+TEST(Raster, NanInfiniteAndFlatTrianglesHaveNoSamples) {
   const double nan = std::nan("");
   const std::vector<Corners> bad = {
       Corners{Eigen::Vector2d(nan, 0), Eigen::Vector2d(9, 0), Eigen::Vector2d(0, 9)},
@@ -89,7 +89,7 @@ TEST(Raster, NotANumberInfinityAndNoAreaHaveNoSamples) {
   for (const int count : visits(bad, {0, 0, 10, 10})) ASSERT_EQ(count, 0);
 }
 
-TEST(Raster, BarycentricCoordinatesAreThoseOfTheSample) {
+TEST(Raster, BarycentricCoordinatesMatchTheSample) {
   const Corners corners = {Eigen::Vector2d(1, 2), Eigen::Vector2d(40, 7), Eigen::Vector2d(11, 33)};
   int samples = 0;
   for_each_sample(corners, {0, 0, 50, 50}, [&](int x, int y, const Eigen::Vector3d& b) {

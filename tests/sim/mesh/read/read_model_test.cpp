@@ -47,7 +47,7 @@ TEST(ReadModel, ScalesOutOfRangeAreRefused) {
   }
 }
 
-TEST(ReadModel, WhatIsNoModelIsRefused) {
+TEST(ReadModel, OtherFilesAreRefused) {
   const Folder folder;
   expect_refused(folder.path() / "gone.obj", "no such file", Code::kNotFound);
   expect_refused(folder.write("a.step", "x"), "unknown format");
@@ -82,7 +82,7 @@ TEST(ReadModel, OnlyFacesWithoutAreaAreRefused) {
                  "none of its 2 faces has an area");
 }
 
-TEST(ReadModel, CancelEndsTheReading) {
+TEST(ReadModel, StopsWhenCancelled) {
   const Folder folder;
   Context context;
   context.cancelled = [] { return true; };
@@ -91,7 +91,7 @@ TEST(ReadModel, CancelEndsTheReading) {
   EXPECT_EQ(model.error().code, Code::kCancelled);
 }
 
-TEST(ReadStl, ThreeVerticesAFacetInTheFilesOrder) {
+TEST(ReadStl, GivesThreeVerticesPerFacetInTheFilesOrder) {
   const Folder folder;
   for (const auto& bytes : {tetrahedron_stl(), tetrahedron_stl_text()}) {
     const Model m = read(folder.write("a.stl", bytes));
@@ -109,7 +109,7 @@ TEST(ReadStl, BinaryFilesMayBeginWithSolid) {
   expect_tetrahedron(read(folder.write("a.stl", bytes)));
 }
 
-TEST(ReadStl, LyingTruncatedOrBrokenFilesAreRefused) {
+TEST(ReadStl, InconsistentTruncatedOrBrokenFilesAreRefused) {
   const Folder folder;
   std::string bytes = tetrahedron_stl();
   const std::uint32_t billions = 4'000'000'000;
@@ -151,7 +151,7 @@ TEST(ReadPly, ColoursAndTextureCoordinatesOfVerticesAreKept) {
   EXPECT_EQ(m.materials.at(0).texture, folder.path() / "my picture.png");
 }
 
-TEST(ReadPly, LyingTruncatedOrBrokenFilesAreRefused) {
+TEST(ReadPly, InconsistentTruncatedOrBrokenFilesAreRefused) {
   const Folder folder;
   const std::string big = "4000000000";
   for (const std::string format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
@@ -200,7 +200,7 @@ TEST(ReadGltf, NodeTransformsAreApplied) {
   EXPECT_LT((m.vertices[3] - Eigen::Vector3d(10, 0, 2)).norm(), 1e-12);
 }
 
-TEST(ReadGltf, MirroringNodesKeepFacesLookingOutward) {
+TEST(ReadGltf, MirroringNodesKeepFacesFacingOutward) {
   const Folder folder;
   const Model m = read(
       folder.write("a.gltf", tetrahedron_gltf({{"nodes", R"([{"mesh":0,"scale":[-1,1,1]}])"}})));
@@ -209,7 +209,7 @@ TEST(ReadGltf, MirroringNodesKeepFacesLookingOutward) {
   EXPECT_FALSE(has_warning(surface->warnings, "inside_out"));
 }
 
-TEST(ReadGltf, SkeletonsAndMorphTargetsThatAreNotFollowedAreWarnedOf) {
+TEST(ReadGltf, IgnoredSkeletonsAndMorphTargetsGiveWarnings) {
   const Folder folder;
   const Model plain = read(folder.write("a.gltf", tetrahedron_gltf()));
   EXPECT_FALSE(has_warning(plain.warnings, "skin_ignored"));
@@ -273,7 +273,7 @@ TEST(ReadGltf, BrokenFilesAreRefused) {
   expect_refused(folder.write("b.gltf", "[1,2,3]"), "not valid glTF JSON");
 }
 
-/// Whatever the damage, an answer comes and no memory is touched that is not ours.
+/// Whatever the damage, reading ends with a result and touches no foreign memory.
 TEST(ReadModel, DamagedFilesAreReadOrRefusedButNeverCrash) {
   const Folder folder;
   const std::map<std::string, std::string> files = {
@@ -312,5 +312,5 @@ TEST(ReadModel, DamagedFilesAreReadOrRefusedButNeverCrash) {
 }  // namespace
 }  // namespace hydroprint::mesh
 
-/// assimp forgets its own parser (a kilobyte) when it refuses a PLY file.
+/// assimp leaks its own parser (a kilobyte) when it refuses a PLY file.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libassimp\n"; }

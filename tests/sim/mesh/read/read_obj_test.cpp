@@ -44,7 +44,7 @@ TEST(ReadObj, NegativeIndicesCountFromTheLine) {
 
 TEST(ReadObj, ConcavePolygonsAreTiledWithinTheirOutline) {
   const Folder folder;
-  // An arrow head, begun at a corner from which a fan would leave the outline, then an L.
+  // An arrow head that starts at a corner from which a fan would leave the outline, then an L.
   const Model arrow =
       read(folder.write("a.obj", "v 0 3 0\nv 0 0 0\nv 3 0 0\nv 1 1 0\nf 1 2 3 4\n"));
   EXPECT_EQ(arrow.triangles.size(), 2U);
@@ -149,7 +149,7 @@ TEST(ReadObj, ContinuedLinesAndDosLineEndsAreRead) {
       1U);
 }
 
-TEST(ReadObj, CommentsBehindAnythingAreNoPartOfIt) {
+TEST(ReadObj, TrailingCommentsAreIgnored) {
   const Folder folder;
   const std::string plain = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
   const Model expected = read(folder.write("plain.obj", plain));

@@ -17,11 +17,11 @@ namespace {
 
 constexpr std::uint64_t kSeed = 3;
 
-/// One of those that the virtual camera may have.
+/// A possible lens of the virtual camera.
 simulated_camera::Lens real_lens() { return simulated_camera::drawn_lens(kSeed); }
 scan::Lens truth() { return testing::lens_of(real_lens()); }
 
-/// How a board is held: distance, where in the image (shares of half of it), tilt, turn.
+/// Position of a board: distance, place in the image (shares of half of it), tilt, rotation.
 struct Hold {
   double distance_mm, across, down, tilt_rad, tilt_towards_rad, turn_rad;
 };
@@ -46,7 +46,7 @@ Pose held(const Hold& hold) {
   return X_CB;
 }
 
-/// The board before the camera, and nothing else.
+/// The board in front of the camera, and nothing else.
 std::vector<scan::FusedFrame> views(const std::vector<Hold>& holds, bool noise) {
   testing::Rig rig;
   rig.lens = real_lens();
@@ -66,7 +66,7 @@ Result<CameraCalibration> calibrated(const std::vector<Hold>& holds, bool noise)
                           testing::two_threads());
 }
 
-/// Largest error that a wrong lens makes in the distance between two places 200 mm apart.
+/// Largest error that a wrong lens causes in the distance between two points 200 mm apart.
 double distance_error_mm(const scan::Lens& lens) {
   double worst = 0;
   for (const double u : {100.0, 250.0, 400.0}) {
@@ -98,8 +98,8 @@ TEST(CalibrateCamera, NoiseStaysWithinTheStatedCovariance) {
   EXPECT_NEAR(found->rms_sigmas, 1, 0.2);
 }
 
-/// How far off the learned pattern is from the camera's own, in standard deviations, where the
-/// views told anything of it; and the same of the mean of all.
+/// Errors of the learned pattern against the camera's own, in standard deviations, where the views
+/// gave information on it; and the error of their mean.
 struct PatternError {
   std::vector<double> sigmas;
   double mean_sigmas = 0;
@@ -125,12 +125,12 @@ PatternError error_of(const scan::FixedPattern& pattern) {
   return out;
 }
 
-TEST(CalibrateCamera, LearnsTheFixedPatternAsWellAsItSays) {
+TEST(CalibrateCamera, LearnsTheFixedPatternWithinItsStatedErrors) {
   const auto found = calibrated(good_holds(), true);
   ASSERT_TRUE(found) << found.error().message;
   const scan::FixedPattern& pattern = found->pattern;
   ASSERT_EQ(pattern.patches(), simulated_camera::constant_noise(kSeed).size());
-  // Half of the image, in these views of eight frames.
+  // At least a third of the pattern is known from these views of eight frames.
   const auto is_known = [](float sigma) { return sigma < 0.4; };
   EXPECT_GT(std::count_if(pattern.sigma.begin(), pattern.sigma.end(), is_known),
             static_cast<std::ptrdiff_t>(pattern.patches() / 3));
@@ -141,14 +141,14 @@ TEST(CalibrateCamera, LearnsTheFixedPatternAsWellAsItSays) {
   EXPECT_LT(std::abs(error.mean_sigmas), 3.5);
 }
 
-TEST(CalibrateCamera, ManyViewsLeaveNoMoreToBeSharedThanTwelve) {
+TEST(CalibrateCamera, ManyViewsLeaveNoMoreSharedErrorThanTwelve) {
   const auto found = calibrated(good_holds(15), false);
   ASSERT_TRUE(found) << found.error().message;
   EXPECT_EQ(found->pattern.shared.rows(), 9 + 72);
   double largest = 0;
   for (const float offset : found->pattern.offset)
     largest = std::max(largest, std::abs(static_cast<double>(offset)));
-  EXPECT_LT(largest, 0.5);  // there is no noise in these, but pixels at creases
+  EXPECT_LT(largest, 0.5);  // no noise in these, only pixels at creases
 }
 
 TEST(CalibrateCamera, TooFewViewsAreRefused) {
@@ -160,7 +160,7 @@ TEST(CalibrateCamera, TooFewViewsAreRefused) {
   EXPECT_NE(found.error().message.find("2 views"), std::string::npos);
 }
 
-/// Views of boards so held, with points where the board would be seen.
+/// The missing coverage for views of boards held in these ways; the points are computed.
 std::string lacking_in(const std::vector<Hold>& holds) {
   std::vector<BoardView> out;
   for (const Hold& hold : holds) {
@@ -177,7 +177,7 @@ std::string lacking_in(const std::vector<Hold>& holds) {
   return lacking(out, truth());
 }
 
-TEST(CalibrateCamera, WhatViewsLackIsNamed) {
+TEST(CalibrateCamera, MissingCoverageOfViewsIsNamed) {
   const auto good = good_holds();
   EXPECT_EQ(lacking_in(good), "");
   auto flat = good, far = good, middle = good;

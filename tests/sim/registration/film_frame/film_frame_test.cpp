@@ -25,7 +25,7 @@ scan::Cloud cloud_of(const std::vector<scan::DepthFrame>& frames, const scan::Le
   return std::move(*cloud);
 }
 
-/// What a rig's configuration would say of a camera that someone bumped into.
+/// The configured pose of a camera that was bumped.
 Pose nominal(const Rig& rig) { return rig.X_CF() * crooked(12 * kDegree, 30, 5); }
 
 Result<FilmFrame> found(const Rig& rig) {
@@ -68,7 +68,7 @@ TEST(FilmFrame, NoiseStaysWithinTheStatedCovariance) {
   EXPECT_GE(within, kSeeds * 9 / 10);
 }
 
-/// Marker 1, "right", is not as it should be: what is said of it.
+/// The warning or error if marker 1, "right", is wrong.
 std::string left_out(const Rig& rig) {
   const auto frame = found(rig);
   if (!frame) return frame.error().message;
@@ -78,7 +78,7 @@ std::string left_out(const Rig& rig) {
   return frame->markers[1].why_not;
 }
 
-TEST(FilmFrame, AMarkerThatWasMovedIsLeftOut) {
+TEST(FilmFrame, AMovedMarkerIsLeftOut) {
   Rig rig;
   rig.markers[1].at_mm += Eigen::Vector3d(2, -1.5, 0);
   EXPECT_NE(left_out(rig).find("2.5 mm from its place"), std::string::npos);
@@ -86,19 +86,19 @@ TEST(FilmFrame, AMarkerThatWasMovedIsLeftOut) {
   EXPECT_NE(left_out(rig).find("12.5 mm from its place"), std::string::npos);
 }
 
-TEST(FilmFrame, AMarkerThatWasKnockedOverIsLeftOut) {
+TEST(FilmFrame, AToppledMarkerIsLeftOut) {
   Rig rig;
   rig.states[1] = simulated_scene::MarkerState::kKnockedOver;
   EXPECT_NE(left_out(rig).find("knocked over"), std::string::npos);
 }
 
-TEST(FilmFrame, AMarkerThatIsCoveredIsLeftOut) {
+TEST(FilmFrame, ACoveredMarkerIsLeftOut) {
   Rig rig;
   rig.states[1] = simulated_scene::MarkerState::kHidden;
   EXPECT_NE(left_out(rig).find("hidden"), std::string::npos);
 }
 
-TEST(FilmFrame, AMarkerThatIsGoneIsLeftOut) {
+TEST(FilmFrame, AMissingMarkerIsLeftOut) {
   Rig rig;
   rig.markers.erase(rig.markers.begin() + 1);
   EXPECT_NE(left_out(rig).find("gone"), std::string::npos);
@@ -132,7 +132,7 @@ TEST(FilmFrame, FewerThanThreeMarkersAreRefusedByName) {
   EXPECT_EQ(frame.error().message.find("\"near\""), std::string::npos);
 }
 
-TEST(FilmFrame, ACameraThatSeesNoWaterIsRefused) {
+TEST(FilmFrame, AFrameWithoutWaterIsRefused) {
   const Rig rig;
   const auto cloud = cloud_of({rig.exact()}, testing::lens_of(rig.lens));
   const Pose on_its_side = rig.X_CF() * Eigen::AngleAxisd(90 * kDegree, Eigen::Vector3d::UnitX());

@@ -1,4 +1,4 @@
-// Poses of objects from scans, and what scans cannot tell.
+// Poses of objects from scans, and motions that scans do not determine.
 #include "sim/registration/object/object.h"
 
 #include <gtest/gtest.h>
@@ -20,20 +20,20 @@ using testing::box;
 using testing::crooked;
 using testing::Rig;
 
-/// The middle of the image, which is quicker and shows all of the object.
+/// The middle of the image; it is faster and shows the whole object.
 constexpr testing::Window kMiddle{160, 100, 320, 240};
 
-/// That of the samples, without its picture.
+/// The board of the samples, without its picture.
 mesh::Surface board() { return box({-60, -60, 0}, {60, 60, 10}); }
 
-/// Three arms of different lengths: no turn and no mirror brings it back.
+/// Three arms of different lengths: no rotation or reflection maps it to itself.
 mesh::Surface tripod() {
   mesh::Surface all = box({-15, -15, -15}, {75, 15, 15});
   all = joined(std::move(all), box({-15, 15, -15}, {15, 55, 15}));
   return joined(std::move(all), box({-15, -15, 15}, {15, 15, 45}));
 }
 
-/// An object in the gripper, and what the camera sees.
+/// An object in the gripper, and the camera's view of it.
 struct Hanging {
   Rig rig;
   ObjectTask task;
@@ -82,7 +82,7 @@ double turn_rad(const Pose& a, const Pose& b) {
   return Eigen::AngleAxisd(a.linear().transpose() * b.linear()).angle();
 }
 
-/// From where all six motions of the tripod show.
+/// A direction from which all six motions of the tripod can be seen.
 const simulated_scene::CameraStand kAside = testing::stand_at(800, 60 * kDegree, 0.6);
 
 TEST(Object, ExactDepthsGiveTheExactPose) {
@@ -96,21 +96,21 @@ TEST(Object, ExactDepthsGiveTheExactPose) {
   EXPECT_LT(pose->misfit_mm, 0.1);
 }
 
-TEST(Object, IsFoundHoweverItHangs) {
+TEST(Object, IsFoundInAnyPose) {
   const Hanging hanging(tripod(), crooked(110 * kDegree, 5, 8));
   const auto pose = hanging.find();
   ASSERT_TRUE(pose) << pose.error().message;
   EXPECT_LT(turn_rad(pose->X_FO, hanging.X_FO), 0.2 * kDegree);
 }
 
-TEST(Object, BoardTurnedByAQuarterIsTakenForTheNominalOne) {
+TEST(Object, AmbiguousBoardPosesResolveToTheNominalOne) {
   const Hanging hanging(board());
   const auto pose = hanging.find();
   ASSERT_TRUE(pose) << pose.error().message;
   EXPECT_LT(turn_rad(pose->X_FO, hanging.X_FO), 0.3 * kDegree);
 }
 
-TEST(Object, SphereTellsNoTurnAndTheNominalOneIsTaken) {
+TEST(Object, SphereDeterminesNoRotationSoTheNominalOneIsUsed) {
   const Hanging hanging(testing::surface_of(sample::icosphere(50, 5)));
   const auto pose = hanging.find();
   ASSERT_TRUE(pose) << pose.error().message;
@@ -118,7 +118,7 @@ TEST(Object, SphereTellsNoTurnAndTheNominalOneIsTaken) {
   for (const std::string& w : pose->weak) EXPECT_EQ(w.substr(0, 4), "turn") << w;
   EXPECT_LT(turn_rad(pose->X_FO, hanging.task.nominal_FO), 0.01 * kDegree);
   EXPECT_LT((pose->X_FO.translation() - hanging.X_FO.translation()).norm(), 0.1);
-  // The turn is as uncertain as the nominal pose, so the surface is; its middle is not.
+  // The rotation, and so the surface, is as uncertain as the nominal pose; the middle is not.
   const std::vector<Eigen::Vector3d> places{pose->centre_mm,
                                             pose->centre_mm + Eigen::Vector3d(50, 0, 0)};
   const auto error = error_at(places, pose->centre_mm, pose->covariance);
@@ -126,7 +126,7 @@ TEST(Object, SphereTellsNoTurnAndTheNominalOneIsTaken) {
   EXPECT_GT(error[1], 3);
 }
 
-TEST(Object, CylinderTellsAllButTheTurnAboutItsAxis) {
+TEST(Object, CylinderDeterminesAllButTheRotationAboutItsAxis) {
   const Hanging hanging(testing::cylinder(40, 0, 90, 180));
   const auto pose = hanging.find();
   ASSERT_TRUE(pose) << pose.error().message;
@@ -157,7 +157,7 @@ TEST(Object, MirroredMeshAndAnotherObjectAreRefused) {
   EXPECT_EQ(hanging.reason().substr(0, 15), "NOT_THIS_OBJECT");
 }
 
-TEST(Object, NoneOrTwoAreRefused) {
+TEST(Object, NoObjectOrTwoObjectsAreRefused) {
   Hanging hanging(tripod());
   const auto object = hanging.rig.more;
   hanging.rig.more.clear();
@@ -168,18 +168,19 @@ TEST(Object, NoneOrTwoAreRefused) {
   EXPECT_EQ(hanging.reason().substr(0, 11), "TWO_OBJECTS");
 }
 
-TEST(Object, HalfOutOfViewIsSaid) {
+TEST(Object, HalfOutOfViewIsReported) {
   Hanging hanging(tripod());
-  hanging.window.u += 160;  // a camera that looks past it
+  hanging.window.u += 160;  // the camera looks past it
   const auto pose = hanging.find();
-  if (!pose) return;  // refused is said, too
+  if (!pose) return;  // an error is also a valid answer
   ASSERT_FALSE(pose->warnings.empty());
   EXPECT_EQ(pose->warnings[0].code, "object_partly_out_of_view");
 }
 
 TEST(Object, NormalisedErrorsStayWithinTheirEllipsoid) {
   Hanging hanging(tripod());
-  hanging.rig.stand = testing::stand_at(800, 50 * kDegree, 0.75);  // on three sides, however tilted
+  // Sees three sides, however it is tilted.
+  hanging.rig.stand = testing::stand_at(800, 50 * kDegree, 0.75);
   int within = 0;
   constexpr std::uint32_t kSeeds = 20;
   const Shape shape(hanging.task.surface);
@@ -221,7 +222,7 @@ TEST(Object, RealModelsAreFound) {
   }
 }
 
-TEST(WaterLevel, IsThatOfTheWaterAndUncertainAsStated) {
+TEST(WaterLevel, MatchesTheWaterWithinItsStatedUncertainty) {
   Hanging hanging(tripod());
   const auto cloud = hanging.cloud(hanging.fused(hanging.rig.frames(12, 77)));
   FilmFrame frame = hanging.frame();

@@ -25,7 +25,7 @@ TEST(MotionFile, ImmersionAndOffsetCountFromTheFirstRow) {
   EXPECT_EQ(read->rows[2].offset_mm, Eigen::Vector2d(0.5, -1));
 }
 
-TEST(MotionFile, WhatIsNoWayDownIsRefusedByLine) {
+TEST(MotionFile, InvalidMotionsAreRefusedByLine) {
   const std::string header = "t_s,x_mm,y_mm,z_mm\n";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "line 1: not the header"},

@@ -4,9 +4,12 @@
 #include <string>
 #include <string_view>
 
+#include "daemon/auth/account.h"
 #include "daemon/http/in_process_channel.h"
+#include "daemon/http/protocol/exchange.h"
 #include "daemon/http/protocol/header_fields.h"
 #include "daemon/http/protocol/request_parser.h"
+#include "daemon/http/server_context.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::http {
@@ -17,10 +20,17 @@ enum class Unprintable {
   kReplace,  ///< each such byte becomes '?', so that a stop is never refused because of it
 };
 
-/// The metadata that tells the services who calls: authorization, hydroprint-owner,
-/// hydroprint-session, hydroprint-peer.
-[[nodiscard]] Result<InProcessChannel::Metadata> metadata_of(
+/// The credentials in a request's head: Authorization, Hydroprint-Owner, and the session cookie.
+[[nodiscard]] Result<auth::Credentials> credentials_in(
     const Head& head, const std::string& peer, Unprintable unprintable = Unprintable::kRefuse);
+
+/// Establishes the caller of an API method from the request's head and checks its role, before the
+/// body is read.
+/// @param method  "/hydroprint.v1.JobService/GetJob"
+/// @return the metadata that tells the services who calls
+[[nodiscard]] Result<InProcessChannel::Metadata> admit(const ServerContext& server,
+                                                       Exchange& exchange,
+                                                       const std::string& method);
 
 /// The value of a cookie; nullopt without it.
 [[nodiscard]] std::optional<std::string_view> cookie(const HeaderFields& fields,

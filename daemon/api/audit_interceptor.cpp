@@ -1,4 +1,4 @@
-#include "daemon/auth/audit_interceptor.h"
+#include "daemon/api/audit_interceptor.h"
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "daemon/platform/clock.h"
+#include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
 #include "google/api/annotations.pb.h"
 #include "hydroprint/v1/access.pb.h"
@@ -118,7 +119,6 @@ class Quiet {
 };
 
 struct Surroundings {
-  const Authenticator& access;
   auth::AuditLog& audit;
   Quiet quiet;
 };
@@ -145,11 +145,11 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
 
  private:
   void see_caller() {
-    const auto caller = around_.access.caller(*call_.server_context());
+    const auto caller = caller_of(*call_.server_context());
     if (!caller) return;
     entry_.who = caller->name;
     entry_.via = caller->via;
-    entry_.peer = peer_address(*call_.server_context());
+    entry_.peer = caller->credentials.peer;
   }
   void see_request(const Message* request) {
     if (request == nullptr) return;
@@ -182,8 +182,7 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
 
 class AuditInterceptorFactory final : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
-  AuditInterceptorFactory(const Authenticator& access, auth::AuditLog& audit)
-      : around_{access, audit, {}} {}
+  explicit AuditInterceptorFactory(auth::AuditLog& audit) : around_{audit, {}} {}
 
   grpc::experimental::Interceptor* CreateServerInterceptor(ServerRpcInfo* call) override {
     return is_noted(call->method()) ? new AuditInterceptor(*call, around_)
@@ -209,9 +208,9 @@ class AuditInterceptorFactory final : public grpc::experimental::ServerIntercept
 
 }  // namespace
 
-std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_audit_tap(
-    const Authenticator& access, auth::AuditLog& audit) {
-  return std::make_unique<AuditInterceptorFactory>(access, audit);
+std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_audit_interceptor(
+    auth::AuditLog& audit) {
+  return std::make_unique<AuditInterceptorFactory>(audit);
 }
 
 }  // namespace hydroprint::daemon

@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "daemon/auth/audit_log.h"
-#include "daemon/auth/authenticator.h"
 
 namespace hydroprint::daemon {
 
@@ -14,7 +13,7 @@ namespace hydroprint::daemon {
 /// notes itself, uploaded chunks, previews, and of what is said again and again (Jog, RenewLease)
 /// all but once a minute. A call is answered once its entry is on disk, or after two seconds; those
 /// that stop the rig or hold it in motion (StopMotion, Jog, RenewLease) never wait for that.
-[[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_audit_tap(
-    const Authenticator& access, auth::AuditLog& audit);
+[[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>
+make_audit_interceptor(auth::AuditLog& audit);
 
 }  // namespace hydroprint::daemon

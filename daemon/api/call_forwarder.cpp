@@ -1,0 +1,156 @@
+#include "daemon/api/call_forwarder.h"
+
+#include <grpcpp/client_context.h>
+
+#include <mutex>
+
+#include "daemon/rpc/caller_metadata.h"
+#include "daemon/rpc/grpc_status.h"
+
+namespace hydroprint::daemon {
+namespace {
+
+// "ipv4:127.0.0.1:50051" or "ipv6:%5B::1%5D:50051" without family, port and brackets.
+std::string address_in(const std::string& peer) {
+  if (!peer.starts_with("ipv4:") && !peer.starts_with("ipv6:")) return peer;
+  std::string host = peer.substr(5, peer.rfind(':') - 5);
+  for (const char* bracket : {"%5B", "%5D", "[", "]"}) {
+    if (const auto at = host.find(bracket); at != std::string::npos) {
+      host.erase(at, std::string_view(bracket).size());
+    }
+  }
+  return host;
+}
+
+/// The credentials of a call that came over the network. Its peer is the connection's; other
+/// metadata that the services trust is not taken from the client.
+auth::Credentials presented_credentials(const grpc::ServerContextBase& context) {
+  auth::Credentials credentials = credentials_of(context);
+  credentials.peer = address_in(context.peer());
+  return credentials;
+}
+
+bool is_grpcs_own(std::string_view method) {
+  return method.starts_with("/grpc.health.v1.") || method.starts_with("/grpc.reflection.v1alpha.");
+}
+
+/// The call as the service sees it: this end of the channel within the process. Its events are
+/// passed to the call that it answers (`Peer`).
+template <class Peer>
+class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
+ public:
+  explicit ServiceSide(Peer& peer) : peer_(peer) {}
+
+  void begin(grpc::GenericStub& stub, const std::string& method, const CallMetadata& metadata,
+             std::chrono::system_clock::time_point deadline) {
+    for (const auto& [name, value] : metadata) context_.AddMetadata(name, value);
+    context_.set_deadline(deadline);
+    stub.PrepareBidiStreamingCall(&context_, method, {}, this);
+    AddHold();  // writes begin from outside this reactor's own reactions
+    StartCall();
+    // Always waiting: within a process, gRPC loses a response that is not read when the status
+    // follows it.
+    StartRead(&response);
+  }
+  void write() {
+    if (!enter()) return;
+    StartWrite(&request);
+    leave();
+  }
+  void end_writing() {
+    if (!enter()) return;
+    StartWritesDone();
+    leave();
+  }
+  void read() { StartRead(&response); }
+  void cancel() {
+    context_.TryCancel();
+    close();
+  }
+  void try_cancel() { context_.TryCancel(); }
+
+  void OnReadDone(bool ok) override { ok ? peer_.respond() : close(); }
+  void OnWriteDone(bool ok) override {
+    if (ok) peer_.read();
+  }
+  void OnDone(const grpc::Status& status) override { peer_.finish(status); }
+
+  grpc::ByteBuffer request, response;
+
+ private:
+  // Nothing may be started on a call once its hold is removed.
+  bool enter() {
+    const std::lock_guard lock(mutex_);
+    if (!is_closed_) ++inside_;
+    return !is_closed_;
+  }
+  void leave() {
+    bool is_last = false;
+    {
+      const std::lock_guard lock(mutex_);
+      is_last = --inside_ == 0 && is_closed_;
+    }
+    if (is_last) RemoveHold();
+  }
+  void close() {
+    bool is_last = false;
+    {
+      const std::lock_guard lock(mutex_);
+      if (is_closed_) return;
+      is_closed_ = true;
+      is_last = inside_ == 0;
+    }
+    if (is_last) RemoveHold();
+  }
+
+  Peer& peer_;
+  grpc::ClientContext context_;
+  std::mutex mutex_;  // of what follows
+  bool is_closed_ = false;
+  int inside_ = 0;
+};
+
+/// One forwarded call. A message is read when the one before was taken, in either direction.
+class ForwardedCall final : public grpc::ServerGenericBidiReactor {
+ public:
+  ForwardedCall(grpc::GenericStub& stub, const grpc::GenericCallbackServerContext& context,
+                const CallMetadata& metadata) {
+    service_.begin(stub, context.method(), metadata, context.deadline());
+    read();
+  }
+
+  // From the service:
+  void read() { StartRead(&service_.request); }
+  void respond() { StartWrite(&service_.response); }
+  void finish(const grpc::Status& status) { Finish(status); }
+
+  // From the client:
+  void OnReadDone(bool ok) override { ok ? service_.write() : service_.end_writing(); }
+  void OnWriteDone(bool ok) override { ok ? service_.read() : service_.cancel(); }
+  void OnCancel() override { service_.try_cancel(); }
+  void OnDone() override { delete this; }
+
+ private:
+  ServiceSide<ForwardedCall> service_{*this};
+};
+
+class RefusedCall final : public grpc::ServerGenericBidiReactor {
+ public:
+  explicit RefusedCall(const grpc::Status& status) { Finish(status); }
+  void OnDone() override { delete this; }
+};
+
+}  // namespace
+
+grpc::ServerGenericBidiReactor* CallForwarder::CreateReactor(
+    grpc::GenericCallbackServerContext* context) {
+  const auth::Credentials credentials = presented_credentials(*context);
+  if (is_grpcs_own(context->method())) {
+    return new ForwardedCall(stub_, *context, caller_metadata({}, credentials));
+  }
+  const auto caller = roles_.admit(context->method(), credentials);
+  if (!caller) return new RefusedCall(to_grpc(caller.error()));
+  return new ForwardedCall(stub_, *context, caller_metadata(*caller, credentials));
+}
+
+}  // namespace hydroprint::daemon
