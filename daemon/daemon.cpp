@@ -19,7 +19,8 @@ constexpr std::int64_t kMiB = 1 << 20;
 constexpr std::int64_t kHourMs = 3600LL * 1000;
 constexpr std::chrono::milliseconds kPatience{1000};
 
-// Cores this process may use, which in a container or under taskset are not all of the machine's.
+// Number of cores that this process may use; in a container or under taskset that may be fewer than
+// the machine has.
 int core_count() {
   cpu_set_t set;
   return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
@@ -38,7 +39,7 @@ PoolOptions pool_options(const Config& config) {
 }
 
 PreviewOptions preview_options(const PoolOptions& pool) {
-  const std::int64_t a_day_s = 24LL * 3600;  // for as long as somebody asks
+  const std::int64_t a_day_s = 24LL * 3600;  // processor time of one worker
   return {pool.program,
           pool.threads > 0 ? pool.threads : pool.cores,
           {pool.memory_bytes, a_day_s, pool.file_bytes}};
@@ -91,7 +92,7 @@ Status Daemon::open_store(const Config& config) {
                         config.assets_keep_unused_days * 24 * kHourMs, quota_of(config)},
       system_clock_ms);
   calibrations_ = std::make_unique<CalibrationStore>(*database_, system_clock_ms);
-  HP_RETURN_IF_ERROR(jobs_->sweep());  // first: it may make the room that the next one needs
+  HP_RETURN_IF_ERROR(jobs_->sweep());  // first, since it may free space that the next step needs
   HP_RETURN_IF_ERROR(end_lost_dips(*jobs_, layout_));
   HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss));
   HP_RETURN_IF_ERROR(assets_->sweep());
@@ -106,13 +107,15 @@ Status Daemon::open_people(const Config& config) {
   options.session_most_ms = config.people_session_days * 24 * kHourMs;
   HP_ASSIGN_OR_RETURN(accounts_, auth::Accounts::open(*database_, options, system_clock_ms));
   audit_ = std::make_unique<auth::AuditLog>(*database_, system_clock_ms);
-  // Whoever is let in without a user must not be let in from elsewhere by a mistake.
+  // Access without a user must not be possible from other machines by mistake.
   const bool is_open = config.people_accounts == "loopback-open" && !is_exposed(config);
   access_ = std::make_unique<Authenticator>(*accounts_, is_open);
   outside_ = std::make_unique<auth::ExternalChanges>(*database_, *accounts_);
   if (!is_open && !accounts_->any()) {
     log(LogLevel::kWarning, "no_users",
-        {{"message", "accounts are required and there is no user; start with --first-admin NAME"}});
+        {{"message",
+          "accounts are required, but there is no user; start the daemon with --first-admin "
+          "NAME"}});
   }
   return {};
 }
@@ -125,9 +128,10 @@ Status Daemon::open_certificate(const Config& config) {
                                               system_clock_ms));
   if (is_within_fence(config.server_tls_key, config.workers_program)) {
     log(LogLevel::kWarning, "key_within_fence",
-        {{"message", config.server_tls_key +
-                         ": workers, who open files of strangers, can read the TLS key there; put "
-                         "it below /var/lib/hydroprint, or wherever they see nothing"}});
+        {{"message",
+          config.server_tls_key +
+              ": workers, which read untrusted files, can read the TLS key there; move "
+              "it below /var/lib/hydroprint, or to another folder that they cannot read"}});
   }
   return {};
 }
@@ -158,7 +162,7 @@ Status Daemon::make_first_admin(const std::string& name) {
     HP_RETURN_IF_ERROR(accounts_->create({name, auth::Role::kAdmin, false, "", 0}, ""));
   } else if (found->role != auth::Role::kAdmin || found->disabled) {
     return fail(Code::kFailedPrecondition,
-                "--first-admin: " + name + " is there and is no admin; name another user",
+                "--first-admin: " + name + " exists but is not an admin; name another user",
                 "STATE_FORBIDS");
   }
   HP_ASSIGN_OR_RETURN(const auto link, accounts_->make_link(name));
@@ -172,7 +176,7 @@ Status Daemon::make_first_admin(const std::string& name) {
   return {};
 }
 
-// The drive need not be there: it is looked for from here on.
+// The drive may be absent at the start; the controller keeps trying to connect.
 Status Daemon::open_rig(const Config& config) {
   HP_ASSIGN_OR_RETURN(auto setup, read_controller_config(config));
   if (setup) {
@@ -189,14 +193,14 @@ Status Daemon::open_rig(const Config& config) {
   return {};
 }
 
-// Nor need the printer.
+// The printer may be absent at the start.
 Status Daemon::open_printer(const Config& config) {
   HP_ASSIGN_OR_RETURN(auto setup, read_printer_setup(config));
   prints_ = std::make_unique<PrintExecutor>(std::move(setup), *jobs_, layout_);
   return {};
 }
 
-// Nor the camera.
+// The camera may be absent at the start.
 Status Daemon::open_camera(const Config& config) {
   HP_ASSIGN_OR_RETURN(camera_, read_camera_setup(config));
   HP_ASSIGN_OR_RETURN(live_, LiveCamera::make(camera_, layout_, system_clock_ms));
@@ -223,7 +227,7 @@ Status Daemon::start_serving(const Config& config) {
   HP_RETURN_IF_ERROR(start_http(config, backend));
   if (!fences_work()) {
     log(LogLevel::kWarning, "files_not_fenced",
-        {{"message", "this kernel has no Landlock: workers see all files of this user"}});
+        {{"message", "this kernel has no Landlock; workers can read all files of this user"}});
   }
   pool_->start();
   monitor_ = std::make_unique<RigMonitor>(*gateway_, *places_,
@@ -266,7 +270,7 @@ std::optional<std::uint64_t> Daemon::control_rounds() const {
 void Daemon::clean_up() {
   log_failure("jobs_not_purged", jobs_->purge());
   log_failure("uploads_not_purged", assets_->purge());
-  if (!accounts_) return;  // before people are there
+  if (!accounts_) return;  // nothing to do before accounts are open
   log_failure("sessions_not_purged", accounts_->clean_up());
   log_failure("audit_not_purged", audit_->clean_up());
 }

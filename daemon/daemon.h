@@ -31,18 +31,18 @@
 
 namespace hydroprint::daemon {
 
-/// Everything a running daemon consists of, from the lock on its state folder to the server.
+/// All parts of a running daemon, from the lock on its state folder to the servers.
 class Daemon {
  public:
-  /// Takes the state folder, brings the store back into order after a crash, listens and starts
-  /// workers: jobs that were running are queued again.
-  /// @param first_admin  a user who gets a link to sign in once as admin, within 15 minutes, and is
-  ///   made if there is none of that name; empty: none
-  /// @return of `first_admin`: ID_INVALID; kFailedPrecondition, STATE_FORBIDS for one who is there
-  ///   and no admin
+  /// Locks the state folder, repairs the store after a crash, starts listening and starts workers.
+  /// Interrupted jobs are queued again.
+  /// @param first_admin  a user who gets a link to sign in once as admin, within 15 minutes;
+  /// created if there is no such user; empty: none
+  /// @return for `first_admin`: ID_INVALID; kFailedPrecondition, STATE_FORBIDS if the user exists
+  /// and is not an admin
   [[nodiscard]] static Result<std::unique_ptr<Daemon>> start(const Config& config,
                                                              const std::string& first_admin);
-  /// Stops if stop() was not called.
+  /// Calls stop() if needed.
   ~Daemon();
   Daemon(const Daemon&) = delete;
   Daemon& operator=(const Daemon&) = delete;
@@ -51,17 +51,18 @@ class Daemon {
   [[nodiscard]] const Endpoint& http_endpoint() const { return http_endpoint_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
 
-  /// Address of the link for the first admin; empty: none was asked for.
+  /// Sign-in link for the first admin; empty if none was requested.
   [[nodiscard]] std::string sign_in_link() const;
-  /// Address of its pages, by a name that its certificate has: "https://rig.example.org:8443/".
+  /// Address of the web pages, with a host name from the certificate:
+  /// "https://rig.example.org:8443/".
   [[nodiscard]] std::string page_address() const;
-  /// How often the loop that looks at the drive has gone round; none: no drive is configured.
+  /// Iterations of the loop that monitors the drive; nullopt if no drive is configured.
   [[nodiscard]] std::optional<std::uint64_t> control_rounds() const;
 
-  /// Deletes what is too old; to be called now and then.
+  /// Deletes expired data; call this regularly.
   void clean_up();
-  /// Takes no more calls, ends the workers and queues their jobs again for the next start; takes a
-  /// few seconds at most.
+  /// Refuses new calls, ends the workers and queues their jobs for the next start. Takes a few
+  /// seconds at most.
   void stop();
 
  private:
@@ -88,7 +89,7 @@ class Daemon {
   std::unique_ptr<JobStore> jobs_;
   std::unique_ptr<AssetStore> assets_;
   std::unique_ptr<CalibrationStore> calibrations_;
-  std::unique_ptr<rig::Controller> rig_;  // null: none is configured
+  std::unique_ptr<rig::Controller> rig_;  // null if no rig is configured
   std::unique_ptr<LeaseManager> leases_;
   std::unique_ptr<RigGateway> gateway_;
   std::unique_ptr<RigReference> places_;
@@ -99,7 +100,7 @@ class Daemon {
   std::unique_ptr<CaptureExecutor> captures_;
   std::unique_ptr<WorkerPool> pool_;
   std::unique_ptr<PreviewPool> previews_;
-  std::unique_ptr<CertificateReloader> certificate_;  // null: TLS is not spoken
+  std::unique_ptr<CertificateReloader> certificate_;  // null without TLS
   std::string link_token_;
   std::unique_ptr<Server> server_;
   std::unique_ptr<JobMetrics> meter_;

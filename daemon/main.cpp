@@ -56,7 +56,7 @@ std::string beside(const char* argv0, const char* program) {
   return self.parent_path() / program;
 }
 
-// Where the web client's files are: as installed, or else in a build tree.
+// Folder of the web client's files: as installed, otherwise in a build tree.
 std::string web_dir(const char* argv0) {
   const std::filesystem::path bin = beside(argv0, "");
   const auto installed = (bin / "../../share/hydroprint/web").lexically_normal();
@@ -94,7 +94,7 @@ Result<Config> configure(const Options& options, const char* argv0) {
   return config;
 }
 
-// Signals wait for sigtimedwait() in main instead of breaking in anywhere; threads inherit that.
+// Blocks signals, which main receives with sigtimedwait(); threads inherit the mask.
 sigset_t block_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -105,7 +105,8 @@ sigset_t block_signals() {
   return set;
 }
 
-// A server that runs out of descriptors stops answering for good: take as many as allowed.
+// Raises the limit on descriptors to the maximum, since a server without free descriptors stops
+// answering.
 void raise_descriptor_limit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -160,38 +161,40 @@ int obey(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "admin") return admin::obey(argc - 1, argv + 1);
   Options options;
   CLI::App app(
-      "Keeps the job queue of Hydroprint and runs its workers; serves gRPC and HTTP, on loopback "
+      "Keeps Hydroprint's job queue and runs its workers. Serves gRPC and HTTP on loopback "
       "or, with TLS and "
-      "accounts, beyond.");
+      "accounts, on other addresses.");
   app.name("hydroprintd");
   app.set_version_flag("--version", "hydroprintd " HYDROPRINT_VERSION);
-  app.add_option("--config", options.config_file, "TOML file; without it, defaults")
+  app.add_option("--config", options.config_file, "TOML file; default: built-in settings")
       ->type_name("FILE");
-  app.add_flag("--check-config", options.check_config, "Check the configuration and end");
+  app.add_flag("--check-config", options.check_config, "Check the configuration and exit");
   app.add_option("--state-dir", options.state_dir,
-                 "Where jobs are kept; default $XDG_STATE_HOME/hydroprint or "
+                 "Folder for jobs; default $XDG_STATE_HOME/hydroprint or "
                  "~/.local/state/hydroprint")
       ->type_name("DIR");
   app.add_option("--grpc", options.grpc,
-                 "Address and port to listen at; default 127.0.0.1:50051; port 0: any; beyond "
+                 "Address and port to listen on; default 127.0.0.1:50051; port 0: any; beyond "
                  "loopback only with TLS and an admin who can sign in")
       ->type_name("HOST:PORT");
-  app.add_option("--http", options.http, "The same for HTTP; default 127.0.0.1:8080")
+  app.add_option("--http", options.http, "Same, for HTTP; default 127.0.0.1:8080")
       ->type_name("HOST:PORT");
-  app.add_option("--tls-certificate", options.tls_certificate,
-                 "PEM file of the certificate for gRPC and HTTP, its chain behind it; taken anew "
-                 "when it changes; default: TLS is not spoken")
+  app.add_option(
+         "--tls-certificate", options.tls_certificate,
+         "PEM file of the certificate for gRPC and HTTP, followed by its chain; loaded again "
+         "when it changes; default: no TLS")
       ->type_name("FILE");
-  app.add_option("--tls-key", options.tls_key, "PEM file of its key")->type_name("FILE");
+  app.add_option("--tls-key", options.tls_key, "PEM file of the certificate's key")
+      ->type_name("FILE");
   app.add_option("--first-admin", options.first_admin,
-                 "Print a link by which this user signs in as admin, once and within 15 minutes; "
-                 "makes the user if there is none of that name")
+                 "Print a link with which this user signs in as admin once, within 15 minutes; "
+                 "creates the user if needed")
       ->type_name("NAME");
   app.add_option("--rig", options.rig,
-                 "Where the motor's drive is, like tcp:127.0.0.1:1502; default: there is no rig")
+                 "Address of the motor's drive, such as tcp:127.0.0.1:1502; default: no rig")
       ->type_name("ENDPOINT");
   app.add_option("--rig-profile", options.rig_profile, "Profile of that drive")->type_name("FILE");
-  app.footer("hydroprintd admin --help: backup, restore and the like, on its state folder.");
+  app.footer("hydroprintd admin --help: backup, restore and other commands for the state folder.");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -200,7 +203,7 @@ int obey(int argc, char** argv) {
   const auto config = configure(options, argv[0]);
   if (!config) return refuse(config.error().message, ExitStatus::kBadInput);
   if (!options.check_config) return run(*config, options.first_admin);
-  std::cout << "the configuration is good\n";
+  std::cout << "the configuration is valid\n";
   return 0;
 }
 

@@ -27,7 +27,7 @@ void tell(const Contents& contents) {
 
 Status run_backup(const Options& options) {
   HP_ASSIGN_OR_RETURN(State state, open_state(options.state_dir));
-  state.lock.reset();  // a daemon may begin meanwhile
+  state.lock.reset();  // a daemon may start from here on
   HP_ASSIGN_OR_RETURN(const Contents contents, backup(state, options.file));
   for (const std::string& warning : contents.warnings) {
     std::cerr << "warning: " << one_line(warning) << std::endl;
@@ -48,14 +48,14 @@ Status run_restore(const Options& options) {
 Status run_reset(const Options& options) {
   if (!options.from_stdin) {
     return fail(Code::kInvalidArgument,
-                "the password is read from standard input: say --stdin, or run hydroprint admin, "
+                "the password is read from standard input: add --stdin, or run hydroprint admin, "
                 "which asks for it");
   }
   std::string password;
   std::getline(std::cin, password);
   HP_ASSIGN_OR_RETURN(State state, open_state(options.state_dir));
   HP_RETURN_IF_ERROR(reset_password(state, options.user, password));
-  std::cout << one_line(options.user) << " has a new password, and is signed in nowhere"
+  std::cout << one_line(options.user) << " has a new password; all of their sessions have ended"
             << std::endl;
   return {};
 }
@@ -64,7 +64,7 @@ Status run_link(const Options& options) {
   HP_ASSIGN_OR_RETURN(State state, open_state(options.state_dir));
   HP_ASSIGN_OR_RETURN(const std::string token, sign_in_link(state, options.user));
   std::cout << one_line(options.user)
-            << " signs in once, within 15 minutes, at the page's address followed by /sign-in#"
+            << " can sign in once within 15 minutes, at the page's address followed by /sign-in#"
             << token << std::endl;
   return {};
 }
@@ -81,18 +81,18 @@ int obey(int argc, char** argv) {
   ::umask(077);
   std::signal(SIGPIPE, SIG_IGN);
   Options options;
-  CLI::App app("What is done on the daemon's machine; hydroprint admin runs this");
+  CLI::App app("Administration on the daemon's machine; hydroprint admin runs this");
   app.name("hydroprintd admin");
   app.require_subcommand(1);
-  CLI::App* const to_backup = add(app, "backup", "Write all there is to one file", options);
+  CLI::App* const to_backup = add(app, "backup", "Write a backup of all data to one file", options);
   to_backup->add_option("file", options.file)->required();
-  CLI::App* const to_restore = add(app, "restore", "Bring back what backup wrote", options);
+  CLI::App* const to_restore = add(app, "restore", "Restore a backup", options);
   to_restore->add_option("file", options.file)->required();
-  to_restore->add_flag("--replace", options.replaces, "Delete what is in the folder");
+  to_restore->add_flag("--replace", options.replaces, "Replace the content of the folder");
   CLI::App* const to_reset = add(app, "reset-password", "Set a user's password", options);
   to_reset->add_option("user", options.user)->required();
-  to_reset->add_flag("--stdin", options.from_stdin, "Read it from standard input");
-  CLI::App* const to_link = add(app, "sign-in-link", "Make a link to sign in with, once", options);
+  to_reset->add_flag("--stdin", options.from_stdin, "Read the password from standard input");
+  CLI::App* const to_link = add(app, "sign-in-link", "Make a link for signing in once", options);
   to_link->add_option("user", options.user)->required();
   try {
     app.parse(argc, argv);

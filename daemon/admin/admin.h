@@ -2,7 +2,7 @@
 
 namespace hydroprint::admin {
 
-/// `hydroprintd admin ...`: what `hydroprint admin` runs on the daemon's machine.
+/// Implements `hydroprintd admin ...`, which `hydroprint admin` runs on the daemon's machine.
 /// @param argv  from "admin" on
 /// @return the exit status
 [[nodiscard]] int obey(int argc, char** argv);

@@ -22,7 +22,7 @@ struct CloseEntry {
 };
 using Entry = std::unique_ptr<archive_entry, CloseEntry>;
 
-// The system's own number is what tells a full disk from the rest.
+// errno is needed to distinguish a full disk from other errors.
 tl::unexpected<Error> writing_failed(const std::filesystem::path& path, archive* out) {
   if (archive_errno(out) != ENOSPC && archive_errno(out) != EDQUOT) {
     const char* const words = archive_error_string(out);
@@ -72,15 +72,15 @@ ArchiveWriter::~ArchiveWriter() = default;
 Result<std::unique_ptr<ArchiveWriter>> ArchiveWriter::create(const std::filesystem::path& path) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) {
-    return fail(Code::kAlreadyExists, path.string() + ": is there already; name another file");
+    return fail(Code::kAlreadyExists, path.string() + ": already exists; name another file");
   }
   auto impl = std::make_unique<Impl>();
   impl->path = path;
   impl->part = path.string() + ".part";
   HP_ASSIGN_OR_RETURN(impl->file, daemon::open_file(impl->part, O_WRONLY | O_CREAT | O_TRUNC));
   impl->out = archive_write_new();
-  if (impl->out == nullptr) return fail(Code::kResourceExhausted, "there is no memory left");
-  // Names are bytes, whatever this process takes for letters.
+  if (impl->out == nullptr) return fail(Code::kResourceExhausted, "out of memory");
+  // Store names as bytes, whatever the locale.
   if (archive_write_set_format_pax_restricted(impl->out) != ARCHIVE_OK ||
       archive_write_set_format_option(impl->out, "pax", "hdrcharset", "BINARY") != ARCHIVE_OK ||
       archive_write_add_filter_none(impl->out) != ARCHIVE_OK ||
@@ -111,7 +111,7 @@ Result<std::string> ArchiveWriter::add(const std::string& name, const daemon::Un
   if (archive_write_finish_entry(impl_->out) != ARCHIVE_OK) {
     return writing_failed(impl_->part, impl_->out);
   }
-  return fail(Code::kDataLoss, name + ": is shorter than it was, or cannot be read");
+  return fail(Code::kDataLoss, name + ": shorter than expected, or cannot be read");
 }
 
 Status ArchiveWriter::add(const std::string& name, std::string_view content) {
@@ -122,7 +122,7 @@ Status ArchiveWriter::add(const std::string& name, std::string_view content) {
 Status ArchiveWriter::finish() {
   if (archive_write_close(impl_->out) != ARCHIVE_OK) return writing_failed(impl_->part, impl_->out);
   if (::fsync(impl_->file.get()) != 0) {
-    return daemon::system_failure(impl_->part, "cannot be made safe on disk");
+    return daemon::system_failure(impl_->part, "cannot be flushed to disk");
   }
   HP_RETURN_IF_ERROR(daemon::publish(impl_->part, impl_->path));
   impl_->is_finished = true;
@@ -135,7 +135,7 @@ struct ArchiveReader::Impl {
   }
   [[nodiscard]] tl::unexpected<Error> failed() const {
     const char* const words = archive_error_string(in);
-    return fail(Code::kInvalidArgument, path.string() + ": is no whole archive of ours: " +
+    return fail(Code::kInvalidArgument, path.string() + ": not a complete hydroprint archive: " +
                                             one_line(words == nullptr ? "no reason given" : words));
   }
 
@@ -157,8 +157,8 @@ Result<std::unique_ptr<ArchiveReader>> ArchiveReader::open(const std::filesystem
                 path.string() + ": cannot be read: " + std::generic_category().message(reason));
   }
   impl->in = archive_read_new();
-  if (impl->in == nullptr) return fail(Code::kResourceExhausted, "there is no memory left");
-  // Tar alone, and not packed: nothing that grows as it is read, no other format's parser.
+  if (impl->in == nullptr) return fail(Code::kResourceExhausted, "out of memory");
+  // Only uncompressed tar: nothing that expands when read, and no parser for other formats.
   if (archive_read_support_format_tar(impl->in) != ARCHIVE_OK ||
       archive_read_open_fd(impl->in, impl->file.get(), kPiece) != ARCHIVE_OK) {
     return impl->failed();

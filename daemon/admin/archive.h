@@ -13,25 +13,25 @@
 
 namespace hydroprint::admin {
 
-/// A tar archive that is being written; only its user may read it. What is not finished is deleted.
+/// Writes a tar archive that only its user may read. An unfinished archive is deleted.
 class ArchiveWriter {
  public:
-  /// The file is written under another name and gets its own when it is finished.
-  /// @return kAlreadyExists if it is there
+  /// Creates the file under a temporary name; finish() gives it its own name.
+  /// @return kAlreadyExists if the file exists
   [[nodiscard]] static Result<std::unique_ptr<ArchiveWriter>> create(
       const std::filesystem::path& path);
   ~ArchiveWriter();
   ArchiveWriter(const ArchiveWriter&) = delete;
   ArchiveWriter& operator=(const ArchiveWriter&) = delete;
 
-  /// Adds what a file holds, `size` bytes of it; its SHA-256, hex.
-  /// @param taken  is told of bytes as they go
-  /// @return kDataLoss if there are fewer: then zeros stand for them
+  /// Adds `size` bytes of a file and returns their SHA-256 in hex.
+  /// @param taken  called with the number of bytes as they are written
+  /// @return kDataLoss if the file is shorter; the rest is then filled with zeros
   [[nodiscard]] Result<std::string> add(const std::string& name, const daemon::UniqueFd& file,
                                         std::int64_t size,
                                         const std::function<void(std::int64_t)>& taken);
   [[nodiscard]] Status add(const std::string& name, std::string_view content);
-  /// All of it is on disk, under its name, when this returns.
+  /// Syncs the archive to disk and renames it.
   [[nodiscard]] Status finish();
 
  private:
@@ -40,14 +40,14 @@ class ArchiveWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// What an archive holds next.
+/// The header of the next entry in an archive.
 struct ArchiveEntry {
   std::string name;
   std::int64_t size = 0;
-  bool is_file = false;  ///< and no folder, link or device
+  bool is_file = false;  ///< a regular file: not a folder, link or device
 };
 
-/// An archive that is read from its beginning to its end. A file that is none, or is cut off, is
+/// Reads an archive from beginning to end. A file that is not an archive or is cut off is
 /// kInvalidArgument.
 class ArchiveReader {
  public:
@@ -57,9 +57,9 @@ class ArchiveReader {
   ArchiveReader(const ArchiveReader&) = delete;
   ArchiveReader& operator=(const ArchiveReader&) = delete;
 
-  /// None at the end.
+  /// nullopt at the end.
   [[nodiscard]] Result<std::optional<ArchiveEntry>> next();
-  /// The content of the entry that next() told of, by pieces; ends with the first error.
+  /// Reads the content of the current entry in pieces; stops at the first error.
   [[nodiscard]] Status read(const std::function<Status(std::string_view)>& piece);
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 using daemon::DbRow;
 
-/// The database as it was at one moment, in a file of its own, which goes with this.
+/// A snapshot of the database in a temporary file, deleted with this object.
 struct Snapshot {
   ~Snapshot() {
     database.reset();
@@ -25,7 +25,7 @@ struct Snapshot {
   std::unique_ptr<daemon::Database> database;
 };
 
-// What holds only where and when it was made stays out: a restored session would be one that was
+// Removes rows that are valid only for the running daemon. A restored session could be one that has
 // ended since.
 Status leave_out_what_passes(daemon::Database& snapshot) {
   for (const char* const table : {"uploads", "sessions", "sign_in_links", "lease"}) {
@@ -42,7 +42,8 @@ Result<bool> is_named(daemon::Database& database, const NamedFile& file) {
   return is_there;
 }
 
-// Takes a file that cannot be had out of the snapshot: with its job, if that was deleted meanwhile.
+// Removes an unreadable file from the snapshot, together with its job if that was deleted
+// meanwhile.
 Status forget(daemon::Database& snapshot, const NamedFile& file, bool is_deleted) {
   if (file.job == 0) return snapshot.run("DELETE FROM assets WHERE sha256=?", {file.sha256});
   if (is_deleted) return snapshot.run("DELETE FROM jobs WHERE id=?", {file.job});
@@ -50,7 +51,7 @@ Status forget(daemon::Database& snapshot, const NamedFile& file, bool is_deleted
                       {file.job, file.name});
 }
 
-/// One backup under way.
+/// One backup in progress.
 class Backup {
  public:
   Backup(State& state, Snapshot& snapshot, ArchiveWriter& out)
@@ -76,7 +77,7 @@ class Backup {
   }
 
  private:
-  // Whether it could be read, and holds what it should.
+  // Adds a file; false if it cannot be read or its content is wrong.
   Result<bool> take(const NamedFile& file, ProgressMeter& meter) {
     const auto in = daemon::open_file(state_.layout.root / file.name, O_RDONLY);
     if (!in) return false;
@@ -90,14 +91,15 @@ class Backup {
   Status leave_out(const NamedFile& file) {
     HP_ASSIGN_OR_RETURN(const bool is_still_named, is_named(*state_.database, file));
     if (is_still_named) {
-      contents_.warnings.push_back(file.name + " is missing or damaged, and not in the backup");
+      contents_.warnings.push_back(file.name +
+                                   " is missing or damaged, so it is not in the backup");
     }
     return forget(*snapshot_.database, file, !is_still_named);
   }
 
   Status take_database() {
     HP_ASSIGN_OR_RETURN(contents_.jobs, count_jobs(*snapshot_.database));
-    snapshot_.database.reset();  // all of it is in its file now
+    snapshot_.database.reset();  // flushes the database to its file
     HP_ASSIGN_OR_RETURN(const auto in, daemon::open_file(snapshot_.path, O_RDONLY));
     const auto size = static_cast<std::int64_t>(std::filesystem::file_size(snapshot_.path));
     HP_ASSIGN_OR_RETURN(const std::string hash,

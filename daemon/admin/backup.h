@@ -9,25 +9,26 @@
 
 namespace hydroprint::admin {
 
-/// What a backup, or a restored one, holds.
+/// Content of a backup or a restored state folder.
 struct Contents {
   std::int64_t jobs = 0, files = 0, bytes = 0;
-  std::vector<std::string> warnings;  ///< what is not in it, since it was damaged
+  std::vector<std::string> warnings;  ///< damaged files that were left out
 };
 
-/// Writes all of a state folder to one tar archive, as it was at one moment, while the daemon goes
-/// on: a snapshot of the database, and the assets and artifacts that it names. Left out: open
-/// uploads, records of dips under way, sessions, links and the lease. Shows its progress on stderr.
-/// @return kAlreadyExists if the file is there; kResourceExhausted, DISK_FULL; nothing is left then
+/// Writes a state folder to one tar archive while the daemon keeps running: a snapshot of the
+/// database, and the assets and artifacts that it names. Leaves out open uploads, records of dips
+/// in progress, sessions, links and the lease. Shows its progress on stderr.
+/// @return kAlreadyExists if the file exists; kResourceExhausted, DISK_FULL. No file is left after
+/// an error.
 [[nodiscard]] Result<Contents> backup(State& state, const std::filesystem::path& file);
 
-// The archive: assets/aa/..., artifacts/7/..., then the database, then what shows that it is whole.
+// Order in the archive: assets/aa/..., artifacts/7/..., the database, and the manifest, which
+// proves that the archive is complete.
 inline constexpr const char* kDatabaseName = "hydroprint.db";
 inline constexpr const char* kManifestName = "backup.json";
 inline constexpr int kBackupFormat = 1;
 
-/// A file that a database names: where it is in an archive and in a state folder, and what it
-/// holds.
+/// A file that a database names: its path in an archive and in a state folder, and its content.
 struct NamedFile {
   std::string name;  ///< "artifacts/7/film.png"
   std::int64_t size = 0;
@@ -36,7 +37,7 @@ struct NamedFile {
 };
 [[nodiscard]] Result<std::vector<NamedFile>> named_files(daemon::Database& database);
 
-/// How many jobs there are.
+/// Number of jobs.
 [[nodiscard]] Result<std::int64_t> count_jobs(daemon::Database& database);
 
 }  // namespace hydroprint::admin

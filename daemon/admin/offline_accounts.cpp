@@ -29,7 +29,7 @@ Result<std::string> sign_in_link(State& state, const std::string& user) {
   HP_ASSIGN_OR_RETURN(const auth::User found, accounts->user(user));
   if (found.disabled) {
     return fail(Code::kFailedPrecondition,
-                "users/" + user + ": is barred; an admin has to admit them first");
+                "users/" + user + ": barred from signing in; an admin must admit this user first");
   }
   HP_ASSIGN_OR_RETURN(const auto link, accounts->make_link(user));
   HP_RETURN_IF_ERROR(note(*state.database, "sign-in-link", "users/" + user));

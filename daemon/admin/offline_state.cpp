@@ -31,10 +31,11 @@ Status check_is_mine(const std::filesystem::path& folder) {
   if (::stat(folder.c_str(), &info) != 0) return daemon::system_failure(folder, "cannot be read");
   if (info.st_uid == ::geteuid()) return {};
   const std::string owner = user_name(info.st_uid);
-  return fail(Code::kPermissionDenied, folder.string() + ": belongs to " + owner +
-                                           ", whose daemon must be able to use all in it; run "
-                                           "this as that user (sudo -u " +
-                                           owner + " ...)");
+  return fail(Code::kPermissionDenied,
+              folder.string() + ": belongs to " + owner +
+                  ", whose daemon must be able to use all files in it; run "
+                  "this as that user (sudo -u " +
+                  owner + " ...)");
 }
 
 Result<State> open_state(const std::filesystem::path& root) {
@@ -42,10 +43,11 @@ Result<State> open_state(const std::filesystem::path& root) {
   HP_ASSIGN_OR_RETURN(state.layout.root, state_root(root));
   std::error_code ignored;
   if (!std::filesystem::exists(state.layout.database(), ignored)) {
-    return fail(Code::kNotFound,
-                state.layout.root.string() +
-                    ": is no state folder of hydroprintd, or not this user's to read; name the one "
-                    "that is, with --state-dir, and run this as the daemon's user");
+    return fail(
+        Code::kNotFound,
+        state.layout.root.string() +
+            ": not a state folder of hydroprintd, or not readable by this user; name the right "
+            "folder with --state-dir, and run this as the daemon's user");
   }
   HP_RETURN_IF_ERROR(check_is_mine(state.layout.root));
   HP_RETURN_IF_ERROR(daemon::check_restored(state.layout));
@@ -74,7 +76,7 @@ Status note(daemon::Database& database, const std::string& what, const std::stri
   audit.note(std::move(entry));
   auth::AuditFilter none;
   none.limit = 1;
-  HP_RETURN_IF_ERROR(audit.list(none));  // writes it, and says so if it cannot
+  HP_RETURN_IF_ERROR(audit.list(none));  // writes the entry, and fails if it cannot
   return {};
 }
 

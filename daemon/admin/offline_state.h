@@ -10,33 +10,33 @@
 
 namespace hydroprint::admin {
 
-/// A state folder that is there, seen from outside the daemon that may run on it.
+/// An existing state folder, opened by a process other than the daemon.
 struct State {
   daemon::Layout layout;
   std::unique_ptr<daemon::Database> database;
-  /// Held while no daemon runs, so that none begins meanwhile; not valid while one does.
+  /// Held while no daemon runs, so that none can start; not valid while a daemon runs.
   daemon::UniqueFd lock;
 
   [[nodiscard]] bool daemon_runs() const { return !lock.valid(); }
 };
 
-/// Opens a state folder's store as it is: it is not brought to this version, since a daemon of
-/// another one may run on it.
-/// @param root  empty: the one of this user's daemon
-/// @return kNotFound if there is none; kPermissionDenied if it is another user's, who alone may
-///   write there; kFailedPrecondition, as open_store_as_it_is() has it, or RESTORE_UNFINISHED
+/// Opens the store of a state folder without migrating it, since a daemon of another version may be
+/// running on it.
+/// @param root  empty: the folder of this user's daemon
+/// @return kNotFound if there is none; kPermissionDenied if it belongs to another user;
+/// kFailedPrecondition as in open_store_as_it_is(), or RESTORE_UNFINISHED
 [[nodiscard]] Result<State> open_state(const std::filesystem::path& root);
 
-/// That folder's path, whole; the user's own daemon's for an empty one.
+/// The absolute path of the folder; an empty `root` is the folder of the user's own daemon.
 [[nodiscard]] Result<std::filesystem::path> state_root(const std::filesystem::path& root);
 
-/// Refuses (kPermissionDenied) a folder of another user's.
+/// Refuses (kPermissionDenied) a folder that belongs to another user.
 [[nodiscard]] Status check_is_mine(const std::filesystem::path& folder);
 
-/// The name, on this machine, of whoever runs this, or of who became this user by sudo.
+/// The name of the user who runs this process, or of the user who called sudo.
 [[nodiscard]] std::string operator_name();
 
-/// Writes to the audit log of the store what was done from the command line.
+/// Adds a command to the audit log of the store.
 [[nodiscard]] Status note(daemon::Database& database, const std::string& what,
                           const std::string& object);
 

@@ -6,14 +6,14 @@
 
 namespace hydroprint::admin {
 
-/// "1.4 GB"
+/// A size for people: "1.4 GB".
 [[nodiscard]] std::string bytes_text(std::int64_t bytes);
 
-/// Shows on stderr how far something is and how long it will take: a line that is written anew on a
-/// terminal, else a line every ten seconds.
+/// Shows progress and the remaining time on stderr: one line that is updated on a terminal,
+/// otherwise a line every ten seconds.
 class ProgressMeter {
  public:
-  /// @param what  "backup"
+  /// @param what  name of the operation: "backup"
   ProgressMeter(std::string what, std::int64_t total_bytes);
   /// Ends the line.
   ~ProgressMeter();

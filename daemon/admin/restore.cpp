@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::int64_t kLargestManifest = 1 << 16;
 
-// All that a daemon keeps in its folder but for the lock.
+// Everything that a daemon keeps in its folder, except the lock.
 const std::vector<std::string>& kept_names() {
   static const std::vector<std::string> all{
       "assets", "artifacts",     "uploads",           "runs",
@@ -29,7 +29,7 @@ const std::vector<std::string>& kept_names() {
   return all;
 }
 
-// Names are what named_files() makes of a database, and nothing else: no way out of the folder.
+// Accepts only names that named_files() can return, so no path leads out of the folder.
 bool is_name_of_ours(const std::string& name) {
   if (name == kDatabaseName || name == kManifestName) return true;
   if (name.starts_with("assets/")) {
@@ -42,7 +42,7 @@ bool is_name_of_ours(const std::string& name) {
          daemon::check_file_name("name", name.substr(slash + 1)).has_value();
 }
 
-/// An archive that is unpacked to a folder, which goes with this unless it was taken.
+/// An archive unpacked to a folder, which is deleted with this object unless it was moved away.
 class Unpacked {
  public:
   Unpacked(std::filesystem::path file, std::filesystem::path folder)
@@ -52,7 +52,7 @@ class Unpacked {
   Unpacked& operator=(const Unpacked&) = delete;
 
   Result<Contents> run() {
-    daemon::discard(folder_);  // of one that was broken off
+    daemon::discard(folder_);  // left by an interrupted restore
     HP_RETURN_IF_ERROR(daemon::make_folder(folder_));
     HP_RETURN_IF_ERROR(unpack());
     HP_RETURN_IF_ERROR(check_manifest());
@@ -75,7 +75,7 @@ class Unpacked {
       if (!entry) return {};
       if (!entry->is_file || !is_name_of_ours(entry->name) || hashes_.contains(entry->name)) {
         return refused("holds \"" + one_line(entry->name).substr(0, 100) +
-                       "\", which no backup of ours does");
+                       "\", which is not part of a backup");
       }
       HP_RETURN_IF_ERROR(unpack_one(*in, *entry, meter));
     }
@@ -97,16 +97,16 @@ class Unpacked {
       return {};
     });
     HP_RETURN_IF_ERROR(read);
-    if (::fsync(out.get()) != 0) return daemon::system_failure(path, "cannot be made safe on disk");
+    if (::fsync(out.get()) != 0) return daemon::system_failure(path, "cannot be flushed to disk");
     hashes_[entry.name] = hash.finish();
     return {};
   }
 
-  // It comes last, so that one that is there says that the archive is whole.
+  // The manifest comes last, so its presence proves that the archive is complete.
   Status check_manifest() {
     const auto path = folder_ / kManifestName;
     if (!hashes_.contains(kManifestName) || !hashes_.contains(kDatabaseName)) {
-      return refused("is no backup, or not a whole one");
+      return refused("not a backup, or not a complete one");
     }
     std::string text(static_cast<std::size_t>(kLargestManifest), '\0');
     HP_ASSIGN_OR_RETURN(const auto in, daemon::open_file(path, O_RDONLY));
@@ -114,10 +114,10 @@ class Unpacked {
     text.resize(count < 0 ? 0 : static_cast<std::size_t>(count));
     const auto manifest = parse_json(text).value_or(nlohmann::json());
     if (!manifest.is_object() || manifest.value("format", nlohmann::json()) != kBackupFormat) {
-      return refused("is a backup that another version made; use that version's hydroprintd");
+      return refused("made by another version; use that version's hydroprintd");
     }
     if (manifest.value("database_sha256", nlohmann::json()) != hashes_[kDatabaseName]) {
-      return refused("is damaged: its database is not what was backed up");
+      return refused("damaged: the database does not match its hash");
     }
     daemon::discard(path);
     hashes_.erase(kManifestName);
@@ -130,14 +130,14 @@ class Unpacked {
     std::string verdict;
     HP_RETURN_IF_ERROR(database->each("PRAGMA quick_check(1)", {},
                                       [&](const daemon::DbRow& row) { verdict = row.text(0); }));
-    if (verdict != "ok") return refused("is damaged: " + one_line(verdict));
+    if (verdict != "ok") return refused("damaged: " + one_line(verdict));
     Contents contents;
     HP_ASSIGN_OR_RETURN(const auto files, named_files(*database));
     std::set<std::string> named{kDatabaseName};
     for (const NamedFile& file : files) {
       const auto found = hashes_.find(file.name);
       if (found == hashes_.end() || found->second != file.sha256) {
-        return refused("is damaged: " + one_line(file.name) + " is not what was backed up");
+        return refused("damaged: " + one_line(file.name) + " does not match its hash");
       }
       named.insert(file.name);
       ++contents.files;
@@ -155,7 +155,7 @@ class Unpacked {
   std::map<std::string, std::string> hashes_;  // by name
 };
 
-// What is in the folder, but for the lock and what a restore that was broken off left.
+// Whether the folder has no content, ignoring the lock and the remains of an interrupted restore.
 bool is_empty(const daemon::Layout& layout) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(layout.root, error)) {
@@ -164,7 +164,7 @@ bool is_empty(const daemon::Layout& layout) {
   return !error;
 }
 
-// The one step that is not undone. While the mark is there no daemon starts.
+// The only step that cannot be undone. No daemon starts while the mark exists.
 Status replace(const daemon::Layout& layout) {
   const auto mark = layout.unrestored();
   {
@@ -198,7 +198,7 @@ Result<Contents> restore(const std::filesystem::path& root, const std::filesyste
   if (!replaces && !was_begun && !is_empty(layout)) {
     return fail(Code::kFailedPrecondition,
                 layout.root.string() +
-                    ": is not empty; name another folder, or say --replace if all in it may go");
+                    ": not empty; name another folder, or add --replace to delete its content");
   }
   Unpacked unpacked(std::filesystem::absolute(file), layout.restoring());
   HP_ASSIGN_OR_RETURN(Contents contents, unpacked.run());

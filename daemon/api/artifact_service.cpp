@@ -75,8 +75,8 @@ class ArtifactService final : public v1::ArtifactService::Service {
     HP_ASSIGN_OR_RETURN(const auto artifact, backend_.jobs.artifact(name.first, name.second));
     if (request.offset() < 0 || request.offset() > artifact.size_bytes) {
       auto error = fail(Code::kOutOfRange,
-                        "offset: lies beyond the " + std::to_string(artifact.size_bytes) +
-                            " bytes of the artifact; begin at or before its end",
+                        "offset: beyond the " + std::to_string(artifact.size_bytes) +
+                            " bytes of the artifact; start at or before its end",
                         "OFFSET_MISMATCH");
       error.value().metadata["expected_offset"] = std::to_string(artifact.size_bytes);
       return error;
@@ -91,7 +91,7 @@ class ArtifactService final : public v1::ArtifactService::Service {
   }
 
   static tl::unexpected<Error> damaged(const std::string& name) {
-    return fail(Code::kDataLoss, name + ": its file is damaged; retry the job", "ARTIFACT_DAMAGED");
+    return fail(Code::kDataLoss, name + ": the file is damaged; retry the job", "ARTIFACT_DAMAGED");
   }
 
   static Status send(const v1::DownloadArtifactRequest& request, const UniqueFd& file,
@@ -107,7 +107,7 @@ class ArtifactService final : public v1::ArtifactService::Service {
       data.resize(static_cast<std::size_t>(count));
       chunk.set_offset(offset);
       offset += count;
-      if (!writer.Write(chunk)) return fail(Code::kCancelled, "the client left");
+      if (!writer.Write(chunk)) return fail(Code::kCancelled, "the client disconnected");
     } while (offset < size);
     return {};
   }

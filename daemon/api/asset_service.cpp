@@ -106,13 +106,14 @@ class AssetService final : public v1::AssetService::Service {
                                 grpc::ServerReader<v1::UploadChunkRequest>& reader) {
     HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
     v1::UploadChunkRequest chunk;
-    if (!reader.Read(&chunk)) return invalid_field("upload", "is missing: no message came");
+    if (!reader.Read(&chunk))
+      return invalid_field("upload", "is missing: the stream has no messages");
     HP_ASSIGN_OR_RETURN(const std::string id, parse_upload_name(chunk.upload()));
     HP_ASSIGN_OR_RETURN(const auto writer, UploadWriter::open(backend_.assets, id, user.name));
     do {
       HP_RETURN_IF_ERROR(check_fields(chunk));
       if (!chunk.upload().empty() && chunk.upload() != "uploads/" + id) {
-        return invalid_field("upload", "changed within one call; use a call for each");
+        return invalid_field("upload", "changed within one call; use one call per upload");
       }
       HP_RETURN_IF_ERROR(writer->append(chunk.offset(), chunk.data()));
     } while (reader.Read(&chunk));

@@ -29,7 +29,7 @@ constexpr std::chrono::milliseconds kWritten_ms{2000};
 constexpr std::size_t kLongestDetail = 300;
 constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // only computes
 
-// "/hydroprint.v1.RigService/MoveTo" to "RigService.MoveTo".
+// Turns "/hydroprint.v1.RigService/MoveTo" into "RigService.MoveTo".
 std::string short_name(const std::string& method) {
   const auto slash = method.rfind('/');
   const auto dot = method.rfind('.', slash);
@@ -44,7 +44,7 @@ std::string text_field(const Message& message, const char* name) {
   return one_line(message.GetReflection()->GetString(message, field).substr(0, kLongestDetail));
 }
 
-// "jobs/7": what the message is about.
+// The object of a message: "jobs/7".
 std::string object_of(const Message& message) {
   for (const char* const name : {"name", "parent"}) {
     if (std::string text = text_field(message, name); !text.empty()) return text;
@@ -72,7 +72,7 @@ std::string plain_text(const Message& message, const FieldDescriptor& field) {
   }
 }
 
-// Numbers, choices and reasons of a request; other text may be a secret.
+// Numbers, enums and reasons of a request. Other text is left out, since it may be secret.
 std::string detail_of(const Message& message) {
   std::string out = text_field(message, "reason");
   std::vector<const FieldDescriptor*> set;
@@ -103,7 +103,7 @@ std::string outcome_of(const grpc::Status& status) {
   return "UNKNOWN";
 }
 
-/// Whether something said again and again is to be told of now.
+/// Whether a frequent call is due to be recorded.
 class Quiet {
  public:
   bool is_new(const std::string& key) {
@@ -156,7 +156,7 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
     entry_.object = object_of(*request);
     entry_.detail = detail_of(*request);
   }
-  // What was created has its name from here.
+  // A created object gets its name only in the reply.
   void see_reply(const Message* reply) {
     if (reply != nullptr && entry_.object.empty()) entry_.object = object_of(*reply);
   }
@@ -186,7 +186,7 @@ class AuditInterceptorFactory final : public grpc::experimental::ServerIntercept
 
   grpc::experimental::Interceptor* CreateServerInterceptor(ServerRpcInfo* call) override {
     return is_noted(call->method()) ? new AuditInterceptor(*call, around_)
-                                    : nullptr;  // gRPC takes it
+                                    : nullptr;  // gRPC takes ownership
   }
 
  private:

@@ -8,11 +8,12 @@
 
 namespace hydroprint::daemon {
 
-/// Sees the calls that change something (by their google.api.http: all but those that get) and
-/// notes who made them, on what, and how they ended. Left out: calls of nobody known, SignIn, which
-/// notes itself, uploaded chunks, previews, and of what is said again and again (Jog, RenewLease)
-/// all but once a minute. A call is answered once its entry is on disk, or after two seconds; those
-/// that stop the rig or hold it in motion (StopMotion, Jog, RenewLease) never wait for that.
+/// Records calls that change something (all except google.api.http GET): the caller, the object and
+/// the result. Leaves out unauthenticated calls, SignIn (which records itself), uploaded chunks and
+/// previews. Frequent calls (Jog, RenewLease) are recorded at most once a minute.
+///
+/// A call is answered once its entry is on disk, or after two seconds. Calls that stop the rig or
+/// keep it in motion (StopMotion, Jog, RenewLease) never wait.
 [[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>
 make_audit_interceptor(auth::AuditLog& audit);
 

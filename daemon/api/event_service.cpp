@@ -18,7 +18,7 @@ using google::protobuf::util::MessageDifferencer;
 using std::chrono::milliseconds;
 using EventClock = std::chrono::steady_clock;
 
-constexpr int kMostEventWatches = 128;  // each holds a thread
+constexpr int kMostEventWatches = 128;  // each occupies a thread
 constexpr int kEventBatch = 100;
 constexpr milliseconds kRigPeriod{100};
 constexpr milliseconds kRigQuietest{2000};
@@ -44,13 +44,13 @@ Result<Topics> topics_of(const v1::WatchEventsRequest& request) {
   return topics;
 }
 
-/// What all watches look at together.
+/// Values that all watches share.
 struct Shared {
   Cached<v1::Rig> rig;
   Cached<v1::Queue> queue;
 };
 
-/// One watch, in the thread of its call.
+/// One watch, running in the thread of its call.
 class EventWatch {
  public:
   EventWatch(const ServiceContext& backend, Shared& shared, const Topics& topics,
@@ -78,7 +78,7 @@ class EventWatch {
       HP_RETURN_IF_ERROR(send_queue());
       HP_RETURN_IF_ERROR(check_serving(backend_));
       HP_RETURN_IF_ERROR(backend_.access.check_still(caller_));
-      if (context.IsCancelled()) return fail(Code::kCancelled, "the client left");
+      if (context.IsCancelled()) return fail(Code::kCancelled, "the client disconnected");
       if (is_all) backend_.jobs.notifier().wait(rings, topics_.rig ? kRigPeriod : kEventNap);
     }
   }
@@ -86,10 +86,10 @@ class EventWatch {
  private:
   Status send(const v1::WatchEventsResponse& message) {
     if (writer_.Write(message)) return {};
-    return fail(Code::kCancelled, "the client left");
+    return fail(Code::kCancelled, "the client disconnected");
   }
 
-  // True if there are no more for now.
+  // Returns true if no more events are pending.
   Result<bool> send_jobs() {
     if (!topics_.job) return true;
     HP_ASSIGN_OR_RETURN(const auto events, backend_.jobs.all_events(seq_, kEventBatch));
@@ -110,7 +110,7 @@ class EventWatch {
   Status send_rig() {
     if (!topics_.rig) return {};
     const auto since = EventClock::now() - rig_sent_;
-    // A nap may be short by a little, and the rate must not halve for it.
+    // A wait may end slightly early; without this tolerance the rate would halve.
     if (since < kRigPeriod - kRigPeriod / 10) return {};
     const auto rig = shared_.rig.get();
     if (since < kRigQuietest && looks_same(*rig, rig_)) return {};

@@ -15,13 +15,13 @@
 namespace hydroprint::daemon {
 namespace {
 
-// Every watch and every running transfer holds a thread.
+// Every watch and every running transfer occupies a thread.
 constexpr int kMostThreads = 512;
-// Of an answer, which has no limit but that of what it lists.
+// Maximum size of a response; only the page size limits lists.
 constexpr int kMostAnswer_bytes = 64 << 20;
 
 constexpr int kHandshake_ms = 10'000;
-constexpr int kIdle_ms = 600'000;  // without a call; clients come back by themselves
+constexpr int kIdle_ms = 600'000;  // without a call; clients reconnect automatically
 
 constexpr const char* kRigService = "hydroprint.v1.RigService";  // serves while the rig works
 struct NamedService {

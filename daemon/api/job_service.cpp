@@ -13,7 +13,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-constexpr int kMostWatches = 128;  // each holds a thread
+constexpr int kMostWatches = 128;  // each occupies a thread
 
 class JobService final : public v1::JobService::Service {
  public:
@@ -99,7 +99,7 @@ class JobService final : public v1::JobService::Service {
     return backend_.jobs.get(id);
   }
 
-  // A job that the caller may change.
+  // Loads a job that the caller may change.
   Result<Job> own(const grpc::ServerContext& context, const std::string& name) const {
     HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const Job job, get(name));
@@ -160,7 +160,7 @@ class JobService final : public v1::JobService::Service {
     HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(request.name()));
     if (!v1::DipStatus::Step_IsValid(request.step()) ||
         request.step() == v1::DipStatus::STEP_UNSPECIFIED) {
-      return invalid_field("step", "is no step of a dip");
+      return invalid_field("step", "is not a step of a dip");
     }
     HP_ASSIGN_OR_RETURN(const Lease lease, backend_.gateway.leases().require(request.lease_id()));
     return backend_.dips.confirm(id, static_cast<dip::Step>(request.step()), lease.holder);

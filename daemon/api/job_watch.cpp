@@ -6,9 +6,9 @@ namespace {
 constexpr int kBatch = 100;
 constexpr std::chrono::milliseconds kLongestNap{250};
 
-tl::unexpected<Error> client_gone() { return fail(Code::kCancelled, "the client left"); }
+tl::unexpected<Error> client_gone() { return fail(Code::kCancelled, "the client disconnected"); }
 
-// Sends events after `seq` and moves it on; true if there were any.
+// Sends events after `seq` and advances it; true if there were any.
 Result<bool> send_events(const ServiceContext& backend, std::int64_t id, std::int64_t& seq,
                          const std::function<bool(const WatchItem&)>& send) {
   HP_ASSIGN_OR_RETURN(const auto events, backend.jobs.events(id, seq, kBatch));
@@ -29,7 +29,7 @@ Status watch_job(const ServiceContext& backend, std::int64_t id,
                  std::optional<std::int64_t> after_seq,
                  const std::function<bool(const WatchItem&)>& send,
                  const std::function<bool()>& gone) {
-  // The number before the job: an event between the two is sent again rather than lost.
+  // Reads the number before the job: an event between the two is sent twice rather than lost.
   HP_ASSIGN_OR_RETURN(std::int64_t seq, backend.jobs.last_seq());
   if (after_seq) {
     HP_RETURN_IF_ERROR(backend.jobs.events(id, *after_seq, 1));
@@ -39,7 +39,7 @@ Status watch_job(const ServiceContext& backend, std::int64_t id,
   if (!send({seq, first, {}})) return client_gone();
   for (;;) {
     const std::uint64_t rings = backend.jobs.notifier().count();
-    // The state before the events: nothing follows the end of a job.
+    // Reads the state before the events: no event follows the end of a job.
     HP_ASSIGN_OR_RETURN(const Job job, backend.jobs.get(id));
     HP_ASSIGN_OR_RETURN(const bool sent, send_events(backend, id, seq, send));
     if (sent) continue;

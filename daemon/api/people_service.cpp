@@ -15,9 +15,9 @@ namespace {
 using auth::Caller;
 using auth::Role;
 
-constexpr std::chrono::milliseconds kSignInWritten{2000};  // to the audit log
+constexpr std::chrono::milliseconds kSignInWritten{2000};  // timeout for writing to the audit log
 
-// What stands behind the collection's name: "users/ann" to "ann".
+// The id after the collection's name: "users/ann" gives "ann".
 Result<std::string> name_in(const std::string& collection, const std::string& name) {
   if (!name.starts_with(collection + "/")) {
     return fail(Code::kInvalidArgument, "name: must be like " + collection + "/NAME", "ID_INVALID");
@@ -68,7 +68,7 @@ v1::AuditEntry entry_message(const auth::AuditEntry& entry) {
   return out;
 }
 
-// What is not theirs is, to those who are no admins, not there.
+// Other users' keys and sessions do not exist for callers who are not admins.
 bool is_hidden(const Caller& caller, const std::string& owner) {
   return caller.role < Role::kAdmin && caller.name != owner;
 }
@@ -150,7 +150,7 @@ class PeopleService final : public v1::PeopleService::Service {
     return grpc::Status::OK;
   }
 
-  // Attempts that had to wait are not noted: a stranger could fill the store with them.
+  // Throttled attempts are not recorded, since anybody could fill the store with them.
   void note_sign_in(const grpc::ServerContext& context, const v1::SignInRequest& request,
                     const Result<auth::SignedIn>& outcome) {
     if (!outcome && outcome.error().reason == "TOO_MANY_ATTEMPTS") return;
@@ -175,7 +175,7 @@ class PeopleService final : public v1::PeopleService::Service {
                  v1::SignInResponse& reply) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
     if (request.link_token().empty() == request.user().empty()) {
-      return invalid_field("user", "is needed, with a password, or a link_token instead");
+      return invalid_field("user", "is required with a password, unless link_token is set");
     }
     const std::string peer = credentials_of(context).peer;
     const auto in = request.link_token().empty()
@@ -263,16 +263,15 @@ class PeopleService final : public v1::PeopleService::Service {
     return backend_.accounts.set_password(name, request.new_password(), caller.session);
   }
 
-  // Where there is none yet it takes a session, which a link began: a key may be allowed less than
-  // its user is, who signs in with the password.
+  // Without an old password the caller must have a session, which a link started. A key may have a
+  // lower role than its user, who gets the full role by signing in with the password.
   Status check_old_password(const Caller& caller, const auth::User& user,
                             const std::string& password, const grpc::ServerContext& context) {
     if (user.password.empty() && !caller.session.empty()) return {};
     const Status right =
         backend_.accounts.check_password(user.name, password, credentials_of(context).peer);
     if (right || right.error().code != Code::kUnauthenticated) return right;
-    return fail(Code::kPermissionDenied,
-                "old_password: is not the one that holds; ask an admin for a new one",
+    return fail(Code::kPermissionDenied, "old_password: wrong password; ask an admin to reset it",
                 "SIGN_IN_FAILED");
   }
 
@@ -284,7 +283,7 @@ class PeopleService final : public v1::PeopleService::Service {
     return {};
   }
 
-  // Whose things a caller wants to see: of all only as an admin.
+  // The user whose keys or sessions a caller wants to list; only an admin may list all users'.
   static Result<std::string> wanted(const Caller& caller, const std::string& user) {
     if (user.empty()) return caller.role == Role::kAdmin ? std::string() : caller.name;
     HP_ASSIGN_OR_RETURN(std::string name, name_in("users", user));
@@ -309,7 +308,7 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     if (!caller.is_user) {
       return fail(Code::kFailedPrecondition,
-                  "there are no users yet, and nobody needs a key; create a user first",
+                  "there are no users yet, so keys are not needed; create a user first",
                   "STATE_FORBIDS");
     }
     HP_RETURN_IF_ERROR(check_fields(request));
@@ -330,7 +329,8 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("apiKeys", request.name()));
     const auto key = backend_.accounts.key(id);
     if (!key || is_hidden(caller, key->user)) {
-      return fail(Code::kNotFound, request.name() + ": you have no such API key", "KEY_NOT_FOUND");
+      return fail(Code::kNotFound, request.name() + ": there is no such API key of yours",
+                  "KEY_NOT_FOUND");
     }
     return backend_.accounts.remove_key(id);
   }
@@ -361,7 +361,7 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("sessions", request.name()));
     const auto session = backend_.accounts.session(id);
     if (!session || is_hidden(caller, session->user)) {
-      return fail(Code::kNotFound, request.name() + ": you have no such session",
+      return fail(Code::kNotFound, request.name() + ": there is no such session of yours",
                   "SESSION_NOT_FOUND");
     }
     return backend_.accounts.end_session(id);

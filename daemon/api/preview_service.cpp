@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Throws nlohmann's exceptions where the worker left something out.
+// Throws nlohmann's exceptions if a key is missing.
 void add_warnings(const Json& head, v1::Preview& out) {
   for (const Json& told : head.at("warnings")) {
     v1::Preview::Warning& warning = *out.add_warnings();
@@ -80,7 +80,7 @@ class PreviewService final : public v1::PreviewService::Service {
       add_dip(std::move(shown.dip), reply);
     } catch (const Json::exception& error) {
       return fail(Code::kInternal,
-                  std::string("the worker says what no preview says: ") + error.what() +
+                  std::string("the worker's preview cannot be read: ") + error.what() +
                       "; check that workers.program is hydroprint-worker",
                   "WORKER_UNUSABLE");
     }

@@ -19,14 +19,14 @@ namespace {
 using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
-// With JobService's, far fewer than the server has threads.
+// Together with JobService's limit, far below the server's number of threads.
 constexpr int kMostRigWatches = 32;
 constexpr double kDefaultRate_hz = 10;
 constexpr std::chrono::seconds kQuietest{2};
 constexpr milliseconds kWatchLook{100};
 constexpr double kDefaultSpeed_mm_per_s = 5;
 
-/// StopMotion is answered by threads of its own, which no other call can use up.
+/// StopMotion has its own threads, which other calls cannot exhaust.
 class RigService final
     : public v1::RigService::WithCallbackMethod_StopMotion<v1::RigService::Service> {
  public:
@@ -120,7 +120,7 @@ class RigService final
     return grpc::Status::OK;
   }
 
-  /// Gives an order, waits until the drive took it, and logs it.
+  /// Gives an order, waits until the drive has accepted it, and logs it.
   template <class Request>
   grpc::Status command(const grpc::ServerContext& context, const Request& request,
                        const char* event, const RigGateway::Order& order, v1::Rig* reply) {
@@ -136,13 +136,13 @@ class RigService final
     return answer(done, reply);
   }
 
-  /// Does it unless a request of the same id was done before.
+  /// Runs `action` unless a request with the same id was carried out before.
   template <class Request, class Action>
   grpc::Status once(const grpc::ServerContext& context, const Request& request, const char* method,
                     const Action& action, v1::Rig* reply) {
     if (const Status good = check_fields(request); !good) return to_grpc(good);
     if (request.request_id().empty()) return action();
-    const std::lock_guard lock(once_mutex_);  // the same request may come twice at a time
+    const std::lock_guard lock(once_mutex_);  // the same request may arrive twice at once
     const RequestKey key = request_key(method, request);
     const auto owner = owner_of(backend_, context);
     if (!owner) return to_grpc(owner.error());
@@ -184,13 +184,13 @@ class RigService final
     for (bool first = true;; std::this_thread::sleep_for(kWatchLook)) {
       HP_RETURN_IF_ERROR(check_serving(backend_));
       HP_RETURN_IF_ERROR(backend_.access.check_still(caller));
-      if (context.IsCancelled()) return fail(Code::kCancelled, "the client left");
+      if (context.IsCancelled()) return fail(Code::kCancelled, "the client disconnected");
       const auto since = SteadyClock::now() - sent_at;
-      // A sleep may be short by a little, and the rate must not halve for it.
+      // A sleep may end slightly early; without this tolerance the rate would halve.
       if (!first && since < period - kWatchLook / 10) continue;
       v1::Rig now = rig_message(backend_.gateway);
       if (!first && since < quietest && looks_same(now, sent)) continue;
-      if (!writer.Write(now)) return fail(Code::kCancelled, "the client left");
+      if (!writer.Write(now)) return fail(Code::kCancelled, "the client disconnected");
       first = false;
       sent_at = SteadyClock::now();
       sent = std::move(now);

@@ -18,7 +18,7 @@ Result<int> page_size(std::int32_t asked, int otherwise) {
 
 Status check_serving(const ServiceContext& backend) {
   if (!backend.stopping) return {};
-  return fail(Code::kUnavailable, "the daemon is shutting down; try again when it is back",
+  return fail(Code::kUnavailable, "the daemon is shutting down; try again after it has restarted",
               "SHUTTING_DOWN");
 }
 
@@ -28,7 +28,7 @@ Error never_again(Error error) {
 }
 
 tl::unexpected<Error> bad_page_token() {
-  return fail(Code::kInvalidArgument, "page_token: no page gave this one; begin again without it",
+  return fail(Code::kInvalidArgument, "page_token: not valid; repeat the request without it",
               "PAGE_TOKEN_INVALID");
 }
 

@@ -22,7 +22,7 @@
 
 namespace hydroprint::daemon {
 
-/// What the services work on.
+/// The objects that the services use.
 struct ServiceContext {
   Database& database;
   auth::Accounts& accounts;
@@ -43,31 +43,32 @@ struct ServiceContext {
   Layout layout;
   std::int64_t min_free_bytes = 0;
   Quota quota;
-  /// True from the moment the daemon goes down: streams end, nothing new begins.
+  /// True once the daemon starts to shut down: streams end, and new calls are refused.
   const std::atomic<bool>& stopping;
 };
 
-/// The name of whoever calls (see Authenticator::caller): what is created is theirs.
+/// The name of the caller (see Authenticator::caller), who owns created resources.
 [[nodiscard]] Result<std::string> owner_of(const ServiceContext& backend,
                                            const grpc::ServerContextBase& context);
 
-/// Size of a page: the default for 0, at most 1000; negative sizes are refused (SPEC_INVALID).
+/// Page size: the default for 0, at most 1000; a negative size is refused (SPEC_INVALID).
 [[nodiscard]] Result<int> page_size(std::int32_t asked, int otherwise);
 
-/// kUnavailable, SHUTTING_DOWN once the daemon goes down.
+/// kUnavailable, SHUTTING_DOWN once the daemon shuts down.
 [[nodiscard]] Status check_serving(const ServiceContext& backend);
 
-/// Clients try again by themselves what is UNAVAILABLE: for calls that may move the rig, the same
-/// error as kAborted, and so is a drive that was busy.
+/// Converts UNAVAILABLE (also for a busy drive) to kAborted for calls that may move the rig, since
+/// clients retry UNAVAILABLE automatically.
 [[nodiscard]] Error never_again(Error error);
 
-/// kInvalidArgument, PAGE_TOKEN_INVALID.
+/// The error kInvalidArgument, PAGE_TOKEN_INVALID.
 [[nodiscard]] tl::unexpected<Error> bad_page_token();
 
-/// Reads a page token that is a number; 0 for none.
+/// Parses a numeric page token; 0 for an empty one.
 [[nodiscard]] Result<std::int64_t> number_token(const std::string& token);
 
-/// Given one item more than a page holds: drops it, and tells whether it was there.
+/// Removes the extra item from a list with one item more than the page size. Returns whether there
+/// was one.
 template <class Items>
 [[nodiscard]] bool cut_page(Items& items, int size) {
   if (items.size() <= static_cast<std::size_t>(size)) return false;

@@ -8,8 +8,8 @@
 
 namespace hydroprint::daemon {
 
-/// The services of proto/hydroprint/v1, where each method is described. They check what comes in,
-/// call the stores and translate what comes out.
+/// The services of proto/hydroprint/v1, where each method is described. They check requests, call
+/// the stores and convert the results to messages.
 [[nodiscard]] std::unique_ptr<grpc::Service> make_job_service(const ServiceContext& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_queue_service(const ServiceContext& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_asset_service(const ServiceContext& backend);

@@ -6,39 +6,39 @@
 
 namespace hydroprint::auth {
 
-/// What somebody may do; numbers and meanings as hydroprint.v1.Role.
+/// Permission level; numbers and meanings as in hydroprint.v1.Role.
 enum class Role : std::int8_t { kViewer = 1, kMaker = 2, kOperator = 3, kAdmin = 4 };
 
-/// "OPERATOR".
+/// The role's name: "OPERATOR".
 [[nodiscard]] const char* name_of(Role role);
 
-/// Somebody who may use the daemon. Times, here and below, are Unix times in ms.
+/// A person who may use the daemon. Times, here and below, are Unix times in ms.
 struct User {
   std::string name;
   Role role = Role::kViewer;
   bool disabled = false;
-  std::string password;  ///< what hash_password() gave; empty: there is none
+  std::string password;  ///< result of hash_password(); empty: no password
   std::int64_t create_ms = 0;
 };
 
-/// A key that stands for a user in scripts.
+/// A key with which scripts act as a user.
 struct ApiKey {
   std::string id;
   std::string user;
   std::string display_name;
   std::string secret_hash;
-  Role role = Role::kViewer;  ///< as it was given; the user's own role counts if it is lower
+  Role role = Role::kViewer;  ///< as granted; the user's own role counts if it is lower
   std::int64_t create_ms = 0;
   std::int64_t expire_ms = 0;  ///< 0: never
   std::int64_t use_ms = 0;     ///< 0: never used
 };
 
-/// Somebody who is signed in.
+/// A signed-in session.
 struct Session {
   std::string id;
   std::string user;
   std::string token_hash;
-  std::string peer;  ///< address from which it began
+  std::string peer;  ///< address of the client that signed in
   std::int64_t create_ms = 0;
   std::int64_t use_ms = 0;
 };

@@ -11,8 +11,7 @@ namespace {
 constexpr std::size_t kMostUsers = 10000;
 
 tl::unexpected<Error> no_such_user(const std::string& name) {
-  return fail(Code::kNotFound, "users/" + name + ": there is no such user (any more)",
-              "USER_NOT_FOUND");
+  return fail(Code::kNotFound, "users/" + name + ": there is no such user", "USER_NOT_FOUND");
 }
 
 User read_user(const daemon::DbRow& row) {
@@ -86,8 +85,8 @@ Result<std::unique_ptr<Accounts>> Accounts::open(daemon::Database& database,
   return accounts;
 }
 
-// Telling who calls does not wait for this. When keys and sessions were used last, this process
-// knows better than the rows.
+// Identifying callers does not wait for this. The times at which keys and sessions were last used
+// are newer in memory than in the rows.
 Status Accounts::reload() {
   const std::lock_guard writing(writing_);
   std::map<std::string, User> users;
@@ -183,16 +182,17 @@ std::vector<User> Accounts::users(const std::string& after, std::size_t limit) c
   return out;
 }
 
-// `instead` stands where the user of that name stood; null: nobody does.
+// Checks as if `instead` replaced the user of that name; null: as if the user were deleted.
 Status Accounts::check_admin_without(const std::string& name, const User* instead) const {
   const std::lock_guard lock(now_);
   if (instead != nullptr && is_active_admin(*instead)) return {};
   for (const auto& [other, user] : users_) {
     if (other != name && is_active_admin(user)) return {};
   }
-  return fail(Code::kFailedPrecondition,
-              "users/" + name + ": nobody would be admin; make somebody else one first",
-              "LAST_ADMIN");
+  return fail(
+      Code::kFailedPrecondition,
+      "users/" + name + ": there must be at least one active admin; make another user admin first",
+      "LAST_ADMIN");
 }
 
 Status Accounts::write(const User& user) {
@@ -207,8 +207,8 @@ Status Accounts::write(const User& user) {
   return {};
 }
 
-// Whoever is given a name gets what bears it. Before there were users, names were claimed freely;
-// only those of users who were deleted may belong to somebody else.
+// A new user gets the data stored under their name. Before there were users, names were claimed
+// freely; only the names of deleted users may belong to somebody else.
 Status Accounts::check_name_is_free(const std::string& name) {
   bool is_borne = false;
   HP_RETURN_IF_ERROR(database_.each(
@@ -217,12 +217,13 @@ Status Accounts::check_name_is_free(const std::string& name) {
       "WHERE owner=?1) OR EXISTS (SELECT 1 FROM audit WHERE who=?1))",
       {name}, [&](const daemon::DbRow&) { is_borne = true; }));
   if (!is_borne) return {};
-  return fail(Code::kFailedPrecondition,
-              "users/" + name +
-                  ": a deleted user had this name, and jobs, files or the audit log still bear it; "
-                  "take another name, or say that it is the same one (hydroprint users add "
-                  "--returns)",
-              "USER_NAME_USED");
+  return fail(
+      Code::kFailedPrecondition,
+      "users/" + name +
+          ": a deleted user had this name, and jobs, files or the audit log still refer to it; "
+          "choose another name, or confirm that it is the same person (hydroprint users add "
+          "--returns)",
+      "USER_NAME_USED");
 }
 
 Result<User> Accounts::create(const User& user, const std::string& password, bool returns) {
@@ -236,13 +237,13 @@ Result<User> Accounts::create(const User& user, const std::string& password, boo
   const std::lock_guard writing(writing_);
   if (this->user(made.name)) {
     return fail(Code::kAlreadyExists,
-                "users/" + made.name + ": is there already; take another name, or change that one",
+                "users/" + made.name + ": already exists; choose another name, or change that user",
                 "USER_EXISTS");
   }
   HP_RETURN_IF_ERROR(check_admin_without(made.name, &made));
   if (!returns) HP_RETURN_IF_ERROR(check_name_is_free(made.name));
   if (users("", kMostUsers).size() >= kMostUsers) {
-    return fail(Code::kResourceExhausted, "there are too many users; delete some", "KEYS_FULL");
+    return fail(Code::kResourceExhausted, "too many users; delete some", "KEYS_FULL");
   }
   made.create_ms = clock_();
   HP_RETURN_IF_ERROR(write(made));
@@ -287,7 +288,7 @@ Status Accounts::remove(const std::string& name) {
   const Status done = database_.transaction([&]() -> Status {
     HP_RETURN_IF_ERROR(
         database_.run("INSERT OR REPLACE INTO former_users VALUES (?,?)", {name, clock_()}));
-    return database_.run("DELETE FROM users WHERE name=?", {name});  // and what is theirs
+    return database_.run("DELETE FROM users WHERE name=?", {name});  // with dependent rows
   });
   HP_RETURN_IF_ERROR(done);
   const std::lock_guard lock(now_);

@@ -26,126 +26,127 @@ struct AccountsOptions {
   std::int64_t session_most_ms = 7LL * 24 * 3600 * 1000;
   std::int64_t link_ms = 15LL * 60 * 1000;
   std::size_t most_keys = 100;     ///< per user
-  std::size_t most_sessions = 50;  ///< per user; one more ends the one that was used least lately
+  std::size_t most_sessions = 50;  ///< per user; a further session ends the least recently used one
 };
 
-/// What is to be changed of a user.
+/// Changes to a user.
 struct UserChange {
   std::optional<Role> role;
   std::optional<bool> disabled;
 };
 
-/// A key that is to be made.
+/// Fields of a key to create.
 struct NewKey {
   std::string user;
   std::string display_name;
   Role role = Role::kViewer;
-  std::int64_t ttl_ms = 0;  ///< 0: for ever
+  std::int64_t ttl_ms = 0;  ///< 0: never expires
 };
 
-/// A session that has just begun.
+/// A new session.
 struct SignedIn {
-  std::string token;  ///< shown this once
+  std::string token;  ///< shown only once
   User user;
   Session session;
 };
 
-/// Users, their API keys and sessions: rows of the store, which survive the daemon, and a copy in
-/// memory, by which callers are known: telling who calls never waits for the disk. Secrets are
-/// stored hashed. Any thread may call.
+/// Users, their API keys and sessions. They are rows of the store, with a copy in memory, so
+/// identifying a caller never waits for the disk. Secrets are stored hashed. Thread-safe.
 ///
-/// Where a user is named that is not there: kNotFound, USER_NOT_FOUND. Where the disk fails: see
-/// Database::run().
+/// Methods that name a user return kNotFound, USER_NOT_FOUND if there is none. Disk errors are as
+/// in Database::run().
 class Accounts {
  public:
-  /// Reads what there is.
+  /// Reads all rows.
   [[nodiscard]] static Result<std::unique_ptr<Accounts>> open(daemon::Database& database,
                                                               const AccountsOptions& options,
                                                               daemon::Clock clock);
-  /// Writes down when keys and sessions were used last.
+  /// Stores when keys and sessions were last used.
   ~Accounts();
   Accounts(const Accounts&) = delete;
   Accounts& operator=(const Accounts&) = delete;
 
-  // Who calls; none of these waits.
+  // Identifying callers; none of these waits.
 
-  /// Whether there is any user.
+  /// Whether there are any users.
   [[nodiscard]] bool any() const;
-  /// Whether there is an admin, not barred, who has a password, an admin's API key or a link that
-  /// was not used yet, or is signed in. Asks the store.
+  /// Whether some active admin can sign in: has a password, an admin's API key, an unused link or a
+  /// session. Reads the store.
   [[nodiscard]] Result<bool> has_admin_who_can_sign_in() const;
-  /// The caller with this key ("hp_ID_SECRET"), if it holds.
-  /// @param is_use  whether it counts as used now
+  /// The caller with this key ("hp_ID_SECRET"); nullopt if the key is not valid.
+  /// @param is_use  whether this counts as a use of the key
   [[nodiscard]] std::optional<Caller> by_key(std::string_view key, bool is_use = true);
-  /// The caller with this session's token, if it holds. As above.
+  /// The caller with this session token; nullopt if it is not valid. `is_use` as above.
   [[nodiscard]] std::optional<Caller> by_session(std::string_view token, bool is_use = true);
-  /// How many attempts to sign in failed since the daemon began.
+  /// Number of failed sign-in attempts since the daemon started.
   [[nodiscard]] std::int64_t failed_attempts() const { return attempts_.failures(); }
 
   // Users.
 
   [[nodiscard]] Result<User> user(const std::string& name) const;
-  /// By name; those after `after`.
+  /// Users whose names follow `after`, sorted by name.
   [[nodiscard]] std::vector<User> users(const std::string& after, std::size_t limit) const;
   /// @param password  empty: none
-  /// @param returns   whether it is the one who had the name before, and gets what bears it
-  /// @return USER_EXISTS; SPEC_INVALID; LAST_ADMIN if there is no admin and this one is none
-  /// either;
-  ///   kFailedPrecondition, USER_NAME_USED if a deleted user had the name, and jobs, assets,
-  ///   calibrations or the audit log bear it
+  /// @param returns   whether this is the earlier user of that name, who gets back the data stored
+  /// under it
+  /// @return USER_EXISTS; SPEC_INVALID; LAST_ADMIN if there is no admin and the new user is not
+  /// one; kFailedPrecondition, USER_NAME_USED if a deleted user had the name and jobs, assets,
+  /// calibrations or the audit log still refer to it
   [[nodiscard]] Result<User> create(const User& user, const std::string& password,
                                     bool returns = false);
-  /// LAST_ADMIN
+  /// Changes a user. LAST_ADMIN
   [[nodiscard]] Result<User> update(const std::string& name, const UserChange& change);
-  /// Ends all sessions of the user but `spared` (its id).
-  /// @param password  empty: takes it away
+  /// Sets a password and ends all sessions of the user except the one with id `spared`.
+  /// @param password  empty: removes the password
   [[nodiscard]] Result<User> set_password(const std::string& name, const std::string& password,
                                           const std::string& spared);
-  /// With keys and sessions. LAST_ADMIN
+  /// Deletes a user with keys and sessions. LAST_ADMIN
   [[nodiscard]] Status remove(const std::string& name);
 
   // Sessions.
 
-  /// Whether that is the user's password; attempts are limited as those to sign in are.
+  /// Checks a user's password. Attempts are limited like sign-in attempts.
   /// @return SIGN_IN_FAILED, TOO_MANY_ATTEMPTS (metadata `retry_s`)
   [[nodiscard]] Status check_password(const std::string& name, const std::string& password,
                                       const std::string& peer);
-  /// Errors as above.
+  /// Starts a session. Errors as in check_password().
   [[nodiscard]] Result<SignedIn> sign_in(const std::string& name, const std::string& password,
                                          const std::string& peer);
-  /// The token of a new link, and when it ends; the user's earlier ones hold no more.
+  /// Creates a sign-in link and returns its token and expiry time. The user's earlier links become
+  /// invalid.
   [[nodiscard]] Result<std::pair<std::string, std::int64_t>> make_link(const std::string& name);
-  /// Errors as above.
+  /// Starts a session with a link's token. Errors as in check_password().
   [[nodiscard]] Result<SignedIn> sign_in_by_link(const std::string& token, const std::string& peer);
-  /// Those that hold, by id; of this user, or of all (empty); those after `after`.
+  /// Valid sessions of a user, or of all users (empty), sorted by id, after `after`.
   [[nodiscard]] std::vector<Session> sessions(const std::string& user, const std::string& after,
                                               std::size_t limit) const;
   /// SESSION_NOT_FOUND
   [[nodiscard]] Result<Session> session(const std::string& id) const;
-  /// No error if it has ended already.
+  /// Ends a session; no error if it has already ended.
   [[nodiscard]] Status end_session(const std::string& id);
-  /// When it ends however it is used.
+  /// The time at which the session ends even if it is in use.
   [[nodiscard]] std::int64_t most_ms(const Session& session) const {
     return session.create_ms + options_.session_most_ms;
   }
-  /// When it ends if it is not used meanwhile.
+  /// The time at which the session ends if it is not used.
   [[nodiscard]] std::int64_t expire_ms(const Session& session) const;
 
   // API keys.
 
-  /// The key, and "hp_ID_SECRET", shown this once. KEYS_FULL; SPEC_INVALID
+  /// Creates a key and returns it with "hp_ID_SECRET", which is shown only once. KEYS_FULL;
+  /// SPEC_INVALID
   [[nodiscard]] Result<std::pair<ApiKey, std::string>> create_key(const NewKey& made);
-  /// By id; of this user, or of all (empty); those after `after`.
+  /// Keys of a user, or of all users (empty), sorted by id, after `after`.
   [[nodiscard]] std::vector<ApiKey> keys(const std::string& user, const std::string& after,
                                          std::size_t limit) const;
   /// KEY_NOT_FOUND
   [[nodiscard]] Result<ApiKey> key(const std::string& id) const;
-  /// No error if it is gone already.
+  /// Deletes a key; no error if it does not exist.
   [[nodiscard]] Status remove_key(const std::string& id);
 
-  /// Reads anew what another program changed (outside.h).
+  /// Reads the changes made by another program (external_changes.h).
   [[nodiscard]] Status reload();
-  /// Forgets what has expired, and writes down when keys and sessions were used last.
+  /// Deletes expired entries, and stores when keys and sessions were last used.
   [[nodiscard]] Status clean_up();
 
  private:
@@ -166,14 +167,14 @@ class Accounts {
   daemon::Clock clock_;
   Passwords passwords_;
   LoginThrottle attempts_;
-  std::recursive_mutex writing_;  // of whoever changes rows; never needed to tell who calls
-  mutable std::mutex now_;        // of what follows; held for moments only
+  std::recursive_mutex writing_;  // held while rows change; never needed to identify a caller
+  mutable std::mutex now_;        // protects the members below; held only briefly
   std::map<std::string, User> users_;
   std::map<std::string, ApiKey> keys_;                 // by id
-  std::unordered_map<std::string, Session> sessions_;  // by the hash of their tokens
+  std::unordered_map<std::string, Session> sessions_;  // by token hash
 };
 
-/// Refuses (SPEC_INVALID, or ID_INVALID for `field` "name") what is no name of a user.
+/// Refuses (SPEC_INVALID, or ID_INVALID for `field` "name") an invalid user name.
 [[nodiscard]] Status check_user_name(const std::string& field, const std::string& name);
 
 }  // namespace hydroprint::auth

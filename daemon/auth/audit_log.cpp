@@ -76,8 +76,7 @@ void AuditLog::work() {
       some_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
       last = ending_;
     }
-    (void)
-        write_waiting();  // what failed is counted, and told of as soon as something can be written
+    (void)write_waiting();  // failures are counted, and reported once writing works again
   }
 }
 

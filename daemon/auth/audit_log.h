@@ -14,10 +14,10 @@
 
 namespace hydroprint::auth {
 
-/// Something that was done; see hydroprint.v1.AuditEntry.
+/// One recorded action; see hydroprint.v1.AuditEntry.
 struct AuditEntry {
-  std::int64_t seq = 0;      ///< set when it is stored
-  std::int64_t time_ms = 0;  ///< set when it is noted
+  std::int64_t seq = 0;      ///< set when stored
+  std::int64_t time_ms = 0;  ///< set when recorded
   std::string who;
   std::string via;
   std::string peer;
@@ -27,35 +27,34 @@ struct AuditEntry {
   std::string detail;
 };
 
-/// Which entries are listed.
+/// Selects the entries to list.
 struct AuditFilter {
   std::string who;          ///< empty: all
-  std::string what;         ///< beginning of the method's name; empty: all
-  std::int64_t before = 0;  ///< only those with a smaller seq; 0: all
+  std::string what;         ///< prefix of the method's name; empty: all
+  std::int64_t before = 0;  ///< only entries with a smaller seq; 0: all
   std::int64_t limit = 50;
 };
 
-/// Who did what, for a year. A thread writes what is noted to the store, usually within
-/// milliseconds; whoever notes it waits for that, or does not. If the store hangs, the first 10000
-/// wait in memory, and what does not fit is counted and told of in an entry of its own. Any thread
-/// may call.
+/// Keeps a record of all actions for a year. A thread writes entries to the store, usually within
+/// milliseconds; callers may wait for that. If the store hangs, up to 10000 entries wait in memory.
+/// Further entries are lost, and counted in an entry of their own. Thread-safe.
 class AuditLog {
  public:
   AuditLog(daemon::Database& database, daemon::Clock clock);
-  /// Writes what waits.
+  /// Writes the waiting entries.
   ~AuditLog();
   AuditLog(const AuditLog&) = delete;
   AuditLog& operator=(const AuditLog&) = delete;
 
-  /// Never waits.
-  /// @return its number, for wait_written(); 0 if it did not fit
+  /// Records an entry without waiting.
+  /// @return its number, for wait_written(); 0 if memory is full
   std::uint64_t note(AuditEntry entry);
-  /// Waits, so long at most, until what was noted is on disk.
-  /// @return whether it is; else it may be written later, or be lost, which is counted
+  /// Waits up to `limit` until an entry is on disk.
+  /// @return whether it is on disk; if not, it may be written later, or be lost and counted
   bool wait_written(std::uint64_t noted, std::chrono::milliseconds limit);
-  /// Newest first, with all that was noted before the call.
+  /// Lists entries, newest first, including everything recorded before the call.
   [[nodiscard]] Result<std::vector<AuditEntry>> list(const AuditFilter& filter);
-  /// Deletes what is older than a year, and the oldest of more than a million.
+  /// Deletes entries older than a year, and the oldest beyond a million.
   [[nodiscard]] Status clean_up();
 
  private:
@@ -64,14 +63,14 @@ class AuditLog {
 
   daemon::Database& database_;
   daemon::Clock clock_;
-  std::mutex writing_;  // one writes at a time, in order
-  std::mutex mutex_;    // of what follows; held for moments only
+  std::mutex writing_;  // serialises writes, in order
+  std::mutex mutex_;    // protects the members below; held only briefly
   std::condition_variable some_;
   std::condition_variable settled_;
   std::vector<AuditEntry> waiting_;
-  std::uint64_t noted_ = 0;    // so many came
-  std::uint64_t written_ = 0;  // up to this one, all that was not lost
-  std::uint64_t failed_ = 0;   // up to this one, it is known what became of them
+  std::uint64_t noted_ = 0;    // number of entries recorded
+  std::uint64_t written_ = 0;  // highest number written, except lost ones
+  std::uint64_t failed_ = 0;   // highest number whose result is known
   std::int64_t lost_ = 0;
   bool ending_ = false;
   std::thread thread_;

@@ -38,15 +38,14 @@ Status wait_for_daemon(daemon::Database& database, const std::string& word) {
     if (read == word) return {};
     std::this_thread::sleep_for(kLookEvery / 5);
   } while (std::chrono::steady_clock::now() < until);
-  return fail(
-      Code::kUnavailable,
-      "it is stored, but the daemon that runs has not taken note of it; restart it, so that "
-      "it does");
+  return fail(Code::kUnavailable,
+              "the change is stored, but the running daemon has not read it; restart the daemon to "
+              "apply it");
 }
 
 ExternalChanges::ExternalChanges(daemon::Database& database, Accounts& accounts)
     : database_(database), accounts_(accounts), thread_(kLookEvery, [this] {
-        (void)look();  // a failure is tried again
+        (void)look();  // a failure is retried
       }) {}
 
 Status ExternalChanges::look() {

@@ -7,21 +7,21 @@
 
 namespace hydroprint::auth {
 
-// A daemon knows its people by a copy in memory. Another program that changed their rows says so in
-// the store, and the daemon, which looks there a few times a second, says when it has read them.
+// A daemon keeps users in memory. Another program that changes their rows leaves a note in the
+// store; the daemon checks for it a few times a second and confirms once it has read the rows.
 
-/// Asks a daemon to read its people anew. To be called after they were changed.
-/// @return the word that the daemon answers with
+/// Asks a running daemon to read users again. Call this after changing them.
+/// @return the word with which the daemon confirms
 [[nodiscard]] Result<std::string> tell_daemon(daemon::Database& database);
 
-/// Waits up to ten seconds for that answer.
+/// Waits up to ten seconds for the confirmation.
 /// @return kUnavailable if there is none
 [[nodiscard]] Status wait_for_daemon(daemon::Database& database, const std::string& word);
 
-/// The daemon's side, a thread of its own.
+/// The daemon's side, with its own thread.
 class ExternalChanges {
  public:
-  /// @param accounts  outlives it
+  /// @param accounts  must outlive this object
   ExternalChanges(daemon::Database& database, Accounts& accounts);
 
  private:

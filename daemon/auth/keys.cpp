@@ -48,7 +48,7 @@ Result<std::pair<ApiKey, std::string>> Accounts::create_key(const NewKey& made) 
   HP_RETURN_IF_ERROR(user(made.user));
   if (keys(made.user, "", options_.most_keys).size() >= options_.most_keys) {
     return fail(Code::kResourceExhausted,
-                "users/" + made.user + ": has too many API keys; delete some first", "KEYS_FULL");
+                "users/" + made.user + ": too many API keys; delete some first", "KEYS_FULL");
   }
   const std::int64_t now_ms = clock_();
   const std::string secret = random_hex(kKeySecretBytes);
@@ -84,8 +84,7 @@ Result<ApiKey> Accounts::key(const std::string& id) const {
   const std::lock_guard lock(now_);
   const auto found = keys_.find(id);
   if (found == keys_.end()) {
-    return fail(Code::kNotFound, "apiKeys/" + id + ": there is no such API key (any more)",
-                "KEY_NOT_FOUND");
+    return fail(Code::kNotFound, "apiKeys/" + id + ": there is no such API key", "KEY_NOT_FOUND");
   }
   return found->second;
 }

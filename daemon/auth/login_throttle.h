@@ -10,27 +10,28 @@
 
 namespace hydroprint::auth {
 
-/// How often somebody may try to sign in. After a few failures each further attempt has to wait,
-/// for 1 s, 2 s, 4 s and so on: of one name from one address up to a minute, from one address up to
-/// half a minute, of one name from anywhere up to 10 s. Nobody is locked out: where a name has
-/// signed in before, from that address, only what failed there counts for it. An hour without an
-/// attempt makes all good. Any thread may call; it is kept in memory, and little of it.
+/// Limits sign-in attempts. After a few failures each further attempt has to wait 1 s, 2 s, 4 s and
+/// so on. The longest wait is 1 min for a name and address together, 30 s for an address, and 10 s
+/// for a name from anywhere.
+///
+/// Nobody is locked out: if a name has signed in from an address before, only failures of that pair
+/// count for it. An hour without attempts resets everything. Kept in bounded memory. Thread-safe.
 class LoginThrottle {
  public:
   explicit LoginThrottle(daemon::Clock clock) : clock_(std::move(clock)) {}
 
-  /// Whether to go on: 0, and the attempt counts as failed until succeeded() is called; else the
-  /// time to wait in ms, and nothing is counted.
+  /// Starts an attempt. Returns 0 if it may proceed; it then counts as failed until succeeded() is
+  /// called. Otherwise returns the time to wait in ms, and counts nothing.
   [[nodiscard]] std::int64_t begin(const std::string& name, const std::string& peer);
   void succeeded(const std::string& name, const std::string& peer);
-  /// Counts one that failed and has no name.
+  /// Counts a failed attempt without a name.
   void reject();
-  /// How many failed since the daemon began.
+  /// Number of failures since the daemon started.
   [[nodiscard]] std::int64_t failures() const;
 
  private:
   struct Limit {
-    int free = 0;              ///< so many failures cost nothing
+    int free = 0;              ///< failures without a wait
     std::int64_t most_ms = 0;  ///< longest wait
   };
   struct Failures {
@@ -47,7 +48,7 @@ class LoginThrottle {
   daemon::Clock clock_;
   mutable std::mutex mutex_;
   std::map<Pair, Failures> failures_;
-  std::set<Pair> good_;  // from where a name has signed in
+  std::set<Pair> good_;  // pairs that have signed in
   std::int64_t failed_ = 0;
 };
 

@@ -18,7 +18,7 @@ using Permits = std::counting_semaphore<2>;
 
 tl::unexpected<Error> no_memory_for_passwords() {
   return fail(Code::kResourceExhausted,
-              "there is no memory to check the password with; try again later, or lower "
+              "not enough memory to check the password; try again later, or lower "
               "people.password_memory_mib",
               "OUT_OF_MEMORY");
 }
@@ -29,7 +29,7 @@ struct Passwords::Impl {
   PasswordCost cost;
   Permits permits{2};
   std::once_flag once;
-  std::string nobodys;  // compared with where there is no password, so that it takes as long
+  std::string nobodys;  // compared with if there is no password, so that it takes as long
 };
 
 namespace {
@@ -73,9 +73,8 @@ Result<std::string> argon2id(const std::string& password, const PasswordCost& co
 
 Status check_password_length(const std::string& password) {
   if (password.size() >= kShortestPassword && password.size() <= kLongestPassword) return {};
-  auto refused =
-      fail(Code::kInvalidArgument, "password: must be of 10 to 1000 bytes; a few words are good",
-           "SPEC_INVALID");
+  auto refused = fail(Code::kInvalidArgument,
+                      "password: must be 10 to 1000 bytes long; use a few words", "SPEC_INVALID");
   refused.value().metadata["field"] = "password";
   return refused;
 }
@@ -99,7 +98,7 @@ Result<bool> Passwords::check(const std::string& password, const std::string& ha
     impl_->nobodys = argon2id("nobody has this one", impl_->cost).value_or("");
   });
   const std::string& against = hashed.empty() ? impl_->nobodys : hashed;
-  // It says the same of a wrong password and of too little memory; the latter is rare.
+  // The function returns the same for a wrong password and for too little memory, which is rare.
   const bool equal =
       crypto_pwhash_str_verify(against.c_str(), password.data(), password.size()) == 0;
   return equal && !hashed.empty();

@@ -8,7 +8,7 @@
 
 namespace hydroprint::auth {
 
-/// What checking one password costs: argon2id's memory and passes.
+/// The cost of one password check: argon2id's memory and passes.
 struct PasswordCost {
   std::int64_t memory_kib = 64 << 10;  ///< at least kLeastPasswordMemory_kib
   std::int64_t passes = 3;             ///< at least 1
@@ -18,8 +18,7 @@ inline constexpr std::int64_t kLeastPasswordMemory_kib = 8;
 /// Refuses (SPEC_INVALID) a password of less than 10 or more than 1000 bytes.
 [[nodiscard]] Status check_password_length(const std::string& password);
 
-/// Hashes and checks passwords, two at a time at most, since each takes memory. Any thread may
-/// call.
+/// Hashes and checks passwords, at most two at a time, since each needs memory. Thread-safe.
 class Passwords {
  public:
   explicit Passwords(const PasswordCost& cost);
@@ -27,12 +26,12 @@ class Passwords {
   Passwords(const Passwords&) = delete;
   Passwords& operator=(const Passwords&) = delete;
 
-  /// argon2id's text of the password: its parameters, salt and hash.
-  /// @return kResourceExhausted: TOO_MANY_ATTEMPTS if others keep it busy, OUT_OF_MEMORY
+  /// The argon2id text of the password: parameters, salt and hash.
+  /// @return kResourceExhausted: TOO_MANY_ATTEMPTS if too many checks are waiting, OUT_OF_MEMORY
   [[nodiscard]] Result<std::string> hash(const std::string& password);
 
-  /// Whether it is the password. Where there is none (`hashed` is empty) that is false, and takes
-  /// as long. Errors as above.
+  /// Whether the password matches. Without a password (`hashed` is empty) the result is false, and
+  /// takes as long. Errors as above.
   [[nodiscard]] Result<bool> check(const std::string& password, const std::string& hashed);
 
  private:

@@ -27,7 +27,7 @@ bool equal_in_constant_time(std::string_view a, std::string_view b) {
 std::string csrf_token(std::string_view session_token) {
   constexpr std::string_view kText = "hydroprint csrf 1";
   const auto bytes = [](std::string_view text) {
-    return reinterpret_cast<const unsigned char*>(text.data());  // as the C library wants them
+    return reinterpret_cast<const unsigned char*>(text.data());  // type that the C library expects
   };
   crypto_auth_hmacsha256_state state;
   std::array<unsigned char, crypto_auth_hmacsha256_BYTES> out{};

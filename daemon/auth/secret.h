@@ -7,18 +7,19 @@
 
 namespace hydroprint::auth {
 
-/// Makes the library of cryptography ready; before anything else here, once or often.
+/// Initialises the cryptographic library. Call this before anything else here; it may be called
+/// again.
 [[nodiscard]] Status start_cryptography();
 
-/// That many random bytes as hex digits, two each.
+/// `bytes` random bytes as hex digits.
 [[nodiscard]] std::string random_hex(std::size_t bytes);
 
-/// Whether two texts are equal, in a time that says nothing of where they differ.
+/// Compares two texts in a time that does not depend on where they differ.
 [[nodiscard]] bool equal_in_constant_time(std::string_view a, std::string_view b);
 
-/// What a page with this session has to send along with every change (the header of daemon/http):
-/// HMAC-SHA-256 of a fixed text with the session's token as key. From it the token cannot be told,
-/// and without the token, which no script can read, it cannot be made.
+/// The token that a page must send with every change in its session (see the header in
+/// daemon/http). It is HMAC-SHA-256 of a fixed text with the session token as key. It does not
+/// reveal the session token, and cannot be computed without that token, which scripts cannot read.
 [[nodiscard]] std::string csrf_token(std::string_view session_token);
 
 }  // namespace hydroprint::auth

@@ -46,7 +46,7 @@ std::optional<Caller> Accounts::by_session(std::string_view token, bool is_use) 
 
 Status Accounts::check_password(const std::string& name, const std::string& password,
                                 const std::string& peer) {
-  const std::string key = name.substr(0, 64);  // no more is kept of what a stranger says
+  const std::string key = name.substr(0, 64);  // stores no more than this of untrusted text
   if (const std::int64_t wait_ms = attempts_.begin(key, peer); wait_ms > 0) {
     return too_many_attempts(wait_ms);
   }
@@ -82,8 +82,8 @@ Result<std::pair<std::string, std::int64_t>> Accounts::make_link(const std::stri
   return std::pair{token, expire_ms};
 }
 
-// The row goes first: of two who come with the same link, one finds it. Nobody guesses a token, so
-// attempts are not limited, but they cost no more than a look.
+// The row is deleted first, so of two callers with the same link only one finds it. Tokens cannot
+// be guessed, so attempts are not limited; each costs only one lookup.
 Result<SignedIn> Accounts::sign_in_by_link(const std::string& token, const std::string& peer) {
   const std::string hash = sha256(token.substr(0, kLongestToken));
   const std::lock_guard writing(writing_);
@@ -94,7 +94,8 @@ Result<SignedIn> Accounts::sign_in_by_link(const std::string& token, const std::
   const auto user = this->user(name);
   if (!user || user->disabled) {
     attempts_.reject();
-    return sign_in_failed("the link was used, replaced or is too old; ask an admin for another");
+    return sign_in_failed(
+        "the link was used or replaced, or has expired; ask an admin for another");
   }
   HP_RETURN_IF_ERROR(database_.run("DELETE FROM sign_in_links WHERE token_hash=?", {hash}));
   return begin_session(*user, peer);
@@ -156,7 +157,7 @@ Result<Session> Accounts::session(const std::string& id) const {
   for (const auto& [hash, session] : sessions_) {
     if (session.id == id && holds(session)) return session;
   }
-  return fail(Code::kNotFound, "sessions/" + id + ": there is no such session (any more)",
+  return fail(Code::kNotFound, "sessions/" + id + ": there is no such session",
               "SESSION_NOT_FOUND");
 }
 

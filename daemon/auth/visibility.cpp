@@ -23,15 +23,15 @@ bool is_theirs(const Caller& caller, const std::string& owner) {
 }
 
 tl::unexpected<Error> not_yours(const Caller& caller, const Job& job, const char* what) {
-  auto refused =
-      fail(Code::kPermissionDenied,
-           job_name(job.id) + ": is " + job.made.owner + "'s, not " + caller.name + "'s; " + what,
-           "NOT_YOURS");
+  auto refused = fail(
+      Code::kPermissionDenied,
+      job_name(job.id) + ": belongs to " + job.made.owner + ", not to " + caller.name + "; " + what,
+      "NOT_YOURS");
   refused.value().metadata = {{"job", job_name(job.id)}, {"owner", job.made.owner}};
   return refused;
 }
 
-// The input files in a message and those within that name an asset at all.
+// Collects the input files that name an asset, in a message and the messages inside it.
 void find_files(const Message& message, std::vector<InputFile>& found) {
   if (message.GetDescriptor() == v1::InputFile::descriptor()) {
     v1::InputFile file;
@@ -54,7 +54,7 @@ void find_files(const Message& message, std::vector<InputFile>& found) {
   }
 }
 
-// Takes all files out of a message and those within.
+// Removes all files from a message and the messages inside it.
 void clear_files(Message& message) {
   const auto& reflection = *message.GetReflection();
   std::vector<const Field*> fields;
@@ -73,7 +73,8 @@ void clear_files(Message& message) {
   }
 }
 
-// The names of jobs ("jobs/7", and below) in a message and those within.
+// Collects the names of jobs ("jobs/7", and names below them) in a message and the messages inside
+// it.
 void find_jobs(const Message& message, std::vector<std::string>& found) {
   const auto& reflection = *message.GetReflection();
   const auto keep = [&](const std::string& text) {
@@ -139,7 +140,7 @@ Status check_may_create(const Caller& caller, Role needed, const v1::Job& job, J
   find_jobs(*spec, names);
   for (const std::string& name : names) {
     const auto id = parse_job_name(name);
-    if (!id) continue;  // no job: what is wrong is said where the field is read
+    if (!id) continue;  // not a job; the field's own check reports it
     HP_ASSIGN_OR_RETURN(const Job other, jobs.get(*id));
     HP_RETURN_IF_ERROR(check_may_see(caller, other));
   }

@@ -12,33 +12,34 @@
 
 namespace hydroprint::daemon {
 
-/// Whether somebody may see a job's artifacts and of which files it was made: its owner, operators,
-/// and everybody if it is shared.
+/// Whether a caller may see a job's artifacts and input files: its owner and operators, and
+/// everybody if the job is shared.
 [[nodiscard]] bool may_see(const auth::Caller& caller, const Job& job);
 
-/// Refuses (kPermissionDenied, NOT_YOURS) whoever may not see them.
+/// Refuses (kPermissionDenied, NOT_YOURS) a caller for whom may_see() is false.
 [[nodiscard]] Status check_may_see(const auth::Caller& caller, const Job& job);
 
-/// Refuses (kPermissionDenied, NOT_YOURS) whoever may not end, repeat, share or delete a job: all
-/// but its owner and operators.
+/// Refuses (kPermissionDenied, NOT_YOURS) a caller who is neither the owner of a job nor an
+/// operator. Only these may cancel, retry, share or delete it.
 [[nodiscard]] Status check_may_change(const auth::Caller& caller, const Job& job);
 
-/// The job as this caller may see it: without its files, where they may not.
+/// The job as this caller may see it: without its files if may_see() is false.
 [[nodiscard]] v1::Job shown_to(const auth::Caller& caller, const Job& job);
 
-/// The calibration as this caller may see it: as a job, whose owner is the calibration's.
+/// Removes a calibration's files if the caller may not see them; the rules are those of a job with
+/// the same owner.
 void hide_files(const auth::Caller& caller, v1::Calibration& calibration);
 
-/// Refuses (ROLE_TOO_LOW) a caller without the role that the job needs, (NOT_YOURS; JOB_NOT_FOUND)
-/// a job that refers to one that the caller may not see, and (ASSET_MISSING) one with files that
-/// they may not use.
+/// Refuses a caller who lacks the role for the job (ROLE_TOO_LOW), a job that refers to one that
+/// the caller may not see (NOT_YOURS; JOB_NOT_FOUND), and files that the caller may not use
+/// (ASSET_MISSING).
 [[nodiscard]] Status check_may_create(const auth::Caller& caller, auth::Role needed,
                                       const v1::Job& job, JobStore& jobs, AssetStore& assets);
 
-/// The caller as a user of assets.
+/// The caller, as the asset store sees users.
 [[nodiscard]] AssetUser asset_user(const auth::Caller& caller);
 
-/// Refuses (ASSET_MISSING) what a request names as input files and the caller may not use.
+/// Refuses (ASSET_MISSING) input files of a request that the caller may not use.
 [[nodiscard]] Status check_may_use_files(const auth::Caller& caller,
                                          const google::protobuf::Message& request,
                                          AssetStore& assets);

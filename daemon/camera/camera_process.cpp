@@ -17,7 +17,7 @@ constexpr std::size_t kLargestPicture = 4 << 20;
 constexpr std::size_t kReadAtOnce = 1 << 20;
 constexpr std::size_t kWordsHeld = 16 << 10;
 constexpr std::chrono::seconds kTimeToEnd{2};
-// More than the program itself has with the camera, which says it better.
+// Longer than the program's own timeout for the camera, whose message is more precise.
 constexpr std::chrono::seconds kMorePatience{10};
 constexpr std::int64_t kDay_s = 24LL * 3600;
 constexpr std::string_view kProgramPrefix = "hydroprint-capture: ";
@@ -30,7 +30,7 @@ Launch launch_of(const CameraConfig& camera, const std::filesystem::path& folder
   out.arguments = {"--live", "--json", "--patience-s=" + std::to_string(camera.patience_s)};
   if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
   out.limits = {0, kDay_s, kLargestPicture};
-  out.confined = false;  // it needs the camera; what it reads is that alone
+  out.confined = false;  // needs the camera, and reads nothing else
   return out;
 }
 
@@ -73,7 +73,7 @@ std::vector<FramedMessage> CameraProcess::read(Time now) {
   if (said_.size() > before) heard_ = now;
   for (;;) {
     auto picture = cut_framed(said_, kLargestPicture);
-    // Its last line is no picture, but why it ends.
+    // The last line gives the reason for the end instead of a picture.
     if (!picture) talks_ = false;
     if (!picture || !*picture) return pictures;
     pictures.push_back(std::move(**picture));
@@ -102,14 +102,14 @@ std::optional<Error> CameraProcess::failure() const {
   if (!wait_status_ || kill_at_) return {};
   if (silent_) {
     return Error{Code::kUnavailable,
-                 "the camera says nothing and cannot be asked; unplug it and plug it in again",
+                 "the camera does not respond; unplug it and plug it in again",
                  "CAMERA_STALLED",
                  {}};
   }
   auto why = judge(*wait_status_, StoppedFor::kNothing, words_, said_);
   if (!why) {
     return Error{Code::kUnavailable,
-                 "the program that looks through the camera ended by itself; check that "
+                 "the camera program ended unexpectedly; check that "
                  "camera.program is hydroprint-capture",
                  "WORKER_UNUSABLE",
                  {}};

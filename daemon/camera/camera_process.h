@@ -15,8 +15,8 @@
 
 namespace hydroprint::daemon {
 
-/// `hydroprint-capture --live`: one process, which has the camera for as long as it lives. Belongs
-/// to the thread that started it; no call waits, but for its end.
+/// A process `hydroprint-capture --live`, which holds the camera while it runs. Use it only on the
+/// thread that started it; only the destructor blocks.
 class CameraProcess {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -25,33 +25,33 @@ class CameraProcess {
   [[nodiscard]] static Result<std::unique_ptr<CameraProcess>> start(const CameraConfig& camera,
                                                                     const Sandbox& sandbox,
                                                                     const Layout& layout);
-  /// Kills it; waits 2 s at most, for one that hangs in the kernel ends when the kernel lets it.
+  /// Kills the process and waits 2 s at most, since it may hang in the kernel.
   ~CameraProcess();
   CameraProcess(const CameraProcess&) = delete;
   CameraProcess& operator=(const CameraProcess&) = delete;
 
-  /// What becomes readable when read() or has_ended() have something to say; below 0: nothing will.
+  /// Descriptors that become readable when read() or has_ended() have news; negative ones never do.
   [[nodiscard]] std::vector<int> descriptors() const;
-  /// The pictures that came by now.
+  /// The pictures received since the last call.
   [[nodiscard]] std::vector<FramedMessage> read(Time now);
-  /// Asks it to end; it is killed if it has not ended 2 s later.
+  /// Asks the process to end; it is killed after 2 s.
   void ask_to_end(Time now);
-  /// Whether it is gone, and the camera with it free. Kills what said nothing for too long.
+  /// Whether the process has ended and released the camera. Kills it if it was silent for too long.
   [[nodiscard]] bool has_ended(Time now);
-  /// Why it ended, if nobody asked it to.
+  /// Why it ended, unless it was asked to.
   [[nodiscard]] std::optional<Error> failure() const;
 
  private:
   CameraProcess(std::filesystem::path folder, std::chrono::seconds patience);
 
   std::filesystem::path folder_;
-  std::chrono::seconds patience_;  ///< with its silence
+  std::chrono::seconds patience_;  ///< maximum silence
   ChildProcess process_;
   Time heard_;
-  std::optional<Time> kill_at_;  ///< it was asked to end
-  bool silent_ = false;          ///< and killed for it
-  bool talks_ = true;            ///< its pipe is open, and what came through it made sense
-  std::string said_;             ///< and is no whole picture yet
+  std::optional<Time> kill_at_;  ///< set if it was asked to end
+  bool silent_ = false;          ///< was killed because of its silence
+  bool talks_ = true;            ///< its pipe is open, and all messages were well-formed
+  std::string said_;             ///< not yet a complete picture
   std::string words_;
   std::optional<int> wait_status_;
 };

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kTick_ms = 50;
 constexpr std::chrono::milliseconds kStoreAgainAfter{500};
-// To start, to open the camera, and to write what was taken.
+// Time to start, to open the camera and to write the frames.
 constexpr int kMargin_s = 60;
 constexpr std::int64_t kLargestFile = 64 << 20;
 constexpr double kDefaultSeconds = 2;
@@ -37,7 +37,7 @@ Launch plan(const CameraConfig& camera, const Layout& layout, std::int64_t job, 
                    "--progress-fd=" + std::to_string(kProgressFd), "--json"};
   if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
   out.limits = {0, static_cast<std::int64_t>(10 * (seconds + kMargin_s)), kLargestFile};
-  out.confined = false;  // it needs the camera; what it reads is that alone
+  out.confined = false;  // needs the camera, and reads nothing else
   return out;
 }
 
@@ -61,7 +61,7 @@ Status CaptureExecutor::check_camera_and_rig() const {
   HP_RETURN_IF_ERROR(check_camera(around_.camera));
   const rig::Controller* rig = around_.gateway.controller();
   if (rig != nullptr && rig::in_motion(rig->snapshot().condition.state)) {
-    return fail(Code::kAborted, "the axis moves; wait until it is at rest, or stop it",
+    return fail(Code::kAborted, "the axis is moving; wait until it is at rest, or stop it",
                 "MOTION_IN_PROGRESS");
   }
   return {};
@@ -85,7 +85,7 @@ Result<Job> CaptureExecutor::create(const JobRequest& request) {
   const RigPlace place = around_.places.place();
   HP_RETURN_IF_ERROR(around_.places.keep());
   HP_ASSIGN_OR_RETURN(Job job, around_.jobs.create(request.made, request.key));
-  // The store has it that no other one is under way.
+  // The store allows only one capture at a time.
   if (thread_.joinable()) thread_.join();
   if (const Status noted = around_.calibrations.note_capture(job.id, place); !noted) {
     give_up(job, noted.error());
@@ -93,7 +93,7 @@ Result<Job> CaptureExecutor::create(const JobRequest& request) {
   }
   cancelled_ = false;
   job_ = job.id;
-  // Before this is answered: who looks from then on is told of the job.
+  // Lends the camera before this is answered, so that viewers see the job from now on.
   thread_ =
       std::thread([this, job, seconds, camera = around_.live.lend(job.id)] { go(job, seconds); });
   return job;
@@ -129,7 +129,7 @@ Status CaptureExecutor::run(const Job& job, double seconds) {
   return {};
 }
 
-/// What never got to run.
+/// Ends a job whose capture could not be started.
 void CaptureExecutor::give_up(const Job& job, const Error& error) {
   discard(around_.layout.run(job.id));
   log(LogLevel::kError, "capture_not_started", {{"job", job.id}, {"message", error.message}});

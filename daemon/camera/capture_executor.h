@@ -18,7 +18,7 @@
 
 namespace hydroprint::daemon {
 
-/// What captures work on.
+/// The objects that captures use.
 struct CaptureSurroundings {
   CameraConfig camera;
   LiveCamera& live;
@@ -30,27 +30,26 @@ struct CaptureSurroundings {
   Clock clock;
 };
 
-/// Takes frames of the camera, one capture at a time: a process of hydroprint-capture each, watched
-/// by a thread of its own, so that a driver that hangs or crashes harms nothing. Any thread may
-/// call.
+/// Takes depth frames, one capture at a time. Each is a process of hydroprint-capture, monitored by
+/// its own thread, so a hanging or crashing driver does no harm. Thread-safe.
 class CaptureExecutor final : public JobExecutor {
  public:
-  /// @param surroundings  outlive it
+  /// @param surroundings  must outlive this object
   [[nodiscard]] static Result<std::unique_ptr<CaptureExecutor>> make(
       CaptureSurroundings surroundings);
-  /// Stops if stop() was not called.
+  /// Calls stop() if needed.
   ~CaptureExecutor() override;
 
-  /// kFailedPrecondition, CAMERA_MISSING if none is configured; kAborted, MOTION_IN_PROGRESS while
-  /// the axis moves.
+  /// kFailedPrecondition, CAMERA_MISSING if no camera is configured; kAborted, MOTION_IN_PROGRESS
+  /// while the axis moves.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
   [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
-  /// Ends a capture that is under way, whose job is left to JobStore::interrupt_all(); a few
-  /// seconds at most.
+  /// Ends a running capture within a few seconds; its job is left to JobStore::interrupt_all().
   void stop() override;
 
-  /// When the latest successful capture of this daemon ended; Unix time in ms, 0 if there is none.
+  /// End of the latest successful capture since the daemon started; Unix time in ms, 0 if there is
+  /// none.
   [[nodiscard]] std::int64_t latest_ms() const { return latest_ms_; }
 
  private:
@@ -64,7 +63,7 @@ class CaptureExecutor final : public JobExecutor {
   CaptureSurroundings around_;
   Sandbox sandbox_;
   std::mutex mutex_;
-  bool end_ = false;  // no more of them
+  bool end_ = false;  // no further captures
   std::atomic<std::int64_t> job_{0}, latest_ms_{0};
   std::atomic<bool> cancelled_{false}, left_{false};
   std::thread thread_;

@@ -16,7 +16,7 @@ namespace {
 
 using LiveClock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kLooks{10};  // who asked, and so long after
+constexpr std::chrono::seconds kLooks{10};  // how long after a request somebody counts as watching
 constexpr std::chrono::seconds kFresh{3};
 constexpr std::chrono::seconds kLongestLook{5};
 constexpr std::chrono::seconds kReopenAfter{3};
@@ -26,7 +26,7 @@ constexpr int kMostWaiting = 16;
 constexpr int kAwake_ms = 200;
 constexpr int kAsleep_ms = 5000;
 
-/// None for what is no picture.
+/// Parses a picture; nullopt if it is malformed.
 std::optional<LivePicture> read_picture(const FramedMessage& told, std::int64_t now_ms) {
   const auto parsed = parse_json(told.head);
   if (!parsed) return {};
@@ -47,7 +47,7 @@ std::optional<LivePicture> read_picture(const FramedMessage& told, std::int64_t 
   }
 }
 
-/// Counts one who waits, for as long as they do.
+/// Counts a waiting caller while this object exists.
 class Waiting {
  public:
   explicit Waiting(int& count) : count_(count) { ++count_; }
@@ -73,7 +73,7 @@ Result<std::unique_ptr<LiveCamera>> LiveCamera::make(CameraConfig camera, Layout
   std::unique_ptr<LiveCamera> made(
       new LiveCamera(std::move(camera), std::move(layout), std::move(clock), std::move(sandbox)));
   made->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  if (!made->wake_.valid()) return system_failure("eventfd", "cannot be made");
+  if (!made->wake_.valid()) return system_failure("eventfd", "cannot be created");
   made->thread_ = std::thread([&live = *made] { live.work(); });
   return made;
 }
@@ -98,34 +98,34 @@ Result<LivePicture> LiveCamera::look(const std::function<bool()>& gone) {
   HP_RETURN_IF_ERROR(check_camera(camera_));
   std::unique_lock lock(mutex_);
   const Time start = LiveClock::now();
-  if (start >= wanted_until_) failure_.reset();  // of those who looked before
+  if (start >= wanted_until_) failure_.reset();  // from earlier viewers
   wanted_until_ = start + kLooks;
   wake();
   if (waiting_ >= kMostWaiting) {
-    return fail(Code::kResourceExhausted, "too many people wait for the camera; try again later",
+    return fail(Code::kResourceExhausted, "too many requests wait for the camera; try again later",
                 "WATCHES_FULL");
   }
   const Waiting waiting(waiting_);
   for (Time now = start; now < start + kLongestLook; now = LiveClock::now()) {
     if (auto answer = known(now)) return std::move(*answer);
     news_.wait_for(lock, kGlance);
-    if (gone()) return fail(Code::kCancelled, "the caller left");
+    if (gone()) return fail(Code::kCancelled, "the client disconnected");
   }
   return fail(Code::kUnavailable,
-              "no picture came in 5 s; the camera may be starting still: ask again",
+              "no picture arrived within 5 s; the camera may still be starting, so try again",
               "CAMERA_STALLED");
 }
 
-/// What there is to answer at once.
+/// The answer that is available at once, if any.
 std::optional<Result<LivePicture>> LiveCamera::known(Time now) const {
   if (stopping_) {
-    return fail(Code::kUnavailable, "the daemon is shutting down; try again when it is back",
+    return fail(Code::kUnavailable, "the daemon is shutting down; try again after it has restarted",
                 "SHUTTING_DOWN");
   }
   if (lent_to_ != 0) {
     const std::string job = job_name(lent_to_);
     return tl::unexpected(Error{Code::kAborted,
-                                job + " has the camera; look again when it has ended",
+                                job + " is using the camera; try again when it has ended",
                                 "CAMERA_BUSY",
                                 {{"job", job}}});
   }
@@ -173,7 +173,7 @@ void LiveCamera::work() {
   news_.notify_all();
 }
 
-/// Waits until there may be something to do.
+/// Waits until there may be work.
 void LiveCamera::wait(std::unique_lock<std::mutex>& lock) {
   std::vector<pollfd> fds{{wake_.get(), POLLIN, 0}};
   if (process_) {

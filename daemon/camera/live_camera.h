@@ -15,48 +15,48 @@
 
 namespace hydroprint::daemon {
 
-/// What the camera saw, as CameraService shows it.
+/// A depth picture, as CameraService shows it.
 struct LivePicture {
   std::string png;
   int width = 0, height = 0;
   double nearest_mm = 0, farthest_mm = 0;
   double measured_share = 0;
   std::string camera;        ///< maker and model
-  std::int64_t time_ms = 0;  ///< when it came
+  std::int64_t time_ms = 0;  ///< time of arrival
 };
 
-/// Shows people what the camera sees: one process of hydroprint-capture while somebody looks, and
-/// none a little later. A job that needs the camera borrows it. Any thread may call; a camera that
-/// hangs holds up nobody but those who look.
+/// Shows the camera's view. One process of hydroprint-capture runs while somebody watches, and
+/// shortly after. Jobs can borrow the camera. Thread-safe; a hanging camera blocks only its
+/// viewers.
 class LiveCamera {
  public:
   /// @return kFailedPrecondition if the machine cannot confine processes
   [[nodiscard]] static Result<std::unique_ptr<LiveCamera>> make(CameraConfig camera, Layout layout,
                                                                 Clock clock);
-  /// Stops if stop() was not called.
+  /// Calls stop() if needed.
   ~LiveCamera();
   LiveCamera(const LiveCamera&) = delete;
   LiveCamera& operator=(const LiveCamera&) = delete;
 
-  /// A picture of the last 3 s; waits for one, 5 s at most.
-  /// @param gone  whether the caller has left, asked now and then
-  /// @return as CameraService.GetDepthPicture describes; kCancelled; kUnavailable, SHUTTING_DOWN
+  /// A picture of the last 3 s; waits for one for 5 s at most.
+  /// @param gone  whether the caller has disconnected; polled
+  /// @return errors as described in CameraService.GetDepthPicture; kCancelled; kUnavailable,
+  /// SHUTTING_DOWN
   [[nodiscard]] Result<LivePicture> look(const std::function<bool()>& gone);
-  /// When the latest picture came, Unix time in ms; 0: none did.
+  /// Time of the latest picture, Unix time in ms; 0 if there was none.
   [[nodiscard]] std::int64_t latest_ms() const;
 
   struct GiveBack {
     void operator()(LiveCamera* camera) const { camera->take_back(); }
   };
-  /// While it lives, the camera is another's.
+  /// A job has the camera as long as this object lives.
   using Loan = std::unique_ptr<LiveCamera, GiveBack>;
-  /// Gives the camera to a job, one at a time: from now on, nobody is shown anything.
+  /// Gives the camera to a job, one at a time; from then on no pictures are shown.
   [[nodiscard]] Loan lend(std::int64_t job);
-  /// Waits until a camera that was lent is free, but no longer than 5 s: who finds it hanging then
-  /// says so.
+  /// Waits up to 5 s until a lent camera is free. A camera that still hangs is reported by the job.
   void wait_until_free();
 
-  /// Ends the process; whoever waits is told.
+  /// Ends the process; waiting calls return an error.
   void stop();
 
  private:
@@ -81,13 +81,13 @@ class LiveCamera {
   mutable std::mutex mutex_;
   std::condition_variable news_;
   std::unique_ptr<CameraProcess> process_;
-  std::int64_t lent_to_ = 0;          // a job; 0: nobody
-  Time wanted_until_, again_, came_;  // came_: the picture
+  std::int64_t lent_to_ = 0;          // job id; 0: nobody
+  Time wanted_until_, again_, came_;  // came_: time of the picture
   std::optional<LivePicture> picture_;
-  std::optional<Error> failure_;  // of the latest try, while somebody looks
+  std::optional<Error> failure_;  // of the latest attempt, while somebody watches
   int waiting_ = 0;
   bool stopping_ = false;
-  std::thread thread_;  // starts the process, which dies with it
+  std::thread thread_;  // starts the process, which ends with it
 };
 
 }  // namespace hydroprint::daemon

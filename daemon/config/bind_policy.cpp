@@ -7,8 +7,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// The key, option and address of a door that others may reach, if any: "server.http (--http)
-// 0.0.0.0:8443".
+// The key, option and address of an exposed port, if any: "server.http (--http) 0.0.0.0:8443".
 std::optional<std::string> exposed_door(const Config& config) {
   for (const auto& [name, address] : {std::pair("server.grpc (--grpc) ", config.server_grpc),
                                       std::pair("server.http (--http) ", config.server_http)}) {
@@ -30,18 +29,19 @@ Status check_exposure(const Config& config) {
                 std::string(has_key ? "server.tls_key (--tls-key)"
                                     : "server.tls_certificate "
                                       "(--tls-certificate)") +
-                    " is given without the other one; TLS needs both, server.tls_certificate "
+                    " is given without the other; TLS needs both server.tls_certificate "
                     "(--tls-certificate) and server.tls_key (--tls-key)",
                 "CONFIG_INVALID");
   }
   const auto door = exposed_door(config);
   if (!door || has_certificate) return {};
-  return fail(Code::kInvalidArgument,
-              *door +
-                  " is beyond loopback, where nothing goes without TLS; name a certificate and its "
-                  "key with --tls-certificate FILE --tls-key FILE (deploy/README.md says how to "
-                  "get them), or write 127.0.0.1 or [::1]",
-              "CONFIG_INVALID");
+  return fail(
+      Code::kInvalidArgument,
+      *door +
+          " is beyond loopback, which requires TLS; name a certificate and its "
+          "key with --tls-certificate FILE --tls-key FILE (deploy/README.md explains how to "
+          "get them), or use 127.0.0.1 or [::1]",
+      "CONFIG_INVALID");
 }
 
 Status check_admin(const Config& config, const auth::Accounts& accounts) {
@@ -49,11 +49,12 @@ Status check_admin(const Config& config, const auth::Accounts& accounts) {
   if (!door) return {};
   HP_ASSIGN_OR_RETURN(const bool has_admin, accounts.has_admin_who_can_sign_in());
   if (has_admin) return {};
-  return fail(Code::kFailedPrecondition,
-              *door +
-                  " is beyond loopback, and there is no admin yet who could sign in; start it once "
-                  "with --first-admin NAME, and set a password at the link that it prints",
-              "SIGN_IN_NEEDED");
+  return fail(
+      Code::kFailedPrecondition,
+      *door +
+          " is beyond loopback, but there is no admin yet who can sign in; start the daemon once "
+          "with --first-admin NAME, and set a password at the link that it prints",
+      "SIGN_IN_NEEDED");
 }
 
 }  // namespace hydroprint::daemon

@@ -6,15 +6,15 @@
 
 namespace hydroprint::daemon {
 
-/// Whether clients of other machines may reach one of the doors.
+/// Whether clients on other machines can reach one of the ports.
 [[nodiscard]] bool is_exposed(const Config& config);
 
-/// Refuses (kInvalidArgument, CONFIG_INVALID), naming what is missing: an address beyond loopback
-/// without TLS; a certificate without its key, or the other way round.
+/// Refuses (kInvalidArgument, CONFIG_INVALID) an address beyond loopback without TLS, and a
+/// certificate without its key or the reverse. The message names the missing key.
 [[nodiscard]] Status check_exposure(const Config& config);
 
-/// Refuses (kFailedPrecondition, SIGN_IN_NEEDED) an address beyond loopback while there is no admin
-/// who can sign in. Whoever comes from elsewhere needs a user, and nobody could ever make one.
+/// Refuses (kFailedPrecondition, SIGN_IN_NEEDED) an address beyond loopback while no admin can sign
+/// in. Remote callers need a user, and nobody could create one.
 [[nodiscard]] Status check_admin(const Config& config, const auth::Accounts& accounts);
 
 }  // namespace hydroprint::daemon

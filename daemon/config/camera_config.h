@@ -8,24 +8,24 @@
 
 namespace hydroprint::daemon {
 
-/// The depth camera over the vat, as it is configured.
+/// Configuration of the depth camera over the vat.
 struct CameraConfig {
-  std::string device;             ///< OpenNI2's name of it; "any": the first there is; empty: none
+  std::string device;  ///< its name in OpenNI2; "any": the first one found; empty: no camera
   std::filesystem::path program;  ///< hydroprint-capture
-  int patience_s = 5;             ///< with a camera that does not answer
-  std::filesystem::path layout;   ///< of markers and camera, TOML; empty: none
-  /// Axis position at which the gripper's lower end is level with the water, if it is known.
+  int patience_s = 5;             ///< timeout for a camera that does not answer
+  std::filesystem::path layout;   ///< TOML file of markers and camera; empty: none
+  /// Axis position at which the gripper's lower end is level with the water, if known.
   std::optional<double> gripper_water_mm;
 };
 
-/// The camera and what it looks at.
+/// Reads the camera's configuration.
 /// @return kInvalidArgument, CONFIG_INVALID, one line that names the key
 [[nodiscard]] Result<CameraConfig> read_camera_setup(const Config& config);
 
 /// kFailedPrecondition, CAMERA_MISSING if none is configured.
 [[nodiscard]] Status check_camera(const CameraConfig& setup);
 
-/// The layout's text. CONFIG_INVALID if the file cannot be read.
+/// Reads the layout file. CONFIG_INVALID if that fails.
 [[nodiscard]] Result<std::string> read_layout_text(const CameraConfig& setup);
 
 }  // namespace hydroprint::daemon

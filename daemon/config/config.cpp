@@ -164,7 +164,7 @@ bool accept(const Text& kind, const toml::node& node, Config& config) {
   return true;
 }
 
-// Says "name:line: ..." for a place in the file.
+// An error with its place in the file: "name:line: ...".
 tl::unexpected<Error> refuse(const std::string& name, const toml::source_region& where,
                              const std::string& what) {
   return fail(Code::kInvalidArgument, name + ":" + std::to_string(where.begin.line) + ": " + what,
@@ -176,7 +176,7 @@ std::size_t common_prefix(std::string_view a, std::string_view b) {
   return static_cast<std::size_t>(ends.first - a.begin());
 }
 
-// The key that was probably meant: the longest common beginning in the same section.
+// Suggests the key with the longest common prefix in the same section.
 std::string suggestion(std::string_view section, std::string_view name) {
   const Key* best = nullptr;
   std::size_t length = 2;
@@ -189,7 +189,7 @@ std::string suggestion(std::string_view section, std::string_view name) {
     return "did you mean \"" + best->full() + "\", " +
            std::visit([](const auto& kind) { return remedy(kind); }, best->kind) + "?";
   }
-  return "see deploy/hydroprintd.toml.example for the keys there are";
+  return "see deploy/hydroprintd.toml.example for all keys";
 }
 
 Status read_section(const std::string& name, std::string_view section, const toml::table& table,
@@ -258,10 +258,11 @@ Result<Config> parse_config(std::string_view text, const std::string& name) {
                                      [&](const Key& key) { return key.section == section.str(); });
       const toml::table* table = entry.second.as_table();
       if (!known || table == nullptr) {
-        return refuse(name, section.source(),
-                      "unknown section \"" + std::string(section.str()) +
-                          "\"; there are [server], [store], [assets], [queue], [workers], [rig], "
-                          "[printer], [camera], [people], [log]");
+        return refuse(
+            name, section.source(),
+            "unknown section \"" + std::string(section.str()) +
+                "\"; the sections are [server], [store], [assets], [queue], [workers], [rig], "
+                "[printer], [camera], [people], [log]");
       }
       HP_RETURN_IF_ERROR(read_section(name, section.str(), *table, config));
     }
@@ -278,8 +279,8 @@ Result<Config> read_config(const std::filesystem::path& path) {
   if (file) text << file.rdbuf();
   if (!file || std::filesystem::is_directory(path)) {
     return fail(Code::kNotFound, path.string() +
-                                     ": cannot be read; give --config the name of a "
-                                     "TOML file that is there, or leave it out");
+                                     ": cannot be read; pass --config an existing "
+                                     "TOML file, or leave it out");
   }
   return parse_config(text.str(), path.string());
 }
@@ -308,7 +309,7 @@ Result<Endpoint> parse_endpoint(std::string_view text) {
   const auto parsed = std::from_chars(port.data(), port.data() + port.size(), endpoint.port);
   if (parsed.ec != std::errc() || parsed.ptr != port.data() + port.size() || endpoint.port < 0 ||
       endpoint.port > 65535) {
-    return refused("has no port from 0 to 65535; write it like 127.0.0.1:50051");
+    return refused("must have a port from 0 to 65535; write it like 127.0.0.1:50051");
   }
   std::string host(text.substr(0, colon));
   if (host.size() > 2 && host.front() == '[' && host.back() == ']') {
@@ -319,7 +320,8 @@ Result<Endpoint> parse_endpoint(std::string_view text) {
   in6_addr v6{};
   if (inet_pton(AF_INET, host.c_str(), &v4) != 1 && inet_pton(AF_INET6, host.c_str(), &v6) != 1) {
     return refused(
-        "is no address; write 127.0.0.1 or [::1] for loopback, 0.0.0.0 or [::] for all addresses "
+        "is not an address; write 127.0.0.1 or [::1] for loopback, 0.0.0.0 or [::] for all "
+        "addresses "
         "of this machine, or one of them");
   }
   endpoint.host = host;
@@ -335,7 +337,7 @@ Result<std::filesystem::path> default_state_dir() {
   }
   return fail(
       Code::kFailedPrecondition,
-      "store.state_dir: neither XDG_STATE_HOME nor HOME is set; say where to keep jobs with "
+      "store.state_dir: neither XDG_STATE_HOME nor HOME is set; set the folder for jobs with "
       "--state-dir DIR");
 }
 

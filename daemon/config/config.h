@@ -11,51 +11,52 @@
 
 namespace hydroprint::daemon {
 
-/// Everything that can be set, with its default: one member per key of the TOML file (section and
-/// key in the comment; deploy/hydroprintd.toml.example explains each).
+/// All settings with their defaults: one member per key of the TOML file. Comments give section and
+/// key; deploy/hydroprintd.toml.example explains each.
 struct Config {
-  std::string server_grpc = "127.0.0.1:50051";   ///< server.grpc: address and port, 0: any
+  std::string server_grpc = "127.0.0.1:50051";   ///< server.grpc: address and port; port 0: any
   bool server_reflection = true;                 ///< server.reflection
-  std::string server_http = "127.0.0.1:8080";    ///< server.http: the same for HTTP
-  std::string server_host_names;                 ///< server.host_names, with blanks between
+  std::string server_http = "127.0.0.1:8080";    ///< server.http: same, for HTTP
+  std::string server_host_names;                 ///< server.host_names, separated by blanks
   std::string server_tls_certificate;            ///< server.tls_certificate: file; empty: no TLS
   std::string server_tls_key;                    ///< server.tls_key: file; empty: no TLS
-  std::string server_web_dir;                    ///< server.web_dir; empty: where it was installed
-  std::string store_state_dir;                   ///< store.state_dir; empty: the user's own
+  std::string server_web_dir;                    ///< server.web_dir; empty: as installed
+  std::string store_state_dir;                   ///< store.state_dir; empty: the user's default
   std::int64_t store_keep_finished_days = 30;    ///< store.keep_finished_days; 0: for ever
   std::int64_t store_keep_dips_days = 365;       ///< store.keep_dips_days; 0: for ever
-  std::int64_t store_max_mib_per_owner = 20480;  ///< store.max_mib_per_owner; 0: any number
+  std::int64_t store_max_mib_per_owner = 20480;  ///< store.max_mib_per_owner; 0: no limit
   std::int64_t store_min_free_mib = 512;         ///< store.min_free_mib
-  std::int64_t assets_max_mib = 1024;            ///< assets.max_mib, of one file
+  std::int64_t assets_max_mib = 1024;            ///< assets.max_mib, per file
   std::int64_t assets_max_open_uploads = 64;     ///< assets.max_open_uploads
   std::int64_t assets_upload_expires_h = 24;     ///< assets.upload_expires_h
   std::int64_t assets_keep_unused_days = 30;     ///< assets.keep_unused_days; 0: for ever
   std::int64_t queue_max_jobs = 1000;            ///< queue.max_jobs
-  std::int64_t queue_max_jobs_per_owner = 200;   ///< queue.max_jobs_per_owner; 0: any number
-  std::string workers_program;     ///< workers.program; empty: hydroprint-worker beside hydroprintd
-  std::int64_t workers_count = 0;  ///< workers.count; 0: as many as cores
-  std::int64_t workers_threads = 0;        ///< workers.threads per worker; 0: the cores, shared out
-  std::int64_t workers_memory_mib = 4096;  ///< workers.memory_mib per worker; 0: no limit
+  std::int64_t queue_max_jobs_per_owner = 200;   ///< queue.max_jobs_per_owner; 0: no limit
+  std::string workers_program;                   ///< workers.program; empty: next to hydroprintd
+  std::int64_t workers_count = 0;                ///< workers.count; 0: number of cores
+  std::int64_t workers_threads =
+      0;  ///< workers.threads per worker; 0: the cores divided by workers
+  std::int64_t workers_memory_mib = 4096;    ///< workers.memory_mib per worker; 0: no limit
   std::int64_t workers_time_limit_s = 3600;  ///< workers.time_limit_s per job
-  std::int64_t workers_file_mib = 4096;      ///< workers.file_mib, of one file a worker writes
+  std::int64_t workers_file_mib = 4096;      ///< workers.file_mib, per file that a worker writes
   std::string rig_drive;                 ///< rig.drive: "tcp:HOST:PORT" or "rtu:..."; empty: no rig
-  std::string rig_profile;               ///< rig.profile: file of the drive's profile
-  rig::RigConfig rig;                    ///< the other keys of [rig]
+  std::string rig_profile;               ///< rig.profile: file with the drive's profile
+  rig::RigConfig rig;                    ///< all other keys of [rig]
   std::string printer_address;           ///< printer.address: "ipp://..."; empty: no printer
-  std::int64_t printer_patience_s = 20;  ///< printer.patience_s with one that does not answer
+  std::int64_t printer_patience_s = 20;  ///< printer.patience_s: timeout for answers
   std::int64_t printer_time_limit_s = 3600;  ///< printer.time_limit_s per job
   std::string camera_device;                 ///< camera.device: OpenNI2's name; empty: no camera
-  std::string camera_program;                ///< camera.program; empty: beside hydroprintd
-  std::int64_t camera_patience_s = 5;        ///< camera.patience_s with one that does not answer
-  std::string camera_layout;                 ///< camera.layout: file of markers and camera
-  double camera_gripper_water_mm = 0;        ///< camera.gripper_water_mm of the axis; 0: not known
-  std::string people_accounts = "loopback-open";  ///< people.accounts: or "required"
+  std::string camera_program;                ///< camera.program; empty: next to hydroprintd
+  std::int64_t camera_patience_s = 5;        ///< camera.patience_s: timeout for answers
+  std::string camera_layout;                 ///< camera.layout: file with markers and camera
+  double camera_gripper_water_mm = 0;        ///< camera.gripper_water_mm of the axis; 0: unknown
+  std::string people_accounts = "loopback-open";  ///< people.accounts; or "required"
   std::int64_t people_password_memory_mib = 64;   ///< people.password_memory_mib
   std::int64_t people_password_passes = 3;        ///< people.password_passes
   std::int64_t people_session_idle_h = 12;        ///< people.session_idle_h
   std::int64_t people_session_days = 7;           ///< people.session_days
   std::string log_level = "info";                 ///< log.level: debug, info, warning, error
-  std::string log_file;                           ///< log.file besides stderr; empty: none
+  std::string log_file;                           ///< log.file, in addition to stderr; empty: none
 
   bool operator==(const Config&) const = default;
 };
@@ -63,32 +64,31 @@ struct Config {
 /// Names of all keys, "section.key", in the order of the example.
 [[nodiscard]] std::vector<std::string> config_keys();
 
-/// Reads and checks a TOML file; keys that are absent keep their defaults.
-/// @return kNotFound if there is no such file; kInvalidArgument for text that is no TOML, an
-/// unknown
-///   key, a wrong type or a value out of range, as one line with file, line and remedy
+/// Reads and checks a TOML file; absent keys keep their defaults.
+/// @return kNotFound if there is no such file; kInvalidArgument for invalid TOML, an unknown key, a
+/// wrong type or a value out of range, as one line with file, line and remedy
 [[nodiscard]] Result<Config> read_config(const std::filesystem::path& path);
 
-/// The same for text that came from `name`.
+/// Same, for text that came from `name`.
 [[nodiscard]] Result<Config> parse_config(std::string_view text, const std::string& name);
 
-/// An address to listen at.
+/// An address to listen on.
 struct Endpoint {
-  std::string host;  ///< an address, never a name: "127.0.0.1", "::1", "0.0.0.0"
-  int port = 0;      ///< 0: any free one
+  std::string host;  ///< an IP address, never a host name: "127.0.0.1", "::1", "0.0.0.0"
+  int port = 0;      ///< 0: any free port
 
   /// "127.0.0.1:50051" or "[::1]:50051".
   [[nodiscard]] std::string text() const;
-  /// Whether only this machine reaches it.
+  /// Whether only this machine can reach it.
   [[nodiscard]] bool is_loopback() const;
 };
 
-/// Reads "127.0.0.1:50051", "[::1]:50051", "localhost:50051", or an address beyond loopback, which
-/// is refused elsewhere where something else is missing (exposure.h).
-/// @return kInvalidArgument for anything else, above all for a name
+/// Parses "127.0.0.1:50051", "[::1]:50051", "localhost:50051", or an address beyond loopback, which
+/// bind_policy.h may refuse later.
+/// @return kInvalidArgument for anything else, such as a host name
 [[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
 
-/// Where the store is if the configuration does not say: $XDG_STATE_HOME/hydroprint or
+/// The state folder when the configuration sets none: $XDG_STATE_HOME/hydroprint or
 /// ~/.local/state/hydroprint; kFailedPrecondition if neither variable is set.
 [[nodiscard]] Result<std::filesystem::path> default_state_dir();
 

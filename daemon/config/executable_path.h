@@ -5,9 +5,9 @@
 
 namespace hydroprint::daemon {
 
-/// The file that this program runs from: where `link` points or, where there is no /proc, what
-/// argv[0] names, a path or a name to be found in `search_path` as the shell found it. Empty if
-/// none of them leads to a file. To be asked before the working folder changes.
+/// The file of the running program: the target of `link` or, without /proc, argv[0] as a path or a
+/// name to look up in `search_path`, as the shell does. Empty if no file is found. Call it before
+/// the working directory changes.
 [[nodiscard]] std::filesystem::path own_program(
     const std::string& argv0, const std::string& search_path,
     const std::filesystem::path& link = "/proc/self/exe");

@@ -7,13 +7,13 @@
 
 namespace hydroprint::daemon {
 
-/// What a printer::Printer is made of.
+/// The arguments of a printer::Printer.
 struct PrinterConfig {
   printer::Address address;
   printer::Timing timing;
 };
 
-/// The printer as it is configured; none if none is.
+/// Reads the printer's configuration; nullopt if no printer is configured.
 /// @return kInvalidArgument, CONFIG_INVALID, one line that names the key
 [[nodiscard]] Result<std::optional<PrinterConfig>> read_printer_setup(const Config& config);
 

@@ -8,15 +8,15 @@
 
 namespace hydroprint::daemon {
 
-/// What a rig::Controller is made of.
+/// The arguments of a rig::Controller.
 struct ControllerConfig {
   rig::RigConfig config;
   drive::DriveProfile profile;
   drive::Endpoint endpoint;
 };
 
-/// Reads the drive's profile and checks that the rig can be driven safely as it is configured; none
-/// if no rig is.
+/// Reads the drive's profile and checks that the rig can be driven safely with this configuration;
+/// nullopt if no rig is configured.
 /// @return kInvalidArgument, CONFIG_INVALID, one line that names the key, or the profile's line
 [[nodiscard]] Result<std::optional<ControllerConfig>> read_controller_config(const Config& config);
 

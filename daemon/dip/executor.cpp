@@ -14,7 +14,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr std::chrono::milliseconds kTick{20};
-// A store that fails at the very end is not waited for.
+// Timeout for storing the end of a dip during shutdown.
 constexpr std::chrono::seconds kShutdownPatience{5};
 
 }  // namespace
@@ -39,9 +39,10 @@ Status DipExecutor::check_rig(const dip::Plan& plan) const {
   HP_RETURN_IF_ERROR(dip::check(plan, rig.config()));
   if (!plan.clocks.skip) return {};
   if (!rig.profile().is_virtual) {
-    return fail(Code::kFailedPrecondition,
-                "yes_to_all: the drive is a real one; somebody has to look after this dip",
-                "STATE_FORBIDS");
+    return fail(
+        Code::kFailedPrecondition,
+        "yes_to_all: only possible with a virtual drive; leave it out and confirm each step",
+        "STATE_FORBIDS");
   }
   const double here_mm = rig.snapshot().position_mm;
   HP_RETURN_IF_ERROR(dip::ways_from(plan, plan.contact_mm.value_or(here_mm), here_mm, rig.config(),
@@ -90,16 +91,16 @@ Result<Job> DipExecutor::confirm(std::int64_t id, dip::Step step, const std::str
   }
   v1::DipStatus reached;
   reached.ParseFromString(job.dip_status);
-  if (static_cast<int>(step) < reached.step()) return job;  // said again
+  if (static_cast<int>(step) < reached.step()) return job;  // confirmed before
   return tl::unexpected(
       Error{Code::kFailedPrecondition,
-            job_name(id) + " is " + name_of(job.state) + "; it waits for nobody's confirmation",
+            job_name(id) + " is " + name_of(job.state) + "; it does not wait for a confirmation",
             "STATE_FORBIDS",
             {{"state", name_of(job.state)}}});
 }
 
 Result<Job> DipExecutor::cancel(std::int64_t id) {
-  // Before anything that may have to wait.
+  // Stops the axis before anything that may block.
   if (around_.gateway.dip() == id) around_.gateway.controller()->stop();
   const std::lock_guard lock(mutex_);
   if (run_ && run_->job() == id) run_->break_off(dip::Event::Kind::kCancel);

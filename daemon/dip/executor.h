@@ -11,29 +11,28 @@
 
 namespace hydroprint::daemon {
 
-/// Carries out dips, one at a time, in a thread of its own. Any thread may call.
+/// Carries out dips, one at a time, in its own thread. Thread-safe.
 class DipExecutor final : public JobExecutor {
  public:
-  /// @param surroundings  outlive it
+  /// @param surroundings  must outlive this object
   explicit DipExecutor(const DipSurroundings& surroundings);
-  /// Stops if stop() was not called.
+  /// Calls stop() if needed.
   ~DipExecutor() override;
 
-  /// Refuses a caller without the lease, what plan_of() and go_by_calibration() refuse, and what
-  /// the rig, as it stands, cannot do: RIG_OFFLINE and the like, as it would refuse a move;
-  /// LIMIT_EXCEEDED; STATE_FORBIDS for Clocks::skip unless the drive is a virtual one.
+  /// Refuses a caller without the lease, and fails as plan_of() and go_by_calibration() do. Also
+  /// refuses if the rig cannot do it now: RIG_OFFLINE and other refusals of a move; LIMIT_EXCEEDED;
+  /// STATE_FORBIDS for Clocks::skip unless the drive is virtual.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
-  /// See DipSession::confirm; of a dip that is over, only the steps that were done.
+  /// See DipSession::confirm. After the end of a dip, only completed steps can be confirmed again.
   [[nodiscard]] Result<Job> confirm(std::int64_t job, dip::Step step, const std::string& holder);
-  /// Stops the motion of a dip at once and has it end CANCELLED.
+  /// Stops the motion of a dip at once; the dip ends as CANCELLED.
   [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
-  /// Brings a dip that is open to its end, INTERRUPTED, and the axis to rest; takes as long as that
-  /// needs.
+  /// Ends an open dip as INTERRUPTED and waits until the axis is at rest.
   void stop() override;
 
  private:
-  /// What a request asks for, and who has the lease.
+  /// The plan of a request, and the holder of the lease.
   struct Order {
     dip::Plan plan;
     std::string holder;

@@ -23,7 +23,7 @@ std::string text(double value) {
   return out.str();
 }
 
-/// Takes numbers out of a report; keeps the first thing that is wrong.
+/// Takes numbers from a report and keeps the first error.
 class ReportReader {
  public:
   explicit ReportReader(const Json& report) : report_(report) {}
@@ -38,7 +38,7 @@ class ReportReader {
       status_ = fail(Code::kFailedPrecondition,
                      "the simulation's " + std::string(kReport) + ": " + pointer +
                          " is not a number from " + text(least) + " to " + text(most) +
-                         "; simulate again, or give all that it would say in the dip's spec",
+                         "; simulate again, or set all of its values in the dip's spec",
                      "STATE_FORBIDS");
     }
     return 0;
@@ -55,7 +55,7 @@ class ReportReader {
   Status status_;
 };
 
-/// Of a polygon, the area of the box around it.
+/// Area of the film; for a polygon, of its bounding box.
 double film_area_mm2(ReportReader& reader) {
   double area_mm2 = reader.is_round() ? std::numbers::pi / 4 : 1;
   for (const char* axis : {"0", "1"}) {
@@ -126,9 +126,8 @@ Result<dip::Plan> plan_of(const v1::DipSpec& spec, JobStore& jobs, const Layout&
     fill_from(simulated, plan);
     if (spec.has_depth_mm() && spec.depth_mm() > simulated.depth_mm) {
       plan.warnings.push_back({"deeper_than_simulated",
-                               "the dip is deeper than the simulation's " +
-                                   text(simulated.depth_mm) +
-                                   " mm: what lands beyond that was not computed",
+                               "the dip is deeper than the simulated " + text(simulated.depth_mm) +
+                                   " mm; the film beyond that depth was not computed",
                                spec.simulate_job()});
     }
   }
@@ -153,13 +152,13 @@ Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs, CalibrationSto
   plan.calibration = calibration.name();
   if (!why.words.empty()) {
     plan.warnings.push_back({"calibration_stale",
-                             calibration.name() + " does not hold any more: " + why.words,
+                             calibration.name() + " is no longer valid: " + why.words,
                              calibration.name()});
   }
   if (!spec.simulate_job().empty() && simulated.calibration().empty()) {
     plan.warnings.push_back({"pose_not_simulated",
-                             spec.simulate_job() + " was not made for the pose of " +
-                                 calibration.name() + ": what is printed may not fit",
+                             spec.simulate_job() + " was not computed for the pose of " +
+                                 calibration.name() + "; the print may not fit",
                              spec.simulate_job()});
   }
   if (!knows_contact(calibration)) return {};

@@ -11,7 +11,7 @@ class DipSpec;
 
 namespace hydroprint::daemon {
 
-/// What a simulation says of the dip it was made for, from its report.json.
+/// Parameters of the dip that a simulation assumed, from its report.json.
 struct SimulatedDip {
   double depth_mm = 0;
   double speed_mm_per_s = 0;
@@ -21,18 +21,18 @@ struct SimulatedDip {
   double activator_wait_s = 0;
 };
 
-/// Reads that of a report, trusting nothing in it.
+/// Reads them from an untrusted report.
 /// @return kFailedPrecondition, STATE_FORBIDS, naming the key that is missing or out of range
 [[nodiscard]] Result<SimulatedDip> read_simulated_dip(const std::string& report);
 
-/// The plan of a checked spec, its gaps filled from its simulate job and the defaults.
-/// @return JOB_NOT_FOUND; STATE_FORBIDS if that job did not succeed or left no usable report;
-///   SPEC_INVALID if it is no simulate job
+/// Makes the plan of a checked spec; missing values come from its simulate job and the defaults.
+/// @return JOB_NOT_FOUND; STATE_FORBIDS if that job did not succeed or has no usable report;
+/// SPEC_INVALID if it is not a simulate job
 [[nodiscard]] Result<dip::Plan> plan_of(const v1::DipSpec& spec, JobStore& jobs,
                                         const Layout& layout);
 
-/// Has a dip go by its calibration, if it names one: first contact is where that says.
-/// @return CALIBRATION_MISSING, CALIBRATION_STALE, what earlier_simulation() refuses
+/// Applies the calibration that a dip names, if any: it gives the position of first contact.
+/// @return CALIBRATION_MISSING, CALIBRATION_STALE, errors of earlier_simulation()
 [[nodiscard]] Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs,
                                        CalibrationStore& calibrations, const RigPlace& now,
                                        dip::Plan& plan);

@@ -32,7 +32,7 @@ std::string instruction(Step step, const Plan& plan) {
                     " mm: take your hands away; then confirm: the object goes to ",
                     plan.clearance_mm, " mm above the water");
       }
-      return "jog down until the object all but touches the water; then confirm: that is first "
+      return "jog down until the object almost touches the water; then confirm: this sets first "
              "contact, and the object rises";
     case Step::kClear:
       if (plan.contact_mm) {
@@ -64,7 +64,7 @@ std::string instruction(Step step, const Plan& plan) {
 }
 
 std::string afterwards() {
-  return "take the object out, rinse off what is left of the film, and let it dry";
+  return "take the object out, rinse off the rest of the film, and let it dry";
 }
 
 std::string advice(Step step) {
@@ -84,11 +84,13 @@ std::string advice(Step step) {
              "clean, move it up and take it out";
     case Step::kSoak:
     case Step::kSprayActivator:
-      return "the film is wet and lost: take it off the water and throw it away; the object is "
+      return "the film is wet and cannot be used again: take it off the water and throw it away; "
+             "the object is "
              "clean, move it up and take it out";
     case Step::kActivate:
     case Step::kStartDip:
-      return "the film is activated and lost: skim it off the water, with gloves; the object is "
+      return "the film is activated and cannot be used again: skim it off the water, with gloves; "
+             "the object is "
              "clean, move it up and take it out";
     case Step::kDescend:
       return "the object hangs where it stopped, perhaps half in the film: skim the rest of the "

@@ -6,16 +6,16 @@
 
 namespace hydroprint::dip {
 
-/// What the operator is to do in this step, or what is happening.
+/// Instruction for the operator in this step, or a description of the motion.
 [[nodiscard]] std::string instruction(Step step, const Plan& plan);
 
-/// What to do with the object after a dip that went through.
+/// Instruction for the object after a successful dip.
 [[nodiscard]] std::string afterwards();
 
-/// What to do with film and object when a dip ends in this step, before it was through.
+/// Instruction for film and object when a dip ends early in this step.
 [[nodiscard]] std::string advice(Step step);
 
-/// That the film was activated so long ago.
+/// Warning that the film was activated too long ago.
 [[nodiscard]] std::string late_words(double since_sprayed_s, const Clocks& clocks);
 
 }  // namespace hydroprint::dip

@@ -10,7 +10,7 @@
 namespace hydroprint::dip {
 namespace {
 
-// What an operator's step counts for in the share that is done.
+// Weight of an operator's step in the progress.
 constexpr double kOperator_s = 15;
 
 tl::unexpected<Error> out_of_reach(const std::string& message, double value_mm, rig::Range range) {
@@ -23,7 +23,7 @@ tl::unexpected<Error> out_of_reach(const std::string& message, double value_mm, 
                                {"value", text(value_mm)}}});
 }
 
-/// So that the speed is constant when the object meets the water.
+/// Distance for acceleration, so that the speed is constant when the object meets the water.
 double run_up_mm(const Plan& plan, const drive::DriveProfile& profile) {
   const double ramp_mm =
       plan.speed_mm_per_s * plan.speed_mm_per_s / (2 * profile.acceleration_mm_per_s2);
@@ -47,9 +47,10 @@ Status check(const Plan& plan, const rig::RigConfig& config) {
   const rig::Range range = rig::soft_limits(config);
   const double most_mm = range.high_mm - range.low_mm - kLeastClearance_mm;
   if (plan.depth_mm <= most_mm) return {};
-  return out_of_reach(text("a depth of ", plan.depth_mm,
-                           " mm is more than this rig can do; dip at most ", most_mm, " mm deep"),
-                      plan.depth_mm, {0, most_mm});
+  return out_of_reach(
+      text("a depth of ", plan.depth_mm, " mm is more than this rig can reach; dip at most ",
+           most_mm, " mm deep"),
+      plan.depth_mm, {0, most_mm});
 }
 
 Result<Ways> ways_from(const Plan& plan, double contact_mm, double loaded_mm,

@@ -12,7 +12,7 @@
 
 namespace hydroprint::dip {
 
-/// Everything that is decided about a dip before it begins; see hydroprint.v1.DipSpec.
+/// All parameters of a dip, fixed before it begins; see hydroprint.v1.DipSpec.
 struct Plan {
   std::string simulate_job;  ///< "jobs/3"; empty: none
   double depth_mm = 0;       ///< below first contact
@@ -24,31 +24,32 @@ struct Plan {
   double activator_ml_per_m2 = 16;
   Clocks clocks;
   std::optional<double> water_temperature_c;
-  std::string calibration;           ///< "calibrations/3"; empty: none
-  std::optional<double> contact_mm;  ///< where first contact is, by that; none: somebody looks
-  std::int64_t homings = 0;          ///< of the rig, when that was measured
-  Warnings warnings;                 ///< that speak against a good print
+  std::string calibration;  ///< "calibrations/3"; empty: none
+  std::optional<double>
+      contact_mm;  ///< position of first contact from the calibration; none: the operator finds it
+  std::int64_t homings = 0;  ///< homing count of the rig at the calibration
+  Warnings warnings;         ///< reasons to expect a poor print
 
-  /// How much activator the film wants.
+  /// Amount of activator for the film.
   [[nodiscard]] double activator_ml() const { return film_area_mm2 * 1e-6 * activator_ml_per_m2; }
 };
 
-/// The room above first contact that a dip needs at least.
+/// Minimum distance above first contact.
 inline constexpr double kLeastClearance_mm = 1;
 
-/// Where the axis goes; positions are the axis's, positive is down.
+/// Positions of the axis; positive is down.
 struct Ways {
   double clear_mm = 0;   ///< above the water, where the descent begins
-  double bottom_mm = 0;  ///< at the depth
-  double up_mm = 0;  ///< where the retraction ends: where the object was loaded, or the clearance
+  double bottom_mm = 0;  ///< at full depth
+  double up_mm = 0;      ///< end of the retraction: the loading position, or the clearance
 };
 
-/// What a dip asks of any rig: speeds and a depth within its limits. kOutOfRange, LIMIT_EXCEEDED.
+/// Checks that speeds and depth are within the rig's limits. kOutOfRange, LIMIT_EXCEEDED.
 [[nodiscard]] Status check(const Plan& plan, const rig::RigConfig& config);
 
-/// The ways from a first contact. The clearance is less where the soft limit is nearer.
-/// @return kOutOfRange, LIMIT_EXCEEDED (metadata axis, min, max, value) if the depth, or the room
-///   that is needed above first contact, is out of reach
+/// The positions for a given first contact. The clearance is smaller if the soft limit is nearer.
+/// @return kOutOfRange, LIMIT_EXCEEDED (metadata axis, min, max, value) if the depth, or the
+/// required distance above first contact, is out of reach
 [[nodiscard]] Result<Ways> ways_from(const Plan& plan, double contact_mm, double loaded_mm,
                                      const rig::RigConfig& config,
                                      const drive::DriveProfile& profile);
@@ -57,16 +58,16 @@ struct Ways {
 [[nodiscard]] rig::Leg rise(const Plan& plan, const Ways& ways);
 [[nodiscard]] std::vector<rig::Leg> legs(const Plan& plan, const Ways& ways);
 
-/// How long a step will take, s; those that wait for the operator 0.
-/// @param ways  none while first contact is not known: then a guess
+/// Planned duration of a step in s; 0 for steps that wait for the operator.
+/// @param ways  nullopt while first contact is unknown; the duration is then a guess
 [[nodiscard]] double planned_s(Step step, const Plan& plan, const std::optional<Ways>& ways,
                                double acceleration_mm_per_s2);
 
-/// How far a dip is, and when it can be done at the earliest.
+/// Progress of a dip, and the earliest time of its end.
 struct Outlook {
-  double fraction = 0;       ///< of the whole, [0, 1]
+  double fraction = 0;       ///< of the whole dip, [0, 1]
   double step_fraction = 0;  ///< of the step, [0, 1]
-  double remaining_s = 0;    ///< if no operator takes any time
+  double remaining_s = 0;    ///< if the operator takes no time
 };
 [[nodiscard]] Outlook outlook(const Stand& stand, double time_s, const Plan& plan,
                               const std::optional<Ways>& ways, double acceleration_mm_per_s2);

@@ -78,7 +78,7 @@ Json warnings_json(const Warnings& warnings) {
 
 tl::unexpected<Error> not_written(const std::filesystem::path& path) {
   return fail(Code::kResourceExhausted,
-              path.string() + ": cannot be written; see whether its disk is full", "DISK_FULL");
+              path.string() + ": cannot be written; check whether the disk is full", "DISK_FULL");
 }
 
 }  // namespace

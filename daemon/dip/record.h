@@ -12,56 +12,57 @@
 
 namespace hydroprint::dip {
 
-/// One step as it was. Times are seconds since the dip was created.
+/// One step as it happened. Times are seconds since the dip was created.
 struct StepRecord {
   Step step = Step::kPrintFilm;
   double begin_s = 0;
-  std::optional<double> end_s;      ///< none: it was the last one
-  std::optional<double> planned_s;  ///< of clocks and motions
-  std::string confirmed_by;         ///< who had the lease; empty: nobody confirmed it
+  std::optional<double> end_s;      ///< nullopt: the last step
+  std::optional<double> planned_s;  ///< only for clocks and motions
+  std::string confirmed_by;         ///< holder of the lease; empty: not confirmed
 };
 
-/// What report.json of a dip says.
+/// Content of a dip's report.json.
 struct Facts {
   std::string job;  ///< "jobs/7"
   std::string create_time;
   std::string drive;
   bool is_virtual = false;
-  std::string lease_holder;  ///< who created it
+  std::string lease_holder;  ///< creator of the dip
   Plan plan;
   Stand stand;
   std::optional<Ways> ways;
   std::vector<StepRecord> steps;
   Warnings warnings;
-  std::optional<double> deepest_mm;           ///< of all positions since first contact, below it
+  std::optional<double> deepest_mm;           ///< largest depth since first contact
   std::optional<rig::ConstantSpeed> descent;  ///< below first contact
-  std::string outcome;                        ///< "SUCCEEDED"; "RUNNING" while it is open
-  std::string reason;                         ///< of a failure
+  std::string outcome;                        ///< "SUCCEEDED"; "RUNNING" while the dip is open
+  std::string reason;                         ///< only after a failure
   std::string message;
 };
 
-/// JSON of a report, one object.
+/// The report as a JSON object.
 [[nodiscard]] std::string report_json(const Facts& facts);
 
-/// The report of a dip whose daemon was lost, with its outcome set; as it was if it is no report.
+/// The report of a dip after a restart of the daemon, with its outcome set. Returns the text
+/// unchanged if it is not a report.
 [[nodiscard]] std::string interrupted_report(const std::string& json, const std::string& message);
 
-/// How constant the speed of the descent was where the object is in the water.
+/// How constant the speed of the descent was below first contact.
 [[nodiscard]] rig::ConstantSpeed immersion_speed(std::span<const rig::Sample> samples,
                                                  std::uint64_t motion, double contact_mm);
 
-/// The position log, positions.csv: written as samples come, so that it is there after a crash.
+/// The position log, positions.csv. Samples are written as they arrive, so the file survives a
+/// crash.
 class PositionLog {
  public:
   static constexpr const char* kName = "positions.csv";
 
-  /// @param begun  where its time starts: when the dip was created
+  /// @param begun  origin of the time axis: creation of the dip
   PositionLog(const std::filesystem::path& folder, rig::TimePoint begun);
 
   /// Appends samples of a motion ("clear", "dip").
   void add(std::span<const rig::Sample> samples, std::string_view motion, double contact_mm);
-  /// Hands over to the system what was added. kResourceExhausted, DISK_FULL if it could not be
-  /// written.
+  /// Passes added samples to the system. kResourceExhausted, DISK_FULL if they cannot be written.
   [[nodiscard]] Status flush();
 
  private:
@@ -72,7 +73,7 @@ class PositionLog {
 
 inline constexpr const char* kReportName = "report.json";
 
-/// Writes report.json whole, or leaves the one before. kResourceExhausted, DISK_FULL.
+/// Writes report.json completely, or keeps the previous one. kResourceExhausted, DISK_FULL.
 [[nodiscard]] Status write_report(const std::filesystem::path& folder, const std::string& json);
 
 }  // namespace hydroprint::dip

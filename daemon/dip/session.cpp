@@ -24,11 +24,11 @@ using dip::Event;
 using dip::Step;
 using std::chrono::milliseconds;
 
-// Each report is a transaction on disk.
+// Each progress report is a transaction on disk.
 constexpr milliseconds kProgressInterval{250};
 constexpr milliseconds kFlushInterval{250};
 constexpr std::chrono::seconds kStoreAgainAfter{1};
-// After the computed time, an axis that nobody sees at rest is not waited for any longer.
+// Timeout for standstill after the computed end of the motion.
 constexpr double kRestMargin_s = 1;
 constexpr std::size_t kMostSamples = 500'000;  // of the descent, for its speed
 constexpr std::size_t kLargestRecord = 16 << 20;
@@ -107,12 +107,12 @@ Status DipSession::check_confirm(Step step) const {
   HP_RETURN_IF_ERROR(around_.gateway.check_at_rest());
   const bool takes_measured = step == Step::kFindContact && facts_.plan.contact_mm;
   if (!takes_measured || around_.places.place().homings == facts_.plan.homings) return {};
-  return tl::unexpected(Error{
-      Code::kFailedPrecondition,
-      "the rig was homed since " + facts_.plan.calibration +
-          " was made, so that nobody knows first contact; cancel this dip and calibrate again",
-      "CALIBRATION_STALE",
-      {{"calibration", facts_.plan.calibration}, {"why", "HOMED"}}});
+  return tl::unexpected(
+      Error{Code::kFailedPrecondition,
+            "the rig has been homed since " + facts_.plan.calibration +
+                " was made, so first contact is unknown; cancel this dip and calibrate again",
+            "CALIBRATION_STALE",
+            {{"calibration", facts_.plan.calibration}, {"why", "HOMED"}}});
 }
 
 Status DipSession::confirm(Step step, const std::string& holder) {
@@ -125,7 +125,7 @@ Status DipSession::confirm(Step step, const std::string& holder) {
 
 void DipSession::break_off(Event::Kind why) { (void)feed({why}); }
 
-/// Lets an event have its consequences; where the rig refuses them, the dip stays where it is.
+/// Applies an event. If the rig refuses the action, the dip stays in its step.
 Status DipSession::feed(Event event) {
   if (event.time_s == 0) event.time_s = seconds_at(SteadyClock::now());
   const bool is_measured = stand_.step == Step::kFindContact && facts_.plan.contact_mm;
@@ -135,7 +135,7 @@ Status DipSession::feed(Event event) {
     return tl::unexpected(Error{Code::kFailedPrecondition,
                                 facts_.job + " is at " + std::string(name(stand_.step)) +
                                     ", not waiting for " + std::string(name(event.step)) +
-                                    "; look at its dip_status",
+                                    "; see its dip_status",
                                 "STATE_FORBIDS",
                                 {{"step", std::string(name(stand_.step))}}});
   }
@@ -188,7 +188,7 @@ void DipSession::adopt(const dip::Stand& next) {
     tell(facts_.warnings.back().message);
   }
   if (next.step != before.step) {
-    // How late it was in the end.
+    // Updates the warning with the final delay.
     if (before.step == Step::kStartDip && next.late) {
       const double ago_s = next.since_s - *next.sprayed_s;
       facts_.warnings.back().message = dip::late_words(ago_s, facts_.plan.clocks);
@@ -225,7 +225,7 @@ void DipSession::look() {
   }
 }
 
-/// The log's samples, and what they tell of the descent.
+/// Writes new samples to the log, and keeps those of the descent.
 void DipSession::take_samples() {
   if (motion_ == 0 || next_sample_ == 0) return;
   const auto report = rig().motion(motion_);
@@ -277,9 +277,9 @@ void DipSession::look_at_motion() {
 void DipSession::look_at_rest() {
   if (!dip::has_the_rig(stand_.step) || stand_.ending != Ending::kNone) return;
   const rig::Condition condition = rig().snapshot().condition;
-  if (condition.homed) return;  // whatever is wrong with a rig costs it that
+  if (condition.homed) return;  // every fault of the rig requires homing again
   const auto refusal = rig::step(condition, {rig::Event::Kind::kMove}).refusal;
-  // It may have moved: a cause says more than that it wants homing.
+  // The axis may have moved. A cause is more helpful than "homing required".
   fail_for(condition.cause != rig::Cause::kNone ? rig::failed(condition.cause)
                                                 : rig::refused(*refusal, condition));
   (void)feed({Event::Kind::kPlaceLost});
@@ -288,7 +288,7 @@ void DipSession::look_at_rest() {
 bool DipSession::step() {
   look();
   dip::Step before;
-  do {  // what needs no waiting happens at once
+  do {  // actions without a wait follow at once
     before = stand_.step;
     if (const Status done = feed({Event::Kind::kTick}); !done) {
       fail_for(done.error());
@@ -343,7 +343,7 @@ std::string DipSession::status() const {
   return out.SerializeAsString();
 }
 
-/// Tells the store where the dip stands, with a line for its events.
+/// Stores the state of the dip, with a message for its events.
 void DipSession::tell(const std::string& message) {
   if (stand_.ending != Ending::kNone) return;
   log_failure("dip_step_lost", job_,
@@ -359,7 +359,7 @@ void DipSession::write_record() {
   note_record(dip::write_report(around_.layout.dip(job_), dip::report_json(facts_)));
 }
 
-/// A record that cannot be written is told once; the dip goes on.
+/// Logs a failed write of the record once; the dip continues.
 void DipSession::note_record(const Status& written) {
   if (written || std::exchange(record_told_, true)) return;
   log_failure("record_not_written", job_, written);
@@ -381,7 +381,7 @@ std::string DipSession::end_words() const {
   }
 }
 
-/// Without its record, if that cannot be kept: how the dip ended matters more.
+/// If the record cannot be stored, the dip ends without it, since its outcome matters more.
 std::vector<Artifact> DipSession::publish_record() {
   write_record();
   auto published = publish_artifacts(around_.layout.dip(job_), around_.layout.artifacts(job_));

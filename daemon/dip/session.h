@@ -17,7 +17,7 @@
 
 namespace hydroprint::daemon {
 
-/// What dips work on.
+/// The objects that dips use.
 struct DipSurroundings {
   RigGateway& gateway;
   RigReference& places;
@@ -27,11 +27,11 @@ struct DipSurroundings {
   Clock clock;
 };
 
-/// What the job of a dip shows at its beginning, serialised.
+/// The initial dip status of a job, serialised.
 [[nodiscard]] std::string first_dip_status(const dip::Plan& plan);
 
-/// One dip, from its creation to its end in the store: asks dip::proceed what is next, has the rig
-/// do it, tells the store, and keeps the record. One thread at a time may call.
+/// One dip, from its creation to its end in the store. Asks dip::proceed for the next action, gives
+/// orders to the rig, updates the store and keeps the record. Not thread-safe.
 class DipSession {
  public:
   /// @param job  just created; the rig is configured, homed and at rest
@@ -40,15 +40,16 @@ class DipSession {
 
   [[nodiscard]] std::int64_t job() const { return job_; }
 
-  /// The operator, who has the lease, has done this step. Waits until the rig took what follows.
-  /// @return STATE_FORBIDS, LIMIT_EXCEEDED, and what the rig refuses: then the dip stays where it
-  /// is
+  /// Confirms a step as the operator, who holds the lease. Waits until the rig has accepted the
+  /// next order.
+  /// @return STATE_FORBIDS, LIMIT_EXCEEDED, and refusals of the rig; after an error the dip stays
+  /// in its step
   [[nodiscard]] Status confirm(dip::Step step, const std::string& holder);
-  /// Ends it as soon as the axis is at rest; no errors.
+  /// Ends the dip as soon as the axis is at rest; reports no errors.
   void break_off(dip::Event::Kind why);
 
-  /// Looks at the rig and the clocks and does what is next. True once the dip is ended in the
-  /// store; a store that fails is tried again.
+  /// Checks the rig and the clocks, and takes the next action. Returns true once the dip has ended
+  /// in the store; a failed write is retried.
   [[nodiscard]] bool step();
 
  private:
@@ -91,9 +92,9 @@ class DipSession {
   dip::Facts facts_;
   SteadyClock::time_point begun_;
   std::int64_t begun_ms_;
-  std::string confirmed_by_;  // of the step that is being left
+  std::string confirmed_by_;  // of the step that is ending
 
-  std::uint64_t motion_ = 0;  // under way or not at rest yet; 0: none
+  std::uint64_t motion_ = 0;  // running, or not yet at rest; 0: none
   std::uint64_t next_sample_ = 0;
   std::vector<rig::Sample> descent_;
   dip::PositionLog log_;
@@ -104,8 +105,8 @@ class DipSession {
   SteadyClock::time_point next_progress_, next_flush_, next_end_;
 };
 
-/// What a dip left whose daemon was lost: its record is published, and its job INTERRUPTED, with
-/// what to do. To be called before anyone is served.
+/// Ends dips that a crash of the daemon left open: publishes the record and sets the job to
+/// INTERRUPTED, with advice for the operator. Call this before serving clients.
 [[nodiscard]] Status end_lost_dips(JobStore& jobs, const Layout& layout);
 
 }  // namespace hydroprint::daemon

@@ -15,7 +15,7 @@ Outcome enter(Stand stand, Step step, double time_s) {
 
 Step after(Step step) { return static_cast<Step>(static_cast<int>(step) + 1); }
 
-/// A dip at rest is over with its end; one in motion has to stop first.
+/// Ends the dip. At rest it is over at once; in motion it has to stop first.
 Outcome end(Stand stand, Ending ending, double time_s, bool in_motion) {
   if (stand.ending != Ending::kNone) return stay(stand);
   stand.ending = ending;
@@ -27,11 +27,11 @@ Outcome end(Stand stand, Ending ending, double time_s, bool in_motion) {
 Outcome break_off(const Stand& stand, Ending ending, double time_s) {
   const bool in_motion = awaits(stand.step) == Awaits::kMotion;
   Outcome out = end(stand, ending, time_s, in_motion);
-  if (in_motion) out.action = Action::kStop;  // again does no harm
+  if (in_motion) out.action = Action::kStop;  // repeating a stop does no harm
   return out;
 }
 
-/// The operator's part is done.
+/// Moves on after the operator's confirmation.
 Outcome go_on(Stand stand, const Event& event) {
   Outcome out = enter(stand, after(stand.step), event.time_s);
   switch (stand.step) {
@@ -55,7 +55,7 @@ Outcome go_on(Stand stand, const Event& event) {
 }
 
 Outcome confirm(const Stand& stand, const Event& event) {
-  if (event.step < stand.step) return stay(stand);  // said again
+  if (event.step < stand.step) return stay(stand);  // confirmed before
   const bool waits = event.step == stand.step && awaits(stand.step) == Awaits::kOperator;
   if (!waits || stand.ending != Ending::kNone) return {stand, Action::kNone, true};
   return go_on(stand, event);
@@ -104,7 +104,7 @@ Awaits awaits(Step step) {
       return Awaits::kClock;
     case Step::kClear:
     case Step::kDescend:
-    case Step::kHold:  // the drive's motion goes on, though the axis rests
+    case Step::kHold:  // the axis rests, but the drive's motion continues
     case Step::kRetract:
       return Awaits::kMotion;
     default:

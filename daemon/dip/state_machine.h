@@ -6,8 +6,7 @@
 
 namespace hydroprint::dip {
 
-/// The steps of a dip in their order; numbers and meanings are those of
-/// hydroprint.v1.DipStatus.Step.
+/// The steps of a dip in order; numbers and meanings are those of hydroprint.v1.DipStatus.Step.
 enum class Step : std::uint8_t {
   kPrintFilm = 1,
   kLoadObject,
@@ -24,68 +23,68 @@ enum class Step : std::uint8_t {
 };
 inline constexpr int kSteps = 12;
 
-/// "FIND_CONTACT".
+/// The step's name: "FIND_CONTACT".
 [[nodiscard]] std::string_view name(Step step);
 
-/// What a step waits for.
+/// The condition that ends a step.
 enum class Awaits : std::uint8_t { kOperator, kClock, kMotion };
 [[nodiscard]] Awaits awaits(Step step);
 
-/// True from the first motion on: the rig must keep its place, and nobody else may move it.
+/// True from the first motion on: the rig must keep its reference, and nobody else may move it.
 [[nodiscard]] constexpr bool has_the_rig(Step step) { return step >= Step::kClear; }
 
-/// How long the clocks run, s.
+/// Durations of the clocks in s.
 struct Clocks {
   double soak_s = 60;
   double activator_wait_s = 20;
-  double activation_window_s = 60;  ///< after the wait, for as long as the film is good
-  bool skip = false;                ///< no confirmations and no clocks: nobody is there
+  double activation_window_s = 60;  ///< how long the film is good after the wait
+  bool skip = false;                ///< no confirmations and no clocks: for unattended runs
 };
 
-/// How a dip ends.
+/// The outcome of a dip.
 enum class Ending : std::uint8_t { kNone, kSucceeded, kFailed, kCancelled, kInterrupted };
-[[nodiscard]] std::string_view name(Ending ending);  ///< "SUCCEEDED"; "" of kNone
+[[nodiscard]] std::string_view name(Ending ending);  ///< "SUCCEEDED"; "" for kNone
 
-/// Where a dip stands. Times are seconds since it was created.
+/// State of a dip. Times are seconds since it was created.
 struct Stand {
   Step step = Step::kPrintFilm;
-  double since_s = 0;                ///< when the step began
-  Ending ending = Ending::kNone;     ///< decided; the axis may still have to come to rest
-  double ending_s = 0;               ///< when that was
-  bool over = false;                 ///< nothing more will happen
-  bool late = false;                 ///< the film was activated longer ago than it is good
-  std::optional<double> loaded_mm;   ///< where the axis was when the object was loaded
-  std::optional<double> contact_mm;  ///< where it was at first contact
-  std::optional<double> sprayed_s;   ///< when the activator was sprayed
+  double since_s = 0;                ///< start of the step
+  Ending ending = Ending::kNone;     ///< decided; the axis may still be moving
+  double ending_s = 0;               ///< time of the decision
+  bool over = false;                 ///< no further action follows
+  bool late = false;                 ///< the film was activated too long ago
+  std::optional<double> loaded_mm;   ///< axis position when the object was loaded
+  std::optional<double> contact_mm;  ///< axis position at first contact
+  std::optional<double> sprayed_s;   ///< time at which the activator was sprayed
 
   bool operator==(const Stand&) const = default;
 };
 
 struct Event {
   enum class Kind : std::uint8_t {
-    kTick,           ///< time goes by
-    kConfirm,        ///< the operator has done `step`
-    kAtDepth,        ///< of the descent: the axis has arrived
-    kRising,         ///< and has begun the way up
-    kMotionDone,     ///< the motion of this step (or of all steps from the descent on)
-    kMotionStopped,  ///< somebody asked for it
-    kMotionFailed,   ///< something went wrong
-    kPlaceLost,      ///< at rest, the rig lost its place or its torque
-    kOrderRefused,   ///< what the last action asked for was refused
-    kAtRest,         ///< after the end was decided: seen at rest, or nothing more can be done
+    kTick,           ///< time passes
+    kConfirm,        ///< the operator has completed `step`
+    kAtDepth,        ///< the descent has arrived
+    kRising,         ///< the retraction has begun
+    kMotionDone,     ///< the motion of this step is done (or of all steps since the descent)
+    kMotionStopped,  ///< the motion was stopped on request
+    kMotionFailed,   ///< the motion failed
+    kPlaceLost,      ///< at rest, the rig lost its reference or its torque
+    kOrderRefused,   ///< the last action was refused
+    kAtRest,         ///< after the decision: at rest, or nothing more can be done
     kCancel,
-    kShutdown,  ///< the daemon goes down
+    kShutdown,  ///< the daemon shuts down
   };
   Kind kind = Kind::kTick;
   double time_s = 0;
-  Step step = Step::kPrintFilm;  ///< of kConfirm
-  double position_mm = 0;        ///< of kTick and kConfirm: where the axis is
+  Step step = Step::kPrintFilm;  ///< for kConfirm
+  double position_mm = 0;        ///< axis position; for kTick and kConfirm
 };
 
-/// What the rig must do.
+/// Action of the rig.
 enum class Action : std::uint8_t {
   kNone,
-  kRise,  ///< to the clearance above first contact
+  kRise,  ///< up to the clearance above first contact
   kDip,   ///< descent, hold, retraction
   kStop,
 };
@@ -93,18 +92,17 @@ enum class Action : std::uint8_t {
 struct Outcome {
   Stand next;
   Action action = Action::kNone;
-  bool refused = false;  ///< of kConfirm: the dip waits for something else; `next` is as before
+  bool refused = false;  ///< for kConfirm: the dip waits for something else; `next` is unchanged
 };
 
-/// What follows from an event; every event is good in every stand. Rules:
-/// - steps follow one another in their order, and none is left out;
-/// - what waits for the operator is left by the confirmation alone (or Clocks::skip), a clock when
-/// its
-///   time is over, a motion when it is done; to confirm a step that is past changes nothing;
-/// - nothing moves but by the confirmations of FIND_CONTACT and START_DIP;
-/// - once its end is decided a dip moves nothing any more, and its end does not change; it is over
-///   when the axis is at rest;
-/// - a film that is past its window is told, never refused.
+/// Computes the consequences of an event. Every event is valid in every state. Rules:
+/// - Steps follow one another in order; none is left out.
+/// - A step that waits for the operator ends only by confirmation (or Clocks::skip). A clock ends
+///   when its time is over, a motion when it is done. Confirming an earlier step changes nothing.
+/// - Motion starts only after FIND_CONTACT and START_DIP are confirmed.
+/// - Once the ending is decided, the dip starts no motion and the ending does not change. The dip
+///   is over when the axis is at rest.
+/// - A film past its window causes a warning, never a refusal.
 [[nodiscard]] Outcome proceed(const Stand& stand, const Event& event, const Clocks& clocks);
 
 }  // namespace hydroprint::dip

@@ -5,7 +5,7 @@
 
 namespace hydroprint::dip {
 
-/// The parts, numbers as they are shown, one after the other.
+/// Concatenates the parts, with numbers in their default format.
 template <class... Parts>
 std::string text(const Parts&... parts) {
   std::ostringstream out;

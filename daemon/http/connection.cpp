@@ -1,4 +1,4 @@
-// One connection, from its first request to its end.
+// Serves one connection, from its first request to its end.
 #include "daemon/http/connection.h"
 
 #include "daemon/http/error_response.h"
@@ -10,8 +10,8 @@ namespace {
 constexpr milliseconds kLinger{1000};
 constexpr std::size_t kMostLingering_bytes = 1 << 20;
 
-// What the client has sent meanwhile is taken off its hands: else the kernel would take back the
-// answer that it has not read yet.
+// Reads what the client is still sending. Otherwise the kernel would reset the connection and
+// discard a response that the client has not read yet.
 Task<void> say_goodbye(Socket& socket) {
   socket.end_writing();
   std::string dropped(16 << 10, '\0');
@@ -27,23 +27,24 @@ Response refused_head(Exchange::Begun begun) {
   switch (begun) {
     case Exchange::Begun::kHeaderTooLarge:
       return refusal({Code::kOutOfRange,
-                      "the header is longer than this server takes; send less of it",
+                      "the header is too long; send fewer or shorter header fields",
                       "HEADER_TOO_LARGE",
                       {}},
                      431);
     case Exchange::Begun::kTimedOut:
       return refusal({Code::kCancelled,
-                      "the request did not come in time; send it anew",
+                      "the request did not arrive in time; send it again",
                       "REQUEST_TIMED_OUT",
                       {}},
                      408);
     default:
       return refusal(
-          {Code::kInvalidArgument, "this is no HTTP/1.1 request", "REQUEST_MALFORMED", {}}, 400);
+          {Code::kInvalidArgument, "this is not an HTTP/1.1 request", "REQUEST_MALFORMED", {}},
+          400);
   }
 }
 
-// Says it as the last thing on its connection.
+// Sends the last response on the connection.
 Task<bool> say_last(Socket& socket, Response response, milliseconds timeout) {
   const std::string text =
       head_text(response, Head{}, {response.body.size(), false, socket.is_secure()}) +
@@ -51,14 +52,14 @@ Task<bool> say_last(Socket& socket, Response response, milliseconds timeout) {
   co_return co_await socket.written(text, timeout);
 }
 
-// True if another request may follow.
+// Serves one request; true if another may follow.
 Task<bool> serve_one(ServerContext& server, const std::shared_ptr<Socket>& socket,
                      std::string& buffered, bool is_first) {
   Exchange exchange(socket, server.options.limits, buffered);
   const Exchange::Begun begun = co_await exchange.begin_request(is_first);
   if (begun == Exchange::Begun::kGone) co_return false;
   if (begun != Exchange::Begun::kYes) {
-    // Nobody knows where the next one begins.
+    // The start of the next request is unknown.
     Response response = refused_head(begun);
     server.metrics.count_request("unreadable", "", response.status);
     co_await say_last(*socket, std::move(response), server.options.limits.write_time);
@@ -69,7 +70,7 @@ Task<bool> serve_one(ServerContext& server, const std::shared_ptr<Socket>& socke
   co_return co_await exchange.end_request();
 }
 
-// Over TLS, before anything is read; who speaks none is told so.
+// Performs the TLS handshake. A client that does not use TLS gets an error in plain HTTP.
 Task<bool> open_connection(Socket& socket, milliseconds timeout) {
   const Socket::Opened opened = co_await socket.opened(timeout);
   if (opened == Socket::Opened::kPlainHttp) {
@@ -99,7 +100,7 @@ Task<void> say_full(Socket& socket) {
   const bool is_open = co_await open_connection(socket, kLinger);
   if (!is_open) co_return;
   Response response = refusal({Code::kUnavailable,
-                               "too many connections are open; try again in a while",
+                               "too many connections are open; try again in a moment",
                                "CONNECTIONS_FULL",
                                {}});
   response.fields.set("Retry-After", "5");
@@ -112,7 +113,7 @@ Task<void> say_full(Socket& socket) {
 Detached serve(ServerContext& server, std::shared_ptr<Socket> socket) {
   try {
     co_await serve_all(server, socket);
-  } catch (const std::exception&) {  // no memory
+  } catch (const std::exception&) {  // out of memory
     socket->close();
   }
   server.connections.remove(socket);
@@ -122,7 +123,7 @@ Detached turn_away(ServerContext& server, std::shared_ptr<Socket> socket) {
   server.metrics.count_refused_connection();
   try {
     co_await say_full(*socket);
-  } catch (const std::exception&) {  // no memory
+  } catch (const std::exception&) {  // out of memory
   }
   socket->close();
   server.connections.remove(socket);

@@ -7,10 +7,10 @@
 
 namespace hydroprint::http {
 
-/// Answers the requests of one connection in turn until either side ends it.
+/// Serves the requests of one connection in turn until either side closes it.
 Detached serve(ServerContext& server, std::shared_ptr<Socket> socket);
 
-/// Replies that there are too many connections and ends this one.
+/// Replies that too many connections are open, and closes this one.
 Detached turn_away(ServerContext& server, std::shared_ptr<Socket> socket);
 
 }  // namespace hydroprint::http

@@ -1,4 +1,4 @@
-// The bytes of an artifact, as fast as they are read.
+// Sends the bytes of an artifact as fast as the client reads them.
 #include "daemon/http/download.h"
 
 #include "daemon/http/credentials.h"
@@ -18,10 +18,10 @@ const std::string kDownload = "/hydroprint.v1.ArtifactService/DownloadArtifact";
 Result<v1::Artifact> artifact_of(const Reply& reply) {
   v1::Artifact artifact;
   if (artifact.ParseFromString(reply.response)) return artifact;
-  return fail(Code::kInternal, "the daemon's answer is none");
+  return fail(Code::kInternal, "the daemon's response cannot be parsed");
 }
 
-// What the request's head makes of it.
+// The response headers and the range that a request asks for.
 struct Wanted {
   ByteRange range;
   Response response;
@@ -45,11 +45,12 @@ Wanted wanted(const Head& head, const v1::Artifact& artifact, bool is_inline) {
   out.range = byte_range(range, artifact.size_bytes());
   const std::string size = std::to_string(artifact.size_bytes());
   if (out.range.kind == ByteRange::Kind::kNone) {
-    out.response = refusal({Code::kOutOfRange,
-                            "the artifact has " + size + " bytes, and none in this range",
-                            "RANGE_UNSATISFIABLE",
-                            {}},
-                           416);
+    out.response =
+        refusal({Code::kOutOfRange,
+                 "the artifact has " + size + " bytes; the requested range is beyond its end",
+                 "RANGE_UNSATISFIABLE",
+                 {}},
+                416);
     out.response.fields.set("Content-Range", "bytes */" + size);
     return out;
   }
@@ -63,7 +64,7 @@ Wanted wanted(const Head& head, const v1::Artifact& artifact, bool is_inline) {
   return out;
 }
 
-/// One download. The next piece is asked for when the one before has got away.
+/// One download. The next piece is requested once the previous one was sent.
 class Download {
  public:
   Download(ServerContext& server, Exchange& exchange, const InProcessChannel::Metadata& metadata)
@@ -96,7 +97,7 @@ class Download {
   }
 
  private:
-  // Nothing if the call ended.
+  // Reads the next piece; nullopt if the call has ended.
   Task<std::optional<std::string>> next() {
     AsyncValue<std::optional<std::string>> coming(exchange_.shared_socket());
     stream_->read(coming.receiver());
@@ -121,10 +122,11 @@ class Download {
   std::unique_ptr<Stream> stream_;
 };
 
-// What a browser would take for the file must not be an answer to another method.
+// The answer to other methods; a browser must not take it for the file.
 Response only_get() {
-  Response response =
-      refusal({Code::kUnimplemented, "an artifact can only be got", "METHOD_NOT_ALLOWED", {}}, 405);
+  Response response = refusal(
+      {Code::kUnimplemented, "an artifact can only be read; use GET", "METHOD_NOT_ALLOWED", {}},
+      405);
   response.fields.set("Allow", "GET, HEAD, OPTIONS");
   return response;
 }
@@ -141,7 +143,7 @@ Task<std::string> answer_download(ServerContext& server, Exchange& exchange, Art
   const auto metadata = admit(server, exchange, kDownload);
   if (!metadata || !target.is_good) {
     Error error{Code::kInvalidArgument,
-                "of a download only inline=1 can be asked",
+                "a download takes only the parameter inline=1",
                 "PARAMETER_INVALID",
                 {}};
     if (!metadata) error = metadata.error();

@@ -8,7 +8,7 @@
 
 namespace hydroprint::http {
 
-/// Answers a request for the bytes of an artifact, whole or by range.
+/// Answers a request for the bytes of an artifact, the whole file or a range.
 /// @return the name under which the request is counted
 [[nodiscard]] Task<std::string> answer_download(ServerContext& server, Exchange& exchange,
                                                 ArtifactPath target);

@@ -29,7 +29,7 @@ void fill(grpc::ClientContext& context, const InProcessChannel::Metadata& metada
   for (const auto& [name, value] : metadata) context.AddMetadata(name, value);
 }
 
-/// Calls that may still call back.
+/// Counts the calls that may still call back.
 class Calls {
  public:
   void begin() {
@@ -52,7 +52,7 @@ class Calls {
   int count_ = 0;
 };
 
-/// One of them, for as long as this is there.
+/// Counts one call while this object exists.
 class OneCall {
  public:
   explicit OneCall(std::shared_ptr<Calls> calls) : calls_(std::move(calls)) { calls_->begin(); }
@@ -76,7 +76,7 @@ class UnaryCall final : public Call {
   OneCall one_;
 };
 
-/// gRPC's side of a stream: it lives until gRPC says that it is over, whoever still looks.
+/// gRPC's side of a stream. It lives until gRPC reports its end, even if the stream was destroyed.
 class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
   explicit Reactor(std::shared_ptr<Calls> calls) : one_(std::move(calls)) {}
@@ -88,7 +88,7 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
     made->itself_ = made;
     fill(made->context_, metadata);
     stub.PrepareBidiStreamingCall(&made->context_, method, {}, made.get());
-    made->AddHold();  // until finish(): reads and writes are begun from outside
+    made->AddHold();  // until finish(), since reads and writes start outside gRPC's callbacks
     made->StartCall();
     return made;
   }
@@ -122,7 +122,7 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
       read_done_ = nullptr;
       was_reading = std::exchange(is_reading_, true);
     }
-    // To the end: without it gRPC does not say how the call ended.
+    // Reads to the end, since gRPC does not report the status before.
     if (!was_reading) StartRead(&incoming_);
     RemoveHold();
   }
@@ -163,7 +163,7 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
   OneCall one_;
   grpc::ClientContext context_;
   grpc::ByteBuffer incoming_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // protects the members below
   grpc::ByteBuffer outgoing_;
   std::function<void(std::optional<std::string>)> read_done_;
   std::function<void(bool)> write_done_;

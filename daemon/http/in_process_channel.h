@@ -14,46 +14,46 @@ class Channel;
 
 namespace hydroprint::http {
 
-/// How a call ended: google.rpc.Code, and what came with it.
+/// The status of a finished call, and its response.
 struct Reply {
   int code = 0;
   std::string message;
-  std::string details;   ///< google.rpc.Status, serialised; may be empty
-  std::string response;  ///< serialised; of a unary call that went well
+  std::string details;   ///< serialised google.rpc.Status; may be empty
+  std::string response;  ///< serialised; only after a successful unary call
 
   [[nodiscard]] bool ok() const { return code == 0; }
 };
 
-/// A call under way. Any thread may call.
+/// A running call. Thread-safe.
 class Call {
  public:
   virtual ~Call() = default;
   virtual void cancel() = 0;
 };
 
-/// A call with many messages in either direction. One read, one write at a time. Calls back once
-/// each, on a thread of gRPC's, which must not be kept. Ends, if it is dropped before finish(), as
-/// if it was cancelled.
+/// A streaming call, with at most one read and one write at a time. Each callback is called once,
+/// on a gRPC thread that it must not block. Destroying the stream before finish() cancels the call.
 class Stream {
  public:
   virtual ~Stream() = default;
-  /// The next message; nothing after the last.
+  /// Reads the next message; nullopt after the last.
   virtual void read(std::function<void(std::optional<std::string>)> done) = 0;
-  /// Done once the other side has taken it; false if it takes no more.
+  /// Writes a message. Calls back when the other side has accepted it, with false if the call has
+  /// ended.
   virtual void write(std::string message, bool is_last, std::function<void(bool)> done) = 0;
-  /// Nothing more is written; not needed after the last message.
+  /// Half-closes the stream; not needed after the last message.
   virtual void end_writing() = 0;
   virtual void cancel() = 0;
-  /// How it ended, once it has; nothing is read or written after this. Messages that nobody has
-  /// read are read and dropped, so cancel() first if there may be many.
+  /// Reads the final status; nothing may be read or written afterwards. Unread messages are read
+  /// and dropped, so call cancel() first if there may be many.
   virtual void finish(std::function<void(Reply)> done) = 0;
 };
 
-/// The services, called in process: what is answered, refused and logged is what gRPC's own callers
-/// get.
+/// Calls the services within the process. Results, errors and logs are the same as for gRPC
+/// clients.
 class InProcessChannel {
  public:
-  /// Names (in lower case) and values, which must be printable ASCII.
+  /// Keys (in lower case) and values, which must be printable ASCII.
   using Metadata = std::vector<std::pair<std::string, std::string>>;
 
   explicit InProcessChannel(std::shared_ptr<grpc::Channel> channel);
@@ -61,14 +61,14 @@ class InProcessChannel {
   InProcessChannel(const InProcessChannel&) = delete;
   InProcessChannel& operator=(const InProcessChannel&) = delete;
 
-  /// One message for one. Calls back once, on a thread of gRPC's, which must not be kept.
+  /// Makes a unary call. The callback is called once, on a gRPC thread that it must not block.
   /// @param method  "/hydroprint.v1.JobService/GetJob"
   std::shared_ptr<Call> unary(const std::string& method, const std::string& request,
                               const Metadata& metadata, std::chrono::milliseconds timeout,
                               std::function<void(Reply)> done) const;
   [[nodiscard]] std::unique_ptr<Stream> stream(const std::string& method,
                                                const Metadata& metadata) const;
-  /// Whether all calls ended in time, so that nobody is called back any more.
+  /// Waits for all calls to end; no callback follows. Returns false on timeout.
   [[nodiscard]] bool wait_for_none(std::chrono::milliseconds patience) const;
 
  private:

@@ -1,4 +1,4 @@
-// Which request is whose.
+// Selects the handler for each request.
 #include "daemon/http/router.h"
 
 #include <algorithm>
@@ -31,7 +31,8 @@ std::string_view without_port(std::string_view host) {
   return is_port(host.substr(colon + 1)) ? host.substr(0, colon) : std::string_view();
 }
 
-// A page of somebody else's, whose name was made to lead here, says that name.
+// Prevents DNS rebinding: a foreign page whose name resolves to this address sends that name as
+// Host.
 bool is_ours(const Options& options, std::string_view host) {
   const std::string_view name = without_port(host);
   const auto is = [&](std::string_view ours) { return same_name(name, ours); };
@@ -41,8 +42,8 @@ bool is_ours(const Options& options, std::string_view host) {
          (options.identity && tls::stands_for(*options.identity(), name));
 }
 
-// And one that just sends a form here says where it comes from. What was not sent by TLS may be
-// anybody's who sits in between.
+// Detects form posts from foreign pages, whose browsers send Origin. An origin without TLS may be
+// forged by a third party on the network.
 bool comes_from_elsewhere(const Head& head, bool is_secure) {
   const auto origin = head.fields.find("Origin");
   if (!origin) return same_name(head.fields.find("Sec-Fetch-Site").value_or(""), "cross-site");
@@ -52,13 +53,13 @@ bool comes_from_elsewhere(const Head& head, bool is_secure) {
          !same_name(origin->substr(scheme + 3), head.fields.find("Host").value_or(""));
 }
 
-// A stop is carried out from its head alone; its connection ends, too.
+// A stop is carried out from its head alone, after which its connection is closed.
 std::optional<Response> refused_framing(const ServerContext& server, const Head& head) {
   if (head.has_known_end() || server.transcoder.stops_motion(head.method, head.target)) return {};
   const bool is_unknown = head.framing == BodyFraming::kUnknownCoding;
   return refusal({is_unknown ? Code::kUnimplemented : Code::kInvalidArgument,
-                  "Transfer-Encoding must be \"chunked\" and nothing else, in HTTP/1.1 and without "
-                  "Content-Length; or send Content-Length alone",
+                  "Transfer-Encoding must be only \"chunked\", in HTTP/1.1 and without "
+                  "Content-Length; or send only Content-Length",
                   "REQUEST_MALFORMED",
                   {}},
                  is_unknown ? 501 : 400);
@@ -68,30 +69,33 @@ std::optional<Response> refused(const ServerContext& server, const Head& head, b
   if (auto response = refused_framing(server, head)) return response;
   const std::size_t hosts = head.fields.count("Host");
   if (hosts > 1 || (hosts == 0 && head.version >= 11)) {
-    return refusal(
-        {Code::kInvalidArgument, "the header Host must be there once", "REQUEST_MALFORMED", {}});
+    return refusal({Code::kInvalidArgument,
+                    "the header Host must occur exactly once",
+                    "REQUEST_MALFORMED",
+                    {}});
   }
   if (hosts == 1 && !is_ours(server.options, *head.fields.find("Host"))) {
     return refusal(
         {Code::kPermissionDenied,
-         "this server is not called \"" + rest::plain(*head.fields.find("Host")) +
-             "\"; call it by a name that its certificate has, or 127.0.0.1 on its own machine, or "
-             "name it in server.host_names",
+         "unknown host name \"" + rest::plain(*head.fields.find("Host")) +
+             "\"; use a name in the server's certificate, or 127.0.0.1 on its own machine, or "
+             "add it to server.host_names",
          "HOST_UNKNOWN",
          {}},
         421);
   }
   if (!is_safe(head.method) && comes_from_elsewhere(head, is_secure)) {
-    return refusal({Code::kPermissionDenied,
-                    "a page of another site sent this; only this server's own pages may",
-                    "ORIGIN_FORBIDDEN",
-                    {}});
+    return refusal(
+        {Code::kPermissionDenied,
+         "the request comes from a page of another site; only this server's own pages may send it",
+         "ORIGIN_FORBIDDEN",
+         {}});
   }
   if (const Status good = check_csrf(head); !good) return refusal(good.error());
   return {};
 }
 
-// What may be asked of a path by GET and HEAD alone.
+// Answers methods other than GET and HEAD on a path that supports only these.
 Task<bool> is_refused_method(Exchange& exchange) {
   const std::string& method = exchange.head().method;
   if (method == "GET" || method == "HEAD") co_return false;
@@ -99,7 +103,7 @@ Task<bool> is_refused_method(Exchange& exchange) {
   response.status = 204;
   if (method != "OPTIONS") {
     response = refusal(
-        {Code::kUnimplemented, "only GET and HEAD are possible here", "METHOD_NOT_ALLOWED", {}},
+        {Code::kUnimplemented, "only GET and HEAD are allowed here", "METHOD_NOT_ALLOWED", {}},
         405);
   }
   response.fields.set("Allow", "GET, HEAD, OPTIONS");

@@ -7,7 +7,7 @@
 
 namespace hydroprint::http {
 
-/// Answers one request: refuses it, or passes it to the handler of its path.
+/// Answers one request: refuses it, or passes it to the handler for its path.
 /// @return the name under which the request is counted
 [[nodiscard]] Task<std::string> answer(ServerContext& server, Exchange& exchange);
 

@@ -1,4 +1,4 @@
-// Calls of the services: one request, one answer.
+// Makes unary calls of the services.
 #include "daemon/http/rpc_call.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@
 namespace hydroprint::http {
 namespace {
 
-constexpr milliseconds kGrace{5000};  // for gRPC to say itself that the time is up
+constexpr milliseconds kGrace{5000};  // lets gRPC report the timeout itself
 
 // "/hydroprint.v1.JobService/GetJob" -> "JobService/GetJob".
 std::string short_name(const std::string& method) {
@@ -29,7 +29,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// The methods of a path, with those that HTTP itself adds.
+// The methods allowed on a path, including OPTIONS and HEAD, which HTTP adds.
 std::string allowed_at(const ServerContext& server, const std::string& target) {
   std::vector<std::string> methods = server.transcoder.methods_at(target);
   const bool is_artifact = artifact_target(target).has_value();
@@ -49,8 +49,7 @@ Task<std::string> answer_options(const ServerContext& server, Exchange& exchange
   response.status = 204;
   const std::string allowed = allowed_at(server, exchange.head().target);
   if (allowed.empty()) {
-    response = refusal(
-        {Code::kNotFound, "nothing is at this path; see /openapi.json", "ROUTE_NOT_FOUND", {}});
+    response = refusal({Code::kNotFound, "no such path; see /openapi.json", "ROUTE_NOT_FOUND", {}});
   } else {
     response.fields.set("Allow", allowed);
   }
@@ -77,14 +76,14 @@ Task<void> answer_unary(ServerContext& server, Exchange& exchange, rest::Call re
   co_await exchange.send(std::move(response));
 }
 
-// The body. A call that stops motion does not wait for one, which may never come.
+// Reads the body. A call that stops motion does not wait for its body, which may never arrive.
 Task<Result<std::string>> body_of(const ServerContext& server, Exchange& exchange) {
   const Head& head = exchange.head();
   if (server.transcoder.stops_motion(head.method, head.target)) co_return std::string();
   co_return co_await exchange.read_body();
 }
 
-// Answers what the transcoder refuses.
+// Answers a request that the transcoder refused.
 Task<std::string> refuse_call(const ServerContext& server, Exchange& exchange, Error error) {
   Response response = refusal(error);
   if (error.reason == "METHOD_NOT_ALLOWED") {
@@ -108,7 +107,8 @@ Task<Reply> call(ServerContext& server, Exchange& exchange, rest::Call request,
   exchange.socket().unwatch();
   if (came) co_return coming.take();
   under_way->cancel();
-  co_return Reply{4, "the daemon did not answer in time; look whether it was done", "", ""};
+  co_return Reply{4, "the daemon did not answer in time; check whether the request was carried out",
+                  "", ""};
 }
 
 Task<std::string> answer_call(ServerContext& server, Exchange& exchange) {
@@ -138,7 +138,7 @@ Task<std::string> answer_call(ServerContext& server, Exchange& exchange) {
   }
   Result<rest::Call> request = server.transcoder.read(http_method, head.target, *body);
   if (request && request->streams && wants_head) {
-    request = fail(Code::kUnimplemented, "a stream has no head of its own; use GET",
+    request = fail(Code::kUnimplemented, "HEAD is not supported for streams; use GET",
                    "METHOD_NOT_ALLOWED");
   }
   const auto last_event = head.fields.find("Last-Event-ID");

@@ -13,8 +13,8 @@ namespace hydroprint::http {
 /// @return the name under which the request is counted
 [[nodiscard]] Task<std::string> answer_call(ServerContext& server, Exchange& exchange);
 
-/// Calls and waits for the answer. A client that leaves meanwhile cancels the call unless it stops
-/// motion.
+/// Makes a call and waits for the response. The call is cancelled if the client disconnects, unless
+/// it stops motion.
 [[nodiscard]] Task<Reply> call(ServerContext& server, Exchange& exchange, rest::Call call,
                                InProcessChannel::Metadata metadata);
 

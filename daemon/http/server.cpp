@@ -8,7 +8,8 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kStopPatience{2000};
-constexpr int kMostTurnedAway = 64;  // at a time; beyond these nobody is told
+constexpr int kMostTurnedAway =
+    64;  // simultaneous replies; further connections are closed without one
 
 }  // namespace
 
@@ -63,7 +64,7 @@ void Server::stop() {
   const bool all_ended = impl_->server->connections.wait_for_none(kStopPatience) &&
                          impl_->server->rpc.wait_for_none(kStopPatience);
   impl_->listener->stop();
-  // A call that the services have not ended would still call back: what it would find stays.
+  // A call that has not ended could still call back, so the objects it uses are leaked.
   if (!all_ended)
     static_cast<void>(impl_->listener.release()), static_cast<void>(impl_->server.release());
 }

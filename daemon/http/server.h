@@ -20,18 +20,18 @@ class Channel;
 
 namespace hydroprint::http {
 
-/// Where and how to serve.
+/// Settings of the server.
 struct Options {
   std::string host;  ///< "127.0.0.1"
   int port = 0;      ///< 0: any
-  /// By which browsers may call it, besides loopback's and those of its certificate.
+  /// Further host names that browsers may use, in addition to loopback and the certificate's names.
   std::vector<std::string> host_names;
-  std::filesystem::path web_dir;  ///< the web client's files; need not be there
+  std::filesystem::path web_dir;  ///< the web client's files; may be missing
   Limits limits;
-  tls::CurrentIdentity identity;  ///< what clients are shown; none: TLS is not spoken
+  tls::CurrentIdentity identity;  ///< TLS certificate and key; none: no TLS
 };
 
-/// How the daemon is, as /healthz says it.
+/// Health of the daemon, for /healthz.
 struct Health {
   bool is_good = true;
   std::string json;
@@ -41,37 +41,35 @@ struct Health {
 using Admit = std::function<Result<std::optional<auth::Caller>>(std::string_view method,
                                                                 const auth::Credentials&)>;
 
-/// What the server shows of the daemon. health and metrics may take their time: they are called by
-/// a thread that does nothing else.
+/// Callbacks into the daemon. health and metrics may block: a separate thread calls them.
 struct Sources {
   Admit admit;
   std::function<Health()> health;
   std::function<std::string()> metrics;  ///< Prometheus text
 };
 
-/// The HTTP front door: the services as JSON, their streams as server-sent events, uploads,
-/// downloads, the web client's files. It never waits in a thread: whatever a client does, the next
-/// one's request is served.
+/// The HTTP server: the services as JSON, their streams as server-sent events, uploads, downloads,
+/// and the web client's files. Connections never block a thread, so no client can hold up another.
 class Server {
  public:
-  /// Listens and serves from here on.
+  /// Starts listening and serving.
   /// @param channel  to the services, in process
-  /// @return kUnavailable if the address cannot be had; kInvalidArgument for a web client that is
-  ///   too large
+  /// @return kUnavailable if the address cannot be bound; kInvalidArgument if the web client is too
+  /// large
   [[nodiscard]] static Result<std::unique_ptr<Server>> start(const Options& options,
                                                              std::shared_ptr<grpc::Channel> channel,
                                                              Sources sources);
-  /// Stops if stop() was not called.
+  /// Calls stop() if needed.
   ~Server();
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// The port it really listens at.
+  /// The actual port.
   [[nodiscard]] int port() const;
-  /// Takes no more connections.
+  /// Refuses new connections.
   void stop_accepting();
-  /// Ends what is under way, in a second or so. The services must have ended their calls, or still
-  /// answer.
+  /// Ends running requests within about a second. The services must have ended their calls, or
+  /// still answer.
   void stop();
 
  private:

@@ -13,7 +13,7 @@
 
 namespace hydroprint::http {
 
-/// What all requests are answered from; outlives them.
+/// The objects that all requests share; outlives them.
 struct ServerContext {
   Options options;
   Sources sources;
@@ -24,7 +24,7 @@ struct ServerContext {
   StaticFiles files;
   Connections connections;
   HttpMetrics metrics;
-  std::atomic<int> asides{0};  // what waits for the thread that may wait
+  std::atomic<int> asides{0};  // tasks waiting for the blocking thread
 };
 
 }  // namespace hydroprint::http

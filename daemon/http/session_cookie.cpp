@@ -1,5 +1,5 @@
-// Who is signed in with a browser: a cookie that no script can read, and what a page has to send
-// along with it.
+// Sign-in with a browser: a cookie that scripts cannot read, and a token that pages must send with
+// it.
 #include "daemon/http/session_cookie.h"
 
 #include "daemon/auth/secret.h"
@@ -23,13 +23,13 @@ std::string cookie_text(std::string_view token, bool is_secure, std::string_view
 Status check_csrf(const Head& head) {
   if (head.method == "GET" || head.method == "HEAD" || head.method == "OPTIONS") return {};
   const auto session = cookie(head.fields, kSessionCookie);
-  // Who brings a key of their own is no page that somebody was led to.
+  // A request with its own API key cannot be forged by a foreign page.
   if (!session || head.fields.find("Authorization")) return {};
   const std::string wanted = auth::csrf_token(*session);
   if (auth::equal_in_constant_time(head.fields.find(kCsrfHeader).value_or(""), wanted)) return {};
   return fail(Code::kPermissionDenied,
-              "with a session, what changes something needs the header " +
-                  std::string(kCsrfHeader) + ", which /v1/session tells; load the page anew",
+              "requests that change something with a session need the header " +
+                  std::string(kCsrfHeader) + ", which /v1/session returns; reload the page",
               "CSRF_TOKEN_MISSING");
 }
 

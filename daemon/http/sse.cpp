@@ -1,4 +1,4 @@
-// Streams of the services as server-sent events.
+// Sends streams of the services as server-sent events.
 #include "daemon/http/sse.h"
 
 #include "daemon/http/error_response.h"
@@ -9,7 +9,7 @@
 namespace hydroprint::http {
 namespace {
 
-constexpr milliseconds kEndPatience{5000};  // with a call that was told to end
+constexpr milliseconds kEndPatience{5000};  // for a cancelled call to end
 
 Response event_stream() {
   Response response;
@@ -17,8 +17,8 @@ Response event_stream() {
   return response;
 }
 
-/// One stream on its way to one page. A message is asked for when the one before has got away: who
-/// does not read has one of them waiting here, and what the kernel takes.
+/// One stream sent to one client. The next message is requested once the previous one was sent. A
+/// client that does not read therefore holds up at most one message and the kernel's buffer.
 class EventStream {
  public:
   EventStream(ServerContext& server, Exchange& exchange, rest::Call request,
@@ -36,20 +36,20 @@ class EventStream {
       socket->ring();
     });
     for (bool goes_on = true; goes_on;) goes_on = co_await pass_one_on();
-    // Before the end, else nobody could cancel what is still written to.
+    // Unwatches before end(), since unwatch() must not be called during a write.
     exchange_.socket().unwatch();
     if (*gone_) exchange_.break_off();
   }
 
  private:
-  // Whether it was taken shows in what comes.
+  // Sends the request. The first read shows whether it was accepted.
   Task<void> ask() {
     AsyncValue<bool> written(exchange_.shared_socket());
     stream_->write(request_.request, true, written.receiver());
     co_await written.wait(kEndPatience);
   }
 
-  // False once nothing follows.
+  // Passes on one message; false at the end.
   Task<bool> pass_one_on() {
     stream_->read(message_.receiver());
     for (;;) {
@@ -93,12 +93,12 @@ class EventStream {
     co_return co_await exchange_.write(std::move(text));
   }
 
-  // What was refused before anything was sent is an answer like any other.
+  // An error before the first message is sent as a normal response.
   Task<void> end() {
     AsyncValue<Reply> coming(exchange_.shared_socket());
     stream_->finish(coming.receiver());
     const bool came = co_await coming.wait(kEndPatience);
-    const Reply reply = came ? coming.take() : Reply{14, "the stream broke off", "", ""};
+    const Reply reply = came ? coming.take() : Reply{14, "the stream ended unexpectedly", "", ""};
     if (!reply.ok() && exchange_.status() == 0) {
       co_await exchange_.send(refusal(reply));
       co_return;

@@ -17,8 +17,8 @@ constexpr std::size_t kMostFiles = 10'000;
 
 constexpr const char* kNoClient =
     "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>Hydroprint</title>\n"
-    "<h1>Hydroprint</h1>\n<p>The daemon is up. Its web client is not built: run "
-    "<code>deploy/build-web</code>, and start the daemon again, or name the folder in "
+    "<h1>Hydroprint</h1>\n<p>The daemon is running, but its web client is not built: run "
+    "<code>deploy/build-web</code>, and restart the daemon, or set the folder in "
     "<code>server.web_dir</code>.</p>\n<p>The API is at <a href=\"/openapi.json\">"
     "/openapi.json</a>.</p>\n</html>\n";
 
@@ -59,7 +59,7 @@ Result<std::string> read_all(const fs::path& path) {
   return content;
 }
 
-// "br;q=0" is none.
+// Whether the client accepts a coding; "br;q=0" means no.
 bool accepts(const Head& head, std::string_view coding) {
   for (const std::string_view one :
        parts_of(head.fields.find("Accept-Encoding").value_or(""), ',')) {
@@ -87,7 +87,7 @@ Result<StaticFiles> StaticFiles::load(const fs::path& folder) {
     if (bytes > kMostBytes || ++count > kMostFiles) {
       return fail(Code::kInvalidArgument,
                   folder.string() +
-                      ": is more than a web client is (64 MiB, 10000 files); name "
+                      ": too large for a web client (64 MiB, 10000 files); name "
                       "another folder in server.web_dir",
                   "CONFIG_INVALID");
     }
@@ -131,7 +131,7 @@ Response StaticFiles::answer(const Head& head) const {
   }
   if (file->gzip.content || file->brotli.content) response.fields.set("Vary", "Accept-Encoding");
   response.fields.set("ETag", chosen->tag);
-  // What is in /assets/ has a name that changes with it.
+  // Files in /assets/ have a hash in their name, so a changed file has a new name.
   const bool is_hashed = path.starts_with("/assets/");
   response.fields.set("Cache-Control",
                       is_hashed ? "public, max-age=31536000, immutable" : "no-cache");

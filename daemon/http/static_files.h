@@ -12,17 +12,17 @@
 
 namespace hydroprint::http {
 
-/// The web client's files, read once at the start: a request names an entry of a table and never a
-/// place on the disk.
+/// The web client's files, read once at the start. A request selects an entry of a table, never a
+/// path on the disk.
 class StaticFiles {
  public:
-  /// Reads a folder; without it, there is one page that says how to build the client. "app.js.br"
-  /// and "app.js.gz" are "app.js", compressed.
-  /// @return kInvalidArgument if it has more than 64 MiB or 10000 files
+  /// Reads a folder. Without it, the only page explains how to build the client. "app.js.br" and
+  /// "app.js.gz" are compressed variants of "app.js".
+  /// @return kInvalidArgument if the folder has more than 64 MiB or 10000 files
   [[nodiscard]] static Result<StaticFiles> load(const std::filesystem::path& folder);
 
-  /// The answer to a GET or HEAD of this path; index.html for what may be a page of the client (no
-  /// dot in its last part). Status 404 and no body if it is nothing.
+  /// The response to a GET or HEAD: a file, or index.html for a path that may be a page of the
+  /// client (no dot in its last part). Otherwise status 404 without a body.
   [[nodiscard]] Response answer(const Head& head) const;
 
  private:

@@ -1,4 +1,4 @@
-// What the server says of itself and of the daemon, and the web client's files.
+// Serves health, metrics and the web client's files.
 #include "daemon/http/system_pages.h"
 
 #include "daemon/http/error_response.h"
@@ -10,8 +10,7 @@ namespace {
 constexpr milliseconds kSourcePatience{5000};
 constexpr int kMostAsides = 100;
 
-/// Has another thread do what may take its time: nothing if that takes too long, as it does when
-/// the disk hangs.
+/// Runs a blocking function on another thread; nullopt on timeout, such as when the disk hangs.
 template <class T>
 Task<std::optional<T>> ask_aside(ServerContext& server, Exchange& exchange,
                                  std::function<T()> source) {
@@ -43,7 +42,7 @@ Task<std::string> answer_health(ServerContext& server, Exchange& exchange) {
 Task<std::string> answer_metrics(ServerContext& server, Exchange& exchange) {
   std::optional<std::string> text =
       co_await ask_aside<std::string>(server, exchange, server.sources.metrics);
-  // Without the store's figures there are still the server's own.
+  // If the daemon's metrics are not available, the server's own are still sent.
   Response response =
       text_response(200, text.value_or("") + server.metrics.text(server.connections.count()));
   response.fields.set("Content-Type", "text/plain; version=0.0.4; charset=utf-8");

@@ -7,13 +7,13 @@
 
 namespace hydroprint::http {
 
-// Each answers one request and returns the name under which the request is counted.
+// Each function answers one request and returns the name under which the request is counted.
 
-/// A file of the web client.
+/// Serves a file of the web client.
 [[nodiscard]] Task<std::string> answer_file(ServerContext& server, Exchange& exchange);
-/// /healthz.
+/// Serves /healthz.
 [[nodiscard]] Task<std::string> answer_health(ServerContext& server, Exchange& exchange);
-/// /metrics.
+/// Serves /metrics.
 [[nodiscard]] Task<std::string> answer_metrics(ServerContext& server, Exchange& exchange);
 
 }  // namespace hydroprint::http

@@ -1,4 +1,4 @@
-// Bytes of an upload, on their way from the connection to the store.
+// Passes the bytes of an upload from the connection to the store.
 #include "daemon/http/upload.h"
 
 #include "daemon/http/credentials.h"
@@ -11,7 +11,7 @@
 namespace hydroprint::http {
 namespace {
 
-constexpr milliseconds kStorePatience{60'000};  // with a disk that is slow
+constexpr milliseconds kStorePatience{60'000};  // for a slow disk
 const std::string kUploadChunk = "/hydroprint.v1.AssetService/UploadChunk";
 const std::string kGetUpload = "/hydroprint.v1.AssetService/GetUpload";
 
@@ -23,7 +23,7 @@ Response state_of(const v1::Upload& upload) {
   return response;
 }
 
-/// Passes a body on. The next piece is read when the store has taken the one before.
+/// Passes a body on. The next piece is read once the store has taken the previous one.
 class Passing {
  public:
   Passing(ServerContext& server, Exchange& exchange, std::string name, std::int64_t offset,
@@ -33,9 +33,10 @@ class Passing {
         name_(std::move(name)),
         offset_(offset) {}
 
-  // How the call ended; an Error if the body broke off (then what came of it stays).
+  // Returns the call's status, or an Error if the body is incomplete. Bytes received so far are
+  // kept.
   Task<Result<Reply>> run() {
-    bool is_taken = co_await pass_on({});  // opens the upload, even if nothing follows
+    bool is_taken = co_await pass_on({});  // opens the upload, even if no bytes follow
     while (is_taken) {
       Result<std::string> piece = co_await exchange_.read_body_piece();
       if (!piece) co_return tl::unexpected(piece.error());
@@ -62,8 +63,8 @@ class Passing {
     const Reply late{4, "the store did not answer in time", "", ""};
     AsyncValue<std::optional<std::string>> response(exchange_.shared_socket());
     AsyncValue<Reply> coming(exchange_.shared_socket());
-    // In this order: within a process, gRPC drops a response that nobody waits for when the status
-    // follows it, and the call never ends for the store.
+    // This order is required: within a process, gRPC drops a response that is not awaited before
+    // the status arrives, and then the call never ends for the store.
     stream_->read(response.receiver());
     stream_->end_writing();
     const bool answered = co_await response.wait(kStorePatience);

@@ -7,21 +7,21 @@
 
 namespace hydroprint::daemon {
 
-/// Makes an artifact of a finished job an input file of another one, by way of an asset, so that
-/// the other job can be run again after the first is deleted. What AssetStore::adopt() refuses.
-/// @param job   that has the artifact
+/// Makes an artifact of a finished job an input file of another job, through an asset. The other
+/// job can then be run again after the first is deleted. Fails as AssetStore::adopt() does.
+/// @param job   the job that has the artifact
 /// @param name  of the input file
 [[nodiscard]] Result<v1::InputFile> adopt_artifact(std::int64_t job, const Artifact& artifact,
                                                    const std::string& name,
                                                    const JobSources& sources);
 
-/// Makes a text an input file. (The file that the text comes from may be written again.)
+/// Makes a text an input file, since the file that the text came from may change.
 [[nodiscard]] Result<v1::InputFile> adopt_text(const std::string& text, const std::string& name,
                                                const JobSources& sources);
 
 /// Adds the frames of a capture job as the files of one folder.
 /// @param field  of the spec that names the capture, for errors
-/// @return as earlier_job() and adopt_artifact()
+/// @return errors as in earlier_job() and adopt_artifact()
 [[nodiscard]] Status adopt_frames(const std::string& capture, const std::string& field,
                                   const std::string& folder, const JobSources& sources,
                                   google::protobuf::RepeatedPtrField<v1::InputFile>& frames);

@@ -12,7 +12,7 @@ namespace {
 using Staleness = v1::Calibration::Staleness;
 
 constexpr const char* kActive = "calibrations/active";
-// The axis comes to rest within a tenth of a millimetre of where it is sent.
+// The axis comes to rest within a tenth of a millimetre of its target.
 constexpr double kSamePlace_mm = 0.3;
 
 std::string text(double value) {
@@ -22,20 +22,21 @@ std::string text(double value) {
 }
 
 tl::unexpected<Error> missing(const std::string& name, const std::string& field) {
-  return tl::unexpected(Error{Code::kFailedPrecondition,
-                              field + ": " + name + " is not there; calibrate, or name another one",
-                              "CALIBRATION_MISSING",
-                              {{"calibration", name}}});
+  return tl::unexpected(
+      Error{Code::kFailedPrecondition,
+            field + ": " + name + " does not exist; calibrate, or name another one",
+            "CALIBRATION_MISSING",
+            {{"calibration", name}}});
 }
 
 std::string words_of(Staleness why, const v1::Calibration& calibration) {
   switch (why) {
     case v1::Calibration::MOVED:
-      return "the axis is not where it was then (" + text(calibration.axis_mm()) + " mm)";
+      return "the axis has moved since (it was at " + text(calibration.axis_mm()) + " mm)";
     case v1::Calibration::HOMED:
-      return "the rig was homed since, or lost its place";
+      return "the rig has been homed since, or lost its position";
     default:
-      return "something was dipped since";
+      return "an object has been dipped since";
   }
 }
 
@@ -107,7 +108,7 @@ Objection objection(const v1::Calibration& calibration, const v1::InputFile& mes
     out.add(words_of(stale, calibration), v1::Calibration::Staleness_Name(stale));
   }
   if (!mesh.asset().empty() && mesh.asset() != calibration.mesh().asset()) {
-    out.add("it is of another object (" + calibration.mesh().name() + ")", "OTHER_OBJECT");
+    out.add("it belongs to another object (" + calibration.mesh().name() + ")", "OTHER_OBJECT");
   }
   return out;
 }
@@ -116,8 +117,8 @@ Status check_objection(const v1::Calibration& calibration, const Objection& obje
                        bool is_allowed) {
   if (objection.words.empty() || is_allowed) return {};
   return tl::unexpected(Error{Code::kFailedPrecondition,
-                              calibration.name() + " does not hold any more: " + objection.words +
-                                  "; calibrate again, or say allow_stale_calibration",
+                              calibration.name() + " is no longer valid: " + objection.words +
+                                  "; calibrate again, or set allow_stale_calibration",
                               "CALIBRATION_STALE",
                               {{"calibration", calibration.name()}, {"why", objection.names}}});
 }

@@ -8,19 +8,19 @@
 
 namespace hydroprint::daemon {
 
-/// A calibration as the API has it, and whether it still holds with the rig as it is now.
+/// Converts a calibration to its API message, with its validity for the present state of the rig.
 [[nodiscard]] v1::Calibration to_message(const Calibration& calibration, const RigPlace& now);
 
-/// Why what was seen then does not hold any more.
+/// The reasons why an observation made at `then` is no longer valid.
 [[nodiscard]] std::vector<v1::Calibration::Staleness> staleness(const RigPlace& then,
                                                                 const RigPlace& now);
 
-/// "calibrations/3", "calibrations/active" (the active one of an object). ID_INVALID,
+/// Looks up "calibrations/3", or "calibrations/active" for the active one of an object. ID_INVALID,
 /// CALIBRATION_NOT_FOUND.
 [[nodiscard]] Result<Calibration> find_calibration(const std::string& name,
                                                    CalibrationStore& calibrations);
 
-/// As find_calibration(), for a job that goes by the calibration of an object.
+/// As find_calibration(), for a job that uses the calibration of an object.
 /// @param field  of the spec that names it, for errors
 /// @return ID_INVALID; CALIBRATION_MISSING; SPEC_INVALID for the calibration of a camera
 [[nodiscard]] Result<Calibration> needed_calibration(const std::string& name,
@@ -39,7 +39,7 @@ struct Objection {
 [[nodiscard]] Status check_objection(const v1::Calibration& calibration, const Objection& objection,
                                      bool is_allowed);
 
-/// Whether the axis still counts from where it did, with the same object on it.
+/// Whether the axis has kept its reference and the object since the calibration.
 [[nodiscard]] bool knows_contact(const v1::Calibration& calibration);
 
 }  // namespace hydroprint::daemon

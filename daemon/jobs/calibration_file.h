@@ -10,13 +10,13 @@ class Calibration;
 
 namespace hydroprint::daemon {
 
-// Readers of files that a worker wrote, which are not trusted. They refuse (kInternal,
+// Readers for files written by a worker, which are untrusted. They refuse (kInternal,
 // WORKER_UNUSABLE) a key that is missing or out of range.
 
 /// Reads calibration.json into the fields of a calibration.
 [[nodiscard]] Status read_calibration(const std::string& json, v1::Calibration& out);
 
-/// The same for camera.json.
+/// Same, for camera.json.
 [[nodiscard]] Status read_camera(const std::string& json, v1::Calibration& out);
 
 }  // namespace hydroprint::daemon

@@ -5,8 +5,8 @@
 
 namespace hydroprint::daemon {
 
-/// Checks a calibration that was entered by hand, beyond the rules of its fields (check_fields()).
-/// @return the fields that its sender decides; SPEC_INVALID, NAME_INVALID, ID_INVALID
+/// Checks a manually entered calibration, beyond the rules of its fields (check_fields()).
+/// @return the fields that the client decides; SPEC_INVALID, NAME_INVALID, ID_INVALID
 [[nodiscard]] Result<v1::Calibration> check_calibration(const v1::Calibration& entered);
 
 }  // namespace hydroprint::daemon

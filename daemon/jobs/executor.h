@@ -9,10 +9,10 @@
 
 namespace hydroprint::daemon {
 
-/// A job that somebody asks for, checked and with every reference resolved.
+/// A job that a client asks for, checked and with all references resolved.
 struct JobRequest {
   NewJob made;
-  v1::Job job;  ///< as it shows its spec, which `made.body` serialises
+  v1::Job job;  ///< with the spec as the job shows it, which `made.body` serialises
   RequestKey key;
   std::string lease_id;
 };

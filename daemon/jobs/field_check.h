@@ -8,7 +8,8 @@ class Message;
 
 namespace hydroprint::daemon {
 
-/// Checks a message by the rules of its fields, films and paper sizes as the worker reads them.
+/// Checks a message by the rules of its fields. Films and paper sizes are parsed as the worker
+/// does.
 /// @return kInvalidArgument with all wrong fields (rest::bad_request())
 [[nodiscard]] Status check_fields(const google::protobuf::Message& message);
 

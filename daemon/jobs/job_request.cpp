@@ -25,7 +25,7 @@ Status check_all_fields(const JobKind& kind, const v1::Job& job, const Message& 
   return invalid_field("labels", "have an empty key");
 }
 
-/// The number of threads is the pool's business and does not change the result.
+/// The number of threads belongs to the pool and does not change the result.
 std::int32_t take_threads(Message& spec) {
   const auto* const field = spec.GetDescriptor()->FindFieldByName("threads");
   if (field == nullptr) return 0;

@@ -5,13 +5,13 @@
 
 namespace hydroprint::daemon {
 
-/// Resolves and checks a job that a client sent; see proto/hydroprint/v1/spec.proto for what is
-/// refused. Sets all of the request but NewJob's owner, the key and the lease.
-/// @return what the kind's resolve() refuses, then as check_job()
+/// Resolves and checks a job that a client sent; proto/hydroprint/v1/spec.proto describes the
+/// errors. Sets all of the request except NewJob's owner, the key and the lease.
+/// @return errors of the kind's resolve(), then of check_job()
 [[nodiscard]] Result<JobRequest> job_request(const JobKind& kind, const v1::Job& sent,
                                              const JobSources& sources);
 
-/// Checks a job whose spec has no references. Sets all of NewJob but owner, digest and retry_of.
+/// Checks a job whose spec has no references. Sets all of NewJob except owner, digest and retry_of.
 /// @return kInvalidArgument: SPEC_INVALID (metadata field), NAME_INVALID, ID_INVALID
 [[nodiscard]] Result<NewJob> check_job(const v1::Job& job);
 

@@ -16,30 +16,32 @@
 
 namespace hydroprint::daemon {
 
-/// What the references of a spec (earlier jobs, calibrations, the configuration) are resolved with.
+/// The sources for resolving a spec's references: earlier jobs, calibrations, the configuration.
 struct JobSources {
   JobStore& jobs;
   AssetStore& assets;
   CalibrationStore& calibrations;
   const CameraConfig& camera;
   Layout layout;
-  RigPlace place;  ///< where the rig stands now
+  RigPlace place;  ///< present state of the rig
 };
 
-/// One kind of job: everything the daemon knows about it. Each has a file in daemon/jobs/kinds, and
-/// kinds derive from KindOf below. Objects are constant and live as long as the program.
+/// Base class of all job kinds: everything the daemon knows about one kind. Each kind has a file in
+/// daemon/jobs/kinds and derives from KindOf below. Objects are constant and live as long as the
+/// program.
 class JobKind {
  public:
   virtual ~JobKind() = default;
   JobKind(const JobKind&) = delete;
   JobKind& operator=(const JobKind&) = delete;
 
-  /// Its field in the oneof of hydroprint.v1.Job, whose name stands in errors ("print_image").
+  /// The kind's field in the oneof of hydroprint.v1.Job, whose name appears in errors
+  /// ("print_image").
   [[nodiscard]] const google::protobuf::FieldDescriptor& field() const { return field_; }
   /// "print-image": the worker's verb, and the kind in logs and metrics.
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// The role that creating such a job requires.
+  /// The role required to create such a job.
   [[nodiscard]] virtual auth::Role least_role() const { return auth::Role::kMaker; }
   [[nodiscard]] virtual ExecutorId executor() const { return ExecutorId::kWorkers; }
   [[nodiscard]] virtual JobTraits traits() const { return {}; }
@@ -57,8 +59,8 @@ class JobKind {
   /// Checks what the rules of single fields cannot express: fields that depend on each other, and
   /// fields that a resolved spec must have. SPEC_INVALID, ID_INVALID
   [[nodiscard]] virtual Status check(const google::protobuf::Message& resolved) const = 0;
-  /// What a job without a display name is named after ("jobs/3", "mug.obj"): the earlier job that
-  /// its spec refers to, else its first file.
+  /// The part of a default display name that follows the kind ("jobs/3", "mug.obj"): the earlier
+  /// job that the spec refers to, otherwise its first file.
   [[nodiscard]] virtual std::string subject(const google::protobuf::Message& shown) const;
   /// The calibration that a successful job produces, read from its (untrusted) artifacts.
   /// @return nullopt if the kind produces none; kInternal, WORKER_UNUSABLE

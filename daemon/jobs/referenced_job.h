@@ -8,13 +8,12 @@
 
 namespace hydroprint::daemon {
 
-/// A job that another one continues from.
+/// The job that another one continues from.
 /// @param name   "jobs/7"
-/// @param kind   that it must be of: "print-image"
+/// @param kind   required kind: "print-image"
 /// @param field  of the spec that names it, for errors
-/// @return ID_INVALID, JOB_NOT_FOUND; SPEC_INVALID if it is of another kind; STATE_FORBIDS if it
-/// did
-///   not succeed
+/// @return ID_INVALID, JOB_NOT_FOUND; SPEC_INVALID for a job of another kind; STATE_FORBIDS for a
+/// job that did not succeed
 [[nodiscard]] Result<Job> earlier_job(const std::string& name, const std::string& kind,
                                       const std::string& field, JobStore& jobs);
 
@@ -28,8 +27,8 @@ struct EarlierSimulation {
                                                            const std::string& field,
                                                            JobStore& jobs);
 
-/// Its report.json.
-/// @return kFailedPrecondition, STATE_FORBIDS if that cannot be used
+/// Reads report.json of a job.
+/// @return kFailedPrecondition, STATE_FORBIDS if it cannot be used
 [[nodiscard]] Result<std::string> report_of(const Job& job, const Layout& layout);
 
 }  // namespace hydroprint::daemon

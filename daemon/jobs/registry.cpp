@@ -8,7 +8,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-/// "simulate, predict or fit": what a job can be.
+/// Lists the possible specs: "simulate, predict or fit".
 std::string names_of_specs() {
   const auto& specs = *v1::Job::descriptor()->FindOneofByName("spec");
   std::string out;

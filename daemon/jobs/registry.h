@@ -11,7 +11,7 @@ namespace hydroprint::daemon {
 /// `kinds/print_image.cpp` defines `const JobKind& print_image_kind()`.
 [[nodiscard]] const std::vector<const JobKind*>& job_kinds();
 
-/// The kind of a job as it was sent. SPEC_INVALID if it has no spec.
+/// The kind of a job that a client sent. SPEC_INVALID if it has no spec.
 [[nodiscard]] Result<const JobKind*> kind_of(const v1::Job& job);
 
 /// The kind of a stored job, by its verb. kInternal, STORE_FAILED if this daemon has no such kind.

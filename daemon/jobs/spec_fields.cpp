@@ -12,11 +12,11 @@ Status check_frames(const std::string& kind, const InputFiles& frames, int most_
   const int views = count_views(frames);
   if (views == 0) {
     return invalid_field(kind + ".frames",
-                         "have no FOLDER/frames.json; name captures, or upload what "
-                         "hydroprint-capture wrote");
+                         "have no FOLDER/frames.json; name captures, or upload the files that "
+                         "hydroprint-capture writes");
   }
   if (views <= most_views) return {};
-  return invalid_field(kind + ".frames", "are of more views than " + std::to_string(most_views));
+  return invalid_field(kind + ".frames", "have more views than " + std::to_string(most_views));
 }
 
 int count_views(const InputFiles& frames) {

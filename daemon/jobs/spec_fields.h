@@ -8,22 +8,22 @@
 
 namespace hydroprint::daemon {
 
-// Checks that several kinds have in common, of fields that depend on each other; the rules of
-// single fields stand in the .proto. A `Spec` is a message of proto/hydroprint/v1/spec.proto that
-// has these fields; `kind` is the kind's field ("print_image"), for errors.
+// Checks that several kinds share, for fields that depend on each other; rules of single fields are
+// in the .proto. A `Spec` is a message of proto/hydroprint/v1/spec.proto that has these fields.
+// `kind` is the kind's field ("print_image"), for errors.
 
 using InputFiles = google::protobuf::RepeatedPtrField<v1::InputFile>;
 
 /// Refuses a field whose value comes from elsewhere: "is taken from simulate_job; ...".
 [[nodiscard]] tl::unexpected<Error> taken_from(const std::string& field, const std::string& source);
 
-/// Frames as hydroprint-capture wrote them: for each view a folder with frames.json.
+/// Checks frames as hydroprint-capture writes them: a folder with frames.json for each view.
 [[nodiscard]] Status check_frames(const std::string& kind, const InputFiles& frames,
                                   int most_views);
-/// How many folders of frames there are.
+/// Number of folders with frames.
 [[nodiscard]] int count_views(const InputFiles& frames);
 
-/// A film that is a polygon must be among the extra files.
+/// A polygon film must be among the extra files.
 template <class Spec>
 [[nodiscard]] Status check_polygon(const std::string& kind, const Spec& spec) {
   if (!spec.film().starts_with("polygon:")) return {};
@@ -38,7 +38,7 @@ template <class Spec>
 [[nodiscard]] Status check_inertia(const std::string& kind, const Spec& spec) {
   if (!spec.inertia() || spec.model() != v1::MODEL_STOKES) return {};
   return invalid_field(kind + ".inertia",
-                       "Stokes flow has none; leave it out or let the model be sheet");
+                       "Stokes flow has no inertia; leave it out, or set the model to sheet");
 }
 
 /// There must be room between the margins of the paper.

@@ -13,7 +13,7 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using FileVisitor = std::function<Status(const FieldDescriptor&, const v1::InputFile&)>;
 
-// Specs have files at their top level alone.
+// Calls `visit` for each file. Specs have files only at their top level.
 Status each_file(const Message& spec, const FileVisitor& visit) {
   const auto& reflection = *spec.GetReflection();
   std::vector<const FieldDescriptor*> fields;
@@ -30,7 +30,7 @@ Status each_file(const Message& spec, const FileVisitor& visit) {
   return {};
 }
 
-// A name that occurs twice, or is the folder of another; empty if there is none.
+// A name that occurs twice, or is also the folder of another file; empty if there is none.
 std::string ambiguous_name(const std::vector<InputFile>& inputs) {
   std::set<std::string> names;
   for (const InputFile& file : inputs) {
@@ -63,9 +63,10 @@ Result<std::vector<InputFile>> input_files(const Message& spec, const std::strin
   };
   HP_RETURN_IF_ERROR(each_file(spec, add));
   if (const std::string name = ambiguous_name(out); !name.empty()) {
-    return fail(Code::kInvalidArgument,
-                path + ": the name \"" + name + "\" stands for two files; give each file its own",
-                "NAME_INVALID");
+    return fail(
+        Code::kInvalidArgument,
+        path + ": the name \"" + name + "\" is used for two files; give each file its own name",
+        "NAME_INVALID");
   }
   return out;
 }

@@ -19,7 +19,7 @@ using v1::Rig;
 constexpr std::array kOpenStates{JobState::kQueued, JobState::kWaitingForOperator,
                                  JobState::kRunning, JobState::kCancelling};
 
-// Resident bytes of a process; 0 if /proc does not say.
+// Resident bytes of a process; 0 if /proc does not give them.
 double memory_of(const std::string& process) {
   std::ifstream file("/proc/" + process + "/statm");
   double pages = 0, resident = 0;
@@ -38,7 +38,7 @@ double memory_of_children() {
 }
 
 void describe_queue(const ServiceContext& backend, PrometheusText& out) {
-  out.begin("hydroprint_jobs", "gauge", "Jobs that are not finished, by state.");
+  out.begin("hydroprint_jobs", "gauge", "Unfinished jobs by state.");
   double queued = 0;
   for (const JobState state : kOpenStates) {
     const auto ids = backend.jobs.ids_in_state(state);
@@ -47,47 +47,48 @@ void describe_queue(const ServiceContext& backend, PrometheusText& out) {
     if (state == JobState::kQueued) queued = count;
     out.sample(count, {{"state", name_of(state)}});
   }
-  out.single("hydroprint_queue_depth", "gauge", "Jobs that wait for a worker.", queued);
+  out.single("hydroprint_queue_depth", "gauge", "Jobs waiting for a worker.", queued);
   const auto pause = backend.jobs.pause();
   if (pause) {
-    out.single("hydroprint_queue_paused", "gauge", "1 while no further job is started.",
+    out.single("hydroprint_queue_paused", "gauge", "1 while the queue is paused.",
                pause->paused ? 1 : 0);
   }
-  out.single("hydroprint_worker_slots", "gauge", "How many workers may run at once.",
+  out.single("hydroprint_worker_slots", "gauge", "Maximum number of concurrent workers.",
              backend.pool.slots());
 }
 
 void describe_rig(const Rig& rig, PrometheusText& out) {
-  out.begin("hydroprint_rig_state", "gauge", "1 for the state the rig is in.");
+  out.begin("hydroprint_rig_state", "gauge", "1 for the rig's current state, 0 for others.");
   for (int state = Rig::State_MIN; state <= Rig::State_MAX; ++state) {
     if (state == Rig::STATE_UNSPECIFIED || !Rig::State_IsValid(state)) continue;
     out.sample(rig.state() == state ? 1 : 0,
                {{"state", Rig::State_Name(static_cast<Rig::State>(state))}});
   }
   if (rig.has_position_mm()) {
-    out.single("hydroprint_rig_position_mm", "gauge", "Where the axis was last seen.",
+    out.single("hydroprint_rig_position_mm", "gauge", "Last known position of the axis.",
                rig.position_mm());
   }
   const v1::LinkQuality& link = rig.link_quality();
   const auto count = [&](const char* name, const char* help, std::uint64_t value) {
     out.single(name, "counter", help, static_cast<double>(value));
   };
-  count("hydroprint_drive_polls_total", "Looks at the drive.", link.polls());
-  count("hydroprint_drive_missed_polls_total", "Looks that got no clean answer.",
+  count("hydroprint_drive_polls_total", "Polls of the drive.", link.polls());
+  count("hydroprint_drive_missed_polls_total", "Polls without a valid answer.",
         link.missed_polls());
-  count("hydroprint_drive_skipped_polls_total", "Periods without a look.", link.skipped_polls());
-  count("hydroprint_drive_connects_total", "How often the drive was connected.", link.connects());
-  out.single("hydroprint_drive_poll_lateness_max_seconds", "gauge",
-             "By how much a look was late at worst.", link.largest_lateness_s());
+  count("hydroprint_drive_skipped_polls_total", "Poll periods that were skipped.",
+        link.skipped_polls());
+  count("hydroprint_drive_connects_total", "Connections made to the drive.", link.connects());
+  out.single("hydroprint_drive_poll_lateness_max_seconds", "gauge", "Largest delay of a poll.",
+             link.largest_lateness_s());
   out.single("hydroprint_drive_poll_lateness_rms_seconds", "gauge",
-             "By how much looks are late in the mean.", link.rms_lateness_s());
+             "Root mean square delay of polls.", link.rms_lateness_s());
 }
 
 void describe_process(PrometheusText& out) {
   if (const double bytes = memory_of("self"); bytes > 0) {
-    out.single("process_resident_memory_bytes", "gauge", "Memory of the daemon.", bytes);
+    out.single("process_resident_memory_bytes", "gauge", "Resident memory of the daemon.", bytes);
     out.single("hydroprint_children_resident_memory_bytes", "gauge",
-               "Memory of workers and other processes it started.", memory_of_children());
+               "Resident memory of workers and other child processes.", memory_of_children());
   }
 }
 
@@ -121,10 +122,10 @@ std::string metrics_text(const ServiceContext& backend, const JobMetrics& meter,
           std::max(backend.captures.latest_ms(), backend.live.latest_ms());
       taken_ms != 0) {
     out.single("hydroprint_camera_frame_age_seconds", "gauge",
-               "Since the camera's latest frame that was kept or shown.",
+               "Age of the camera's latest frame that was saved or shown.",
                static_cast<double>(system_clock_ms() - taken_ms) / 1000);
   }
-  out.single("hydroprint_rejected_logins_total", "counter", "Logins that were refused.",
+  out.single("hydroprint_rejected_logins_total", "counter", "Rejected sign-in attempts.",
              static_cast<double>(backend.accounts.failed_attempts()));
   if (certificate != nullptr) certificate->describe(out);
   describe_process(out);

@@ -8,18 +8,18 @@
 
 namespace hydroprint::daemon {
 
-/// The daemon as /healthz shows it.
+/// The content of /healthz.
 struct HealthReport {
-  bool is_good = true;  ///< it takes work: the store answers and nothing goes down
+  bool is_good = true;  ///< the store answers and the daemon is not shutting down
   std::string json;
 };
 
-/// Asks the store, so it may take its time. A rig or camera that is not there or wants help is told
-/// and harms nothing else.
+/// Reads the store, so it may take time. A missing or faulty rig or camera is reported but does not
+/// make the daemon unhealthy.
 [[nodiscard]] HealthReport health_report(const ServiceContext& backend);
 
-/// All figures but the HTTP server's, as Prometheus reads them. Asks the store.
-/// @param certificate  null: there is none
+/// All metrics except the HTTP server's, in Prometheus format. Reads the store.
+/// @param certificate  null if there is none
 [[nodiscard]] std::string metrics_text(const ServiceContext& backend, const JobMetrics& meter,
                                        const CertificateReloader* certificate);
 

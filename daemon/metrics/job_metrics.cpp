@@ -7,7 +7,7 @@ namespace {
 
 constexpr int kMeterBatch = 1000;
 constexpr std::chrono::milliseconds kMeterNap{500};
-constexpr std::size_t kMostStages = 300;  // a worker says what its stages are called
+constexpr std::size_t kMostStages = 300;  // workers choose the names of their stages
 
 std::string stage_of(const JobEvent& event) {
   if (event.state == JobState::kRunning) {
@@ -49,7 +49,7 @@ void JobMetrics::take(const JobEvent& event) {
     seen.since_ms = event.time_ms;
   }
   open_[event.job] = seen;
-  // A computed job that is INTERRUPTED is queued again.
+  // A computed job that is INTERRUPTED returns to the queue.
   const bool goes_on = event.state == JobState::kInterrupted && seen.computed;
   if (!is_finished(event.state) || goes_on) return;
   ++ended_[{seen.kind, name_of(event.state)}];
@@ -77,13 +77,13 @@ void JobMetrics::spend(const Seen& seen, std::int64_t until_ms) {
 void JobMetrics::describe(PrometheusText& out) const {
   const std::lock_guard lock(mutex_);
   out.begin("hydroprint_job_stage_seconds", "summary",
-            "Time that jobs spent in a stage, since the daemon started.");
+            "Time that jobs spent in each stage since the daemon started.");
   for (const auto& [key, spent] : spent_) {
     out.sample(spent.sum_s, {{"kind", key.first}, {"stage", key.second}}, "_sum");
     out.sample(static_cast<double>(spent.count), {{"kind", key.first}, {"stage", key.second}},
                "_count");
   }
-  out.begin("hydroprint_jobs_finished_total", "counter", "Jobs that ended, by how they did.");
+  out.begin("hydroprint_jobs_finished_total", "counter", "Finished jobs by outcome.");
   for (const auto& [key, count] : ended_) {
     out.sample(static_cast<double>(count), {{"kind", key.first}, {"outcome", key.second}});
   }

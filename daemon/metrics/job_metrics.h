@@ -13,11 +13,11 @@
 
 namespace hydroprint::daemon {
 
-/// Measures what becomes of jobs, from its start on: how long they are in which stage, and how they
-/// end. Follows their events in a thread of its own, since PROGRESS is not kept after a job's end.
+/// Measures how long jobs stay in each stage and how they end, from the daemon's start on. Follows
+/// job events in its own thread, since PROGRESS events are deleted when a job ends.
 class JobMetrics {
  public:
-  /// @param jobs  outlives it
+  /// @param jobs  must outlive this object
   explicit JobMetrics(JobStore& jobs);
   ~JobMetrics();
   JobMetrics(const JobMetrics&) = delete;

@@ -7,8 +7,7 @@
 
 namespace hydroprint::daemon {
 
-/// A value that many look at and that is made anew at most so often, whoever looks. Any thread may
-/// call.
+/// A value shared by many readers and recomputed at most once per period. Thread-safe.
 template <class T>
 class Cached {
  public:

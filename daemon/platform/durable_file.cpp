@@ -63,7 +63,7 @@ Status write_file(const std::filesystem::path& path, std::string_view bytes) {
 
 Status sync_path(const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(const UniqueFd file, open_file(path, O_RDONLY));
-  if (::fsync(file.get()) != 0) return system_failure(path, "cannot be made safe on disk");
+  if (::fsync(file.get()) != 0) return system_failure(path, "cannot be flushed to disk");
   return {};
 }
 
@@ -79,11 +79,11 @@ Status make_folder(const std::filesystem::path& path) {
   if (::mkdir(path.c_str(), 0700) == 0) {
     return path.has_parent_path() ? sync_path(path.parent_path()) : Status();
   }
-  if (errno != EEXIST) return system_failure(path, "the folder cannot be made");
+  if (errno != EEXIST) return system_failure(path, "the folder cannot be created");
   std::error_code ignored;
   if (!std::filesystem::is_directory(path, ignored)) {
     errno = ENOTDIR;
-    return system_failure(path, "is in the way");
+    return system_failure(path, "is not a folder");
   }
   return {};
 }
@@ -119,12 +119,13 @@ Result<std::string> sha256_of_file(const std::filesystem::path& path) {
 
 Status check_free_space(const std::filesystem::path& path, std::int64_t bytes) {
   struct statvfs disk {};
-  if (::statvfs(path.c_str(), &disk) != 0) return system_failure(path, "cannot be looked at");
+  if (::statvfs(path.c_str(), &disk) != 0) return system_failure(path, "free space cannot be read");
   const auto free = static_cast<std::int64_t>(disk.f_bavail * disk.f_frsize);
   if (free >= bytes) return {};
   return fail(Code::kResourceExhausted,
               "the daemon's disk is nearly full (" + std::to_string(free >> 20) + " MiB free, " +
-                  std::to_string(bytes >> 20) + " MiB needed); delete jobs or assets, or make room",
+                  std::to_string(bytes >> 20) +
+                  " MiB needed); delete jobs or assets, or free disk space",
               "DISK_FULL");
 }
 

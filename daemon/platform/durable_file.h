@@ -10,7 +10,7 @@
 
 namespace hydroprint::daemon {
 
-/// A file descriptor that is closed with its owner.
+/// Owns a file descriptor and closes it on destruction.
 class UniqueFd {
  public:
   UniqueFd() = default;
@@ -27,12 +27,12 @@ class UniqueFd {
   int fd_ = -1;
 };
 
-/// An Error for the last failed system call: "path: what: reason of the system"; a full disk is
-/// kResourceExhausted, DISK_FULL, everything else kInternal, STORE_FAILED.
+/// Builds an Error for the last failed system call: "path: what: reason of the system". A full disk
+/// is kResourceExhausted, DISK_FULL; anything else is kInternal, STORE_FAILED.
 [[nodiscard]] tl::unexpected<Error> system_failure(const std::filesystem::path& path,
                                                    std::string_view what);
 
-/// Opens with O_CLOEXEC and never through a symbolic link.
+/// Opens a file with O_CLOEXEC, and refuses a symbolic link.
 [[nodiscard]] Result<UniqueFd> open_file(const std::filesystem::path& path, int flags,
                                          unsigned mode = 0600);
 
@@ -40,30 +40,30 @@ class UniqueFd {
 [[nodiscard]] Status write_at(const UniqueFd& file, const std::filesystem::path& path,
                               std::string_view bytes, std::int64_t offset);
 
-/// Replaces a file's content; it may be lost in a power cut.
+/// Replaces a file's content, which may be lost in a power cut.
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
-/// Makes what was written to a file, or the names in a folder, survive a power cut.
+/// Syncs a file's content, or a folder's entries, to disk.
 [[nodiscard]] Status sync_path(const std::filesystem::path& path);
 
-/// Renames and makes the new name survive a power cut.
+/// Renames a file and syncs the new name to disk.
 [[nodiscard]] Status publish(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Makes a folder of one's own (0700) with its parents; one that is there already is fine.
+/// Creates a private folder (0700) with its parents, unless it exists.
 [[nodiscard]] Status make_folder(const std::filesystem::path& path);
 
-/// Deletes a file or folder with all it holds; absence is fine, failures are left to the next
-/// start.
+/// Deletes a file or a folder with its content, if it exists. After a failure the next start tries
+/// again.
 void discard(const std::filesystem::path& path);
 
-/// Gives a file a second name, or copies it where the file system cannot.
+/// Creates a hard link, or copies the file if the file system cannot link.
 [[nodiscard]] Status link_or_copy(const std::filesystem::path& from,
                                   const std::filesystem::path& to);
 
-/// SHA-256 of a file's content as 64 lower-case hex digits.
+/// SHA-256 of a file's content, as 64 lower-case hex digits.
 [[nodiscard]] Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
-/// Refuses (kResourceExhausted, DISK_FULL) if fewer than `bytes` are free where `path` is.
+/// Refuses (kResourceExhausted, DISK_FULL) if the disk of `path` has less than `bytes` free.
 [[nodiscard]] Status check_free_space(const std::filesystem::path& path, std::int64_t bytes);
 
 }  // namespace hydroprint::daemon

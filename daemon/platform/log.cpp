@@ -70,9 +70,10 @@ Status start_logging(LogLevel level, const std::filesystem::path& file) {
     spdlog::set_default_logger(std::move(logger));
     return {};
   } catch (const spdlog::spdlog_ex&) {
-    return fail(Code::kPermissionDenied, "log.file: cannot open \"" + file.string() +
-                                             "\" for writing; name a file in a folder that exists "
-                                             "and is yours, or leave it empty");
+    return fail(Code::kPermissionDenied,
+                "log.file: cannot open \"" + file.string() +
+                    "\" for writing; name a file in a folder that exists "
+                    "and is writable for the daemon, or leave log.file empty");
   }
 }
 

@@ -7,7 +7,8 @@
 
 namespace hydroprint::daemon {
 
-/// Wakes whoever waits for news in the store. A ring between count() and wait() is not lost.
+/// Wakes threads that wait for changes in the store. A ring() between count() and wait() is not
+/// lost.
 class Notifier {
  public:
   void ring() {
@@ -21,7 +22,7 @@ class Notifier {
     const std::lock_guard lock(mutex_);
     return rings_;
   }
-  /// Returns once it rang after `seen`, or after `timeout`.
+  /// Returns after a ring() later than `seen`, or after `timeout`.
   void wait(std::uint64_t seen, std::chrono::milliseconds timeout) const {
     std::unique_lock lock(mutex_);
     rung_.wait_for(lock, timeout, [&] { return rings_ != seen; });

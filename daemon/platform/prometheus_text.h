@@ -7,17 +7,17 @@
 
 namespace hydroprint::daemon {
 
-/// Figures as Prometheus reads them (text format 0.0.4).
+/// Writes metrics in the Prometheus text format 0.0.4.
 class PrometheusText {
  public:
   using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
-  /// Begins a figure; its samples follow.
+  /// Begins a metric; its samples follow.
   /// @param type  "gauge", "counter" or "summary"
   void begin(const std::string& name, std::string_view type, std::string_view help);
-  /// @param suffix  behind the name: "_sum"
+  /// @param suffix  appended to the name: "_sum"
   void sample(double value, Labels labels = {}, std::string_view suffix = "");
-  /// A figure of one sample.
+  /// Writes a metric with one sample.
   void single(const std::string& name, std::string_view type, std::string_view help, double value);
 
   [[nodiscard]] const std::string& text() const { return text_; }

@@ -7,7 +7,7 @@
 
 namespace hydroprint::daemon {
 
-// Its answer only says whether somebody listens.
+// The return value only says whether a notification socket exists.
 void notify_ready(const std::string& status) {
   (void)sd_notify(0, ("READY=1\nSTATUS=" + status).c_str());
 }

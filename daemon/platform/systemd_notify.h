@@ -9,15 +9,15 @@
 
 namespace hydroprint::daemon {
 
-/// What systemd is told (sd_notify); nothing happens where nobody asked to be told.
+/// Notifies systemd (sd_notify). Does nothing if systemd did not start the daemon.
 void notify_ready(const std::string& status);
 void notify_stopping();
 
-/// Feeds systemd's watchdog, if there is one, for as long as the loop that looks at the drive goes
-/// round: what hangs while everything else answers is the one thing that must not.
+/// Feeds systemd's watchdog, if there is one, as long as the loop that monitors the drive makes
+/// progress. That loop alone must never hang, even if everything else still answers.
 class WatchdogFeeder {
  public:
-  /// Rounds of that loop since the start; none: there is no drive to look at.
+  /// Iterations of that loop since the start; nullopt without a drive.
   using Rounds = std::function<std::optional<std::uint64_t>()>;
 
   explicit WatchdogFeeder(Rounds rounds);
@@ -26,8 +26,8 @@ class WatchdogFeeder {
   void feed();
 
   Rounds rounds_;
-  std::optional<std::uint64_t> before_;  // rounds when it was last fed
-  // A thread of its own: a disk that hangs must not stop it.
+  std::optional<std::uint64_t> before_;  // iterations at the last feeding
+  // A separate thread, so that a hanging disk cannot stop it.
   std::optional<PeriodicThread> thread_;
 };
 

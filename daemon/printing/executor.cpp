@@ -34,7 +34,7 @@ Result<Job> PrintExecutor::create(const JobRequest& request) {
   HP_ASSIGN_OR_RETURN(auto earlier, jobs_.repeated(request.made.owner, request.key));
   if (earlier) return std::move(*earlier);
   HP_ASSIGN_OR_RETURN(Job job, jobs_.create(request.made, request.key));
-  // The store has it that no other one is under way.
+  // The store allows only one print at a time.
   if (thread_.joinable()) thread_.join();
   run_ = std::make_unique<PrintSession>(*setup_, jobs_, layout_, job, plan);
   thread_ = std::thread([run = run_.get()] { run->go(); });

@@ -10,22 +10,22 @@
 
 namespace hydroprint::daemon {
 
-/// Carries out prints, one at a time, each in a thread of its own. Any thread may call.
+/// Carries out prints, one at a time, each in its own thread. Thread-safe.
 class PrintExecutor final : public JobExecutor {
  public:
-  /// @param setup  none: no printer is configured
+  /// @param setup  nullopt: no printer is configured
   PrintExecutor(std::optional<PrinterConfig> setup, JobStore& jobs, const Layout& layout);
-  /// Stops if stop() was not called.
+  /// Calls stop() if needed.
   ~PrintExecutor() override;
 
-  /// Refuses what print_plan_of() refuses; kFailedPrecondition, PRINTER_MISSING if no printer is
+  /// Fails as print_plan_of() does; kFailedPrecondition, PRINTER_MISSING if no printer is
   /// configured.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
-  /// Asks for its end, which comes when the printer says so.
+  /// Requests cancellation; the job ends when the printer confirms.
   [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
-  /// Leaves a print that is under way to the printer, and its job to JobStore::interrupt_all(); a
-  /// few seconds at most.
+  /// Leaves a running print to the printer, and its job to JobStore::interrupt_all(). Takes a few
+  /// seconds at most.
   void stop() override;
 
  private:

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kPdf = "print.pdf";
 constexpr double kLongest_mm = 5000;
 
-/// A number of the report from 0 to the longest length; NaN where there is none.
+/// A length in the report, from 0 to the maximum; NaN if missing or out of range.
 double length_mm(const nlohmann::json& report, const std::string& pointer) {
   const nlohmann::json::json_pointer place(pointer);
   if (!report.contains(place) || !report.at(place).is_number()) return NAN;
@@ -35,7 +35,7 @@ Status read_printed_pages(const std::string& text, PrintPlan& plan) {
   if (plan.pages < 1 || !(width_mm > 0) || !(height_mm > 0) || std::isnan(plan.margin_mm)) {
     return fail(Code::kFailedPrecondition,
                 plan.print_image_job +
-                    ": its report.json does not say what its pages are; run "
+                    ": its report.json does not describe the pages; run "
                     "print-image again",
                 "STATE_FORBIDS");
   }
@@ -49,7 +49,7 @@ Result<PrintPlan> print_plan_of(const v1::PrintSpec& spec, JobStore& jobs, const
   const auto pdf = jobs.artifact(job.id, kPdf);
   if (!pdf) {
     return fail(Code::kFailedPrecondition,
-                job_name(job.id) + " made no PDF; run print-image with the format pdf",
+                job_name(job.id) + " has no PDF; run print-image with the format pdf",
                 "STATE_FORBIDS");
   }
   PrintPlan plan;

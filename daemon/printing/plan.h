@@ -13,23 +13,23 @@ class PrintSpec;
 
 namespace hydroprint::daemon {
 
-/// What is to be printed, and on what.
+/// The document to print, and the paper.
 struct PrintPlan {
   std::string print_image_job;  ///< "jobs/7"
   std::filesystem::path pdf;
   std::string sha256;  ///< of the PDF
   int pages = 1;
-  Eigen::Vector2d paper_mm = {210, 297};  ///< the shorter side first, as it lies in the tray
-  double margin_mm = 0;                   ///< what print-image was told the printer leaves free
+  Eigen::Vector2d paper_mm = {210, 297};  ///< the shorter side first, as in the tray
+  double margin_mm = 0;                   ///< margin of the printer that print-image assumed
 };
 
-/// What a print-image job's report.json says of its pages, trusting nothing in it.
+/// Reads the pages of a print-image job from its untrusted report.json.
 /// @return kFailedPrecondition, STATE_FORBIDS
 [[nodiscard]] Status read_printed_pages(const std::string& report, PrintPlan& plan);
 
-/// The plan of a spec.
-/// @return SPEC_INVALID, ID_INVALID, JOB_NOT_FOUND; STATE_FORBIDS if that job did not succeed, made
-///   no PDF or left no usable report
+/// Makes the plan of a spec.
+/// @return SPEC_INVALID, ID_INVALID, JOB_NOT_FOUND; STATE_FORBIDS if that job did not succeed or
+/// has no PDF or no usable report
 [[nodiscard]] Result<PrintPlan> print_plan_of(const v1::PrintSpec& spec, JobStore& jobs,
                                               const Layout& layout);
 

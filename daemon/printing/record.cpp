@@ -83,17 +83,17 @@ Warnings warnings_of(const PrintPlan& plan, const printer::Attributes& printer) 
     out.push_back({"paper_not_listed",
                    "the printer does not list paper of " + number_text(plan.paper_mm.x()) + " x " +
                        number_text(plan.paper_mm.y()) +
-                       " mm; set it up there, and measure the rulers on what comes out",
+                       " mm; set it up there, and measure the rulers on the printed page",
                    "printer"});
   }
   const double margin_mm = printer.margins_mm.maxCoeff();
   if (margin_mm > plan.margin_mm + kSameMargin_mm) {
-    out.push_back({"printer_margin",
-                   "the printer leaves up to " + number_text(margin_mm) +
-                       " mm free at the paper's edges, but print-image was told " +
-                       number_text(plan.margin_mm) +
-                       " mm: what lies there is not printed; give --printer-margin-mm",
-                   plan.print_image_job});
+    out.push_back(
+        {"printer_margin",
+         "the printer cannot print up to " + number_text(margin_mm) +
+             " mm at the paper's edges, but print-image assumed " + number_text(plan.margin_mm) +
+             " mm; the difference is not printed. Run print-image with --printer-margin-mm",
+         plan.print_image_job});
   }
   return out;
 }
@@ -103,9 +103,9 @@ Warnings warnings_of(const std::vector<std::string>& ignored) {
   for (const std::string& name : ignored) {
     const bool is_scale = name == "print-scaling";
     out.push_back({is_scale ? "scale_not_heeded" : "not_heeded",
-                   "the printer says that it does not heed " + name +
+                   "the printer ignores " + name +
                        (is_scale ? ": it may not print at exact scale" : "") +
-                       "; measure the rulers on what comes out",
+                       "; measure the rulers on the printed page",
                    "printer"});
   }
   return out;
@@ -116,15 +116,15 @@ Status check_takes_pdf(const printer::Attributes& printer, const std::string& ad
   if (!formats.empty() &&
       std::find(formats.begin(), formats.end(), "application/pdf") == formats.end()) {
     return fail(Code::kInvalidArgument,
-                "printer " + address + ": takes no PDF (but " + joined(formats) +
+                "printer " + address + ": does not accept PDF (only " + joined(formats) +
                     "). Download print.pdf and print it from a machine with a driver for it",
                 "FORMAT_NOT_SUPPORTED");
   }
   if (!printer.accepts_jobs) {
     const std::string why = joined(printer.state_reasons);
     return fail(Code::kFailedPrecondition,
-                "printer " + address + ": accepts no jobs" + (why.empty() ? "" : " (" + why + ")") +
-                    ". Look at its display",
+                "printer " + address + ": does not accept jobs" +
+                    (why.empty() ? "" : " (" + why + ")") + ". Check its display",
                 "PRINTER_REFUSED");
   }
   return {};

@@ -9,13 +9,13 @@
 
 namespace hydroprint::daemon {
 
-/// What the printer said when.
+/// A status report of the printer, with its time.
 struct PrinterNews {
   double time_s = 0;  ///< since the job was created
   printer::JobReport report;
 };
 
-/// What report.json of a print says.
+/// Content of a print's report.json.
 struct PrintFacts {
   std::string job;  ///< "jobs/8"
   std::string create_time;
@@ -25,24 +25,24 @@ struct PrintFacts {
   std::vector<PrinterNews> news;
   Warnings warnings;
   std::string outcome;  ///< "SUCCEEDED"
-  std::string reason;   ///< of a failure
+  std::string reason;   ///< only after a failure
   std::string message;
 };
 
-/// JSON of a report, one object.
+/// The report as a JSON object.
 [[nodiscard]] std::string report_json(const PrintFacts& facts);
 
-/// What speaks against sending the plan to a printer, though not against trying.
+/// Reasons to expect a poor print on this printer.
 [[nodiscard]] Warnings warnings_of(const PrintPlan& plan, const printer::Attributes& printer);
 
-/// The same of what the printer said it would not heed of a job.
+/// Warnings about job attributes that the printer ignores.
 [[nodiscard]] Warnings warnings_of(const std::vector<std::string>& ignored);
 
-/// Refuses (FORMAT_NOT_SUPPORTED, PRINTER_REFUSED) what a printer says it would refuse.
+/// Refuses (FORMAT_NOT_SUPPORTED, PRINTER_REFUSED) a job that the printer would refuse.
 [[nodiscard]] Status check_takes_pdf(const printer::Attributes& printer,
                                      const std::string& address);
 
-/// "processing", "stopped: printer-stopped, media-empty": a printer's news on one line.
+/// A status report on one line: "processing", "stopped: printer-stopped, media-empty".
 [[nodiscard]] std::string words_of(const printer::JobReport& report);
 
 }  // namespace hydroprint::daemon

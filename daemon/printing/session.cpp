@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kLargestPdf = std::size_t{2} << 30;
 constexpr std::chrono::milliseconds kStoreAgainAfter{500};
-// Shares of the whole, since nobody knows how long a printer takes.
+// Fixed shares of the progress, since the duration of a print is unknown.
 constexpr double kSending = 0.05, kSent = 0.3;
 
 std::string phase_of(printer::JobState state) {
@@ -41,12 +41,13 @@ PrintSession::PrintSession(const PrinterConfig& setup, JobStore& jobs, const Lay
 
 void PrintSession::go() {
   const Status done = print();
-  if (!done && left_ && done.error().code == Code::kCancelled) return;  // INTERRUPTED: the store's
+  if (!done && left_ && done.error().code == Code::kCancelled)
+    return;  // the store sets INTERRUPTED
   finish(done);
 }
 
 Status PrintSession::print() {
-  tell("ASKING", 0, "asks " + facts_.address);
+  tell("ASKING", 0, "connecting to " + facts_.address);
   const printer::Printer asked(setup_.address, setup_.timing,
                                [this] { return cancelled_ || left_; });
   HP_ASSIGN_OR_RETURN(facts_.printer, asked.attributes());
@@ -54,7 +55,7 @@ Status PrintSession::print() {
   note(warnings_of(facts_.plan, facts_.printer));
   HP_ASSIGN_OR_RETURN(const printer::Submitted sent, send());
   note(warnings_of(sent.ignored));
-  // What was sent is followed to its end even if somebody has cancelled it by now.
+  // A sent document is followed to its end, even after a cancellation.
   const printer::Printer followed(setup_.address, setup_.timing, [this] { return left_.load(); });
   HP_RETURN_IF_ERROR(followed.follow(
       sent.id, [this](const printer::JobReport& report) { note(report); },
@@ -63,7 +64,8 @@ Status PrintSession::print() {
 }
 
 Result<printer::Submitted> PrintSession::send() {
-  tell("SENDING", kSending, "sends " + facts_.plan.print_image_job + " to " + facts_.printer.name);
+  tell("SENDING", kSending,
+       "sending " + facts_.plan.print_image_job + " to " + facts_.printer.name);
   HP_ASSIGN_OR_RETURN(const std::string pdf, read_text_file(facts_.plan.pdf, kLargestPdf));
   printer::PrintJob what;
   what.document = {reinterpret_cast<const unsigned char*>(pdf.data()), pdf.size()};
@@ -98,7 +100,7 @@ void PrintSession::tell(std::string_view phase, double fraction, const std::stri
   log(LogLevel::kInfo, "print_step", {{"job", job_}, {"step", phase}, {"message", message}});
 }
 
-/// What was asked to be cancelled, and printed all the same, is printed.
+/// A print that was cancelled too late counts as printed.
 JobState PrintSession::ending(const Status& done) const {
   if (done) return JobState::kSucceeded;
   const Error& error = done.error();
@@ -118,14 +120,14 @@ void PrintSession::finish(const Status& done) {
     const auto ended = jobs_.end(job_, state, failure, "", record, facts_.message);
     if (ended) break;
     log(LogLevel::kError, "job_end_lost", {{"job", job_}, {"message", ended.error().message}});
-    if (left_) return;  // the next start says INTERRUPTED
+    if (left_) return;  // the next start sets INTERRUPTED
     std::this_thread::sleep_for(kStoreAgainAfter);
   }
   log(LogLevel::kInfo, "job_ended",
       {{"job", job_}, {"state", name_of(state)}, {"message", facts_.message}});
 }
 
-/// Without its record, if that cannot be kept: how the print ended matters more.
+/// If the record cannot be stored, the print ends without it, since its outcome matters more.
 std::vector<Artifact> PrintSession::publish_record() {
   const auto folder = layout_.run_out(job_);
   const auto written = [&]() -> Result<std::vector<Artifact>> {

@@ -12,9 +12,9 @@
 
 namespace hydroprint::daemon {
 
-/// One print, from its creation to its end in the store: asks the printer what it is, sends the
-/// document once, follows it, tells the store, and keeps the record. go() is one thread's, the rest
-/// anybody's.
+/// One print, from its creation to its end in the store. Reads the printer's attributes, sends the
+/// document once, follows the print, updates the store and keeps the record. One thread calls go();
+/// the other functions are thread-safe.
 class PrintSession {
  public:
   /// @param job  just created
@@ -23,11 +23,11 @@ class PrintSession {
 
   [[nodiscard]] std::int64_t job() const { return job_; }
 
-  /// Takes as long as the print, or until shortly after leave().
+  /// Runs until the print ends, or until shortly after leave().
   void go();
-  /// Has the printer end it; while it is being sent, breaks that off.
+  /// Cancels the print on the printer; if the document is still being sent, aborts the transfer.
   void cancel() { cancelled_ = true; }
-  /// Has go() return soon; the printer goes on.
+  /// Makes go() return soon; the printer continues.
   void leave() { left_ = true; }
 
  private:

@@ -73,7 +73,7 @@ Answer error_answer(int grpc_code, const std::string& message, const std::string
                       {"message", message},
                       {"status", google::rpc::Code_Name(exists ? grpc_code : google::rpc::UNKNOWN)},
                       {"details", details_of(status)}};
-  // A message that is not UTF-8 is shown as far as it is.
+  // Invalid UTF-8 in a message is replaced.
   return {code, Json{{"error", error}}.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 

@@ -6,7 +6,7 @@
 
 namespace hydroprint::rest {
 
-/// What goes back over HTTP when something was not done.
+/// An error as HTTP sends it.
 struct Answer {
   int http_status = 500;
   std::string json;  ///< {"error": {"code", "message", "status", "details"}} (AIP-193)
@@ -15,15 +15,14 @@ struct Answer {
 /// The HTTP status of a gRPC status code; 500 for one that does not exist.
 [[nodiscard]] int http_status(int grpc_code);
 
-/// A gRPC status as HTTP has it.
-/// @param details  grpc::Status::error_details(): a google.rpc.Status, serialised. Each of its
-/// details
-///                 becomes an object with "@type", which is all there is of one of unknown type. A
-///                 reason METHOD_NOT_ALLOWED makes it 405.
+/// Converts a gRPC status to an HTTP answer.
+/// @param details  grpc::Status::error_details(): a serialised google.rpc.Status. Each detail
+/// becomes an object with "@type"; a detail of an unknown type has no other field. Reason
+/// METHOD_NOT_ALLOWED makes the status 405.
 [[nodiscard]] Answer error_answer(int grpc_code, const std::string& message,
                                   const std::string& details);
 
-/// An error that the HTTP side itself has, the same way.
+/// Same, for an error of the HTTP side itself.
 [[nodiscard]] Answer error_answer(const Error& error);
 
 }  // namespace hydroprint::rest

@@ -6,9 +6,9 @@
 namespace hydroprint::rest {
 namespace {
 
-// gRPC limits the size of all details together to 8 KiB.
+// gRPC limits the total size of all details to 8 KiB.
 constexpr std::size_t kMostViolations = 16;
-// Key of a violation in the metadata: this, a letter that keeps the order, and the field.
+// Prefix of a violation's metadata key; then come a letter that keeps the order, and the field.
 constexpr std::string_view kPrefix = "violation-";
 
 bool is_violation(const std::string& key) { return key.starts_with(kPrefix); }

@@ -25,18 +25,18 @@ constexpr double kExactBelow = 9007199254740992;  // 2^53
 
 enum class ValueKind { kNull, kBool, kNumber, kString, kObject, kList };
 
-// An object or list that was begun and not ended.
+// An object or list that is still open.
 struct Level {
-  const pb::Descriptor* message = nullptr;  // what the object is read as; null: a map, a list
-  const pb::FieldDescriptor* field =
-      nullptr;  // the field whose value comes next; once there was a key
+  const pb::Descriptor* message =
+      nullptr;  // type that the object is read as; null for a map or a list
+  const pb::FieldDescriptor* field = nullptr;  // field of the next value, once a key was read
   bool is_list = false;
-  std::size_t count = 0;            // how many values of the list have come
-  std::string name = {};            // of the object's value that comes next
-  std::set<std::string> seen = {};  // names that were there
+  std::size_t count = 0;            // number of list values so far
+  std::string name = {};            // name of the object's next value
+  std::set<std::string> seen = {};  // names read so far
 };
 
-// Is told of everything in the text, from the front.
+// SAX handler that checks each token in order.
 class Checker : public nlohmann::json_sax<json> {
  public:
   Checker(std::string_view text, const pb::Descriptor& root) : text_(text), root_(root) {}
@@ -47,7 +47,7 @@ class Checker : public nlohmann::json_sax<json> {
   bool boolean(bool /*value*/) override { return is_fit(ValueKind::kBool) && end_value(); }
   bool number_integer(std::int64_t /*value*/) override { return number(); }
   bool number_unsigned(std::uint64_t /*value*/) override { return number(); }
-  bool binary(binary_t& /*value*/) override { return false; }  // JSON has none
+  bool binary(binary_t& /*value*/) override { return false; }  // JSON has no binary values
 
   bool number_float(double value, const std::string& /*text*/) override {
     const pb::FieldDescriptor* leaf = leaf_here();
@@ -92,7 +92,7 @@ class Checker : public nlohmann::json_sax<json> {
       }
       name = level.field->name();
     }
-    return level.seen.insert(name).second ? true : refuse("is there twice");
+    return level.seen.insert(name).second ? true : refuse("occurs twice");
   }
 
   bool start_array(std::size_t /*size*/) override {
@@ -115,20 +115,20 @@ class Checker : public nlohmann::json_sax<json> {
     return false;
   }
 
-  // What is wrong at a byte of the text.
+  // The error for invalid JSON at a byte of the text.
   [[nodiscard]] Error no_json(std::size_t at, std::string_view what) const {
     const std::string_view before = text_.substr(0, at);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;
     return {Code::kInvalidArgument,
-            "the body, line " + std::to_string(line) + ", column " + std::to_string(column) +
-                ": is no JSON: " + plain(what),
+            "request body, line " + std::to_string(line) + ", column " + std::to_string(column) +
+                ": not valid JSON: " + plain(what),
             "JSON_INVALID",
             {}};
   }
 
  private:
-  // "job.simulate.extraFiles[2].name"
+  // Path of the current value: "job.simulate.extraFiles[2].name".
   [[nodiscard]] std::string place() const {
     std::string text;
     for (const Level& level : levels_) {
@@ -143,7 +143,7 @@ class Checker : public nlohmann::json_sax<json> {
 
   bool refuse(const std::string& what) {
     const std::string field = place();
-    error_.message = (field.empty() ? "the body" : field) + ": " + what;
+    error_.message = (field.empty() ? "request body" : field) + ": " + what;
     if (!field.empty()) error_.metadata["field"] = field;
     return false;
   }
@@ -168,14 +168,15 @@ class Checker : public nlohmann::json_sax<json> {
 
   bool number() { return is_fit(ValueKind::kNumber) && end_value(); }
 
-  // The field, or the one in its wrapper, whose value comes next; null: at the front.
+  // The field, or the one in its wrapper, of the next value; null at the top level.
   [[nodiscard]] const pb::FieldDescriptor* leaf_here() const {
     if (levels_.empty()) return nullptr;
     const pb::FieldDescriptor* field = levels_.back().field;
     return is_wrapper(*field) ? field->message_type()->field(0) : field;
   }
 
-  // Whether such a value may come next; what is left to protobuf is which numbers and texts fit.
+  // Whether a value of this kind may come next. Protobuf checks the ranges of numbers and texts
+  // later.
   bool is_fit(ValueKind kind) {
     if (levels_.empty()) return kind == ValueKind::kObject || refuse("must be an object, { }");
     const Level& level = levels_.back();
@@ -191,7 +192,7 @@ class Checker : public nlohmann::json_sax<json> {
     if (kind == ValueKind::kObject) return refuse("must not be an object");
     const bool is_bool = leaf_here()->cpp_type() == Type::CPPTYPE_BOOL;
     return is_bool == (kind == ValueKind::kBool) ||
-           refuse(is_bool ? "must be true or false" : "must not be a bool");
+           refuse(is_bool ? "must be true or false" : "must not be true or false");
   }
 
   std::string_view text_;
@@ -204,7 +205,7 @@ class Checker : public nlohmann::json_sax<json> {
 
 Status check_json(std::string_view text, const pb::Descriptor& message) {
   Checker checker(text, message);
-  // The parser would skip a byte order mark, and take NUL for the end.
+  // The parser would skip a byte order mark, and treat NUL as the end.
   if (text.substr(0, 3) == "\xef\xbb\xbf")
     return tl::unexpected(checker.no_json(0, "byte order mark"));
   const std::size_t nul = text.find('\0');

@@ -10,9 +10,9 @@ class Descriptor;
 
 namespace hydroprint::rest {
 
-/// Refuses, before protobuf's parser sees it, what that one lets pass or takes too long for: see
-/// read_json(). Takes time and memory in proportion to the text.
-/// @param message  what the text is to be read as
+/// Refuses text that protobuf's parser would accept although it is invalid, or would take too long
+/// to parse; see read_json(). Takes time and memory in proportion to the text.
+/// @param message  type of the message that the text is read as
 [[nodiscard]] Status check_json(std::string_view text, const google::protobuf::Descriptor& message);
 
 }  // namespace hydroprint::rest

@@ -22,7 +22,7 @@ tl::unexpected<Error> refuse_value(const std::string& place, const std::string& 
   return error;
 }
 
-// One value of a field; `index` counts in a repeated one and is -1 else.
+// Checks one value of a field. `index` is the position in a repeated field, otherwise -1.
 Status check_value(const pb::Message& message, const pb::FieldDescriptor& field, int index,
                    const std::string& place);
 
@@ -84,7 +84,7 @@ Status read_json(std::string_view text, pb::Message& message) {
   const auto status = pb::util::JsonStringToMessage(whole, &message);
   if (!status.ok()) {
     const std::string words = status.message().ToString();
-    return fail(Code::kInvalidArgument, "the body: " + plain(words), "JSON_INVALID");
+    return fail(Code::kInvalidArgument, "request body: " + plain(words), "JSON_INVALID");
   }
   return check_values(message);
 }
@@ -95,8 +95,8 @@ Result<std::string> write_json(const pb::Message& message) {
   std::string text;
   const auto status = pb::util::MessageToJsonString(message, &text, options);
   if (!status.ok()) {
-    return fail(Code::kInternal,
-                message.GetTypeName() + " has no JSON: " + plain(status.message().ToString()));
+    return fail(Code::kInternal, message.GetTypeName() + " cannot be written as JSON: " +
+                                     plain(status.message().ToString()));
   }
   return text;
 }

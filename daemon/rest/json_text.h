@@ -11,20 +11,22 @@ class Message;
 
 namespace hydroprint::rest {
 
-/// Reads a JSON object into an empty message, as the proto3 JSON mapping says, and strictly.
-/// Refused (kInvalidArgument, JSON_INVALID, metadata `field` where there is one; the message tells
-/// the line and column, or the field): what is no JSON (comments, trailing commas, NaN, unquoted
-/// names, bytes that are not UTF-8); more than 32 levels; a field that does not exist or is there
-/// twice, be it under both of its names; NUL in a string; a number that is not finite, or that an
-/// enum does not have; values of another type.
+/// Reads a JSON object into an empty message, following the proto3 JSON mapping strictly. Refuses
+/// (kInvalidArgument, JSON_INVALID, metadata `field` where there is one; the message gives line and
+/// column, or the field):
+/// - text that is not valid JSON (comments, trailing commas, NaN, unquoted names, bytes that are
+///   not UTF-8);
+/// - more than 32 levels;
+/// - an unknown field, or one that occurs twice, even if under both of its names;
+/// - NUL in a string, a number that is not finite, an unknown enum number, a value of another type.
 [[nodiscard]] Status read_json(std::string_view text, google::protobuf::Message& message);
 
-/// Writes a message: field names in camelCase, all fields without presence, enums by name, int64 as
-/// strings. Refused (kInternal): a message that has no JSON, such as an Any of an unknown type.
+/// Writes a message as JSON: field names in camelCase, all fields without presence, enums by name,
+/// int64 as strings. Refuses (kInternal) a message without a JSON form, such as an Any of unknown
+/// type.
 [[nodiscard]] Result<std::string> write_json(const google::protobuf::Message& message);
 
-/// Refuses (kInvalidArgument, JSON_INVALID) numbers that are not finite or that an enum does not
-/// have.
+/// Refuses (kInvalidArgument, JSON_INVALID) numbers that are not finite and unknown enum numbers.
 [[nodiscard]] Status check_values(const google::protobuf::Message& message);
 
 }  // namespace hydroprint::rest

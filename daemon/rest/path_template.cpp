@@ -18,7 +18,7 @@ bool is_one_of(char c, std::string_view marks) {
   return kLetters.find(c) != std::string_view::npos || marks.find(c) != std::string_view::npos;
 }
 
-// Goes through a template from left to right.
+// Parses a template from left to right.
 class Parser {
  public:
   explicit Parser(std::string_view text) : text_(text) {}
@@ -31,7 +31,7 @@ class Parser {
     if (take(':')) {
       HP_ASSIGN_OR_RETURN(result_.verb, literal());
     }
-    if (at_ != text_.size()) return refuse("a slash, a verb or the end is missing");
+    if (at_ != text_.size()) return refuse("expected a slash, a verb or the end");
     HP_RETURN_IF_ERROR(check());
     return std::move(result_);
   }
@@ -76,7 +76,8 @@ class Parser {
     found.begin = result_.segments.size();
     do {
       const std::string_view name = take_all(kNameMarks);
-      if (name.empty() || (name[0] >= '0' && name[0] <= '9')) return refuse("no field name");
+      if (name.empty() || (name[0] >= '0' && name[0] <= '9'))
+        return refuse("expected a field name");
       if (!found.field_path.empty()) found.field_path += '.';
       found.field_path += name;
     } while (take('.'));
@@ -115,7 +116,7 @@ bool ends_open(const PathTemplate& path_template) {
   return path_template.segments.back().kind == Kind::kRest;
 }
 
-// How many segments stand before `**`, or at all.
+// Number of segments without a final `**`.
 std::size_t fixed_count(const PathTemplate& path_template) {
   return path_template.segments.size() - (ends_open(path_template) ? 1 : 0);
 }
@@ -133,7 +134,7 @@ std::string value_of(const Variable& variable, const PathTemplate& path_template
   std::string value;
   for (std::size_t i = variable.begin; i < end; ++i) {
     if (i > variable.begin) value += '/';
-    // It was decoded before, by split_path(), so it can be.
+    // split_path() has decoded the segment before, so this cannot fail.
     value += *decode(path.segments[i], is_single ? Keep::kNothing : Keep::kSlash);
   }
   return value;

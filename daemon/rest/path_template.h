@@ -10,15 +10,15 @@
 
 namespace hydroprint::rest {
 
-/// One part of a path template between slashes.
+/// One part of a path template, between two slashes.
 struct Segment {
   enum class Kind {
     kLiteral,  ///< this text
     kOne,      ///< `*`: any one segment
-    kRest,     ///< `**`: any segments, also none; only ever the last
+    kRest,     ///< `**`: any number of segments, including zero; only as the last
   };
   Kind kind = Kind::kLiteral;
-  std::string literal;  ///< decoded; of kLiteral alone
+  std::string literal;  ///< decoded; only for kLiteral
 };
 
 /// `{name=jobs/*}`: the segments [begin, end) of the template give the field `field_path`.
@@ -35,28 +35,28 @@ struct PathTemplate {
   std::string verb;                 ///< "cancel" of "/v1/jobs/7:cancel"; empty: none
 };
 
-/// Reads "/v1/{name=jobs/*}:cancel". Refused (kInvalidArgument): all that the grammar in http.proto
-/// does not have, `**` that is not last, a field that is bound twice.
+/// Parses "/v1/{name=jobs/*}:cancel". Refuses (kInvalidArgument) text that does not follow the
+/// grammar in http.proto, a `**` that is not last, and a field that is bound twice.
 [[nodiscard]] Result<PathTemplate> parse_template(std::string_view text);
 
-/// The path of a request, taken apart.
+/// The path of a request, split into parts.
 struct Path {
   std::vector<std::string> segments;  ///< still percent-encoded
-  std::string verb;  ///< decoded: what follows the last colon of the last segment; empty: none
+  std::string verb;  ///< decoded: the text after the last colon of the last segment; empty: none
 };
 
-/// Takes "/v1/jobs/7:cancel" apart; none for a path that no template can match: one that does not
-/// begin with a slash, has empty segments, ends with a slash or with a colon. Refused
-/// (kInvalidArgument, URL_INVALID): escapes that are none, and text that is not UTF-8 or holds NUL
-/// once decoded, or has characters that a request line cannot have.
+/// Splits "/v1/jobs/7:cancel". Returns nullopt for a path that no template can match: one that does
+/// not begin with a slash, has empty segments, or ends with a slash or a colon. Refuses
+/// (kInvalidArgument, URL_INVALID) malformed escapes, decoded text that is not UTF-8 or holds NUL,
+/// and characters that a request line cannot have.
 [[nodiscard]] Result<std::optional<Path>> split_path(std::string_view path);
 
-/// The values of a template's variables, in their order, if the path matches it. A variable of one
-/// segment is decoded; in one of several, %2F stays.
+/// The values of a template's variables, in order, if the path matches it. A variable of one
+/// segment is decoded; in one of several segments, %2F stays encoded.
 [[nodiscard]] std::optional<std::vector<std::string>> match(const PathTemplate& path_template,
                                                             const Path& path);
 
-/// Whether some path matches both.
+/// Whether any path matches both templates.
 [[nodiscard]] bool overlap(const PathTemplate& a, const PathTemplate& b);
 
 }  // namespace hydroprint::rest

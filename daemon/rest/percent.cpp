@@ -28,7 +28,7 @@ Result<std::string> decoded(std::string_view text, Keep keep, bool plus_is_blank
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (c <= ' ' || c >= 0x7f || c == '#') {
-      return refuse(text, i, "no URL has this character; encode it as %XX");
+      return refuse(text, i, "not allowed in a URL; encode it as %XX");
     }
     if (c != '%') {
       result += c == '+' && plus_is_blank ? ' ' : c;
@@ -46,17 +46,18 @@ Result<std::string> decoded(std::string_view text, Keep keep, bool plus_is_blank
     }
     i += 2;
   }
-  if (not_utf8_at(result) != std::string::npos) return refuse(text, 0, "is not UTF-8");
+  if (not_utf8_at(result) != std::string::npos) return refuse(text, 0, "not UTF-8");
   return result;
 }
 
-// Length of a character, and the least that its second byte may be and the most.
+// Length of a character, and the range of its second byte.
 struct Lead {
   std::size_t length;
   std::uint8_t least, most;
 };
 
-// Table 3-7 of the Unicode standard: neither overlong forms nor surrogates nor beyond U+10FFFF.
+// Table 3-7 of the Unicode standard: excludes overlong forms, surrogates and code points above
+// U+10FFFF.
 Lead lead_of(std::uint8_t byte) {
   if (byte < 0x80) return {1, 0, 0};
   if (byte >= 0xc2 && byte <= 0xdf) return {2, 0x80, 0xbf};

@@ -7,29 +7,30 @@
 
 namespace hydroprint::rest {
 
-/// What decode() leaves alone.
+/// Which escapes decode() leaves encoded.
 enum class Keep {
   kNothing,  ///< "%2F" becomes "/"
   kSlash,    ///< "%2F" and "%2f" stay as they are
 };
 
-/// Percent-decodes part of a URL. Refused (kInvalidArgument, URL_INVALID, with the place in
+/// Percent-decodes part of a URL. Refuses (kInvalidArgument, URL_INVALID, with the place in
 /// `text`):
-/// "%" without two hex digits, characters that a URL cannot have, and what then holds NUL or is not
-/// UTF-8 (overlong forms and surrogates are not).
+/// - "%" without two hex digits;
+/// - characters that a URL cannot have;
+/// - decoded text that holds NUL or is not valid UTF-8 (overlong forms and surrogates are not
+///   valid).
 [[nodiscard]] Result<std::string> decode(std::string_view text, Keep keep = Keep::kNothing);
 
-/// The same, and "+" is a blank, as forms have it.
+/// Same as decode(), and "+" is a space, as in HTML forms.
 [[nodiscard]] Result<std::string> decode_query(std::string_view text);
 
-/// Percent-encodes all but letters, digits and "-_.~".
+/// Percent-encodes everything except letters, digits and "-_.~".
 [[nodiscard]] std::string encode(std::string_view text);
 
-/// A stranger's text as a message may show it: printable ASCII, "?" for the rest, 100 bytes at
-/// most.
+/// Untrusted text made safe for a message: printable ASCII, "?" for other bytes, at most 100 bytes.
 [[nodiscard]] std::string plain(std::string_view text);
 
-/// Byte at which `text` stops being UTF-8; npos: it does not.
+/// Index of the first byte that is not valid UTF-8; npos if the text is valid.
 [[nodiscard]] std::size_t not_utf8_at(std::string_view text);
 
 }  // namespace hydroprint::rest

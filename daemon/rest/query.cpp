@@ -12,7 +12,7 @@
 namespace hydroprint::rest {
 namespace {
 
-// Whether one leads to the other, or to something in it.
+// Whether the fields are the same, or one contains the other.
 bool are_one(const FieldPath& a, const FieldPath& b) {
   return std::equal(a.begin(), a.begin() + static_cast<long>(std::min(a.size(), b.size())),
                     b.begin());
@@ -23,7 +23,7 @@ Status check_free(const Route& route, const FieldPath& path) {
     if (are_one(bound, path)) return bad_parameter(path_text(path), "is given by the path");
   }
   const bool in_body = route.body == Body::kAll || path.front() == route.body_field;
-  return in_body ? bad_parameter(path_text(path), "belongs into the body") : Status{};
+  return in_body ? bad_parameter(path_text(path), "belongs in the body") : Status{};
 }
 
 Status read_pair(std::string_view pair, const Route& route, std::set<FieldPath>& given,

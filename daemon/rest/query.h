@@ -12,9 +12,12 @@ class Message;
 namespace hydroprint::rest {
 
 /// Sets the fields that the query of a request gives ("pageSize=2&states=QUEUED&states=RUNNING"),
-/// under their names or JSON names. Refused (kInvalidArgument: URL_INVALID, PARAMETER_INVALID): a
-/// name without "=", a field that does not exist, one that path or body give, one that is given
-/// twice but not repeated, and what set_from_text() refuses. "&" may stand at the end, or twice.
+/// under their names or JSON names. An extra "&" is allowed. Refuses (kInvalidArgument:
+/// URL_INVALID, PARAMETER_INVALID):
+/// - a name without "=", or of an unknown field;
+/// - a field that belongs in the path or the body;
+/// - a field that occurs twice but is not repeated;
+/// - any value that set_from_text() refuses.
 [[nodiscard]] Status read_query(std::string_view query, const Route& route,
                                 google::protobuf::Message& request);
 

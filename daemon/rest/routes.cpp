@@ -21,7 +21,7 @@ tl::unexpected<Error> refuse(const pb::MethodDescriptor& method, const std::stri
   return fail(Code::kInternal, method.full_name() + ", google.api.http: " + what);
 }
 
-// The HTTP method and the path template of a rule; an empty method for one that gives none.
+// The HTTP method and the path template of a rule; the method is empty if the rule gives none.
 std::pair<std::string, std::string> pattern_of(const HttpRule& rule) {
   switch (rule.pattern_case()) {
     case HttpRule::kGet:
@@ -39,8 +39,8 @@ std::pair<std::string, std::string> pattern_of(const HttpRule& rule) {
   }
 }
 
-// Messages that may hold anything. Reading them from JSON takes time that grows with the square of
-// what was sent, or worse.
+// Whether a message may hold anything. Reading such messages from JSON takes time quadratic in the
+// size of the text, or worse.
 bool holds_anything(const pb::Descriptor& message, std::set<const pb::Descriptor*>& seen) {
   static const std::set<std::string> kAnything = {"google.protobuf.Any", "google.protobuf.Struct",
                                                   "google.protobuf.Value",
@@ -56,7 +56,7 @@ bool holds_anything(const pb::Descriptor& message, std::set<const pb::Descriptor
 
 Status check_method(const pb::MethodDescriptor& method) {
   if (method.client_streaming()) {
-    return refuse(method, "the client streams, which HTTP/1.1 has no way for; remove the rule");
+    return refuse(method, "client streaming is not possible over HTTP/1.1; remove the rule");
   }
   std::set<const pb::Descriptor*> seen;
   if (holds_anything(*method.input_type(), seen)) {
@@ -90,14 +90,16 @@ Status read_body(const pb::MethodDescriptor& method, const std::string& body, Ro
   const bool is_object = route.body_field->message_type() != nullptr &&
                          !route.body_field->is_repeated() &&
                          !is_written_as_value(*route.body_field);
-  if (!is_object) return refuse(method, body + " must be one message, which JSON has as an object");
+  if (!is_object)
+    return refuse(method, body + " must be a single message, which JSON writes as an object");
   for (const FieldPath& path : route.path_fields) {
-    if (path.front() == route.body_field) return refuse(method, body + " is bound by the path too");
+    if (path.front() == route.body_field)
+      return refuse(method, body + " is also bound by the path");
   }
   return {};
 }
 
-// A stop that took a field from its body or its query could be refused because of it.
+// A stop that takes fields from its body or query could be refused because of them.
 Status read_stop(const pb::MethodDescriptor& method, Route& route) {
   route.stops_motion = method.options().GetExtension(v1::stops_motion);
   if (!route.stops_motion) return {};
@@ -136,7 +138,7 @@ Status read_method(const pb::MethodDescriptor& method, std::vector<Route>& route
     HP_ASSIGN_OR_RETURN(Route route, read_rule(method, *rule));
     for (const Route& other : routes) {
       if (other.http_method == route.http_method && overlap(other.path, route.path)) {
-        return refuse(method, "some path is that of " + other.method->full_name() + " as well");
+        return refuse(method, "a path matches " + other.method->full_name() + " as well");
       }
     }
     routes.push_back(std::move(route));

@@ -17,20 +17,21 @@ Json security_schemes() {
        {{"type", "http"},
         {"scheme", "bearer"},
         {"bearerFormat", "hp_ID_SECRET"},
-        {"description", "For scripts: an API key, which CreateApiKey makes."}}},
+        {"description", "For scripts: an API key from CreateApiKey."}}},
       {kSession,
        {{"type", "apiKey"},
         {"in", "cookie"},
         {"name", kSessionCookie},
         {"description",
-         "For browsers: what SignIn sets. While there are no users, nobody on the daemon's own\n"
-         "machine needs either."}}},
+         "For browsers: the session cookie that SignIn sets. While there are no users, callers on\n"
+         "the daemon's own machine need neither key nor cookie."}}},
       {kCsrf,
        {{"type", "apiKey"},
         {"in", "header"},
         {"name", kCsrfHeader},
         {"description",
-         "`csrfToken` of SignIn or WhoAmI; needed with a session where something is changed."}}}};
+         "`csrfToken` from SignIn or WhoAmI; required with a session for requests that make "
+         "changes."}}}};
 }
 
 Json security_of(bool is_open, const std::string& http_method) {

@@ -6,16 +6,16 @@
 
 namespace hydroprint::rest {
 
-/// The cookie that a session is kept in.
+/// Name of the session cookie.
 inline constexpr std::string_view kSessionCookie = "hydroprint_session";
-/// What has to come along with it where something is changed.
+/// Header that requests with a session must send when they change something.
 inline constexpr std::string_view kCsrfHeader = "X-Hydroprint-Csrf";
 
-/// How callers say who they are, as OpenAPI has it (components/securitySchemes).
+/// The authentication schemes, as OpenAPI describes them (components/securitySchemes).
 [[nodiscard]] nlohmann::ordered_json security_schemes();
 
-/// What an operation needs of them.
-/// @param is_open  whoever reaches the daemon may call it
+/// The security requirement of an operation.
+/// @param is_open  the operation needs no authentication
 [[nodiscard]] nlohmann::ordered_json security_of(bool is_open, const std::string& http_method);
 
 }  // namespace hydroprint::rest

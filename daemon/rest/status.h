@@ -6,13 +6,12 @@
 
 namespace hydroprint::rest {
 
-/// google.rpc.Code's number, which is gRPC's.
+/// The number of a code, the same in google.rpc.Code and gRPC.
 [[nodiscard]] int number_of(Code code);
 
-/// What an error says beside code and message: a google.rpc.Status, serialised, with
-/// ErrorInfo{reason, domain "hydroprint", metadata}, BadRequest where fields of the request are
-/// wrong, and RetryInfo where trying again may help. The one place where errors become replies,
-/// over gRPC and over HTTP.
+/// The details of an error beyond code and message: a serialised google.rpc.Status with
+/// ErrorInfo{reason, domain "hydroprint", metadata}, BadRequest if fields of the request are wrong,
+/// and RetryInfo if a retry may help. All errors become replies here, for both gRPC and HTTP.
 [[nodiscard]] std::string status_details(const Error& error);
 
 }  // namespace hydroprint::rest

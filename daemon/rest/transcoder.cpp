@@ -31,7 +31,7 @@ MessagePtr parsed(const pb::Descriptor& type, std::string_view bytes) {
   return message;
 }
 
-// A route that has the path, and what the path says.
+// A route that matches the path, and the values of its variables.
 struct Match {
   const Route* route = nullptr;
   std::vector<std::string> values;
@@ -53,13 +53,13 @@ bool is_blank(std::string_view body) {
 Status read_body(std::string_view body, const Route& route, pb::Message& request) {
   if (is_blank(body)) return {};
   if (route.body == Body::kNone) {
-    // Libraries send it where there is nothing to say.
+    // Some libraries send {} when there is no body.
     std::string rest(body);
     std::erase_if(rest, [](char c) { return is_blank({&c, 1}); });
     if (rest == "{}") return {};
     return fail(Code::kInvalidArgument,
-                "the body: none is expected; what there is to say belongs "
-                "into the query",
+                "request body: must be empty; put the parameters "
+                "in the query",
                 "JSON_INVALID");
   }
   if (route.body == Body::kField) {
@@ -87,8 +87,7 @@ std::vector<std::string> methods_of(const std::vector<Match>& matches) {
 tl::unexpected<Error> no_route(std::string_view http_method, std::string_view path,
                                const std::vector<Match>& matches) {
   if (matches.empty()) {
-    return fail(Code::kNotFound,
-                plain(path) + ": nothing is here; /openapi.json says what is where",
+    return fail(Code::kNotFound, plain(path) + ": not found; see /openapi.json for all paths",
                 "ROUTE_NOT_FOUND");
   }
   std::string allowed;
@@ -96,7 +95,7 @@ tl::unexpected<Error> no_route(std::string_view http_method, std::string_view pa
     allowed += (allowed.empty() ? "" : ", ") + name;
   }
   auto error = fail(Code::kUnimplemented,
-                    plain(path) + ": has no " + plain(http_method) + ", but " + allowed,
+                    plain(path) + ": " + plain(http_method) + " is not allowed; use " + allowed,
                     "METHOD_NOT_ALLOWED");
   error.value().metadata["allow"] = allowed;
   return error;
@@ -108,7 +107,7 @@ struct Transcoder::Impl {
   std::vector<Route> routes;
   std::map<std::string, const pb::MethodDescriptor*, std::less<>> methods;
 
-  // All routes that have the path; none is no error.
+  // All routes that match the path; an empty list is not an error.
   [[nodiscard]] Result<std::vector<Match>> matches(std::string_view path) const {
     HP_ASSIGN_OR_RETURN(const std::optional<Path> parts, split_path(path));
     std::vector<Match> found;
@@ -120,7 +119,7 @@ struct Transcoder::Impl {
     return found;
   }
 
-  // The route that a request asks for.
+  // The route for a request.
   [[nodiscard]] Result<Match> match_of(std::string_view http_method, std::string_view path) const {
     HP_ASSIGN_OR_RETURN(std::vector<Match> found, matches(path));
     for (Match& match : found) {
@@ -195,7 +194,7 @@ Result<std::string> Transcoder::write(std::string_view method, std::string_view 
   if (called == nullptr) return fail(Code::kInternal, plain(method) + ": there is no such method");
   const MessagePtr message = parsed(*called->output_type(), response);
   if (message == nullptr) {
-    return fail(Code::kInternal, called->full_name() + ": its answer is not one");
+    return fail(Code::kInternal, called->full_name() + ": the response cannot be parsed");
   }
   return write_json(*message);
 }
@@ -215,12 +214,13 @@ Result<Call> Transcoder::resume(Call call, std::string_view last_event_id) const
   const pb::MethodDescriptor* called = impl_->method(call.method);
   if (called == nullptr || !is_resumable(*called)) return call;
   const MessagePtr request = parsed(*called->input_type(), call.request);
-  if (request == nullptr) return fail(Code::kInternal, call.method + ": the request is none");
+  if (request == nullptr)
+    return fail(Code::kInternal, call.method + ": the request cannot be parsed");
   const bool is_number =
       !last_event_id.empty() && std::all_of(last_event_id.begin(), last_event_id.end(),
                                             [](char c) { return c >= '0' && c <= '9'; });
   if (!is_number) {
-    return bad_parameter("Last-Event-ID", "\"" + plain(last_event_id) + "\" is no event's id");
+    return bad_parameter("Last-Event-ID", "\"" + plain(last_event_id) + "\" is not an event id");
   }
   const auto* after_seq = number_called(*called->input_type(), "after_seq");
   HP_RETURN_IF_ERROR(set_from_text(*request, {after_seq}, std::string(last_event_id)));

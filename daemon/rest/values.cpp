@@ -18,7 +18,7 @@ namespace {
 namespace pb = google::protobuf;
 using Type = pb::FieldDescriptor::CppType;
 
-// The whole text as a number that fits.
+// The whole text as a number; nullopt if it does not fit.
 template <class Number>
 std::optional<Number> number_in(const std::string& text) {
   Number number{};
@@ -44,7 +44,7 @@ std::optional<int> value_in(const pb::EnumDescriptor& names, const std::string& 
   return number && names.FindValueByNumber(*number) != nullptr ? number : std::nullopt;
 }
 
-// Sets or adds what was read, by the functions of this type; false if nothing was.
+// Sets or appends a value with the functions for its type; false if there is no value.
 template <class Value, class Set, class Add>
 bool put(pb::Message& message, const pb::FieldDescriptor& field, const std::optional<Value>& value,
          Set set, Add add) {
@@ -58,7 +58,7 @@ bool put(pb::Message& message, const pb::FieldDescriptor& field, const std::opti
   return true;
 }
 
-// What only the JSON mapping knows how to read: bytes, Timestamp, Duration, FieldMask.
+// Reads the types that need the JSON mapping: bytes, Timestamp, Duration, FieldMask.
 bool put_by_json(pb::Message& message, const pb::FieldDescriptor& field, const std::string& text) {
   nlohmann::json value = text;
   if (field.is_repeated()) value = nlohmann::json::array({text});
@@ -106,7 +106,7 @@ bool put_text(pb::Message& message, const pb::FieldDescriptor& field, const std:
   return put_text(*inside, *field.message_type()->field(0), text);
 }
 
-// What the text should have been.
+// Names the expected value, for the error message.
 std::string expected(const pb::FieldDescriptor& field) {
   if (field.enum_type() != nullptr) return "a name or number of " + field.enum_type()->name();
   if (field.message_type() != nullptr) return "a " + field.message_type()->name();
@@ -115,7 +115,7 @@ std::string expected(const pb::FieldDescriptor& field) {
   return std::string("a number that fits, ") + field.type_name();
 }
 
-// Another member of the field's oneof that is set; null: none.
+// Another member of the field's oneof that is already set; null if there is none.
 const pb::FieldDescriptor* rival(const pb::Message& message, const pb::FieldDescriptor& field) {
   const pb::OneofDescriptor* oneof = field.real_containing_oneof();
   if (oneof == nullptr) return nullptr;
@@ -135,13 +135,13 @@ Status set_from_text(pb::Message& message, const FieldPath& path, const std::str
   const pb::FieldDescriptor& last = *path.back();
   const std::string name = path_text(path);
   if (last.is_map() || (last.message_type() != nullptr && !is_written_as_value(last))) {
-    return bad_parameter(name, "is a " + std::string(last.is_map() ? "map" : "message") +
-                                   " and has no place in a URL");
+    return bad_parameter(
+        name, "is a " + std::string(last.is_map() ? "map" : "message") + " and cannot be in a URL");
   }
   pb::Message* inside = &message;
   for (const pb::FieldDescriptor* field : path) {
     if (const auto* other = rival(*inside, *field)) {
-      return bad_parameter(name, "excludes " + other->name() + ", which is given, too");
+      return bad_parameter(name, "excludes " + other->name() + ", which is also given");
     }
     if (field != &last) inside = inside->GetReflection()->MutableMessage(inside, field);
   }

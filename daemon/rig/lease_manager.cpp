@@ -17,7 +17,7 @@ void describe(const Lease& lease, Error& error) {
 
 tl::unexpected<Error> is_held(const Lease& lease) {
   Error error{Code::kAborted,
-              lease.holder + " has the rig until " + time_text(lease.expire_ms) + " (" +
+              lease.holder + " holds the rig's lease until " + time_text(lease.expire_ms) + " (" +
                   lease.purpose + "); ask them to release it, or break the lease",
               "LEASE_HELD",
               {}};
@@ -27,11 +27,11 @@ tl::unexpected<Error> is_held(const Lease& lease) {
 
 tl::unexpected<Error> is_required(const std::optional<Lease>& held) {
   Error error{Code::kFailedPrecondition,
-              "commands to the rig need its lease; acquire it first",
+              "commands to the rig require its lease; acquire it first",
               "LEASE_REQUIRED",
               {}};
   if (held) {
-    error.message += ": " + held->holder + " has it until " + time_text(held->expire_ms) + " (" +
+    error.message += ": " + held->holder + " holds it until " + time_text(held->expire_ms) + " (" +
                      held->purpose + ")";
     describe(*held, error);
   }

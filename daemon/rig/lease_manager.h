@@ -11,44 +11,44 @@
 
 namespace hydroprint::daemon {
 
-/// The right to command the rig, for a time. Times are Unix times in ms.
+/// The right to command the rig for a limited time. Times are Unix times in ms.
 struct Lease {
-  std::string id;  ///< unguessable; what commands must name
+  std::string id;  ///< unguessable; commands must name it
   std::string holder;
   std::string purpose;
   std::int64_t acquire_ms = 0;
   std::int64_t expire_ms = 0;
 };
 
-/// Who may command the rig: one row of the store, which survives the daemon, and a copy in memory,
-/// by which commands are checked: none of them waits for the disk. Any thread may call.
+/// Manages the lease of the rig. It is one row of the store, with a copy in memory against which
+/// commands are checked, so no command waits for the disk. Thread-safe.
 class LeaseManager {
  public:
   LeaseManager(Database& database, Clock clock);
 
-  /// Reads the row; to be called once, at the start.
+  /// Reads the row; call this once, at the start.
   [[nodiscard]] Status load();
 
-  /// The lease that holds now.
+  /// The active lease.
   [[nodiscard]] std::optional<Lease> current() const;
 
-  /// @return kAborted, LEASE_HELD while somebody has it; REQUEST_ID_REUSED; LEASE_REQUIRED if the
-  ///   one that this very request took has ended since
+  /// @return kAborted, LEASE_HELD if another client has the lease; REQUEST_ID_REUSED;
+  /// LEASE_REQUIRED if the lease that this same request took has ended since
   [[nodiscard]] Result<Lease> acquire(const std::string& holder, const std::string& purpose,
                                       std::int64_t ttl_ms, const RequestKey& request);
   /// @return LEASE_REQUIRED
   [[nodiscard]] Result<Lease> renew(const std::string& id, std::int64_t ttl_ms);
-  /// Ends the lease of this id; that lease, or none if it is not so any more.
+  /// Ends the lease with this id and returns it; nullopt if it is no longer active.
   [[nodiscard]] Result<std::optional<Lease>> release(const std::string& id);
-  /// Ends whatever lease there is.
+  /// Ends the active lease, if any.
   [[nodiscard]] Result<std::optional<Lease>> take_away();
-  /// The lease whose time ran out since this was asked last, if one did.
+  /// The lease that expired since the last call, if any.
   [[nodiscard]] std::optional<Lease> take_expired();
 
-  /// The lease if it is this one, else kFailedPrecondition, LEASE_REQUIRED.
+  /// The active lease if it has this id, otherwise kFailedPrecondition, LEASE_REQUIRED.
   [[nodiscard]] Result<Lease> require(const std::string& id) const;
 
-  /// Does `action`, which returns a Result and must not wait, unless require(id) refuses; no lease
+  /// Runs `action`, which returns a Result and must not wait, if require(id) succeeds. No lease
   /// ends meanwhile.
   template <class Action>
   auto with(const std::string& id, const Action& action) const -> decltype(action()) {
@@ -58,7 +58,7 @@ class LeaseManager {
   }
 
  private:
-  [[nodiscard]] std::optional<Lease> held() const;  // the following need now_
+  [[nodiscard]] std::optional<Lease> held() const;  // these need now_
   [[nodiscard]] Result<Lease> required(const std::string& id) const;
   void set(std::optional<Lease> lease);
   [[nodiscard]] Status write(const Lease& lease);
@@ -66,7 +66,7 @@ class LeaseManager {
 
   Database& database_;
   Clock clock_;
-  std::mutex writing_;  // of whoever changes the row; never needed to command
+  std::mutex writing_;  // held while the row changes; never needed for commands
   mutable std::mutex now_;
   std::optional<Lease> lease_;
 };

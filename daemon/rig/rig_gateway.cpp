@@ -10,7 +10,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr std::size_t kMostStops = 64;
-// A jog that nobody asked for again is over by then, or at least on its way to rest.
+// A jog that was not renewed has ended by then, or is at least coming to rest.
 constexpr std::int64_t kJogMemoryMs = static_cast<std::int64_t>(1000 * rig::kPresence_s) + 50;
 
 std::int64_t steady_ms() {
@@ -35,7 +35,8 @@ Status RigGateway::check_free() const {
   const std::string name = job_name(dip_);
   return tl::unexpected(
       Error{Code::kFailedPrecondition,
-            "the dip " + name + " has the rig to itself until it ends; stop the rig or cancel it",
+            "the dip " + name +
+                " has exclusive use of the rig until it ends; stop the rig or cancel the dip",
             "STATE_FORBIDS",
             {{"dip", name}}});
 }
@@ -71,7 +72,7 @@ bool RigGateway::jogged_lately() const {
   return jogged_ms != 0 && steady_ms() - jogged_ms < kJogMemoryMs;
 }
 
-// A dip goes on: it had the rig at rest before it began, and to itself since.
+// A running dip continues: the rig was at rest before it, and the dip has had exclusive use since.
 void RigGateway::end_jog() {
   if (controller_ == nullptr || claimed_) return;
   if (jogged_lately() || controller_->snapshot().condition.motion == rig::Motion::kJog) {

@@ -13,12 +13,11 @@
 
 namespace hydroprint::daemon {
 
-/// Where commands to the rig come together: what they need (the lease; no dip that has the rig to
-/// itself), and what others want to know of them. Any thread may call; nothing waits, neither for
-/// the drive nor for the disk.
+/// Entry point for commands to the rig. Checks the lease and that no dip has exclusive use, and
+/// keeps information for other threads. Thread-safe; nothing waits for the drive or the disk.
 class RigGateway {
  public:
-  /// @param controller  null if no rig is configured; outlives this
+  /// @param controller  null if no rig is configured; must outlive this object
   RigGateway(rig::Controller* controller, LeaseManager& leases)
       : controller_(controller), leases_(leases) {}
 
@@ -27,29 +26,29 @@ class RigGateway {
   [[nodiscard]] LeaseManager& leases() const { return leases_; }
 
   using Order = std::function<std::future<rig::Answer>(rig::Controller&)>;
-  /// Gives an order unless it is refused: LEASE_REQUIRED, RIG_OFFLINE if no rig is configured,
-  /// STATE_FORBIDS while a dip has the rig.
+  /// Gives an order to the controller. Refuses with LEASE_REQUIRED, RIG_OFFLINE if no rig is
+  /// configured, or STATE_FORBIDS while a dip has exclusive use.
   [[nodiscard]] Result<std::future<rig::Answer>> order(const std::string& lease_id,
                                                        const Order& order);
-  /// The same for Controller::jog.
+  /// Same, for Controller::jog.
   [[nodiscard]] Result<std::future<rig::Answer>> jog(const std::string& lease_id,
                                                      double speed_mm_per_s);
 
-  /// Keeps who asked for a stop, for the log, which someone else writes.
+  /// Remembers who asked for a stop; RigMonitor writes the log.
   void note_stop(const std::string& who);
-  /// Who asked for stops since this was asked last; the oldest may be missing.
+  /// Callers that asked for stops since the last call; the oldest may be missing.
   [[nodiscard]] std::vector<std::string> take_stops();
-  /// Stops a jog, if one is or may be under way: whoever held it has lost the lease.
+  /// Stops a possible jog, because its client has lost the lease.
   void end_jog();
 
-  /// Refuses what a move would be refused for by the rig's state: not homed, in motion, ...; also
-  /// while a jog was asked for a moment ago and may not have begun.
+  /// Refuses if the rig's state forbids a move: not homed, in motion, ... Also refuses shortly
+  /// after a jog was requested, since that may not have started yet.
   [[nodiscard]] Status check_at_rest() const;
 
-  /// The dip that is not finished; 0: none.
+  /// The unfinished dip; 0: none.
   void set_dip(std::int64_t job) { dip_ = job; }
   [[nodiscard]] std::int64_t dip() const { return dip_; }
-  /// Whether it has the rig to itself.
+  /// Sets whether the dip has exclusive use of the rig.
   void claim(bool by_dip) { claimed_ = by_dip; }
 
  private:
@@ -60,12 +59,12 @@ class RigGateway {
   LeaseManager& leases_;
   std::atomic<std::int64_t> dip_{0};
   std::atomic<bool> claimed_{false};
-  std::atomic<std::int64_t> jogged_ms_{0};  // of the steady clock; 0: never
+  std::atomic<std::int64_t> jogged_ms_{0};  // steady clock; 0: never
   std::mutex stops_mutex_;
   std::vector<std::string> stops_;
 };
 
-/// kFailedPrecondition, RIG_OFFLINE: no rig is configured.
+/// The error kFailedPrecondition, RIG_OFFLINE: no rig is configured.
 [[nodiscard]] tl::unexpected<Error> no_rig();
 
 }  // namespace hydroprint::daemon

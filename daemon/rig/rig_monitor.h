@@ -10,13 +10,13 @@
 
 namespace hydroprint::daemon {
 
-/// Looks after the rig when nobody calls, ten times a second: ends a jog whose lease ran out, tells
-/// when the rig begins or ceases to work, and logs what those who must not wait for the log left to
-/// it. Has it noticed when the rig was homed.
+/// Monitors the rig ten times a second. Ends a jog whose lease expired, and reports when the rig
+/// starts or stops working. Writes log entries for threads that must not wait for the log, and
+/// makes RigReference check for homing.
 class RigMonitor {
  public:
-  /// @param tell  true: the rig works, as far as is known (not OFFLINE, FAULT or ESTOPPED); called
-  /// at the start and with every change
+  /// @param tell  called at the start and after every change; true: the rig works, as far as is
+  /// known (not OFFLINE, FAULT or ESTOPPED)
   RigMonitor(RigGateway& gateway, RigReference& places, std::function<void(bool)> tell);
 
  private:
@@ -26,7 +26,7 @@ class RigMonitor {
   RigReference& places_;
   std::function<void(bool)> tell_;
   std::optional<bool> told_;
-  std::string state_;  // as logged last
+  std::string state_;  // last logged state
   PeriodicThread thread_;
 };
 

@@ -9,24 +9,24 @@
 
 namespace hydroprint::daemon {
 
-/// Watches what makes it uncertain where the object hangs. Any thread may call; nothing waits for
-/// the drive, and but for keep() and note_dip() nothing for the disk.
+/// Tracks events that make the object's position uncertain. Thread-safe. Nothing waits for the
+/// drive; only keep() and note_dip() wait for the disk.
 class RigReference {
  public:
   /// @param controller  null if there is no rig
   RigReference(Database& database, const rig::Controller* controller)
       : database_(database), controller_(controller) {}
 
-  /// Reads the counts of earlier days; before anything else.
+  /// Reads the stored counts; call this first.
   [[nodiscard]] Status load();
-  /// Looks whether the rig was homed since the last look; to be called often. (A homing that is
-  /// forgotten with the daemon does no harm: after its start the rig wants homing again.)
+  /// Checks whether the rig was homed since the last call; call this often. (A homing that is
+  /// forgotten when the daemon exits does no harm: after the start homing is required again.)
   void look() { (void)place(); }
-  /// As it is now.
+  /// The present place.
   [[nodiscard]] RigPlace place();
-  /// Has the counts outlive the daemon: before anything is stored that is to be compared with them.
+  /// Stores the counts, before storing anything that is compared with them later.
   [[nodiscard]] Status keep();
-  /// Something goes into the water.
+  /// Counts a dip.
   void note_dip();
 
  private:

@@ -11,7 +11,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// The steady clock's time as the wall shows it.
+// Converts steady-clock time to wall-clock time.
 google::protobuf::Timestamp wall_time(rig::TimePoint time) {
   using namespace std::chrono;
   const auto ago = duration_cast<milliseconds>(steady_clock::now() - time);

@@ -5,14 +5,13 @@
 
 namespace hydroprint::daemon {
 
-/// The rig as the API shows it now, whether or not a drive answers or is configured. Waits for
-/// nothing.
+/// The rig as an API message, whether or not a drive answers or is configured. Never waits.
 [[nodiscard]] v1::Rig rig_message(const RigGateway& gateway);
 
-/// True if a watcher would see the same; that the drive was looked at is no change.
+/// Whether two messages differ only in the time of the last poll.
 [[nodiscard]] bool looks_same(v1::Rig a, v1::Rig b);
 
-/// A lease as everyone may see it; its holder sees the id as well.
+/// Converts a lease to its API message. Only its holder sees the id.
 [[nodiscard]] v1::Lease to_message(const Lease& lease, bool with_id);
 
 }  // namespace hydroprint::daemon

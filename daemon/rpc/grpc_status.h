@@ -9,7 +9,7 @@ namespace hydroprint::daemon {
 
 using rest::number_of;
 
-/// An error as gRPC's reply: code, message, and rest::status_details().
+/// Converts an error to gRPC's status: code, message, and rest::status_details().
 [[nodiscard]] grpc::Status to_grpc(const Error& error);
 [[nodiscard]] grpc::Status to_grpc(const Status& status);
 

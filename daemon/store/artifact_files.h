@@ -9,17 +9,17 @@
 
 namespace hydroprint::daemon {
 
-/// Media type by a file name's extension; "application/octet-stream" where it says nothing.
+/// Media type for a file name's extension; "application/octet-stream" if unknown.
 [[nodiscard]] std::string media_type(const std::string& name);
 
-/// Puts a job's input files, under their names, into `folder` (made anew).
-/// @return kFailedPrecondition, ASSET_MISSING if one is gone
+/// Creates `folder` with a job's input files, under their names. Replaces an existing folder.
+/// @return kFailedPrecondition, ASSET_MISSING if a file is missing
 [[nodiscard]] Status lay_out_inputs(const Layout& layout, const std::vector<InputFile>& inputs,
                                     const std::filesystem::path& folder);
 
-/// Makes what a worker left in `from` the artifacts of a job: plain files only, hashed, safe on
-/// disk, then visible at once by one rename to `to`.
-/// @return kInternal, WORKER_UNUSABLE if there is anything but plain files, or nothing at all
+/// Publishes a worker's files in `from` as the artifacts of a job: only regular files, hashed,
+/// synced to disk, then made visible by one rename to `to`.
+/// @return kInternal, WORKER_UNUSABLE if there is anything except regular files, or no file
 [[nodiscard]] Result<std::vector<Artifact>> publish_artifacts(const std::filesystem::path& from,
                                                               const std::filesystem::path& to);
 

@@ -7,10 +7,10 @@
 
 namespace hydroprint::daemon {
 
-/// ASSET_TOO_LARGE, with metadata `max_bytes`.
+/// The error ASSET_TOO_LARGE, with metadata `max_bytes`.
 [[nodiscard]] tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes);
 
-/// 0 for a file that is not there.
+/// Size of a file; 0 if it does not exist.
 [[nodiscard]] std::int64_t size_on_disk(const std::filesystem::path& path);
 
 }  // namespace hydroprint::daemon

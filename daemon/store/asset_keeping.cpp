@@ -1,4 +1,4 @@
-// How long assets and uploads are kept, and what is put right after a crash.
+// Retention of assets and uploads, and repairs after a crash.
 #include <algorithm>
 
 #include "daemon/platform/log.h"
@@ -49,8 +49,8 @@ Status AssetStore::purge_unused() {
   return {};
 }
 
-// After a crash in the middle of complete(): a verified file under its final name whose row is
-// missing. If several were sending the same, nobody can say whose it was: they send it again.
+// Handles a crash during complete(): a verified file has its final name but no row. If several
+// uploads have the same hash, the owner is unknown, and they are sent again.
 Status AssetStore::adopt_completed_uploads() {
   std::vector<Upload> open;
   HP_RETURN_IF_ERROR(database_.each(
@@ -75,8 +75,7 @@ Status AssetStore::adopt_completed_uploads() {
   return {};
 }
 
-// Their rows stay: the folder may only be absent for once, and what is uploaded again is theirs
-// again.
+// Keeps the rows: the folder may be absent only temporarily, and a new upload restores the asset.
 Status AssetStore::log_missing_files() {
   int missing = 0;
   HP_RETURN_IF_ERROR(database_.each("SELECT sha256, size FROM assets", {}, [&](const DbRow& row) {
@@ -87,8 +86,8 @@ Status AssetStore::log_missing_files() {
       {{"count", missing},
        {"folder", layout_.assets().string()},
        {"message",
-        "jobs that need these files fail until they are uploaded again or the folder is "
-        "back and the daemon is restarted"}});
+        "jobs that need these files fail until they are uploaded again, or the folder is "
+        "restored and the daemon is restarted"}});
   return {};
 }
 

@@ -17,9 +17,10 @@ Result<bool> may_use(Database& database, const std::string& sha256, const AssetU
 }
 
 tl::unexpected<Error> asset_missing(const InputFile& input) {
-  auto error = fail(Code::kFailedPrecondition,
-                    input.name + ": assets/" + input.sha256 + " is not here; upload it first",
-                    "ASSET_MISSING");
+  auto error =
+      fail(Code::kFailedPrecondition,
+           input.name + ": assets/" + input.sha256 + " is not on the daemon; upload it first",
+           "ASSET_MISSING");
   error.value().metadata["asset"] = "assets/" + input.sha256;
   return error;
 }

@@ -9,30 +9,30 @@
 
 namespace hydroprint::daemon {
 
-/// Who uses an asset.
+/// A user of assets.
 struct AssetUser {
   std::string name;
-  bool is_operator = false;  ///< then all assets are theirs to use
+  bool is_operator = false;  ///< operators may use all assets
 };
 
-/// Whether somebody may use the bytes with that hash, if they are here: operators, who uploaded
-/// them, and who may see a job that was made of them (their own, or one that is shared).
+/// Whether a user may use the bytes with that hash. Operators may, users who uploaded them, and
+/// users who can see a job that uses them (their own or a shared one).
 [[nodiscard]] Result<bool> may_use(Database& database, const std::string& sha256,
                                    const AssetUser& user);
 
-/// Refuses (kFailedPrecondition, ASSET_MISSING) input files that somebody may not use; of those
-/// that are not here it says nothing else.
+/// Refuses (kFailedPrecondition, ASSET_MISSING) input files that a user may not use. The error is
+/// the same if the file does not exist.
 [[nodiscard]] Status check_may_use(Database& database, const std::vector<InputFile>& inputs,
                                    const AssetUser& user);
 
-/// An input file that is not here.
+/// The error for a missing input file.
 [[nodiscard]] tl::unexpected<Error> asset_missing(const InputFile& input);
 
-/// Whose an asset is, by name.
+/// Names of an asset's owners.
 [[nodiscard]] Result<std::vector<std::string>> owners_of(Database& database,
                                                          const std::string& sha256);
 
-/// No error if it is theirs already.
+/// Adds an owner; no error if they already own it.
 [[nodiscard]] Status add_owner(Database& database, const std::string& sha256,
                                const std::string& owner, std::int64_t now_ms);
 

@@ -13,10 +13,12 @@ namespace hydroprint::daemon {
 namespace {
 
 tl::unexpected<Error> asset_not_found(const std::string& sha256) {
-  return fail(Code::kNotFound, "assets/" + sha256 + " is not here; upload it", "ASSET_NOT_FOUND");
+  return fail(Code::kNotFound, "assets/" + sha256 + " is not on the daemon; upload it",
+              "ASSET_NOT_FOUND");
 }
 
-// What a job keeps is not given up: it would be there and count for nobody.
+// The owner of a job that uses an asset must stay its owner; otherwise the bytes would count for no
+// owner.
 Status check_is_not_used_by(Database& database, const std::string& sha256,
                             const std::string& owner) {
   HP_ASSIGN_OR_RETURN(
@@ -26,10 +28,10 @@ Status check_is_not_used_by(Database& database, const std::string& sha256,
                      "job_inputs.sha256=? AND jobs.owner=? LIMIT 1",
                      {sha256, owner}));
   if (jobs.empty()) return {};
-  return fail(Code::kFailedPrecondition,
-              "assets/" + sha256 + ": " + job_name(jobs.front()) +
-                  " was made of it, and keeps it; delete that before it",
-              "STATE_FORBIDS");
+  return fail(
+      Code::kFailedPrecondition,
+      "assets/" + sha256 + ": " + job_name(jobs.front()) + " uses it; delete that job first",
+      "STATE_FORBIDS");
 }
 
 }  // namespace
@@ -37,7 +39,7 @@ Status check_is_not_used_by(Database& database, const std::string& sha256,
 tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes) {
   auto error = fail(code,
                     "more than " + std::to_string(max_bytes) +
-                        " bytes; send what was announced, within assets.max_mib",
+                        " bytes; send the announced size, within assets.max_mib",
                     "ASSET_TOO_LARGE");
   error.value().metadata["max_bytes"] = std::to_string(max_bytes);
   return error;
@@ -53,8 +55,8 @@ AssetStore::AssetStore(Database& database, const Layout& layout, const AssetStor
                        Clock clock)
     : database_(database), layout_(layout), options_(options), clock_(std::move(clock)) {}
 
-// Whose bytes are here, and whose are on their way, is seen by whoever may use them alone: others
-// send them, and thereby show that they have them.
+// Only permitted users learn that bytes are stored or being uploaded. Other users upload them,
+// which proves that they have them.
 Result<AssetOrUpload> AssetStore::start(const Upload& wanted, const AssetUser& user,
                                         const RequestKey& request) {
   if (wanted.size_bytes > options_.max_bytes) {
@@ -93,7 +95,7 @@ Result<AssetOrUpload> AssetStore::start(const Upload& wanted, const AssetUser& u
   return AssetOrUpload(std::move(known));
 }
 
-// Makes an asset theirs, too.
+// Makes the user an owner of the asset.
 Status AssetStore::take(const Asset& asset, const std::string& owner) {
   const auto& owners = asset.owners;
   if (std::find(owners.begin(), owners.end(), owner) == owners.end()) {
@@ -113,8 +115,7 @@ Result<Upload> AssetStore::upload(const std::string& id, const std::string& owne
                   row.text(3), row.integer(4), row.text(5)};
       }));
   if (upload.id.empty()) {
-    return fail(Code::kNotFound,
-                "uploads/" + id + ": there is no such upload (any more); start it again",
+    return fail(Code::kNotFound, "uploads/" + id + ": there is no such upload; start it again",
                 "UPLOAD_NOT_FOUND");
   }
   upload.received_bytes = std::min(size_on_disk(layout_.upload(id)), upload.size_bytes);
@@ -168,7 +169,7 @@ Result<std::vector<Asset>> AssetStore::list(const std::string& after, int limit,
   return assets;
 }
 
-// Deletes the row of an asset that is nobody's and that no job was made of.
+// Deletes the row of an asset without an owner that no job uses.
 Status AssetStore::delete_unused(const std::string& sha256) {
   return database_.run(
       "DELETE FROM assets WHERE sha256=?1 AND NOT EXISTS (SELECT 1 FROM asset_owners WHERE "
@@ -180,7 +181,7 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
   const Status done = database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const Asset asset, asset_for(sha256, user));
     if (!user.is_operator) {
-      if (asset.owners.empty()) return asset_not_found(sha256);  // a job's that they may see
+      if (asset.owners.empty()) return asset_not_found(sha256);  // from a job that the user may see
       HP_RETURN_IF_ERROR(check_is_not_used_by(database_, sha256, user.name));
       HP_RETURN_IF_ERROR(database_.run("DELETE FROM asset_owners WHERE owner=? AND sha256=?",
                                        {user.name, sha256}));
@@ -205,8 +206,8 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
   return {};
 }
 
-// Deletes an asset's file if it has no row, in one turn: nobody can be making the same asset anew.
-// What stays because the power or the store fails now, the next start finds.
+// Deletes an asset's file if it has no row, in one transaction, so that nobody can create the same
+// asset meanwhile. The next start deletes a file that remains after a failure.
 void AssetStore::discard_unowned(const std::string& sha256) {
   (void)database_.transaction([&]() -> Status {
     const auto owner = asset(sha256);
@@ -238,7 +239,7 @@ Result<Asset> AssetStore::complete(const Upload& upload) {
   return asset_for(upload.sha256, {upload.owner, false});
 }
 
-// The files first: they may be what the row's deletion needs room for.
+// Deletes the files first, since deleting the row may need their space.
 void AssetStore::give_up(const Upload& upload) {
   discard(layout_.upload(upload.id));
   discard_unowned(upload.sha256);
@@ -250,7 +251,7 @@ Result<Asset> AssetStore::adopt(const std::filesystem::path& file, const Asset& 
   HP_RETURN_IF_ERROR(make_folder(final_path.parent_path()));
   const Status done = database_.transaction([&]() -> Status {
     if (const auto known = asset(as.sha256); known && has_file(*known)) return insert(as);
-    discard(final_path);  // of a crash, which may have left part of it
+    discard(final_path);  // left, perhaps incomplete, by a crash
     HP_RETURN_IF_ERROR(link_or_copy(file, final_path));
     ::chmod(final_path.c_str(), 0400);
     HP_RETURN_IF_ERROR(sync_path(final_path));

@@ -18,16 +18,16 @@
 
 namespace hydroprint::daemon {
 
-/// Verified bytes.
+/// A stored file with verified content.
 struct Asset {
   std::string sha256;
   std::int64_t size_bytes = 0;
   std::string media_type;
   std::int64_t create_ms = 0;
-  std::vector<std::string> owners = {};  ///< by name
+  std::vector<std::string> owners = {};  ///< names
 };
 
-/// Bytes that are still to come.
+/// A file whose bytes are still being received.
 struct Upload {
   std::string id;
   std::string sha256;
@@ -38,68 +38,70 @@ struct Upload {
   std::string owner = {};
 };
 
-/// What an upload led to so far.
+/// The result of an upload so far.
 using AssetOrUpload = std::variant<Asset, Upload>;
 
-/// Limits the store keeps.
+/// Limits of the store.
 struct AssetStoreOptions {
   std::int64_t max_bytes = 1LL << 30;
   std::int64_t max_open_uploads = 64;
   std::int64_t upload_expires_ms = 24LL * 3600 * 1000;
   std::int64_t min_free_bytes = 512LL << 20;
   std::int64_t keep_unused_ms = 30LL * 24 * 3600 * 1000;  ///< 0: for ever
-  Quota quota = {};                                       ///< of each owner
+  Quota quota = {};                                       ///< for each owner
 };
 
-/// Assets and uploads. An asset exists once its row does, which is written after its bytes were
-/// hashed and are safe on disk under their final name. Whose it is, asset_owners.h says: several
-/// may have uploaded the same. Any thread may call.
+/// Stores assets and uploads. An asset exists once its row does; the row is written after the bytes
+/// are hashed and synced under their final name. Several owners may have uploaded the same asset
+/// (asset_owners.h). Thread-safe.
 class AssetStore {
  public:
   AssetStore(Database& database, const Layout& layout, const AssetStoreOptions& options,
              Clock clock);
 
-  /// The asset if the bytes are here and the user may use them (then it is theirs from now on,
-  /// too), else an upload for them (the earlier one of the same request).
+  /// Returns the asset if its bytes are stored and the user may use them, and makes the user an
+  /// owner. Otherwise starts an upload, or returns the one that the same request started.
   /// @return kResourceExhausted: ASSET_TOO_LARGE, DISK_FULL, UPLOADS_FULL, QUOTA_EXCEEDED;
-  ///   REQUEST_ID_REUSED
+  /// REQUEST_ID_REUSED
   [[nodiscard]] Result<AssetOrUpload> start(const Upload& wanted, const AssetUser& user,
                                             const RequestKey& request);
-  /// kNotFound, UPLOAD_NOT_FOUND, if there is none of that owner's.
+  /// An upload of this owner; kNotFound, UPLOAD_NOT_FOUND if there is none.
   [[nodiscard]] Result<Upload> upload(const std::string& id, const std::string& owner);
-  /// Whosever it is. kNotFound, ASSET_NOT_FOUND.
+  /// The asset, whoever owns it. kNotFound, ASSET_NOT_FOUND.
   [[nodiscard]] Result<Asset> asset(const std::string& sha256);
-  /// With the owners that the user may know of. ASSET_NOT_FOUND, too, if they may not use it.
+  /// The asset, with the owners that the user may know. Also ASSET_NOT_FOUND if the user may not
+  /// use it.
   [[nodiscard]] Result<Asset> asset_for(const std::string& sha256, const AssetUser& user);
-  /// Refuses (kFailedPrecondition, ASSET_MISSING) what the user may not use.
+  /// Refuses (kFailedPrecondition, ASSET_MISSING) inputs that the user may not use.
   [[nodiscard]] Status check_use(const std::vector<InputFile>& inputs, const AssetUser& user);
-  /// Makes a file that is whole, safe on disk and has that hash an asset of nobody's, unless it is
-  /// one already; the file stays, but can no longer be written.
+  /// Adds a complete, synced file with that hash as an asset without an owner, unless the asset
+  /// exists. The file remains but becomes read-only.
   /// @return kResourceExhausted, DISK_FULL
   [[nodiscard]] Result<Asset> adopt(const std::filesystem::path& file, const Asset& as);
-  /// In the order of their hashes, those after `after`, with their owners; of `owner` alone unless
-  /// that is empty.
+  /// Assets with hashes after `after`, sorted by hash, with their owners. Lists those of one owner,
+  /// or all if `owner` is empty.
   [[nodiscard]] Result<std::vector<Asset>> list(const std::string& after, int limit,
                                                 const std::string& owner);
-  /// As an operator deletes it; as somebody else gives it up, if none of their own jobs was made of
-  /// it, and deletes it if it is nobody's then and no job was made of it.
-  /// @return kFailedPrecondition, STATE_FORBIDS: else, or while an unfinished job needs it;
-  ///   ASSET_NOT_FOUND
+  /// Deletes an asset. An operator deletes it for everybody. Other users only stop owning it, which
+  /// is possible if none of their jobs uses it; it is deleted once it has no owner and no job uses
+  /// it.
+  /// @return kFailedPrecondition, STATE_FORBIDS if a job uses it (for an operator: an unfinished
+  /// job); ASSET_NOT_FOUND
   [[nodiscard]] Status remove(const std::string& sha256, const AssetUser& user);
-  /// How much an owner has, and how much they may.
+  /// Current usage of an owner.
   [[nodiscard]] Result<Usage> usage(const std::string& owner) { return usage_of(database_, owner); }
 
-  /// Deletes uploads whose time is up, files that belong to none, and, oldest first and logging
-  /// each, assets that no job has been made of, and nobody asked for, for too long.
+  /// Deletes expired uploads and their files. Also deletes, oldest first and with a log entry each,
+  /// assets that no job uses and that have not been requested for too long.
   [[nodiscard]] Status purge();
-  /// After a crash, adopts verified uploads whose row is missing; sets aside files that have no
-  /// row, and logs rows that have no file; only before anyone is served.
+  /// Repairs the store after a crash: adopts verified uploads without a row, sets aside files
+  /// without a row, and logs rows without a file. Call this before serving clients.
   [[nodiscard]] Status sweep();
 
  private:
   [[nodiscard]] Status adopt_completed_uploads();
   [[nodiscard]] Status log_missing_files();
-  /// Whether its file is there, whole as far as its size tells.
+  /// Whether its file exists with the right size.
   [[nodiscard]] bool has_file(const Asset& asset) const;
   friend class UploadWriter;
   [[nodiscard]] Status take(const Asset& asset, const std::string& owner);
@@ -115,10 +117,10 @@ class AssetStore {
   AssetStoreOptions options_;
   Clock clock_;
   std::mutex busy_mutex_;
-  std::set<std::string> busy_;  // uploads that a writer has
+  std::set<std::string> busy_;  // uploads that have a writer
 };
 
-/// One call's bytes on their way into an upload; at most one at a time for each.
+/// Writes the bytes of one call to an upload; at most one writer per upload at a time.
 class UploadWriter {
  public:
   /// UPLOAD_NOT_FOUND; kAborted, UPLOAD_BUSY.
@@ -129,18 +131,19 @@ class UploadWriter {
   UploadWriter(const UploadWriter&) = delete;
   UploadWriter& operator=(const UploadWriter&) = delete;
 
-  /// Appends bytes. kOutOfRange: OFFSET_MISMATCH (metadata expected_offset), ASSET_TOO_LARGE;
-  /// kResourceExhausted, DISK_FULL: the upload is gone, so that it does not keep the disk full.
+  /// Appends bytes. kOutOfRange: OFFSET_MISMATCH (metadata expected_offset), ASSET_TOO_LARGE. After
+  /// kResourceExhausted, DISK_FULL the upload is deleted, so that it does not keep the disk full.
   [[nodiscard]] Status append(std::int64_t offset, std::string_view bytes);
-  /// Makes what came safe on disk; with all bytes there, verifies them and makes the asset.
+  /// Syncs the received bytes to disk. If the upload is complete, verifies it and creates the
+  /// asset.
   /// @return kInvalidArgument, ASSET_HASH_MISMATCH, or kResourceExhausted: DISK_FULL,
-  ///   QUOTA_EXCEEDED; the upload is gone
+  /// QUOTA_EXCEEDED; the upload is then deleted
   [[nodiscard]] Result<AssetOrUpload> finish();
 
  private:
   UploadWriter(AssetStore& store, Upload upload) : store_(store), upload_(std::move(upload)) {}
   [[nodiscard]] Result<AssetOrUpload> verify();
-  [[nodiscard]] Error give_up_if_full(Error error);  // or beyond the quota
+  [[nodiscard]] Error give_up_if_full(Error error);  // or the quota is exceeded
 
   AssetStore& store_;
   Upload upload_;

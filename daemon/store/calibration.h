@@ -11,22 +11,22 @@ namespace hydroprint::daemon {
 /// Kinds of calibration; numbers as in hydroprint.v1.Calibration.Kind.
 enum class CalibrationKind : std::int8_t { kObject = 1, kCamera = 2 };
 
-/// What makes a calibration.
+/// The data of a new calibration.
 struct NewCalibration {
   CalibrationKind kind = CalibrationKind::kObject;
   std::string owner;
-  std::int64_t job = 0;      ///< that made it; 0: entered by hand
-  std::int64_t capture = 0;  ///< the job that took its frames; 0: nobody knows
-  std::string body;          ///< a hydroprint.v1.Calibration, serialised: what was found
+  std::int64_t job = 0;      ///< job that produced it; 0: entered by hand
+  std::int64_t capture = 0;  ///< job that took its frames; 0: unknown
+  std::string body;          ///< a serialised hydroprint.v1.Calibration: the result
 };
 
-/// Where the rig was when frames were taken, and when that was.
+/// Time of a capture, and the state of the rig at that time.
 struct Captured {
   std::int64_t time_ms = 0;
   RigPlace place;
 };
 
-/// A calibration as it is stored.
+/// A stored calibration.
 struct Calibration {
   std::int64_t id = 0;
   NewCalibration made;

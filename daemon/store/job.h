@@ -9,8 +9,7 @@
 
 namespace hydroprint::daemon {
 
-/// States of a job; names and numbers are those of hydroprint.v1.Job.State, where they are
-/// explained.
+/// States of a job; names, numbers and meanings are those of hydroprint.v1.Job.State.
 enum class JobState : std::int8_t {
   kQueued = 1,
   kWaitingForOperator = 2,
@@ -22,11 +21,11 @@ enum class JobState : std::int8_t {
   kInterrupted = 8,
 };
 
-/// "RUNNING".
+/// The state's name: "RUNNING".
 [[nodiscard]] const char* name_of(JobState state);
 
-/// True once nothing more will happen to the job. (A computation is INTERRUPTED in its history
-/// only, others for good.)
+/// Whether the state is final. (Computed jobs are INTERRUPTED only in their history; for other jobs
+/// it is final.)
 [[nodiscard]] constexpr bool is_finished(JobState state) {
   return state == JobState::kSucceeded || state == JobState::kFailed ||
          state == JobState::kCancelled || state == JobState::kInterrupted;
@@ -35,47 +34,47 @@ enum class JobState : std::int8_t {
 /// Kinds of event; numbers as in hydroprint.v1.JobEvent.Kind.
 enum class EventKind : std::int8_t { kStateChanged = 1, kProgress = 2, kMoved = 3 };
 
-/// A file a job reads: the name the computation sees and the hash of its bytes.
+/// An input file of a job: the name that the computation sees, and the hash of its bytes.
 struct InputFile {
   std::string name;
   std::string sha256;
   bool operator==(const InputFile&) const = default;
 };
 
-/// What a job does: the worker's verb (also the kind's name), the spec with every reference
+/// The work of a job: the worker's verb (also the kind's name), the spec with all references
 /// resolved as proto3 JSON, and the files.
 struct Work {
   std::string verb;
   std::string spec;
   std::vector<InputFile> inputs;
-  /// Jobs stored before schema version 4 have no spec but the worker's flags ("--dpi=300") and the
-  /// content of the file for --pose.
+  /// Jobs stored before schema version 4 have no spec. They have the worker's flags ("--dpi=300")
+  /// and the content of the file for --pose.
   std::vector<std::string> flags = {};
   std::string pose_json = {};
 };
 
-/// What the store must know about a job's kind.
+/// Properties of a job's kind that the store needs.
 struct JobTraits {
-  /// A worker computes it: it is queued, and queued again after the daemon was lost. Other jobs
-  /// start at once, one of each kind at a time, and stay INTERRUPTED.
+  /// A worker computes it: it is queued, and queued again after the daemon was killed. Other jobs
+  /// start at once, one of each kind at a time, and remain INTERRUPTED.
   bool computed = true;
-  /// It reads the artifacts of another job, which therefore must not be purged.
+  /// It reads the artifacts of another job, which must not be deleted meanwhile.
   bool reads_artifacts = false;
   /// Advice for people, appended to the event if the job is interrupted.
   std::string interrupted_advice = {};
 };
 
-/// SHA-256 of everything that determines the result of a work; `worker` identifies the program.
+/// SHA-256 of everything that determines the result of the work; `worker` identifies the program.
 [[nodiscard]] std::string input_digest(const Work& work, const std::string& worker);
 
-/// A client's own id of a request, so that a repeated request is not done twice.
+/// A request id chosen by the client, so that a repeated request is not carried out twice.
 struct RequestKey {
   std::string method;
-  std::string id;      ///< empty: the client gave none
+  std::string id;      ///< empty: no id
   std::string digest;  ///< SHA-256 of the request's content
 };
 
-/// What makes a job.
+/// The data of a new job.
 struct NewJob {
   std::string display_name;
   std::string owner;
@@ -87,17 +86,17 @@ struct NewJob {
   std::int64_t retry_of = 0;  ///< 0: none
   bool use_cache = true;
   std::int32_t threads = 0;  ///< 0: the pool decides
-  std::string dip_status;    ///< of a dip: where it begins, a hydroprint.v1.DipStatus, serialised
+  std::string dip_status;    ///< initial status of a dip: a serialised hydroprint.v1.DipStatus
 };
 
-/// Why a job failed; see hydroprint.v1.JobError.
+/// Reason for a failed job; see hydroprint.v1.JobError.
 struct JobFailure {
   Error error;
   std::optional<std::int32_t> exit_status;
   std::optional<std::int32_t> signal;
 };
 
-/// How far a job is; fractions in [0, 1].
+/// Progress of a job; fractions in [0, 1].
 struct Progress {
   double fraction = 0;
   std::string phase;
@@ -105,7 +104,7 @@ struct Progress {
   std::int64_t eta_ms = 0;  ///< Unix time; 0: unknown
 };
 
-/// A job as it is stored. Times are Unix times in ms, 0 where there is none yet.
+/// A stored job. Times are Unix times in ms; 0 if not set.
 struct Job {
   std::int64_t id = 0;
   std::string uid;
@@ -116,12 +115,12 @@ struct Job {
   std::int64_t version = 0;  ///< increases with every change
   bool cache_hit = false;
   bool shared = false;  ///< see hydroprint.v1.Job.shared
-  bool pinned = false;  ///< see hydroprint.v1.Job.pinned; then, as in other cases, purge_ms is 0
+  bool pinned = false;  ///< see hydroprint.v1.Job.pinned; purge_ms is then 0
   std::optional<JobFailure> failure;
-  std::string dip_status;  ///< of a dip: where it stands, as NewJob::dip_status
+  std::string dip_status;  ///< current status of a dip, as in NewJob::dip_status
 };
 
-/// Something that happened to a job, as it is stored.
+/// A stored event of a job.
 struct JobEvent {
   std::int64_t seq = 0;
   std::int64_t time_ms = 0;

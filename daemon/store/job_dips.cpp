@@ -1,5 +1,5 @@
-// The job store's side for jobs that are not computed: they are never queued, and there is one of
-// each kind at a time.
+// Functions of the job store for jobs that are not computed. These are never queued, and only one
+// of each kind is open at a time.
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/idempotency.h"
 #include "daemon/store/job_rows.h"
@@ -63,7 +63,7 @@ Result<Job> JobStore::end(std::int64_t id, JobState state, const std::optional<J
                           const std::string& dip_status, const std::vector<Artifact>& record,
                           const std::string& message) {
   return changed(id, [&](const Job& job) -> Status {
-    if (is_finished(job.state)) return {};  // told twice, should the first have been lost
+    if (is_finished(job.state)) return {};  // repeated call, in case the first was lost
     HP_RETURN_IF_ERROR(store_artifacts(id, record));
     if (!dip_status.empty()) HP_RETURN_IF_ERROR(store_dip_status(id, dip_status));
     if (state == JobState::kSucceeded) {

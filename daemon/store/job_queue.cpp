@@ -1,4 +1,4 @@
-// The queue's side of the job store: what waits, in which place, and whether it moves on.
+// The queue functions of the job store: waiting jobs, their order and the pause.
 #include <algorithm>
 
 #include "daemon/platform/resource_names.h"
@@ -8,7 +8,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// Puts the ranks the jobs already have, and their priorities, in the new order.
+// Assigns the existing ranks and priorities to the jobs in their new order.
 std::vector<WaitingJob> reordered(std::vector<WaitingJob> jobs, std::int64_t id,
                                   std::int64_t before) {
   std::vector<std::int64_t> ranks;
@@ -48,14 +48,15 @@ Result<std::vector<WaitingJob>> JobStore::waiting() {
 
 Result<Job> JobStore::move(std::int64_t id, std::int64_t before) {
   return changed(id, [&](const Job& job) -> Status {
-    if (job.state != JobState::kQueued) return cannot_move(id, "is not queued; it stays as it is");
+    if (job.state != JobState::kQueued)
+      return cannot_move(id, "is not queued, so it cannot be moved");
     HP_ASSIGN_OR_RETURN(std::vector<WaitingJob> all, waiting());
     std::erase_if(all, [&](const WaitingJob& other) { return other.owner != job.made.owner; });
     const bool there = std::any_of(all.begin(), all.end(),
                                    [&](const WaitingJob& other) { return other.id == before; });
     if (before != 0 && !there) {
       HP_RETURN_IF_ERROR(select_job(database_, before));
-      return cannot_move(before, "is not a queued job of the same owner; name one that is");
+      return cannot_move(before, "is not a queued job of the same owner; name another job");
     }
     if (before == id) return {};
     for (const WaitingJob& place : reordered(all, id, before)) {

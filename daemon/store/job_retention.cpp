@@ -1,4 +1,4 @@
-// How long the job store keeps what is finished.
+// Retention of finished jobs.
 #include <algorithm>
 #include <cstdlib>
 
@@ -13,7 +13,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// Of jobs that are not kept for another reason than their time.
+// Condition for deletion: past its retention time, and not kept for another reason.
 constexpr const char* kIsDue =
     "purge_ms>0 AND purge_ms<=?1 AND pinned=0 AND NOT EXISTS (SELECT 1 FROM calibrations WHERE "
     "calibrations.job=jobs.id)";
@@ -31,7 +31,7 @@ void log_jump(std::int64_t jump_ms) {
 
 }  // namespace
 
-// Of finished jobs that `where` (with one value) picks.
+// Sets the deletion time of the finished jobs that `where` (with one value) selects.
 Status JobStore::set_purge_time(const std::string& where, std::int64_t value) {
   const std::int64_t keep = options_.keep_finished_ms, keep_dips = options_.keep_dips_ms;
   const bool for_ever = keep == 0 || keep_dips == 0;
@@ -55,7 +55,7 @@ Result<Job> JobStore::pin(std::int64_t id, bool pinned) {
   });
 }
 
-// Unless somebody has just pinned it.
+// Deletes one job, unless it has just been pinned.
 Status JobStore::purge_one(std::int64_t id) {
   bool is_gone = false;
   std::string owner, name;
@@ -73,7 +73,7 @@ Status JobStore::purge_one(std::int64_t id) {
   if (!is_gone) return {};
   discard(layout_.artifacts(id));
   log(LogLevel::kInfo, "job_deleted",
-      {{"job", id}, {"owner", owner}, {"name", name}, {"why", "its time was up"}});
+      {{"job", id}, {"owner", owner}, {"name", name}, {"why", "its retention time was over"}});
   notifier_.ring();
   return {};
 }

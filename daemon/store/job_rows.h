@@ -9,28 +9,28 @@
 
 namespace hydroprint::daemon {
 
-/// Jobs that a "WHERE ... ORDER BY ... LIMIT ..." picks, without their inputs.
+/// Jobs selected by "WHERE ... ORDER BY ... LIMIT ...", without their inputs.
 [[nodiscard]] Result<std::vector<Job>> select_jobs(Database& database, const std::string& where,
                                                    std::initializer_list<DbValue> values);
 
 /// One job with its inputs; kNotFound, JOB_NOT_FOUND.
 [[nodiscard]] Result<Job> select_job(Database& database, std::int64_t id);
 
-/// Events that a "WHERE ..." picks.
+/// Events selected by "WHERE ...".
 [[nodiscard]] Result<std::vector<JobEvent>> select_events(Database& database,
                                                           const std::string& where,
                                                           std::initializer_list<DbValue> values);
 
-/// Artifacts that a "WHERE ..." picks.
+/// Artifacts selected by "WHERE ...".
 [[nodiscard]] Result<std::vector<Artifact>> select_artifacts(Database& database,
                                                              const std::string& where,
                                                              std::initializer_list<DbValue> values);
 
-/// Whole numbers in the first column of an answer.
+/// The integers in the first column of a result.
 [[nodiscard]] Result<std::vector<std::int64_t>> select_numbers(
     Database& database, const std::string& sql, std::initializer_list<DbValue> values);
 
-/// Flags as they are stored: one a line.
+/// Joins flags for storage: one per line.
 [[nodiscard]] std::string join_lines(const std::vector<std::string>& lines);
 
 }  // namespace hydroprint::daemon

@@ -57,7 +57,7 @@ Status JobStore::check_queue() {
   if (queued.front() >= options_.max_queued) {
     return fail(Code::kResourceExhausted,
                 "the queue is full (" + std::to_string(options_.max_queued) +
-                    " jobs); try again when some are done",
+                    " jobs); try again when some have finished",
                 "QUEUE_FULL");
   }
   return {};
@@ -132,7 +132,7 @@ Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
   return get(id);
 }
 
-// Gives a job the artifacts of one with the same inputs, if there is one.
+// Gives a job the artifacts of a finished job with the same inputs, if there is one.
 Result<bool> JobStore::adopt_cached(const Job& job) {
   if (!job.made.use_cache) return false;
   HP_ASSIGN_OR_RETURN(
@@ -149,18 +149,18 @@ Result<bool> JobStore::adopt_cached(const Job& job) {
   for (const Artifact& file : files) {
     const auto from = layout_.artifacts(equal.front()) / file.name;
     if (link_or_copy(from, folder / file.name)) continue;
-    discard(folder);  // damaged: compute it again
+    discard(folder);  // damaged; compute the job again
     return false;
   }
   HP_RETURN_IF_ERROR(sync_path(folder));
   HP_RETURN_IF_ERROR(store_artifacts(job.id, files));
   HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET cache_hit=1, fraction=1 WHERE id=?", {job.id}));
   HP_RETURN_IF_ERROR(finish(job.id, JobState::kSucceeded,
-                            "same inputs as " + job_name(equal.front()) + ": its artifacts"));
+                            "same inputs as " + job_name(equal.front()) + "; artifacts reused"));
   return true;
 }
 
-// Deletes the artifacts' folder of a job that has none: adopted, then not stored.
+// Deletes the artifacts folder of a job without stored artifacts, after a failed adoption.
 void JobStore::discard_unowned(std::int64_t id) {
   (void)database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const auto owner,
@@ -207,7 +207,7 @@ Status JobStore::finish(std::int64_t id, JobState state, const std::string& mess
   return change(id, state, message);
 }
 
-// Changes one job within a transaction and returns it as it is afterwards.
+// Changes one job within a transaction and returns its new state.
 Result<Job> JobStore::changed(std::int64_t id, const std::function<Status(const Job&)>& body) {
   Job after;
   const Status done = database_.transaction([&]() -> Status {
@@ -223,7 +223,7 @@ Result<Job> JobStore::changed(std::int64_t id, const std::function<Status(const 
 
 Result<Job> JobStore::get(std::int64_t id) {
   Result<Job> job = fail(Code::kInternal, "");
-  // One turn, so that the job and its inputs belong together.
+  // One transaction, so that the job and its inputs are consistent.
   const Status done = database_.transaction([&]() -> Status {
     job = select_job(database_, id);
     return {};
@@ -250,7 +250,7 @@ Status JobStore::remove(std::int64_t id) {
     HP_ASSIGN_OR_RETURN(const std::int64_t calibration, calibration_of_job(database_, id));
     if (calibration != 0) {
       return state_forbids(
-          job, "delete " + calibration_name(calibration) + ", which it made, before it");
+          job, "delete " + calibration_name(calibration) + ", which it produced, first");
     }
     return database_.run("DELETE FROM jobs WHERE id=?", {id});
   });
@@ -272,11 +272,12 @@ Result<Job> JobStore::cancel(std::int64_t id) {
       case JobState::kCancelled:
         return {};
       default:
-        return state_forbids(job, "there is nothing to cancel");
+        return state_forbids(job, "it cannot be cancelled");
     }
   };
   auto marked = changed(id, mark);
-  // It may be this job that has filled the disk, and the database's log has been emptied since.
+  // This job may have filled the disk. The first attempt has emptied the database's log, so try
+  // again.
   if (!marked && marked.error().reason == "DISK_FULL") marked = changed(id, mark);
   return marked;
 }
@@ -349,7 +350,7 @@ Status JobStore::change_running(JobState from, const std::function<Status(std::i
   return {};
 }
 
-// A job that takes the machine down with it must not do so at every start.
+// A job that crashes the machine must not do so at every start.
 Status JobStore::queue_again(std::int64_t id, Interruption why) {
   if (why == Interruption::kLoss) {
     HP_RETURN_IF_ERROR(
@@ -361,8 +362,8 @@ Status JobStore::queue_again(std::int64_t id, Interruption why) {
     if (losses.front() >= kMostLosses) {
       const Error lost{Code::kInternal,
                        "the daemon or its machine was lost " + std::to_string(kMostLosses) +
-                           " times while this job ran, so it is not tried again; look into the "
-                           "daemon's log, and retry it if it was not at fault",
+                           " times while this job ran, so it is not tried again; check the "
+                           "daemon's log, and retry the job if it was not the cause",
                        "DAEMON_LOST",
                        {}};
       return store_failure(id, {lost, {}, {}});
@@ -417,8 +418,8 @@ Status JobStore::check_was_given(std::int64_t seq) {
   HP_ASSIGN_OR_RETURN(const std::int64_t newest, last_seq());
   if (seq >= 0 && seq <= newest) return {};
   return fail(Code::kOutOfRange,
-              "after_seq: this store never gave event " + std::to_string(seq) +
-                  "; get the job anew and watch without it",
+              "after_seq: this store has never had event " + std::to_string(seq) +
+                  "; get the job again and watch without after_seq",
               "EVENTS_GONE");
 }
 
@@ -435,7 +436,7 @@ Result<std::vector<JobEvent>> JobStore::events(std::int64_t id, std::int64_t aft
 }
 
 Result<std::int64_t> JobStore::last_seq() {
-  // Of all events ever, also of those deleted since.
+  // The newest number, even if its event was deleted.
   HP_ASSIGN_OR_RETURN(
       const auto newest,
       select_numbers(database_, "SELECT seq FROM sqlite_sequence WHERE name='events'", {}));

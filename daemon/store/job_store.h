@@ -16,7 +16,7 @@
 
 namespace hydroprint::daemon {
 
-/// A queued job as the order of starting sees it.
+/// A queued job, as the scheduler sees it.
 struct WaitingJob {
   std::int64_t id = 0;
   std::string owner;
@@ -24,7 +24,7 @@ struct WaitingJob {
   std::int64_t rank = 0;
 };
 
-/// Which jobs to list.
+/// Selects the jobs to list.
 struct JobFilter {
   std::vector<JobState> states;  ///< empty: all
   std::string owner;             ///< empty: all
@@ -32,127 +32,127 @@ struct JobFilter {
   int limit = 50;
 };
 
-/// Whether the queue stands still, and why.
+/// Whether the queue is paused, and why.
 struct QueuePause {
   bool paused = false;
   std::string reason;
 };
 
-/// Limits the store keeps.
+/// Limits of the store.
 struct JobStoreOptions {
   std::int64_t max_queued = 1000;
   std::int64_t keep_finished_ms = 30LL * 24 * 3600 * 1000;  ///< 0: for ever
-  std::int64_t keep_dips_ms = 365LL * 24 * 3600 * 1000;     ///< of those at least; 0: for ever
-  Quota quota = {};                                         ///< of each owner
+  std::int64_t keep_dips_ms = 365LL * 24 * 3600 * 1000;     ///< minimum for dips; 0: for ever
+  Quota quota = {};                                         ///< for each owner
 };
 
-/// Why running jobs are interrupted: the daemon is going down in order, or it was lost (killed, or
-/// the machine with it) and the next one finds them running.
+/// Why running jobs are interrupted: the daemon shut down, or it was lost (killed, or the machine
+/// crashed) and the next daemon finds them running.
 enum class Interruption { kShutdown, kLoss };
 
-/// Jobs, their events and their artifacts' rows. Every change is one transaction that is on disk
-/// when the call returns, with the event that tells of it; afterwards it is notified. Any thread
-/// may call.
+/// Stores jobs, their events and the rows of their artifacts. Every change is one transaction with
+/// its event, is on disk when the call returns, and is then notified. Thread-safe.
 ///
-/// QUEUED -> RUNNING -> SUCCEEDED | FAILED, QUEUED -> CANCELLED, RUNNING -> CANCELLING ->
-/// CANCELLED; RUNNING -> INTERRUPTED -> QUEUED when the daemon went down or was lost, but -> FAILED
-/// (DAEMON_LOST) when it was lost for the third time; QUEUED -> SUCCEEDED from the cache.
-/// Prints and captures: RUNNING at once, both -> CANCELLING -> CANCELLED, both -> INTERRUPTED.
+/// Computed jobs: QUEUED -> RUNNING -> SUCCEEDED | FAILED; QUEUED -> CANCELLED; RUNNING ->
+/// CANCELLING -> CANCELLED; QUEUED -> SUCCEEDED from the cache. RUNNING -> INTERRUPTED -> QUEUED if
+/// the daemon shut down or was lost; the third loss leads to FAILED (DAEMON_LOST).
+/// Prints and captures: RUNNING at once -> SUCCEEDED | FAILED, -> CANCELLING -> CANCELLED, ->
+/// INTERRUPTED.
 /// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED, both -> CANCELLING -> CANCELLED,
-/// both
-/// -> INTERRUPTED.
+/// both -> INTERRUPTED.
 ///
-/// Where a job is named that is not there: kNotFound, JOB_NOT_FOUND. Where its state does not allow
-/// the change: kFailedPrecondition, STATE_FORBIDS. Where the disk fails: see Database::run().
+/// Methods that name a job return kNotFound, JOB_NOT_FOUND if there is none, and
+/// kFailedPrecondition, STATE_FORBIDS if its state does not allow the change. Disk errors are as in
+/// Database::run().
 class JobStore {
  public:
   JobStore(Database& database, const Layout& layout, const JobStoreOptions& options, Clock clock);
 
-  /// Stores a job, or returns the one that the same request made before. A computed job with the
-  /// inputs of one that succeeded gets that one's artifacts and is finished at once. Other jobs are
+  /// Stores a job, or returns the one that the same request created. A computed job with the inputs
+  /// of a successful one gets its artifacts and is finished at once. Jobs that are not computed are
   /// RUNNING, dips WAITING_FOR_OPERATOR.
   /// @return kResourceExhausted: QUEUE_FULL, QUOTA_EXCEEDED; kFailedPrecondition: ASSET_MISSING, or
-  ///   STATE_FORBIDS for a job that is not computed while another of its kind is not finished;
-  ///   kInvalidArgument, REQUEST_ID_REUSED
+  /// STATE_FORBIDS for a job that is not computed while another of its kind is unfinished;
+  /// kInvalidArgument, REQUEST_ID_REUSED
   [[nodiscard]] Result<Job> create(const NewJob& made, const RequestKey& request);
-  /// The job that the same request made before, if one did. REQUEST_ID_REUSED; JOB_NOT_FOUND if it
-  /// was deleted.
+  /// The job that the same request created, if any. REQUEST_ID_REUSED; JOB_NOT_FOUND if it was
+  /// deleted.
   [[nodiscard]] Result<std::optional<Job>> repeated(const std::string& owner,
                                                     const RequestKey& request);
-  /// Refuses (ASSET_MISSING) inputs that are not here.
+  /// Refuses (ASSET_MISSING) inputs that are not stored.
   [[nodiscard]] Status check_inputs(const std::vector<InputFile>& inputs);
 
   [[nodiscard]] Result<Job> get(std::int64_t id);
-  /// Newest first.
+  /// Lists jobs, newest first.
   [[nodiscard]] Result<std::vector<Job>> list(const JobFilter& filter);
-  /// Deletes a finished job with all that belongs to it. STATE_FORBIDS, too, while there is the
-  /// calibration that it made.
+  /// Deletes a finished job with all its data. Also STATE_FORBIDS while the calibration that it
+  /// produced exists.
   [[nodiscard]] Status remove(std::int64_t id);
-  /// Lets all who may look see its artifacts, or no longer.
+  /// Sets whether all users may see the job's artifacts.
   [[nodiscard]] Result<Job> share(std::int64_t id, bool shared);
-  /// Keeps it beyond its time, or lets its time begin anew.
+  /// Pins or unpins a job; after unpinning, retention starts again from now.
   [[nodiscard]] Result<Job> pin(std::int64_t id, bool pinned);
   /// QUEUED -> CANCELLED, RUNNING or WAITING_FOR_OPERATOR -> CANCELLING; CANCELLING and CANCELLED
   /// stay.
   [[nodiscard]] Result<Job> cancel(std::int64_t id);
 
-  /// QUEUED -> RUNNING, or -> SUCCEEDED if an equal job has finished meanwhile.
+  /// QUEUED -> RUNNING, or -> SUCCEEDED if an equal job has finished.
   [[nodiscard]] Result<Job> start(std::int64_t id);
-  /// Does nothing if the job does not run.
+  /// Stores the progress of a running job; ignored in other states.
   [[nodiscard]] Status report(std::int64_t id, const Progress& progress);
-  /// RUNNING -> SUCCEEDED; a job that someone asked to cancel becomes CANCELLED all the same.
-  /// @param calibration  what it leaves, if that is one: there is both or neither
+  /// RUNNING -> SUCCEEDED; CANCELLING -> CANCELLED.
+  /// @param calibration  calibration that the job produced, stored in the same transaction
   [[nodiscard]] Result<Job> succeed(std::int64_t id, const std::vector<Artifact>& artifacts,
                                     const std::optional<NewCalibration>& calibration = {});
   /// RUNNING -> FAILED, CANCELLING -> CANCELLED.
   [[nodiscard]] Result<Job> give_up(std::int64_t id, const JobFailure& failure);
-  /// A dip or print that is not finished: WAITING_FOR_OPERATOR or RUNNING, where it stands now
-  /// (`dip_status`, of a dip), and how far it is. Does nothing to one that is CANCELLING.
+  /// Updates an unfinished dip or print: its state (WAITING_FOR_OPERATOR or RUNNING), its
+  /// `dip_status` (dips only) and its progress. Ignored for a job that is CANCELLING.
   [[nodiscard]] Status advance(std::int64_t id, JobState state, const std::string& dip_status,
                                const Progress& progress, const std::string& message);
-  /// The end of a dip or print with its record: SUCCEEDED, FAILED (with `failure`, which says it
-  /// all), CANCELLED or INTERRUPTED.
+  /// Ends a dip or print and stores its record: SUCCEEDED, FAILED (with the complete reason in
+  /// `failure`), CANCELLED or INTERRUPTED.
   [[nodiscard]] Result<Job> end(std::int64_t id, JobState state,
                                 const std::optional<JobFailure>& failure,
                                 const std::string& dip_status, const std::vector<Artifact>& record,
                                 const std::string& message);
-  /// Dips that are not finished; at most one, but for what a crash left.
+  /// Unfinished dips; at most one, except after a crash.
   [[nodiscard]] Result<std::vector<std::int64_t>> open_dips();
-  /// RUNNING -> INTERRUPTED -> QUEUED (or FAILED, see above), CANCELLING -> CANCELLED, for all: to
-  /// be called when no worker runs any more. Says why in the event.
+  /// For all jobs: RUNNING -> INTERRUPTED -> QUEUED (or FAILED, see above), CANCELLING ->
+  /// CANCELLED. The events contain the reason. Call this only when no worker runs.
   [[nodiscard]] Status interrupt_all(Interruption why);
 
-  /// Artifacts by name; those after `after`.
+  /// Artifacts whose names follow `after`, sorted by name.
   [[nodiscard]] Result<std::vector<Artifact>> artifacts(std::int64_t id, const std::string& after,
                                                         int limit);
-  /// kNotFound, ARTIFACT_NOT_FOUND.
+  /// One artifact; kNotFound, ARTIFACT_NOT_FOUND.
   [[nodiscard]] Result<Artifact> artifact(std::int64_t id, const std::string& name);
 
-  /// Events of one job after `seq`, oldest first. kOutOfRange, EVENTS_GONE if `seq` was never
-  /// given.
+  /// Events of one job after `seq`, oldest first. kOutOfRange, EVENTS_GONE if there was never an
+  /// event `seq`.
   [[nodiscard]] Result<std::vector<JobEvent>> events(std::int64_t id, std::int64_t after_seq,
                                                      int limit);
-  /// The same of all jobs.
+  /// Same, for all jobs.
   [[nodiscard]] Result<std::vector<JobEvent>> all_events(std::int64_t after_seq, int limit);
-  /// The newest event's number, 0 if there never was one.
+  /// The newest event's number; 0 if there was never one.
   [[nodiscard]] Result<std::int64_t> last_seq();
 
-  /// All queued jobs; order of starting within one owner.
+  /// All queued jobs, in starting order for each owner.
   [[nodiscard]] Result<std::vector<WaitingJob>> waiting();
   [[nodiscard]] Result<std::vector<std::int64_t>> ids_in_state(JobState state);
-  /// Computed jobs that are RUNNING, then those that are CANCELLING.
+  /// Computed jobs that are RUNNING, followed by those that are CANCELLING.
   [[nodiscard]] Result<std::vector<std::int64_t>> computing();
-  /// Moves a queued job before another of its owner (0: behind all of them).
+  /// Moves a queued job before another of the same owner (0: to the end).
   [[nodiscard]] Result<Job> move(std::int64_t id, std::int64_t before);
   [[nodiscard]] Result<QueuePause> pause();
   [[nodiscard]] Status set_pause(const QueuePause& pause);
 
-  /// Deletes finished jobs whose time is up, oldest first, and logs each; not those that are
-  /// pinned, or made a calibration that is there, nor any while an open job reads artifacts, which
-  /// may be theirs.
+  /// Deletes finished jobs past their retention time, oldest first, and logs each. Keeps pinned
+  /// jobs and jobs whose calibration exists. Deletes nothing while an open job reads artifacts,
+  /// since they may belong to any job.
   [[nodiscard]] Status purge();
-  /// Sets aside artifact folders that no job owns, empties the folder of runs, and applies the
-  /// retention times of the options; only before the pool starts.
+  /// Sets aside artifact folders without a job, empties the folder of runs, and applies the
+  /// configured retention times. Call this before the pool starts.
   [[nodiscard]] Status sweep();
 
   [[nodiscard]] Notifier& notifier() { return notifier_; }

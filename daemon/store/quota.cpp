@@ -17,14 +17,14 @@ tl::unexpected<Error> over_quota(const char* quota, std::int64_t used, std::int6
 
 tl::unexpected<Error> too_many_bytes(const std::string& owner, const Usage& usage,
                                      std::int64_t allowed, std::int64_t more_bytes) {
-  // Rounded so that it never reads as if there were room.
+  // Rounded up, so that it never seems that there is space left.
   const auto up = [](std::int64_t bytes) {
     return std::to_string((bytes + kMebibyte - 1) / kMebibyte);
   };
-  std::string words = owner + " has " + up(usage.stored_bytes) + " of " +
-                      std::to_string(allowed / kMebibyte) + " MiB here";
-  if (usage.pinned_bytes > 0) words += " (" + up(usage.pinned_bytes) + " of pinned jobs)";
-  if (more_bytes > 0) words += ", and this is " + up(more_bytes) + " MiB more";
+  std::string words = owner + " uses " + up(usage.stored_bytes) + " of " +
+                      std::to_string(allowed / kMebibyte) + " MiB";
+  if (usage.pinned_bytes > 0) words += " (" + up(usage.pinned_bytes) + " by pinned jobs)";
+  if (more_bytes > 0) words += ", and this needs " + up(more_bytes) + " MiB more";
   return over_quota("bytes", usage.stored_bytes, allowed,
                     words +
                         "; delete jobs (hydroprint list --mine, delete) or files (hydroprint "
@@ -57,7 +57,7 @@ Status check_job_quota(Database& database, const std::string& owner, const Quota
     return over_quota("jobs", usage.queued_jobs, jobs,
                       owner + " has " + std::to_string(usage.queued_jobs) + " of " +
                           std::to_string(jobs) +
-                          " jobs in the queue; wait until some are done, or cancel some "
+                          " jobs in the queue; wait until some have finished, or cancel some "
                           "(hydroprint cancel JOB)");
   }
   if (bytes == 0 || usage.stored_bytes < bytes) return {};

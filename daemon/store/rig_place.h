@@ -4,12 +4,12 @@
 
 namespace hydroprint::daemon {
 
-/// Where the rig stood at a moment, so that it can be told later whether it still does.
+/// State of the rig at one time, to check later whether it has changed.
 struct RigPlace {
-  bool watched = false;  ///< there is a rig; the rest means nothing without
+  bool watched = false;  ///< whether a rig is configured; the other fields are valid only then
   bool homed = false;
-  double axis_mm = 0;  ///< if it is homed
-  /// How often it was homed, and dipped something, in the life of the store.
+  double axis_mm = 0;  ///< only if homed
+  /// Number of homings and dips since the store was created.
   std::int64_t homings = 0, dips = 0;
 
   bool operator==(const RigPlace&) const = default;

@@ -19,7 +19,7 @@ std::string time_text(std::int64_t unix_ms) {
   return text.data();
 }
 
-/// A folder of that name which does not exist yet.
+/// Finds an unused folder name that begins with `name`.
 std::filesystem::path unused_folder(const std::filesystem::path& parent, const std::string& name) {
   std::filesystem::path folder = parent / name;
   for (int i = 2; std::filesystem::exists(folder); ++i) {
@@ -39,8 +39,8 @@ SetAside::~SetAside() {
       {{"count", count_},
        {"folder", folder_.string()},
        {"message",
-        "the database does not know these files. If it was lost, or an older copy was put back, "
-        "stop the daemon and restore the right one; else delete the folder"}});
+        "the database does not know these files. If it was lost, or replaced by an older copy, "
+        "stop the daemon and restore the right one; otherwise delete the folder"}});
 }
 
 Status SetAside::move(const std::filesystem::path& path) {

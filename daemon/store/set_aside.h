@@ -9,9 +9,9 @@
 
 namespace hydroprint::daemon {
 
-/// Moves files that the database does not know out of the way. Most are leftovers of a crash, but
-/// if the database is missing or an older copy was put back, they are people's results, so nothing
-/// is deleted. Writes one log line at the end that says how many were moved, and where.
+/// Moves files that the database does not know out of the way. Most are leftovers of a crash. If
+/// the database was lost or replaced by an older copy, they are people's results, so nothing is
+/// deleted. Finally logs how many files were moved, and where.
 class SetAside {
  public:
   explicit SetAside(const Layout& layout, std::int64_t now_ms);

@@ -5,7 +5,7 @@
 
 namespace hydroprint::daemon {
 
-/// Where things are in the state folder.
+/// Paths in the state folder.
 struct Layout {
   std::filesystem::path root;
 
@@ -17,7 +17,7 @@ struct Layout {
   }
   [[nodiscard]] std::filesystem::path uploads() const { return root / "uploads"; }
   [[nodiscard]] std::filesystem::path upload(const std::string& id) const { return uploads() / id; }
-  /// Folders of the jobs that run now: their inputs, and where they write until it is published.
+  /// Folders of running jobs: their inputs, and the worker's output until it is published.
   [[nodiscard]] std::filesystem::path runs() const { return root / "runs"; }
   [[nodiscard]] std::filesystem::path run(std::int64_t job) const {
     return runs() / std::to_string(job);
@@ -27,7 +27,7 @@ struct Layout {
   [[nodiscard]] std::filesystem::path run_out(std::int64_t job) const {
     return run_work(job) / "out";
   }
-  /// The job's spec, apart from its inputs, whose names it might collide with.
+  /// The job's spec, separate from its inputs, whose names might collide.
   [[nodiscard]] std::filesystem::path run_spec(std::int64_t job) const {
     return run_work(job) / "spec.json";
   }
@@ -35,18 +35,18 @@ struct Layout {
   [[nodiscard]] std::filesystem::path run_pose(std::int64_t job) const {
     return run_work(job) / "pose.json";
   }
-  /// The resident worker of one who is shown previews.
+  /// Folder of a resident preview worker.
   [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {
     return runs() / ("preview-" + std::to_string(number));
   }
-  /// What a restore unpacks, and what says that it has not finished putting it in place.
+  /// Folder into which a restore unpacks, and the mark of an unfinished restore.
   [[nodiscard]] std::filesystem::path restoring() const { return root / "restoring"; }
   [[nodiscard]] std::filesystem::path unrestored() const { return root / "unrestored"; }
-  /// The process that shows what the camera sees.
+  /// Folder of the live camera process.
   [[nodiscard]] std::filesystem::path live_camera() const { return runs() / "live-camera"; }
   /// Files that the database does not know; see SetAside.
   [[nodiscard]] std::filesystem::path set_aside() const { return root / "set-aside"; }
-  /// Records of dips that are not finished.
+  /// Records of unfinished dips.
   [[nodiscard]] std::filesystem::path dips() const { return root / "dips"; }
   [[nodiscard]] std::filesystem::path dip(std::int64_t job) const {
     return dips() / std::to_string(job);

@@ -27,12 +27,11 @@ Result<UniqueFd> lock_state(const Layout& layout) {
 Status check_restored(const Layout& layout) {
   std::error_code ignored;
   if (!std::filesystem::exists(layout.unrestored(), ignored)) return {};
-  return fail(
-      Code::kFailedPrecondition,
-      layout.root.string() +
-          ": a backup was being restored here and was not finished; do it again (hydroprint "
-          "admin restore)",
-      "RESTORE_UNFINISHED");
+  return fail(Code::kFailedPrecondition,
+              layout.root.string() +
+                  ": a restore of a backup was not finished here; do it again (hydroprint "
+                  "admin restore)",
+              "RESTORE_UNFINISHED");
 }
 
 }  // namespace hydroprint::daemon

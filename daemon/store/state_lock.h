@@ -5,12 +5,11 @@
 
 namespace hydroprint::daemon {
 
-/// Takes the state folder (made if it is not there) for this process, until the descriptor is
-/// closed.
-/// @return kFailedPrecondition if another daemon has it
+/// Locks the state folder (created if needed) for this process, until the descriptor is closed.
+/// @return kFailedPrecondition if another daemon uses it
 [[nodiscard]] Result<UniqueFd> lock_state(const Layout& layout);
 
-/// Refuses (kFailedPrecondition, RESTORE_UNFINISHED) a folder to which a backup was being restored.
+/// Refuses (kFailedPrecondition, RESTORE_UNFINISHED) a folder with an unfinished restore.
 [[nodiscard]] Status check_restored(const Layout& layout);
 
 }  // namespace hydroprint::daemon

@@ -13,26 +13,26 @@
 
 namespace hydroprint::daemon {
 
-/// A wall clock's milliseconds since 1970 as the API shows them, and as text
-/// ("2026-11-22T02:05:39Z").
+/// Converts Unix time in ms to the API's timestamp, and to text ("2026-11-22T02:05:39Z").
 [[nodiscard]] google::protobuf::Timestamp time_of(std::int64_t ms);
 [[nodiscard]] std::string time_text(std::int64_t ms);
 
-/// What is stored as the API shows it.
+/// Convert stored data to API messages.
 [[nodiscard]] v1::Job to_message(const Job& job);
 [[nodiscard]] v1::JobEvent to_message(const JobEvent& event);
 [[nodiscard]] v1::Artifact to_message(std::int64_t job, const Artifact& artifact);
 [[nodiscard]] v1::Asset to_message(const Asset& asset);
 [[nodiscard]] v1::Upload to_message(const Upload& upload);
 
-/// The message that says what the job does, whatever its kind; null if the job has none.
+/// The spec of a job, whatever its kind; null if the job has none.
 [[nodiscard]] const google::protobuf::Message* spec_of(const v1::Job& job);
 
-/// SHA-256 of a request's content without its request_id, to tell a repeated one from another one.
+/// Key of a request: SHA-256 of its content without request_id, to distinguish a repetition from
+/// another request.
 template <class Request>
 [[nodiscard]] RequestKey request_key(const char* method, const Request& request);
 
-/// The same bytes for the same content (maps sorted).
+/// Serialises equal messages to equal bytes (maps are sorted).
 [[nodiscard]] std::string deterministic_bytes(const google::protobuf::Message& message);
 
 template <class Request>

@@ -1,4 +1,4 @@
-// Bytes on their way into an upload.
+// Writes the bytes of uploads.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -13,11 +13,11 @@ Result<std::unique_ptr<UploadWriter>> UploadWriter::open(AssetStore& store, cons
     const std::lock_guard lock(store.busy_mutex_);
     if (!store.busy_.insert(id).second) {
       return fail(Code::kAborted,
-                  "uploads/" + id + ": another call is sending to it; wait for its end",
+                  "uploads/" + id + ": another call is writing to this upload; wait for its end",
                   "UPLOAD_BUSY");
     }
   }
-  // From here on, its end frees the upload.
+  // From here on, the writer's destructor releases the upload.
   std::unique_ptr<UploadWriter> writer(new UploadWriter(store, Upload{id, "", 0, 0, "", 0}));
   HP_ASSIGN_OR_RETURN(writer->upload_, store.upload(id, owner));
   HP_ASSIGN_OR_RETURN(writer->file_, open_file(store.layout_.upload(id), O_WRONLY | O_CREAT));
@@ -32,10 +32,10 @@ UploadWriter::~UploadWriter() {
 Status UploadWriter::append(std::int64_t offset, std::string_view bytes) {
   if (offset != upload_.received_bytes) {
     const std::string expected = std::to_string(upload_.received_bytes);
-    auto error = fail(
-        Code::kOutOfRange,
-        "offset: " + std::to_string(offset) + " is not where the upload is; go on at " + expected,
-        "OFFSET_MISMATCH");
+    auto error = fail(Code::kOutOfRange,
+                      "offset: " + std::to_string(offset) +
+                          " is not the end of the upload; continue at " + expected,
+                      "OFFSET_MISMATCH");
     error.value().metadata["expected_offset"] = expected;
     return error;
   }
@@ -51,7 +51,7 @@ Status UploadWriter::append(std::int64_t offset, std::string_view bytes) {
 
 Error UploadWriter::give_up_if_full(Error error) {
   if (error.reason == "DISK_FULL" || error.reason == "QUOTA_EXCEEDED") {
-    file_.reset();  // an open file keeps its room
+    file_.reset();  // an open file would keep its space
     store_.give_up(upload_);
   }
   return error;
@@ -63,7 +63,7 @@ Result<AssetOrUpload> UploadWriter::finish() {
 
 Result<AssetOrUpload> UploadWriter::verify() {
   const auto path = store_.layout_.upload(upload_.id);
-  if (::fsync(file_.get()) != 0) return system_failure(path, "cannot be made safe on disk");
+  if (::fsync(file_.get()) != 0) return system_failure(path, "cannot be flushed to disk");
   if (upload_.received_bytes < upload_.size_bytes) return AssetOrUpload(upload_);
   HP_ASSIGN_OR_RETURN(const std::string hash, sha256_of_file(path));
   if (hash == upload_.sha256) {

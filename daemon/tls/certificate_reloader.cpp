@@ -58,7 +58,7 @@ std::shared_ptr<const tls::Identity> CertificateReloader::current() const {
 
 void CertificateReloader::describe(PrometheusText& out) const {
   out.single("hydroprint_tls_certificate_expiry_timestamp_seconds", "gauge",
-             "When the TLS certificate expires, Unix time.",
+             "Expiry of the TLS certificate, Unix time in seconds.",
              static_cast<double>(current()->expire_s()));
 }
 
@@ -88,15 +88,15 @@ Status CertificateReloader::load() {
   return {};
 }
 
-// One file of the pair may be written before the other: what is refused is read again until it is
-// good, and said once.
+// One file of the pair may be written before the other, so an invalid pair is read again until it
+// is valid; each error is logged once.
 void CertificateReloader::look_again() {
   if (stamps() == loaded_ && refused_.empty()) return;
   const Status done = load();
   if (done || done.error().message == refused_) return;
   refused_ = done.error().message;
   log(LogLevel::kError, "certificate_not_loaded",
-      {{"message", refused_ + "; until then the one before is shown"}});
+      {{"message", refused_ + "; the previous certificate stays in use"}});
 }
 
 void CertificateReloader::warn_of_expiry() {
@@ -109,8 +109,8 @@ void CertificateReloader::warn_of_expiry() {
       is_over ? "certificate_expired" : "certificate_expires_soon",
       {{"file", certificate_file_.string()},
        {"expires", expiry_text(expire_s)},
-       {"message", is_over ? "clients refuse it; renew it, and it is taken from the same files"
-                           : "renew it, and it is taken from the same files"}});
+       {"message",
+        is_over ? "clients refuse it; renew it in the same files" : "renew it in the same files"}});
 }
 
 }  // namespace hydroprint::daemon

@@ -16,23 +16,23 @@
 
 namespace hydroprint::daemon {
 
-/// The certificate that both doors show. Looks every two seconds whether its files changed: a pair
-/// that can be used counts from the next connection on, one that cannot is logged, and the one
-/// before stays. Logs once a day that it has expired or soon will.
+/// The certificate of the gRPC and HTTP servers. Checks its files every two seconds. A valid new
+/// pair applies from the next connection on. An invalid one is logged, and the previous pair
+/// remains. Logs once a day if the certificate has expired or is about to.
 class CertificateReloader {
  public:
-  /// @return what tls::Identity::read() refuses
+  /// @return errors of tls::Identity::read()
   [[nodiscard]] static Result<std::unique_ptr<CertificateReloader>> open(
       const std::filesystem::path& certificate_file, const std::filesystem::path& key_file,
       Clock clock);
 
-  /// The pair that counts now. Any thread may call.
+  /// The current pair. Thread-safe.
   [[nodiscard]] std::shared_ptr<const tls::Identity> current() const;
-  /// When it expires, as a figure.
+  /// Writes the expiry time as a metric.
   void describe(PrometheusText& out) const;
 
  private:
-  /// What tells a file from another one of its name; none: it is not there.
+  /// Identifies a version of a file; nullopt if the file does not exist.
   using Stamp = std::optional<std::array<std::int64_t, 5>>;
   using Stamps = std::array<Stamp, 2>;
 
@@ -45,8 +45,8 @@ class CertificateReloader {
 
   std::filesystem::path certificate_file_, key_file_;
   Clock clock_;
-  Stamps loaded_;        // the thread's own from here, once it runs
-  std::string refused_;  // what was last logged of a pair that cannot be used
+  Stamps loaded_;        // from here on used only by the thread, once it runs
+  std::string refused_;  // last logged error of an invalid pair
   std::int64_t warn_next_ms_ = 0;
   mutable std::mutex mutex_;
   std::shared_ptr<const tls::Identity> current_;

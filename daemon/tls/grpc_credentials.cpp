@@ -9,8 +9,8 @@
 namespace hydroprint::daemon {
 namespace {
 
-/// gRPC's own classes take certificates once and for all, or watch files by themselves and are left
-/// with none where a pair does not match. Its C interface asks at every handshake.
+/// gRPC's own classes either keep a certificate forever, or watch the files and have no certificate
+/// while the pair does not match. gRPC's C interface asks for the certificate at every handshake.
 class TlsCredentials final : public grpc::ServerCredentials {
  public:
   explicit TlsCredentials(tls::CurrentIdentity identity)
@@ -38,8 +38,8 @@ class TlsCredentials final : public grpc::ServerCredentials {
     auto current = identity_();
     if (current == shown_) return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_UNCHANGED;
     const grpc_ssl_pem_key_cert_pair pair{current->key_pem().c_str(), current->chain_pem().c_str()};
-    // Roots are for the certificates of clients, which are asked for none; but gRPC 1.51 ends the
-    // program where it finds no certificate here.
+    // The roots verify client certificates, which are not requested; but gRPC 1.51 aborts the
+    // program if no certificate is given here.
     *config = grpc_ssl_server_certificate_config_create(pair.cert_chain, &pair, 1);
     shown_ = std::move(current);
     return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_NEW;

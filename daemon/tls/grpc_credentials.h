@@ -8,8 +8,8 @@
 
 namespace hydroprint::daemon {
 
-/// Has a gRPC server speak TLS, and show each client the identity that counts when it comes. Must
-/// outlive the server.
+/// Makes a gRPC server use TLS, with the identity that is current when a client connects. The
+/// object must outlive the server.
 [[nodiscard]] std::shared_ptr<grpc::ServerCredentials> tls_credentials(
     tls::CurrentIdentity identity);
 

@@ -18,8 +18,8 @@ namespace hydroprint::tls {
 namespace {
 
 constexpr std::size_t kMostBytes = 1 << 20;
-// Of TLS 1.2; of 1.3 all are good. Each agrees on a new secret, so that the key tells nobody what
-// was said before it was stolen.
+// Ciphers for TLS 1.2; those of TLS 1.3 are all good. All have forward secrecy: a stolen key does
+// not reveal earlier connections.
 constexpr const char* kCiphers = "ECDHE+AESGCM:ECDHE+CHACHA20";
 
 struct Freeing {
@@ -46,17 +46,18 @@ Result<std::string> read_file(const std::filesystem::path& file, const std::stri
   struct stat info {};
   const bool is_there = ::stat(file.c_str(), &info) == 0;
   if (is_there && !S_ISREG(info.st_mode)) {
-    return refused(file, "is no file; name the PEM file of the TLS " + what);
+    return refused(file, "not a regular file; name the PEM file of the TLS " + what);
   }
   std::ifstream in(file, std::ios::binary);
   if (!is_there || !in) {
     return refused(file, "the TLS " + what + " cannot be read: " + std::strerror(errno) +
-                             "; name a PEM file that this user may read");
+                             "; name a PEM file that this user can read");
   }
   if (is_secret && (info.st_mode & 07) != 0) {
-    return refused(file,
-                   "everybody on this machine may read the TLS key; chmod 640 it, and make "
-                   "a new one if strangers were here");
+    return refused(
+        file,
+        "the TLS key is readable by every user of this machine; run chmod 640, and create "
+        "a new key if others may have read it");
   }
   std::string text(kMostBytes + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -80,7 +81,7 @@ std::vector<Owned<X509>> certificates_in(const std::string& text) {
   return all;
 }
 
-// A passphrase would be asked for at the terminal, which a service has not.
+// Refuses passphrases, which OpenSSL would read from a terminal; a service has none.
 int no_passphrase(char*, int, int, void*) { return -1; }
 
 std::string address_text(const ASN1_OCTET_STRING& bytes) {
@@ -128,7 +129,7 @@ std::shared_ptr<SSL_CTX> server_context() {
   SSL_CTX_set_options(context.get(), SSL_OP_NO_RENEGOTIATION | SSL_OP_NO_COMPRESSION |
                                          SSL_OP_CIPHER_SERVER_PREFERENCE);
   SSL_CTX_set_session_cache_mode(context.get(), SSL_SESS_CACHE_OFF);
-  // A connection that waits holds no buffers; what does not get away at once is tried again.
+  // Idle connections hold no buffers; partial writes are continued later.
   SSL_CTX_set_mode(context.get(), SSL_MODE_RELEASE_BUFFERS | SSL_MODE_ENABLE_PARTIAL_WRITE |
                                       SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER);
   return context;
@@ -151,20 +152,21 @@ Result<std::shared_ptr<const Identity>> Identity::read(
   ERR_clear_error();
   const auto chain = certificates_in(made->chain_pem_);
   if (chain.empty()) {
-    return refused(certificate_file,
-                   "has no certificate as PEM; it begins with \"-----BEGIN CERTIFICATE-----\"");
+    return refused(
+        certificate_file,
+        "has no certificate in PEM format; it must begin with \"-----BEGIN CERTIFICATE-----\"");
   }
   ERR_clear_error();
   const Owned<EVP_PKEY> key(
       PEM_read_bio_PrivateKey(reader_of(made->key_pem_).get(), nullptr, no_passphrase, nullptr));
   if (!key) {
-    return refused(key_file, "has no key as PEM without a passphrase" + openssl_words() +
-                                 "; write it anew with: openssl pkey -in OLD -out NEW");
+    return refused(key_file, "has no key in PEM format without a passphrase" + openssl_words() +
+                                 "; convert it with: openssl pkey -in OLD -out NEW");
   }
   if (X509_check_private_key(chain.front().get(), key.get()) != 1) {
-    return refused(key_file, "is not the key of the first certificate in " +
-                                 certificate_file.string() +
-                                 "; name the two that belong together, the server's own first");
+    return refused(key_file,
+                   "is not the key of the first certificate in " + certificate_file.string() +
+                       "; name a matching pair, with the server's certificate first in the file");
   }
   ERR_clear_error();
   made->context_ = server_context();
@@ -176,7 +178,7 @@ Result<std::shared_ptr<const Identity>> Identity::read(
   }
   if (!is_good) {
     return refused(certificate_file, "cannot be used for TLS" + openssl_words() +
-                                         "; make one anew, with a key of 2048 bits or more");
+                                         "; create a new one, with a key of 2048 bits or more");
   }
   made->names_ = names_of(*chain.front());
   made->expire_s_ = unix_time(X509_get0_notAfter(chain.front().get()));

@@ -13,26 +13,25 @@ using SSL_CTX = struct ssl_ctx_st;
 
 namespace hydroprint::tls {
 
-/// A certificate with its chain and the key to it: what a server shows to its clients. Does not
-/// change; a renewed one is another.
+/// A server's certificate with its chain and key. Immutable; a renewed certificate is a new object.
 class Identity {
  public:
-  /// Reads PEM files: the server's certificate and those that lead to its authority's, and the
-  /// key. A certificate that has expired is read like any other.
-  /// @return kInvalidArgument, CONFIG_INVALID, as one line with the file and the remedy: a file
-  ///   that cannot be read, is larger than 1 MiB or no PEM; a key that others may read, that has a
-  ///   passphrase or belongs to another certificate; a certificate too weak to be used
+  /// Reads PEM files: the server's certificate with its chain, and the key. Accepts an expired
+  /// certificate.
+  /// @return kInvalidArgument, CONFIG_INVALID, as one line with the file and the remedy. Reasons: a
+  /// file is unreadable, larger than 1 MiB or not PEM; the key is readable by others, has a
+  /// passphrase or belongs to another certificate; the certificate is too weak.
   [[nodiscard]] static Result<std::shared_ptr<const Identity>> read(
       const std::filesystem::path& certificate_file, const std::filesystem::path& key_file);
 
   [[nodiscard]] const std::string& chain_pem() const { return chain_pem_; }
   [[nodiscard]] const std::string& key_pem() const { return key_pem_; }
-  /// Names and addresses it stands for, as they are written in a URL: "rig.example.org",
+  /// Host names and addresses in the certificate, written as in a URL: "rig.example.org",
   /// "*.example.org", "192.168.1.20", "[fd00::20]".
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  /// Unix time, s, from which on clients refuse it.
+  /// Expiry, Unix time in s.
   [[nodiscard]] std::int64_t expire_s() const { return expire_s_; }
-  /// Settings for a server's connections: TLS 1.2 and later, nothing kept of past ones.
+  /// Settings for a server's connections: TLS 1.2 and later, without session resumption.
   [[nodiscard]] SSL_CTX* context() const { return context_.get(); }
 
  private:
@@ -44,11 +43,10 @@ class Identity {
   std::shared_ptr<SSL_CTX> context_;
 };
 
-/// The identity that counts now; any thread may ask.
+/// Returns the current identity; thread-safe.
 using CurrentIdentity = std::function<std::shared_ptr<const Identity>()>;
 
-/// Whether that host, as a URL has it but without port, is one of the identity's names; a name
-/// with a star stands for one label.
+/// Whether the identity covers a host, given as in a URL without port. A wildcard covers one label.
 [[nodiscard]] bool stands_for(const Identity& identity, std::string_view host);
 
 }  // namespace hydroprint::tls

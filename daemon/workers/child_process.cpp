@@ -23,28 +23,29 @@ struct Pipe {
   UniqueFd write;
 };
 
-// Both ends above the descriptors that the child puts in place; ours does not block.
+// Creates a pipe with descriptors above those that the child uses; the daemon's end is
+// non-blocking.
 Result<Pipe> make_pipe(UniqueFd Pipe::*ours = &Pipe::read) {
   std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return system_failure("pipe", "cannot be made");
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return system_failure("pipe", "cannot be created");
   const UniqueFd low_read(ends[0]), low_write(ends[1]);
   Pipe pipe{UniqueFd(::fcntl(ends[0], F_DUPFD_CLOEXEC, 10)),
             UniqueFd(::fcntl(ends[1], F_DUPFD_CLOEXEC, 10))};
   if (!pipe.read.valid() || !pipe.write.valid() ||
       ::fcntl((pipe.*ours).get(), F_SETFL, O_NONBLOCK) != 0) {
-    return system_failure("pipe", "cannot be made");
+    return system_failure("pipe", "cannot be created");
   }
   return pipe;
 }
 
-/// What a worker finds at stdin.
+/// The worker's stdin: a pipe for requests, or /dev/null.
 Result<Pipe> make_stdin(bool is_asked) {
   if (is_asked) return make_pipe(&Pipe::write);
   const UniqueFd null(::open("/dev/null", O_RDWR | O_CLOEXEC));
   return Pipe{UniqueFd(::fcntl(null.get(), F_DUPFD_CLOEXEC, 10)), {}};
 }
 
-// Little of the daemon's environment reaches a worker: what sanitizers and the loader need.
+// Passes only a few variables to a worker: those for sanitizers and the loader.
 std::vector<std::string> make_environment(const std::filesystem::path& work) {
   std::vector<std::string> out{"PATH=/usr/bin:/bin", "LANG=C.UTF-8", "HOME=" + work.string(),
                                "TMPDIR=" + work.string()};
@@ -63,7 +64,8 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
   return out;
 }
 
-// All that the child needs, made before fork: afterwards only calls that take no lock are safe.
+// Everything the child needs, prepared before fork; afterwards only functions that take no lock are
+// safe.
 struct ChildPlan {
   const char* program;
   char* const* arguments;
@@ -90,7 +92,7 @@ struct ChildPlan {
   ::dup2(plan.progress, kProgressFd);
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != plan.parent) ::_exit(127);  // the daemon died before that took effect
+  if (::getppid() != plan.parent) ::_exit(127);  // the daemon ended before that took effect
   sigset_t none;
   ::sigemptyset(&none);
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
@@ -130,8 +132,8 @@ Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox) {
   if (worker.pid == 0) become_worker(plan, what.limits, sandbox);
   if (worker.pid < 0) {
     return fail(Code::kInternal,
-                std::string("no worker can be started: ") + std::strerror(errno) +
-                    "; the machine is short of processes or memory",
+                std::string("cannot start a worker: ") + std::strerror(errno) +
+                    "; the machine has too many processes or too little memory",
                 "WORKER_UNUSABLE");
   }
   ::setpgid(worker.pid, worker.pid);

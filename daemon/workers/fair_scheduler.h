@@ -9,14 +9,15 @@
 
 namespace hydroprint::daemon {
 
-/// Owners take turns: the one with the fewest running jobs goes next, then the one served longest
-/// ago, then the one whose job came first; within an owner higher priority, then lower rank.
+/// Schedules jobs fairly among owners. The owner with the fewest running jobs is next, then the one
+/// served longest ago, then the one with the oldest job. Within an owner, higher priority comes
+/// first, then lower rank.
 class FairScheduler {
  public:
-  /// Notes that a job of this owner was started.
+  /// Records that a job of this owner was started.
   void served(const std::string& owner) { last_turn_[owner] = ++turn_; }
 
-  /// Ids in the order in which they will start if nothing changes; at most `limit`.
+  /// Ids in starting order if nothing changes; at most `limit`.
   /// @param running  running jobs by owner
   [[nodiscard]] std::vector<std::int64_t> order(const std::vector<WaitingJob>& waiting,
                                                 std::map<std::string, int> running,

@@ -21,17 +21,17 @@ constexpr std::array kSystem{"/usr", "/lib",  "/lib64", "/lib32", "/bin",
                              "/etc", "/proc", "/sys",   "/dev",   "/opt"};
 constexpr std::uint64_t kOnFiles = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE;
 
-// The version of Landlock; 0 if there is none.
+// The version of Landlock; 0 if the kernel has none.
 long version() {
   const long answer =
       ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
   return answer > 0 ? answer : 0;
 }
 
-// The right to move files between folders came with the second version; before, nobody has it.
+// The right to move files between folders exists since version 2; in version 1 it is always denied.
 std::uint64_t move_right() { return version() >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0; }
 
-// Allows what is below a path; one that is not there needs no rule.
+// Allows access below a path; a missing path needs no rule.
 bool allow(const UniqueFd& rules, const std::filesystem::path& path, std::uint64_t access) {
   const UniqueFd place(::open(path.c_str(), O_PATH | O_CLOEXEC));
   if (!place.valid()) return errno == ENOENT || errno == EACCES;
@@ -62,14 +62,14 @@ Result<UniqueFd> make_fence(const std::filesystem::path& program,
   const landlock_ruleset_attr everything{kRead | kWrite | move_right()};
   const UniqueFd low(
       static_cast<int>(::syscall(SYS_landlock_create_ruleset, &everything, sizeof everything, 0)));
-  // Above the descriptors that a worker's are put at.
+  // Above the descriptors that a worker uses.
   UniqueFd rules(::fcntl(low.get(), F_DUPFD_CLOEXEC, 10));
   bool good = rules.valid();
   for (const char* path : kSystem) good = good && allow(rules, path, kRead);
   good = good && allow(rules, "/dev/null", kOnFiles) &&
          allow(rules, program.parent_path(), kRead) && allow(rules, inputs, kRead) &&
          allow(rules, work, kRead | kWrite | move_right());
-  if (!good) return system_failure("landlock", "the worker's files cannot be fenced off");
+  if (!good) return system_failure("landlock", "file access cannot be restricted");
   return rules;
 }
 

@@ -6,11 +6,11 @@
 
 namespace hydroprint::daemon {
 
-/// Which files a worker can get at, enforced by the kernel (Landlock): a model from a stranger that
-/// names the textures "/home/..." sees nothing, and a worker that was taken over changes nothing.
-/// Readable: the system (/usr, /lib, /etc, /proc, ...), the worker program's folder and `inputs`.
-/// Writable: `work`. Nothing else.
-/// @return a descriptor for enter_fence(), or an invalid one where the kernel has no Landlock
+/// Limits the files that a worker can access, enforced by the kernel (Landlock). An untrusted model
+/// that names textures in "/home/..." cannot read them, and a compromised worker cannot change
+/// anything. Readable: the system (/usr, /lib, /etc, /proc, ...), the worker program's folder and
+/// `inputs`. Writable: `work`.
+/// @return a descriptor for enter_fence(), or an invalid one if the kernel has no Landlock
 [[nodiscard]] Result<UniqueFd> make_fence(const std::filesystem::path& program,
                                           const std::filesystem::path& inputs,
                                           const std::filesystem::path& work);
@@ -18,12 +18,12 @@ namespace hydroprint::daemon {
 /// Whether the kernel has Landlock.
 [[nodiscard]] bool fences_work();
 
-/// Whether the workers of `program` may read this file although the daemon gave them no such input:
-/// what is among the system's files or beside the program.
+/// Whether the workers of `program` can read this file although it is not an input: system files,
+/// and files next to the program.
 [[nodiscard]] bool is_within_fence(const std::filesystem::path& file,
                                    const std::filesystem::path& program);
 
-/// Confines the calling thread, which must have given up new privileges, for good. Takes no locks.
+/// Confines the calling thread permanently. It must have given up new privileges. Takes no locks.
 [[nodiscard]] bool enter_fence(int fence);
 
 }  // namespace hydroprint::daemon

@@ -8,8 +8,8 @@ namespace {
 constexpr std::size_t kLongestHead = 256 << 10;
 constexpr int kDeepest = 16;
 
-/// How many bytes follow a head; none for what is no head. (Deeply nested text would exhaust the
-/// parser's stack.)
+/// Number of bytes that follow a head; nullopt if it is malformed. (Deeply nested text would
+/// exhaust the parser's stack.)
 std::optional<std::size_t> bytes_after(const std::string& head, std::size_t most) {
   int depth = 0;
   for (const char c : head) {
@@ -28,7 +28,7 @@ std::optional<std::size_t> bytes_after(const std::string& head, std::size_t most
 }  // namespace
 
 Result<std::optional<FramedMessage>> cut_framed(std::string& read, std::size_t most) {
-  const auto refusal = fail(Code::kInternal, "no line of JSON that announces bytes");
+  const auto refusal = fail(Code::kInternal, "not a line of JSON with a number of bytes");
   const std::size_t end = read.find('\n');
   if (end == std::string::npos) {
     if (read.size() > kLongestHead) return refusal;

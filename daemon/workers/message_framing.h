@@ -8,17 +8,17 @@
 
 namespace hydroprint::daemon {
 
-/// What a process of ours that stays says again and again: a line of JSON, and the bytes that it
-/// announces ("bytes").
+/// A message of a resident process: a line of JSON, and the bytes whose number it announces
+/// ("bytes").
 struct FramedMessage {
   std::string head;
   std::string bytes;
 };
 
-/// Takes the first whole one off what was read; none: more has to come. What comes may be a
-/// stranger's who took the process over.
-/// @param most  bytes that one may announce
-/// @return kInternal for what is none, or is too large
+/// Takes the first complete message from the bytes read; nullopt if it is still incomplete. The
+/// bytes are untrusted, since the process may be compromised.
+/// @param most  maximum number of announced bytes
+/// @return kInternal for a malformed or too large message
 [[nodiscard]] Result<std::optional<FramedMessage>> cut_framed(std::string& read, std::size_t most);
 
 }  // namespace hydroprint::daemon

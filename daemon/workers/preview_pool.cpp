@@ -18,7 +18,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-// Each has a mesh in memory.
+// Each slot keeps a mesh in memory.
 constexpr std::size_t kMostSeats = 4;
 constexpr std::chrono::seconds kKept{120};
 constexpr std::chrono::seconds kTimeLimit{30};
@@ -26,11 +26,11 @@ constexpr std::chrono::milliseconds kLook{50};
 constexpr int kLookAgain_ms = 500;
 
 tl::unexpected<Error> shutting_down() {
-  return fail(Code::kUnavailable, "the daemon is shutting down; try again when it is back",
+  return fail(Code::kUnavailable, "the daemon is shutting down; try again after it has restarted",
               "SHUTTING_DOWN");
 }
 
-/// What a worker's answer says of a request, if it is one of that number.
+/// The worker's answer to the request with this id; nullopt for other answers.
 std::optional<Result<PreviewFrame>> answer_to(std::int64_t id, PreviewFrame frame) {
   const auto head = nlohmann::json::parse(frame.head, nullptr, /*allow_exceptions=*/false);
   const auto told = head.find("id");
@@ -40,7 +40,7 @@ std::optional<Result<PreviewFrame>> answer_to(std::int64_t id, PreviewFrame fram
   const std::string message =
       error->is_object() && error->contains("message") && error->at("message").is_string()
           ? error->at("message").get<std::string>()
-          : "the worker refused it without a word";
+          : "the worker refused the request without a message";
   return fail(Code::kInvalidArgument, message, "PREVIEW_REFUSED");
 }
 
@@ -56,8 +56,8 @@ struct PreviewPool::Call {
 
 struct PreviewPool::Slot {
   std::unique_ptr<PreviewWorker> worker;
-  std::shared_ptr<const PreviewFrame> mesh;  // once the worker told it
-  std::shared_ptr<Call> call;                // the one that waits, if any
+  std::shared_ptr<const PreviewFrame> mesh;  // once the worker has sent it
+  std::shared_ptr<Call> call;                // the waiting call, if any
   SteadyTime used;
 };
 
@@ -67,7 +67,7 @@ Result<std::unique_ptr<PreviewPool>> PreviewPool::make(PreviewOptions options,
   std::unique_ptr<PreviewPool> made(
       new PreviewPool(std::move(options), layout, std::move(sandbox)));
   made->wake_ = UniqueFd(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK));
-  if (!made->wake_.valid()) return system_failure("eventfd", "cannot be made");
+  if (!made->wake_.valid()) return system_failure("eventfd", "cannot be created");
   made->thread_ = std::thread([&pool = *made] { pool.work(); });
   return made;
 }
@@ -96,25 +96,24 @@ Result<Previewed> PreviewPool::compute(const std::string& owner, const PreviewRe
     if (call->result || !gone()) continue;
     const auto slot = slots_.find(owner);
     if (slot != slots_.end() && slot->second->call == call) slot->second->call = nullptr;
-    return fail(Code::kCancelled, "the caller left");
+    return fail(Code::kCancelled, "the client disconnected");
   }
   return std::move(*call->result);
 }
 
-/// Gives the owner a slot, whose call before ends.
+/// Assigns a slot to the owner, which ends the owner's previous call.
 Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string& owner,
                                                               const PreviewRequest& ask) {
   if (stopping_) return shutting_down();
   if (!slots_.contains(owner) && !make_room()) {
-    return fail(Code::kResourceExhausted,
-                "as many people as can be are shown previews; try again in a moment",
+    return fail(Code::kResourceExhausted, "too many previews are open; try again in a moment",
                 "PREVIEWS_FULL");
   }
   std::unique_ptr<Slot>& slot = slots_[owner];
   if (!slot) slot = std::make_unique<Slot>();
   if (slot->call) {
-    finish(*slot, fail(Code::kAborted, "a newer preview was asked for; this one is not wanted",
-                       "PREVIEW_SUPERSEDED"));
+    finish(*slot,
+           fail(Code::kAborted, "superseded by a newer preview request", "PREVIEW_SUPERSEDED"));
   }
   const auto now = SteadyClock::now();
   slot->used = now;
@@ -122,7 +121,7 @@ Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string&
   return slot->call;
 }
 
-/// Frees the slot that was not used for longest, if all are taken and one waits for nothing.
+/// If all slots are taken, frees the least recently used one without a waiting call.
 bool PreviewPool::make_room() {
   if (slots_.size() < kMostSeats) return true;
   auto oldest = slots_.end();
@@ -152,7 +151,7 @@ void PreviewPool::work() {
   slots_.clear();
 }
 
-/// Waits until there may be something to do.
+/// Waits until there may be work.
 void PreviewPool::wait(std::unique_lock<std::mutex>& lock) {
   std::vector<pollfd> fds{{wake_.get(), POLLIN, 0}};
   for (const auto& [owner, slot] : slots_) {
@@ -180,7 +179,7 @@ void PreviewPool::serve(Slot& slot, SteadyTime now) {
   }
 }
 
-/// Sends the call to the slot's worker, or to a new one if that has another mesh.
+/// Sends the call to the slot's worker, or starts a new one for another mesh.
 void PreviewPool::begin(Slot& slot) {
   Call& call = *slot.call;
   call.sent = true;
@@ -203,7 +202,7 @@ void PreviewPool::take(Slot& slot, PreviewFrame frame) {
   }
   if (!slot.call) return;
   auto answer = answer_to(slot.call->id, std::move(frame));
-  if (!answer) return;  // of a call that has ended
+  if (!answer) return;  // answer to a call that has ended
   slot.used = SteadyClock::now();
   if (!*answer) return finish(slot, tl::unexpected(answer->error()));
   finish(slot, Previewed{slot.mesh, std::move(**answer)});

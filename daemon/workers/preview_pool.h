@@ -13,21 +13,21 @@
 
 namespace hydroprint::daemon {
 
-/// How previews are computed.
+/// Settings for previews.
 struct PreviewOptions {
   std::filesystem::path program;
   int threads = 1;
   Limits limits;
 };
 
-/// An answer, with the mesh that it is of.
+/// A preview, with the mesh that it refers to.
 struct Previewed {
   std::shared_ptr<const PreviewFrame> mesh;
   PreviewFrame dip;
 };
 
-/// Shows people how dips would go while they turn an object: a worker for each of them, which has
-/// the mesh in memory for as long as somebody asks. The latest call of a caller counts.
+/// Computes previews of dips while users rotate an object. Each user has a worker that keeps the
+/// mesh in memory as long as requests arrive. A new call replaces the caller's previous one.
 class PreviewPool {
  public:
   /// @return kFailedPrecondition if workers cannot be confined
@@ -37,13 +37,13 @@ class PreviewPool {
   PreviewPool(const PreviewPool&) = delete;
   PreviewPool& operator=(const PreviewPool&) = delete;
 
-  /// Waits for the answer.
-  /// @param gone  whether the caller has left, asked now and then
+  /// Computes a preview and waits for it.
+  /// @param gone  whether the caller has disconnected; polled
   /// @return kAborted, PREVIEW_SUPERSEDED; kResourceExhausted, PREVIEWS_FULL, TIME_LIMIT or
-  ///   MEMORY_LIMIT; kUnavailable, SHUTTING_DOWN; kCancelled; what the worker refuses
+  /// MEMORY_LIMIT; kUnavailable, SHUTTING_DOWN; kCancelled; the worker's refusals
   [[nodiscard]] Result<Previewed> compute(const std::string& owner, const PreviewRequest& ask,
                                           const std::function<bool()>& gone);
-  /// Ends all of it; whoever waits is told.
+  /// Ends all workers; waiting calls return an error.
   void stop();
 
  private:
@@ -71,7 +71,7 @@ class PreviewPool {
   std::map<std::string, std::unique_ptr<Slot>> slots_;  // by owner
   std::int64_t last_id_ = 0;
   bool stopping_ = false;
-  std::thread thread_;  // starts all workers, which die with it
+  std::thread thread_;  // starts all workers, which end with it
 };
 
 }  // namespace hydroprint::daemon

@@ -11,15 +11,15 @@ class ComputePreviewRequest;
 
 namespace hydroprint::daemon {
 
-/// What a preview is asked of, ready for a worker's verb `preview` (sim/worker/verbs/preview.h).
+/// A preview request, ready for a worker's verb `preview` (sim/worker/verbs/preview.h).
 struct PreviewRequest {
-  std::string key;   ///< the same for whatever one worker can answer, which has the mesh in memory
-  std::string spec;  ///< that worker's, as JSON
-  std::vector<InputFile> inputs;  ///< and files
-  std::string dip;  ///< keys of one request, as the inside of a JSON object; empty: none
+  std::string key;   ///< equal for all requests that one worker can answer with its mesh
+  std::string spec;  ///< JSON spec of that worker
+  std::vector<InputFile> inputs;  ///< input files of that worker
+  std::string dip;  ///< members of the request's JSON object, without braces; empty: none
 };
 
-/// Checks and translates a request; refuses as check_job() does.
+/// Checks and translates a request. Errors as in check_job().
 [[nodiscard]] Result<PreviewRequest> check_preview(const v1::ComputePreviewRequest& request);
 
 }  // namespace hydroprint::daemon

@@ -21,7 +21,7 @@ constexpr int kToEnd_ms = 500;
 
 Error unusable() {
   return {Code::kInternal,
-          "the worker says what no preview says; check that workers.program is hydroprint-worker",
+          "the worker's preview cannot be read; check that workers.program is hydroprint-worker",
           "WORKER_UNUSABLE",
           {}};
 }
@@ -58,7 +58,7 @@ Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
 
 void PreviewWorker::ask(std::int64_t id, const std::string& dip) {
   const std::string line = "{\"id\":" + std::to_string(id) + (dip.empty() ? "" : ",") + dip + "}\n";
-  // A few hundred bytes: a pipe takes all of them or none.
+  // A few hundred bytes, which a pipe takes completely or not at all.
   ssize_t written = 0;
   do {
     written = ::write(worker_.requests.get(), line.data(), line.size());
@@ -81,7 +81,7 @@ std::vector<PreviewFrame> PreviewWorker::read() {
 }
 
 void PreviewWorker::judge_end() {
-  // It closes its pipes a little before it has ended.
+  // The process closes its pipes slightly before it ends.
   pollfd ended{worker_.handle.get(), POLLIN, 0};
   ::poll(&ended, 1, kToEnd_ms);
   (void)drain(worker_.errors, words_, kWordsKept);

@@ -17,8 +17,8 @@ namespace hydroprint::daemon {
 /// One answer of `hydroprint-worker preview`.
 using PreviewFrame = FramedMessage;
 
-/// A confined worker that has a mesh in memory and answers requests, the first of all with the mesh
-/// itself. Belongs to the thread that started it.
+/// A confined worker that keeps a mesh in memory and answers requests. Its first answer is the mesh
+/// itself. Use it only on the thread that started it.
 class PreviewWorker {
  public:
   /// @param number  names its folder, which is deleted with it
@@ -30,15 +30,15 @@ class PreviewWorker {
   PreviewWorker(const PreviewWorker&) = delete;
   PreviewWorker& operator=(const PreviewWorker&) = delete;
 
-  /// What it can answer; see PreviewRequest.
+  /// Key of the requests that it can answer; see PreviewRequest.
   [[nodiscard]] const std::string& key() const { return key_; }
   [[nodiscard]] int answers_fd() const { return worker_.answer.get(); }
 
-  /// Sends a request; one that cannot take it has come to its end.
+  /// Sends a request. If that fails, the worker has ended.
   void ask(std::int64_t id, const std::string& dip);
-  /// What it has answered by now.
+  /// The answers received since the last call.
   [[nodiscard]] std::vector<PreviewFrame> read();
-  /// Why it ended, once it has; also one that says what no preview says.
+  /// Why the worker ended, if it has; also set after a malformed answer.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:
@@ -48,7 +48,7 @@ class PreviewWorker {
   std::string key_;
   std::filesystem::path folder_;
   ChildProcess worker_;
-  std::string bytes_;  // read, and no whole frame yet
+  std::string bytes_;  // read, but not yet a complete message
   std::string words_;
   std::optional<Error> failure_;
 };

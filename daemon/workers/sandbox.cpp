@@ -20,9 +20,10 @@
 namespace hydroprint::daemon {
 namespace {
 
-// Refused with EACCES. No socket of any family: no network, and no talking to other services of the
-// same user either. io_uring could open sockets past a filter, and truncate() passes older file
-// fences; the others reach into other processes, out of the process group or into the kernel.
+// System calls that fail with EACCES. Sockets of all families are refused: no network, and no
+// contact with other services of the same user. io_uring could open sockets in spite of the filter,
+// and truncate() bypasses older versions of Landlock. The others access other processes, leave the
+// process group or change the kernel.
 constexpr std::array kRefused{
     SCMP_SYS(socket),
     SCMP_SYS(connect),
@@ -77,8 +78,8 @@ Result<std::vector<sock_filter>> compile_filter() {
   for (const int call : kRefused) {
     good = good && seccomp_rule_add(filter.get(), kRefuse, call, 0) == 0;
   }
-  // A worker signals its own threads and reads its own limits this way; the daemon's are not its
-  // own.
+  // A worker may signal its own threads and read its own limits with these calls, but not the
+  // daemon's.
   const auto daemon = static_cast<scmp_datum_t>(::getpid());
   good = good &&
          seccomp_rule_add(filter.get(), kRefuse, SCMP_SYS(tgkill), 1,
@@ -108,7 +109,7 @@ bool limit(Resource resource, std::int64_t value, std::int64_t hard_extra = 0) {
   return setrlimit(resource, &limits) == 0;
 }
 
-// When memory runs short, the kernel takes a worker first, not the daemon.
+// If memory runs short, the kernel kills a worker rather than the daemon.
 void volunteer_for_oom() {
   const int file = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
   if (file < 0) return;
@@ -116,8 +117,8 @@ void volunteer_for_oom() {
   ::close(file);
 }
 
-// The rig and the daemon's answers come before anything that is computed. Where the daemon itself
-// gives way already, root could raise what it starts.
+// The rig and the daemon's responses have priority over computations. If the daemon already has a
+// lower priority, root could otherwise raise that of its workers.
 void give_way() {
   constexpr int kNiceness = 10;
   if (::getpriority(PRIO_PROCESS, 0) >= kNiceness) return;
@@ -138,7 +139,7 @@ const char* Sandbox::limit_use(const Limits& limits) {
       !limit(RLIMIT_FSIZE, limits.file_bytes) || !limit(RLIMIT_CPU, limits.cpu_s, 5)) {
     return "cannot set resource limits";
   }
-  // The pool watches what is really used; this catches what grows too fast to be watched, and
+  // The pool monitors the actual use. This limit stops a growth that is too fast for that, and
   // leaves room for memory that is reserved but not used.
   constexpr std::int64_t kReserved = 512LL << 20;
   if (limits.memory_bytes > 0 &&
@@ -152,10 +153,11 @@ const char* Sandbox::limit_use(const Limits& limits) {
 const char* Sandbox::confine(const Limits& limits, int fence) const {
   give_way();
   if (const char* const failed = limit_use(limits)) return failed;
-  if (!enter_fence(fence)) return "cannot fence off files";
+  if (!enter_fence(fence)) return "cannot restrict file access";
   const sock_fprog program{static_cast<unsigned short>(filter_.size()),
                            const_cast<sock_filter*>(filter_.data())};
-  if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0) return "cannot shut the network";
+  if (prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) != 0)
+    return "cannot install the system call filter";
   return nullptr;
 }
 

@@ -9,28 +9,27 @@
 
 namespace hydroprint::daemon {
 
-/// What one worker may use up.
+/// Resource limits of one worker.
 struct Limits {
   std::int64_t memory_bytes = 0;  ///< 0: no limit
-  std::int64_t cpu_s = 0;         ///< processor time over all its threads
-  std::int64_t file_bytes = 0;    ///< of one file it writes
+  std::int64_t cpu_s = 0;         ///< processor time, summed over all threads
+  std::int64_t file_bytes = 0;    ///< per file that it writes
 };
 
-/// What keeps a worker, which opens files from strangers, from doing harm: no network, no look at
-/// other processes, no new privileges, no files but its own (see file_fence.h), limits on what it
-/// uses up. Made once, before there are workers; confine() runs in the child.
+/// Confines a worker, since it reads untrusted files: no network, no access to other processes, no
+/// new privileges, no files except its own (landlock.h), and resource limits. Create it once,
+/// before starting workers; confine() runs in the child.
 class Sandbox {
  public:
-  /// kFailedPrecondition if the machine's kernel or seccomp library cannot do it.
+  /// kFailedPrecondition if the kernel or the seccomp library does not support it.
   [[nodiscard]] static Result<Sandbox> make();
 
-  /// Confines the calling process for good. Between fork and exec: calls nothing that takes locks.
-  /// @param fence  see make_fence(); below 0: none
-  /// @return what failed, or nullptr
+  /// Confines the calling process permanently. Runs between fork and exec, so it takes no locks.
+  /// @param fence  see make_fence(); negative: none
+  /// @return the step that failed, or nullptr
   [[nodiscard]] const char* confine(const Limits& limits, int fence) const;
 
-  /// The least of it, for a program that opens nothing of strangers and needs a device: limits
-  /// alone.
+  /// Sets only the resource limits, for a program that reads no untrusted files and needs a device.
   [[nodiscard]] static const char* limit_use(const Limits& limits);
 
  private:

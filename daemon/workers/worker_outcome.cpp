@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kLongestMessage = 1000;
 constexpr std::size_t kLongestPhase = 64;
 
-// Printable ASCII and well-formed UTF-8 pass; everything else becomes '?'.
+// Keeps printable ASCII and well-formed UTF-8; replaces all other bytes by '?'.
 std::string printable(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -26,7 +26,7 @@ std::string printable(std::string_view text) {
     for (std::size_t j = 1; good && j < length; ++j) {
       good = (static_cast<unsigned char>(text[i + j]) & 0xc0) == 0x80;
     }
-    // Overlong forms, surrogates and C1 controls.
+    // Exclude overlong forms, surrogates and C1 controls.
     if (good && length > 1) {
       const auto d = static_cast<unsigned char>(text[i + 1]);
       good = !(c == 0xe0 && d < 0xa0) && !(c == 0xed && d >= 0xa0) && !(c == 0xc2 && d < 0xa0);
@@ -38,7 +38,7 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-// Cuts at a character's border.
+// Cuts at a character boundary.
 std::string shortened(std::string text, std::size_t longest) {
   if (text.size() <= longest) return text;
   while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0) == 0x80) --longest;
@@ -51,25 +51,26 @@ JobFailure failure(Code code, std::string reason, std::string message) {
 
 JobFailure memory_failure() {
   return failure(Code::kResourceExhausted, "MEMORY_LIMIT",
-                 "the worker needed more memory than it may use; simplify the model, lower dpi, or "
+                 "the worker exceeded its memory limit; simplify the model, lower dpi, or "
                  "raise workers.memory_mib");
 }
 
 JobFailure time_failure() {
   return failure(Code::kResourceExhausted, "TIME_LIMIT",
-                 "the worker took longer than it may; simplify the model, lower dpi, or raise "
+                 "the worker exceeded its time limit; simplify the model, lower dpi, or raise "
                  "workers.time_limit_s");
 }
 
 JobFailure disk_failure() {
-  return failure(Code::kResourceExhausted, "DISK_FULL",
-                 "the artifacts do not fit on the daemon's disk; delete jobs or assets, make room, "
-                 "or lower dpi, and retry");
+  return failure(
+      Code::kResourceExhausted, "DISK_FULL",
+      "the artifacts do not fit on the daemon's disk; delete jobs or assets, free disk space, "
+      "or lower dpi, and retry");
 }
 
 JobFailure output_failure() {
   return failure(Code::kResourceExhausted, "OUTPUT_LIMIT",
-                 "the worker wrote a larger file than it may; lower dpi or raise "
+                 "the worker exceeded its limit on file size; lower dpi or raise "
                  "workers.file_mib");
 }
 
@@ -78,15 +79,15 @@ JobFailure judge_exit(int status, const std::string& words) {
     case 2:
     case 3:
       return failure(Code::kInvalidArgument, "INPUT_REFUSED",
-                     words.empty() ? "the worker refused its input without a word" : words);
+                     words.empty() ? "the worker refused its input without a message" : words);
     case 4:
       return failure(Code::kInternal, "COMPUTATION_FAILED",
-                     words.empty() ? "the computation failed without a word" : words);
+                     words.empty() ? "the computation failed without a message" : words);
     case 127:
       return failure(Code::kInternal, "WORKER_UNUSABLE",
                      words.empty() ? "the worker cannot be started; check workers.program" : words);
     case 130:
-      return failure(Code::kCancelled, "WORKER_KILLED", "the worker was interrupted from outside");
+      return failure(Code::kCancelled, "WORKER_KILLED", "the worker was interrupted by a signal");
     default:
       return failure(Code::kInternal, "COMPUTATION_FAILED",
                      "the worker ended with status " + std::to_string(status) +
@@ -100,7 +101,7 @@ JobFailure judge_signal(int signal) {
   if (signal == SIGKILL || signal == SIGTERM) {
     return failure(Code::kInternal, "WORKER_KILLED",
                    "the worker was killed (signal " + std::to_string(signal) +
-                       ") by someone or by a machine short of memory; try again");
+                       ") by a user, or because memory ran out; try again");
   }
   return failure(Code::kInternal, "WORKER_KILLED",
                  "the worker crashed (signal " + std::to_string(signal) + ", " +

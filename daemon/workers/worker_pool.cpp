@@ -21,7 +21,7 @@ namespace {
 constexpr int kTick_ms = 200;
 constexpr int kIdleTick_ms = 5000;
 
-// Knows the program's hash, and computes it again only when the file has changed.
+// The hash of the program, recomputed only when the file has changed.
 class ProgramDigest {
  public:
   explicit ProgramDigest(std::filesystem::path path) : path_(std::move(path)) {}
@@ -31,7 +31,7 @@ class ProgramDigest {
     struct stat info {};
     if (::stat(path_.c_str(), &info) != 0) {
       return fail(Code::kInternal,
-                  path_.string() + ": the worker program is not there; check workers.program",
+                  path_.string() + ": the worker program does not exist; check workers.program",
                   "WORKER_UNUSABLE");
     }
     const std::string stamp = std::to_string(info.st_ino) + " " + std::to_string(info.st_size) +
@@ -83,10 +83,10 @@ struct WorkerPool::Impl {
   Sandbox sandbox;
   ProgramDigest program;
   UniqueFd notifier{::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)};
-  std::vector<std::unique_ptr<WorkerRun>> runs;  // of the pool's thread
+  std::vector<std::unique_ptr<WorkerRun>> runs;  // used by the pool's thread
   std::vector<std::pair<std::int64_t, JobFailure>> unstarted;
   std::atomic<bool> stopping{false};
-  mutable std::mutex turns_mutex;  // guards the next two
+  mutable std::mutex turns_mutex;  // protects the next two
   FairScheduler turns;
   std::map<std::string, int> running;
   std::thread thread;
@@ -146,7 +146,7 @@ void WorkerPool::start() {
 
 void WorkerPool::wake() {
   const std::uint64_t one = 1;
-  // Fails only if it was rung so often that it is awake anyway.
+  // Fails only if the counter is full, and then the thread is awake anyway.
   if (::write(impl_->notifier.get(), &one, sizeof one) < 0) return;
 }
 
@@ -175,7 +175,7 @@ void WorkerPool::Impl::wait_for_something() const {
   }
   ::poll(fds.data(), fds.size(), runs.empty() ? kIdleTick_ms : kTick_ms);
   std::uint64_t rings = 0;
-  if (::read(notifier.get(), &rings, sizeof rings) < 0) return;  // it was something else
+  if (::read(notifier.get(), &rings, sizeof rings) < 0) return;  // woken by something else
 }
 
 void WorkerPool::Impl::cancel_asked() {
@@ -200,7 +200,7 @@ std::map<std::string, int> WorkerPool::Impl::running_by_owner() const {
   return out;
 }
 
-// True if there may be another one to start.
+// Returns true if another job may be started.
 bool WorkerPool::Impl::start_next() {
   const auto pause = store.pause();
   const auto waiting = store.waiting();
@@ -215,7 +215,7 @@ bool WorkerPool::Impl::start_next() {
   if (!job) {
     log(LogLevel::kError, "job_not_started",
         {{"job", next.front()}, {"message", job.error().message}});
-    // Cancelled just now: look again. A store that fails: not before the next wake.
+    // A job that was just cancelled: check again. A store that failed: wait for the next wake.
     return job.error().code == Code::kFailedPrecondition || job.error().code == Code::kNotFound;
   }
   {
@@ -257,7 +257,7 @@ Status WorkerPool::Impl::make_run_folder(const Job& job) const {
   return work.pose_json.empty() ? Status() : write_file(layout.run_pose(job.id), work.pose_json);
 }
 
-/// What the job does: its spec or, if an earlier version of the daemon stored it, its flags.
+/// The job's options: its spec, or its flags if an earlier version of the daemon stored it.
 std::vector<std::string> WorkerPool::Impl::options_of(const Job& job) const {
   const Work& work = job.made.work;
   if (!work.spec.empty()) return spec_options(layout.run_spec(job.id));
@@ -266,7 +266,7 @@ std::vector<std::string> WorkerPool::Impl::options_of(const Job& job) const {
   return out;
 }
 
-// Tried again with every step, should the store fail too.
+// Retried with every step if the store fails.
 void WorkerPool::Impl::give_up_unstarted() {
   std::erase_if(unstarted, [&](const auto& entry) {
     const auto ended = store.give_up(entry.first, entry.second);
@@ -276,7 +276,7 @@ void WorkerPool::Impl::give_up_unstarted() {
 }
 
 Launch WorkerPool::Impl::plan(const Job& job) const {
-  // A job alone gets all cores; otherwise they are shared out among those that are there.
+  // A single job gets all cores; otherwise the cores are divided among running and waiting jobs.
   const auto waiting = store.waiting();
   const int there =
       static_cast<int>(runs.size()) + 1 + static_cast<int>(waiting ? waiting->size() : 0);

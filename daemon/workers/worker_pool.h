@@ -13,42 +13,42 @@
 
 namespace hydroprint::daemon {
 
-/// How the pool runs workers.
+/// Settings for running workers.
 struct PoolOptions {
   std::filesystem::path program;
-  int slots = 1;                  ///< workers at once
-  int cores = 1;                  ///< shared out among them where `threads` is 0
-  int threads = 0;                ///< of each worker
-  std::int64_t memory_bytes = 0;  ///< of each worker; 0: no limit
+  int slots = 1;                  ///< maximum number of workers
+  int cores = 1;                  ///< divided among workers if `threads` is 0
+  int threads = 0;                ///< per worker
+  std::int64_t memory_bytes = 0;  ///< per worker; 0: no limit
   std::int64_t time_limit_s = 3600;
   std::int64_t file_bytes = 4LL << 30;
 };
 
-/// Takes queued jobs from the store, runs a confined worker process for each, and brings what comes
-/// of them back to the store. One thread starts and watches all workers (they die with it, so that
-/// a killed daemon leaves none behind).
+/// Takes queued jobs from the store, runs a confined worker process for each, and stores the
+/// results. One thread starts and monitors all workers. They are killed with that thread, so a
+/// killed daemon leaves none behind.
 class WorkerPool final : public JobExecutor {
  public:
-  /// @return kFailedPrecondition if workers cannot be confined or the program is not there
+  /// @return kFailedPrecondition if workers cannot be confined or the program does not exist
   [[nodiscard]] static Result<std::unique_ptr<WorkerPool>> make(const PoolOptions& options,
                                                                 JobStore& store,
                                                                 const Layout& layout, Clock clock);
-  /// Stops if stop() was not called.
+  /// Calls stop() if needed.
   ~WorkerPool() override;
 
   void start();
-  /// Refuses (ASSET_MISSING) inputs that are not here; WORKER_UNUSABLE.
+  /// Refuses missing inputs (ASSET_MISSING); WORKER_UNUSABLE.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
-  /// Stores a job, which waits for its turn.
+  /// Stores and queues a job.
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
   [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
-  /// Ends the workers and waits for that, a few seconds at most. Their jobs stay RUNNING or
-  /// CANCELLING in the store: see JobStore::interrupt_all().
+  /// Ends the workers and waits a few seconds at most. Their jobs stay RUNNING or CANCELLING in the
+  /// store: see JobStore::interrupt_all().
   void stop() override;
-  /// Has it look at the store at once (a new job, a cancel).
+  /// Makes the pool check the store at once (new job, cancellation).
   void wake();
 
-  /// Queued jobs in the order in which they will start if nothing changes; at most `limit`.
+  /// Queued jobs in starting order if nothing changes; at most `limit`.
   [[nodiscard]] Result<std::vector<std::int64_t>> order(std::size_t limit) const;
   [[nodiscard]] int slots() const;
 

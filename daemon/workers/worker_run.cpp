@@ -17,13 +17,13 @@ using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kGrace{3};
-// Each report is a transaction on disk.
+// Each progress report is a transaction on disk.
 constexpr milliseconds kReportInterval{250};
 constexpr std::chrono::seconds kTryAgainAfter{1};
 constexpr std::size_t kWordsKept = 16 << 10;
 constexpr std::size_t kLongestLine = 4 << 10;
 
-// Trying again would not help: the job is not what it was.
+// A retry would not help, since the job has changed or is gone.
 bool is_settled(const Error& error) {
   return error.code == Code::kFailedPrecondition || error.code == Code::kNotFound;
 }
@@ -127,12 +127,12 @@ void WorkerRun::watch_limits() {
   if (memory_bytes_ > 0 && stopped_ == StoppedFor::kNothing &&
       resident_bytes(worker_) > memory_bytes_) {
     stop(StoppedFor::kMemory);
-    kill_at_ = now;  // a polite end might take still more
+    kill_at_ = now;  // no grace period, since the worker might use still more memory
   }
   if (kill_at_ && now >= *kill_at_) signal_group(worker_, SIGKILL);
 }
 
-// True once the worker has ended; takes its children with it.
+// Returns true once the worker has ended; kills its children.
 bool WorkerRun::reap() {
   int status = 0;
   const pid_t ended = ::waitpid(worker_.pid, &status, WNOHANG);
@@ -156,7 +156,7 @@ Result<WorkerRun::Outcome> WorkerRun::publish() const {
   return out;
 }
 
-// Hashing and syncing large files takes a while; other jobs need the pool's thread meanwhile.
+// Hashing and syncing large files takes a while, and other jobs need the pool's thread meanwhile.
 void WorkerRun::begin_publishing() {
   publishing_ = std::async(std::launch::async, [this] {
     auto result = publish();
@@ -184,14 +184,15 @@ bool WorkerRun::finish(JobStore& store) {
   return true;
 }
 
-// Artifacts that leave no room for the rows that name them do not fit: the job fails without them.
+// If the artifacts leave no space for their rows in the database, the job fails without artifacts.
 void WorkerRun::free_disk_for(const Error& error) {
   if (error.reason != "DISK_FULL" || !published_ || !*published_) return;
   published_ = tl::unexpected(error);
   next_end_ = {};
 }
 
-// What a failed worker left may be what fills the disk: it goes before its end is written.
+// Deletes the output of a failed worker before its end is stored, since it may have filled the
+// disk.
 void WorkerRun::discard_output() const {
   discard(layout_.run(job_.id));
   discard(layout_.artifacts(job_.id));

@@ -13,14 +13,14 @@
 
 namespace hydroprint::daemon {
 
-/// One job at its worker, from the start of the process to the job's end in the store. Used by the
-/// pool's thread alone; no call waits.
+/// One job in its worker, from the start of the process to the end of the job in the store. Used
+/// only by the pool's thread; nothing here blocks.
 class WorkerRun {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// Lays out the inputs and starts the worker. `wake` is called (from another thread) when there
-  /// is something to do for step().
+  /// Creates the input folder and starts the worker. `wake` is called from another thread when
+  /// step() has something to do.
   static Result<std::unique_ptr<WorkerRun>> start(const Job& job, const Launch& launch,
                                                   const Sandbox& sandbox, const Layout& layout,
                                                   std::chrono::seconds time_limit,
@@ -34,14 +34,14 @@ class WorkerRun {
   /// Descriptors that become readable when step() has something to do.
   [[nodiscard]] std::vector<int> descriptors() const;
 
-  /// Reads what came, looks at limits, and does what is next. True once the job is ended in the
-  /// store (or, after a stop for shutdown, the worker is gone); a store that fails is tried again.
+  /// Reads output, checks limits and takes the next action. Returns true once the job has ended in
+  /// the store, or the worker is gone after a stop for shutdown. A failed write is retried.
   [[nodiscard]] bool step(JobStore& store, std::int64_t now_ms);
-  /// Asks the worker to end; it is killed if it has not ended 3 s later.
+  /// Asks the worker to end; it is killed after 3 s.
   void stop(StoppedFor why);
 
  private:
-  /// What a successful worker left.
+  /// The results of a successful worker.
   struct Outcome {
     std::vector<Artifact> artifacts;
     std::optional<NewCalibration> calibration;
@@ -70,10 +70,10 @@ class WorkerRun {
   StoppedFor stopped_ = StoppedFor::kNothing;
   std::optional<Time> kill_at_;
   std::optional<int> wait_status_;
-  std::string words_;                 // the end of what it wrote to stderr
-  std::string answer_;                // and to stdout
-  std::string progress_bytes_;        // a line that is not complete yet
-  std::optional<Progress> progress_;  // not reported yet
+  std::string words_;                 // end of its stderr
+  std::string answer_;                // end of its stdout
+  std::string progress_bytes_;        // an incomplete line
+  std::optional<Progress> progress_;  // not yet reported
   Time next_report_, next_end_;
   std::future<Result<Outcome>> publishing_;
   std::optional<Result<Outcome>> published_;

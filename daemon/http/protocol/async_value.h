@@ -9,7 +9,7 @@
 
 namespace hydroprint::http {
 
-/// A value that comes from another thread, waited for on a connection's strand.
+/// A value produced by another thread and awaited on a connection's strand.
 template <class T>
 class AsyncValue {
  public:
@@ -17,7 +17,7 @@ class AsyncValue {
     state_->socket = std::move(socket);
   }
 
-  /// What is to be called with the value, by any thread.
+  /// A callback for the value; any thread may call it.
   [[nodiscard]] std::function<void(T)> receiver() const {
     return [state = state_](T value) {
       auto kept = std::make_shared<T>(std::move(value));
@@ -28,13 +28,13 @@ class AsyncValue {
     };
   }
   [[nodiscard]] bool is_here() const { return state_->value.has_value(); }
-  /// Takes it, so that the next may come.
+  /// Takes the value, so that the next one may arrive.
   [[nodiscard]] T take() {
     T value = std::move(*state_->value);
     state_->value.reset();
     return value;
   }
-  /// Waits; whether it came in time.
+  /// Waits for the value; false on timeout.
   [[nodiscard]] Task<bool> wait(milliseconds patience) {
     const auto end = std::chrono::steady_clock::now() + patience;
     while (!is_here()) {

@@ -10,16 +10,16 @@
 
 namespace hydroprint::http {
 
-/// The connections that are open. Any thread may call.
+/// The open connections. Thread-safe.
 class Connections {
  public:
   /// False after close_all().
   [[nodiscard]] bool add(const std::shared_ptr<Socket>& socket);
   void remove(const std::shared_ptr<Socket>& socket);
   [[nodiscard]] int count() const;
-  /// Ends all, as if their clients had gone.
+  /// Closes all connections, as if their clients had disconnected.
   void close_all();
-  /// Whether all were removed in time.
+  /// Waits until all connections are removed; false on timeout.
   [[nodiscard]] bool wait_for_none(milliseconds patience) const;
 
  private:

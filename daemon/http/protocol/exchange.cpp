@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kPiece_bytes = 64 << 10;
 constexpr std::size_t kHeadPiece_bytes = 4 << 10;
-constexpr std::size_t kMostUnparsed_bytes = 32 << 10;  // of a header or a chunk's first line
+constexpr std::size_t kMostUnparsed_bytes = 32 << 10;  // a header, or the first line of a chunk
 constexpr std::uint64_t kMostDropped_bytes = 64 << 10;
 
 using SteadyClock = std::chrono::steady_clock;
@@ -19,7 +19,7 @@ milliseconds left_until(SteadyClock::time_point end) {
   return std::max(left, milliseconds(1));
 }
 
-Error client_left() { return {Code::kCancelled, "the client left", "", {}}; }
+Error client_left() { return {Code::kCancelled, "the client disconnected", "", {}}; }
 
 std::string chunk_of(std::string_view bytes) {
   std::array<char, 20> size{};
@@ -46,7 +46,7 @@ Task<Socket::Got> Exchange::read_more(milliseconds timeout) {
   co_return got;
 }
 
-// Has the parser take what it can of what was received.
+// Parses as much as possible of the received bytes.
 RequestParser::Outcome Exchange::parse() {
   std::size_t used = 0;
   const auto outcome = parser_.put(buffered_, used);
@@ -56,14 +56,14 @@ RequestParser::Outcome Exchange::parse() {
 
 Task<Exchange::Begun> Exchange::begin_request(bool is_first) {
   if (buffered_.empty()) {
-    buffered_.shrink_to_fit();  // a connection that waits holds no memory for it
+    buffered_.shrink_to_fit();  // an idle connection holds no memory
     const bool came =
         co_await socket_->readable(is_first ? limits_.header_time : limits_.idle_time);
     if (!came) co_return Begun::kGone;
   }
   const auto end = SteadyClock::now() + limits_.header_time;
   for (;;) {
-    // Empty lines before a request are no part of it.
+    // Skips empty lines before a request.
     buffered_.erase(0, std::min(buffered_.find_first_not_of("\r\n"), buffered_.size()));
     if (!buffered_.empty()) {
       const auto outcome = parse();
@@ -98,14 +98,15 @@ Task<Result<std::string>> Exchange::read_body_piece() {
     if (outcome == RequestParser::Outcome::kGotOn) continue;
     if (outcome != RequestParser::Outcome::kNeedsMore || buffered_.size() > kMostUnparsed_bytes) {
       break_off();
-      co_return fail(Code::kInvalidArgument, "the body is not framed as HTTP has it; send it anew",
+      co_return fail(Code::kInvalidArgument,
+                     "the request body is not valid HTTP framing; send it again",
                      "REQUEST_MALFORMED");
     }
     const Socket::Got got = co_await read_more(limits_.body_time);
     if (got.bytes > 0) continue;
     break_off();
     if (!got.timed_out) co_return tl::unexpected(client_left());
-    co_return fail(Code::kCancelled, "the body did not come in time; send it anew",
+    co_return fail(Code::kCancelled, "the request body did not arrive in time; send it again",
                    "REQUEST_TIMED_OUT");
   }
 }
@@ -114,8 +115,8 @@ Task<Result<std::string>> Exchange::read_body() {
   std::string body;
   const auto refused = [&] {
     auto error = fail(Code::kOutOfRange,
-                      "the body is longer than " + std::to_string(limits_.body_bytes) +
-                          " bytes; files are uploaded by POST /v1/uploads",
+                      "the request body is longer than " + std::to_string(limits_.body_bytes) +
+                          " bytes; upload files with POST /v1/uploads",
                       "BODY_TOO_LARGE");
     error.value().metadata["max_bytes"] = std::to_string(limits_.body_bytes);
     return error;
@@ -132,7 +133,7 @@ Task<Result<std::string>> Exchange::read_body() {
   }
 }
 
-// In pieces, so that who reads slowly, but does, has its time for each.
+// Sends pieces with a timeout each, so that a slow client that keeps reading is not cut off.
 Task<bool> Exchange::send_pieces(std::string_view bytes) {
   while (!bytes.empty()) {
     const std::string_view piece = bytes.substr(0, kPiece_bytes);
@@ -182,8 +183,8 @@ Task<bool> Exchange::end_answer() {
   co_return co_await send_pieces("0\r\n\r\n");
 }
 
-// Whether what is left of the body is worth reading for the request behind it. Who waits to be
-// invited may send the body all the same, or not: nobody knows what comes next.
+// Whether reading the rest of the body is worthwhile to keep the connection. A client that still
+// waits for 100 Continue may or may not send the body, so the start of the next request is unknown.
 bool Exchange::may_drop_rest() const {
   if (parser_.is_done()) return true;
   return was_invited_ && head().content_length.value_or(0) <= kMostDropped_bytes;

@@ -13,38 +13,40 @@
 
 namespace hydroprint::http {
 
-/// One request on its connection, and the answer to it. Belongs to the connection's strand.
+/// One request on a connection, and its response. Used on the connection's strand.
 class Exchange {
  public:
-  /// @param buffered  what was received of the connection and not taken yet; stays beyond this
+  /// @param buffered  bytes received but not yet parsed; must outlive this object
   Exchange(std::shared_ptr<Socket> socket, const Limits& limits, std::string& buffered);
 
-  /// What came of waiting for a request.
+  /// Result of waiting for a request.
   enum class Begun { kYes, kGone, kTimedOut, kMalformed, kHeaderTooLarge };
   [[nodiscard]] Task<Begun> begin_request(bool is_first);
   [[nodiscard]] const Head& head() const { return parser_.head(); }
 
-  /// A piece of the body, at most 64 KiB; empty at its end. Refuses what is no body
-  /// (kInvalidArgument, REQUEST_MALFORMED) or does not come (kCancelled: the client left;
+  /// Reads a piece of the body, at most 64 KiB; empty at the end. Refuses a malformed body
+  /// (kInvalidArgument, REQUEST_MALFORMED), a disconnect (kCancelled), and a timeout (kCancelled,
   /// REQUEST_TIMED_OUT).
   [[nodiscard]] Task<Result<std::string>> read_body_piece();
-  /// All of it; BODY_TOO_LARGE beyond the limit, at once if its length was announced.
+  /// Reads the whole body. Refuses more than the limit (BODY_TOO_LARGE), at once if Content-Length
+  /// exceeds it.
   [[nodiscard]] Task<Result<std::string>> read_body();
 
-  /// The whole answer, without its body if HEAD was asked. Once for a request, like begin_answer().
+  /// Sends a whole response, without the body for HEAD. Call this or begin_answer() once per
+  /// request.
   [[nodiscard]] Task<bool> send(Response response);
-  /// The beginning of an answer whose body follows by write(), of `length` if it is known.
-  /// False from any of them: the client is gone.
+  /// Begins a response whose body follows by write(), of `length` if known. All three functions
+  /// return false if the client has disconnected.
   [[nodiscard]] Task<bool> begin_answer(Response response, std::optional<std::uint64_t> length);
   [[nodiscard]] Task<bool> write(std::string bytes);
   [[nodiscard]] Task<bool> end_answer();
-  /// Ends the connection in place of the answer's end, so that nobody takes it for whole.
+  /// Closes the connection without ending the response, so the client sees that it is incomplete.
   void break_off() { keeps_alive_ = false; }
 
-  /// Reads what is left of the request if it is little; whether another request may follow.
+  /// Reads the rest of the request if it is short; whether another request may follow.
   [[nodiscard]] Task<bool> end_request();
 
-  /// Status of the answer; 0: none was begun.
+  /// Status of the response; 0: none was begun.
   [[nodiscard]] int status() const { return status_; }
   [[nodiscard]] Socket& socket() { return *socket_; }
   [[nodiscard]] const std::shared_ptr<Socket>& shared_socket() const { return socket_; }
@@ -64,7 +66,7 @@ class Exchange {
   int status_ = 0;
   bool keeps_alive_ = true;
   bool is_chunking_ = false;
-  bool was_invited_ = false;  // by 100 Continue, or needed no invitation
+  bool was_invited_ = false;  // by 100 Continue, or none was needed
 };
 
 }  // namespace hydroprint::http

@@ -28,11 +28,12 @@ void HttpMetrics::count_refused_connection() {
 std::string HttpMetrics::text(int open_connections) const {
   const std::lock_guard lock(mutex_);
   std::string text =
-      "# HELP hydroprint_http_connections Connections that are open.\n"
+      "# HELP hydroprint_http_connections Open connections.\n"
       "# TYPE hydroprint_http_connections gauge\n"
       "hydroprint_http_connections " +
       std::to_string(open_connections) +
-      "\n# HELP hydroprint_http_connections_refused_total Connections refused as too many.\n"
+      "\n# HELP hydroprint_http_connections_refused_total Connections refused because too many "
+      "were open.\n"
       "# TYPE hydroprint_http_connections_refused_total counter\n"
       "hydroprint_http_connections_refused_total " +
       std::to_string(refused_connections_) +

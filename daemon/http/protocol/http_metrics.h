@@ -8,14 +8,14 @@
 
 namespace hydroprint::http {
 
-/// What the server counts of itself. Any thread may call.
+/// The server's own metrics. Thread-safe.
 class HttpMetrics {
  public:
-  /// @param route  of a fixed set, never what a client sent: "JobService/GetJob", "file"
-  /// @param method  any that is no usual one counts as "other"
+  /// @param route  from a fixed set, never a client's text: "JobService/GetJob", "file"
+  /// @param method  an unusual one counts as "other"
   void count_request(const std::string& route, const std::string& method, int status);
   void count_refused_connection();
-  /// As Prometheus has it.
+  /// The metrics in Prometheus format.
   [[nodiscard]] std::string text(int open_connections) const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace hydroprint::http {
 
-/// Bytes as they are.
-/// @param socket  a descriptor that does not block
+/// A transport without encryption.
+/// @param socket  non-blocking descriptor
 [[nodiscard]] std::unique_ptr<Transport> plain_transport(int socket);
 
 }  // namespace hydroprint::http

@@ -14,7 +14,7 @@ using beast::error_code;
 
 bool is_chunked(std::string_view coding) { return same_name(coding, "chunked"); }
 
-// Beast takes a body for empty unless its last coding is "chunked".
+// Beast treats a body as empty unless its last coding is "chunked".
 BodyFraming framing_of(const HeaderFields& fields, int version) {
   constexpr std::string_view kCodings = "Transfer-Encoding";
   const std::size_t count = fields.count(kCodings);
@@ -31,7 +31,8 @@ class BeastParser final : public beast::http::basic_parser<true> {
  public:
   explicit BeastParser(std::uint32_t header_limit_bytes) {
     header_limit(header_limit_bytes);
-    body_limit(std::numeric_limits<std::uint64_t>::max());  // whoever reads the body has one
+    body_limit(
+        std::numeric_limits<std::uint64_t>::max());  // the reader of the body has its own limit
   }
   Head head;
   std::string body;
@@ -46,7 +47,7 @@ class BeastParser final : public beast::http::basic_parser<true> {
   void on_response_impl(int, beast::string_view, int, error_code&) override {}
   void on_field_impl(beast::http::field, beast::string_view name, beast::string_view value,
                      error_code&) override {
-    if (!has_head_) head.fields.add(std::string(name), std::string(value));  // no trailers
+    if (!has_head_) head.fields.add(std::string(name), std::string(value));  // drops trailers
   }
   void on_header_impl(error_code&) override {
     has_head_ = true;
@@ -86,7 +87,7 @@ RequestParser::Outcome RequestParser::put(std::string_view bytes, std::size_t& u
   error_code error;
   const bool had_head = has_head();
   used = impl_->parser.put(boost::asio::buffer(bytes.data(), bytes.size()), error);
-  // Beast's own limit stops a header that does not end; one that does may be longer by a little.
+  // Beast's own limit stops a header that does not end; a complete header may be slightly longer.
   if (!had_head) impl_->header_bytes += used;
   if (impl_->header_bytes > impl_->header_limit_bytes) return Outcome::kHeaderTooLarge;
   if (!error) return Outcome::kGotOn;

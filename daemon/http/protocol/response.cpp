@@ -56,11 +56,11 @@ void line(std::string& text, std::string_view name, std::string_view value) {
   text.append(name).append(": ").append(value).append("\r\n");
 }
 
-// 204 and 304 have no body, and so no length of one.
+// 204 and 304 have neither a body nor a Content-Length.
 bool may_have_body(int status) { return status != 204 && status != 304; }
 
-// Browsers then come by TLS alone, to every port of that name: on this machine other things may
-// listen, and addresses they do not heed.
+// Whether to send Strict-Transport-Security, after which browsers use only TLS for all ports of the
+// name. Other programs may listen on localhost, and browsers ignore the header for addresses.
 bool may_be_remembered(const Head& request) {
   const std::string_view host = request.fields.find("Host").value_or("localhost");
   return !same_name(host.substr(0, 9), "localhost");

@@ -11,34 +11,35 @@
 
 namespace hydroprint::http {
 
-/// An answer, whole or (without body) the beginning of one.
+/// A whole response or, without a body, the beginning of one.
 struct Response {
   int status = 200;
   HeaderFields fields;
   std::string body;
-  std::shared_ptr<const std::string> shared_body;  ///< in place of `body`: of a file
+  std::shared_ptr<const std::string> shared_body;  ///< used instead of `body`: content of a file
 
   [[nodiscard]] const std::string& content() const { return shared_body ? *shared_body : body; }
 };
 
-/// How the body of an answer ends.
+/// How the body of a response ends.
 struct Framing {
-  std::optional<std::uint64_t> length;  ///< else chunked, or for HTTP/1.0 with the connection
+  std::optional<std::uint64_t>
+      length;  ///< none: chunked, or until the connection closes for HTTP/1.0
   bool keeps_alive = true;
-  bool is_secure = false;  ///< over TLS: browsers are told to come back by it alone
+  bool is_secure = false;  ///< over TLS: tells browsers to use only TLS from then on
 };
 
-/// Status line and fields, with those that every answer has: nothing is sniffed, framed or told to
-/// others, and nothing is kept by caches unless `response` says so.
+/// Status line and header fields, including those of every response. They forbid sniffing, framing
+/// and referrers, and caching unless `response` allows it.
 [[nodiscard]] std::string head_text(const Response& response, const Head& request,
                                     const Framing& framing);
 
-/// "application/json".
+/// A response with type application/json.
 [[nodiscard]] Response json_response(int status, std::string json);
-/// "text/plain".
+/// A response with type text/plain.
 [[nodiscard]] Response text_response(int status, std::string text);
 
-/// A refusal as google.rpc.Status JSON; the status is the code's unless given.
+/// An error as google.rpc.Status JSON; the HTTP status follows from the code unless given.
 [[nodiscard]] Response refusal(const Error& error, std::optional<int> status = {});
 
 }  // namespace hydroprint::http

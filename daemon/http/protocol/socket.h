@@ -13,61 +13,59 @@ namespace hydroprint::http {
 
 using std::chrono::milliseconds;
 
-/// One connection's bytes, whatever carries them. All of it is called, and calls back, on the
-/// strand of this connection, but post(), which anyone may call. Calls back exactly once each, and
-/// never before the call returned. What is read into or written from stays until then.
+/// The bytes of one connection, with or without TLS. All functions and callbacks run on the
+/// connection's strand, except post(), which is thread-safe. Each callback is called exactly once,
+/// and never before the function returned. Buffers must stay valid until then.
 class Socket {
  public:
-  /// What came of reading: bytes; none at the peer's end, after an error or the timeout.
+  /// Result of a read; no bytes at the peer's end, after an error or on timeout.
   struct Got {
     std::size_t bytes = 0;
     bool timed_out = false;
   };
 
-  /// How a connection began.
+  /// Result of opening a connection.
   enum class Opened {
     kYes,
-    kNo,         ///< not in time, or not understood
-    kPlainHttp,  ///< the client does not speak TLS; it can be told so
+    kNo,         ///< timeout or handshake failure
+    kPlainHttp,  ///< the client does not use TLS; the server can reply in plain HTTP
   };
 
   virtual ~Socket() = default;
 
-  /// Agrees with the client on TLS, where that is spoken; before anything else.
+  /// Performs the TLS handshake, if TLS is used; call this first.
   virtual void open(milliseconds timeout, std::function<void(Opened)> done) = 0;
-  /// Waits until there is something to read, or the end; true unless it timed out.
+  /// Waits until data or the end arrives; false on timeout.
   virtual void when_readable(milliseconds timeout, std::function<void(bool)> done) = 0;
   virtual void read_some(char* into, std::size_t size, milliseconds timeout,
                          std::function<void(Got)> done) = 0;
-  /// Writes all; false after an error, or if none of it got away within the timeout.
+  /// Writes all bytes; false after an error, or if no byte was sent within the timeout.
   virtual void write(std::string_view bytes, milliseconds timeout,
                      std::function<void(bool)> done) = 0;
 
-  /// Waits for ring(): true; false if it did not ring in time. A ring before is not lost; one is
-  /// kept.
+  /// Waits for ring(); false on timeout. One earlier ring is remembered.
   virtual void wait(milliseconds timeout, std::function<void(bool)> done) = 0;
   virtual void ring() = 0;
-  /// Has `gone` called once if the peer ends the connection, or close() is called, before
-  /// unwatch(). Does not notice it behind bytes that nobody has read yet. Nothing may be read
-  /// meanwhile.
+  /// Calls `gone` once if the peer disconnects or close() is called before unwatch(). A disconnect
+  /// behind unread bytes is not noticed. Nothing may be read meanwhile.
   virtual void watch(std::function<void()> gone) = 0;
-  /// Not while something is written.
+  /// Must not be called during a write.
   virtual void unwatch() = 0;
 
-  /// No more will be written.
+  /// Half-closes the connection.
   virtual void end_writing() = 0;
-  /// Ends whatever is waited for here, as if the peer had gone.
+  /// Cancels all pending operations, as if the peer had disconnected.
   virtual void close() = 0;
   [[nodiscard]] virtual bool is_closed() const = 0;
 
-  /// Does it on the strand, soon.
+  /// Runs `work` on the strand soon.
   virtual void post(std::function<void()> work) = 0;
-  /// "127.0.0.1:40312".
+  /// Address of the peer: "127.0.0.1:40312".
   [[nodiscard]] virtual const std::string& peer() const = 0;
-  /// Whether nobody in between can read or change what is said.
+  /// Whether the connection is encrypted.
   [[nodiscard]] virtual bool is_secure() const = 0;
 
-  // The same to be awaited.
+  // The same functions as awaitables.
   Awaiting<Opened> opened(milliseconds timeout) {
     return Awaiting<Opened>([this, timeout](auto done) { open(timeout, std::move(done)); });
   }

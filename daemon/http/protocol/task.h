@@ -8,7 +8,7 @@
 
 namespace hydroprint::http {
 
-/// What waits for a task, and what the task threw.
+/// The coroutine that waits for a task, and the task's exception.
 class TaskPromiseBase {
  public:
   std::coroutine_handle<> waiting = std::noop_coroutine();
@@ -27,7 +27,7 @@ class TaskPromiseBase {
   void unhandled_exception() noexcept { thrown = std::current_exception(); }
 };
 
-/// What a task ends with.
+/// The result of a task.
 template <class T>
 struct TaskResult {
   std::optional<T> value;
@@ -40,10 +40,10 @@ struct TaskResult<void> {
   void take() const noexcept {}
 };
 
-/// GCC 12 destroys twice what `?:` makes within a co_await: name it before.
+/// A coroutine that starts when it is awaited, and is awaited once. It resumes wherever the awaited
+/// operation calls back: here, on the strand of its connection.
 ///
-/// A coroutine that begins when it is awaited and is awaited once. It always goes on where what it
-/// waits for calls back: here, on the strand of its connection.
+/// GCC 12 destroys the result of `?:` within a co_await twice: store it in a variable first.
 template <class T = void>
 class [[nodiscard]] Task {
  public:
@@ -75,8 +75,8 @@ class [[nodiscard]] Task {
   std::coroutine_handle<promise_type> handle_;
 };
 
-/// Waits for what calls back: `co_await Awaiting<T>{[&](auto done) { socket.read(..., done); }}`.
-/// The call back comes later than the start, never from within it.
+/// Awaits a callback: `co_await Awaiting<T>{[&](auto done) { socket.read(..., done); }}`. The
+/// callback must come later, never from within the start.
 template <class T>
 class Awaiting {
  public:
@@ -85,7 +85,7 @@ class Awaiting {
 
   bool await_ready() const noexcept { return false; }
   void await_suspend(std::coroutine_handle<> waiting) {
-    // Moved out: once it is started this may end at any time.
+    // Moved out, since this object may be destroyed at any time after the start.
     const std::function<void(Done)> start = std::move(start_);
     start([this, waiting](T value) {
       value_.emplace(std::move(value));
@@ -99,7 +99,7 @@ class Awaiting {
   std::optional<T> value_;
 };
 
-/// A coroutine that nobody waits for. What it throws ends the program.
+/// A coroutine that nobody awaits. An exception ends the program.
 struct Detached {
   struct promise_type {
     Detached get_return_object() noexcept { return {}; }

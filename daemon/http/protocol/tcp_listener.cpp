@@ -26,7 +26,7 @@ using Came = Step::Came;
 
 constexpr int kThreads = 2;
 constexpr milliseconds kNapWithoutDescriptors{100};
-// What a reader that does not read may have waiting in the kernel.
+// Limits the data that the kernel buffers for a slow client.
 constexpr int kSendBuffer_bytes = 256 << 10;
 
 using Strand = asio::strand<asio::io_context::executor_type>;
@@ -41,8 +41,8 @@ std::string text_of(const tcp::endpoint& endpoint) {
          std::to_string(endpoint.port());
 }
 
-// Nothing is done at a transport once the socket is closed: its number may be another connection's
-// then.
+// A transport is not used after the socket is closed, since its descriptor may then belong to
+// another connection.
 class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSocket> {
  public:
   TcpSocket(StrandSocket socket, const std::shared_ptr<const tls::Identity>& identity)
@@ -155,10 +155,10 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
   [[nodiscard]] bool is_secure() const override { return transport_->is_secure(); }
 
  private:
-  // What is tried again whenever the socket is ready for it, and what is then to be told of it.
+  // An operation to retry whenever the socket is ready, and its callback.
   struct Operation {
     std::function<Step()> attempt;
-    std::function<void(Step, bool)> done;  // whether the time was up
+    std::function<void(Step, bool)> done;  // true on timeout
   };
 
   void begin(milliseconds timeout, std::function<Step()> attempt,
@@ -181,7 +181,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
                          [self = shared_from_this(), operation](error_code error) {
                            error ? self->end(*operation, {}) : self->proceed(operation, false);
                          });
-    } else if (is_first) {  // nobody is called back before the call returned
+    } else if (is_first) {  // no callback before the function has returned
       post([self = shared_from_this(), operation, step] { self->end(*operation, step); });
     } else {
       end(*operation, step);
@@ -213,7 +213,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
 
   StrandSocket socket_;
   std::unique_ptr<Transport> transport_;
-  StrandTimer deadline_;  // of what is read or written
+  StrandTimer deadline_;  // for reading or writing
   StrandTimer wake_timer_;
   std::string peer_;
   std::function<void()> gone_;
@@ -241,15 +241,16 @@ struct TcpListener::Impl {
     const tcp::endpoint endpoint(asio::ip::make_address(host, error),
                                  static_cast<unsigned short>(port));
     if (!error) acceptor.open(endpoint.protocol(), error);
-    // A port that was left a moment ago; one that somebody listens at is refused all the same.
+    // Allows a port that was in use a moment ago; a port with a listener is still refused.
     if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
     if (!error) acceptor.bind(endpoint, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (!error) return {};
-    const std::string why = error == asio::error::address_in_use
-                                ? "something else does, perhaps another hydroprintd; stop that or "
-                                  "give another port with --http"
-                                : error.message() + "; give another address with --http";
+    const std::string why =
+        error == asio::error::address_in_use
+            ? "the port is in use, perhaps by another hydroprintd; stop that program or "
+              "set another port with --http"
+            : error.message() + "; set another address with --http";
     return fail(Code::kUnavailable,
                 "cannot listen at " + text_of({endpoint.address(), endpoint.port()}) + ": " + why);
   }
@@ -258,7 +259,7 @@ struct TcpListener::Impl {
     try {
       auto taken = std::make_shared<TcpSocket>(std::move(socket), identity ? identity() : nullptr);
       taken->post([this, taken] { accepted(taken); });
-    } catch (const std::bad_alloc&) {  // this one has to try again
+    } catch (const std::bad_alloc&) {  // the client has to try again
     }
   }
 
@@ -270,7 +271,7 @@ struct TcpListener::Impl {
                               take(std::move(socket));
                               return accept();
                             }
-                            // No descriptor is free: some connection has to end first.
+                            // No descriptor is free until another connection ends.
                             nap.expires_after(kNapWithoutDescriptors);
                             nap.async_wait([this](error_code ended) {
                               if (!ended && acceptor.is_open()) accept();

@@ -10,21 +10,21 @@
 
 namespace hydroprint::http {
 
-/// The sockets: a listener and the two threads on which everything of all connections happens, and
-/// a third for what may have to wait for others (the store's disk).
+/// The listening socket, two threads that run all connections, and a third thread for work that may
+/// block (the store's disk).
 class TcpListener {
  public:
   /// Called with each connection, on its strand.
   using Accepted = std::function<void(std::shared_ptr<Socket>)>;
 
-  /// Listens; connections are taken once start() was called.
+  /// Binds the address; connections are accepted after start().
   /// @param port  0: any
-  /// @param identity  what clients are shown; none: TLS is not spoken
-  /// @return kUnavailable if the address cannot be had, above all because something else has it
+  /// @param identity  TLS certificate and key; none: no TLS
+  /// @return kUnavailable if the address cannot be bound, usually because another program uses it
   [[nodiscard]] static Result<std::unique_ptr<TcpListener>> listen(const std::string& host,
                                                                    int port,
                                                                    tls::CurrentIdentity identity);
-  /// Stops if stop() was not called. No socket may be used any more.
+  /// Calls stop() if needed. No socket may be used afterwards.
   ~TcpListener();
   TcpListener(const TcpListener&) = delete;
   TcpListener& operator=(const TcpListener&) = delete;
@@ -32,9 +32,9 @@ class TcpListener {
   [[nodiscard]] int port() const;
   void start(Accepted accepted);
   void stop_accepting();
-  /// Ends the threads; what was waited for is not called back any more.
+  /// Ends the threads; pending callbacks are not called any more.
   void stop();
-  /// Does it on the thread that may wait, one after the other.
+  /// Runs `work` on the blocking thread, one task at a time.
   void aside(std::function<void()> work);
 
  private:

@@ -14,7 +14,8 @@ namespace {
 
 using Came = Step::Came;
 
-// OpenSSL's own way to a socket would end the program by a signal where a client is gone.
+// A BIO that uses send() without SIGPIPE. OpenSSL's own would end the program when a client
+// disconnects.
 int socket_of(BIO* bio) {
   return static_cast<int>(reinterpret_cast<std::intptr_t>(BIO_get_data(bio)));
 }
@@ -110,7 +111,7 @@ class TlsTransport final : public Transport {
       case SSL_ERROR_ZERO_RETURN:
         return {Came::kOver};
       default:
-        is_broken_ = true;  // after which OpenSSL wants to hear nothing more
+        is_broken_ = true;  // OpenSSL forbids further calls after this
         return {Came::kOver};
     }
   }

@@ -7,9 +7,9 @@
 
 namespace hydroprint::http {
 
-/// Bytes within TLS, as its server.
-/// @param socket  a descriptor that does not block
-/// @return null if there is no memory
+/// A transport with TLS, as the server.
+/// @param socket  non-blocking descriptor
+/// @return null if memory is exhausted
 [[nodiscard]] std::unique_ptr<Transport> tls_transport(
     int socket, std::shared_ptr<const tls::Identity> identity);
 

@@ -5,36 +5,36 @@
 
 namespace hydroprint::http {
 
-/// What came of something that never waits.
+/// Result of a non-blocking operation.
 struct Step {
   enum class Came {
     kDone,
-    kNeedsInput,   ///< again once the socket can be read
-    kNeedsOutput,  ///< again once it can be written
-    kOver,         ///< the peer is gone, or says what nobody understands
-    kPlainHttp,    ///< of open(): the client does not speak TLS
+    kNeedsInput,   ///< try again once the socket is readable
+    kNeedsOutput,  ///< try again once the socket is writable
+    kOver,         ///< the peer disconnected or violated the protocol
+    kPlainHttp,    ///< from open(): the client does not use TLS
   };
   Came came = Came::kOver;
   std::size_t bytes = 0;
 };
 
-/// What travels over a socket, as it is or within TLS. Nothing here waits. The socket stays open
-/// for as long as this is used.
+/// Transfers bytes over a socket, with or without TLS. Nothing here blocks. The socket must stay
+/// open while this object is used.
 class Transport {
  public:
   virtual ~Transport() = default;
 
-  /// Before anything else; again until it is done.
+  /// Performs the handshake; call this first, until it is done.
   virtual Step open() = 0;
-  /// kDone with some bytes.
+  /// Reads some bytes; kDone if there were any.
   virtual Step read(char* into, std::size_t size) = 0;
-  /// kDone with as many as got away.
+  /// Writes as many bytes as possible; kDone with their number.
   virtual Step write(std::string_view bytes) = 0;
-  /// kDone if there is something to read; takes nothing.
+  /// kDone if there is something to read; consumes nothing.
   virtual Step look() = 0;
-  /// Whether there is something to read although the socket may have nothing.
+  /// Whether decrypted data is buffered, so the socket may not become readable.
   [[nodiscard]] virtual bool has_some() const = 0;
-  /// Tells the peer that nothing more comes.
+  /// Tells the peer that no more data follows.
   virtual void end() = 0;
   [[nodiscard]] virtual bool is_secure() const = 0;
 };

@@ -1,4 +1,4 @@
-// From depth frames to where the object hangs over the film.
+// Computes the pose of the object over the film from depth frames.
 #include "daemon/jobs/adopted_files.h"
 #include "daemon/jobs/calibration_file.h"
 #include "daemon/jobs/kind.h"
@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLargestCalibration = 4 << 20;
 constexpr const char* kLens = "camera.json";
 
-/// The lens that a spec names, else the active one; nullopt if there is none.
+/// The lens calibration that a spec names, otherwise the active one; nullopt if there is none.
 Result<std::optional<Calibration>> lens_of(const v1::CalibrateSpec& spec,
                                            CalibrationStore& calibrations) {
   if (spec.camera_calibration().empty()) return calibrations.active(CalibrationKind::kCamera);
@@ -62,8 +62,9 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
   }
 
  private:
-  /// Frames come from the capture job, if one is named; layout, lens and the gripper's height come
-  /// from the configuration, the active calibration of the camera and the capture, if not given.
+  /// Frames come from the capture job, if one is named. Fields that are not given come from other
+  /// sources: layout from the configuration, lens from the active calibration of the camera,
+  /// gripper height from the capture.
   [[nodiscard]] Status resolve_spec(v1::CalibrateSpec& shown, v1::CalibrateSpec& resolved,
                                     const JobSources& sources) const override {
     if (!shown.capture_job().empty()) {
@@ -115,7 +116,7 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
     return {};
   }
 
-  /// Where the gripper was, if the configuration and the capture tell.
+  /// Sets the gripper height, if the configuration and the capture give it.
   [[nodiscard]] static Status take_gripper(v1::CalibrateSpec& spec, const JobSources& sources) {
     const auto& gripper_water_mm = sources.camera.gripper_water_mm;
     if (spec.has_gripper_mm() || spec.capture_job().empty() || !gripper_water_mm) return {};

@@ -1,4 +1,4 @@
-// From views of the calibration board to the camera's lens.
+// Computes the camera's lens from views of the calibration board.
 #include "daemon/jobs/adopted_files.h"
 #include "daemon/jobs/calibration_file.h"
 #include "daemon/jobs/kind.h"
@@ -11,7 +11,8 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr int kMostViews = 30;
-constexpr std::size_t kLargestCamera = 16 << 20;  // with its fixed pattern; as calibrate reads it
+constexpr std::size_t kLargestCamera = 16
+                                       << 20;  // with its fixed pattern; same limit as in calibrate
 
 class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
  public:
@@ -48,7 +49,7 @@ class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
     if (shown.capture_jobs().empty()) return {};
     if (shown.frames_size() > 0) return taken_from("calibrate_camera.frames", "capture_jobs");
     if (shown.capture_jobs_size() > kMostViews) {
-      return invalid_field("calibrate_camera.capture_jobs", "are more than 30");
+      return invalid_field("calibrate_camera.capture_jobs", "has more than 30 entries");
     }
     int view = 0;
     for (const std::string& capture : shown.capture_jobs()) {

@@ -1,4 +1,4 @@
-// Depth frames of the camera over the vat.
+// Takes depth frames with the camera above the vat.
 #include "daemon/jobs/kind.h"
 #include "hydroprint/v1/spec.pb.h"
 
@@ -16,7 +16,7 @@ class CaptureKind final : public KindOf<v1::CaptureSpec> {
     return out;
   }
   [[nodiscard]] std::string why_no_retry() const override {
-    return "a capture, which is of its moment; create a new one";
+    return "a capture, which cannot be repeated; create a new one";
   }
 };
 

@@ -1,4 +1,4 @@
-// The guided immersion on the rig.
+// Guides the operator through the immersion on the rig.
 #include "daemon/jobs/calibration_binding.h"
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/referenced_job.h"
@@ -18,11 +18,11 @@ class DipKind final : public KindOf<v1::DipSpec> {
     return out;
   }
   [[nodiscard]] std::string why_no_retry() const override {
-    return "a dip, which wants a new film; create a new one";
+    return "a dip, which needs a new film; create a new one";
   }
 
  private:
-  /// Without a calibration of its own, a dip goes by that of its simulation.
+  /// A dip without a calibration uses that of its simulation.
   [[nodiscard]] Status resolve_spec(v1::DipSpec& shown, v1::DipSpec& resolved,
                                     const JobSources& sources) const override {
     std::string simulated;
@@ -39,7 +39,7 @@ class DipKind final : public KindOf<v1::DipSpec> {
     shown.set_calibration(calibration_name(found.id));
     if (!simulated.empty() && simulated != shown.calibration()) {
       return invalid_field("dip.calibration", "is not the one that " + shown.simulate_job() +
-                                                  " was made with (" + simulated +
+                                                  " was computed with (" + simulated +
                                                   "); leave it out, or simulate again");
     }
     resolved = shown;
@@ -50,7 +50,7 @@ class DipKind final : public KindOf<v1::DipSpec> {
     if (!spec.simulate_job().empty()) {
       HP_RETURN_IF_ERROR(parse_job_name(spec.simulate_job()));
     } else if (!spec.has_depth_mm()) {
-      return invalid_field("dip.depth_mm", "is missing; give it, or the simulate_job that says it");
+      return invalid_field("dip.depth_mm", "is missing; set it, or name a simulate_job");
     }
     return {};
   }

@@ -1,4 +1,4 @@
-// From measured landing points to the film profile that explains them.
+// Fits a film profile to measured landing points.
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/spec_fields.h"
 

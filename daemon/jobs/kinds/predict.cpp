@@ -1,4 +1,4 @@
-// From a film image as printed to the colours that land on the object.
+// Predicts the colours on the object from a film image as printed.
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/spec_fields.h"
 

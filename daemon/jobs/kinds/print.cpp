@@ -1,4 +1,4 @@
-// Sends what a print-image job made to the printer.
+// Sends the PDF of a print-image job to the printer.
 #include "daemon/jobs/kind.h"
 #include "daemon/platform/resource_names.h"
 
@@ -14,11 +14,11 @@ class PrintKind final : public KindOf<v1::PrintSpec> {
     out.computed = false;
     out.reads_artifacts = true;
     out.interrupted_advice =
-        "the printer may have printed this or not; look before you print again";
+        "the printer may already have printed this; check before you print again";
     return out;
   }
   [[nodiscard]] std::string why_no_retry() const override {
-    return "a print, which may lie in the printer's tray; look, and create a new one";
+    return "a print, which may already be in the printer's tray; check, then create a new one";
   }
 
  private:

@@ -1,4 +1,4 @@
-// From a film image to the files to print, at exact scale on paper.
+// Prepares a film image for printing at exact scale on paper.
 #include "daemon/jobs/adopted_files.h"
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/referenced_job.h"
@@ -9,7 +9,8 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr const char* kFilmImage = "film.png";
-constexpr double kDefaultDpi = 300;  // the worker's, for simulations whose spec has none
+constexpr double kDefaultDpi =
+    300;  // as in the worker, for simulations whose spec has no resolution
 
 class PrintImageKind final : public KindOf<v1::PrintImageSpec> {
  private:
@@ -41,9 +42,9 @@ class PrintImageKind final : public KindOf<v1::PrintImageSpec> {
     const auto image = sources.jobs.artifact(id, kFilmImage);
     if (!image) {
       return fail(Code::kFailedPrecondition,
-                  job_name(id) + " made no film.png; simulate with all artifacts", "STATE_FORBIDS");
+                  job_name(id) + " has no film.png; simulate with all artifacts", "STATE_FORBIDS");
     }
-    // In a folder of its own, apart from the simulation's files.
+    // A separate folder keeps it apart from the simulation's files.
     HP_ASSIGN_OR_RETURN(*spec.mutable_film_image(),
                         adopt_artifact(id, *image, std::string("image/") + kFilmImage, sources));
     take_film(simulation.spec, spec);

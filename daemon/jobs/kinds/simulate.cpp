@@ -1,4 +1,4 @@
-// From a textured model to the image to print.
+// Computes the film image from a textured model.
 #include "daemon/jobs/calibration_binding.h"
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/spec_fields.h"

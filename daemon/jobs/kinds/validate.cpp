@@ -1,4 +1,4 @@
-// The paper's experiments in silico.
+// Repeats the paper's experiments in simulation.
 #include "daemon/jobs/kind.h"
 #include "hydroprint/v1/spec.pb.h"
 

@@ -13,15 +13,14 @@ Json text(const std::string& description) {
   return {{"type", "string"}, {"description", description}};
 }
 
-// One of google.rpc's error_details.proto.
+// Schema of the messages in google.rpc's error_details.proto.
 Json detail_schema(Schemas& schemas) {
   const Json names = schemas.reference(*v1::ErrorReason_descriptor());
   const Json reason = {{"anyOf", Json::array({names, {{"type", "string"}}})},
-                       {"description", "Stable word for programs; of an ErrorInfo."}};
-  const Json metadata = {
-      {"type", "object"},
-      {"additionalProperties", {{"type", "string"}}},
-      {"description", "The parts of the message that a program may want; of an ErrorInfo."}};
+                       {"description", "Stable reason for programs; in an ErrorInfo."}};
+  const Json metadata = {{"type", "object"},
+                         {"additionalProperties", {{"type", "string"}}},
+                         {"description", "Parts of the message, for programs; in an ErrorInfo."}};
   const Json violation = {
       {"type", "object"},
       {"properties",
@@ -30,20 +29,19 @@ Json detail_schema(Schemas& schemas) {
       {"required", Json::array({"field", "description"})}};
   const Json violations = {{"type", "array"},
                            {"items", violation},
-                           {"description", "All wrong fields of the request; of a BadRequest."}};
-  return {
-      {"type", "object"},
-      {"description", "More of it, for programs."},
-      {"properties",
-       {{"@type",
-         text("Which message of google.rpc it is: \"type.googleapis.com/google.rpc.ErrorInfo\".")},
-        {"reason", reason},
-        {"domain", text("\"hydroprint\"; of an ErrorInfo.")},
-        {"metadata", metadata},
-        {"fieldViolations", violations},
-        {"retryDelay", text("\"10s\": when to try again; of a RetryInfo.")}}},
-      {"required", Json::array({"@type"})},
-      {"additionalProperties", true}};
+                           {"description", "All wrong fields of the request; in a BadRequest."}};
+  return {{"type", "object"},
+          {"description", "Further details, for programs."},
+          {"properties",
+           {{"@type",
+             text("Type of the google.rpc message: \"type.googleapis.com/google.rpc.ErrorInfo\".")},
+            {"reason", reason},
+            {"domain", text("\"hydroprint\"; in an ErrorInfo.")},
+            {"metadata", metadata},
+            {"fieldViolations", violations},
+            {"retryDelay", text("\"10s\": when to try again; in a RetryInfo.")}}},
+          {"required", Json::array({"@type"})},
+          {"additionalProperties", true}};
 }
 
 }  // namespace
@@ -53,12 +51,12 @@ Json error_schema(Schemas& schemas) {
   const Json error = {{"type", "object"},
                       {"properties",
                        {{"code", code},
-                        {"message", text("One line: what, where, and what to do.")},
+                        {"message", text("One line: the fault, its place and the remedy.")},
                         {"status", text("Name of the google.rpc.Code: \"NOT_FOUND\".")},
                         {"details", {{"type", "array"}, {"items", detail_schema(schemas)}}}}},
                       {"required", Json::array({"code", "message", "status", "details"})}};
   return {{"type", "object"},
-          {"description", "Why something was not done (AIP-193)."},
+          {"description", "An error (AIP-193)."},
           {"properties", {{"error", error}}},
           {"required", Json::array({"error"})}};
 }

@@ -6,7 +6,7 @@
 
 namespace hydroprint::rest {
 
-/// Schema of what error_answer() writes. ErrorReason is added to `schemas`.
+/// Schema of the JSON that error_answer() writes. Adds ErrorReason to `schemas`.
 [[nodiscard]] nlohmann::ordered_json error_schema(Schemas& schemas);
 
 }  // namespace hydroprint::rest

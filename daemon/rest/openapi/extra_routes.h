@@ -5,7 +5,7 @@
 
 namespace hydroprint::rest {
 
-/// A parameter of a route that is written by hand.
+/// A parameter of a hand-written route.
 struct OtherParameter {
   std::string name;
   std::string in;    ///< "path", "query" or "header"
@@ -14,7 +14,7 @@ struct OtherParameter {
   std::string description;
 };
 
-/// One answer to it.
+/// One possible answer of a route.
 struct OtherAnswer {
   int status = 200;
   std::string description;
@@ -23,22 +23,22 @@ struct OtherAnswer {
   std::vector<OtherParameter> headers;
 };
 
-/// A route that daemon/http has besides those of the .proto files: bytes as they are, and what
-/// tells of the daemon itself.
+/// A route of daemon/http that has no .proto rule: raw bytes, and information about the daemon
+/// itself.
 struct OtherRoute {
   std::string http_method;
-  std::string path;  ///< "/v1/uploads/{upload}"; a parameter is one segment
+  std::string path;  ///< "/v1/uploads/{upload}"; each parameter is one segment
   std::string operation;
   std::string tag;
   std::string summary;
   std::string description;
   std::vector<OtherParameter> parameters;
-  std::string content_type;  ///< of the request's body; empty: it has none
+  std::string content_type;  ///< of the request's body; empty: no body
   std::vector<OtherAnswer> answers;
-  bool is_open = false;  ///< whoever reaches the daemon may ask
+  bool is_open = false;  ///< needs no authentication
 };
 
-/// All of them, by path.
+/// All such routes, sorted by path.
 [[nodiscard]] const std::vector<OtherRoute>& other_routes();
 
 }  // namespace hydroprint::rest

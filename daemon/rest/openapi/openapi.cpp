@@ -23,8 +23,8 @@ namespace {
 namespace pb = google::protobuf;
 using Json = nlohmann::ordered_json;
 
-// How a variable's segments show in a document: "/jobs/{job}/artifacts/{artifact}", since OpenAPI
-// knows parameters of one segment only. They are named by the literal before them.
+// A path as the document shows it: "/jobs/{job}/artifacts/{artifact}". OpenAPI allows only
+// parameters of one segment; each is named after the literal before it.
 struct ShownPath {
   std::string text;
   Json parameters = Json::array();
@@ -41,7 +41,7 @@ Json path_parameter(const std::string& name, const std::string& description) {
   return parameter;
 }
 
-// What is said of the field that segment `at` goes to.
+// Comment on the field that contains segment `at`.
 std::string comment_at(const Route& route, std::size_t at) {
   for (std::size_t i = 0; i < route.path.variables.size(); ++i) {
     const Variable& variable = route.path.variables[i];
@@ -141,7 +141,7 @@ class Document {
   static Json error_answer() { return {{"$ref", "#/components/responses/Error"}}; }
 
   static Json error_response() {
-    return {{"description", "What went wrong."},
+    return {{"description", "An error."},
             {"content",
              {{"application/json", {{"schema", {{"$ref", "#/components/schemas/Error"}}}}}}}};
   }
@@ -150,7 +150,7 @@ class Document {
     return {{"name", "Last-Event-ID"},
             {"in", "header"},
             {"description",
-             "The last `id` that was seen, as EventSource sends it; counts more than\n"
+             "The last `id` received, as EventSource sends it; takes precedence over\n"
              "`afterSeq`."},
             {"schema", {{"type", "string"}, {"format", "int64"}}}};
   }
@@ -169,7 +169,7 @@ class Document {
     add_fields(*route.method->input_type(), {}, route, inside, parameters);
   }
 
-  // The fields of a message that go into the query, and those of the messages in it ("a.b").
+  // Adds the fields of a message that go into the query, including nested ones ("a.b").
   void add_fields(const pb::Descriptor& message, const FieldPath& before, const Route& route,
                   std::vector<const pb::Descriptor*>& inside, Json& parameters) {
     if (std::count(inside.begin(), inside.end(), &message) > 0) return;
@@ -195,7 +195,7 @@ class Document {
     for (const auto* field : path) name += (name.empty() ? "" : ".") + field->json_name();
     Json schema = schemas_.of_field(*path.back(), Way::kSent);
     schema.erase("description");
-    // A reference stands alone, again.
+    // Unwraps a reference that described() has put into allOf.
     if (schema.contains("allOf")) schema = Json(schema["allOf"][0]);
     Json parameter = {{"name", name}, {"in", "query"}};
     const std::string description = description_of(*path.back());
@@ -232,9 +232,9 @@ class Document {
               {"content", {{"application/json", {{"schema", std::move(schema)}}}}}};
     }
     std::string description =
-        "Server-sent events; the `data` of each is one such message. An event `end` says that no\n"
-        "more will come; an event `error` with an Error ends the stream if something goes wrong\n"
-        "after it began.";
+        "Server-sent events; the `data` of each is one such message. An event `end` means that no\n"
+        "more will come. If something goes wrong after the stream began, an event `error` with an\n"
+        "Error ends it.";
     if (is_resumable(method)) description += " The `id` of each is its `seq`.";
     return {{"description", std::move(description)},
             {"content", {{"text/event-stream", {{"schema", std::move(schema)}}}}}};
@@ -266,10 +266,10 @@ class Document {
                Json operation) {
     for (char& c : http_method) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     if (!operations_.insert(name).second) {
-      return fail(Code::kInternal, "two operations are called " + name);
+      return fail(Code::kInternal, "two operations are named " + name);
     }
     Json& at = document_["paths"][path][http_method];
-    if (!at.is_null()) return fail(Code::kInternal, http_method + " " + path + " is there twice");
+    if (!at.is_null()) return fail(Code::kInternal, http_method + " " + path + " occurs twice");
     at = std::move(operation);
     return {};
   }

@@ -6,9 +6,10 @@
 
 namespace hydroprint::rest {
 
-/// OpenAPI 3.0.3 document of all routes: those of the Transcoder, by the same descriptors and with
-/// the .proto files' comments, and other_routes(). The same at every call. Refused (kInternal) as
-/// Transcoder::make() refuses, and if two operations have the same name or place.
+/// The OpenAPI 3.0.3 document of all routes: those of the Transcoder, from the same descriptors and
+/// with the comments of the .proto files, and other_routes(). The text is the same on every call.
+/// Refuses (kInternal) the same faults as Transcoder::make(), and two operations with the same name
+/// or the same path and method.
 [[nodiscard]] Result<std::string> openapi();
 
 }  // namespace hydroprint::rest

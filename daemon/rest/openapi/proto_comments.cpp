@@ -13,7 +13,7 @@ namespace {
 namespace pb = google::protobuf;
 using Comments = std::map<std::string, std::string>;
 
-// Without the blank behind each "//", and the line end behind the last line.
+// Removes the space after each "//", and the line end after the last line.
 std::string text_of(const std::string& leading) {
   std::string text;
   for (std::size_t begin = 0; begin < leading.size();) {
@@ -25,8 +25,8 @@ std::string text_of(const std::string& leading) {
   return text;
 }
 
-// The full name of what a path through a FileDescriptorProto leads to: field numbers and places in
-// lists by turns (google.protobuf.SourceCodeInfo.Location.path). Empty if it is nothing with a
+// The full name of the element at a path in a FileDescriptorProto, which alternates field numbers
+// and list indices (google.protobuf.SourceCodeInfo.Location.path). Empty if the element has no
 // name.
 std::string name_at(const pb::FileDescriptorProto& file,
                     const pb::RepeatedField<std::int32_t>& path) {

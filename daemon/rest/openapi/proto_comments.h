@@ -4,12 +4,12 @@
 
 namespace hydroprint::rest {
 
-/// What the .proto file says in front of something, by its full name ("hydroprint.v1.Job.state",
-/// "hydroprint.v1.JobService.GetJob"; an enum's value as "hydroprint.v1.Job.State.QUEUED"); empty:
-/// nothing.
+/// The comment in front of an element in the .proto file, by full name: "hydroprint.v1.Job.state",
+/// "hydroprint.v1.JobService.GetJob", or "hydroprint.v1.Job.State.QUEUED" for an enum value. Empty
+/// if there is no comment.
 [[nodiscard]] std::string comment_on(const std::string& full_name);
 
-/// Its first sentence, on one line.
+/// The first sentence of a comment, on one line.
 [[nodiscard]] std::string first_sentence(const std::string& comment);
 
 }  // namespace hydroprint::rest

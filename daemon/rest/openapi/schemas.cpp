@@ -18,7 +18,7 @@ namespace pb = google::protobuf;
 using Json = nlohmann::ordered_json;
 using Type = pb::FieldDescriptor::CppType;
 
-// Its name within the package: "Job.State".
+// Name within the package: "Job.State".
 template <class Descriptor>
 std::string short_name(const Descriptor& descriptor) {
   const std::string& package = descriptor.file()->package();
@@ -33,7 +33,7 @@ bool is_oneof_member(const pb::FieldDescriptor& field) {
   return field.real_containing_oneof() != nullptr;
 }
 
-// Whether an answer always has the field.
+// Whether answers always contain the field.
 bool is_always_there(const pb::FieldDescriptor& field) {
   return field.is_repeated() || !field.has_presence();
 }
@@ -43,7 +43,7 @@ const v1::FieldRules& rules_of(const pb::FieldDescriptor& field) {
   return found == nullptr ? v1::FieldRules::default_instance() : *found;
 }
 
-// Whether what is sent has another schema than what is answered, for the message or one in it.
+// Whether the sent and the answered schema differ, for the message or one inside it.
 bool differs(const pb::Descriptor& message, std::set<const pb::Descriptor*>& seen) {
   if (!seen.insert(&message).second) return false;
   for (int i = 0; i < message.field_count(); ++i) {
@@ -57,7 +57,7 @@ bool differs(const pb::Descriptor& message, std::set<const pb::Descriptor*>& see
 
 Json string_of(const char* format) { return {{"type", "string"}, {"format", format}}; }
 
-// Timestamps and the like, as JSON has them.
+// Schemas of Timestamp and the other well-known types, as JSON writes them.
 Json of_well_known(const pb::Descriptor& type) {
   static const std::map<std::string, Json> kSchemas = {
       {"Timestamp", string_of("date-time")},
@@ -98,7 +98,7 @@ Json of_scalar(const pb::FieldDescriptor& field) {
   }
 }
 
-// A reference cannot say more than where it leads, so it is wrapped.
+// Adds a description. A reference cannot have one, so it is wrapped in allOf.
 Json described(Json schema, const std::string& description) {
   if (description.empty()) return schema;
   if (schema.contains("$ref")) schema = {{"allOf", Json::array({std::move(schema)})}};
@@ -106,14 +106,14 @@ Json described(Json schema, const std::string& description) {
   return schema;
 }
 
-// Whole numbers without a point.
+// Writes whole numbers without a decimal point.
 Json number_of(double value) {
   if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
   return value;
 }
 
-// A value that rules write as text, in the type that the field has in JSON; null if it is a word
-// for a value ("full").
+// A value that the rules write as text, converted to the field's JSON type; null if it is the name
+// of a value ("full").
 Json value_in(const pb::FieldDescriptor& field, const std::string& text) {
   if (text.empty()) return nullptr;
   const Json parsed = Json::parse(text, nullptr, false);
@@ -131,7 +131,7 @@ Json value_in(const pb::FieldDescriptor& field, const std::string& text) {
   }
 }
 
-// Of one value of the field, if it is sent: ranges, lengths, choices.
+// Adds the rules for one value of the field, if sent: ranges, lengths, choices.
 void add_limits(const v1::FieldRules& rules, Json& schema) {
   const bool is_number =
       schema.value("type", "") == "number" || schema.value("type", "") == "integer";
@@ -144,7 +144,7 @@ void add_limits(const v1::FieldRules& rules, Json& schema) {
   for (const std::string& value : rules.values()) schema["enum"].push_back(value);
 }
 
-// Of the field as a whole. JSON schema has no keyword for units.
+// Adds the rules for the field as a whole. JSON Schema has no keyword for units.
 void add_field_rules(const pb::FieldDescriptor& field, Way way, Json& schema) {
   const v1::FieldRules& rules = rules_of(field);
   if (!rules.unit().empty()) schema["x-unit"] = rules.unit();
@@ -161,7 +161,7 @@ void add_field_rules(const pb::FieldDescriptor& field, Way way, Json& schema) {
   }
 }
 
-// "At most one of a, b is set (spec: what to do)."
+// Sentences about the oneofs: "At most one of a, b is set (spec: what to do)."
 std::string oneofs_of(const pb::Descriptor& message) {
   std::string text;
   for (int i = 0; i < message.real_oneof_decl_count(); ++i) {

@@ -16,7 +16,7 @@ using Statement = std::unique_ptr<sqlite3_stmt, CloseStatement>;
 
 sqlite3_stmt* as_statement(void* statement) { return static_cast<sqlite3_stmt*>(statement); }
 
-// SQLite says "full" where a write finds no room, but not where it stretches or syncs a file.
+// SQLite reports "full" if a write finds no space, but not if extending or syncing a file fails.
 bool disk_is_full(sqlite3* db) {
   const int code = sqlite3_errcode(db), error = sqlite3_system_errno(db);
   return code == SQLITE_FULL || ((code == SQLITE_IOERR || code == SQLITE_CANTOPEN) &&
@@ -26,7 +26,8 @@ bool disk_is_full(sqlite3* db) {
 tl::unexpected<Error> database_failure(sqlite3* db) {
   if (disk_is_full(db)) {
     return fail(Code::kResourceExhausted,
-                "the daemon's disk is full; delete jobs or assets, or make room", "DISK_FULL");
+                "the daemon's disk is full; delete jobs or assets, or free disk space",
+                "DISK_FULL");
   }
   return fail(Code::kInternal,
               std::string("the job database: ") + sqlite3_errmsg(db) +
@@ -34,14 +35,14 @@ tl::unexpected<Error> database_failure(sqlite3* db) {
               "STORE_FAILED");
 }
 
-// Once the log's content is in the database, the log begins anew and has room without growing: so a
-// change that found the disk full may succeed the next time. No harm where that fails too.
+// Copies the write-ahead log to the database, so that the log restarts and has space without
+// growing. A change that found the disk full may then succeed. A failure does no harm.
 void empty_log(sqlite3* db) {
   sqlite3_wal_checkpoint_v2(db, nullptr, SQLITE_CHECKPOINT_RESTART, nullptr, nullptr);
 }
 
-// Empty pages in the file, and room in its log, from which the end of a job can still be written
-// when the disk is full. No harm where there is no room for them now.
+// Reserves empty pages in the file and space in its log. They are needed to store the end of a job
+// when the disk is full. A failure does no harm.
 void keep_room(sqlite3* db) {
   sqlite3_exec(db,
                "BEGIN IMMEDIATE; CREATE TABLE kept_room(bytes BLOB); "
@@ -87,7 +88,7 @@ struct Database::Impl {
     return statement.get();
   }
 
-  std::recursive_mutex mutex;  // a transaction holds it round its statements
+  std::recursive_mutex mutex;  // held for a whole transaction
   sqlite3* db = nullptr;
   std::unordered_map<std::string, Statement> statements;
 };
@@ -138,7 +139,7 @@ Status Database::transaction(const std::function<Status()>& body) {
   HP_RETURN_IF_ERROR(run("BEGIN IMMEDIATE"));
   Status status = body();
   if (status) status = run("COMMIT");
-  // A failed COMMIT may leave the transaction open; some errors have rolled it back already.
+  // A failed COMMIT may leave the transaction open; some errors have already rolled it back.
   if (!status && sqlite3_get_autocommit(impl_->db) == 0) (void)run("ROLLBACK");
   if (!status && status.error().reason == "DISK_FULL") empty_log(impl_->db);
   return status;

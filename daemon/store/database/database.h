@@ -13,10 +13,10 @@
 
 namespace hydroprint::daemon {
 
-/// A value bound to a statement: NULL, whole number, real, or bytes.
+/// A value bound to a statement: NULL, integer, real, or bytes.
 using DbValue = std::variant<std::monostate, std::int64_t, double, std::string>;
 
-/// One row of an answer, valid during the call that hands it over.
+/// One row of a result, valid only during the callback.
 class DbRow {
  public:
   explicit DbRow(void* statement) : statement_(statement) {}
@@ -29,32 +29,32 @@ class DbRow {
   void* statement_;
 };
 
-/// One SQLite file, in WAL mode and synchronous=FULL: what a transaction wrote is on disk when it
-/// returns. Any thread may call; calls take turns, and a transaction is one turn.
+/// One SQLite file, in WAL mode and synchronous=FULL: a transaction is on disk when it returns.
+/// Thread-safe; calls run one at a time, and a transaction counts as one call.
 class Database {
  public:
-  /// Opens or makes the file and gives it `schema` (statements that may be run again).
-  /// @return kInternal, STORE_FAILED if it is no database or cannot be used
+  /// Opens or creates the file and runs `schema` (statements that may be repeated).
+  /// @return kInternal, STORE_FAILED if the file is not a database or cannot be used
   [[nodiscard]] static Result<std::unique_ptr<Database>> open(const std::filesystem::path& path,
                                                               const char* schema);
   ~Database();
   Database(const Database&) = delete;
   Database& operator=(const Database&) = delete;
 
-  /// Runs one statement. A full disk is kResourceExhausted, DISK_FULL; else kInternal,
+  /// Runs one statement. A full disk is kResourceExhausted, DISK_FULL; other errors are kInternal,
   /// STORE_FAILED.
   [[nodiscard]] Status run(const std::string& sql, std::initializer_list<DbValue> values = {});
 
-  /// Runs one statement and hands over each row.
+  /// Runs one statement and calls `row` for each row.
   [[nodiscard]] Status each(const std::string& sql, std::initializer_list<DbValue> values,
                             const std::function<void(const DbRow&)>& row);
 
-  /// Runs `body` as one transaction: all of it stays, or none if it returns an error.
+  /// Runs `body` as one transaction; an error rolls all of it back.
   [[nodiscard]] Status transaction(const std::function<Status()>& body);
 
-  /// Key of the row inserted last; within a transaction only.
+  /// Key of the last inserted row; only within a transaction.
   [[nodiscard]] std::int64_t last_id() const;
-  /// Rows the last statement changed; within a transaction only.
+  /// Number of rows that the last statement changed; only within a transaction.
   [[nodiscard]] std::int64_t changes() const;
 
  private:

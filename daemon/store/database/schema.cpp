@@ -6,7 +6,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-/// Statements that bring the store from the version before to this one.
+/// Statements that migrate the store from the previous version to this one.
 struct Migration {
   std::int64_t to;
   std::vector<const char*> statements;
@@ -14,7 +14,7 @@ struct Migration {
 
 const std::vector<Migration>& migrations() {
   static const std::vector<Migration> all{
-      // People. `role` is a number of hydroprint.v1.Role.
+      // Users. `role` is a number of hydroprint.v1.Role.
       {2,
        {"CREATE TABLE users(name TEXT PRIMARY KEY, role INTEGER NOT NULL, disabled INTEGER NOT "
         "NULL, "
@@ -35,9 +35,8 @@ const std::vector<Migration>& migrations() {
         "object TEXT NOT NULL, outcome TEXT NOT NULL, detail TEXT NOT NULL)",
         "CREATE INDEX audit_by_time ON audit(time_ms)",
         "ALTER TABLE jobs ADD COLUMN shared INTEGER NOT NULL DEFAULT 0"}},
-      // Quotas and retention. What was used by somebody's job is taken for theirs; nothing counts
-      // as
-      // unused before now. A finished job's time is counted from `keep_from_ms` on.
+      // Quotas and retention. Assets used by a job become its owner's; all assets count as used
+      // now. Retention of a finished job starts at `keep_from_ms`.
       {3,
        {"CREATE TABLE asset_owners(owner TEXT NOT NULL, "
         "sha256 TEXT NOT NULL REFERENCES assets(sha256) ON DELETE CASCADE, "
@@ -53,8 +52,8 @@ const std::vector<Migration>& migrations() {
         "UPDATE jobs SET keep_from_ms=end_ms", "CREATE INDEX jobs_by_owner ON jobs(owner)",
         "CREATE TABLE former_users(name TEXT PRIMARY KEY, delete_ms INTEGER NOT NULL) "
         "WITHOUT ROWID"}},
-      // What a job does is its spec, as JSON; jobs from before keep their flags. Properties of the
-      // kind stand in the row.
+      // The spec of a job is stored as JSON; earlier jobs keep their flags. Properties of the kind
+      // are columns of the row.
       {4,
        {"ALTER TABLE jobs ADD COLUMN spec TEXT NOT NULL DEFAULT ''",
         "ALTER TABLE jobs ADD COLUMN computed INTEGER NOT NULL DEFAULT 1",
@@ -76,9 +75,10 @@ Result<std::int64_t> version_of(Database& database) {
 }
 
 tl::unexpected<Error> too_new() {
-  return fail(Code::kFailedPrecondition,
-              "was made by a later version of hydroprintd; use that one, or another state folder",
-              "STORE_TOO_NEW");
+  return fail(
+      Code::kFailedPrecondition,
+      "was made by a later version of hydroprintd; use that version, or another state folder",
+      "STORE_TOO_NEW");
 }
 
 tl::unexpected<Error> naming(const std::filesystem::path& path, Error error) {
@@ -90,10 +90,9 @@ Status check_version(Database& database) {
   HP_ASSIGN_OR_RETURN(const std::int64_t version, version_of(database));
   if (version > migrations().back().to) return too_new();
   if (version == migrations().back().to) return {};
-  return fail(
-      Code::kFailedPrecondition,
-      "was made by an earlier version of hydroprintd; start this one on it once, which brings "
-      "it to this version");
+  return fail(Code::kFailedPrecondition,
+              "was made by an earlier version of hydroprintd; start this version once to migrate "
+              "the store");
 }
 
 Status migrate(Database& database) {

@@ -7,22 +7,21 @@
 
 namespace hydroprint::daemon {
 
-/// Opens the store, or makes it, and brings one that an earlier version made to this version; all
-/// of that is done, or none.
-/// @return as Database::open(); kFailedPrecondition, STORE_TOO_NEW for one that a later version
-/// made
+/// Opens or creates the store, and migrates a store of an earlier version in one transaction.
+/// @return as Database::open(); kFailedPrecondition, STORE_TOO_NEW for a store of a later version
 [[nodiscard]] Result<std::unique_ptr<Database>> open_store(const std::filesystem::path& path);
 
-/// Opens a store that this version made, and changes nothing: for a program beside the daemon.
-/// @return kFailedPrecondition: STORE_TOO_NEW, or without a reason one that an earlier version made
+/// Opens a store of this version without changing it, for programs that run beside the daemon.
+/// @return kFailedPrecondition: STORE_TOO_NEW, or without a reason for a store of an earlier
+/// version
 [[nodiscard]] Result<std::unique_ptr<Database>> open_store_as_it_is(
     const std::filesystem::path& path);
 
-/// Tables of the store as version 1 made them; what came later is in schema.cpp. `jobs.flags` holds
-/// one flag a line; `jobs.body` is a serialised message; `losses.count` says how often the daemon
-/// was lost while the job ran; `dips.status` is a serialised message; `lease` has one row or none;
-/// `calibrations.body` is a serialised message, its `job` 0 if it was entered by hand; `captures`
-/// outlive their jobs, since calibrations do.
+/// Tables of the store in version 1; schema.cpp has the later changes. `jobs.flags` holds one flag
+/// per line; `jobs.body`, `dips.status` and `calibrations.body` are serialised messages.
+/// `losses.count` is how often the daemon was lost while the job ran. `lease` has at most one row.
+/// `calibrations.job` is 0 for an entry by hand. `captures` outlive their jobs, since calibrations
+/// do.
 inline constexpr const char* kSchema = R"sql(
 CREATE TABLE IF NOT EXISTS settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 INSERT OR IGNORE INTO settings VALUES ('schema', '1');

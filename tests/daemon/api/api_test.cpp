@@ -14,7 +14,7 @@ namespace {
 
 using grpc::StatusCode;
 
-// Expects a refusal with code and reason, whose message is one line.
+// Expects an error with this code and reason, and a message of one line.
 void expect_refused(const grpc::Status& status, StatusCode code, const std::string& reason) {
   EXPECT_EQ(status.error_code(), code) << status.error_message();
   const auto info = error_info(status);
@@ -90,7 +90,7 @@ TEST_F(Api, UploadCreateWatchDownload) {
                                           job.name() + "/artifacts/report.json"}));
 }
 
-TEST_F(Api, AWorkerIsGivenTheSpec) {
+TEST_F(Api, WorkerReceivesTheSpec) {
   auto request = simulate_request(client.upload(""), "models/a b.obj");
   auto& spec = *request.mutable_job()->mutable_simulate();
   spec.set_dpi(150);
@@ -108,7 +108,7 @@ TEST_F(Api, AWorkerIsGivenTheSpec) {
   EXPECT_EQ(given["pose"]["translationMm"][2], 5);
 }
 
-TEST_F(Api, SameBytesAreUploadedOnce) {
+TEST_F(Api, EqualBytesAreUploadedOnce) {
   const std::string name = client.upload("mesh");
   v1::StartUploadRequest request;
   request.set_size_bytes(4);
@@ -119,7 +119,7 @@ TEST_F(Api, SameBytesAreUploadedOnce) {
   EXPECT_EQ(reply.asset().size_bytes(), 4);
 }
 
-TEST_F(Api, WrongBytesAreRefusedAndTheUploadIsGone) {
+TEST_F(Api, WrongBytesAreRefusedAndEndTheUpload) {
   v1::StartUploadRequest request;
   request.set_size_bytes(4);
   request.set_sha256(hash_of("mesh"));
@@ -140,7 +140,7 @@ TEST_F(Api, WrongBytesAreRefusedAndTheUploadIsGone) {
   expect_refused(send(), StatusCode::NOT_FOUND, "UPLOAD_NOT_FOUND");
 }
 
-TEST_F(Api, UploadsThatCannotBeAreRefused) {
+TEST_F(Api, InvalidUploadsAreRefused) {
   v1::StartUploadRequest request;
   v1::StartUploadResponse reply;
   const auto start = [&] {
@@ -155,7 +155,7 @@ TEST_F(Api, UploadsThatCannotBeAreRefused) {
   expect_refused(start(), StatusCode::INVALID_ARGUMENT, "SPEC_INVALID");
 }
 
-TEST_F(Api, RepeatedRequestIdGivesTheSameJobAndAnotherRequestIsRefused) {
+TEST_F(Api, RepeatedRequestReturnsTheSameJob) {
   auto request = simulate_request(client.upload(""));
   request.set_request_id("4e3c1a52-7f6d-4f4e-9b0e-111111111111");
   (*request.mutable_job()->mutable_labels())["b"] = "2";
@@ -167,7 +167,7 @@ TEST_F(Api, RepeatedRequestIdGivesTheSameJobAndAnotherRequestIsRefused) {
   expect_refused(client.create(request, job), StatusCode::INVALID_ARGUMENT, "REQUEST_ID_REUSED");
 }
 
-TEST_F(Api, ValidateOnlyChecksAndStoresNothing) {
+TEST_F(Api, ValidateOnlyStoresNothing) {
   auto request = simulate_request(client.upload("sleep 30"));
   request.set_validate_only(true);
   const v1::Job job = make(request);
@@ -184,7 +184,7 @@ TEST_F(Api, ValidateOnlyChecksAndStoresNothing) {
   expect_refused(client.create(request, none), StatusCode::FAILED_PRECONDITION, "ASSET_MISSING");
 }
 
-TEST_F(Api, AllWrongFieldsOfARequestAreNamedAtOnce) {
+TEST_F(Api, AllWrongFieldsAreReportedTogether) {
   auto request = simulate_request(client.upload(""));
   request.set_validate_only(true);
   request.mutable_job()->set_priority(10);
@@ -228,7 +228,7 @@ TEST_F(Api, HostileNamesAreRefused) {
                  "SPEC_INVALID");
 }
 
-TEST_F(Api, ListsComeInPagesNewestFirst) {
+TEST_F(Api, ListsArePagedNewestFirst) {
   client.pause();
   std::vector<std::string> names;
   for (int i = 0; i < 5; ++i) names.push_back(client.simulate("#" + std::to_string(i)).name());
@@ -256,7 +256,7 @@ TEST_F(Api, ListsComeInPagesNewestFirst) {
                  StatusCode::INVALID_ARGUMENT, "SPEC_INVALID");
 }
 
-TEST_F(Api, FullQueueIsRefusedWithAHintWhenToTryAgain) {
+TEST_F(Api, FullQueueIsRefusedWithARetryDelay) {
   client.pause();
   for (int i = 0; i < 12; ++i) client.simulate("#" + std::to_string(i));
   v1::Job job;
@@ -298,7 +298,7 @@ TEST_F(Api, OwnersTakeTurns) {
                  StatusCode::FAILED_PRECONDITION, "STATE_FORBIDS");
 }
 
-TEST_F(Api, IdenticalInputsAreAnsweredFromTheCacheVisibly) {
+TEST_F(Api, IdenticalInputsAreVisiblyCached) {
   const v1::Job first = client.wait_for_end(client.simulate("#same").name());
   EXPECT_FALSE(first.cache_hit());
   const v1::Job second = client.simulate("#same");
@@ -309,7 +309,7 @@ TEST_F(Api, IdenticalInputsAreAnsweredFromTheCacheVisibly) {
             client.download(first.name() + "/artifacts/report.json"));
 }
 
-TEST_F(Api, RetryComputesAfreshAndNamesTheFirst) {
+TEST_F(Api, RetryComputesAgainAndNamesTheFirstJob) {
   const v1::Job first = client.wait_for_end(client.simulate("#x").name());
   v1::RetryJobRequest request;
   request.set_name(first.name());
@@ -324,7 +324,7 @@ TEST_F(Api, RetryComputesAfreshAndNamesTheFirst) {
   EXPECT_FALSE(ended.cache_hit());
 }
 
-TEST_F(Api, DeletedJobIsGoneWithItsArtifacts) {
+TEST_F(Api, DeletingAJobDeletesItsArtifacts) {
   const v1::Job job = client.wait_for_end(client.simulate("").name());
   v1::DeleteJobRequest request;
   request.set_name(job.name());
@@ -335,7 +335,7 @@ TEST_F(Api, DeletedJobIsGoneWithItsArtifacts) {
   EXPECT_TRUE(std::filesystem::is_empty(daemon.state() / "artifacts"));
 }
 
-TEST_F(Api, WatchResumesAfterTheLastEventSeen) {
+TEST_F(Api, WatchResumesAfterTheLastEvent) {
   const v1::Job job = client.wait_for_end(client.simulate("").name());
   const auto events = client.events(job.name());
   ASSERT_EQ(events.size(), 3U);
@@ -362,7 +362,7 @@ TEST_F(Api, WatchResumesAfterTheLastEventSeen) {
   expect_refused(refused->Finish(), StatusCode::OUT_OF_RANGE, "EVENTS_GONE");
 }
 
-TEST_F(Api, DownloadsBeyondTheEndOrOfDamagedFilesAreRefused) {
+TEST_F(Api, DownloadsBeyondTheEndOrOfDamagedFilesFail) {
   const v1::Job job = client.wait_for_end(client.simulate("").name());
   v1::DownloadArtifactRequest request;
   request.set_name(job.name() + "/artifacts/film.png");
@@ -382,7 +382,7 @@ TEST_F(Api, DownloadsBeyondTheEndOrOfDamagedFilesAreRefused) {
   expect_refused(end_of(), StatusCode::NOT_FOUND, "ARTIFACT_NOT_FOUND");
 }
 
-// Health and reflection have no generated code here: their messages are written by hand.
+// There is no generated code for health and reflection here, so their messages are written by hand.
 std::string call_raw(Client& client, const std::string& method, const std::string& message) {
   grpc::Slice slice(message);
   grpc::ByteBuffer request(&slice, 1), reply;
@@ -432,7 +432,7 @@ TEST_F(Api, ReflectionListsTheServices) {
   EXPECT_NE(reply.find("grpc.health.v1.Health"), std::string::npos);
 }
 
-TEST_F(Api, SecondDaemonIsKeptOffThePortAndOffTheState) {
+TEST_F(Api, SecondDaemonCannotUseThePortOrTheStateFolder) {
   TemporaryFolder other;
   const std::string config = daemon.config().string();
   const Ended port = run_daemon(
@@ -474,7 +474,7 @@ TEST(Program, ConfigurationCanBeCheckedWithoutStarting) {
   EXPECT_EQ(run_daemon({"--no-such-flag"}).status, 2);
 }
 
-TEST(Program, MissingWorkerProgramIsNamedAtTheStart) {
+TEST(Program, MissingWorkerProgramIsReportedAtTheStart) {
   TemporaryFolder folder;
   const auto config = folder.write("d.toml", "[workers]\nprogram = \"/nonexistent/worker\"\n");
   const Ended ended = run_daemon({"--config", config.string(), "--state-dir",

@@ -1,4 +1,4 @@
-// Captures of the virtual rig's camera by hydroprint-capture, and what becomes of calibrations; the
+// Captures with the virtual rig's camera and hydroprint-capture, and the life of calibrations. The
 // worker is the fake one.
 #include <signal.h>
 
@@ -35,16 +35,16 @@ class CalibrateApi : public CameraTest {
     start_daemon(DaemonProcess::fake(), kPatience_s);
   }
 
-  static constexpr int kPatience_s = 20;  ///< with what is slow on a busy machine but well
+  static constexpr int kPatience_s = 20;  ///< timeout for camera operations on a busy machine
 
-  /// The calibration of a job that is done.
+  /// Runs a calibrate job and returns its calibration.
   v1::Calibration calibrated(const v1::Job& capture, const std::string& mesh = kMesh) {
     const v1::Job job = done(create(calibrate_of(capture, mesh)));
     EXPECT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
     EXPECT_EQ(all().front().job(), job.name());
     return all().front();
   }
-  /// With the rig homed, where captures are made.
+  /// Same, with the rig homed and the axis at the capture position.
   v1::Calibration calibrated() {
     ann->make_ready();
     ann->go_to(kAxis_mm);
@@ -57,7 +57,7 @@ class CalibrateApi : public CameraTest {
   }
 };
 
-TEST_F(CalibrateApi, ACaptureLeavesFramesOfTheCamera) {
+TEST_F(CalibrateApi, CaptureStoresCameraFrames) {
   const v1::Job job = captured(0.5);
   EXPECT_EQ(job.display_name(), "capture");
   EXPECT_EQ(job.progress_fraction(), 1);
@@ -73,7 +73,7 @@ TEST_F(CalibrateApi, ACaptureLeavesFramesOfTheCamera) {
   EXPECT_EQ(refusal(capture_of(21)).reason(), "SPEC_INVALID");
 }
 
-TEST_F(CalibrateApi, WhatIsWrongWithTheCameraIsNamed) {
+TEST_F(CalibrateApi, CameraFaultsAreNamed) {
   const auto reason = [&](const std::string& fault, bool while_it_runs) {
     if (!while_it_runs) rig->act(fault);
     const v1::Job job = create(capture_of(15));
@@ -94,7 +94,7 @@ TEST_F(CalibrateApi, WhatIsWrongWithTheCameraIsNamed) {
   EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "and all is well again";
 }
 
-TEST_F(CalibrateApi, ACameraThatHangsIsGivenUp) {
+TEST_F(CalibrateApi, HangingCameraFailsTheCapture) {
   daemon.reset();
   start_daemon(DaemonProcess::fake(), 2);
   rig->act("camera hung");
@@ -102,7 +102,7 @@ TEST_F(CalibrateApi, ACameraThatHangsIsGivenUp) {
   EXPECT_EQ(job.error().reason(), "CAMERA_STALLED") << job.error().message();
 }
 
-TEST_F(CalibrateApi, ACaptureRunsAloneAndCanBeCancelled) {
+TEST_F(CalibrateApi, CapturesRunOneAtATimeAndCanBeCancelled) {
   const v1::Job job = create(capture_of(20));
   EXPECT_EQ(job.state(), v1::Job::RUNNING);
   EXPECT_EQ(refusal(capture_of(1)).reason(), "STATE_FORBIDS");
@@ -113,14 +113,14 @@ TEST_F(CalibrateApi, ACaptureRunsAloneAndCanBeCancelled) {
   EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(CalibrateApi, NothingIsTakenWhileTheAxisMoves) {
+TEST_F(CalibrateApi, NoCaptureWhileTheAxisMoves) {
   ann->make_ready();
   ASSERT_TRUE(ann->move_to(kAxis_mm, 2).ok());
   EXPECT_EQ(refusal(capture_of(1)).reason(), "MOTION_IN_PROGRESS");
   EXPECT_TRUE(ann->stop().ok());
 }
 
-TEST_F(CalibrateApi, ADaemonThatIsKilledTakesTheCaptureWithIt) {
+TEST_F(CalibrateApi, KillingTheDaemonEndsTheCapture) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   const v1::Job job = create(capture_of(20));
   ann->wait(job.name(), [](const v1::Job& now) { return now.progress_fraction() > 0; });
@@ -134,7 +134,7 @@ TEST_F(CalibrateApi, ADaemonThatIsKilledTakesTheCaptureWithIt) {
   EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(CalibrateApi, ACalibrationIsWhatItsJobFoundAndWhereTheAxisWas) {
+TEST_F(CalibrateApi, CalibrationHoldsThePoseAndTheAxisPosition) {
   ann->make_ready();
   ann->go_to(kAxis_mm);
   const v1::Job capture = captured();
@@ -164,7 +164,7 @@ TEST_F(CalibrateApi, ACalibrationIsWhatItsJobFoundAndWhereTheAxisWas) {
   EXPECT_NEAR(ann->job(found.job()).calibrate().gripper_mm(), water_mm - found.axis_mm(), 1e-9);
 }
 
-TEST_F(CalibrateApi, SurvivesTheDaemonAndItsCapture) {
+TEST_F(CalibrateApi, CalibrationOutlivesTheDaemonAndItsCapture) {
   const v1::Job capture = captured();
   const v1::Calibration found = calibrated(capture);
   v1::DeleteJobRequest deletion;
@@ -188,7 +188,7 @@ TEST_F(CalibrateApi, SurvivesTheDaemonAndItsCapture) {
   EXPECT_EQ(all().size(), 2U);
 }
 
-TEST_F(CalibrateApi, WhatFailsOrIsNoCalibrationLeavesNone) {
+TEST_F(CalibrateApi, FailedOrOtherJobsLeaveNoCalibration) {
   const v1::Job capture = captured();
   const auto reason = [&](const std::string& mesh) {
     const v1::Job job = done(create(calibrate_of(capture, mesh)));
@@ -212,7 +212,7 @@ TEST_F(CalibrateApi, WhatFailsOrIsNoCalibrationLeavesNone) {
   EXPECT_EQ(all().size(), 1U);
 }
 
-TEST_F(CalibrateApi, ACamerasLensIsTakenUntilAnotherOneIsNamed) {
+TEST_F(CalibrateApi, ActiveLensIsTheDefault) {
   const v1::Job capture = captured();
   v1::Job wanted;
   for (int i = 0; i < 2; ++i) wanted.mutable_calibrate_camera()->add_capture_jobs(capture.name());
@@ -237,7 +237,7 @@ TEST_F(CalibrateApi, ACamerasLensIsTakenUntilAnotherOneIsNamed) {
   EXPECT_EQ(refusal(simulate_by(lens.name())).reason(), "SPEC_INVALID") << "nor that an object";
 }
 
-TEST_F(CalibrateApi, SimulateTakesPoseFilmAndScale) {
+TEST_F(CalibrateApi, SimulateUsesPoseFilmAndScaleOfTheCalibration) {
   v1::Job wanted = calibrate_of(captured(), kMesh);
   wanted.mutable_calibrate()->set_scale(2.5);
   wanted.mutable_calibrate()->set_film("polygon:film.json");
@@ -265,7 +265,7 @@ TEST_F(CalibrateApi, SimulateTakesPoseFilmAndScale) {
   EXPECT_EQ(refusal(simulate_by("calibrations/active")).reason(), "CALIBRATION_MISSING");
 }
 
-TEST_F(CalibrateApi, NothingGoesByOneOnceTheRigMovedUnlessTold) {
+TEST_F(CalibrateApi, StaleCalibrationIsRefusedUnlessAllowed) {
   const v1::Calibration found = calibrated();
   EXPECT_EQ(done(create(simulate_by(found.name()))).state(), v1::Job::SUCCEEDED);
   ann->go_to(kAxis_mm + 2);
@@ -292,7 +292,7 @@ TEST_F(CalibrateApi, NothingGoesByOneOnceTheRigMovedUnlessTold) {
   EXPECT_EQ(get(found.name()).stale(0), v1::Calibration::HOMED) << "nor after another day's homing";
 }
 
-TEST_F(CalibrateApi, ADipGoesToTheFirstContactThatWasMeasured) {
+TEST_F(CalibrateApi, DipUsesTheMeasuredFirstContact) {
   const v1::Calibration found = calibrated();
   v1::Job wanted;
   *wanted.mutable_dip() = short_dip();
@@ -322,7 +322,7 @@ TEST_F(CalibrateApi, ADipGoesToTheFirstContactThatWasMeasured) {
   ann->cancel(told.name());
 }
 
-TEST_F(CalibrateApi, FirstContactIsNotTakenOnceTheRigWasHomedInTheDip) {
+TEST_F(CalibrateApi, HomingDuringADipInvalidatesFirstContact) {
   const v1::Calibration found = calibrated();
   v1::Job wanted;
   *wanted.mutable_dip() = short_dip();
@@ -336,7 +336,7 @@ TEST_F(CalibrateApi, FirstContactIsNotTakenOnceTheRigWasHomedInTheDip) {
   EXPECT_EQ(done(job).state(), v1::Job::CANCELLED);
 }
 
-TEST_F(CalibrateApi, OneIsEnteredByHand) {
+TEST_F(CalibrateApi, CalibrationCanBeEnteredByHand) {
   v1::CreateCalibrationRequest request;
   v1::Calibration& entered = *request.mutable_calibration();
   entered.mutable_mesh()->set_name("body.obj");

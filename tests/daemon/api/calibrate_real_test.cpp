@@ -1,4 +1,4 @@
-// From the virtual rig's camera to a calibration, with every program the real one.
+// Calibrates with the virtual rig's camera and the real programs.
 #include <Eigen/Geometry>
 #include <chrono>
 #include <numbers>
@@ -31,8 +31,8 @@ Pose pose_of(const v1::Pose& pose) {
   return out;
 }
 
-/// The sample board in the gripper, tilted so that the camera sees two of its sides, and a little
-/// crooked.
+/// The sample board in the gripper, slightly crooked, and tilted so that the camera sees two of its
+/// sides.
 class CalibrateReal : public CameraTest {
  protected:
   CalibrateReal() {
@@ -64,7 +64,7 @@ class CalibrateReal : public CameraTest {
     lens = ann->upload(calibrate::camera_json(camera));
   }
 
-  /// However busy the machine is.
+  /// Waits for the end of a job without a timeout.
   v1::Job ended(const v1::Job& job) {
     for (;;) {
       const v1::Job now = ann->job(job.name());
@@ -90,7 +90,7 @@ class CalibrateReal : public CameraTest {
     EXPECT_EQ(capture.state(), v1::Job::SUCCEEDED) << capture.error().message();
     return capture;
   }
-  /// What is found.
+  /// Runs a calibrate job and returns its calibration.
   v1::Calibration calibrated(const v1::Job& capture) {
     const v1::Job job = calibrate(capture, 1);
     EXPECT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
@@ -108,10 +108,10 @@ class CalibrateReal : public CameraTest {
   double lowest_mm = 1e9;
 };
 
-TEST_F(CalibrateReal, TheObjectIsFoundWhereItHangs) {
+TEST_F(CalibrateReal, PoseOfTheObjectIsFound) {
   ann->make_ready();
   ann->go_to(kAxis_mm);
-  // Both at first: later, a rig on a busy machine may have lost its place.
+  // Takes both captures first, since on a busy machine the rig may lose its reference later.
   const v1::Job capture = seen();
   rig->act("marker left pushed 9 -6");
   const v1::Job later = seen();
@@ -130,7 +130,7 @@ TEST_F(CalibrateReal, TheObjectIsFoundWhereItHangs) {
     EXPECT_EQ(marker.used(), marker.name() != "left") << marker.name() << ": " << marker.why_not();
 }
 
-TEST_F(CalibrateReal, ScansThatDoNotFitAreRefusedWithTheReason) {
+TEST_F(CalibrateReal, ScansThatDoNotFitAreRefusedWithAReason) {
   const v1::Job capture = ended(create(capture_of(0.2)));
   const v1::Job metres = calibrate(capture, 0.001);
   EXPECT_EQ(metres.state(), v1::Job::FAILED);

@@ -8,10 +8,10 @@
 
 namespace hydroprint::tests {
 
-/// A virtual rig with a camera, whose water is near, and a daemon that has both.
+/// A virtual rig with a camera and a high water level, and a daemon connected to both.
 class CameraTest : public ::testing::Test {
  protected:
-  static constexpr double kAxis_mm = 20;  ///< where captures are made
+  static constexpr double kAxis_mm = 20;  ///< axis position for captures
 
   void start_rig(const std::string& object = "",
                  const std::vector<std::pair<std::string, std::string>>& files = {}) {
@@ -27,7 +27,7 @@ class CameraTest : public ::testing::Test {
     daemon = std::make_unique<DaemonProcess>(folder.path(), options);
     connect();
   }
-  /// To a daemon that was started anew, too.
+  /// Also connects to a restarted daemon.
   void connect() {
     ann = std::make_unique<RigClient>(daemon->address(), "ann");
     calibrations = v1::CalibrationService::NewStub(ann->channel);
@@ -42,7 +42,7 @@ class CameraTest : public ::testing::Test {
     EXPECT_TRUE(status.ok()) << status.error_message();
     return job;
   }
-  /// Why a job is refused; "" if it is not.
+  /// Why a job is refused; "" if it is accepted.
   google::rpc::ErrorInfo refusal(const v1::Job& wanted) {
     v1::CreateJobRequest request;
     *request.mutable_job() = wanted;

@@ -1,4 +1,4 @@
-// What people see of the virtual rig's camera, through the real programs.
+// Live pictures of the virtual rig's camera, through the real programs.
 #include <signal.h>
 
 #include <atomic>
@@ -28,7 +28,7 @@ class CameraApi : public CameraTest {
                      ->GetDepthPicture(ann->context().get(), {}, &out.picture);
     return out;
   }
-  /// Looks again and again until it comes out like this: "" is a picture.
+  /// Requests pictures until the result has this reason; "" means a picture.
   [[nodiscard]] bool comes_to(const std::string& reason) {
     return wait_until(
         [&] {
@@ -39,7 +39,7 @@ class CameraApi : public CameraTest {
   }
 };
 
-TEST_F(CameraApi, WhoLooksSeesWhatTheCameraSeesNow) {
+TEST_F(CameraApi, PictureShowsThePresentView) {
   serve();
   ASSERT_TRUE(comes_to(""));
   const v1::DepthPicture first = look().picture;
@@ -60,7 +60,7 @@ TEST_F(CameraApi, WhoLooksSeesWhatTheCameraSeesNow) {
   })) << "pictures go on";
 }
 
-TEST_F(CameraApi, OneProcessHasTheCameraAndNoneWhenNobodyLooks) {
+TEST_F(CameraApi, OneProcessServesAllViewersAndEndsWithoutThem) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   serve();
   EXPECT_TRUE(daemon->workers().empty());
@@ -74,7 +74,7 @@ TEST_F(CameraApi, OneProcessHasTheCameraAndNoneWhenNobodyLooks) {
   EXPECT_TRUE(comes_to("")) << "and again";
 }
 
-TEST_F(CameraApi, ACaptureHasTheCameraToItselfAndGivesItBack) {
+TEST_F(CameraApi, CaptureBorrowsTheCamera) {
   serve();
   ASSERT_TRUE(comes_to(""));
   const v1::Job job = create(capture_of(15));
@@ -92,7 +92,7 @@ TEST_F(CameraApi, ACaptureHasTheCameraToItselfAndGivesItBack) {
   EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "and taken again";
 }
 
-TEST_F(CameraApi, WhatIsWrongWithItIsToldUntilItIsWell) {
+TEST_F(CameraApi, CameraFaultIsReportedUntilItIsCleared) {
   serve();
   for (const auto& [fault, reason] : {std::pair("camera gone", "CAMERA_NOT_FOUND"),
                                       {"camera frozen", "CAMERA_FROZEN"},
@@ -107,7 +107,7 @@ TEST_F(CameraApi, WhatIsWrongWithItIsToldUntilItIsWell) {
   }
 }
 
-TEST_F(CameraApi, ACameraThatHangsHoldsUpNobody) {
+TEST_F(CameraApi, HangingCameraBlocksOnlyItsViewers) {
   serve(1);
   rig->act("camera hung");
   std::thread watcher([&] { EXPECT_TRUE(comes_to("CAMERA_STALLED")); });
@@ -121,7 +121,7 @@ TEST_F(CameraApi, ACameraThatHangsHoldsUpNobody) {
   EXPECT_TRUE(comes_to(""));
 }
 
-TEST_F(CameraApi, AProcessThatIsKilledIsReplacedAndOneThatIsHeldUpIsKilled) {
+TEST_F(CameraApi, DeadProcessIsReplacedAndHungProcessIsKilled) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   serve(1);
   ASSERT_TRUE(comes_to(""));

@@ -1,4 +1,4 @@
-// kill -9 and restart: what was acknowledged is there, and work goes on.
+// kill -9 and restart: acknowledged data is kept, and work continues.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 class Crash : public ::testing::Test {
  protected:
-  // As a power cut, as far as a process can tell.
+  // Simulates a power cut, as far as a process can.
   void kill_and_restart() {
     daemon.kill();
     daemon.start();
@@ -39,7 +39,7 @@ class Crash : public ::testing::Test {
 
 using States = std::vector<v1::Job::State>;
 
-TEST_F(Crash, RunningJobShowsItWasInterruptedAndFinishes) {
+TEST_F(Crash, RunningJobIsInterruptedAndFinishesLater) {
   const std::string name = client->simulate("sleep 1").name();
   client->wait(name, [](const v1::Job& job) { return job.phase() == "velocity"; });
   const auto before = client->events(name).back().seq();
@@ -51,7 +51,7 @@ TEST_F(Crash, RunningJobShowsItWasInterruptedAndFinishes) {
   EXPECT_FALSE(client->download(name + "/artifacts/film.png").empty());
 }
 
-TEST_F(Crash, JobThatIsThereEachTimeTheDaemonIsLostFailsAtTheThirdLoss) {
+TEST_F(Crash, JobFailsAfterTheThirdLossOfTheDaemon) {
   const std::string guilty = client->simulate("sleep 60").name();
   client->wait(guilty, [](const v1::Job& job) { return job.phase() == "velocity"; });
   for (int loss = 1; loss <= 2; ++loss) {
@@ -104,7 +104,8 @@ TEST_F(Crash, QueuedJobsPauseAndRequestIdsAreKept) {
   EXPECT_EQ(client->wait_for_end(second).state(), v1::Job::SUCCEEDED);
 }
 
-// Makes the store one of schema version 3, whose jobs had the worker's flags in place of a spec.
+// Turns the store into one of schema version 3, whose jobs had the worker's flags instead of a
+// spec.
 void downgrade_to_version_3(const std::filesystem::path& path) {
   const auto database = daemon::Database::open(path, "").value();
   for (const char* const statement :
@@ -117,7 +118,7 @@ void downgrade_to_version_3(const std::filesystem::path& path) {
   }
 }
 
-TEST_F(Crash, AJobThatWasQueuedBeforeAnUpgradeRunsAndCanBeRetried) {
+TEST_F(Crash, JobQueuedBeforeAnUpgradeRunsAndCanBeRetried) {
   client->pause();
   const std::string name = client->simulate("#old").name();
   ASSERT_EQ(daemon.terminate(), 0);
@@ -133,7 +134,7 @@ TEST_F(Crash, AJobThatWasQueuedBeforeAnUpgradeRunsAndCanBeRetried) {
   EXPECT_EQ(client->wait_for_end(again.name()).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(Crash, UploadGoesOnWhereItWasAcknowledged) {
+TEST_F(Crash, UploadContinuesAtTheAcknowledgedOffset) {
   const std::string bytes(300000, 'x');
   v1::StartUploadRequest start;
   start.set_size_bytes(static_cast<std::int64_t>(bytes.size()));
@@ -164,9 +165,9 @@ TEST_F(Crash, UploadGoesOnWhereItWasAcknowledged) {
   EXPECT_EQ(send(100000, bytes.size()).asset().sha256(), hash_of(bytes));
 }
 
-// Uploads and creates jobs as fast as it can until the daemon is killed at a moment drawn at
-// random; whatever got an answer must be there afterwards, and every job must come to its end.
-TEST_F(Crash, NothingAcknowledgedIsLostAtAnyMoment) {
+// Uploads and creates jobs as fast as possible until the daemon is killed at a random moment.
+// Everything acknowledged must then exist, and every job must finish.
+TEST_F(Crash, NoAcknowledgedDataIsLostAtAnyMoment) {
   std::mt19937 random(testing::campaign_seed(1));
   std::vector<std::string> assets, jobs;
   int made = 0;
@@ -193,7 +194,7 @@ TEST_F(Crash, NothingAcknowledgedIsLostAtAnyMoment) {
         jobs.push_back(job.name());
       }
     } catch (const std::runtime_error&) {
-      // the daemon is gone
+      // the daemon was killed
     }
     killer.join();
     kill_and_restart();
@@ -215,7 +216,7 @@ TEST_F(Crash, NothingAcknowledgedIsLostAtAnyMoment) {
   }
 }
 
-TEST_F(Crash, CleanShutdownEndsInTimeAndJobsGoOnAfterwards) {
+TEST_F(Crash, CleanShutdownIsFastAndJobsContinueAfterwards) {
   const std::string name = client->simulate("sleep 4").name();
   client->wait(name, [](const v1::Job& job) { return job.phase() == "velocity"; });
   EXPECT_EQ(daemon.terminate(), 0);

@@ -1,4 +1,4 @@
-// The dip as operators go through it, with hydroprintd and hydroprint-virtual-rig.
+// The dip from the operator's view, with hydroprintd and hydroprint-virtual-rig.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sqlite3.h>
@@ -17,7 +17,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr double kContact_mm = 8;
-constexpr double kClearance_mm = 3;  // of short_dip()
+constexpr double kClearance_mm = 3;  // as in short_dip()
 
 class DipApi : public RigTest {
  protected:
@@ -25,7 +25,7 @@ class DipApi : public RigTest {
     ann.make_ready();
     ann.go_to(kContact_mm);
   }
-  /// A dip that is in the middle of its descent.
+  /// Starts a dip and returns in the middle of its descent.
   std::string descending(double depth_mm = 40, double speed_mm_per_s = 10) {
     v1::DipSpec spec = short_dip();
     spec.set_depth_mm(depth_mm);
@@ -53,7 +53,7 @@ class DipApi : public RigTest {
   }
 };
 
-/// Rows of positions.csv as numbers, without the name of the motion; those of "dip" alone.
+/// Rows of positions.csv as numbers, without the name of the motion; only the motion "dip".
 std::vector<std::vector<double>> positions(const std::string& csv) {
   std::vector<std::vector<double>> rows;
   std::istringstream lines(csv);
@@ -72,7 +72,7 @@ std::vector<std::vector<double>> positions(const std::string& csv) {
   return rows;
 }
 
-TEST_F(DipApi, GuidesAnOperatorThroughAWholeDipAndKeepsItsRecord) {
+TEST_F(DipApi, GuidesAnOperatorThroughAWholeDip) {
   v1::DipSpec spec = short_dip();
   spec.set_depth_mm(12);
   spec.set_soak_s(1);
@@ -133,7 +133,7 @@ TEST_F(DipApi, GuidesAnOperatorThroughAWholeDipAndKeepsItsRecord) {
   EXPECT_LT(longest_s, 0.1) << "between two samples";
 }
 
-TEST_F(DipApi, WithoutConfirmationsAndClocksOnTheVirtualRig) {
+TEST_F(DipApi, SkipsConfirmationsAndClocksOnTheVirtualRig) {
   v1::DipSpec spec = short_dip();
   spec.set_soak_s(600);
   spec.set_yes_to_all(true);
@@ -145,7 +145,7 @@ TEST_F(DipApi, WithoutConfirmationsAndClocksOnTheVirtualRig) {
   EXPECT_NEAR(ann.report(name).at("depth_reached_mm"), 5, 0.1);
 }
 
-TEST_F(DipApi, WhatCannotBeDippedIsRefusedBeforeAnythingMoves) {
+TEST_F(DipApi, ImpossibleDipIsRefusedBeforeAnyMotion) {
   const double rest_mm = rig.position_mm();
   v1::Job job;
   v1::DipSpec spec = short_dip();
@@ -178,7 +178,7 @@ TEST_F(DipApi, WhatCannotBeDippedIsRefusedBeforeAnythingMoves) {
   EXPECT_EQ(rig.position_mm(), rest_mm);
 }
 
-TEST_F(DipApi, FirstContactFromWhichTheDepthIsOutOfReachIsRefusedAndTheDipGoesOnWaiting) {
+TEST_F(DipApi, FirstContactOutOfReachIsRefusedAndTheDipWaits) {
   v1::DipSpec spec = short_dip();
   spec.set_depth_mm(292);
   const std::string name = ann.dip(spec).name();
@@ -188,12 +188,12 @@ TEST_F(DipApi, FirstContactFromWhichTheDepthIsOutOfReachIsRefusedAndTheDipGoesOn
   EXPECT_EQ(reason_of(refused), "LIMIT_EXCEEDED");
   EXPECT_EQ(error_info(refused).metadata().at("max"), "298");
   EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::FIND_CONTACT);
-  ann.go_to(5.5);  // the object was hung lower
+  ann.go_to(5.5);  // as if the object hung lower
   EXPECT_TRUE(ann.confirm(name, v1::DipStatus::FIND_CONTACT).ok());
   ann.wait_for_step(name, v1::DipStatus::LAY_FILM);
 }
 
-TEST_F(DipApi, AConfirmationCountsForItsStepAlone) {
+TEST_F(DipApi, ConfirmationCountsForOneStepOnly) {
   const std::string name = ann.dip(short_dip()).name();
   EXPECT_EQ(reason_of(ann.confirm(name, v1::DipStatus::LOAD_OBJECT)), "STATE_FORBIDS");
   EXPECT_EQ(reason_of(ann.confirm(name, v1::DipStatus::SOAK)), "STATE_FORBIDS");
@@ -205,7 +205,7 @@ TEST_F(DipApi, AConfirmationCountsForItsStepAlone) {
   EXPECT_EQ(reason_of(bob.confirm(name, v1::DipStatus::LOAD_OBJECT)), "LEASE_REQUIRED");
 }
 
-TEST_F(DipApi, TheOperatorJogsToFirstContactAndNobodyMovesTheRigFromThenOn) {
+TEST_F(DipApi, OnlyTheDipMovesTheRigAfterFirstContact) {
   const std::string name = ann.dip(short_dip()).name();
   ann.guide_to(name, v1::DipStatus::FIND_CONTACT);
   while (rig.position_mm() < kContact_mm + 1.5) {
@@ -229,7 +229,7 @@ TEST_F(DipApi, TheOperatorJogsToFirstContactAndNobodyMovesTheRigFromThenOn) {
   EXPECT_TRUE(ann.jog(-5).ok());
 }
 
-TEST_F(DipApi, AFilmPastItsWindowIsWarnedOfAndDippedAllTheSame) {
+TEST_F(DipApi, LateFilmIsDippedWithAWarning) {
   v1::DipSpec spec = short_dip();
   spec.set_activation_window_s(1);
   const std::string name = ann.dip(spec).name();
@@ -243,14 +243,14 @@ TEST_F(DipApi, AFilmPastItsWindowIsWarnedOfAndDippedAllTheSame) {
   EXPECT_EQ(ann.report(name).at("warnings").at(0).at("code"), "film_late");
 }
 
-TEST_F(DipApi, CancelledAtAnyStepItSaysWhatToDoAndKeepsItsRecord) {
+TEST_F(DipApi, CancelAtAnyStepGivesAdviceAndKeepsTheRecord) {
   for (int i = v1::DipStatus::PRINT_FILM; i <= v1::DipStatus::RETRACT; ++i) {
     const auto step = static_cast<v1::DipStatus::Step>(i);
     SCOPED_TRACE(v1::DipStatus::Step_Name(step));
     if (ann.rig().state() != v1::Rig::IDLE) ann.make_ready();
     ann.go_to(kContact_mm);
     v1::DipSpec spec = short_dip();
-    // Where it is cancelled there has to be time for it.
+    // Lengthens the step in which the dip is cancelled.
     if (step == v1::DipStatus::SOAK) spec.set_soak_s(5);
     if (step == v1::DipStatus::ACTIVATE) spec.set_activator_wait_s(5);
     if (step == v1::DipStatus::HOLD) spec.set_hold_s(5);
@@ -272,7 +272,7 @@ TEST_F(DipApi, CancelledAtAnyStepItSaysWhatToDoAndKeepsItsRecord) {
   }
 }
 
-TEST_F(DipApi, AStopBySomebodyElseEndsItsMotion) {
+TEST_F(DipApi, StopByAnotherClientEndsTheMotion) {
   const std::string name = descending();
   RigClient bob(daemon.address(), "bob");
   ASSERT_TRUE(bob.stop().ok());
@@ -281,7 +281,7 @@ TEST_F(DipApi, AStopBySomebodyElseEndsItsMotion) {
   EXPECT_EQ(ann.rig().state(), v1::Rig::IDLE);
 }
 
-TEST_F(DipApi, AStopWhileNothingMovesDoesItNoHarm) {
+TEST_F(DipApi, StopAtRestDoesNotEndTheDip) {
   const std::string name = ann.dip(short_dip()).name();
   ann.guide_to(name, v1::DipStatus::START_DIP);
   ASSERT_TRUE(ann.stop().ok());
@@ -289,7 +289,7 @@ TEST_F(DipApi, AStopWhileNothingMovesDoesItNoHarm) {
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(DipApi, ItGoesOnWhenItsOperatorAndTheLeaseAreGone) {
+TEST_F(DipApi, DipContinuesWithoutOperatorAndLease) {
   const std::string name = descending(12);
   RigClient bob(daemon.address(), "bob");
   ASSERT_TRUE(bob.break_lease("the operator is gone").ok());
@@ -305,7 +305,7 @@ struct Fault {
 
 class DipFault : public DipApi, public ::testing::WithParamInterface<Fault> {};
 
-TEST_P(DipFault, InTheDescentFailsItWithTheReasonAndKeepsTheRecord) {
+TEST_P(DipFault, DuringTheDescentFailsTheDipWithAReason) {
   const std::string name = descending();
   rig.act(GetParam().line);
   const v1::Job ended = ann.wait_for_end(name);
@@ -323,13 +323,13 @@ TEST_P(DipFault, InTheDescentFailsItWithTheReasonAndKeepsTheRecord) {
   EXPECT_EQ(ann.rig().dip(), "");
 }
 
-TEST_P(DipFault, WhileTheFilmSoaksEndsItToo) {
+TEST_P(DipFault, WhileTheFilmSoaksFailsTheDipToo) {
   v1::DipSpec spec = short_dip();
   spec.set_soak_s(60);
   const std::string name = ann.dip(spec).name();
   ann.guide_to(name, v1::DipStatus::SOAK);
   rig.act(GetParam().line);
-  if (GetParam().name == std::string("Stall")) {  // nothing moves that it could hold
+  if (GetParam().name == std::string("Stall")) {  // no motion can be blocked in this step
     std::this_thread::sleep_for(milliseconds(500));
     EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::SOAK);
     return;
@@ -346,7 +346,7 @@ INSTANTIATE_TEST_SUITE_P(All, DipFault,
                                            Fault{"Stall", "stall", "RIG_FAULTED"}),
                          [](const auto& fault) { return fault.param.name; });
 
-TEST_F(DipApi, BeforeFirstContactTheRigMayBeHomedAgain) {
+TEST_F(DipApi, RigMayBeHomedBeforeFirstContact) {
   const std::string name = ann.dip(short_dip()).name();
   ann.guide_to(name, v1::DipStatus::FIND_CONTACT);
   rig.act("press stop");
@@ -360,7 +360,7 @@ TEST_F(DipApi, BeforeFirstContactTheRigMayBeHomedAgain) {
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(DipApi, ADaemonKilledInTheDescentLeavesItInterruptedAndTheRigAtRest) {
+TEST_F(DipApi, KillDuringTheDescentStopsTheRigAndInterruptsTheDip) {
   const std::string name = descending();
   daemon.kill();
   ASSERT_TRUE(rig.gets_to(0, 2));
@@ -397,7 +397,7 @@ TEST_F(DipApi, ADaemonKilledInTheDescentLeavesItInterruptedAndTheRigAtRest) {
   EXPECT_EQ(again.wait_for_end(again.dip(spec).name()).state(), v1::Job::SUCCEEDED);
 }
 
-/// Holds the right to write to a daemon's store, so that it waits for its disk.
+/// Holds the write lock of a daemon's store, as if its disk hung.
 class HeldStore {
  public:
   explicit HeldStore(const std::filesystem::path& database) {
@@ -413,8 +413,8 @@ class HeldStore {
   sqlite3* store_ = nullptr;
 };
 
-TEST_F(DipApi, AStoreThatHangsHoldsUpNeitherItsMotionNorAStop) {
-  // So slow that it goes on however long the store takes to be held.
+TEST_F(DipApi, HangingStoreDelaysNeitherMotionNorStop) {
+  // Slow enough to continue while the store is locked.
   const std::string name = descending(60, 2);
   {
     const HeldStore held(daemon.state() / "hydroprint.db");
@@ -429,11 +429,11 @@ TEST_F(DipApi, AStoreThatHangsHoldsUpNeitherItsMotionNorAStop) {
   EXPECT_GT(ann.report(name).at("depth_reached_mm"), 4);
 }
 
-TEST_F(DipApi, ADaemonThatHangsInTheDescentHasItStoppedByTheDriveAndGoesOnWithNothing) {
+TEST_F(DipApi, DriveStopsTheDescentOfAHangingDaemon) {
   const std::string name = descending();
   ::kill(daemon.pid(), SIGSTOP);
   const double hung_s = rig.now_s(), hung_mm = rig.position_mm();
-  // The drive's watchdog time and its way, as in its profile.
+  // The drive's watchdog time and stopping distance, from its profile.
   EXPECT_LT(rig.rested_s() - hung_s, 0.25 + 10.0 / 200 + 0.1);
   const double rest_mm = rig.position_mm();
   EXPECT_LT(rest_mm - hung_mm, 10 * (0.25 + 0.1) + 10.0 * 10 / (2 * 200));
@@ -448,7 +448,7 @@ TEST_F(DipApi, ADaemonThatHangsInTheDescentHasItStoppedByTheDriveAndGoesOnWithNo
   EXPECT_EQ(rig.position_mm(), rest_mm);
 }
 
-TEST_F(DipApi, ADaemonShutDownInTheDescentBringsTheAxisToRestFirst) {
+TEST_F(DipApi, ShutdownDuringTheDescentStopsTheAxisFirst) {
   const std::string name = descending();
   EXPECT_EQ(daemon.terminate(), 0);
   EXPECT_EQ(rig.speed_mm_per_s(), 0);
@@ -459,7 +459,7 @@ TEST_F(DipApi, ADaemonShutDownInTheDescentBringsTheAxisToRestFirst) {
   EXPECT_EQ(again.report(name).at("outcome"), "INTERRUPTED");
 }
 
-TEST_F(DipApi, TheSameRequestMakesOneDip) {
+TEST_F(DipApi, RepeatedRequestCreatesOneDip) {
   v1::CreateJobRequest request;
   *request.mutable_job()->mutable_dip() = short_dip();
   request.set_lease_id(ann.lease_id);
@@ -470,7 +470,7 @@ TEST_F(DipApi, TheSameRequestMakesOneDip) {
   EXPECT_EQ(first.name(), second.name());
 }
 
-TEST_F(DipApi, AQueueThatRunsAndPausesHasNothingToDoWithIt) {
+TEST_F(DipApi, PausedQueueDoesNotAffectADip) {
   ann.pause();
   const std::string name = ann.dip(short_dip()).name();
   EXPECT_EQ(ann.queue().queued_count(), 0);
@@ -479,7 +479,7 @@ TEST_F(DipApi, AQueueThatRunsAndPausesHasNothingToDoWithIt) {
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::SUCCEEDED);
 }
 
-TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
+TEST(DipOfASimulation, UsesDepthSpeedAndFilmOfItsReport) {
   if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
   const TemporaryFolder folder;
   VirtualRigProcess rig;
@@ -487,7 +487,7 @@ TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
   options.extra = rig.section();
   const DaemonProcess daemon(folder.path(), options);
   RigClient ann(daemon.address());
-  // A pyramid, point down.
+  // A pyramid, tip down.
   v1::CreateJobRequest request =
       simulate_request(ann.upload("v 0 0 -12\nv 9 0 0\nv 0 9 0\nv -9 0 0\nv 0 -9 0\n"
                                   "f 1 3 2\nf 1 4 3\nf 1 5 4\nf 1 2 5\nf 2 3 4 5\n"),
@@ -533,9 +533,9 @@ TEST(DipOfASimulation, IsAsDeepAndAsFastAndHasTheFilmOfItsReport) {
   EXPECT_EQ(report.at("parameters").at("activator_wait_s"), 0.3);
 }
 
-TEST(DipOnARealDrive, IsNeverWithoutItsOperator) {
+TEST(DipOnARealDrive, AlwaysNeedsAnOperator) {
   const TemporaryFolder folder;
-  VirtualRigProcess rig;  // which says nothing of what the daemon's profile says
+  VirtualRigProcess rig;  // does not report the data in the daemon's profile
   auto options = DaemonProcess::fake();
   std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
   const std::string is_virtual = "virtual = true";

@@ -1,27 +1,27 @@
-// A worker that does what the mesh file says instead of simulating; one command a line.
+// A worker that follows commands in the mesh file instead of simulating; one command per line.
 //
-//   sleep SECONDS   waits and tells its progress; ends on SIGTERM
+//   sleep SECONDS   waits and reports progress; ends on SIGTERM
 //   stubborn        like sleep 60, but ignores SIGTERM
-//   exit N WORDS    says WORDS and ends with status N
+//   exit N WORDS    prints WORDS and exits with status N
 //   reason WORD     prints WORD as the reason of an error
 //   crash           aborts
-//   eat             takes memory until there is no more
+//   eat             allocates memory until none is left
 //   huge            writes a file of 64 MiB
 //   fill            writes a file until the disk is full
-//   many            leaves 900 empty files with long names
-//   nothing         leaves no artifacts
-//   link            leaves a symbolic link as artifact
-//   garbage         leaves a calibration that is none
+//   many            writes 900 empty files with long names
+//   nothing         writes no artifacts
+//   link            writes a symbolic link as artifact
+//   garbage         writes a malformed calibration
 //   babble          writes nonsense as progress
-//   orphan          leaves a child behind
-//   socket          says whether it could open a socket
-//   kill-parent     says whether it could kill the daemon
-//   read FILE       says whether it could read the file
-//   write FILE      says whether it could write the file
+//   orphan          leaves a child process behind
+//   socket          reports whether it could open a socket
+//   kill-parent     reports whether it could kill the daemon
+//   read FILE       reports whether it could read the file
+//   write FILE      reports whether it could write the file
 //
-// Then it leaves film.png and report.json, which ends with its spec. print-image leaves print.pdf,
-// made of its film image, and spec.json. calibrate and calibrate-camera leave a calibration and
-// spec.json.
+// Finally it writes film.png and report.json, which ends with its spec. print-image writes
+// print.pdf, which contains its film image, and spec.json. calibrate and calibrate-camera write a
+// calibration and spec.json.
 
 #include <signal.h>
 #include <sys/resource.h>
@@ -46,7 +46,7 @@ nlohmann::json spec;
 std::string facts;
 bool is_garbage = false;
 
-/// Name of a file of the spec, or of a flag from before jobs had specs; empty without one.
+/// Name of a file in the spec, or of a flag for jobs stored without a spec; empty if there is none.
 std::string file_of(const std::string& field) {
   if (spec.is_null()) return flags["--" + field];
   return spec.contains(field) ? spec[field].value("name", "") : "";
@@ -191,7 +191,7 @@ void answer(const std::string& head, const std::string& bytes) {
   std::cout << head << ",\"bytes\":" << bytes.size() << "}\n" << bytes << std::flush;
 }
 
-// With "mute" in the mesh it answers nothing, with "rubbish" what is no answer, with "end" it ends.
+// Commands in the mesh: "mute" sends no answer, "rubbish" a malformed one, "end" exits.
 void preview() {
   std::stringstream mesh;
   mesh << std::ifstream(file_of("mesh")).rdbuf();

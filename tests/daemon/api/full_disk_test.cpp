@@ -1,4 +1,4 @@
-// A state folder on a disk of a few MiB that runs full in the middle of something.
+// A state folder on a disk of a few MiB that becomes full during an operation.
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
@@ -36,14 +36,14 @@ class FullDisk : public ::testing::Test {
   [[nodiscard]] std::int64_t free_bytes() const {
     return static_cast<std::int64_t>(fs::space(disk).available);
   }
-  // What others write on the same disk until only so much is left.
+  // Fills the disk with other files until at most `bytes` remain free.
   void leave_free(std::int64_t bytes) const {
     std::ofstream(disk / "others", std::ios::app) << std::string(
         static_cast<std::size_t>(std::max<std::int64_t>(0, free_bytes() - bytes)), 'x');
     EXPECT_LE(free_bytes(), bytes);
   }
   void make_room() const { fs::remove(disk / "others"); }
-  // Plain files below a folder of the store.
+  // Regular files below a folder of the store.
   [[nodiscard]] int files_in(const char* name) const {
     int count = 0;
     for (const auto& entry : fs::recursive_directory_iterator(disk / name)) {
@@ -66,7 +66,7 @@ class FullDisk : public ::testing::Test {
   std::unique_ptr<Client> client;
 };
 
-TEST_F(FullDisk, UploadThatFillsItIsRefusedAndLeavesNothing) {
+TEST_F(FullDisk, UploadThatFillsTheDiskIsRefusedAndDeleted) {
   start();
   const std::string bytes(4 * kMiB, 'x');
   v1::StartUploadRequest begin;
@@ -106,7 +106,7 @@ TEST_F(FullDisk, UploadThatFillsItIsRefusedAndLeavesNothing) {
   EXPECT_EQ(client->upload(bytes), "assets/" + hash_of(bytes));
 }
 
-TEST_F(FullDisk, RealJobWhoseArtifactsDoNotFitFailsAndLeavesNothing) {
+TEST_F(FullDisk, RealJobFailsIfItsArtifactsDoNotFit) {
   if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
   DaemonProcess::Options real = DaemonProcess::fake();
   real.worker.clear();
@@ -132,15 +132,15 @@ TEST_F(FullDisk, RealJobWhoseArtifactsDoNotFitFailsAndLeavesNothing) {
   EXPECT_EQ(client->wait_for_end(job.name()).state(), v1::Job::SUCCEEDED);
 }
 
-// The artifacts fit, the rows that name them do not: they are more than the room that is kept.
-TEST_F(FullDisk, ArtifactsThatLeaveNoRoomForTheirRowsAreGivenUp) {
+// The artifacts fit, but their rows do not: they need more than the reserved space.
+TEST_F(FullDisk, ArtifactsWithoutSpaceForTheirRowsAreDeleted) {
   start();
   const std::string name = client->simulate("many\nfill").name();
   expect_no_room_for(client->wait_for_end(name));
   EXPECT_EQ(client->wait_for_end(client->simulate("").name()).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(FullDisk, JobThatFilledItCanBeCancelled) {
+TEST_F(FullDisk, JobThatFilledTheDiskCanBeCancelled) {
   start();
   const std::string name = client->simulate("fill\nsleep 60").name();
   client->wait(name, [&](const v1::Job&) { return free_bytes() == 0; });
@@ -149,7 +149,7 @@ TEST_F(FullDisk, JobThatFilledItCanBeCancelled) {
   EXPECT_EQ(files_in("runs"), 0);
 }
 
-TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonLivesOn) {
+TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonKeepsRunning) {
   start();
   const std::string done = client->simulate("#1").name();
   client->wait_for_end(done);
@@ -157,7 +157,7 @@ TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonLivesOn) {
   const std::string asset = client->upload("#2");
   const std::string waiting = client->simulate("#3").name();
   leave_free(0);
-  // Each change takes room in the database's log until there is none.
+  // Each change uses space in the database's log until none is left.
   grpc::Status refused;
   v1::Queue queue;
   for (int i = 0; i < 2000 && refused.ok(); ++i) {
@@ -176,7 +176,7 @@ TEST_F(FullDisk, FullDatabaseRefusesChangesAndTheDaemonLivesOn) {
   EXPECT_EQ(client->wait_for_end(waiting).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(FullDisk, DaemonThatIsLostWithAJobThatFilledItStartsAgain) {
+TEST_F(FullDisk, DaemonStartsAgainAfterAJobFilledTheDisk) {
   start();
   const std::string name = client->simulate("fill\nsleep 60").name();
   client->wait(name, [&](const v1::Job&) { return free_bytes() == 0; });

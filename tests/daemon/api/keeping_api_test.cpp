@@ -1,5 +1,4 @@
-// What keeps a shared daemon in order, through the real one: whose files are whose, how much one
-// may have, and how long it is kept.
+// Ownership, quotas and retention, through the real daemon.
 #include "daemon/store/database/database.h"
 #include "hydroprint/v1/preview_service.grpc.pb.h"
 #include "tests/daemon/api/people_support.h"
@@ -14,7 +13,7 @@ void expect_refused(const grpc::Status& status, StatusCode code, const std::stri
   EXPECT_EQ(error_info(status).reason(), reason) << status.error_message();
 }
 
-/// A client's calls that may be refused.
+/// Calls of a client that may be refused.
 struct Asking {
   Client& client;
 
@@ -88,7 +87,7 @@ class KeepingApi : public PeopleApi {
   }
   Asking& operator[](const std::string& name) { return asking.at(name); }
 
-  /// Lets finished jobs end, and assets be used last, so many days before now.
+  /// Moves the end of finished jobs, and the last use of assets, by `days` into the past.
   void age(int days) {
     const std::string ms = std::to_string(days * 24LL * 3600 * 1000);
     const auto database = daemon::Database::open(state / "hydroprint.db", "").value();
@@ -101,7 +100,7 @@ class KeepingApi : public PeopleApi {
   std::map<std::string, Asking> asking;
 };
 
-TEST_F(KeepingApi, AHashAloneGivesNobodyAFile) {
+TEST_F(KeepingApi, HashAloneGivesNoAccessToAFile) {
   const std::string asset = as("maker")->upload("mesh");
   Asking& other = (*this)["other"];
   v1::Asset seen;
@@ -113,7 +112,7 @@ TEST_F(KeepingApi, AHashAloneGivesNobodyAFile) {
   expect_refused(other.remove(asset), StatusCode::NOT_FOUND, "ASSET_NOT_FOUND");
   EXPECT_TRUE(other.list().empty());
   ASSERT_TRUE(other.start_upload("mesh", started).ok());
-  EXPECT_TRUE(started.has_upload());  // whoever has the bytes can send them
+  EXPECT_TRUE(started.has_upload());  // a client that has the bytes can upload them
   for (const char* const name : {"operator", "admin"}) {
     ASSERT_TRUE((*this)[name].get(asset, seen).ok()) << name;
     EXPECT_EQ(seen.owners_size(), 1);
@@ -122,13 +121,13 @@ TEST_F(KeepingApi, AHashAloneGivesNobodyAFile) {
   EXPECT_EQ(as("other")->upload("mesh"), asset);
   EXPECT_TRUE(other.create(asset, job).ok());
   ASSERT_EQ(other.list().size(), 1U);
-  EXPECT_EQ(other.list().front().owners_size(), 1);  // of others they are not told
+  EXPECT_EQ(other.list().front().owners_size(), 1);  // other owners are hidden
   EXPECT_EQ((*this)["operator"].list().front().owners_size(), 2);
   EXPECT_EQ((*this)["operator"].list("viewer").size(), 0U);
 }
 
-TEST_F(KeepingApi, WhatASharedJobWasMadeOfCanBeUsedByAll) {
-  as("operator")->pause();  // what jobs make is their owners'
+TEST_F(KeepingApi, InputsOfASharedJobCanBeUsedByAll) {
+  as("operator")->pause();  // artifacts would count for their owners
   const auto maker = as("maker");
   const v1::Job job = maker->simulate("mesh");
   const std::string asset = job.simulate().mesh().asset();
@@ -136,10 +135,10 @@ TEST_F(KeepingApi, WhatASharedJobWasMadeOfCanBeUsedByAll) {
   EXPECT_FALSE((*this)["other"].create(asset, made).ok());
   ASSERT_TRUE((*this)["maker"].share(job.name(), true).ok());
   EXPECT_TRUE((*this)["other"].create(asset, made).ok());
-  EXPECT_EQ((*this)["other"].usage().stored_bytes(), 0);  // it is the maker's
+  EXPECT_EQ((*this)["other"].usage().stored_bytes(), 0);  // it counts for the maker
 }
 
-TEST_F(KeepingApi, OneGivesUpOnesOwnAndAnOperatorDeletesAnybodys) {
+TEST_F(KeepingApi, OwnersGiveUpTheirAssetsAndOperatorsDeleteAny) {
   const std::string asset = as("maker")->upload("mesh");
   as("other")->upload("mesh");
   v1::Asset seen;
@@ -150,7 +149,7 @@ TEST_F(KeepingApi, OneGivesUpOnesOwnAndAnOperatorDeletesAnybodys) {
   expect_refused((*this)["maker"].get(asset, seen), StatusCode::NOT_FOUND, "ASSET_NOT_FOUND");
 }
 
-TEST_F(KeepingApi, BytesBeyondTheQuotaAreRefusedAndUsageSaysWhatThereIs) {
+TEST_F(KeepingApi, BytesBeyondTheQuotaAreRefusedAndUsageIsReported) {
   const std::string large(3 << 20, 'a'), larger(3 << 20, 'b');
   const std::string asset = as("maker")->upload(large);
   Asking& maker = (*this)["maker"];
@@ -174,7 +173,7 @@ TEST_F(KeepingApi, BytesBeyondTheQuotaAreRefusedAndUsageSaysWhatThereIs) {
   EXPECT_TRUE(maker.start_upload(larger, started).ok());
 }
 
-TEST_F(KeepingApi, AnOwnersQueueIsLimited) {
+TEST_F(KeepingApi, QueuedJobsPerOwnerAreLimited) {
   as("operator")->pause();
   const std::string asset = as("maker")->upload("mesh");
   v1::Job job;
@@ -188,7 +187,7 @@ TEST_F(KeepingApi, AnOwnersQueueIsLimited) {
   EXPECT_TRUE((*this)["maker"].create(asset, job).ok());
 }
 
-TEST_F(KeepingApi, OldJobsAndFilesGoAndPinnedOnesStay) {
+TEST_F(KeepingApi, OldJobsAndFilesAreDeletedUnlessPinned) {
   const auto maker = as("maker");
   const std::string unused = maker->upload("unused");
   const v1::Job old = maker->wait_for_end(maker->simulate("old").name());
@@ -219,7 +218,7 @@ TEST_F(KeepingApi, OldJobsAndFilesGoAndPinnedOnesStay) {
   EXPECT_NE(PeopleApi::daemon.log().find("event=asset_deleted"), std::string::npos);
 }
 
-TEST_F(KeepingApi, WhatWasAnsweredIsInTheAuditLogEvenIfTheDaemonIsKilledThen) {
+TEST_F(KeepingApi, AuditLogSurvivesAKillAfterTheAnswer) {
   constexpr int kChanges = 10;
   {
     const auto admin = as("admin");
@@ -241,7 +240,7 @@ TEST_F(KeepingApi, WhatWasAnsweredIsInTheAuditLogEvenIfTheDaemonIsKilledThen) {
   EXPECT_EQ(reply.entries_size(), kChanges);
 }
 
-TEST_F(KeepingApi, ADeletedUsersNameIsNotGivenToSomebodyElse) {
+TEST_F(KeepingApi, NameOfADeletedUserIsReserved) {
   const auto admin = as("admin");
   const std::string name = as("maker")->simulate("mesh").name();
   v1::DeleteUserRequest leaves;
@@ -255,7 +254,7 @@ TEST_F(KeepingApi, ADeletedUsersNameIsNotGivenToSomebodyElse) {
   v1::User user;
   expect_refused(admin->people->CreateUser(admin->context().get(), comes, &user),
                  StatusCode::FAILED_PRECONDITION, "USER_NAME_USED");
-  comes.set_returns(true);  // the same one
+  comes.set_returns(true);  // confirmed as the same person
   ASSERT_TRUE(admin->people->CreateUser(admin->context().get(), comes, &user).ok());
   keys["maker"] = key_of("maker");
   EXPECT_TRUE(as("maker")->job(name).simulate().has_mesh());

@@ -1,9 +1,7 @@
-// kill -9 of the daemon, which owns the rig, at random moments of random motions: the drive stands
-// still in time, and what was acknowledged is there when the daemon is back.
-//
-// `tests/campaign` takes more rounds and other seeds (campaign.h): the seed makes the motions and
-// the moments, so that a round that failed can be run again. The line that begins with {"row" is a
-// summary.
+// kill -9 of the daemon at random moments of random motions: the drive stops in time, and
+// everything acknowledged exists after a restart. `tests/campaign` runs more rounds and other seeds
+// (campaign.h). The seed determines motions and moments, so a failed round can be repeated. The
+// line that begins with {"row" is a summary.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sqlite3.h>
@@ -38,7 +36,8 @@ constexpr double kNearest_mm = 3;
 constexpr double kFarthest_mm = 12;
 constexpr double kFastest_mm_per_s = 10;  // also the virtual drive's homing
 constexpr double kSlowest_mm_per_s = 1;
-// Beyond the drive's own bounds: how sure the moment of the kill is, and the signal's way.
+// Tolerance beyond the drive's own bounds, for the uncertain moment of the kill and the delay of
+// the signal.
 constexpr double kSlack_s = 0.05;
 constexpr milliseconds kBetweenCalls{40};
 constexpr milliseconds kLookAgain{20};
@@ -47,19 +46,19 @@ constexpr int kLease_s = 8 * 3600;
 enum class Kind { kHome, kMove, kJog, kDip };
 constexpr std::array kNames = {"home", "move", "jog", "dip"};
 
-/// One motion and when it is cut short.
+/// One motion, and the moment of the kill.
 struct Plan {
   Kind kind = Kind::kHome;
   double speed_mm_per_s = kFastest_mm_per_s;
-  double target_mm = 0;          ///< of a move; of a dip, where it begins
-  double depth_mm = 0;           ///< of a dip
-  double after_s = 0;            ///< the order is sent
+  double target_mm = 0;          ///< target of a move; start of a dip
+  double depth_mm = 0;           ///< only for a dip
+  double after_s = 0;            ///< time after the order is sent
   bool restart_at_once = false;  ///< while the axis may still be moving, as a service manager would
 };
 
 Plan draw(std::mt19937& random) {
   const auto between = [&](double low, double high) {
-    // Not std::uniform_real_distribution, which is another in each library.
+    // std::uniform_real_distribution differs between libraries.
     return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
   };
   Plan plan;
@@ -72,7 +71,7 @@ Plan draw(std::mt19937& random) {
   plan.speed_mm_per_s = between(kSlowest_mm_per_s, kFastest_mm_per_s);
   plan.target_mm = between(kNearest_mm, kFarthest_mm);
   plan.depth_mm = between(1, 8);
-  double way_mm = plan.target_mm;  // from home
+  double way_mm = plan.target_mm;  // starting at home
   if (plan.kind == Kind::kDip) {
     plan.target_mm = kNearest_mm + 1;
     way_mm = 2 * plan.depth_mm + 2;
@@ -105,13 +104,13 @@ bool stands(const json& truth) {
   return number(truth, "velocity_mm_per_s") == 0 && !truth.at("moving").get<bool>();
 }
 
-/// @param killed  the drive just before
+/// @param killed  state of the drive just before the kill
 Standstill watch_it_stop(VirtualRigProcess& drive, const json& killed) {
   json first;
   const auto rests = [&] {
     first = drive.truth();
     if (!stands(first)) return false;
-    // An order may have been on its way.
+    // An order may still have been in transit.
     std::this_thread::sleep_for(kLookAgain);
     const json second = drive.truth();
     return stands(second) && second.at("position_mm") == first.at("position_mm");
@@ -119,14 +118,14 @@ Standstill watch_it_stop(VirtualRigProcess& drive, const json& killed) {
   Standstill out;
   out.was_moving = number(killed, "velocity_mm_per_s") != 0;
   out.happened = wait_until(rests, 3);
-  // 0 if it rested all along.
+  // 0 if the axis was at rest all the time.
   out.seconds = std::max(number(first, "rested_s") - number(killed, "time_s"), 0.0);
   out.position_mm = number(first, "position_mm");
   out.way_mm = std::abs(out.position_mm - number(killed, "position_mm"));
   return out;
 }
 
-/// From whatever state the drive is in to UNHOMED, without moving.
+/// Brings the drive from any state to UNHOMED, without motion.
 bool gets_armed(RigClient& client) {
   return wait_until([&] {
     const v1::Rig::State state = client.rig().state();
@@ -154,7 +153,7 @@ v1::DipSpec dip_of(const Plan& plan) {
   return spec;
 }
 
-/// First column of all rows that a statement gives; the daemon may be running.
+/// First column of a query's result; the daemon may be running.
 std::vector<std::string> rows_of(const std::filesystem::path& database, const char* sql) {
   std::vector<std::string> out;
   const auto keep = [](void* rows, int, char** values, char**) {
@@ -205,8 +204,8 @@ class Campaign {
   std::string lease_id_;
   std::string asset_;
   std::vector<std::string> acknowledged_;       // jobs
-  std::string dip_;                             // of this round, if it was acknowledged
-  std::map<std::string, v1::Job::State> dips_;  // how those of earlier rounds ended
+  std::string dip_;                             // dip of this round, if acknowledged
+  std::map<std::string, v1::Job::State> dips_;  // final states of earlier dips
   Standstill stop_;
   int moving_ = 0, in_dips_ = 0, spoilt_ = 0;
   double most_time_share_ = 0, most_way_share_ = 0, longest_start_s_ = 0;
@@ -217,7 +216,7 @@ void Campaign::meet_daemon() {
   client_->lease_id = lease_id_;
 }
 
-/// Armed and, where that is wanted, homed and where the motion begins.
+/// Arms the rig and, if needed, homes it and moves to the start of the motion.
 bool Campaign::is_prepared(const Plan& plan) {
   if (!gets_armed(*client_)) return false;
   if (plan.kind == Kind::kHome) return true;
@@ -236,16 +235,15 @@ void Campaign::prepare(const Plan& plan) {
   FAIL() << "the rig does not get ready: " << client_->rig().trouble();
 }
 
-/// On a machine that is busy the drive may answer too late, or a call of a jog come too late: the
-/// daemon then stops the axis, and says so to whoever commands it. What is killed is another motion
-/// than was planned.
+/// On a busy machine, an answer of the drive or a call of a jog may be late. The daemon then stops
+/// the axis and tells the client, so the killed motion is not the planned one.
 void Campaign::expect_obeyed(const grpc::Status& sent) {
   if (sent.ok() || sent.error_code() == grpc::UNAVAILABLE) return;
   ++spoilt_;
   std::cout << "not as planned: " << reason_of(sent) << ": " << sent.error_message() << std::endl;
 }
 
-/// The order, and then calls that are acknowledged or not, until there is no daemon any more.
+/// Gives the order, then keeps calling until the daemon is gone.
 void Campaign::keep_busy(const Plan& plan) {
   client_->patient = false;
   v1::Job job;
@@ -280,7 +278,7 @@ void Campaign::move_until_killed(const Plan& plan) {
   });
   keep_busy(plan);
   killed.get_future().wait();
-  daemon_.kill();  // which now waits for its end
+  daemon_.kill();  // waits for its end
   if (plan.restart_at_once) restart();
   killer.join();
   moving_ += stop_.was_moving ? 1 : 0;
@@ -298,7 +296,7 @@ void Campaign::expect_stopped_in_time(const Plan& plan, const Standstill& stop) 
   const auto profile = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
   ASSERT_TRUE(profile);
   const double watchdog_s = profile->watchdog->largest_time_s;
-  // Homing is at a speed of its own.
+  // Homing has its own speed.
   const double speed = plan.kind == Kind::kHome ? kFastest_mm_per_s : plan.speed_mm_per_s;
   const double in_s = watchdog_s + speed / profile->stopping_deceleration_mm_per_s2;
   const double in_mm = drive::stopping_distance_mm(*profile, speed, watchdog_s);
@@ -320,9 +318,9 @@ void Campaign::expect_whole_store() const {
   EXPECT_EQ(rows_of(database, "PRAGMA foreign_key_check"), std::vector<std::string>{});
 }
 
-/// It wants to be homed, and nothing moves before that.
+/// Homing must be required, and nothing may move before it.
 void Campaign::expect_cold_rig(const Standstill& stop) {
-  // It may have been found in motion, and takes two looks to be seen at rest.
+  // The daemon may have found the drive in motion; two polls show standstill.
   ASSERT_TRUE(wait_until([&] {
     const v1::Rig::State state = client_->rig().state();
     return state != v1::Rig::OFFLINE && state != v1::Rig::STOPPING;
@@ -341,7 +339,7 @@ void Campaign::expect_cold_rig(const Standstill& stop) {
   EXPECT_EQ(drive_.position_mm(), stop.position_mm) << "neither reset nor arming moves it";
 }
 
-/// How a dip ended that was open or had just ended at the kill.
+/// Checks the end of a dip that was open, or had just ended, at the kill.
 void Campaign::expect_ended(const v1::Job& dip) {
   const auto [known, is_new] = dips_.emplace(dip.name(), dip.state());
   EXPECT_EQ(dip.state(), known->second) << dip.name() << " ended before";
@@ -352,7 +350,7 @@ void Campaign::expect_ended(const v1::Job& dip) {
   }
 }
 
-/// All that were acknowledged are there, and no dip is open.
+/// Checks that all acknowledged jobs exist and no dip is open.
 void Campaign::expect_jobs() {
   std::set<std::string> there;
   v1::ListJobsRequest request;
@@ -407,7 +405,7 @@ nlohmann::ordered_json Campaign::summary() const {
           {"longest_start_s", longest_start_s_}};
 }
 
-TEST(Killed, AtAnyMomentTheDriveStopsTheStoreIsWholeAndTheRigWantsHoming) {
+TEST(Killed, AtAnyMomentTheDriveStopsAndTheStoreIsIntact) {
   Campaign campaign;
   campaign.run();
   std::cout << campaign.summary().dump() << std::endl;

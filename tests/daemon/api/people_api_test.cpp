@@ -1,4 +1,4 @@
-// People and what is whose, through the real daemon.
+// Users and ownership, through the real daemon.
 #include "hydroprint/v1/lease_service.grpc.pb.h"
 #include "hydroprint/v1/rig_service.grpc.pb.h"
 #include "tests/daemon/api/people_support.h"
@@ -77,13 +77,13 @@ std::vector<v1::AuditEntry> audit(Client& client, const std::string& what) {
   return {reply.entries().begin(), reply.entries().end()};
 }
 
-TEST_F(PeopleApi, JobsAreOwnedByWhoeverCallsWhateverTheyClaim) {
-  Client client(daemon.address(), "admin");  // as hydroprint-owner
+TEST_F(PeopleApi, JobsAreOwnedByTheAuthenticatedCaller) {
+  Client client(daemon.address(), "admin");  // sent as hydroprint-owner
   client.key = keys["maker"];
   EXPECT_EQ(client.simulate("x").owner(), "maker");
 }
 
-TEST_F(PeopleApi, AMakersResultsAreTheirsAndTheOperatorsUnlessShared) {
+TEST_F(PeopleApi, ResultsAreVisibleToOwnerAndOperatorsUnlessShared) {
   const auto maker = as("maker");
   const std::string name = maker->simulate("mesh").name();
   maker->wait_for_end(name);
@@ -100,7 +100,7 @@ TEST_F(PeopleApi, AMakersResultsAreTheirsAndTheOperatorsUnlessShared) {
     expect_refusal(get_artifact(*client, film), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
     expect_refusal(download(*client, film), StatusCode::PERMISSION_DENIED, "NOT_YOURS");
     const v1::Job seen = get(*client, name);
-    EXPECT_EQ(seen.owner(), "maker");  // the queue is everybody's to see
+    EXPECT_EQ(seen.owner(), "maker");  // everybody may see the queue
     EXPECT_TRUE(seen.has_simulate());
     EXPECT_FALSE(seen.simulate().has_mesh()) << seen.ShortDebugString();
   }
@@ -134,7 +134,7 @@ TEST_F(PeopleApi, ListsAndWatchesHideFilesToo) {
   EXPECT_FALSE(message.job().simulate().has_mesh());
 }
 
-TEST_F(PeopleApi, OnlyOwnerAndOperatorsEndRepeatShareAndDeleteAJob) {
+TEST_F(PeopleApi, OnlyOwnerAndOperatorsChangeAJob) {
   const auto maker = as("maker"), other = as("other");
   const auto admin = as("admin"), boss = as("operator");
   v1::Job job;
@@ -152,7 +152,7 @@ TEST_F(PeopleApi, OnlyOwnerAndOperatorsEndRepeatShareAndDeleteAJob) {
   EXPECT_TRUE(remove(*maker, one).ok());
 }
 
-TEST_F(PeopleApi, NobodyGetsAtOthersFilesByReferringToTheirJobs) {
+TEST_F(PeopleApi, ReferringToAJobGivesNoAccessToItsFiles) {
   const auto maker = as("maker"), other = as("other");
   const std::string name = maker->simulate("mesh").name();
   maker->wait_for_end(name);
@@ -167,7 +167,7 @@ TEST_F(PeopleApi, NobodyGetsAtOthersFilesByReferringToTheirJobs) {
   }
 }
 
-TEST_F(PeopleApi, WhatTheRigDoesIsOperatorsToCreate) {
+TEST_F(PeopleApi, OnlyOperatorsCreateRigJobs) {
   v1::CreateJobRequest dip, capture, calibrate, lens;
   dip.mutable_job()->mutable_dip();
   capture.mutable_job()->mutable_capture();
@@ -213,7 +213,7 @@ TEST_F(PeopleApi, ASessionEndsWhenSignedOutAndWhenRevoked) {
                  StatusCode::UNAUTHENTICATED, "SIGN_IN_NEEDED");
 }
 
-TEST_F(PeopleApi, AStreamEndsWithTheSessionItWasBegunIn) {
+TEST_F(PeopleApi, StreamEndsWithItsSession) {
   Client client(daemon.address());
   client.session = sign_in("maker").session_token();
   const std::string job = client.simulate("sleep 60").name();
@@ -238,7 +238,7 @@ TEST_F(PeopleApi, AStreamEndsWithTheSessionItWasBegunIn) {
   EXPECT_TRUE(cancel(*as("maker"), job).ok());
 }
 
-TEST_F(PeopleApi, AKeyDoesNotSetTheFirstPasswordOfItsUser) {
+TEST_F(PeopleApi, KeyCannotSetTheFirstPassword) {
   const auto admin = as("admin");
   v1::SetPasswordRequest none;
   none.set_name("users/operator");
@@ -251,7 +251,7 @@ TEST_F(PeopleApi, AKeyDoesNotSetTheFirstPasswordOfItsUser) {
                  StatusCode::PERMISSION_DENIED, "SIGN_IN_FAILED");
 }
 
-TEST_F(PeopleApi, AKeyMayBeLessThanItsUserAndNeverMore) {
+TEST_F(PeopleApi, KeyNeverHasAHigherRoleThanItsUser) {
   const auto admin = as("operator");
   v1::CreateApiKeyRequest request;
   request.set_role(v1::ADMIN);
@@ -276,7 +276,7 @@ TEST_F(PeopleApi, AKeyMayBeLessThanItsUserAndNeverMore) {
                  StatusCode::UNAUTHENTICATED, "SIGN_IN_NEEDED");
 }
 
-TEST_F(PeopleApi, OnesOwnPasswordIsSetWithTheOldOneAndByAnAdminWithout) {
+TEST_F(PeopleApi, OwnPasswordNeedsTheOldOneExceptForAdmins) {
   const auto maker = as("maker");
   v1::SetPasswordRequest request;
   request.set_name("users/maker");
@@ -298,7 +298,7 @@ TEST_F(PeopleApi, OnesOwnPasswordIsSetWithTheOldOneAndByAnAdminWithout) {
   EXPECT_FALSE(sign_in("maker").session_token().empty());
 }
 
-TEST_F(PeopleApi, WrongPasswordsAreSlowedDownWithATimeToWait) {
+TEST_F(PeopleApi, WrongPasswordsAreThrottledWithAWaitingTime) {
   Client client(daemon.address());
   v1::SignInRequest request;
   request.set_user("maker");
@@ -313,7 +313,7 @@ TEST_F(PeopleApi, WrongPasswordsAreSlowedDownWithATimeToWait) {
   EXPECT_FALSE(sign_in("other").session_token().empty());  // from the same address
 }
 
-TEST_F(PeopleApi, WhatWasDoneIsInTheAuditLogWithWhoAndHow) {
+TEST_F(PeopleApi, AuditLogNamesCallerAndMethod) {
   const auto maker = as("maker"), other = as("other"), admin = as("admin");
   const std::string name = maker->simulate("mesh").name();
   (void)cancel(*other, name);
@@ -337,13 +337,13 @@ TEST_F(PeopleApi, WhatWasDoneIsInTheAuditLogWithWhoAndHow) {
   }
 }
 
-TEST_F(PeopleApi, WhoMovedWhatAndWhoWasNotLetTo) {
+TEST_F(PeopleApi, AuditLogHasMotionsAndRefusals) {
   const auto rig = v1::RigService::NewStub(as("")->channel);
   const auto viewer = as("viewer"), boss = as("operator"), admin = as("admin");
   v1::MoveToRequest move;
   move.set_position_mm(12.5);
   v1::Rig reply;
-  EXPECT_FALSE(rig->MoveTo(boss->context().get(), move, &reply).ok());  // there is no rig
+  EXPECT_FALSE(rig->MoveTo(boss->context().get(), move, &reply).ok());  // no rig is configured
   expect_refusal(rig->MoveTo(viewer->context().get(), move, &reply), StatusCode::PERMISSION_DENIED,
                  "ROLE_TOO_LOW");
   EXPECT_TRUE(rig->StopMotion(viewer->context().get(), {}, &reply).ok());
@@ -359,7 +359,7 @@ TEST_F(PeopleApi, WhoMovedWhatAndWhoWasNotLetTo) {
   EXPECT_EQ(entries[2].who(), "operator");
 }
 
-TEST_F(PeopleApi, PeopleAreThereAfterAKill) {
+TEST_F(PeopleApi, UsersSurviveAKill) {
   daemon.kill();
   daemon.start();
   v1::WhoAmIResponse who;
@@ -368,7 +368,7 @@ TEST_F(PeopleApi, PeopleAreThereAfterAKill) {
   EXPECT_EQ(who.user(), "maker");
 }
 
-TEST(PeopleFirst, WithoutUsersThisMachineIsAdminUntilThereIsOne) {
+TEST(PeopleFirst, WithoutUsersLoopbackCallersAreAdmin) {
   const TemporaryFolder folder;
   DaemonProcess daemon(folder.path(), DaemonProcess::fake());
   Client client(daemon.address(), "ann");
@@ -386,7 +386,7 @@ TEST(PeopleFirst, WithoutUsersThisMachineIsAdminUntilThereIsOne) {
                  StatusCode::UNAUTHENTICATED, "SIGN_IN_NEEDED");
 }
 
-TEST(PeopleFirst, WhereAccountsAreRequiredNobodyGetsInButByTheFirstLink) {
+TEST(PeopleFirst, RequiredAccountsStartWithTheFirstLink) {
   const TemporaryFolder folder;
   auto options = DaemonProcess::fake();
   options.extra = "[people]\naccounts = \"required\"\n";

@@ -1,5 +1,5 @@
-// Every method of every service as every role, through the real daemon, against what the methods
-// state.
+// Calls every method of every service with every role through the real daemon, and compares with
+// the methods' access options.
 #include <google/protobuf/descriptor.h>
 #include <grpcpp/generic/generic_stub.h>
 
@@ -35,7 +35,7 @@ std::vector<const google::protobuf::ServiceDescriptor*> all_services() {
   return services;
 }
 
-// Calls the method with an empty request; a stream is left after its first message.
+// Calls the method with an empty request; cancels a stream after its first message.
 grpc::Status call_empty(Client& client, const MethodDescriptor& method) {
   grpc::GenericStub stub(client.channel);
   const auto context = client.context();
@@ -91,7 +91,7 @@ void expect_as_stated(const MethodDescriptor& method, const std::string& user,
   }
 }
 
-TEST_F(PeopleApi, EveryMethodLetsInWhomItStatesAndNobodyElse) {
+TEST_F(PeopleApi, EveryMethodAdmitsExactlyTheStatedRoles) {
   int methods = 0;
   for (const auto* const service : all_services()) {
     for (int i = 0; i < service->method_count(); ++i, ++methods) {
@@ -105,7 +105,7 @@ TEST_F(PeopleApi, EveryMethodLetsInWhomItStatesAndNobodyElse) {
   EXPECT_GE(methods, 58);
 }
 
-TEST_F(PeopleApi, AllServicesAreAmongThose) {
+TEST_F(PeopleApi, AllServicesAreCovered) {
   std::set<std::string> known, there;
   for (const auto* const service : all_services()) known.insert(service->name());
   for (const auto& entry : std::filesystem::directory_iterator(HYDROPRINT_PROTO_DIR)) {

@@ -10,8 +10,8 @@
 
 namespace hydroprint::tests {
 
-/// A daemon with a user of each role, called "admin", "operator", "maker", "other" (a maker too)
-/// and "viewer", all with the password kPassword.
+/// A daemon with a user for each role: "admin", "operator", "maker", "other" (also a maker) and
+/// "viewer", all with the password kPassword.
 class PeopleApi : public ::testing::Test {
  protected:
   static constexpr const char* kPassword = "correct horse";
@@ -65,7 +65,7 @@ class PeopleApi : public ::testing::Test {
     EXPECT_TRUE(status.ok()) << status.error_message();
     return reply.key();
   }
-  /// A client with that user's key; without any for "".
+  /// A client with that user's key; without a key for "".
   std::unique_ptr<Client> as(const std::string& name) {
     auto client = std::make_unique<Client>(daemon.address());
     if (!name.empty()) client->key = keys.at(name);

@@ -1,4 +1,5 @@
-// Previews while an object is turned: with a worker that misbehaves on request, and the real one.
+// Previews while an object is rotated, with the real worker and with a fake one that misbehaves on
+// request.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -24,7 +25,7 @@ class Previews : public ::testing::Test {
     daemon = std::make_unique<DaemonProcess>(folder.path(), options);
     client = std::make_unique<Client>(daemon->address());
   }
-  /// The pid of the fake worker that answered comes as the depth.
+  /// The fake worker reports its pid as the depth.
   grpc::Status preview(const std::string& mesh, v1::Preview& out, bool with_mesh = false,
                        const std::string& owner = "") {
     Client caller(daemon->address(), owner);
@@ -51,7 +52,7 @@ class Previews : public ::testing::Test {
   std::unique_ptr<Client> client;
 };
 
-TEST_F(Previews, KeepTheMeshInAWorkerOfTheirOwn) {
+TEST_F(Previews, KeepTheMeshInTheirOwnWorker) {
   start(DaemonProcess::fake());
   v1::Preview first, second, other, third;
   ASSERT_TRUE(preview("a", first, true).ok());
@@ -79,7 +80,7 @@ TEST_F(Previews, AreNoJobs) {
   EXPECT_EQ(client->simulate("").name(), "jobs/1");
 }
 
-TEST_F(Previews, TheLatestOfACallerCounts) {
+TEST_F(Previews, NewRequestSupersedesThePreviousOne) {
   start(DaemonProcess::fake());
   std::atomic<bool> superseded = false;
   std::thread before([&] {
@@ -92,7 +93,7 @@ TEST_F(Previews, TheLatestOfACallerCounts) {
   EXPECT_TRUE(preview("a", out).ok());
 }
 
-TEST_F(Previews, OneMoreThanThereAreSeatsTakesThatOfWhoeverAsksNothing) {
+TEST_F(Previews, FullPoolReplacesAnIdleWorker) {
   start(DaemonProcess::fake());
   v1::Preview out;
   for (int i = 0; i < 12; ++i) {
@@ -103,7 +104,7 @@ TEST_F(Previews, OneMoreThanThereAreSeatsTakesThatOfWhoeverAsksNothing) {
   }
 }
 
-TEST_F(Previews, WhatIsWrongIsSaidAndTheNextOneWorks) {
+TEST_F(Previews, ErrorsAreReportedAndTheNextRequestWorks) {
   start(DaemonProcess::fake());
   expect_refused("exit 3 m.obj:7: not a number; fix the line", grpc::INVALID_ARGUMENT,
                  "INPUT_REFUSED");
@@ -127,7 +128,7 @@ TEST_F(Previews, WhatIsWrongIsSaidAndTheNextOneWorks) {
   EXPECT_EQ(refused(), "NAME_INVALID");
 }
 
-TEST_F(Previews, EndWithTheDaemonThoughAWorkerIsMute) {
+TEST_F(Previews, EndWithTheDaemonEvenIfAWorkerIsSilent) {
   start(DaemonProcess::fake());
   std::thread waiting([this] {
     v1::Preview out;
@@ -138,7 +139,7 @@ TEST_F(Previews, EndWithTheDaemonThoughAWorkerIsMute) {
   waiting.join();
 }
 
-TEST_F(Previews, TellWhereFilmLands) {
+TEST_F(Previews, ReportWhereTheFilmLands) {
   if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
   start({});
   v1::Preview out;
@@ -161,7 +162,7 @@ TEST_F(Previews, TellWhereFilmLands) {
   expect_refused("v 0 0 nothing\n", grpc::INVALID_ARGUMENT, "INPUT_REFUSED");
 }
 
-TEST_F(Previews, ADipThatCannotBeIsRefusedWithItsReason) {
+TEST_F(Previews, ImpossibleDipIsRefusedWithAReason) {
   if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
   start({});
   v1::ComputePreviewRequest request;

@@ -1,5 +1,4 @@
-// From a simulation to paper: print-image and template of a simulate job, and print, against a real
-// IPP printer.
+// Printing a simulation: print-image, template and print jobs, with a real IPP printer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +46,7 @@ class PrintApi : public ::testing::Test {
   }
   v1::Job done(const v1::Job& job) { return client_->wait_for_end(job.name()); }
 
-  /// A simulation that is done.
+  /// A finished simulation.
   v1::Job simulated(const std::string& film = "") {
     auto wanted = simulate_request(client_->upload("body"), "body.obj").job();
     wanted.mutable_simulate()->set_dpi(200);
@@ -70,19 +69,19 @@ class PrintApi : public ::testing::Test {
     out.mutable_print()->set_print_image_job(pages.name());
     return out;
   }
-  /// Pages that are there to be printed.
+  /// A print-image job with pages to print.
   v1::Job pages() { return done(create(print_image_of(simulated()))); }
 
   std::string file(const v1::Job& job, const std::string& name) {
     return client_->download(job.name() + "/artifacts/" + name);
   }
-  /// All that happened to a job, in words.
+  /// All event messages of a job.
   std::string told(const v1::Job& job) {
     std::string out;
     for (const auto& event : client_->events(job.name())) out += event.message() + "\n";
     return out;
   }
-  /// Waits until a print has come to that phase.
+  /// Waits until a print reaches that phase.
   v1::Job at(const v1::Job& job, const std::string& phase) {
     return client_->wait(job.name(), [&](const v1::Job& now) { return now.phase() == phase; });
   }
@@ -96,7 +95,7 @@ bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_F(PrintApi, PrintImageTakesFilmImageFilmAndResolutionOfItsSimulation) {
+TEST_F(PrintApi, PrintImageUsesFilmAndResolutionOfItsSimulation) {
   start();
   const v1::Job simulation = simulated("[[0,0],[9,0],[0,9]]");
   const v1::Job job = done(create(print_image_of(simulation)));
@@ -111,7 +110,7 @@ TEST_F(PrintApi, PrintImageTakesFilmImageFilmAndResolutionOfItsSimulation) {
   EXPECT_EQ(file(job, "print.pdf"), "%PDF of " + file(simulation, "film.png"));
 }
 
-TEST_F(PrintApi, AReprintIsTheSameFileEvenWhenTheSimulationIsGone) {
+TEST_F(PrintApi, ReprintIsIdenticalAfterTheSimulationIsDeleted) {
   start();
   const v1::Job simulation = simulated();
   const v1::Job first = done(create(print_image_of(simulation)));
@@ -131,7 +130,7 @@ TEST_F(PrintApi, AReprintIsTheSameFileEvenWhenTheSimulationIsGone) {
   EXPECT_EQ(file(retried, "print.pdf"), file(first, "print.pdf"));
 }
 
-TEST_F(PrintApi, TemplateTakesTheObjectOfItsSimulation) {
+TEST_F(PrintApi, TemplateUsesTheObjectOfItsSimulation) {
   start();
   const v1::Job simulation = simulated("[[0,0],[9,0],[0,9]]");
   v1::Job wanted;
@@ -147,7 +146,7 @@ TEST_F(PrintApi, TemplateTakesTheObjectOfItsSimulation) {
   EXPECT_EQ(spec["film"], "polygon:film.json");
 }
 
-TEST_F(PrintApi, WhatIsTakenFromASimulationIsNotGivenAsWell) {
+TEST_F(PrintApi, FieldsTakenFromASimulationMustNotBeSet) {
   start();
   const v1::Job simulation = simulated();
   v1::Job twice = print_image_of(simulation);
@@ -165,7 +164,7 @@ TEST_F(PrintApi, WhatIsTakenFromASimulationIsNotGivenAsWell) {
   EXPECT_EQ(refusal(placed), "SPEC_INVALID");
 }
 
-TEST_F(PrintApi, OnlyASimulationThatSucceededIsTakenFrom) {
+TEST_F(PrintApi, SimulationMustHaveSucceeded) {
   start();
   v1::Job nobody;
   nobody.set_name("jobs/99");
@@ -193,7 +192,7 @@ TEST_F(PrintApi, PagesAreSentOnceAndFollowedToTheEnd) {
   EXPECT_EQ(ended.progress_fraction(), 1);
   EXPECT_EQ(content(there.spooled()), file(printed, "print.pdf"));
   const std::string words = told(job);
-  EXPECT_TRUE(has(words, "sends " + printed.name() + " to Test printer")) << words;
+  EXPECT_TRUE(has(words, "sending " + printed.name() + " to Test printer")) << words;
   EXPECT_TRUE(has(words, "processing: job-printing")) << words;
   EXPECT_TRUE(has(words, "completed")) << words;
   const json report = json::parse(file(ended, "report.json"));
@@ -208,7 +207,7 @@ TEST_F(PrintApi, PagesAreSentOnceAndFollowedToTheEnd) {
   EXPECT_EQ(error_info(status).reason(), "STATE_FORBIDS") << "nothing is printed by chance";
 }
 
-TEST_F(PrintApi, APrinterThatIsOutOfPaperSaysSo) {
+TEST_F(PrintApi, PrinterOutOfPaperIsReported) {
   const IppPrinter there(std::string("echo 'STATE: +media-empty' >&2\n") +
                          IppPrinter::kUntilFinished);
   start(there);
@@ -221,12 +220,12 @@ TEST_F(PrintApi, APrinterThatIsOutOfPaperSaysSo) {
   EXPECT_EQ(done(job).state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(PrintApi, CancelEndsThePrintAtThePrinter) {
+TEST_F(PrintApi, CancelEndsThePrintOnThePrinter) {
   const IppPrinter there(IppPrinter::kUntilFinished);
   start(there);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");
   EXPECT_EQ(client_->cancel(job.name()).state(), v1::Job::CANCELLING);
-  // This printer ends a page that it has begun.
+  // This printer completes a page that it has begun.
   const printer::Printer asked(there.address());
   while (asked.job(1).value().reasons != std::vector<std::string>{"processing-to-stop-point"}) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -237,7 +236,7 @@ TEST_F(PrintApi, CancelEndsThePrintAtThePrinter) {
   EXPECT_EQ(json::parse(file(ended, "report.json"))["states"].back()["state"], "canceled");
 }
 
-TEST_F(PrintApi, WhatThePrinterGivesUpFailsWithItsWords) {
+TEST_F(PrintApi, AbortedPrintFailsWithThePrintersMessage) {
   const IppPrinter there("exit 1");
   start(there);
   const v1::Job ended = done(create(print_of(pages())));
@@ -247,7 +246,7 @@ TEST_F(PrintApi, WhatThePrinterGivesUpFailsWithItsWords) {
   EXPECT_EQ(json::parse(file(ended, "report.json"))["reason"], "PRINT_ABORTED");
 }
 
-TEST_F(PrintApi, NoPrinterAndOneThatIsOffAreNamed) {
+TEST_F(PrintApi, MissingOrUnreachablePrinterIsReported) {
   start();
   EXPECT_EQ(refusal(print_of(pages())), "PRINTER_MISSING");
   daemon_.reset();
@@ -257,7 +256,7 @@ TEST_F(PrintApi, NoPrinterAndOneThatIsOffAreNamed) {
   EXPECT_EQ(ended.error().reason(), "PRINTER_UNREACHABLE") << ended.error().message();
 }
 
-TEST_F(PrintApi, APrinterThatGoesInTheMiddleIsLost) {
+TEST_F(PrintApi, PrinterLostDuringAPrintFailsTheJob) {
   IppPrinter there(IppPrinter::kUntilFinished);
   start(there, 5);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");
@@ -268,7 +267,7 @@ TEST_F(PrintApi, APrinterThatGoesInTheMiddleIsLost) {
   EXPECT_TRUE(has(ended.error().message(), "may or may not have been printed"));
 }
 
-TEST_F(PrintApi, ADaemonThatIsKilledLeavesThePrintInterruptedAndSendsNothingAgain) {
+TEST_F(PrintApi, KillInterruptsThePrintAndNothingIsSentAgain) {
   const IppPrinter there(IppPrinter::kUntilFinished);
   start(there);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");
@@ -276,12 +275,12 @@ TEST_F(PrintApi, ADaemonThatIsKilledLeavesThePrintInterruptedAndSendsNothingAgai
   daemon_->start();
   client_ = std::make_unique<Client>(daemon_->address());
   EXPECT_EQ(client_->job(job.name()).state(), v1::Job::INTERRUPTED);
-  EXPECT_TRUE(has(told(job), "may have printed this or not"));
+  EXPECT_TRUE(has(told(job), "may already have printed this"));
   there.finish();
   EXPECT_TRUE(std::filesystem::exists(there.spooled())) << "and only that";
 }
 
-TEST_F(PrintApi, ADaemonThatIsShutDownLeavesThePrintToThePrinter) {
+TEST_F(PrintApi, ShutdownLeavesThePrintToThePrinter) {
   const IppPrinter there(IppPrinter::kUntilFinished);
   start(there);
   const v1::Job job = at(create(print_of(pages())), "PROCESSING");

@@ -1,4 +1,4 @@
-// The rig and its lease as clients see them, through hydroprintd and hydroprint-virtual-rig.
+// The rig and its lease from a client's view, through hydroprintd and hydroprint-virtual-rig.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ double seconds_since(SteadyClock::time_point time) {
   return std::chrono::duration<double>(SteadyClock::now() - time).count();
 }
 
-TEST(NoRig, TheApiIsServedAndSaysWhatIsMissing) {
+TEST(NoRig, ApiIsServedAndReportsTheMissingRig) {
   const TemporaryFolder folder;
   const DaemonProcess daemon(folder.path(), DaemonProcess::fake());
   RigClient ann(daemon.address());
@@ -43,7 +43,7 @@ TEST(NoRig, TheApiIsServedAndSaysWhatIsMissing) {
   EXPECT_EQ(health_of(ann, "hydroprint.v1.JobService"), "SERVING");
 }
 
-TEST(NoRig, AConfigurationThatIsNotSafeIsRefusedInOneLine) {
+TEST(NoRig, UnsafeConfigurationIsRefusedOnOneLine) {
   const auto refused = run_daemon({"--rig", "tcp:127.0.0.1:1502", "--rig-profile",
                                    HYDROPRINT_PROFILES "/none.toml", "--check-config"});
   EXPECT_EQ(refused.status, 3) << refused.words;
@@ -66,7 +66,7 @@ TEST(NoRig, AConfigurationThatIsNotSafeIsRefusedInOneLine) {
   EXPECT_EQ(std::count(unsafe.words.begin(), unsafe.words.end(), '\n'), 1) << unsafe.words;
 }
 
-TEST(NoRig, ADriveThatDoesNotAnswerIsOfflineWithItsReason) {
+TEST(NoRig, SilentDriveIsOfflineWithAReason) {
   const TemporaryFolder folder;
   auto options = DaemonProcess::fake();
   options.extra =
@@ -83,7 +83,7 @@ TEST(NoRig, ADriveThatDoesNotAnswerIsOfflineWithItsReason) {
 
 class RigApi : public RigTest {};
 
-TEST_F(RigApi, ArmsThenHomesThenMovesAndNothingElseFirst) {
+TEST_F(RigApi, MotionRequiresArmingAndHoming) {
   ann.take_lease();
   ASSERT_TRUE(ann.becomes(v1::Rig::DISARMED));
   EXPECT_EQ(reason_of(ann.move_to(20)), "STATE_FORBIDS");
@@ -119,7 +119,7 @@ TEST_F(RigApi, ArmsThenHomesThenMovesAndNothingElseFirst) {
   EXPECT_FALSE(ann.rig().homed());
 }
 
-TEST_F(RigApi, WhatIsOutOfReachOrNoNumberIsRefusedAndNothingMoves) {
+TEST_F(RigApi, InvalidTargetsAreRefusedWithoutMotion) {
   ann.make_ready();
   const double rest_mm = rig.position_mm();
   const auto status = ann.move_to(299);
@@ -152,7 +152,7 @@ TEST_F(RigApi, HealthFollowsTheRig) {
   EXPECT_FALSE(ann.rig().trouble().empty());
 }
 
-TEST_F(RigApi, AnyoneMayStopWithoutALease) {
+TEST_F(RigApi, StopNeedsNoLease) {
   ann.make_ready();
   RigClient bob(daemon.address(), "bob");
   EXPECT_TRUE(bob.stop().ok()) << "nothing moves: no harm";
@@ -166,7 +166,7 @@ TEST_F(RigApi, AnyoneMayStopWithoutALease) {
   EXPECT_TRUE(ann.move_to(10).ok()) << "the next order goes";
 }
 
-TEST_F(RigApi, AStopIgnoresFieldsThatItDoesNotHave) {
+TEST_F(RigApi, StopIgnoresUnknownFields) {
   ann.make_ready();
   ASSERT_TRUE(ann.move_to(290, 5).ok());
   ASSERT_TRUE(rig.gets_to(5));
@@ -179,7 +179,7 @@ TEST_F(RigApi, AStopIgnoresFieldsThatItDoesNotHave) {
   EXPECT_TRUE(rig.gets_to(0));
 }
 
-TEST_F(RigApi, ASecondOperatorIsRefusedAndMayBreakTheLeaseWithAReason) {
+TEST_F(RigApi, SecondOperatorMayBreakTheLeaseWithAReason) {
   ann.make_ready();
   RigClient bob(daemon.address(), "bob");
   v1::Lease lease;
@@ -205,7 +205,7 @@ TEST_F(RigApi, ASecondOperatorIsRefusedAndMayBreakTheLeaseWithAReason) {
   EXPECT_EQ(bob.rig().lease().holder(), "bob");
 }
 
-TEST_F(RigApi, ALeaseIsUnguessableShownToNobodyAndEnds) {
+TEST_F(RigApi, LeaseIdIsSecretAndExpires) {
   v1::Lease none;
   EXPECT_EQ(reason_of(ann.leases->GetLease(ann.context().get(), {}, &none)), "LEASE_NOT_FOUND");
   v1::Lease first, second, shown;
@@ -235,7 +235,7 @@ TEST_F(RigApi, ALeaseIsUnguessableShownToNobodyAndEnds) {
   EXPECT_EQ(reason_of(bob.acquire(out_of_range, 8 * 3600 + 1)), "SPEC_INVALID");
 }
 
-TEST_F(RigApi, ALeaseSurvivesTheDaemon) {
+TEST_F(RigApi, LeaseSurvivesTheDaemon) {
   ann.take_lease();
   daemon.kill();
   daemon.start();
@@ -248,7 +248,7 @@ TEST_F(RigApi, ALeaseSurvivesTheDaemon) {
   EXPECT_EQ(reason_of(bob.acquire(lease)), "LEASE_HELD");
 }
 
-TEST_F(RigApi, ARequestThatComesTwiceMovesOnce) {
+TEST_F(RigApi, RepeatedRequestMovesOnce) {
   ann.make_ready();
   ASSERT_TRUE(ann.move_to(6, 10, "m1").ok());
   ASSERT_TRUE(ann.becomes(v1::Rig::IDLE));
@@ -264,7 +264,7 @@ TEST_F(RigApi, ARequestThatComesTwiceMovesOnce) {
   EXPECT_EQ(ann.rig().motion().number(), motion + 1);
 }
 
-TEST_F(RigApi, AJogGoesOnWhileItIsHeldAndRestsWithin500msOfTheLastCall) {
+TEST_F(RigApi, JogStopsWithin500msOfTheLastCall) {
   ann.make_ready();
   for (int i = 0; i < 10; ++i) {
     ASSERT_TRUE(ann.jog(5).ok());
@@ -272,11 +272,11 @@ TEST_F(RigApi, AJogGoesOnWhileItIsHeldAndRestsWithin500msOfTheLastCall) {
   }
   EXPECT_NEAR(rig.speed_mm_per_s(), 5, 0.01);
   const double last_s = rig.now_s();
-  ASSERT_TRUE(ann.jog(5).ok());  // and then the client is gone, as if killed
+  ASSERT_TRUE(ann.jog(5).ok());  // from here on the client is gone, as if killed
   EXPECT_LT(rig.rested_s() - last_s, 0.5);
 }
 
-/// Jogs until it is refused; why.
+/// Jogs until a call is refused, and returns the reason.
 std::string jog_until_refused(RigClient& client) {
   for (int i = 0; i < 200; ++i) {
     const std::string reason = reason_of(client.jog(5));
@@ -286,7 +286,7 @@ std::string jog_until_refused(RigClient& client) {
   return "";
 }
 
-TEST_F(RigApi, ABrokenLeaseStopsAJogAtOnceThoughItIsStillHeld) {
+TEST_F(RigApi, BreakingTheLeaseStopsAHeldJogAtOnce) {
   ann.make_ready();
   RigClient bob(daemon.address(), "bob");
   std::string reason;
@@ -301,7 +301,7 @@ TEST_F(RigApi, ABrokenLeaseStopsAJogAtOnceThoughItIsStillHeld) {
   EXPECT_EQ(reason_of(ann.jog(5)), "LEASE_REQUIRED");
 }
 
-TEST_F(RigApi, ALeaseThatRunsOutStopsAJog) {
+TEST_F(RigApi, ExpiredLeaseStopsAJog) {
   ann.make_ready();
   v1::RenewLeaseRequest renew;
   renew.set_lease_id(ann.lease_id);
@@ -313,7 +313,7 @@ TEST_F(RigApi, ALeaseThatRunsOutStopsAJog) {
   EXPECT_LT(rig.rested_s() - refused_s, 0.3);
 }
 
-TEST_F(RigApi, AMoveGoesOnWhenTheLeaseEnds) {
+TEST_F(RigApi, MoveContinuesWhenTheLeaseEnds) {
   ann.make_ready();
   ASSERT_TRUE(ann.move_to(12, 10).ok());
   ASSERT_TRUE(rig.gets_to(10));
@@ -322,7 +322,7 @@ TEST_F(RigApi, AMoveGoesOnWhenTheLeaseEnds) {
   EXPECT_NEAR(rig.position_mm(), 12, 0.1);
 }
 
-TEST_F(RigApi, AFaultWantsAResetAndAResetStartsNothing) {
+TEST_F(RigApi, FaultRequiresAResetWhichStartsNoMotion) {
   ann.make_ready();
   ASSERT_TRUE(ann.move_to(100, 10).ok());
   ASSERT_TRUE(rig.gets_to(10));
@@ -336,7 +336,7 @@ TEST_F(RigApi, AFaultWantsAResetAndAResetStartsNothing) {
   EXPECT_EQ(rig.speed_mm_per_s(), 0);
 }
 
-TEST_F(RigApi, NoCommandAnswersUnavailableWhateverTheDriveDoes) {
+TEST_F(RigApi, CommandsNeverReturnUnavailable) {
   const auto begin = [&](const std::string& fault) {
     SCOPED_TRACE(fault);
     ann.make_ready();
@@ -360,7 +360,7 @@ TEST_F(RigApi, NoCommandAnswersUnavailableWhateverTheDriveDoes) {
   begin("unplug");
 }
 
-TEST_F(RigApi, AWatcherSeesEachStateAndNoMoreThanItAskedFor) {
+TEST_F(RigApi, WatchShowsEachStateAtTheRequestedRate) {
   ann.take_lease();
   ASSERT_TRUE(ann.becomes(v1::Rig::DISARMED));
   v1::WatchRigRequest request;
@@ -386,7 +386,7 @@ TEST_F(RigApi, AWatcherSeesEachStateAndNoMoreThanItAskedFor) {
   EXPECT_EQ(seen, (std::vector{v1::Rig::DISARMED, v1::Rig::UNHOMED}));
 }
 
-TEST_F(RigApi, NeitherWatchesNorUploadsKeepAStopFromGettingThrough) {
+TEST_F(RigApi, WatchesAndUploadsDoNotBlockAStop) {
   ann.make_ready();
   std::vector<std::unique_ptr<grpc::ClientContext>> contexts;
   std::vector<std::unique_ptr<grpc::ClientReader<v1::Rig>>> watches;
@@ -400,7 +400,7 @@ TEST_F(RigApi, NeitherWatchesNorUploadsKeepAStopFromGettingThrough) {
     EXPECT_EQ(reason_of(watches.back()->Finish()), "WATCHES_FULL");
   }
   EXPECT_EQ(refused, 8);
-  // Uploads that say nothing hold all the server's threads.
+  // Silent uploads occupy all threads of the server.
   RigClient crowd(daemon.address(), "crowd");
   std::vector<std::unique_ptr<v1::UploadChunkResponse>> replies;
   std::vector<std::unique_ptr<grpc::ClientWriter<v1::UploadChunkRequest>>> uploads;

@@ -16,33 +16,33 @@
 
 namespace hydroprint::tests {
 
-/// Waits, looking every few ms; false if `until` did not come true in time.
+/// Polls every few ms; false if `until` did not become true in time.
 [[nodiscard]] bool wait_until(const std::function<bool()>& until, double seconds = 10);
 
-/// hydroprint-virtual-rig on a free port of loopback, with a short way home.
+/// hydroprint-virtual-rig on a free loopback port, close to its home position.
 class VirtualRigProcess {
  public:
-  /// @param scene  more of its scene
-  /// @param files  that the scene names, and what is in them
+  /// @param scene  further lines of its scene file
+  /// @param files  names and contents of files that the scene uses
   explicit VirtualRigProcess(const std::string& scene = "",
                              const std::vector<std::pair<std::string, std::string>>& files = {});
 
-  /// Does what a control line says; what came back.
+  /// Sends a control line and returns the answer.
   std::string act(const std::string& line);
-  /// What it really is, whatever it tells.
+  /// The true state of the drive, whatever it reports.
   nlohmann::json truth();
   [[nodiscard]] double position_mm() { return truth().at("position_mm"); }
   [[nodiscard]] double speed_mm_per_s();
-  /// True once it moves as fast as that, or does not move.
+  /// Whether it moves that fast, or is at rest.
   [[nodiscard]] bool gets_to(double speed_mm_per_s, double seconds = 10);
-  /// Time by the drive's own clock, which does not depend on when a test gets to look.
+  /// Time of the drive's own clock, which does not depend on when a test reads it.
   [[nodiscard]] double now_s() { return truth().at("time_s"); }
-  /// Waits until it rests: since when, by that clock. Throws if it goes on.
+  /// Waits for standstill and returns its time on that clock. Throws if the drive keeps moving.
   [[nodiscard]] double rested_s();
 
-  /// Lines of a daemon's configuration that name it.
+  /// Lines of a daemon's configuration that refer to it.
   [[nodiscard]] std::string section() const;
-  /// OpenNI2's name of its camera.
+  /// OpenNI2's name of the camera.
   [[nodiscard]] std::string camera() const {
     return "hydroprint:" + (folder_.path() / "control").string();
   }
@@ -54,13 +54,13 @@ class VirtualRigProcess {
   testing::Process process_;
 };
 
-/// A client that can command the rig. What is not expected to fail throws if it does.
+/// A client that can command the rig. Calls that are expected to succeed throw on failure.
 class RigClient : public Client {
  public:
   explicit RigClient(const std::string& address, const std::string& owner = "ann");
 
   v1::Rig rig();
-  /// Takes the lease, and keeps its id for what follows.
+  /// Acquires the lease and keeps its id for later calls.
   void take_lease(int seconds = 600);
   grpc::Status acquire(v1::Lease& lease, int seconds = 600, const std::string& request_id = "");
   grpc::Status break_lease(const std::string& reason);
@@ -76,19 +76,18 @@ class RigClient : public Client {
 
   /// Waits until the rig is in this state.
   [[nodiscard]] bool becomes(v1::Rig::State state, double seconds = 10);
-  /// Lease, arming and homing.
+  /// Acquires the lease, arms and homes the rig.
   void make_ready();
-  /// Goes there and waits.
+  /// Moves to a position and waits for the end.
   void go_to(double position_mm);
 
-  /// Creates a dip; throws if it is refused.
+  /// Creates a dip; throws if that fails.
   v1::Job dip(const v1::DipSpec& spec);
   grpc::Status create_dip(const v1::DipSpec& spec, v1::Job& job);
   grpc::Status confirm(const std::string& job, v1::DipStatus::Step step);
-  /// Waits until a dip has come to this step.
+  /// Waits until a dip reaches this step.
   v1::Job wait_for_step(const std::string& job, v1::DipStatus::Step step);
-  /// Confirms whatever is asked for until the dip is at this step. First contact is where the axis
-  /// stands.
+  /// Confirms steps until the dip reaches this one. First contact is the present axis position.
   v1::Job guide_to(const std::string& job, v1::DipStatus::Step step);
   nlohmann::json report(const std::string& job);
 
@@ -97,16 +96,16 @@ class RigClient : public Client {
   std::unique_ptr<v1::LeaseService::Stub> leases;
 };
 
-/// Reason of a refusal; "" if there is none.
+/// Reason of an error; "" if there is none.
 [[nodiscard]] std::string reason_of(const grpc::Status& status);
 
-/// What grpc.health.v1 says of a service: "SERVING" or "NOT_SERVING".
+/// Status of a service according to grpc.health.v1: "SERVING" or "NOT_SERVING".
 [[nodiscard]] std::string health_of(const Client& client, const std::string& service);
 
 /// A short dip: 5 mm deep from 3 mm above at 10 mm/s, clocks of a tenth of a second.
 [[nodiscard]] v1::DipSpec short_dip();
 
-/// A daemon and the rig that it drives.
+/// A daemon and its rig.
 class RigTest : public ::testing::Test {
  protected:
   static DaemonProcess::Options options(const VirtualRigProcess& rig) {

@@ -24,7 +24,7 @@ using std::chrono::seconds;
 using SteadyClock = std::chrono::steady_clock;
 
 const std::string kDaemon = std::string(HYDROPRINT_BIN_DIR) + "/hydroprintd";
-constexpr seconds kPatience{120};  // a busy machine may need a minute for a real computation
+constexpr seconds kPatience{120};  // a real computation may take a minute on a busy machine
 
 void check(const grpc::Status& status, const char* call) {
   if (status.ok()) return;
@@ -40,7 +40,7 @@ pid_t spawn_daemon(const std::vector<std::string>& arguments, const std::filesys
   std::vector<char*> argv;
   for (std::string& text : strings) argv.push_back(text.data());
   argv.push_back(nullptr);
-  // The leak checker would need ptrace, which workers are refused.
+  // The leak checker needs ptrace, which workers may not use.
   ::setenv("ASAN_OPTIONS", "detect_leaks=0", 0);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

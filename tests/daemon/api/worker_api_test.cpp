@@ -1,4 +1,4 @@
-// What becomes of jobs whose workers misbehave, and the main round trip with the real worker.
+// Jobs whose workers misbehave, and the main round trip with the real worker.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -51,7 +51,7 @@ class Workers : public ::testing::Test {
   std::unique_ptr<Client> client;
 };
 
-TEST_F(Workers, EachWayToFailHasItsError) {
+TEST_F(Workers, EachKindOfFailureHasItsError) {
   start(DaemonProcess::fake());
   expect_failed("exit 3 spot.obj:7: not a number; fix the line", grpc::INVALID_ARGUMENT,
                 "INPUT_REFUSED");
@@ -65,7 +65,7 @@ TEST_F(Workers, EachWayToFailHasItsError) {
   expect_failed("link", grpc::INTERNAL, "WORKER_UNUSABLE");
 }
 
-TEST_F(Workers, KilledWorkerFailsItsJobAlone) {
+TEST_F(Workers, KilledWorkerFailsOnlyItsJob) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   start(DaemonProcess::fake());
   const v1::Job job = client->simulate("sleep 60");
@@ -78,12 +78,12 @@ TEST_F(Workers, KilledWorkerFailsItsJobAlone) {
   EXPECT_EQ(run("").state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(Workers, GiveWayToTheDaemon) {
+TEST_F(Workers, RunAtLowerPriorityThanTheDaemon) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   start(DaemonProcess::fake());
   client->simulate("sleep 60");
   const pid_t worker = wait_for_worker();
-  // It is the daemon's child a moment before it is a worker.
+  // Before exec, the process is still a copy of the daemon.
   const int least = std::max(10, ::getpriority(PRIO_PROCESS, 0));
   for (int i = 0; i < 500 && ::getpriority(PRIO_PROCESS, worker) < least; ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -92,7 +92,7 @@ TEST_F(Workers, GiveWayToTheDaemon) {
   EXPECT_EQ(::getpriority(PRIO_PROCESS, daemon->pid()), ::getpriority(PRIO_PROCESS, 0));
 }
 
-TEST_F(Workers, RunningJobIsCancelledAndItsWorkerEnded) {
+TEST_F(Workers, CancellingARunningJobEndsItsWorker) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   start(DaemonProcess::fake());
   const v1::Job job = client->simulate("sleep 60");
@@ -121,9 +121,9 @@ TEST_F(Workers, QueuedJobIsCancelledAtOnce) {
   EXPECT_EQ(client->cancel(job.name()).state(), v1::Job::CANCELLED);
 }
 
-// Sanitizers reserve far more memory than any limit: not under them.
+// Sanitizers reserve far more memory than any limit, so the test is skipped with them.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-TEST_F(Workers, MemoryLimitEndsTheJobAlone) {
+TEST_F(Workers, MemoryLimitEndsOnlyTheJob) {
   auto options = DaemonProcess::fake();
   options.memory_mib = 128;
   start(options);
@@ -169,21 +169,21 @@ TEST_F(Workers, ReadTheirOwnInputsAndChangeNothingOutsideTheirFolder) {
       << report;
 }
 
-TEST_F(Workers, ChildrenTheyLeaveBehindAreEnded) {
+TEST_F(Workers, ChildrenOfWorkersAreKilled) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   start(DaemonProcess::fake());
   EXPECT_EQ(run("orphan").state(), v1::Job::SUCCEEDED);
   EXPECT_TRUE(daemon->workers().empty());
 }
 
-TEST_F(Workers, NonsenseAsProgressHarmsNobody) {
+TEST_F(Workers, MalformedProgressIsIgnored) {
   start(DaemonProcess::fake());
   const v1::Job job = run("babble");
   EXPECT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
   EXPECT_EQ(run("#").state(), v1::Job::SUCCEEDED);
 }
 
-TEST_F(Workers, AsManyAsThereAreSlotsRunAtOnce) {
+TEST_F(Workers, RunInParallelUpToTheNumberOfSlots) {
   start(DaemonProcess::fake());
   for (int i = 0; i < 3; ++i) client->simulate("sleep 60\n#" + std::to_string(i));
   client->wait_for("jobs/1", v1::Job::RUNNING);
@@ -230,7 +230,7 @@ class RealWorker : public Workers {
   }
 };
 
-TEST_F(RealWorker, ModelGoesInAndTheContractsArtifactsComeOut) {
+TEST_F(RealWorker, ComputesAllArtifactsOfAModel) {
   auto request = simulate_request(client->upload(ball_obj()), "ball.obj");
   request.mutable_job()->mutable_simulate()->set_dpi(72);
   v1::Job job;
@@ -255,7 +255,7 @@ TEST_F(RealWorker, ModelGoesInAndTheContractsArtifactsComeOut) {
   EXPECT_TRUE(again.cache_hit());
 }
 
-TEST_F(RealWorker, BadModelIsRefusedInOneLineThatNamesIt) {
+TEST_F(RealWorker, BadModelIsRefusedWithItsName) {
   const v1::Job job = run("v 0 0 nan\nf 1 1 1\n");
   ASSERT_EQ(job.state(), v1::Job::FAILED);
   EXPECT_EQ(job.error().reason(), "INPUT_REFUSED") << job.error().message();

@@ -11,7 +11,7 @@
 
 namespace hydroprint::auth {
 
-/// Accounts in a folder of the test's, with a clock that the test moves and the cheapest passwords.
+/// Accounts in a folder of the test, with an adjustable clock and the cheapest password hashes.
 class PeopleTest : public ::testing::Test {
  protected:
   static constexpr std::int64_t kMinute_ms = 60'000;
@@ -20,7 +20,7 @@ class PeopleTest : public ::testing::Test {
 
   PeopleTest() { open(); }
 
-  /// Opens the store as a daemon does when it starts, as if the one before had been killed.
+  /// Opens the store as a daemon does at the start, as if the previous one had been killed.
   void open() {
     accounts.reset();
     database.reset();

@@ -1,4 +1,4 @@
-// Users, keys, sessions and links, with a clock of the test's.
+// Users, keys, sessions and links, with an adjustable clock.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -15,7 +15,7 @@ using Keys = PeopleTest;
 using Sessions = PeopleTest;
 using Links = PeopleTest;
 
-TEST_F(Users, TheFirstOneMustBeAnAdmin) {
+TEST_F(Users, FirstUserMustBeAnAdmin) {
   EXPECT_FALSE(accounts->any());
   const auto refused = accounts->create({"mae", Role::kOperator, false, "", 0}, kPassword);
   ASSERT_FALSE(refused);
@@ -25,7 +25,7 @@ TEST_F(Users, TheFirstOneMustBeAnAdmin) {
   EXPECT_TRUE(accounts->any());
 }
 
-TEST_F(Users, AreThereAgainAfterTheDaemonWasKilled) {
+TEST_F(Users, SurviveAKillOfTheDaemon) {
   add("ann", Role::kAdmin);
   add("mae");
   open();
@@ -35,7 +35,7 @@ TEST_F(Users, AreThereAgainAfterTheDaemonWasKilled) {
   EXPECT_EQ(accounts->users("ann", 10).front().name, "mae");
 }
 
-TEST_F(Users, TheLastAdminStaysOne) {
+TEST_F(Users, LastAdminCannotBeRemoved) {
   add("ann", Role::kAdmin);
   EXPECT_EQ(accounts->remove("ann").error().reason, "LAST_ADMIN");
   EXPECT_EQ(accounts->update("ann", {Role::kMaker, {}}).error().reason, "LAST_ADMIN");
@@ -46,7 +46,7 @@ TEST_F(Users, TheLastAdminStaysOne) {
   EXPECT_TRUE(accounts->remove("ann"));
 }
 
-TEST_F(Users, NamesAreCheckedAndTakenOnce) {
+TEST_F(Users, NamesAreCheckedAndUnique) {
   add("ann", Role::kAdmin);
   for (const char* const name : {"", ".", "a b", "a/b", "-a", "a\n", "\xC3\xA4"}) {
     EXPECT_FALSE(accounts->create({name, Role::kMaker, false, "", 0}, "")) << name;
@@ -57,7 +57,7 @@ TEST_F(Users, NamesAreCheckedAndTakenOnce) {
             "SPEC_INVALID");
 }
 
-TEST_F(Users, APasswordIsStoredAsArgon2idAlone) {
+TEST_F(Users, PasswordIsStoredOnlyAsArgon2idHash) {
   add("ann", Role::kAdmin);
   EXPECT_TRUE(accounts->user("ann")->password.starts_with("$argon2id$"));
   std::ifstream file(folder.path() / "hydroprint.db-wal", std::ios::binary);
@@ -66,7 +66,7 @@ TEST_F(Users, APasswordIsStoredAsArgon2idAlone) {
   EXPECT_EQ(bytes.find(kPassword), std::string::npos);
 }
 
-TEST_F(Users, WhoeverIsBarredIsSoAtOnceAndWithAllTheyHave) {
+TEST_F(Users, BarringAppliesAtOnceToKeysAndSessions) {
   add("ann", Role::kAdmin);
   add("mae");
   const auto session = accounts->sign_in("mae", kPassword, "p").value();
@@ -79,7 +79,7 @@ TEST_F(Users, WhoeverIsBarredIsSoAtOnceAndWithAllTheyHave) {
   EXPECT_FALSE(accounts->sign_in("mae", kPassword, "p"));
 }
 
-TEST_F(Users, ANewPasswordEndsAllOtherSessions) {
+TEST_F(Users, PasswordChangeEndsOtherSessions) {
   add("ann", Role::kAdmin);
   const auto one = accounts->sign_in("ann", kPassword, "p").value();
   const auto two = accounts->sign_in("ann", kPassword, "p").value();
@@ -90,14 +90,14 @@ TEST_F(Users, ANewPasswordEndsAllOtherSessions) {
   EXPECT_TRUE(accounts->sign_in("ann", "battery staple", "p"));
 }
 
-TEST_F(Users, WhoeverIsDeletedLeavesNothingBehind) {
+TEST_F(Users, DeletingAUserDeletesKeysAndSessions) {
   add("ann", Role::kAdmin);
   add("mae");
   const auto session = accounts->sign_in("mae", kPassword, "p").value();
   const auto key = accounts->create_key({"mae", "k", Role::kMaker, 0}).value();
   const auto link = accounts->make_link("mae").value();
   ASSERT_TRUE(accounts->remove("mae"));
-  add("mae");  // another one of that name
+  add("mae");  // another user of that name
   for (int i = 0; i < 2; ++i, open()) {
     EXPECT_FALSE(accounts->by_session(session.token));
     EXPECT_FALSE(accounts->by_key(key.second));
@@ -105,7 +105,7 @@ TEST_F(Users, WhoeverIsDeletedLeavesNothingBehind) {
   }
 }
 
-TEST_F(Keys, AreShownOnceAndHoldUntilTheyEnd) {
+TEST_F(Keys, AreShownOnceAndExpire) {
   add("ann", Role::kAdmin);
   const auto [key, text] =
       accounts->create_key({"ann", "bench", Role::kOperator, kHour_ms}).value();
@@ -120,7 +120,7 @@ TEST_F(Keys, AreShownOnceAndHoldUntilTheyEnd) {
   EXPECT_FALSE(accounts->by_key(text));
 }
 
-TEST_F(Keys, AreNotGuessedFromTheirParts) {
+TEST_F(Keys, CannotBeGuessedFromTheirParts) {
   add("ann", Role::kAdmin);
   const auto text = accounts->create_key({"ann", "", Role::kAdmin, 0})->second;
   std::string other = text;
@@ -133,7 +133,7 @@ TEST_F(Keys, AreNotGuessedFromTheirParts) {
   EXPECT_TRUE(accounts->by_key(text));
 }
 
-TEST_F(Keys, AllowNoMoreThanTheirUserMay) {
+TEST_F(Keys, NeverAllowMoreThanTheUsersRole) {
   add("ann", Role::kAdmin);
   add("mae", Role::kOperator);
   const auto text = accounts->create_key({"mae", "", Role::kOperator, 0})->second;
@@ -141,7 +141,7 @@ TEST_F(Keys, AllowNoMoreThanTheirUserMay) {
   EXPECT_EQ(accounts->by_key(text)->role, Role::kViewer);
 }
 
-TEST_F(Keys, TellWhenTheyWereUsedAfterARestartToo) {
+TEST_F(Keys, TimeOfLastUseSurvivesARestart) {
   add("ann", Role::kAdmin);
   const auto [key, text] = accounts->create_key({"ann", "", Role::kAdmin, 0}).value();
   EXPECT_EQ(accounts->key(key.id)->use_ms, 0);
@@ -151,7 +151,7 @@ TEST_F(Keys, TellWhenTheyWereUsedAfterARestartToo) {
   EXPECT_EQ(accounts->key(key.id)->use_ms, now_ms);
 }
 
-TEST_F(Keys, ThereAreOnlySoManyOfThem) {
+TEST_F(Keys, AreLimitedInNumber) {
   options.most_keys = 2;
   open();
   add("ann", Role::kAdmin);
@@ -162,7 +162,7 @@ TEST_F(Keys, ThereAreOnlySoManyOfThem) {
   EXPECT_TRUE(accounts->create_key({"ann", "", Role::kAdmin, 0}));
 }
 
-TEST_F(Sessions, EndWhenTheyAreNotUsed) {
+TEST_F(Sessions, EndWhenUnused) {
   add("ann", Role::kAdmin);
   const auto in = accounts->sign_in("ann", kPassword, "p").value();
   now_ms += 12 * kHour_ms - 1;
@@ -176,7 +176,7 @@ TEST_F(Sessions, EndWhenTheyAreNotUsed) {
   EXPECT_FALSE(accounts->by_session(in.token));  // gone for good
 }
 
-TEST_F(Sessions, AreNotKeptAliveByBeingLookedAt) {
+TEST_F(Sessions, AreNotKeptAliveByListing) {
   add("ann", Role::kAdmin);
   const auto in = accounts->sign_in("ann", kPassword, "p").value();
   now_ms += 11 * kHour_ms;
@@ -185,7 +185,7 @@ TEST_F(Sessions, AreNotKeptAliveByBeingLookedAt) {
   EXPECT_FALSE(accounts->by_session(in.token));
 }
 
-TEST_F(Sessions, EndAfterAWeekHoweverTheyAreUsed) {
+TEST_F(Sessions, EndAfterAWeekEvenIfUsed) {
   add("ann", Role::kAdmin);
   const auto in = accounts->sign_in("ann", kPassword, "p").value();
   for (int hour = 1; hour < 7 * 24; ++hour) {
@@ -196,7 +196,7 @@ TEST_F(Sessions, EndAfterAWeekHoweverTheyAreUsed) {
   EXPECT_FALSE(accounts->by_session(in.token));
 }
 
-TEST_F(Sessions, AreListedRevokedAndThereAfterARestart) {
+TEST_F(Sessions, AreListedRevokedAndSurviveARestart) {
   add("ann", Role::kAdmin);
   add("mae");
   const auto one = accounts->sign_in("ann", kPassword, "1.2.3.4").value();
@@ -212,7 +212,7 @@ TEST_F(Sessions, AreListedRevokedAndThereAfterARestart) {
   EXPECT_EQ(accounts->session(two.session.id).error().reason, "SESSION_NOT_FOUND");
 }
 
-TEST_F(Sessions, OneTooManyEndsTheOneUsedLeastLately) {
+TEST_F(Sessions, LimitEndsTheLeastRecentlyUsed) {
   options.most_sessions = 2;
   open();
   add("ann", Role::kAdmin);
@@ -228,14 +228,14 @@ TEST_F(Sessions, OneTooManyEndsTheOneUsedLeastLately) {
   EXPECT_TRUE(accounts->by_session(three.token));
 }
 
-TEST_F(Sessions, ThePagesTokenIsMadeFromTheSessionsAndIsNotIt) {
+TEST_F(Sessions, CsrfTokenIsDerivedFromTheSessionToken) {
   const std::string one = csrf_token("token 1");
   EXPECT_EQ(one.size(), 64U);
   EXPECT_EQ(one, csrf_token("token 1"));
   EXPECT_NE(one, csrf_token("token 2"));
 }
 
-TEST_F(Links, HoldOnce) {
+TEST_F(Links, WorkOnce) {
   add("ann", Role::kAdmin);
   const auto link = accounts->make_link("ann").value();
   open();
@@ -245,14 +245,14 @@ TEST_F(Links, HoldOnce) {
   EXPECT_EQ(accounts->sign_in_by_link(link.first, "p").error().reason, "SIGN_IN_FAILED");
 }
 
-TEST_F(Links, HoldForAQuarterOfAnHour) {
+TEST_F(Links, ExpireAfter15Minutes) {
   add("ann", Role::kAdmin);
   const auto link = accounts->make_link("ann").value();
   now_ms += 15 * kMinute_ms;
   EXPECT_FALSE(accounts->sign_in_by_link(link.first, "p"));
 }
 
-TEST_F(Links, ANewOneReplacesThoseBefore) {
+TEST_F(Links, NewLinkReplacesEarlierOnes) {
   add("ann", Role::kAdmin);
   const auto one = accounts->make_link("ann").value();
   const auto two = accounts->make_link("ann").value();

@@ -1,4 +1,4 @@
-// What was done and by whom.
+// The audit log.
 #include "daemon/auth/audit_log.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ class Audit : public PeopleTest {
   }
 };
 
-TEST_F(Audit, WhatWasNotedIsListedNewestFirstByPages) {
+TEST_F(Audit, EntriesArePagedNewestFirst) {
   const auto log = make();
   for (int i = 0; i < 5; ++i) log->note(entry("ann", "RigService.Arm" + std::to_string(i)));
   const auto page = log->list({"", "", 0, 3}).value();
@@ -34,7 +34,7 @@ TEST_F(Audit, WhatWasNotedIsListedNewestFirstByPages) {
   EXPECT_EQ(rest.back().what, "RigService.Arm0");
 }
 
-TEST_F(Audit, IsFoundByWhoAndByWhat) {
+TEST_F(Audit, EntriesAreFilteredByCallerAndMethod) {
   const auto log = make();
   log->note(entry("ann", "RigService.Arm"));
   log->note(entry("bob", "RigService.Home"));
@@ -45,13 +45,13 @@ TEST_F(Audit, IsFoundByWhoAndByWhat) {
   EXPECT_EQ(log->list({"", "%", 0, 10})->size(), 0U);
 }
 
-TEST_F(Audit, IsWrittenWhenTheDaemonEnds) {
+TEST_F(Audit, EntriesAreWrittenAtShutdown) {
   make()->note(entry("ann", "RigService.Arm"));
   open();
   EXPECT_EQ(make()->list({"", "", 0, 10})->size(), 1U);
 }
 
-TEST_F(Audit, IsOnDiskWhenWhoeverNotedItHasWaited) {
+TEST_F(Audit, WaitEndsWhenTheEntryIsOnDisk) {
   const auto log = make();
   const auto reader = daemon::Database::open(folder.path() / "hydroprint.db", "").value();
   for (int i = 1; i <= 20; ++i) {
@@ -64,17 +64,17 @@ TEST_F(Audit, IsOnDiskWhenWhoeverNotedItHasWaited) {
   }
 }
 
-TEST_F(Audit, AStoreThatHangsIsNotWaitedForLonger) {
+TEST_F(Audit, WaitForAHangingStoreTimesOut) {
   const auto log = make();
   const auto other = daemon::Database::open(folder.path() / "hydroprint.db", "").value();
   ASSERT_TRUE(other->run("BEGIN IMMEDIATE"));
   EXPECT_FALSE(
       log->wait_written(log->note(entry("ann", "RigService.Arm")), std::chrono::milliseconds(50)));
   ASSERT_TRUE(other->run("COMMIT"));
-  EXPECT_EQ(log->list({"", "", 0, 10})->size(), 1U);  // it came later
+  EXPECT_EQ(log->list({"", "", 0, 10})->size(), 1U);  // written later
 }
 
-TEST_F(Audit, AStoreThatFailsIsNotWaitedForAtAll) {
+TEST_F(Audit, FailingStoreEndsTheWaitAtOnce) {
   const auto log = make();
   ASSERT_TRUE(database->run("ALTER TABLE audit RENAME TO away"));
   EXPECT_FALSE(log->wait_written(log->note(entry("ann", "RigService.Arm")), std::chrono::hours(1)));
@@ -82,7 +82,7 @@ TEST_F(Audit, AStoreThatFailsIsNotWaitedForAtAll) {
   log->note(entry("ann", "RigService.Home"));
   const auto entries = log->list({"", "", 0, 10}).value();
   ASSERT_EQ(entries.size(), 2U);
-  EXPECT_EQ(entries[1].outcome, "DATA_LOSS");  // and is told of
+  EXPECT_EQ(entries[1].outcome, "DATA_LOSS");  // and is reported
 }
 
 TEST_F(Audit, EntriesAreKeptForAYear) {
@@ -105,7 +105,7 @@ TEST_F(Audit, EntriesAreKeptForAYear) {
   EXPECT_EQ(log->list({"", "", 0, 10})->front().what, "second");
 }
 
-TEST_F(Audit, AClockThatJumpsAheadDeletesNoEntry) {
+TEST_F(Audit, ClockJumpDeletesNoEntry) {
   const auto log = make();
   log->note(entry("ann", "first"));
   ASSERT_TRUE(log->clean_up());

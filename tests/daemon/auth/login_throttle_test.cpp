@@ -1,4 +1,4 @@
-// How often somebody may try to sign in, with a clock of the test's.
+// Throttling of sign-in attempts, with an adjustable clock.
 #include "daemon/auth/login_throttle.h"
 
 #include <gtest/gtest.h>
@@ -8,15 +8,15 @@
 namespace hydroprint::auth {
 namespace {
 
-class TriedOften : public ::testing::Test {
+class LoginThrottleTest : public ::testing::Test {
  protected:
-  /// Fails until it has to wait; how often it could.
+  /// Fails until it has to wait; returns the number of attempts.
   int fail_at_once(const std::string& name, const std::string& peer) {
     int count = 0;
     while (attempts.begin(name, peer) == 0) ++count;
     return count;
   }
-  /// Fails that often, waiting as long as it has to; how long the last wait was.
+  /// Fails `times` times, waiting as long as required; returns the last wait.
   std::int64_t fail_patiently(const std::string& name, const std::string& peer, int times) {
     std::int64_t wait_ms = 0;
     for (int i = 0; i < times;) {
@@ -35,7 +35,7 @@ class TriedOften : public ::testing::Test {
   LoginThrottle attempts{[this] { return now_ms; }};
 };
 
-TEST_F(TriedOften, WaitsLongerWithEachFailureUpToAMinute) {
+TEST_F(LoginThrottleTest, WaitGrowsWithEachFailureUpToAMinute) {
   EXPECT_EQ(fail_at_once("ann", "p"), 3);
   EXPECT_EQ(attempts.begin("ann", "p"), 1000);
   EXPECT_EQ(fail_patiently("ann", "p", 1), 1000);
@@ -44,7 +44,7 @@ TEST_F(TriedOften, WaitsLongerWithEachFailureUpToAMinute) {
   EXPECT_EQ(fail_patiently("ann", "p", 30), 60'000);
 }
 
-TEST_F(TriedOften, IsNotLetInAMomentTooEarly) {
+TEST_F(LoginThrottleTest, WaitIsNotCutShort) {
   fail_at_once("ann", "p");
   now_ms += 999;
   EXPECT_EQ(attempts.begin("ann", "p"), 1);
@@ -52,7 +52,7 @@ TEST_F(TriedOften, IsNotLetInAMomentTooEarly) {
   EXPECT_EQ(attempts.begin("ann", "p"), 0);
 }
 
-TEST_F(TriedOften, ManyNamesFromOneAddressWaitToo) {
+TEST_F(LoginThrottleTest, ManyNamesFromOneAddressAreThrottled) {
   int let_in = 0;
   for (int i = 0; i < 100; ++i) {
     if (attempts.begin("name" + std::to_string(i), "p") == 0) ++let_in;
@@ -61,7 +61,7 @@ TEST_F(TriedOften, ManyNamesFromOneAddressWaitToo) {
   EXPECT_EQ(attempts.begin("ann", "q"), 0);
 }
 
-TEST_F(TriedOften, OneNameFromManyAddressesWaitsTooButNotLong) {
+TEST_F(LoginThrottleTest, OneNameFromManyAddressesIsThrottledLess) {
   int let_in = 0;
   for (int i = 0; i < 100; ++i) {
     if (attempts.begin("ann", "p" + std::to_string(i)) == 0) ++let_in;
@@ -71,7 +71,7 @@ TEST_F(TriedOften, OneNameFromManyAddressesWaitsTooButNotLong) {
   EXPECT_LE(attempts.begin("ann", "r"), 10'000);
 }
 
-TEST_F(TriedOften, NobodyIsLockedOutFromWhereTheySignedInBefore) {
+TEST_F(LoginThrottleTest, KnownAddressIsNeverLockedOut) {
   ASSERT_EQ(attempts.begin("ann", "home"), 0);
   attempts.succeeded("ann", "home");
   for (int i = 0; i < 100; ++i) (void)attempts.begin("ann", "p" + std::to_string(i));
@@ -81,7 +81,7 @@ TEST_F(TriedOften, NobodyIsLockedOutFromWhereTheySignedInBefore) {
   EXPECT_EQ(attempts.begin("ann", "home"), 0);
 }
 
-TEST_F(TriedOften, SuccessMakesGoodOnlyWhatWasOnesOwn) {
+TEST_F(LoginThrottleTest, SuccessResetsOnlyItsOwnFailures) {
   fail_at_once("ann", "p");
   now_ms += 1000;
   ASSERT_EQ(attempts.begin("ann", "p"), 0);
@@ -90,13 +90,13 @@ TEST_F(TriedOften, SuccessMakesGoodOnlyWhatWasOnesOwn) {
   EXPECT_EQ(attempts.failures(), 3 + 3);
 }
 
-TEST_F(TriedOften, AnHourMakesAllGood) {
+TEST_F(LoginThrottleTest, FailuresAreForgottenAfterAnHour) {
   fail_patiently("ann", "p", 20);
   now_ms += 3'600'001;
   EXPECT_EQ(fail_at_once("ann", "p"), 3);
 }
 
-TEST_F(PeopleTest, WrongPasswordsHaveToWaitAndTheRightOneAlike) {
+TEST_F(PeopleTest, ThrottlingAppliesToTheRightPasswordToo) {
   add("ann", Role::kAdmin);
   for (int i = 0; i < 3; ++i) {
     EXPECT_EQ(accounts->sign_in("ann", "wrong password", "p").error().reason, "SIGN_IN_FAILED");
@@ -110,7 +110,7 @@ TEST_F(PeopleTest, WrongPasswordsHaveToWaitAndTheRightOneAlike) {
   EXPECT_TRUE(accounts->sign_in("ann", kPassword, "p"));
 }
 
-TEST_F(PeopleTest, ANameThatIsNotThereIsRefusedAsAWrongPasswordIs) {
+TEST_F(PeopleTest, UnknownNameIsRefusedLikeAWrongPassword) {
   add("ann", Role::kAdmin);
   const auto no_name = accounts->sign_in("nobody", "wrong password", "p").error();
   const auto no_password = accounts->sign_in("ann", "wrong password", "p").error();

@@ -1,4 +1,4 @@
-// Stores that earlier versions made.
+// Migration of stores of earlier versions.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// As version 1 made it; never to be changed.
+// Schema of version 1; must never change.
 constexpr const char* kVersion1 = R"sql(
 CREATE TABLE IF NOT EXISTS settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 INSERT OR IGNORE INTO settings VALUES ('schema', '1');
@@ -69,7 +69,7 @@ CREATE TABLE IF NOT EXISTS requests(
   result TEXT NOT NULL, time_ms INTEGER NOT NULL, PRIMARY KEY(owner, method, id)) WITHOUT ROWID;
 )sql";
 
-// What version 2 added; never to be changed either.
+// Changes of version 2; must never change.
 constexpr std::array kVersion2{
     "CREATE TABLE users(name TEXT PRIMARY KEY, role INTEGER NOT NULL, disabled INTEGER NOT NULL, "
     "password TEXT NOT NULL, create_ms INTEGER NOT NULL) WITHOUT ROWID",
@@ -91,7 +91,7 @@ constexpr std::array kVersion2{
     "ALTER TABLE jobs ADD COLUMN shared INTEGER NOT NULL DEFAULT 0",
     "UPDATE settings SET value='2' WHERE name='schema'"};
 
-// What version 3 added; never to be changed either.
+// Changes of version 3; must never change.
 constexpr std::array kVersion3{
     "CREATE TABLE asset_owners(owner TEXT NOT NULL, "
     "sha256 TEXT NOT NULL REFERENCES assets(sha256) ON DELETE CASCADE, "
@@ -106,8 +106,8 @@ constexpr std::array kVersion3{
     "UPDATE settings SET value='3' WHERE name='schema'"};
 constexpr const char* kLatest = "4";
 
-// A row in each table of version 2 that has one in a store that was used: ann's finished job 1,
-// made of an asset, bea's queued job 2 of the same, and an asset that nobody used.
+// One row in each table of version 2 that a used store has: ann's finished job 1 with an asset,
+// bea's queued job 2 with the same asset, and an unused asset.
 constexpr std::array kUsed{
     "INSERT INTO assets VALUES ('aa', 4, 'model/obj', 5), ('bb', 6, 'image/png', 5)",
     "INSERT INTO uploads VALUES ('u1', 'cc', 9, '', 99999999999999)",
@@ -138,7 +138,7 @@ class Migration : public ::testing::Test {
                       "('u', 'old', 'ann', 0, 1, '', 'simulate', '', '', 0, 'd', 0, 1, 5, 7, 7)"));
     ASSERT_TRUE(database->run("INSERT INTO lease VALUES (1, 'l', 'ann', 'p', 1, 2)"));
   }
-  // A store of version 2 that was used.
+  // A used store of version 2.
   void make_version_2() {
     const auto database = Database::open(layout.database(), kVersion1).value();
     for (const char* const statement : kVersion2) ASSERT_TRUE(database->run(statement));
@@ -158,9 +158,9 @@ class Migration : public ::testing::Test {
   Layout layout{folder.path()};
 };
 
-TEST_F(Migration, AStoreOfVersion1KeepsWhatItHasAndTakesPeople) {
+TEST_F(Migration, Version1KeepsItsDataAndAcceptsUsers) {
   make_version_1();
-  for (int i = 0; i < 2; ++i) {  // once migrated it is opened as it is
+  for (int i = 0; i < 2; ++i) {  // after the migration it opens without changes
     const auto database = open_store(layout.database());
     ASSERT_TRUE(database) << database.error().message;
     EXPECT_EQ(version_of(**database), kLatest);
@@ -180,7 +180,7 @@ TEST_F(Migration, AStoreOfVersion1KeepsWhatItHasAndTakesPeople) {
   }
 }
 
-TEST_F(Migration, AStoreOfVersion2KeepsAllItHasAndItsAssetsGetTheOwnersOfTheirJobs) {
+TEST_F(Migration, Version2KeepsItsDataAndAssetsGetOwners) {
   make_version_2();
   for (int i = 0; i < 2; ++i) {
     const auto database = open_store(layout.database()).value();
@@ -202,7 +202,7 @@ TEST_F(Migration, AStoreOfVersion2KeepsAllItHasAndItsAssetsGetTheOwnersOfTheirJo
     EXPECT_TRUE(assets.asset_for("bb", {"", true})->owners.empty());
     EXPECT_FALSE(assets.asset_for("bb", {"ann"}));
     EXPECT_EQ(assets.usage("ann")->stored_bytes, 4 + 4);
-    EXPECT_TRUE(assets.purge());  // nothing counts as unused before the migration
+    EXPECT_TRUE(assets.purge());  // all assets count as used at the migration
     EXPECT_TRUE(assets.asset("bb"));
     const auto accounts = auth::Accounts::open(*database, {}, system_clock_ms).value();
     EXPECT_EQ(accounts->users("", 10).size(), 2U);
@@ -211,14 +211,14 @@ TEST_F(Migration, AStoreOfVersion2KeepsAllItHasAndItsAssetsGetTheOwnersOfTheirJo
     EXPECT_EQ(accounts->key("k")->display_name, "nightly");
     auth::AuditLog audit(*database, system_clock_ms);
     EXPECT_EQ(audit.list({})->size(), 1U);
-    // What is new is there.
+    // New columns and tables exist.
     EXPECT_TRUE(jobs.pin(1, true)->pinned);
     EXPECT_TRUE(jobs.pin(1, false));
     EXPECT_TRUE(database->run("UPDATE jobs SET purge_ms=9 WHERE id=1"));
   }
 }
 
-TEST_F(Migration, JobsOfVersion3KeepTheirFlagsAndThePropertiesOfTheirKinds) {
+TEST_F(Migration, JobsOfVersion3KeepFlagsAndTraits) {
   make_version_2();
   {
     const auto database = Database::open(layout.database(), "").value();
@@ -251,11 +251,11 @@ TEST_F(Migration, JobsOfVersion3KeepTheirFlagsAndThePropertiesOfTheirKinds) {
   EXPECT_EQ(work.pose_json, "{}");
 }
 
-TEST_F(Migration, ANewStoreIsOfTheLatestVersion) {
+TEST_F(Migration, NewStoreHasTheLatestVersion) {
   EXPECT_EQ(version_of(**open_store(layout.database())), kLatest);
 }
 
-TEST_F(Migration, AStoreOfALaterVersionIsRefusedAndLeftAsItIs) {
+TEST_F(Migration, LaterVersionIsRefusedAndUnchanged) {
   {
     const auto database = open_store(layout.database()).value();
     ASSERT_TRUE(database->run("UPDATE settings SET value='5' WHERE name='schema'"));
@@ -267,7 +267,7 @@ TEST_F(Migration, AStoreOfALaterVersionIsRefusedAndLeftAsItIs) {
   EXPECT_EQ(version_of(*Database::open(layout.database(), "").value()), "5");
 }
 
-TEST_F(Migration, OneThatFailsLeavesTheStoreAsItWas) {
+TEST_F(Migration, FailedMigrationChangesNothing) {
   make_version_1();
   {
     const auto database = Database::open(layout.database(), "").value();

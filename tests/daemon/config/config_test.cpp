@@ -45,20 +45,20 @@ TEST(Config, AbsentKeysKeepTheirDefaults) {
   EXPECT_EQ(config->workers_time_limit_s, Config{}.workers_time_limit_s);
 }
 
-TEST(Config, UnknownKeyNamesFileLineAndTheKeyThatWasMeant) {
+TEST(Config, UnknownKeyIsReportedWithPlaceAndSuggestion) {
   const std::string message = problem("[workers]\ncount = 1\ntime_limit = 60\n");
   EXPECT_TRUE(says(message, "d.toml:3:")) << message;
   EXPECT_TRUE(says(message, "workers.time_limit")) << message;
   EXPECT_TRUE(says(message, "did you mean \"workers.time_limit_s\"")) << message;
 }
 
-TEST(Config, UnknownSectionNamesTheSectionsThereAre) {
+TEST(Config, UnknownSectionListsAllSections) {
   const std::string message = problem("\n[worker]\ncount = 1\n");
   EXPECT_TRUE(says(message, "d.toml:2:")) << message;
   EXPECT_TRUE(says(message, "[workers]")) << message;
 }
 
-TEST(Config, WrongTypesAndRangesSayWhatIsRight) {
+TEST(Config, WrongTypesAndRangesNameTheValidOnes) {
   EXPECT_TRUE(says(problem("[workers]\nmemory_mib = \"4 GiB\"\n"), "whole number of MiB"));
   EXPECT_TRUE(says(problem("[workers]\ntime_limit_s = 1.5\n"), "whole number of seconds"));
   EXPECT_TRUE(says(problem("[workers]\ncount = -1\n"), "from 0 to 256"));
@@ -68,19 +68,19 @@ TEST(Config, WrongTypesAndRangesSayWhatIsRight) {
   EXPECT_TRUE(says(problem("[log]\nlevel = 3\n"), "one of"));
 }
 
-TEST(Config, TextThatIsNoTomlNamesTheLine) {
+TEST(Config, InvalidTomlIsReportedWithItsLine) {
   EXPECT_TRUE(says(problem("[log]\nlevel = = 3\n"), "d.toml:2: not valid TOML"));
   EXPECT_TRUE(says(problem("count = 1\n"), "unknown section \"count\""));
 }
 
-TEST(Config, AbsentFileIsNamed) {
+TEST(Config, MissingFileIsNamed) {
   const auto config = read_config("/nonexistent/x.toml");
   ASSERT_FALSE(config);
   EXPECT_EQ(config.error().code, Code::kNotFound);
   EXPECT_TRUE(says(config.error().message, "/nonexistent/x.toml"));
 }
 
-TEST(Config, AddressesAreNoNamesAndKnowWhetherTheyAreLoopback) {
+TEST(Config, EndpointsAreAddressesAndKnowLoopback) {
   EXPECT_EQ(parse_endpoint("127.0.0.1:50051")->text(), "127.0.0.1:50051");
   EXPECT_EQ(parse_endpoint("127.1.2.3:0")->port, 0);
   EXPECT_EQ(parse_endpoint("[::1]:80")->text(), "[::1]:80");
@@ -100,7 +100,7 @@ TEST(Config, AddressesAreNoNamesAndKnowWhetherTheyAreLoopback) {
   EXPECT_TRUE(says(problem("[server]\nhttp = \"example.org:1\"\n"), "d.toml:2: server.http"));
 }
 
-TEST(Config, NothingIsServedBeyondLoopbackWithoutTls) {
+TEST(Config, AddressesBeyondLoopbackRequireTls) {
   Config config;
   EXPECT_TRUE(check_exposure(config));
   EXPECT_FALSE(is_exposed(config));
@@ -116,7 +116,7 @@ TEST(Config, NothingIsServedBeyondLoopbackWithoutTls) {
   EXPECT_TRUE(check_exposure(config));
 }
 
-TEST(Config, KeysOfTheRigAreThoseOfRigConfigWithTheirRanges) {
+TEST(Config, RigKeysMatchRigConfigAndItsRanges) {
   const auto config = parse_config("[rig]\nkeep_out_mm = 12\nslack_mm = 1.5\n", "d.toml");
   ASSERT_TRUE(config) << config.error().message;
   EXPECT_EQ(config->rig.keep_out_mm, 12);
@@ -134,7 +134,7 @@ std::string rig_problem(const Config& config) {
   return setup ? "accepted" : setup.error().message;
 }
 
-TEST(Config, RigThatCannotBeDrivenSafelyIsRefusedByTheKeysName) {
+TEST(Config, UnsafeRigIsRefusedWithTheKeysName) {
   Config config;
   EXPECT_FALSE(read_controller_config(config)->has_value()) << "no drive, no rig";
   config.rig_drive = "tcp:127.0.0.1:1502";

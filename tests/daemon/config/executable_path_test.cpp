@@ -27,28 +27,28 @@ class OwnProgram : public ::testing::Test {
   const fs::path no_proc = root / "proc/self/exe";
 };
 
-TEST_F(OwnProgram, IsWhereTheLinkPoints) {
+TEST_F(OwnProgram, FollowsTheLinkInProc) {
   fs::create_symlink(program, root / "exe");
   EXPECT_EQ(own_program("nonsense", "", root / "exe"), program);
 }
 
-TEST_F(OwnProgram, IsThePathThatItWasCalledByWhereThereIsNoProc) {
+TEST_F(OwnProgram, IsTheCalledPathWithoutProc) {
   EXPECT_EQ(own_program(program.string(), "", no_proc), program);
   EXPECT_EQ(own_program(fs::relative(program).string(), "", no_proc), program);
 }
 
-TEST_F(OwnProgram, IsBehindTheLinkThatItWasCalledBy) {
+TEST_F(OwnProgram, ResolvesACalledLink) {
   fs::create_symlink(program, other / "hydroprintd");
   EXPECT_EQ(own_program((other / "hydroprintd").string(), "", no_proc), program);
 }
 
-TEST_F(OwnProgram, IsTheFirstProgramOfThatNameInThePath) {
-  fs::create_directory(other / "hydroprintd");  // in the way, but no program
+TEST_F(OwnProgram, IsTheFirstMatchInThePath) {
+  fs::create_directory(other / "hydroprintd");  // a folder with the program's name
   const std::string path = root.string() + "/none:" + other.string() + ":" + bin.string();
   EXPECT_EQ(own_program("hydroprintd", path, no_proc), program);
 }
 
-TEST_F(OwnProgram, IsUnknownWhereNothingLeadsToIt) {
+TEST_F(OwnProgram, IsUnknownWithoutAMatch) {
   EXPECT_EQ(own_program("hydroprintd", other.string(), no_proc), "");
   EXPECT_EQ(own_program((other / "hydroprintd").string(), bin.string(), no_proc), "");
 }

@@ -23,7 +23,7 @@ json report() {
             {"profile", {{"activator_ml_per_m2", 18}, {"soak_s", 70}, {"activator_wait_s", 15}}}}}};
 }
 
-TEST(SimulatedDip, FiguresComeFromTheSimulationsReport) {
+TEST(SimulatedDip, ValuesComeFromTheReport) {
   const auto dip = read_simulated_dip(report().dump());
   ASSERT_TRUE(dip) << dip.error().message;
   EXPECT_EQ(dip->depth_mm, 42.5);
@@ -38,7 +38,7 @@ TEST(SimulatedDip, FiguresComeFromTheSimulationsReport) {
   EXPECT_NEAR(read_simulated_dip(round.dump())->film_area_mm2, std::numbers::pi * 1e4, 1e-6);
 }
 
-TEST(SimulatedDip, AReportIsTrustedInNothing) {
+TEST(SimulatedDip, InvalidReportsAreRefused) {
   for (const char* text : {"", "{", "[]", "7", "{\"depth_mm\":\"full\"}"}) {
     EXPECT_FALSE(read_simulated_dip(text)) << text;
   }
@@ -73,7 +73,7 @@ class DipPlanOfJob : public StoreTest {
   }
 };
 
-TEST_F(DipPlanOfJob, TheSpecGoesBeforeTheSimulationWhichGoesBeforeTheDefaults) {
+TEST_F(DipPlanOfJob, SpecOverridesSimulationWhichOverridesDefaults) {
   v1::DipSpec spec;
   spec.set_simulate_job(simulate(report().dump()));
   auto plan = plan_of(spec, *jobs, layout);
@@ -92,7 +92,7 @@ TEST_F(DipPlanOfJob, TheSpecGoesBeforeTheSimulationWhichGoesBeforeTheDefaults) {
   EXPECT_EQ(plan->warnings.at(0).code, "deeper_than_simulated");
 }
 
-TEST_F(DipPlanOfJob, OnlyASimulationThatSucceededHasAPlan) {
+TEST_F(DipPlanOfJob, SimulationMustHaveSucceeded) {
   v1::DipSpec spec;
   spec.set_simulate_job("jobs/77");
   EXPECT_EQ(plan_of(spec, *jobs, layout).error().reason, "JOB_NOT_FOUND");

@@ -27,7 +27,7 @@ std::string refusal(const Plan& plan, double contact_mm) {
   return ways.error().reason;
 }
 
-TEST(DipPlan, DescendsFromTheClearanceToTheDepthAndGoesBackToWhereItWasLoaded) {
+TEST(DipPlan, DescendsFromClearanceToDepthAndReturns) {
   const Plan plan = plan_of_depth(30);
   const auto ways = ways_from(plan, 100, 5, kConfig, profile());
   ASSERT_TRUE(ways) << ways.error().message;
@@ -41,17 +41,17 @@ TEST(DipPlan, DescendsFromTheClearanceToTheDepthAndGoesBackToWhereItWasLoaded) {
   EXPECT_EQ(way[1].target_mm, 5);
 }
 
-TEST(DipPlan, TheRetractionEndsOutOfTheWaterWhereverTheObjectWasLoaded) {
+TEST(DipPlan, RetractionEndsAboveTheWater) {
   EXPECT_EQ(ways_from(plan_of_depth(30), 100, 99, kConfig, profile())->up_mm, 80);
   EXPECT_EQ(ways_from(plan_of_depth(30), 100, -1, kConfig, profile())->up_mm, 2)
       << "an axis may rest outside of its limits, but is not sent there";
 }
 
-TEST(DipPlan, TheClearanceIsLessWhereTheLimitIsNearer) {
+TEST(DipPlan, ClearanceShrinksNearTheLimit) {
   EXPECT_EQ(ways_from(plan_of_depth(30), 12, 5, kConfig, profile())->clear_mm, 2);
 }
 
-TEST(DipPlan, WhatIsOutOfReachIsRefused) {
+TEST(DipPlan, TargetsOutOfReachAreRefused) {
   EXPECT_EQ(refusal(plan_of_depth(198), 100), "");
   EXPECT_EQ(refusal(plan_of_depth(198.1), 100), "LIMIT_EXCEEDED");
   EXPECT_EQ(refusal(plan_of_depth(10), 3), "");
@@ -65,7 +65,7 @@ TEST(DipPlan, WhatIsOutOfReachIsRefused) {
   EXPECT_FALSE(check(deep, kConfig));
 }
 
-TEST(DipPlan, TheOutlookGrowsFromNothingToTheWholeAndNeverFalls) {
+TEST(DipPlan, ProgressGrowsFromZeroToOneAndNeverFalls) {
   const Plan plan = plan_of_depth(20);
   const Ways ways{80, 120, 5};
   double before = -1;
@@ -87,13 +87,13 @@ TEST(DipPlan, TheOutlookGrowsFromNothingToTheWholeAndNeverFalls) {
   EXPECT_NEAR(begin.remaining_s, 4 + 60 + 20 + 8 + 2 + 23, 0.2);
 }
 
-TEST(DipPlan, TheAmountOfActivatorIsThatOfTheFilmsArea) {
+TEST(DipPlan, ActivatorIsProportionalToTheFilmArea) {
   const Plan plan;  // A4, 16 ml/m2
   EXPECT_NEAR(plan.activator_ml(), 0.998, 0.001);
   EXPECT_NE(instruction(Step::kSprayActivator, plan).find("1.0 ml"), std::string::npos);
 }
 
-TEST(DipPlan, EveryStepSaysWhatToDoAndWhatToDoWhenItIsLeft) {
+TEST(DipPlan, EveryStepHasAnInstructionAndAdvice) {
   for (int i = 1; i <= kSteps; ++i) {
     EXPECT_FALSE(instruction(static_cast<Step>(i), Plan()).empty());
     const std::string words = advice(static_cast<Step>(i));

@@ -27,7 +27,7 @@ rig::Sample sample(double time_s, double position_mm) {
   return out;
 }
 
-TEST(DipRecord, PositionsAreAsDeepAsBelowFirstContact) {
+TEST(DipRecord, DepthsAreRelativeToFirstContact) {
   const testing::TemporaryFolder folder;
   PositionLog log(folder.path(), rig::TimePoint());
   rig::Sample unknown = sample(2, 39);
@@ -40,7 +40,7 @@ TEST(DipRecord, PositionsAreAsDeepAsBelowFirstContact) {
             "2.0000,-1.0000,39.0000,5.0000,,0,dip\n");
 }
 
-TEST(DipRecord, TheSpeedIsThatUnderWaterAlone) {
+TEST(DipRecord, SpeedIsMeasuredOnlyUnderWater) {
   std::vector<rig::Sample> samples;
   for (int i = 0; i < 100; ++i) samples.push_back(sample(0.02 * i, 30 + 0.4 * i));      // 20 mm/s
   for (int i = 0; i < 100; ++i) samples.push_back(sample(2 + 0.02 * i, 70 + 0.1 * i));  // 5 mm/s
@@ -64,7 +64,7 @@ Facts facts() {
   return out;
 }
 
-TEST(DipRecord, TheReportTellsWhatWasPlannedAndWhatWas) {
+TEST(DipRecord, ReportHasPlannedAndActualValues) {
   const json report = json::parse(report_json(facts()));
   EXPECT_EQ(report.at("verb"), "dip");
   EXPECT_EQ(report.at("simulate_job"), "jobs/3");
@@ -80,7 +80,7 @@ TEST(DipRecord, TheReportTellsWhatWasPlannedAndWhatWas) {
   EXPECT_EQ(report.at("warnings").at(0).at("code"), "film_late");
 }
 
-TEST(DipRecord, TheReportOfALostDaemonSaysSo) {
+TEST(DipRecord, ReportOfALostDaemonIsInterrupted) {
   const json report = json::parse(interrupted_report(report_json(facts()), "lost"));
   EXPECT_EQ(report.at("outcome"), "INTERRUPTED");
   EXPECT_EQ(report.at("message"), "lost");
@@ -88,7 +88,7 @@ TEST(DipRecord, TheReportOfALostDaemonSaysSo) {
   EXPECT_EQ(interrupted_report("{\"half", "lost"), "{\"half");
 }
 
-TEST(DipRecord, AReportIsReplacedWholeOrNotAtAll) {
+TEST(DipRecord, ReportIsReplacedAtomically) {
   const testing::TemporaryFolder folder;
   ASSERT_TRUE(write_report(folder.path(), "one"));
   ASSERT_TRUE(write_report(folder.path(), "two"));

@@ -1,4 +1,4 @@
-// The whole procedure, walked exhaustively: every event in every stand that can be reached.
+// Explores the whole procedure: every event in every reachable state.
 #include "daemon/dip/state_machine.h"
 
 #include <gtest/gtest.h>
@@ -11,11 +11,11 @@ namespace {
 
 using Is = Event::Kind;
 
-constexpr double kStep_s = 30;  // between two events: a clock may be over after it, or not
+constexpr double kStep_s = 30;  // time between two events, after which a clock may be over or not
 const Clocks kClocks{60, 20, 60, false};
 constexpr int kEvents = static_cast<int>(Is::kShutdown) + 1;
 
-/// Every event there is at this time, with every step to confirm.
+/// Every event at this time, with every step to confirm.
 std::vector<Event> all_events(double time_s) {
   std::vector<Event> out;
   for (int kind = 0; kind < kEvents; ++kind) {
@@ -27,7 +27,7 @@ std::vector<Event> all_events(double time_s) {
   return out;
 }
 
-/// What decides what may happen next; times apart.
+/// The part of the state that determines what may happen next, without times.
 bool alike(const Stand& a, const Stand& b) {
   return a.step == b.step && a.ending == b.ending && a.over == b.over && a.late == b.late &&
          a.loaded_mm == b.loaded_mm && a.contact_mm == b.contact_mm &&
@@ -40,7 +40,7 @@ struct Change {
   Outcome outcome;
 };
 
-/// All changes from all stands that can be reached, each at a moment before and after its clock.
+/// All transitions from all reachable states, each before and after the end of its clock.
 std::vector<Change> all_changes(const Clocks& clocks) {
   std::vector<Stand> known{{}};
   std::vector<Change> changes;
@@ -65,7 +65,7 @@ std::string shown(const Change& change) {
          std::string(name(change.outcome.next.ending));
 }
 
-class EveryChange : public ::testing::TestWithParam<bool> {
+class DipTransitions : public ::testing::TestWithParam<bool> {
  protected:
   static Clocks clocks() {
     Clocks out = kClocks;
@@ -73,10 +73,10 @@ class EveryChange : public ::testing::TestWithParam<bool> {
     return out;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Skip, EveryChange, ::testing::Bool(),
+INSTANTIATE_TEST_SUITE_P(Skip, DipTransitions, ::testing::Bool(),
                          [](const auto& skip) { return skip.param ? "unattended" : "guided"; });
 
-TEST_P(EveryChange, ReachesEveryStepAndEveryEnding) {
+TEST_P(DipTransitions, ReachesEveryStepAndEveryEnding) {
   std::vector<bool> steps(kSteps + 1), endings(5);
   for (const Change& change : all_changes(clocks())) {
     steps[static_cast<std::size_t>(change.outcome.next.step)] = true;
@@ -86,7 +86,7 @@ TEST_P(EveryChange, ReachesEveryStepAndEveryEnding) {
   EXPECT_EQ(std::count(endings.begin(), endings.end(), true), 5);
 }
 
-TEST_P(EveryChange, GoesToTheNextStepOrStays) {
+TEST_P(DipTransitions, GoesToTheNextStepOrStays) {
   for (const Change& change : all_changes(clocks())) {
     const int before = static_cast<int>(change.before.step);
     const int next = static_cast<int>(change.outcome.next.step);
@@ -94,7 +94,7 @@ TEST_P(EveryChange, GoesToTheNextStepOrStays) {
   }
 }
 
-TEST_P(EveryChange, LeavesAStepForItsOwnReasonOnly) {
+TEST_P(DipTransitions, LeavesAStepOnlyByItsOwnEvent) {
   for (const Change& change : all_changes(clocks())) {
     if (change.outcome.next.step == change.before.step) continue;
     const Step step = change.before.step;
@@ -117,7 +117,7 @@ TEST_P(EveryChange, LeavesAStepForItsOwnReasonOnly) {
   }
 }
 
-TEST_P(EveryChange, MovesTheRigOnlyIntoItsTwoMotions) {
+TEST_P(DipTransitions, StartsOnlyItsTwoMotions) {
   for (const Change& change : all_changes(clocks())) {
     const Step step = change.before.step;
     const Step next = change.outcome.next.step;
@@ -130,7 +130,7 @@ TEST_P(EveryChange, MovesTheRigOnlyIntoItsTwoMotions) {
   }
 }
 
-TEST_P(EveryChange, AnEndThatIsDecidedStaysAndMovesNothing) {
+TEST_P(DipTransitions, DecidedEndingIsFinalAndStartsNoMotion) {
   for (const Change& change : all_changes(clocks())) {
     if (change.before.ending == Ending::kNone) continue;
     const Stand& next = change.outcome.next;
@@ -142,7 +142,7 @@ TEST_P(EveryChange, AnEndThatIsDecidedStaysAndMovesNothing) {
   }
 }
 
-TEST_P(EveryChange, IsOverInAMotionOnlyOnceTheAxisIsAtRest) {
+TEST_P(DipTransitions, IsOverOnlyWhenTheAxisIsAtRest) {
   for (const Change& change : all_changes(clocks())) {
     if (change.before.over || !change.outcome.next.over) continue;
     EXPECT_NE(change.outcome.next.ending, Ending::kNone) << shown(change);
@@ -152,7 +152,7 @@ TEST_P(EveryChange, IsOverInAMotionOnlyOnceTheAxisIsAtRest) {
   }
 }
 
-TEST_P(EveryChange, CancelAndShutdownEndItAndStopAMotion) {
+TEST_P(DipTransitions, CancelAndShutdownEndTheDipAndStopAMotion) {
   for (const Change& change : all_changes(clocks())) {
     const Is is = change.event.kind;
     if ((is != Is::kCancel && is != Is::kShutdown) || change.before.ending != Ending::kNone) {
@@ -166,7 +166,7 @@ TEST_P(EveryChange, CancelAndShutdownEndItAndStopAMotion) {
   }
 }
 
-TEST_P(EveryChange, AConfirmationIsRefusedUnlessItIsWaitedForOrWasGiven) {
+TEST_P(DipTransitions, ConfirmsOnlyTheCurrentStepOrEarlierOnes) {
   for (const Change& change : all_changes(clocks())) {
     if (change.event.kind != Is::kConfirm) continue;
     const Stand& before = change.before;
@@ -178,7 +178,7 @@ TEST_P(EveryChange, AConfirmationIsRefusedUnlessItIsWaitedForOrWasGiven) {
   }
 }
 
-TEST_P(EveryChange, ALostPlaceEndsItFromFirstContactOn) {
+TEST_P(DipTransitions, LostReferenceEndsTheDipAfterFirstContact) {
   for (const Change& change : all_changes(clocks())) {
     if (change.event.kind != Is::kPlaceLost || change.before.ending != Ending::kNone) continue;
     const bool at_rest = awaits(change.before.step) != Awaits::kMotion;
@@ -187,7 +187,7 @@ TEST_P(EveryChange, ALostPlaceEndsItFromFirstContactOn) {
   }
 }
 
-TEST_P(EveryChange, KnowsLoadContactAndSprayOnceTheyArePast) {
+TEST_P(DipTransitions, KnowsLoadContactAndSprayAfterwards) {
   for (const Change& change : all_changes(clocks())) {
     const Stand& next = change.outcome.next;
     EXPECT_EQ(next.loaded_mm.has_value(), next.step > Step::kLoadObject) << shown(change);
@@ -197,7 +197,7 @@ TEST_P(EveryChange, KnowsLoadContactAndSprayOnceTheyArePast) {
   }
 }
 
-/// A dip by hand: feeds events and returns what it did.
+/// A dip driven by hand: feeds events and returns the actions.
 class Walk {
  public:
   Action feed(Is is, double time_s, double position_mm = 0) {
@@ -247,7 +247,7 @@ TEST(Procedure, GuidesThroughAWholeDip) {
   EXPECT_TRUE(dip.stand.over);
 }
 
-TEST(Procedure, AFilmPastItsWindowIsToldAndNotRefused) {
+TEST(Procedure, LateFilmCausesAWarningAndNoRefusal) {
   Walk dip;
   dip.to_start_of_the_dip();
   dip.feed(Is::kTick, 180);
@@ -258,7 +258,7 @@ TEST(Procedure, AFilmPastItsWindowIsToldAndNotRefused) {
   EXPECT_TRUE(dip.stand.late);
 }
 
-TEST(Procedure, AStopInAMotionCancelsAndAStopAtRestDoesNothing) {
+TEST(Procedure, StopCancelsInMotionAndDoesNothingAtRest) {
   Walk dip;
   dip.to_start_of_the_dip();
   dip.feed(Is::kMotionStopped, 130);
@@ -269,7 +269,7 @@ TEST(Procedure, AStopInAMotionCancelsAndAStopAtRestDoesNothing) {
   EXPECT_FALSE(dip.stand.over);
 }
 
-TEST(Procedure, TheFirstEndingIsTheOneKept) {
+TEST(Procedure, FirstEndingIsKept) {
   Walk dip;
   dip.to_start_of_the_dip();
   dip.feed(Is::kConfirm, 140);

@@ -19,7 +19,7 @@ void expect_part(std::string_view header, std::int64_t begin, std::int64_t end) 
   EXPECT_EQ(range.end, end) << header;
 }
 
-TEST(HttpByteRange, OneRangeIsAPart) {
+TEST(HttpByteRange, SingleRangeIsAPart) {
   expect_part("bytes=0-0", 0, 1);
   expect_part("bytes=10-19", 10, 20);
   expect_part("bytes=10-", 10, 100);
@@ -29,7 +29,7 @@ TEST(HttpByteRange, OneRangeIsAPart) {
   expect_part("Bytes= 10-19 ", 10, 20);
 }
 
-TEST(HttpByteRange, WhatLiesBeyondTheEndIsNone) {
+TEST(HttpByteRange, RangeBeyondTheEndIsUnsatisfiable) {
   for (const char* header :
        {"bytes=100-", "bytes=100-200", "bytes=-0", "bytes=99999999999999999999-"}) {
     EXPECT_EQ(byte_range(header, 100).kind, Kind::kNone) << header;
@@ -38,7 +38,7 @@ TEST(HttpByteRange, WhatLiesBeyondTheEndIsNone) {
   EXPECT_EQ(byte_range("bytes=-5", 0).kind, Kind::kNone);
 }
 
-TEST(HttpByteRange, WhatIsNoRangeOrSeveralIsTheWholeFile) {
+TEST(HttpByteRange, InvalidOrMultipleRangesMeanTheWholeFile) {
   for (const char* header :
        {"", "bytes", "bytes=", "bytes=-", "bytes=a-b", "bytes=5-4", "bytes=0-1,3-4", "lines=1-2",
         "bytes=+1-2", "bytes=1-2x", "bytes=--5"}) {
@@ -48,7 +48,7 @@ TEST(HttpByteRange, WhatIsNoRangeOrSeveralIsTheWholeFile) {
   }
 }
 
-TEST(HttpByteRange, ATagIsFoundInAListOfThem) {
+TEST(HttpByteRange, TagIsFoundInAList) {
   EXPECT_TRUE(lists_tag("\"a\", \"b\"", "\"b\""));
   EXPECT_TRUE(lists_tag("W/\"b\"", "\"b\""));
   EXPECT_TRUE(lists_tag("*", "\"b\""));
@@ -56,7 +56,7 @@ TEST(HttpByteRange, ATagIsFoundInAListOfThem) {
   EXPECT_FALSE(lists_tag("", "\"b\""));
 }
 
-TEST(HttpByteRange, AFileNameNeverLeavesItsQuotes) {
+TEST(HttpByteRange, FileNameNeverLeavesItsQuotes) {
   EXPECT_EQ(content_disposition(false, "film.png"), "attachment; filename=\"film.png\"");
   EXPECT_EQ(content_disposition(true, "a\"\r\n;b.png"),
             "inline; filename=\"a___;b.png\"; filename*=UTF-8''a%22%0D%0A%3Bb.png");
@@ -64,7 +64,7 @@ TEST(HttpByteRange, AFileNameNeverLeavesItsQuotes) {
             "attachment; filename=\"Gef____.png\"; filename*=UTF-8''Gef%C3%A4%C3%9F.png");
 }
 
-TEST(HttpByteRange, NothingThatCanHoldScriptsIsShown) {
+TEST(HttpByteRange, TypesWithScriptsAreNeverShown) {
   for (const char* type : {"text/html", "image/svg+xml", "application/pdf", "text/xml", ""}) {
     EXPECT_FALSE(may_be_shown(type)) << type;
   }
@@ -87,7 +87,7 @@ TEST(HttpArtifactTarget, NamesOneFileOfAJob) {
   }
 }
 
-TEST(HttpEventText, AnEventIsWhatThereIsNewsOf) {
+TEST(HttpEventText, KindNamesTheChangedObject) {
   v1::WatchEventsResponse message;
   message.set_seq(3);
   const char* method = "/hydroprint.v1.EventService/WatchEvents";

@@ -1,5 +1,5 @@
-"""Calls every route of the OpenAPI document that a daemon serves, in the course of a day at a rig, and holds each answer
-against the document; then each of them as a stranger, and for things that do not exist.
+"""Calls every route in the OpenAPI document of a daemon, in the course of a day at a rig, and validates each answer
+against the document. Then calls each route without authentication, and for resources that do not exist.
 Usage: call_every_route.py FOLDER_OF_PROGRAMS RIG_PROFILE"""
 import base64
 import hashlib
@@ -36,18 +36,18 @@ class Answer:
 
 
 class Api:
-    """Calls operations by their names; whatever is answered is held against the document."""
+    """Calls operations by name and validates the answers against the document."""
 
     def __init__(self, address):
         self.address, self.done = address, set()
-        self.identity = {}  # header fields that say who calls
+        self.identity = {}  # header fields that identify the caller
         self.document = json.loads(self.send("GET", "/openapi.json").body)
         self.closed = check_openapi.closed(self.document)
         self.operations = {operation["operationId"]: (method.upper(), path, operation)
                            for path, method, operation in check_openapi.operations_of(self.closed)}
 
     def send(self, method, target, body=None, headers=(), until=None):
-        """`until`: of an answer that does not end, how many bytes are enough."""
+        """`until`: how many events of an endless answer to read."""
         connection = http.client.HTTPConnection(self.address, timeout=PATIENCE_S)
         connection.request(method, target, body, dict(headers) | self.identity)
         response = connection.getresponse()
@@ -58,7 +58,7 @@ class Api:
 
     @staticmethod
     def events(response, count):
-        """The data of so many events of a stream, or of all until it ends, as a JSON list."""
+        """The data of the first `count` events of a stream, or of all until it ends, as a JSON list."""
         found, kind = [], ""
         while len(found) < count and kind != "end":
             line = response.readline()
@@ -98,7 +98,7 @@ class Api:
                 require(not troubles, name, value, troubles)
 
     def call(self, name, *args, **more):
-        """As ask(), and it must be done."""
+        """As ask(), and the call must succeed."""
         answer = self.ask(name, *args, **more)
         require(answer.status < 400, name, answer.status, answer.body)
         self.done.add(name)
@@ -135,7 +135,7 @@ def create(api, spec, query=None):
 
 
 def jobs(api, asset):
-    """The number of a simulation that succeeded."""
+    """The number of a successful simulation."""
     mesh = {"mesh": {"name": "tetrahedron.obj", "asset": asset}, "film": "circle:30", "depthMm": 3, "dpi": 72}
     api.call("PauseQueue", {"reason": "put in order"})
     first, second = (create(api, {"simulate": mesh, "displayName": name}) for name in ("first", "second"))
@@ -222,7 +222,7 @@ def rig(api, simulation):
 
 
 def sign_in(api, body):
-    """As a page does: by a cookie, which scripts of the page cannot read."""
+    """Signs in as a page does: with a cookie that its scripts cannot read."""
     api.identity = {}
     answer = api.call("SignIn", body)
     cookie = answer.headers["Set-Cookie"]
@@ -232,7 +232,7 @@ def sign_in(api, body):
 
 
 def people(api):
-    """From here on there are users, and the first admin calls."""
+    """Creates the first admin, who makes all further calls."""
     api.call("CreateUser", {"user": {"name": "users/ann", "role": "ADMIN"}, "password": PASSWORD})
     sign_in(api, {"user": "ann", "password": PASSWORD})
     require(api.call("WhoAmI").json["role"] == "ADMIN", "the first user is an admin")
@@ -267,7 +267,7 @@ def the_rest(api):
 
 
 def ask_for_nothing(api, name):
-    """With names that nothing has."""
+    """Calls an operation for a resource that does not exist."""
     return api.ask(name, headers={"Upload-Offset": "0"}, **places_of(api, name))
 
 
@@ -276,7 +276,7 @@ def places_of(api, name):
 
 
 def wrong_calls(api):
-    """Of things that do not exist, and by a stranger."""
+    """Calls for resources that do not exist, and without authentication."""
     for name in api.operations:
         if places_of(api, name):
             answer = ask_for_nothing(api, name)

@@ -1,4 +1,4 @@
-// Bytes in and out over HTTP, through the daemon.
+// Uploads and downloads over HTTP, through the daemon.
 #include "sim/base/sha256.h"
 #include "tests/daemon/http/http_support.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 class HttpFiles : public HttpTest {
  protected:
-  // Announces bytes; the path of the upload.
+  // Starts an upload; returns its path.
   std::string begin_upload(const std::string& bytes) {
     const nlohmann::json wanted = {{"sizeBytes", bytes.size()}, {"sha256", hash_of(bytes)}};
     return "/v1/" +
@@ -17,7 +17,7 @@ class HttpFiles : public HttpTest {
     return ask(daemon.http(), "PATCH", path, bytes,
                "Upload-Offset: " + std::to_string(offset) + "\r\n");
   }
-  // A job with an artifact of 64 MiB; its path.
+  // Runs a job with an artifact of 64 MiB; returns its path.
   std::string huge() {
     const std::string name = simulate("huge");
     EXPECT_EQ(client.wait_for_end(name).state(), v1::Job::SUCCEEDED);
@@ -32,7 +32,7 @@ std::string noise(std::size_t size) {
   return bytes;
 }
 
-TEST_F(HttpFiles, AnUploadGoesOnWhereItBrokeOff) {
+TEST_F(HttpFiles, BrokenUploadIsResumed) {
   const std::string bytes = noise(300'000);
   const std::string path = begin_upload(bytes);
   const HttpAnswer part = patch(path, 0, bytes.substr(0, 100'000));
@@ -51,12 +51,12 @@ TEST_F(HttpFiles, AnUploadGoesOnWhereItBrokeOff) {
   }
   EXPECT_EQ(state.field("upload-offset"), "150000");
   EXPECT_EQ(state.field("upload-length"), "300000");
-  HttpAnswer wrong;  // the broken one may still hold it
+  HttpAnswer wrong;  // the broken connection may still hold the upload
   for (int i = 0; i < 1000 && wrong.reason() != "OFFSET_MISMATCH"; ++i) {
     wrong = patch(path, 100'000, bytes.substr(100'000));
   }
   EXPECT_EQ(wrong.reason(), "OFFSET_MISMATCH");
-  HttpAnswer done;  // the broken one may still hold it
+  HttpAnswer done;  // the broken connection may still hold the upload
   for (int i = 0; i < 1000 && done.status != 200; ++i)
     done = patch(path, 150'000, bytes.substr(150'000));
   EXPECT_EQ(done.status, 200) << done.body;
@@ -65,7 +65,7 @@ TEST_F(HttpFiles, AnUploadGoesOnWhereItBrokeOff) {
   EXPECT_EQ(get("/v1/assets/" + hash_of(bytes)).json().at("sizeBytes"), "300000");
 }
 
-TEST_F(HttpFiles, EachOfManyUploadsIsAnsweredAndNoneOutlivesTheDaemon) {
+TEST_F(HttpFiles, ManyUploadsAreAnsweredAndEndWithTheDaemon) {
 #ifdef __SANITIZE_ADDRESS__
   constexpr std::size_t kUploads = 100;
 #else
@@ -80,7 +80,7 @@ TEST_F(HttpFiles, EachOfManyUploadsIsAnsweredAndNoneOutlivesTheDaemon) {
   EXPECT_EQ(daemon.terminate(), 0);
 }
 
-TEST_F(HttpFiles, OtherBytesThanAnnouncedAreNoAsset) {
+TEST_F(HttpFiles, WrongBytesBecomeNoAsset) {
   const std::string bytes = noise(1000);
   const std::string path = begin_upload(bytes);
   const HttpAnswer wrong = patch(path, 0, std::string(1000, 'x'));
@@ -92,12 +92,12 @@ TEST_F(HttpFiles, OtherBytesThanAnnouncedAreNoAsset) {
   EXPECT_EQ(ask(daemon.http(), "PATCH", path, "x").reason(), "SPEC_INVALID");
 }
 
-TEST_F(HttpFiles, NothingButItsNameIsNeededOfAnEmptyFile) {
+TEST_F(HttpFiles, EmptyFileNeedsOnlyItsName) {
   const HttpAnswer done = patch(begin_upload(""), 0, "");
   EXPECT_EQ(done.json().at("sha256"), hash_of(""));
 }
 
-TEST_F(HttpFiles, AChunkedBodyIsAnUploadToo) {
+TEST_F(HttpFiles, ChunkedBodyIsAccepted) {
   const std::string bytes = noise(100'000);
   const std::string path = begin_upload(bytes);
   HttpConnection connection(daemon.http());
@@ -112,7 +112,7 @@ TEST_F(HttpFiles, AChunkedBodyIsAnUploadToo) {
   EXPECT_EQ(connection.ask("GET", "/v1/queue").status, 200);
 }
 
-TEST_F(HttpFiles, AnUploadOfAnySizeIsNeverWholeInMemory) {
+TEST_F(HttpFiles, LargeUploadsAreNotKeptInMemory) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   const std::string bytes = noise(96 << 20);
   const std::string path = begin_upload(bytes);
@@ -121,7 +121,7 @@ TEST_F(HttpFiles, AnUploadOfAnySizeIsNeverWholeInMemory) {
   EXPECT_LT(memory_bytes(daemon.pid()), before + (24 << 20));
 }
 
-TEST_F(HttpFiles, AnArtifactIsTheFileThatTheWorkerLeft) {
+TEST_F(HttpFiles, ArtifactEqualsTheWorkersFile) {
   const std::string name = simulate("");
   client.wait_for_end(name);
   const std::string path = "/v1/" + name + "/artifacts/film.png:download";
@@ -142,7 +142,7 @@ TEST_F(HttpFiles, AnArtifactIsTheFileThatTheWorkerLeft) {
   EXPECT_EQ(ask(daemon.http(), "POST", path, "x").status, 405);
 }
 
-TEST_F(HttpFiles, PartsOfAnArtifactAreThoseThatWereAskedFor) {
+TEST_F(HttpFiles, RangesOfAnArtifactAreServed) {
   const std::string path = huge();
   const auto range = [&](const std::string& value, const std::string& more = "") {
     return get(path, "Range: bytes=" + value + "\r\n" + more);
@@ -163,7 +163,7 @@ TEST_F(HttpFiles, PartsOfAnArtifactAreThoseThatWereAskedFor) {
   EXPECT_EQ(get(path, "If-None-Match: " + tag + "\r\n").status, 304);
 }
 
-TEST_F(HttpFiles, WhoDoesNotReadHasLittleOfItWaitingInMemory) {
+TEST_F(HttpFiles, SlowReaderCostsLittleMemory) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
   const std::string path = huge();
   const std::size_t before = memory_bytes(daemon.pid());

@@ -5,7 +5,7 @@
 namespace hydroprint::http {
 namespace {
 
-TEST(HttpFields, NothingThatEndsALineGetsIntoWhatIsSent) {
+TEST(HttpFields, LineEndsAreRejected) {
   HeaderFields fields;
   for (const std::string_view value : {std::string_view("a\r\nX-Evil: 1"), std::string_view("a\nb"),
                                        std::string_view("a\rb"), std::string_view("a\0b", 3)}) {
@@ -18,7 +18,7 @@ TEST(HttpFields, NothingThatEndsALineGetsIntoWhatIsSent) {
   EXPECT_TRUE(fields.set("Location", "a b; c=\"d\""));
 }
 
-TEST(HttpFields, NamesAreTheSameWhateverTheirCase) {
+TEST(HttpFields, NamesAreCaseInsensitive) {
   HeaderFields fields;
   fields.add("coNNection", "keep-alive, Close");
   EXPECT_EQ(fields.find("Connection"), "keep-alive, Close");
@@ -28,7 +28,7 @@ TEST(HttpFields, NamesAreTheSameWhateverTheirCase) {
   EXPECT_EQ(fields.count("connection"), 1U);
 }
 
-TEST(HttpFields, PartsAreTrimmedAndEmptyOnesLeftOut) {
+TEST(HttpFields, PartsAreTrimmedAndEmptyOnesDropped) {
   EXPECT_EQ(parts_of(" a,, b ,", ','), (std::vector<std::string_view>{"a", "b"}));
   EXPECT_TRUE(parts_of("", ',').empty());
 }

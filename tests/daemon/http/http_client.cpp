@@ -27,7 +27,7 @@ std::string lower_case(std::string text) {
 }
 
 std::shared_ptr<SSL> speak_tls(int socket, const std::string& ca_pem) {
-  ::signal(SIGPIPE, SIG_IGN);  // which OpenSSL does not keep from the test
+  ::signal(SIGPIPE, SIG_IGN);  // OpenSSL does not suppress it for the test
   const std::shared_ptr<SSL_CTX> context(SSL_CTX_new(TLS_client_method()), SSL_CTX_free);
   const std::shared_ptr<BIO> reader(BIO_new_mem_buf(ca_pem.data(), -1), BIO_free);
   const std::shared_ptr<X509> authority(PEM_read_bio_X509(reader.get(), nullptr, nullptr, nullptr),

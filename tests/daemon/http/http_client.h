@@ -11,7 +11,7 @@ using SSL = struct ssl_st;
 
 namespace hydroprint::tests {
 
-/// An answer as it came over the transport; names of fields in lower case.
+/// An answer as received; names of fields in lower case.
 struct HttpAnswer {
   int status = 0;
   std::map<std::string, std::string> fields;
@@ -29,13 +29,13 @@ struct HttpEvent {
   [[nodiscard]] nlohmann::json json() const;
 };
 
-/// A client's end of a TCP connection, as bare as it can be: what is sent is what the test says.
-/// Throws if the server ends it or says nothing for 20 s where an answer is due.
+/// A minimal client end of a TCP connection, which sends exactly the given bytes. Throws if an
+/// answer is due and the server disconnects or sends nothing for 20 s.
 class HttpConnection {
  public:
   /// @param address  "127.0.0.1:40123"
-  /// @param receive_buffer_bytes  small: the kernel takes little that nobody reads; 0: its default
-  /// @param ca_pem  the authority whose certificate for "localhost" is taken; empty: no TLS
+  /// @param receive_buffer_bytes  small: the kernel buffers little unread data; 0: its default
+  /// @param ca_pem  the trusted authority for "localhost"; empty: no TLS
   explicit HttpConnection(const std::string& address, int receive_buffer_bytes = 0,
                           const std::string& ca_pem = "");
   ~HttpConnection();
@@ -44,26 +44,27 @@ class HttpConnection {
   HttpConnection(const HttpConnection&) = delete;
   HttpConnection& operator=(const HttpConnection&) = delete;
 
-  /// False if the server takes no more.
+  /// Sends bytes; false if the server accepts no more.
   bool send(std::string_view bytes);
-  /// One request with its body, answered.
+  /// Sends one request with its body and reads the answer.
   HttpAnswer ask(const std::string& method, const std::string& target, const std::string& body = "",
                  const std::string& fields = "");
-  /// The next answer. @param has_body  false: to HEAD
+  /// Reads the next answer.
+  /// @param has_body  false: the answer to HEAD
   HttpAnswer read_answer(bool has_body = true);
-  /// The head of the next answer alone.
+  /// Reads only the head of the next answer.
   HttpAnswer read_head();
-  /// The next event of a stream whose head was read; kind "" for a ping.
+  /// Reads the next event of a stream whose head was read; kind "" for a ping.
   HttpEvent read_event();
-  /// Whether the stream's body ends here, so that the connection may be used again.
+  /// Whether the stream's body ends here, so that the connection can be reused.
   bool is_stream_over() { return stream_.empty() && chunk().empty(); }
-  /// The next bytes of all that comes; empty at the end.
+  /// Reads the next bytes; empty at the end.
   std::string read_some();
-  /// True once the server ended the connection, and nothing more came; waits for it.
+  /// Waits until the server closes the connection; true if no further bytes arrived.
   bool is_ended();
-  /// As a browser does: over TLS it says so first.
+  /// Closes the connection as a browser does: over TLS with a close_notify.
   void close();
-  /// Sends no more.
+  /// Half-closes the connection.
   void end_sending();
 
  private:
@@ -75,14 +76,14 @@ class HttpConnection {
   int socket_ = -1;
   std::shared_ptr<SSL> tls_;
   std::string received_;
-  std::string stream_;  // of the body of an event stream
+  std::string stream_;  // body of an event stream
 };
 
-/// A request's bytes, with Host and the length of its body.
+/// The bytes of a request, with Host and Content-Length.
 std::string request_text(const std::string& method, const std::string& target,
                          const std::string& body = "", const std::string& fields = "");
 
-/// One request on a connection of its own.
+/// Sends one request on a new connection.
 HttpAnswer ask(const std::string& address, const std::string& method, const std::string& target,
                const std::string& body = "", const std::string& fields = "");
 

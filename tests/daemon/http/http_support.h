@@ -12,7 +12,7 @@
 
 namespace hydroprint::tests {
 
-/// A daemon, asked over HTTP as it is.
+/// A daemon that is called over plain HTTP/1.1.
 class HttpTest : public ::testing::Test {
  protected:
   HttpAnswer get(const std::string& target, const std::string& fields = "") {
@@ -21,9 +21,9 @@ class HttpTest : public ::testing::Test {
   HttpAnswer post(const std::string& target, const std::string& body) {
     return ask(daemon.http(), "POST", target, body);
   }
-  /// Uploads over HTTP; "assets/{sha256}".
+  /// Uploads over HTTP; returns "assets/{sha256}".
   std::string upload(const std::string& bytes);
-  /// Creates a job over HTTP whose mesh has this content; "jobs/{number}".
+  /// Creates a job over HTTP whose mesh has this content; returns "jobs/{number}".
   std::string simulate(const std::string& mesh);
 
   TemporaryFolder folder;
@@ -31,11 +31,11 @@ class HttpTest : public ::testing::Test {
   Client client{daemon.address()};
 };
 
-/// The HTTP server alone, in this process, before a daemon that runs beside it: for what its limits
-/// do, which the daemon leaves as they are. The parameter: over TLS.
+/// The HTTP server in this process, connected to a separate daemon. Needed to test limits, which
+/// the daemon does not make configurable. The parameter selects TLS.
 class HttpLimits : public HttpTest, public ::testing::WithParamInterface<bool> {
  protected:
-  /// Starts it anew; over TLS if that is the parameter.
+  /// Restarts the server; over TLS if the parameter says so.
   void serve(const http::Limits& limits);
   [[nodiscard]] const std::string& address() const { return address_; }
   [[nodiscard]] HttpConnection connect(int receive_buffer_bytes = 0) const {
@@ -49,7 +49,7 @@ class HttpLimits : public HttpTest, public ::testing::WithParamInterface<bool> {
   std::string address_;
 };
 
-/// Resident memory of a process, by /proc.
+/// Resident memory of a process, from /proc.
 [[nodiscard]] std::size_t memory_bytes(pid_t pid);
 
 }  // namespace hydroprint::tests

@@ -1,5 +1,4 @@
-// What a client may have, and what becomes of who wants more: the HTTP server with short times and
-// small sizes, before a daemon.
+// Limits on clients: the HTTP server with short timeouts and small sizes, connected to a daemon.
 #include <chrono>
 #include <thread>
 
@@ -16,7 +15,7 @@ constexpr milliseconds kShort{200};
 INSTANTIATE_TEST_SUITE_P(Over, HttpLimits, ::testing::Bool(),
                          [](const auto& test) { return test.param ? "Tls" : "Tcp"; });
 
-TEST_P(HttpLimits, WhoSaysNothingIsLetGo) {
+TEST_P(HttpLimits, SilentClientIsDisconnected) {
   Limits limits;
   limits.header_time = kShort;
   limits.idle_time = kShort;
@@ -27,7 +26,7 @@ TEST_P(HttpLimits, WhoSaysNothingIsLetGo) {
   EXPECT_TRUE(idle.is_ended());
 }
 
-TEST_P(HttpLimits, AHeaderThatDoesNotComeToItsEndIsTimedOut) {
+TEST_P(HttpLimits, IncompleteHeaderTimesOut) {
   Limits limits;
   limits.header_time = kShort;
   serve(limits);
@@ -39,7 +38,7 @@ TEST_P(HttpLimits, AHeaderThatDoesNotComeToItsEndIsTimedOut) {
   EXPECT_TRUE(slow.is_ended());
 }
 
-TEST_P(HttpLimits, ABodyThatDoesNotComeIsTimedOut) {
+TEST_P(HttpLimits, MissingBodyTimesOut) {
   Limits limits;
   limits.body_time = kShort;
   serve(limits);
@@ -49,7 +48,7 @@ TEST_P(HttpLimits, ABodyThatDoesNotComeIsTimedOut) {
   EXPECT_TRUE(slow.is_ended());
 }
 
-TEST_P(HttpLimits, ThereAreOnlySoManyConnections) {
+TEST_P(HttpLimits, ConnectionsAreLimited) {
   Limits limits;
   limits.connections = 3;
   serve(limits);
@@ -76,7 +75,7 @@ TEST_P(HttpLimits, ThereAreOnlySoManyConnections) {
   EXPECT_EQ(status, 200);
 }
 
-TEST_P(HttpLimits, AStreamThatIsQuietShowsThatItLives) {
+TEST_P(HttpLimits, QuietStreamSendsPings) {
   Limits limits;
   limits.ping_time = milliseconds(50);
   serve(limits);
@@ -87,7 +86,7 @@ TEST_P(HttpLimits, AStreamThatIsQuietShowsThatItLives) {
   for (int i = 0; i < 3; ++i) EXPECT_EQ(stream.read_event().kind, "");
 }
 
-TEST_P(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
+TEST_P(HttpLimits, ClientThatDoesNotReadIsDisconnectedAndMayReturn) {
   Limits limits;
   limits.write_time = milliseconds(500);
   serve(limits);
@@ -96,7 +95,7 @@ TEST_P(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
   stream.send(request_text("GET", "/v1/events:watch?topics=job"));
   stream.read_head();
   const HttpEvent begin = stream.read_event();
-  // Jobs that tell much of themselves, and are done at once, since one like them was.
+  // Jobs with long labels that finish at once, since their results are cached.
   nlohmann::json job = {{"simulate", {{"mesh", {{"name", "m.obj"}, {"asset", upload("")}}}}}};
   for (int i = 0; i < 32; ++i) job["labels"][std::to_string(i)] = std::string(200, 'x');
   HttpConnection other = connect();
@@ -114,7 +113,7 @@ TEST_P(HttpLimits, WhoDoesNotReadItsStreamIsLetGoAndMayComeBack) {
   EXPECT_EQ(back.read_event().kind, "job");
 }
 
-TEST_P(HttpLimits, WhoLeavesCancelsItsCall) {
+TEST_P(HttpLimits, DisconnectCancelsTheCall) {
   serve({});
   const std::string name = simulate("sleep 30");
   {
@@ -131,7 +130,7 @@ TEST_P(HttpLimits, WhoLeavesCancelsItsCall) {
   EXPECT_NE(metrics.find("http_connections 1\n"), std::string::npos) << metrics;
 }
 
-TEST_P(HttpLimits, TheServerEndsWithStreamsUploadsAndIdleOnesOpen) {
+TEST_P(HttpLimits, ServerStopsWithOpenConnections) {
   serve({});
   std::vector<HttpConnection> open;
   for (int i = 0; i < 30; ++i) open.push_back(connect());
@@ -145,7 +144,7 @@ TEST_P(HttpLimits, TheServerEndsWithStreamsUploadsAndIdleOnesOpen) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
-TEST_P(HttpLimits, AServerWithoutAServiceSaysSo) {
+TEST_P(HttpLimits, MissingServiceIsReported) {
   serve({});
   HttpConnection connection = connect();
   EXPECT_EQ(connection.ask("GET", "/v1/queue").status, 200);

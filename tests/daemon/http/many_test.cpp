@@ -1,4 +1,4 @@
-// Many at a time, through the daemon.
+// Many concurrent clients, through the daemon.
 #include <atomic>
 #include <thread>
 
@@ -13,7 +13,7 @@ constexpr int kCallsOfEach = 100;
 constexpr int kCallsOfEach = 500;
 #endif
 
-TEST_F(HttpTest, EachOfThousandsOfCallsIsAnsweredWithItsOwnAnswer) {
+TEST_F(HttpTest, ThousandsOfCallsGetTheirOwnAnswers) {
   constexpr int kClients = 16;
   std::vector<std::string> jobs;
   for (int i = 0; i < 4; ++i) jobs.push_back(simulate("# " + std::to_string(i)));
@@ -28,7 +28,7 @@ TEST_F(HttpTest, EachOfThousandsOfCallsIsAnsweredWithItsOwnAnswer) {
     threads.emplace_back([&, i] {
       HttpConnection connection(daemon.http());
       for (int call = 0; call < kCallsOfEach; ++call) {
-        // Now and then one leaves in the middle of a call, and another one comes.
+        // Sometimes one disconnects during a call, and a new one connects.
         if (call % 50 == 49) {
           connection.send(request_text("GET", "/v1/jobs"));
           connection = HttpConnection(daemon.http());
@@ -48,7 +48,7 @@ TEST_F(HttpTest, EachOfThousandsOfCallsIsAnsweredWithItsOwnAnswer) {
 
 TEST_F(HttpTest, IdleConnectionsCostLittle) {
   if (!proc_is_mounted()) GTEST_SKIP() << kNeedsProc;
-  constexpr std::size_t kIdle = 900;  // the test has a thousand descriptors itself
+  constexpr std::size_t kIdle = 900;  // the test itself needs a thousand descriptors
   const HttpAnswer warm = get("/v1/queue");
   const std::size_t before = memory_bytes(daemon.pid());
   std::vector<HttpConnection> idle;

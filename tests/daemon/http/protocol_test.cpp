@@ -6,7 +6,7 @@ namespace {
 
 class HttpProtocol : public HttpTest {
  protected:
-  // What comes to these bytes, until the server ends the connection.
+  // Everything the server sends for these bytes, until it closes the connection.
   std::string all_of(const std::string& bytes) {
     HttpConnection connection(daemon.http());
     connection.send(bytes);
@@ -18,7 +18,7 @@ class HttpProtocol : public HttpTest {
   }
 };
 
-TEST_F(HttpProtocol, PipelinedRequestsAreAnsweredInTheirOrder) {
+TEST_F(HttpProtocol, PipelinedRequestsAreAnsweredInOrder) {
   HttpConnection connection(daemon.http());
   connection.send(request_text("GET", "/v1/queue") + request_text("HEAD", "/") + "\r\n" +
                   request_text("POST", "/v1/queue:pause", "{}") +
@@ -30,7 +30,7 @@ TEST_F(HttpProtocol, PipelinedRequestsAreAnsweredInTheirOrder) {
   EXPECT_EQ(connection.read_answer().json().at("paused"), true);
 }
 
-TEST_F(HttpProtocol, ABodyIsInvitedOnlyIfItIsWanted) {
+TEST_F(HttpProtocol, ContinueIsSentOnlyForAWantedBody) {
   const std::string ask_for = "Expect: 100-continue\r\n";
   HttpConnection connection(daemon.http());
   connection.send("POST /v1/queue:pause HTTP/1.1\r\nHost: localhost\r\n" + ask_for +
@@ -46,7 +46,7 @@ TEST_F(HttpProtocol, ABodyIsInvitedOnlyIfItIsWanted) {
   EXPECT_TRUE(connection.is_ended());
 }
 
-TEST_F(HttpProtocol, TheConnectionEndsWhenEitherSideSaysSo) {
+TEST_F(HttpProtocol, EitherSideCanCloseTheConnection) {
   HttpConnection closing(daemon.http());
   const HttpAnswer last = closing.ask("GET", "/v1/queue", "", "Connection: close\r\n");
   EXPECT_EQ(last.status, 200);
@@ -64,7 +64,7 @@ TEST_F(HttpProtocol, TheConnectionEndsWhenEitherSideSaysSo) {
   }
 }
 
-TEST_F(HttpProtocol, AnOldClientGetsAStreamThatEndsWithTheConnection) {
+TEST_F(HttpProtocol, Http10StreamEndsWithTheConnection) {
   const std::string name = simulate("");
   client.wait_for_end(name);
   const std::string text = all_of("GET /v1/" + name + ":watch?afterSeq=0 HTTP/1.0\r\n\r\n");
@@ -72,7 +72,7 @@ TEST_F(HttpProtocol, AnOldClientGetsAStreamThatEndsWithTheConnection) {
   EXPECT_TRUE(text.ends_with("\n\nevent: end\ndata: {}\n\n")) << text;
 }
 
-TEST_F(HttpProtocol, WhatIsNoRequestIsRefusedAndEndsTheConnection) {
+TEST_F(HttpProtocol, MalformedRequestClosesTheConnection) {
   for (const std::string& bytes :
        {std::string("\x16\x03\x01\x02\x00\x01 hello\r\n\r\n"), std::string("GET\r\n\r\n"),
         std::string(
@@ -88,7 +88,7 @@ TEST_F(HttpProtocol, WhatIsNoRequestIsRefusedAndEndsTheConnection) {
   EXPECT_EQ(get("/v1/queue").status, 200);
 }
 
-TEST_F(HttpProtocol, AHeaderIsTakenUpTo16KiB) {
+TEST_F(HttpProtocol, HeaderLimitIs16KiB) {
   const auto with = [](std::size_t size) {
     const std::string begin = "GET /v1/queue HTTP/1.1\r\nHost: localhost\r\nX: ", end = "\r\n\r\n";
     return begin + std::string(size - begin.size() - end.size(), 'a') + end;
@@ -103,7 +103,7 @@ TEST_F(HttpProtocol, AHeaderIsTakenUpTo16KiB) {
   EXPECT_EQ(refused.reason(), "HEADER_TOO_LARGE");
 }
 
-TEST_F(HttpProtocol, ABodyIsTakenUpToOneMiB) {
+TEST_F(HttpProtocol, BodyLimitIsOneMiB) {
   const auto with = [](std::size_t size) {
     const std::string begin = "{\"reason\": \"", end = "\"}";
     return begin + std::string(size - begin.size() - end.size(), 'a') + end;
@@ -120,7 +120,7 @@ TEST_F(HttpProtocol, ABodyIsTakenUpToOneMiB) {
   EXPECT_EQ(chunked.read_answer().status, 413);
 }
 
-TEST_F(HttpProtocol, TwoRequestsInOneAreNotSmuggled) {
+TEST_F(HttpProtocol, RequestSmugglingIsRefused) {
   const std::string text = all_of(
       "POST /v1/queue:resume HTTP/1.1\r\nHost: localhost\r\nContent-Length: 6\r\n"
       "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\nGET /v1/queue HTTP/1.1\r\nHost: "
@@ -129,7 +129,7 @@ TEST_F(HttpProtocol, TwoRequestsInOneAreNotSmuggled) {
   EXPECT_EQ(text.find("HTTP/1.1 200"), std::string::npos) << text;
 }
 
-TEST_F(HttpProtocol, ATransferEncodingThatIsNotChunkedEndsTheConnection) {
+TEST_F(HttpProtocol, UnknownTransferEncodingClosesTheConnection) {
   const std::string smuggled = request_text("GET", "/v1/queue");
   const auto answer_to = [&](const std::string& fields, const std::string& version = "1.1") {
     return all_of("POST /v1/queue:pause HTTP/" + version + "\r\nHost: localhost\r\n" + fields +
@@ -158,7 +158,7 @@ TEST_F(HttpProtocol, ATransferEncodingThatIsNotChunkedEndsTheConnection) {
   EXPECT_EQ(get("/v1/queue").json().at("paused"), false) << "nothing of it was carried out";
 }
 
-TEST_F(HttpProtocol, ABodyThatIsLeftUnreadIsNotTakenForTheNextRequest) {
+TEST_F(HttpProtocol, UnreadBodyIsNotTheNextRequest) {
   HttpConnection connection(daemon.http());
   const std::string evil = request_text("POST", "/v1/queue:pause", "{}");
   EXPECT_EQ(connection.ask("POST", "/nothing.here", evil).status, 405);

@@ -7,7 +7,7 @@ namespace {
 
 using Outcome = RequestParser::Outcome;
 
-// Feeds a request in pieces of this size; how it ended, and the body.
+// Parses a request in pieces of this size; returns the outcome and the body.
 std::pair<Outcome, std::string> parse(RequestParser& parser, std::string_view text,
                                       std::size_t piece) {
   std::string waiting, body;
@@ -27,7 +27,7 @@ std::pair<Outcome, std::string> parse(RequestParser& parser, std::string_view te
   return {parser.is_done() ? Outcome::kGotOn : Outcome::kNeedsMore, body};
 }
 
-TEST(HttpRequestParser, PiecesOfAnySizeMakeTheSameRequest) {
+TEST(HttpRequestParser, PiecesOfAnySizeGiveTheSameRequest) {
   const std::string text =
       "POST /v1/jobs?a=b HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n"
       "5;note=1\r\nhello\r\n1\r\n!\r\n0\r\nTrailer: t\r\n\r\n";
@@ -43,7 +43,7 @@ TEST(HttpRequestParser, PiecesOfAnySizeMakeTheSameRequest) {
   }
 }
 
-TEST(HttpRequestParser, WhatCouldBeReadInTwoWaysIsRefused) {
+TEST(HttpRequestParser, AmbiguousRequestsAreRefused) {
   for (const char* text : {
            "GET / HTTP/1.1\r\nContent-Length: 3\r\nTransfer-Encoding: chunked\r\n\r\n",
            "GET / HTTP/1.1\r\nContent-Length: 3\r\nContent-Length: 4\r\n\r\n",
@@ -65,7 +65,7 @@ TEST(HttpRequestParser, WhatCouldBeReadInTwoWaysIsRefused) {
   }
 }
 
-TEST(HttpRequestParser, OnlyChunkedAloneIsATransferEncodingWithAKnownEnd) {
+TEST(HttpRequestParser, OnlyPlainChunkedHasAKnownEnd) {
   const auto framing_of = [](const std::string& fields, const std::string& version = "1.1") {
     RequestParser parser(1 << 14);
     const std::string text = "POST / HTTP/" + version + "\r\n" + fields + "\r\n";
@@ -96,7 +96,7 @@ TEST(HttpRequestParser, OnlyChunkedAloneIsATransferEncodingWithAKnownEnd) {
   }
 }
 
-TEST(HttpRequestParser, AHeaderMayHaveItsLengthAndNotMore) {
+TEST(HttpRequestParser, HeaderLengthIsLimited) {
   const auto with = [](std::size_t size) {
     const std::string begin = "GET / HTTP/1.1\r\nX: ", end = "\r\n\r\n";
     return begin + std::string(size - begin.size() - end.size(), 'a') + end;

@@ -1,4 +1,4 @@
-// The rig over HTTP, with the virtual rig at the other end of the transport.
+// The rig over HTTP, with the virtual rig as the drive.
 #include <chrono>
 
 #include "tests/daemon/api/rig_support.h"
@@ -14,11 +14,11 @@ class HttpRig : public RigTest {
   }
 };
 
-TEST_F(HttpRig, AStopNeedsNothingAndWaitsForNobody) {
+TEST_F(HttpRig, StopNeedsNoLeaseAndDoesNotWait) {
   ann.make_ready();
   ASSERT_TRUE(ann.move_to(200, 5).ok());
   ASSERT_TRUE(rig.gets_to(5));
-  // Every stream that there may be, and calls that hang behind bodies that do not come.
+  // Opens the maximum number of streams, and calls that wait for missing bodies.
   std::vector<HttpConnection> busy;
   for (int i = 0; i < 300; ++i) {
     busy.emplace_back(daemon.http());
@@ -31,11 +31,11 @@ TEST_F(HttpRig, AStopNeedsNothingAndWaitsForNobody) {
   EXPECT_TRUE(rig.gets_to(0, 1));
 }
 
-// What follows the request line and Host of a stop.
+// The header fields and body of a stop, after the request line and Host.
 struct OddStop {
   const char* name;
   std::string query, rest;
-  bool is_answered = true;  // false: the client leaves at once
+  bool is_answered = true;  // false: the client disconnects at once
 };
 
 std::string with_body(const std::string& body, const std::string& fields = "") {
@@ -70,11 +70,11 @@ std::vector<OddStop> odd_stops() {
   };
 }
 
-TEST_F(HttpRig, AStopIsCarriedOutWhateverItsBodyQueryAndHeaderSay) {
+TEST_F(HttpRig, StopIgnoresBodyQueryAndHeader) {
   ann.make_ready();
   for (const OddStop& odd : odd_stops()) {
     SCOPED_TRACE(odd.name);
-    // So far away that the axis would not rest by itself.
+    // Far enough that the axis does not come to rest by itself.
     ASSERT_TRUE(ann.move_to(290, 5).ok());
     ASSERT_TRUE(rig.gets_to(5));
     HttpConnection connection(daemon.http());
@@ -91,14 +91,14 @@ TEST_F(HttpRig, AStopIsCarriedOutWhateverItsBodyQueryAndHeaderSay) {
   }
 }
 
-TEST_F(HttpRig, ABodyThatAStopIgnoresIsNotTakenForTheNextRequest) {
+TEST_F(HttpRig, IgnoredBodyOfAStopIsNotTheNextRequest) {
   HttpConnection connection(daemon.http());
   const std::string evil = request_text("POST", "/v1/queue:pause", "{}");
   EXPECT_EQ(connection.ask("POST", "/v1/rig:stop", evil).status, 200);
   EXPECT_EQ(connection.ask("GET", "/v1/queue").json().at("paused"), false);
 }
 
-TEST_F(HttpRig, APageOfAnotherSiteCannotStopTheRig) {
+TEST_F(HttpRig, OtherSitesCannotStopTheRig) {
   ann.make_ready();
   ASSERT_TRUE(ann.move_to(290, 5).ok());
   ASSERT_TRUE(rig.gets_to(5));
@@ -110,7 +110,7 @@ TEST_F(HttpRig, APageOfAnotherSiteCannotStopTheRig) {
   EXPECT_EQ(ann.rig().state(), v1::Rig::MOVING);
 }
 
-TEST_F(HttpRig, ADipIsCancelledWhateverTheBodyAndQuerySay) {
+TEST_F(HttpRig, CancellingADipIgnoresBodyAndQuery) {
   ann.make_ready();
   ann.go_to(8);
   v1::DipSpec spec = short_dip();
@@ -126,7 +126,7 @@ TEST_F(HttpRig, ADipIsCancelledWhateverTheBodyAndQuerySay) {
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::CANCELLED);
 }
 
-TEST_F(HttpRig, APageSeesTheRigMove) {
+TEST_F(HttpRig, StreamShowsTheRigMoving) {
   ann.make_ready();
   HttpConnection stream(daemon.http());
   stream.send(request_text("GET", "/v1/events:watch?topics=rig"));
@@ -141,14 +141,14 @@ TEST_F(HttpRig, APageSeesTheRigMove) {
     const auto now = event.json().at("rig");
     is_there = now.at("state") == "IDLE" && now.at("positionMm").get<double>() > 11.9;
   }
-  EXPECT_GT(samples, 3);  // a second's way, at most ten a second
+  EXPECT_GT(samples, 3);  // one second of motion, at most ten messages a second
   EXPECT_LT(samples, 60);
   EXPECT_NE(
       ask(daemon.http(), "GET", "/metrics").body.find("hydroprint_rig_state{state=\"IDLE\"} 1\n"),
       std::string::npos);
 }
 
-TEST_F(HttpRig, ThousandsOfConnectionsDoNotTouchTheRigsThread) {
+TEST_F(HttpRig, ThousandsOfConnectionsDoNotDelayTheRig) {
   ann.make_ready();
   const auto skipped = ann.rig().link_quality().skipped_polls();
   const auto missed = ann.rig().link_quality().missed_polls();

@@ -1,10 +1,10 @@
-// What the API answers over HTTP, through the daemon.
+// The API over HTTP, through the daemon.
 #include "tests/daemon/http/http_support.h"
 
 namespace hydroprint::tests {
 namespace {
 
-TEST_F(HttpTest, AJobGoesItsWayInJson) {
+TEST_F(HttpTest, JobRunsOverJson) {
   const std::string name = simulate("sleep 0.1");
   EXPECT_EQ(client.wait_for_end(name).state(), v1::Job::SUCCEEDED);
   const auto job = get("/v1/" + name).json();
@@ -16,7 +16,7 @@ TEST_F(HttpTest, AJobGoesItsWayInJson) {
   EXPECT_EQ(get("/v1/" + name).reason(), "JOB_NOT_FOUND");
 }
 
-TEST_F(HttpTest, TheOwnerIsWhomTheHeaderNames) {
+TEST_F(HttpTest, HeaderNamesTheOwner) {
   const std::string asset = upload("");
   const nlohmann::json job = {{"simulate", {{"mesh", {{"name", "m.obj"}, {"asset", asset}}}}}};
   const std::string owner = "Hydroprint-Owner: ann\r\n";
@@ -27,7 +27,7 @@ TEST_F(HttpTest, TheOwnerIsWhomTheHeaderNames) {
   EXPECT_EQ(bad.reason(), "SPEC_INVALID");
 }
 
-TEST_F(HttpTest, TheSameRequestUnderTheSameKeyIsDoneOnce) {
+TEST_F(HttpTest, RequestWithTheSameKeyIsDoneOnce) {
   const std::string asset = upload("");
   const nlohmann::json job = {{"simulate", {{"mesh", {{"name", "m.obj"}, {"asset", asset}}}}}};
   const auto create = [&](const std::string& key, const std::string& query = "") {
@@ -42,7 +42,7 @@ TEST_F(HttpTest, TheSameRequestUnderTheSameKeyIsDoneOnce) {
   EXPECT_NE(create("b"), first);
 }
 
-TEST_F(HttpTest, RefusalsAreGoogleRpcStatus) {
+TEST_F(HttpTest, ErrorsAreGoogleRpcStatus) {
   const HttpAnswer missing = get("/v1/jobs/77");
   EXPECT_EQ(missing.status, 404);
   EXPECT_EQ(missing.field("content-type"), "application/json");
@@ -75,7 +75,7 @@ TEST_F(HttpTest, ValidateOnlyRefusesAFilmThatTheWorkerWouldRefuse) {
   EXPECT_EQ(wrong.at(1).at("description"), "must be from 20 to 2400 dots per inch");
 }
 
-TEST_F(HttpTest, AnotherMethodIsToldWhichThereAre) {
+TEST_F(HttpTest, WrongMethodIsAnsweredWithAllow) {
   const HttpAnswer wrong = ask(daemon.http(), "PUT", "/v1/jobs/1", "{}");
   EXPECT_EQ(wrong.status, 405);
   EXPECT_EQ(wrong.reason(), "METHOD_NOT_ALLOWED");
@@ -87,7 +87,7 @@ TEST_F(HttpTest, AnotherMethodIsToldWhichThereAre) {
   EXPECT_EQ(ask(daemon.http(), "POST", "/", "x").status, 405);
 }
 
-TEST_F(HttpTest, HeadIsGetWithoutItsBody) {
+TEST_F(HttpTest, HeadIsGetWithoutABody) {
   HttpConnection connection(daemon.http());
   const HttpAnswer whole = connection.ask("GET", "/v1/queue");
   const HttpAnswer head = connection.ask("HEAD", "/v1/queue");
@@ -97,7 +97,7 @@ TEST_F(HttpTest, HeadIsGetWithoutItsBody) {
   EXPECT_EQ(connection.ask("HEAD", "/v1/events:watch").status, 405);
 }
 
-TEST_F(HttpTest, EveryAnswerHasTheHeadersThatProtectThePage) {
+TEST_F(HttpTest, EveryAnswerHasSecurityHeaders) {
   for (const char* target : {"/", "/v1/jobs", "/v1/jobs/77", "/healthz", "/metrics", "/none.js"}) {
     const HttpAnswer answer = get(target);
     EXPECT_EQ(answer.field("x-content-type-options"), "nosniff") << target;
@@ -110,7 +110,7 @@ TEST_F(HttpTest, EveryAnswerHasTheHeadersThatProtectThePage) {
   EXPECT_EQ(get("/v1/jobs").field("cache-control"), "no-store");
 }
 
-TEST_F(HttpTest, OnlyItsOwnNamesAreAnswered) {
+TEST_F(HttpTest, UnknownHostNamesAreRefused) {
   for (const char* host : {"localhost", "LOCALHOST:8080", "127.0.0.1:1", "[::1]:8080", "[::1]"}) {
     HttpConnection connection(daemon.http());
     connection.send("GET /v1/queue HTTP/1.1\r\nHost: " + std::string(host) + "\r\n\r\n");
@@ -126,7 +126,7 @@ TEST_F(HttpTest, OnlyItsOwnNamesAreAnswered) {
   }
 }
 
-TEST_F(HttpTest, APageOfAnotherSiteChangesNothing) {
+TEST_F(HttpTest, OtherSitesCannotChangeAnything) {
   const std::string pause = R"({"reason": "evil"})";
   for (const char* origin : {"Origin: http://evil.example\r\n", "Origin: null\r\n",
                              "Origin: http://localhost:1\r\n", "Sec-Fetch-Site: cross-site\r\n"}) {
@@ -141,7 +141,7 @@ TEST_F(HttpTest, APageOfAnotherSiteChangesNothing) {
   EXPECT_TRUE(client.queue().paused());
 }
 
-TEST_F(HttpTest, HealthSaysHowEachPartIs) {
+TEST_F(HttpTest, HealthReportsEachPart) {
   const HttpAnswer health = get("/healthz");
   EXPECT_EQ(health.status, 200);
   const auto json = health.json();
@@ -152,14 +152,14 @@ TEST_F(HttpTest, HealthSaysHowEachPartIs) {
   EXPECT_EQ(json.at("workers").at("slots"), 2);
 }
 
-TEST_F(HttpTest, MetricsTellOfJobsRigAndTheServerItself) {
+TEST_F(HttpTest, MetricsCoverJobsRigAndServer) {
   EXPECT_EQ(client.wait_for_end(simulate("sleep 0.2")).state(), v1::Job::SUCCEEDED);
   EXPECT_EQ(get("/v1/jobs/99").status, 404);
   std::string text;
   const auto has = [&](const std::string& line) {
     return text.find("\n" + line) != std::string::npos;
   };
-  const auto has_come = [&] {  // and the connections before have gone
+  const auto has_come = [&] {  // earlier connections are closed
     return has("hydroprint_jobs_finished_total{") && has("hydroprint_http_connections 1\n");
   };
   for (int i = 0; i < 1000 && !has_come(); ++i) text = get("/metrics").body;
@@ -176,7 +176,7 @@ TEST_F(HttpTest, MetricsTellOfJobsRigAndTheServerItself) {
   EXPECT_EQ(get("/metrics").field("content-type"), "text/plain; version=0.0.4; charset=utf-8");
 }
 
-TEST(HttpConfig, NamesAndTheClientsFolderAreAsConfigured) {
+TEST(HttpConfig, HostNamesAndWebFolderAreConfigurable) {
   TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() / "web");
   folder.write("web/index.html", "the client");
@@ -194,7 +194,7 @@ TEST(HttpConfig, NamesAndTheClientsFolderAreAsConfigured) {
   EXPECT_EQ(other.read_answer().status, 421);
 }
 
-TEST_F(HttpTest, TheDocumentOfAllRoutesIsServed) {
+TEST_F(HttpTest, OpenApiDocumentIsServed) {
   const auto document = get("/openapi.json").json();
   EXPECT_EQ(document.at("openapi"), "3.0.3");
   EXPECT_TRUE(document.at("paths").contains("/v1/events:watch"));

@@ -1,5 +1,4 @@
-// People who are signed in with a browser: the cookie, what has to come along with it, and what
-// scripts bring instead.
+// Sign-in with a browser: the cookie, the token that must accompany it, and API keys for scripts.
 #include <gtest/gtest.h>
 
 #include "tests/daemon/api/people_support.h"
@@ -17,7 +16,7 @@ class HttpSession : public PeopleApi {
   HttpAnswer get(const std::string& target, const std::string& fields = "") {
     return HttpConnection(daemon.http()).ask("GET", target, "", fields);
   }
-  /// The header Cookie of somebody who signed in, and what their page knows.
+  /// The Cookie header of a signed-in browser, and the token that its page knows.
   struct Browser {
     std::string cookie, csrf;
     [[nodiscard]] std::string both() const {
@@ -34,7 +33,7 @@ class HttpSession : public PeopleApi {
   }
 };
 
-TEST_F(HttpSession, IsACookieThatNoScriptReads) {
+TEST_F(HttpSession, CookieIsHiddenFromScripts) {
   const Browser maker = sign_in_there("maker");
   const HttpAnswer who = get("/v1/session", maker.cookie);
   EXPECT_EQ(who.status, 200) << who.body;
@@ -44,7 +43,7 @@ TEST_F(HttpSession, IsACookieThatNoScriptReads) {
   EXPECT_EQ(get("/v1/jobs", maker.cookie).status, 200);
 }
 
-TEST_F(HttpSession, WhatChangesSomethingNeedsWhatOnlyThePageKnows) {
+TEST_F(HttpSession, ChangesRequireTheCsrfToken) {
   const Browser admin = sign_in_there("admin");
   const auto pause = [&](const std::string& fields) {
     return post("/v1/queue:pause", {{"reason", "new film"}}, fields);
@@ -68,7 +67,7 @@ TEST_F(HttpSession, TheCallerIsCheckedBeforeTheBodyIsRead) {
   }
 }
 
-TEST_F(HttpSession, OfAnotherBrowserOpensNothing) {
+TEST_F(HttpSession, CsrfTokenOfAnotherSessionIsRefused) {
   const Browser viewer = sign_in_there("viewer");
   const Browser admin = sign_in_there("admin");
   const auto pause = [&](const std::string& fields) {
@@ -88,7 +87,7 @@ TEST_F(HttpSession, EndsWithSignOut) {
   EXPECT_EQ(get("/v1/jobs", maker.cookie).reason(), "SIGN_IN_NEEDED");
 }
 
-TEST_F(HttpSession, AScriptBringsAKeyAndNothingElse) {
+TEST_F(HttpSession, ApiKeyNeedsNoCsrfToken) {
   const std::string key = "Authorization: Bearer " + keys.at("operator") + "\r\n";
   EXPECT_EQ(post("/v1/queue:pause", {{"reason", "x"}}, key).status, 200);
   EXPECT_EQ(
@@ -97,7 +96,7 @@ TEST_F(HttpSession, AScriptBringsAKeyAndNothingElse) {
       401);
 }
 
-TEST_F(HttpSession, WrongPasswordsAreCountedAndSlowedDown) {
+TEST_F(HttpSession, WrongPasswordsAreCountedAndThrottled) {
   const auto attempt = [&] {
     return post("/v1/session:signIn", {{"user", "maker"}, {"password", "wrong"}});
   };
@@ -108,7 +107,7 @@ TEST_F(HttpSession, WrongPasswordsAreCountedAndSlowedDown) {
   EXPECT_EQ(get("/metrics").body.find("hydroprint_rejected_logins_total 0\n"), std::string::npos);
 }
 
-TEST_F(HttpSession, AStreamOfEventsEndsWithIt) {
+TEST_F(HttpSession, EventStreamEndsWithTheSession) {
   const Browser maker = sign_in_there("maker");
   HttpConnection stream(daemon.http());
   stream.send("GET /v1/events:watch?topics=queue HTTP/1.1\r\nHost: localhost\r\n" + maker.cookie +

@@ -20,7 +20,7 @@ class HttpEvents : public HttpTest {
     return connection;
   }
 
-  // Events up to and with the first of this kind.
+  // Reads events up to and including the first of this kind.
   static std::vector<HttpEvent> until(HttpConnection& connection, const std::string& kind) {
     std::vector<HttpEvent> events;
     do {
@@ -30,7 +30,7 @@ class HttpEvents : public HttpTest {
   }
 };
 
-TEST_F(HttpEvents, AJobIsFollowedToItsEnd) {
+TEST_F(HttpEvents, JobIsFollowedToItsEnd) {
   const std::string name = simulate("sleep 0.5");
   HttpConnection stream = watch("/v1/" + name + ":watch?afterSeq=0");
   const auto events = until(stream, "end");
@@ -46,7 +46,7 @@ TEST_F(HttpEvents, AJobIsFollowedToItsEnd) {
   EXPECT_EQ(stream.ask("GET", "/v1/queue").status, 200);
 }
 
-TEST_F(HttpEvents, AStreamGoesOnBehindTheLastEventThatWasSeen) {
+TEST_F(HttpEvents, StreamResumesAfterTheLastEvent) {
   const std::string name = simulate("sleep 0.3");
   client.wait_for_end(name);
   const auto target = "/v1/" + name + ":watch?afterSeq=0";
@@ -55,7 +55,7 @@ TEST_F(HttpEvents, AStreamGoesOnBehindTheLastEventThatWasSeen) {
   ASSERT_GT(all.size(), 3U);
   HttpConnection rest = watch(target, "Last-Event-ID: " + all[1].id + "\r\n");
   const auto events = until(rest, "end");
-  EXPECT_EQ(events.size(), all.size() - 1);  // the job as it stands, then what followed
+  EXPECT_EQ(events.size(), all.size() - 1);  // the current state of the job, then later events
   EXPECT_EQ(events[1].id, all[2].id);
   const HttpAnswer never = get(target, "Last-Event-ID: 999999\r\n");
   EXPECT_EQ(never.status, 400);
@@ -63,7 +63,7 @@ TEST_F(HttpEvents, AStreamGoesOnBehindTheLastEventThatWasSeen) {
   EXPECT_EQ(get(target, "Last-Event-ID: x\r\n").reason(), "PARAMETER_INVALID");
 }
 
-TEST_F(HttpEvents, WhatIsRefusedBeforeTheFirstEventIsAnAnswer) {
+TEST_F(HttpEvents, ErrorBeforeTheFirstEventIsANormalResponse) {
   EXPECT_EQ(get("/v1/jobs/77:watch").status, 404);
   const HttpAnswer topic = get("/v1/events:watch?topics=weather");
   EXPECT_EQ(topic.status, 400);
@@ -71,7 +71,7 @@ TEST_F(HttpEvents, WhatIsRefusedBeforeTheFirstEventIsAnAnswer) {
   EXPECT_EQ(get("/v1/events:watch?afterSeq=99999").reason(), "EVENTS_GONE");
 }
 
-TEST_F(HttpEvents, OneStreamHasAllThatAPageShows) {
+TEST_F(HttpEvents, OneStreamHasAllTopics) {
   HttpConnection stream = watch("/v1/events:watch");
   const HttpEvent begin = stream.read_event();
   EXPECT_EQ(begin.kind, "begin");
@@ -96,7 +96,7 @@ TEST_F(HttpEvents, OneStreamHasAllThatAPageShows) {
   EXPECT_EQ(created.at("job").at("event").at("state"), "QUEUED");
 }
 
-TEST_F(HttpEvents, AllJobsAreInOneStreamAndNoneIsMissing) {
+TEST_F(HttpEvents, AllJobsAppearInOneStream) {
   HttpConnection stream = watch("/v1/events:watch?topics=job");
   std::string seq = stream.read_event().id;
   std::vector<std::string> names;
@@ -109,7 +109,7 @@ TEST_F(HttpEvents, AllJobsAreInOneStreamAndNoneIsMissing) {
     seen.push_back(event.id);
     if (job.at("event").at("state") == "SUCCEEDED") ++ended;
     seq = event.id;
-    if (i % 3 == 2) {  // the page comes back with what it saw last
+    if (i % 3 == 2) {  // the page reconnects with the last id that it received
       stream = watch("/v1/events:watch?topics=job", "Last-Event-ID: " + seq + "\r\n");
       EXPECT_EQ(stream.read_event().kind, "begin");
     }
@@ -125,7 +125,7 @@ TEST_F(HttpEvents, AllJobsAreInOneStreamAndNoneIsMissing) {
   }
 }
 
-TEST_F(HttpEvents, ADaemonThatGoesDownSaysSoAndTheNextOneGoesOn) {
+TEST_F(HttpEvents, ShutdownEndsTheStreamAndTheNextDaemonResumesIt) {
   const std::string name = simulate("sleep 30");
   client.wait_for(name, v1::Job::RUNNING);
   HttpConnection stream = watch("/v1/events:watch?topics=job&afterSeq=0");
@@ -145,7 +145,7 @@ TEST_F(HttpEvents, ADaemonThatGoesDownSaysSoAndTheNextOneGoesOn) {
   EXPECT_EQ(again.read_event().json().at("job").at("event").at("job"), name);
 }
 
-TEST_F(HttpEvents, WhoLeavesFreesItsPlace) {
+TEST_F(HttpEvents, DisconnectFreesTheSlot) {
   for (int round = 0; round < 3; ++round) {
     std::vector<HttpConnection> streams;
     for (int i = 0; i < 100; ++i) {
@@ -154,17 +154,17 @@ TEST_F(HttpEvents, WhoLeavesFreesItsPlace) {
     }
     EXPECT_EQ(get("/v1/queue").status, 200);
     streams.clear();
-    // 128 may watch: the next hundred needs the places of this one.
+    // The limit is 128, so the next hundred streams need the slots of these.
     std::string metrics;
     for (int i = 0;
          i < 1000 && metrics.find("hydroprint_http_connections 1\n") == std::string::npos; ++i) {
       metrics = get("/metrics").body;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // its threads look twice a second
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));  // its threads poll twice a second
   }
 }
 
-TEST_F(HttpEvents, TheHundredAndTwentyNinthIsToldThatThereAreTooMany) {
+TEST_F(HttpEvents, The129thStreamIsRefused) {
   std::vector<HttpConnection> streams;
   for (int i = 0; i < 128; ++i) streams.push_back(watch("/v1/events:watch?topics=job"));
   const HttpAnswer more = get("/v1/events:watch");

@@ -32,7 +32,7 @@ class HttpStaticFiles : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(HttpStaticFiles, APathLeadsToNothingThatIsNotInTheFolder) {
+TEST_F(HttpStaticFiles, PathsCannotLeaveTheFolder) {
   std::filesystem::create_symlink("../secret", folder.path() / "web" / "link.txt");
   const auto files = StaticFiles::load(folder.path() / "web");
   ASSERT_TRUE(files);
@@ -43,7 +43,7 @@ TEST_F(HttpStaticFiles, APathLeadsToNothingThatIsNotInTheFolder) {
   }
 }
 
-TEST_F(HttpStaticFiles, PagesOfTheClientAreItsOnePage) {
+TEST_F(HttpStaticFiles, ClientRoutesServeIndexHtml) {
   const auto files = StaticFiles::load(folder.path() / "web");
   for (const char* target : {"/", "/index.html", "/jobs/7?x=1", "/queue"}) {
     const Response page = files->answer(asked(target));
@@ -53,7 +53,7 @@ TEST_F(HttpStaticFiles, PagesOfTheClientAreItsOnePage) {
   }
 }
 
-TEST_F(HttpStaticFiles, WhoTakesItGetsItCompressed) {
+TEST_F(HttpStaticFiles, CompressedVariantsAreServedOnRequest) {
   const auto files = StaticFiles::load(folder.path() / "web");
   const auto with = [&](const char* codings) {
     return files->answer(asked("/assets/app-3f.js", "Accept-Encoding", codings));
@@ -68,7 +68,7 @@ TEST_F(HttpStaticFiles, WhoTakesItGetsItCompressed) {
   EXPECT_NE(with("br").fields.find("Cache-Control")->find("immutable"), std::string::npos);
 }
 
-TEST_F(HttpStaticFiles, WhoHasItIsNotSentItAgain) {
+TEST_F(HttpStaticFiles, CachedFilesAreNotSentAgain) {
   const auto files = StaticFiles::load(folder.path() / "web");
   const std::string tag(*files->answer(asked("/")).fields.find("ETag"));
   const Response again = files->answer(asked("/", "If-None-Match", tag));
@@ -76,7 +76,7 @@ TEST_F(HttpStaticFiles, WhoHasItIsNotSentItAgain) {
   EXPECT_EQ(again.content(), "");
 }
 
-TEST_F(HttpStaticFiles, WithoutAClientAPageSaysHowToBuildIt) {
+TEST_F(HttpStaticFiles, WithoutAClientAPageExplainsHowToBuildIt) {
   const auto files = StaticFiles::load(folder.path() / "none");
   ASSERT_TRUE(files);
   EXPECT_NE(files->answer(asked("/")).content().find("is not built"), std::string::npos);

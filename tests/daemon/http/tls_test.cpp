@@ -1,4 +1,4 @@
-// TLS at both doors, by the daemon as it is, and what its limits are before anything was said.
+// TLS on both servers, with the daemon's default settings, and limits during the handshake.
 #include <sys/socket.h>
 
 #include <chrono>
@@ -18,9 +18,9 @@ using std::chrono::milliseconds;
 
 constexpr const char* kPassword = "correct horse";
 constexpr std::string_view kBeginOfHandshake("\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", 11);
-constexpr int kMostLooks = 400;  // 20 s; the daemon looks every two
+constexpr int kMostLooks = 400;  // 20 s; the daemon checks every two seconds
 
-// A daemon with a certificate, and an admin who signs in by the first link.
+// A daemon with a certificate, and an admin who signs in with the first link.
 class Tls : public ::testing::Test {
  protected:
   DaemonProcess::Options options() {
@@ -40,7 +40,7 @@ class Tls : public ::testing::Test {
   [[nodiscard]] std::string grpc_address() const {
     return "localhost" + daemon.address().substr(daemon.address().rfind(':'));
   }
-  /// The header with which a browser named the server.
+  /// The Host header of a browser.
   static std::string named(const std::string& host) { return "Host: " + host + "\r\n"; }
   HttpAnswer get_as(const std::string& host, const std::string& target = "/healthz") {
     HttpConnection connection = connect();
@@ -53,7 +53,7 @@ class Tls : public ::testing::Test {
     const nlohmann::json link = {{"linkToken", words.substr(from, words.find('\n', from) - from)}};
     return connect().ask("POST", "/v1/session:signIn", link.dump());
   }
-  /// Whether new connections, over both doors, show what this authority signed.
+  /// Whether new connections to both servers show a certificate of this authority.
   [[nodiscard]] bool shows(const Authority& one) const {
     try {
       HttpConnection(daemon.http(), 0, one.pem());
@@ -77,7 +77,7 @@ class Tls : public ::testing::Test {
   DaemonProcess daemon{folder.path(), options()};
 };
 
-TEST_F(Tls, IsSpokenAtBothDoorsOnceThereIsACertificate) {
+TEST_F(Tls, CertificateEnablesTlsOnBothServers) {
   EXPECT_EQ(connect().ask("GET", "/healthz").status, 200);
   Client client(grpc_address(), "", authority.pem());
   v1::WhoAmIResponse who;
@@ -85,12 +85,12 @@ TEST_F(Tls, IsSpokenAtBothDoorsOnceThereIsACertificate) {
   EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED) << status.error_message();
 }
 
-TEST_F(Tls, WhoeverComesFromWhereverNeedsAUserOnceOthersCanReachIt) {
-  // people.accounts is "loopback-open", and this comes from loopback.
+TEST_F(Tls, ExposedDaemonRequiresUsersEverywhere) {
+  // people.accounts is "loopback-open", and this call comes from loopback.
   EXPECT_EQ(connect().ask("GET", "/v1/jobs").reason(), "SIGN_IN_NEEDED");
 }
 
-TEST_F(Tls, ASignInIsACookieThatTravelsByTlsAlone) {
+TEST_F(Tls, SessionCookieIsSecure) {
   const HttpAnswer in = sign_in();
   EXPECT_EQ(in.status, 200) << in.body;
   const std::string cookie = in.field("set-cookie");
@@ -110,7 +110,7 @@ TEST_F(Tls, ASignInIsACookieThatTravelsByTlsAlone) {
   EXPECT_NE(out.field("set-cookie").find("Secure; Max-Age=0"), std::string::npos);
 }
 
-TEST_F(Tls, OnlyNamesOfItsCertificateAndOfLoopbackAreItsOwn) {
+TEST_F(Tls, HostMustBeInTheCertificateOrLoopback) {
   for (const char* host : {"rig.example.org", "RIG.example.org:8443", "192.0.2.7", "127.0.0.1"}) {
     EXPECT_EQ(get_as(host).status, 200) << host;
   }
@@ -120,12 +120,12 @@ TEST_F(Tls, OnlyNamesOfItsCertificateAndOfLoopbackAreItsOwn) {
   }
 }
 
-TEST_F(Tls, BrowsersAreToldToComeBackByTlsButNotOnTheirOwnMachine) {
+TEST_F(Tls, StrictTransportSecurityIsSentExceptOnLocalhost) {
   EXPECT_EQ(get_as("rig.example.org").field("strict-transport-security"), "max-age=31536000");
   EXPECT_EQ(get_as("localhost:8443").field("strict-transport-security"), "");
 }
 
-TEST_F(Tls, WhoSpeaksPlainHttpIsToldSo) {
+TEST_F(Tls, PlainHttpClientGetsAnExplanation) {
   HttpConnection plain(daemon.http());
   plain.send(request_text("GET", "/"));
   const HttpAnswer answer = plain.read_answer();
@@ -134,7 +134,7 @@ TEST_F(Tls, WhoSpeaksPlainHttpIsToldSo) {
   EXPECT_TRUE(plain.is_ended());
 }
 
-TEST_F(Tls, WhatIsNoTlsEndsItsOwnConnectionAlone) {
+TEST_F(Tls, InvalidTlsClosesOnlyItsOwnConnection) {
   HttpConnection good = connect();
   for (const std::string& words :
        {std::string("\x16\x03\x01\x00\x02\xff\xff"), std::string(70000, 'x'),
@@ -148,7 +148,7 @@ TEST_F(Tls, WhatIsNoTlsEndsItsOwnConnectionAlone) {
   EXPECT_EQ(good.ask("GET", "/healthz").status, 200);
 }
 
-TEST_F(Tls, WhoHangsBeforeTheirHandshakeIsLetGoAtBothDoors) {
+TEST_F(Tls, SilentHandshakeTimesOutOnBothServers) {
   std::vector<HttpConnection> silent;
   for (int i = 0; i < 40; ++i) {
     silent.emplace_back(i % 2 == 0 ? daemon.http() : daemon.address());
@@ -158,7 +158,7 @@ TEST_F(Tls, WhoHangsBeforeTheirHandshakeIsLetGoAtBothDoors) {
   EXPECT_TRUE(shows(authority));
 }
 
-TEST_F(Tls, LargeBodiesArriveWholeBothWays) {
+TEST_F(Tls, LargeBodiesArriveCompletely) {
   const std::string document = connect().ask("GET", "/openapi.json").body;
   EXPECT_GT(document.size(), 100'000U);
   EXPECT_FALSE(nlohmann::json::parse(document, nullptr, false).is_discarded());
@@ -178,7 +178,7 @@ TEST_F(Tls, LargeBodiesArriveWholeBothWays) {
   EXPECT_EQ(sent.json().value("sha256", ""), hash_of(bytes)) << sent.body;
 }
 
-TEST_F(Tls, ARenewedCertificateIsShownToWhoComesNextAndOthersGoOn) {
+TEST_F(Tls, RenewedCertificateAppliesToNewConnections) {
   HttpConnection before = connect();
   EXPECT_EQ(before.ask("GET", "/healthz").status, 200);
   Client client(grpc_address(), "", authority.pem());
@@ -198,7 +198,7 @@ TEST_F(Tls, ARenewedCertificateIsShownToWhoComesNextAndOthersGoOn) {
   EXPECT_EQ(client.channel->GetState(false), GRPC_CHANNEL_READY);
 }
 
-TEST_F(Tls, APairThatCannotBeUsedLeavesTheOneBefore) {
+TEST_F(Tls, InvalidPairKeepsThePreviousOne) {
   const KeyPair one = authority.issue(), two = authority.issue();
   files.write({one.certificate, two.key});
   EXPECT_TRUE(comes_to_log("certificate_not_loaded")) << daemon.log();
@@ -214,7 +214,7 @@ TEST_F(Tls, APairThatCannotBeUsedLeavesTheOneBefore) {
   EXPECT_TRUE(is_shown) << "a good pair is taken after all";
 }
 
-TEST_F(Tls, ItsExpiryIsAFigureAndAWarning) {
+TEST_F(Tls, ExpiryIsAMetricAndAWarning) {
   const std::string metrics = connect().ask("GET", "/metrics").body;
   const std::string name = "\nhydroprint_tls_certificate_expiry_timestamp_seconds ";
   const std::size_t from = metrics.find(name);
@@ -249,11 +249,11 @@ TEST_F(Tls, IdleConnectionsCostLittle) {
   EXPECT_EQ(daemon.terminate(), 0) << "and none keeps the daemon from ending";
 }
 
-// The server alone, with little patience.
+// The HTTP server in this process, with short timeouts.
 using TlsLimits = HttpLimits;
 INSTANTIATE_TEST_SUITE_P(Over, TlsLimits, ::testing::Values(true));
 
-TEST_P(TlsLimits, AHandshakeThatDoesNotComeToItsEndIsGivenUp) {
+TEST_P(TlsLimits, IncompleteHandshakeTimesOut) {
   Limits limits;
   limits.header_time = milliseconds(200);
   serve(limits);
@@ -265,14 +265,14 @@ TEST_P(TlsLimits, AHandshakeThatDoesNotComeToItsEndIsGivenUp) {
   EXPECT_EQ(connect().ask("GET", "/v1/queue").status, 200);
 }
 
-TEST_P(TlsLimits, WhoHangsInTheHandshakeCountsAsAConnection) {
+TEST_P(TlsLimits, PendingHandshakesCountAsConnections) {
   Limits limits;
   limits.connections = 2;
   serve(limits);
   HttpConnection one(address());
   HttpConnection two(address());
   HttpAnswer answer;
-  for (int i = 0; i < 1000 && answer.status != 503; ++i) {  // until both were taken
+  for (int i = 0; i < 1000 && answer.status != 503; ++i) {  // until both were accepted
     answer = connect().ask("GET", "/v1/queue");
   }
   EXPECT_EQ(answer.reason(), "CONNECTIONS_FULL");
@@ -284,7 +284,7 @@ TEST_P(TlsLimits, WhoHangsInTheHandshakeCountsAsAConnection) {
   EXPECT_EQ(answer.status, 200);
 }
 
-TEST_P(TlsLimits, TheServerEndsWhileHandshakesHang) {
+TEST_P(TlsLimits, ServerStopsDuringPendingHandshakes) {
   serve({});
   std::vector<HttpConnection> open;
   for (int i = 0; i < 20; ++i) open.emplace_back(address());
@@ -293,14 +293,14 @@ TEST_P(TlsLimits, TheServerEndsWhileHandshakesHang) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
 }
 
-// Refusals of the pair itself, one by one.
+// Errors of certificate and key, one by one.
 class TlsIdentity : public ::testing::Test {
  protected:
   std::string refusal() const {
     const auto read = tls::Identity::read(files.certificate, files.key);
     return read ? "accepted" : read.error().message;
   }
-  /// The same by the daemon, in one line.
+  /// Expects the same error of the daemon, on one line.
   void expect_refusal(const std::string& part) const {
     EXPECT_NE(refusal().find(part), std::string::npos) << refusal();
     const Ended ended = run_daemon({"--tls-certificate", files.certificate.string(), "--tls-key",
@@ -316,7 +316,7 @@ class TlsIdentity : public ::testing::Test {
   KeyPairFiles files{folder.path()};
 };
 
-TEST_F(TlsIdentity, StandsForTheNamesOfItsCertificate) {
+TEST_F(TlsIdentity, CoversTheNamesOfItsCertificate) {
   files.write({pair.certificate + authority.pem(), pair.key});
   const auto identity = tls::Identity::read(files.certificate, files.key);
   ASSERT_TRUE(identity) << identity.error().message;
@@ -329,14 +329,14 @@ TEST_F(TlsIdentity, StandsForTheNamesOfItsCertificate) {
   }
 }
 
-TEST_F(TlsIdentity, OfFilesThatDoNotBelongTogetherIsRefused) {
+TEST_F(TlsIdentity, MismatchedFilesAreRefused) {
   files.write({pair.certificate, authority.issue().key});
   expect_refusal("is not the key of the first certificate in " + files.certificate.string());
   files.write({authority.pem() + pair.certificate, pair.key});
   expect_refusal("is not the key of the first certificate");
 }
 
-TEST_F(TlsIdentity, OfWhatIsNoPemIsRefused) {
+TEST_F(TlsIdentity, InvalidPemIsRefused) {
   files.write({"-----BEGIN CERTIFICATE-----\nnonsense\n", pair.key});
   expect_refusal(files.certificate.string() + ": has no certificate");
   files.write({pair.certificate, "nonsense"});
@@ -345,15 +345,15 @@ TEST_F(TlsIdentity, OfWhatIsNoPemIsRefused) {
   expect_refusal("larger than 1 MiB");
 }
 
-TEST_F(TlsIdentity, OfFilesThatAreNotThereIsRefused) {
+TEST_F(TlsIdentity, MissingFilesAreRefused) {
   files.write(pair);
   std::filesystem::remove(files.key);
   expect_refusal(files.key.string() + ": the TLS key cannot be read");
   std::filesystem::create_directory(files.key);
-  expect_refusal(files.key.string() + ": is no file");
+  expect_refusal(files.key.string() + ": not a regular file");
 }
 
-TEST_F(TlsIdentity, OfAKeyThatEverybodyMayReadIsRefused) {
+TEST_F(TlsIdentity, WorldReadableKeyIsRefused) {
   files.write(pair);
   std::filesystem::permissions(files.key, std::filesystem::perms(0644));
   expect_refusal("chmod 640");
@@ -361,7 +361,7 @@ TEST_F(TlsIdentity, OfAKeyThatEverybodyMayReadIsRefused) {
   EXPECT_EQ(refusal(), "accepted");
 }
 
-TEST_F(TlsIdentity, WithoutTheOtherHalfIsRefused) {
+TEST_F(TlsIdentity, CertificateWithoutKeyIsRefused) {
   files.write(pair);
   const Ended ended = run_daemon({"--tls-certificate", files.certificate.string()});
   EXPECT_EQ(ended.status, 3);
@@ -371,7 +371,7 @@ TEST_F(TlsIdentity, WithoutTheOtherHalfIsRefused) {
   EXPECT_NE(other.words.find("--tls-certificate"), std::string::npos) << other.words;
 }
 
-TEST_F(TlsIdentity, LetsNobodyBeyondLoopbackInWithoutAnAdmin) {
+TEST_F(TlsIdentity, AddressBeyondLoopbackRequiresAnAdmin) {
   files.write(pair);
   for (const char* door : {"--http", "--grpc"}) {
     const Ended ended =

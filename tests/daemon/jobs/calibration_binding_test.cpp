@@ -9,11 +9,11 @@ namespace {
 
 using Why = std::vector<v1::Calibration::Staleness>;
 
-TEST(Staleness, IsOfAxisHomeAndDips) {
+TEST(Staleness, DependsOnAxisHomingAndDips) {
   const RigPlace then{true, true, 20, 1, 0};
   RigPlace now = then;
   EXPECT_EQ(staleness(then, now), Why{});
-  now.axis_mm = 20.1;  // as a move back there ends
+  now.axis_mm = 20.1;  // residual error of a move back to the same position
   EXPECT_EQ(staleness(then, now), Why{});
   now.axis_mm = 20.5;
   EXPECT_EQ(staleness(then, now), Why{v1::Calibration::MOVED});
@@ -28,13 +28,13 @@ TEST(Staleness, IsOfAxisHomeAndDips) {
   EXPECT_EQ(staleness(then, now), Why{v1::Calibration::DIPPED});
 }
 
-TEST(Staleness, IsNotKnownWithoutARig) {
+TEST(Staleness, IsUnknownWithoutARig) {
   EXPECT_EQ(staleness({}, {true, true, 5, 1, 1}), Why{});
   EXPECT_EQ(staleness({true, true, 5, 1, 1}, {}), Why{v1::Calibration::HOMED})
       << "it had one, which nobody watches now";
 }
 
-TEST(CalibrationFile, WhatIsMissingOrOutOfRangeIsNamed) {
+TEST(CalibrationFile, MissingAndInvalidKeysAreNamed) {
   const auto refusal = [](const std::string& json) {
     v1::Calibration out;
     const Status status = read_calibration(json, out);

@@ -35,7 +35,7 @@ std::string refused_field(const v1::Job& job) {
   return metadata.contains("field") ? metadata.at("field") : made.error().reason;
 }
 
-/// The spec that the worker is given.
+/// The spec that the worker receives.
 template <class SpecOfAKind>
 SpecOfAKind given(const NewJob& made) {
   SpecOfAKind out;
@@ -43,7 +43,7 @@ SpecOfAKind given(const NewJob& made) {
   return out;
 }
 
-/// Expects the worker to be given exactly this spec, apart from the threads, which the pool
+/// Expects that the worker receives exactly this spec, apart from the threads, which the pool
 /// chooses.
 template <class SpecOfAKind>
 void expect_given(const NewJob& made, SpecOfAKind wanted) {
@@ -75,7 +75,7 @@ TEST(Spec, EveryFieldReachesTheWorker) {
   EXPECT_EQ(made->display_name, "simulate spot.obj");
 }
 
-TEST(Spec, UnsetFieldsAreLeftToTheWorkersDefaults) {
+TEST(Spec, UnsetFieldsKeepTheWorkersDefaults) {
   const auto made = check_job(job_with_mesh());
   ASSERT_TRUE(made);
   expect_given(*made, job_with_mesh().simulate());
@@ -99,7 +99,7 @@ void expect_inertia_for_the_sheet_alone(v1::Job& job, SpecOfAVerb& spec, const s
   EXPECT_FALSE(has_inertia());
 }
 
-TEST(Spec, InertiaGoesWithTheSheetAlone) {
+TEST(Spec, InertiaRequiresTheSheetModel) {
   v1::Job simulate = job_with_mesh();
   expect_inertia_for_the_sheet_alone(simulate, *simulate.mutable_simulate(), "simulate.inertia");
   v1::Job predict;
@@ -108,7 +108,7 @@ TEST(Spec, InertiaGoesWithTheSheetAlone) {
   expect_inertia_for_the_sheet_alone(predict, *predict.mutable_predict(), "predict.inertia");
 }
 
-TEST(Spec, PredictHasItsOwnFiles) {
+TEST(Spec, PredictRequiresItsOwnFiles) {
   v1::Job job;
   set_file(*job.mutable_predict()->mutable_mesh(), "spot.obj");
   EXPECT_EQ(refused_field(job), "predict.film_image");
@@ -120,7 +120,7 @@ TEST(Spec, PredictHasItsOwnFiles) {
   expect_given(*made, job.predict());
 }
 
-TEST(Spec, FitHasPointsAndNamesWhatIsFree) {
+TEST(Spec, FitHasPointsAndFreeParameters) {
   v1::Job job;
   auto& spec = *job.mutable_fit();
   set_file(*spec.mutable_mesh(), "ball.ply");
@@ -187,7 +187,7 @@ v1::Job print_image_job() {
   return job;
 }
 
-TEST(Spec, EveryFieldOfPrintImageBecomesItsFlag) {
+TEST(Spec, EveryFieldOfPrintImageReachesTheWorker) {
   v1::Job job;
   auto& spec = *job.mutable_print_image();
   EXPECT_EQ(refused_field(job), "print_image.film_image");
@@ -218,7 +218,7 @@ TEST(Spec, EveryFieldOfPrintImageBecomesItsFlag) {
   EXPECT_EQ(made->display_name, "print-image film.png");
 }
 
-TEST(Spec, PrintImageIsRefusedWhatThePrinterCannotHave) {
+TEST(Spec, PrintImageRefusesImpossiblePages) {
   const auto refused = [](const auto& change) {
     v1::Job job = print_image_job();
     change(*job.mutable_print_image());
@@ -246,7 +246,7 @@ TEST(Spec, PrintImageIsRefusedWhatThePrinterCannotHave) {
       << "A4 is 210 mm wide";
 }
 
-TEST(Spec, TemplateTakesObjectFilmAndPaper) {
+TEST(Spec, TemplateHasObjectFilmAndPaper) {
   v1::Job job;
   auto& spec = *job.mutable_template_();
   spec.set_scale(10);
@@ -262,7 +262,7 @@ TEST(Spec, TemplateTakesObjectFilmAndPaper) {
   EXPECT_EQ(made->display_name, "template mug.obj");
 }
 
-TEST(Spec, ResolutionIsWhatTheWorkerTakes) {
+TEST(Spec, ResolutionMatchesTheWorkersRange) {
   for (const double dpi : {20.0, 2400.0, 19.9, 2400.1}) {
     v1::Job job = job_with_mesh();
     job.mutable_simulate()->set_dpi(dpi);
@@ -270,7 +270,7 @@ TEST(Spec, ResolutionIsWhatTheWorkerTakes) {
   }
 }
 
-TEST(Spec, NumbersThatAreNoneOrOutOfRangeAreRefused) {
+TEST(Spec, InvalidNumbersAreRefused) {
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
     v1::Job job = job_with_mesh();
     job.mutable_simulate()->set_dpi(bad);
@@ -293,7 +293,7 @@ TEST(Spec, NumbersThatAreNoneOrOutOfRangeAreRefused) {
   EXPECT_EQ(refused_field(job), "priority");
 }
 
-TEST(Spec, FilmsAreThoseThatTheWorkerReads) {
+TEST(Spec, FilmsAreParsedAsInTheWorker) {
   v1::Job job = job_with_mesh();
   v1::SimulateSpec& spec = *job.mutable_simulate();
   set_file(*spec.add_extra_files(), "film.json");
@@ -308,7 +308,7 @@ TEST(Spec, FilmsAreThoseThatTheWorkerReads) {
   }
 }
 
-TEST(Spec, AllWrongFieldsAreReportedAtOnce) {
+TEST(Spec, AllWrongFieldsAreReportedTogether) {
   v1::Job job = job_with_mesh();
   job.set_priority(-1);
   job.mutable_simulate()->set_film("A9");
@@ -324,7 +324,7 @@ TEST(Spec, AllWrongFieldsAreReportedAtOnce) {
   EXPECT_EQ(violations[2].problem, "must be from 20 to 2400 dots per inch");
 }
 
-TEST(Spec, PosesThatAreNoneAreRefused) {
+TEST(Spec, InvalidPosesAreRefused) {
   v1::Job job = job_with_mesh();
   auto& pose = *job.mutable_simulate()->mutable_pose();
   EXPECT_EQ(refused_field(job), "simulate.pose.rotation_wxyz");
@@ -348,7 +348,7 @@ v1::Job calibrate_job() {
   return job;
 }
 
-TEST(Spec, FieldsOfCalibrateReachTheWorker) {
+TEST(Spec, EveryFieldOfCalibrateReachesTheWorker) {
   v1::Job job = calibrate_job();
   job.mutable_calibrate()->set_gripper_mm(-2.5);
   set_file(*job.mutable_calibrate()->mutable_camera(), "camera.json");
@@ -370,7 +370,7 @@ TEST(Spec, FieldsOfCalibrateReachTheWorker) {
   EXPECT_EQ(refused_field(job), "calibrate.gripper_mm");
 }
 
-TEST(Spec, EachViewOfTheBoardIsAFolder) {
+TEST(Spec, EachBoardViewIsAFolder) {
   v1::Job job;
   for (const char* name : {"a/frames.json", "a/1.png", "b/c/frames.json"})
     set_file(*job.mutable_calibrate_camera()->add_frames(), name);
@@ -381,7 +381,7 @@ TEST(Spec, EachViewOfTheBoardIsAFolder) {
   EXPECT_EQ(refused_field(job), "NAME_INVALID");
 }
 
-TEST(Spec, ACaptureIsShortEnoughToBeKept) {
+TEST(Spec, CaptureDurationIsLimited) {
   v1::Job job;
   job.mutable_capture()->set_seconds(20);
   EXPECT_EQ(refused_field(job), "accepted");
@@ -460,7 +460,7 @@ TEST(Spec, HostileNamesAndTextsAreRefused) {
   EXPECT_EQ(refused_field(v1::Job()), "job");
 }
 
-TEST(Digest, DependsOnAllThatMattersAndOnNothingElse) {
+TEST(Digest, DependsOnlyOnInputsOfTheResult) {
   v1::Job job = job_with_mesh();
   const std::string digest = input_digest(check_job(job)->work, "w");
   job.set_display_name("other");

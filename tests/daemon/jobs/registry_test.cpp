@@ -13,7 +13,7 @@ v1::Job job_of(const google::protobuf::FieldDescriptor& field) {
   return job;
 }
 
-TEST(JobKinds, EveryFieldOfTheOneofHasOne) {
+TEST(JobKinds, EveryFieldOfTheOneofHasAKind) {
   const auto& specs = *v1::Job::descriptor()->FindOneofByName("spec");
   for (int i = 0; i < specs.field_count(); ++i) {
     const auto kind = kind_of(job_of(*specs.field(i)));
@@ -35,7 +35,7 @@ TEST(JobKinds, AreFoundByTheVerbOfAStoredJob) {
   EXPECT_EQ(kind_of(Job()).error().reason, "STORE_FAILED");
 }
 
-TEST(JobKinds, AJobWithoutASpecIsToldWhichThereAre) {
+TEST(JobKinds, MissingSpecIsRefusedWithTheListOfKinds) {
   const auto refused = kind_of(v1::Job());
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().metadata.at("field"), "job");

@@ -12,7 +12,7 @@ TEST(FileName, PlainNamesAndPathsOfPlainPartsPass) {
   }
 }
 
-TEST(FileName, EverythingThatCouldLeaveTheFolderIsRefused) {
+TEST(FileName, NamesThatLeaveTheFolderAreRefused) {
   using std::string_literals::operator""s;
   for (const std::string& bad :
        {""s, "/etc/passwd"s, "../x"s, "a/../b"s, "a/.."s, ".."s, "."s, "./a"s, "a//b"s, "a/"s,
@@ -24,7 +24,7 @@ TEST(FileName, EverythingThatCouldLeaveTheFolderIsRefused) {
   }
 }
 
-TEST(Names, OnlyCanonicalOnesAreRead) {
+TEST(Names, OnlyCanonicalNamesAreAccepted) {
   EXPECT_EQ(parse_job_name("jobs/7").value(), 7);
   for (const char* bad : {"jobs/", "jobs/0", "jobs/07", "jobs/-7", "jobs/7/", "job/7", "7",
                           "jobs/99999999999999999999", "jobs/7x"}) {
@@ -41,7 +41,7 @@ TEST(Names, OnlyCanonicalOnesAreRead) {
   EXPECT_FALSE(parse_artifact_name("jobs/3/artifacts/"));
 }
 
-TEST(Names, UuidsAreOfVersionFourAndDiffer) {
+TEST(Names, UuidsHaveVersion4AndDiffer) {
   const std::string a = make_uuid(), b = make_uuid();
   EXPECT_EQ(a.size(), 36U);
   EXPECT_EQ(a[14], '4');

@@ -1,4 +1,4 @@
-// What systemd hears of the daemon, over the socket that it would give it.
+// Messages to systemd, over the socket that it would provide.
 #include "daemon/platform/systemd_notify.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ namespace {
 
 using hydroprint::testing::TemporaryFolder;
 
-/// Stands in for systemd: the socket of NOTIFY_SOCKET, and a watchdog of 80 ms.
+/// Replaces systemd: the socket of NOTIFY_SOCKET, and a watchdog of 80 ms.
 class ServiceManager : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -42,7 +42,7 @@ class ServiceManager : public ::testing::Test {
     for (const char* name : {"NOTIFY_SOCKET", "WATCHDOG_USEC", "WATCHDOG_PID"}) ::unsetenv(name);
     ::close(socket_);
   }
-  /// The next message; empty if none comes for two seconds.
+  /// The next message; empty after two seconds without one.
   std::string heard(int flags = 0) {
     std::array<char, 512> bytes{};
     const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), flags);
@@ -54,25 +54,25 @@ class ServiceManager : public ::testing::Test {
   int socket_ = -1;
 };
 
-TEST_F(ServiceManager, HearsThatItIsReadyAndThatItStops) {
+TEST_F(ServiceManager, IsNotifiedOfReadyAndStopping) {
   notify_ready("serving 127.0.0.1:50051");
   EXPECT_EQ(heard(), "READY=1\nSTATUS=serving 127.0.0.1:50051");
   notify_stopping();
   EXPECT_TRUE(heard().starts_with("STOPPING=1"));
 }
 
-TEST_F(ServiceManager, FeedsWhileTheLoopGoesRound) {
+TEST_F(ServiceManager, WatchdogIsFedWhileTheLoopRuns) {
   std::atomic<std::uint64_t> rounds = 0;
   const WatchdogFeeder feeder([&] { return std::optional(++rounds); });
   for (int i = 0; i < 5; ++i) EXPECT_EQ(heard(), "WATCHDOG=1");
 }
 
-TEST_F(ServiceManager, FeedsWhereThereIsNoDrive) {
+TEST_F(ServiceManager, WatchdogIsFedWithoutADrive) {
   const WatchdogFeeder feeder([] { return std::nullopt; });
   for (int i = 0; i < 5; ++i) EXPECT_EQ(heard(), "WATCHDOG=1");
 }
 
-TEST_F(ServiceManager, StarvesALoopThatStandsStill) {
+TEST_F(ServiceManager, WatchdogIsNotFedWhenTheLoopHangs) {
   std::atomic<int> looks = 0;
   const WatchdogFeeder feeder([&] {
     ++looks;
@@ -83,7 +83,7 @@ TEST_F(ServiceManager, StarvesALoopThatStandsStill) {
   EXPECT_EQ(heard(MSG_DONTWAIT), "");
 }
 
-TEST_F(ServiceManager, IsNotFedWithoutAWatchdog) {
+TEST_F(ServiceManager, NothingIsSentWithoutAWatchdog) {
   ::unsetenv("WATCHDOG_USEC");
   std::atomic<int> looks = 0;
   {

@@ -22,13 +22,13 @@ std::vector<std::string> codes(const Warnings& warnings) {
 
 using Codes = std::vector<std::string>;
 
-TEST(PrintRecord, PaperAndMarginsThatThePrinterHasAreNotWarnedOf) {
+TEST(PrintRecord, SupportedPaperAndMarginsCauseNoWarning) {
   PrintPlan plan;
   plan.margin_mm = 5;
   EXPECT_EQ(codes(warnings_of(plan, office_printer())), Codes{});
 }
 
-TEST(PrintRecord, PaperThatItDoesNotListAndMarginsThatItKeepsAreWarnedOf) {
+TEST(PrintRecord, UnlistedPaperAndMarginsCauseWarnings) {
   PrintPlan plan;
   plan.margin_mm = 5;
   plan.paper_mm = {200, 280};
@@ -38,13 +38,13 @@ TEST(PrintRecord, PaperThatItDoesNotListAndMarginsThatItKeepsAreWarnedOf) {
   EXPECT_EQ(codes(warnings_of(plan, office_printer())), Codes{"printer_margin"});
 }
 
-TEST(PrintRecord, AScaleThatIsNotHeededIsSaid) {
+TEST(PrintRecord, IgnoredScaleCausesAWarning) {
   const Warnings warnings = warnings_of(std::vector<std::string>{"print-scaling", "media"});
   EXPECT_EQ(codes(warnings), (Codes{"scale_not_heeded", "not_heeded"}));
   EXPECT_NE(warnings[0].message.find("may not print at exact scale"), std::string::npos);
 }
 
-TEST(PrintRecord, APrinterThatTakesNoPdfOrNoJobsIsRefusedBeforeAnythingIsSent) {
+TEST(PrintRecord, UnusablePrinterIsRefusedBeforeSending) {
   printer::Attributes there = office_printer();
   EXPECT_TRUE(check_takes_pdf(there, "ipp://there"));
   there.accepts_jobs = false;
@@ -57,7 +57,7 @@ TEST(PrintRecord, APrinterThatTakesNoPdfOrNoJobsIsRefusedBeforeAnythingIsSent) {
   EXPECT_EQ(refused.error().reason, "FORMAT_NOT_SUPPORTED");
 }
 
-TEST(PrintPlan, ReportsOfPagesAreReadAndThoseThatAreNoneAreRefused) {
+TEST(PrintPlan, ReportsAreParsedAndInvalidOnesRefused) {
   PrintPlan plan;
   ASSERT_TRUE(read_printed_pages(R"({"parameters": {"printer_margin_mm": 3}, "print": {"sheets": [
                                      {"size_mm": [297, 210]}, {"size_mm": [297, 210]}]}})",

@@ -23,7 +23,7 @@ TEST(ErrorAnswer, HasTheHttpStatusOfItsCode) {
   EXPECT_EQ(http_status(17), 500);
 }
 
-TEST(ErrorAnswer, SaysAllThatTheErrorSays) {
+TEST(ErrorAnswer, HasAllDetailsOfTheError) {
   Error error{
       Code::kNotFound, "jobs/7: there is no such job", "JOB_NOT_FOUND", {{"job", "jobs/7"}}};
   const Answer answer = error_answer(error);
@@ -45,7 +45,7 @@ TEST(ErrorAnswer, IsTheSameOverGrpc) {
   EXPECT_EQ(details[1]["retryDelay"], "10s");
 }
 
-TEST(ErrorAnswer, OfAMethodThatIsNotAllowedIs405) {
+TEST(ErrorAnswer, MethodNotAllowedIs405) {
   const Answer answer = error_answer(Error{Code::kUnimplemented, "x", "METHOD_NOT_ALLOWED", {}});
   EXPECT_EQ(answer.http_status, 405);
   EXPECT_EQ(json::parse(answer.json)["error"]["code"], 405);
@@ -53,7 +53,7 @@ TEST(ErrorAnswer, OfAMethodThatIsNotAllowedIs405) {
   EXPECT_EQ(error_answer(Error{Code::kUnimplemented, "x", "STORE_FAILED", {}}).http_status, 501);
 }
 
-TEST(ErrorAnswer, WithoutDetailsOrWithStrangeOnesIsStillOne) {
+TEST(ErrorAnswer, AcceptsMissingAndUnknownDetails) {
   google::rpc::Status unknown;
   unknown.add_details()->set_type_url("type.googleapis.com/some.other.Message");
   google::rpc::ErrorInfo info;

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-// What a reply says of wrong fields.
+// The wrong fields in a reply.
 json field_violations(const Error& error) {
   const json answer = json::parse(error_answer(error).json);
   for (const json& detail : answer["error"]["details"]) {
@@ -26,7 +26,7 @@ json error_info(const Error& error) {
   return json::parse(error_answer(error).json)["error"]["details"][0];
 }
 
-TEST(BadRequest, ShowsAllWrongFieldsInTheirOrder) {
+TEST(BadRequest, ListsAllWrongFieldsInOrder) {
   const Error error = bad_request({{"simulate.scale", "is wrong", "SPEC_INVALID"},
                                    {"simulate.dpi", "is too large", "SPEC_INVALID"}});
   EXPECT_EQ(error.code, Code::kInvalidArgument);
@@ -36,7 +36,7 @@ TEST(BadRequest, ShowsAllWrongFieldsInTheirOrder) {
                             {"field": "simulate.dpi", "description": "is too large"}])"));
 }
 
-TEST(BadRequest, ReasonAndFieldAreThoseOfTheFirst) {
+TEST(BadRequest, ReasonAndFieldComeFromTheFirstViolation) {
   const Error error = bad_request(
       {{"mesh.name", "is wrong", "NAME_INVALID"}, {"dpi", "is too large", "SPEC_INVALID"}});
   const json info = error_info(error);
@@ -44,7 +44,7 @@ TEST(BadRequest, ReasonAndFieldAreThoseOfTheFirst) {
   EXPECT_EQ(info["metadata"], json::parse(R"({"field": "mesh.name"})"));
 }
 
-TEST(BadRequest, OneWrongFieldIsShownInTheSameWay) {
+TEST(BadRequest, SingleWrongFieldHasTheSameForm) {
   const Error error{Code::kInvalidArgument, "ttl: is too long", "SPEC_INVALID", {{"field", "ttl"}}};
   EXPECT_EQ(field_violations(error),
             json::parse(R"([{"field": "ttl", "description": "is too long"}])"));
@@ -54,7 +54,7 @@ TEST(BadRequest, OtherErrorsNameNoFields) {
   EXPECT_EQ(field_violations({Code::kNotFound, "jobs/7: is gone", "JOB_NOT_FOUND", {}}), nullptr);
 }
 
-TEST(BadRequest, ManyWrongFieldsFitIntoAReply) {
+TEST(BadRequest, ManyWrongFieldsFitInAReply) {
   std::vector<rules::Violation> violations;
   for (int i = 0; i < 300; ++i) {
     violations.push_back({"simulate.extra_files[" + std::to_string(i) + "].name",

@@ -1,5 +1,4 @@
-// What the body of a request says, by the rules of google/api/http.proto and the proto3 JSON
-// mapping.
+// Request bodies, by the rules of google/api/http.proto and the proto3 JSON mapping.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -11,7 +10,7 @@ namespace {
 
 std::string body(const std::string& text) { return read("POST", "/r/all", text); }
 
-TEST(Body, AllFieldsOrOneOrNone) {
+TEST(Body, HoldsAllFieldsOneFieldOrNone) {
   EXPECT_EQ(body(R"({"text":"a","small_count":3})"), R"({"text":"a","smallCount":3})");
   EXPECT_EQ(body(R"({"text":null,"texts":null,"inner":null,"time":null,"left":null,"right":1})"),
             R"({"right":1})");
@@ -27,19 +26,19 @@ TEST(Body, AllFieldsOrOneOrNone) {
   EXPECT_EQ(read("GET", "/r/query?text=a", " { } "), R"({"text":"a"})");
 }
 
-TEST(Body, WherePathOrQuerySpeakItIsRefused) {
+TEST(Body, FieldsOfPathOrQueryAreRefused) {
   EXPECT_EQ(read("PUT", "/r/all/x/5", R"({"inner":{"text":"x"}})"),
             "JSON_INVALID inner.text: is given by the path");
   EXPECT_EQ(read("PUT", "/r/all/x/5", R"({"small":6})"),
             "JSON_INVALID small: is given by the path");
   for (const char* text : {R"({"text":"a"})", "x", "[]", "{}{}", "null"}) {
-    EXPECT_EQ(read("GET", "/r/query", text).substr(0, 44),
-              "JSON_INVALID the body: none is expected; wha")
+    EXPECT_EQ(read("GET", "/r/query", text).substr(0, 45),
+              "JSON_INVALID request body: must be empty; put")
         << text;
   }
 }
 
-TEST(Body, WhatIsNoJsonIsRefusedWithThePlace) {
+TEST(Body, InvalidJsonIsRefusedWithItsPlace) {
   const std::map<std::string, std::string> cases = {
       {"{", "line 1, column 2"},
       {"{\"text\": \"a\",\n \"small\": 1,}", "line 2, column 13"},
@@ -69,26 +68,26 @@ TEST(Body, WhatIsNoJsonIsRefusedWithThePlace) {
   };
   for (const auto& [text, place] : cases) {
     const std::string answer = body(text);
-    EXPECT_EQ(answer.substr(0, 23 + place.size()), "JSON_INVALID the body, " + place) << text;
+    EXPECT_EQ(answer.substr(0, 27 + place.size()), "JSON_INVALID request body, " + place) << text;
   }
 }
 
-TEST(Body, WhatIsNotOfTheRequestIsRefusedWithTheField) {
+TEST(Body, UnknownFieldsAreRefusedByName) {
   const std::map<std::string, std::string> cases = {
-      {"[]", "the body: must be an object, { }"},
-      {"null", "the body: must be an object, { }"},
-      {"7", "the body: must be an object, { }"},
-      {"\"text\"", "the body: must be an object, { }"},
+      {"[]", "request body: must be an object, { }"},
+      {"null", "request body: must be an object, { }"},
+      {"7", "request body: must be an object, { }"},
+      {"\"text\"", "request body: must be an object, { }"},
       {R"({"name":"x"})", "name: Everything has no such field"},
       {R"({"inner":{"deeper":{"name":1}}})", "inner.deeper.name: Inner has no such field"},
       {R"({"inners":[{},{"children":[{"x":1}]}]})",
        "inners[1].children[0].x: Inner has no such field"},
-      {R"({"text":"a","text":"a"})", "text: is there twice"},
-      {R"({"small_count":1,"smallCount":1})", "smallCount: is there twice"},
-      {R"({"odd_name":"","whatElse":""})", "whatElse: is there twice"},
-      {R"({"inner":{},"inner":{}})", "inner: is there twice"},
-      {R"({"labels":{"a":"","a":""}})", "labels.a: is there twice"},
-      {R"({"innerByName":{"a":{"seq":1,"seq":1}}})", "innerByName.a.seq: is there twice"},
+      {R"({"text":"a","text":"a"})", "text: occurs twice"},
+      {R"({"small_count":1,"smallCount":1})", "smallCount: occurs twice"},
+      {R"({"odd_name":"","whatElse":""})", "whatElse: occurs twice"},
+      {R"({"inner":{},"inner":{}})", "inner: occurs twice"},
+      {R"({"labels":{"a":"","a":""}})", "labels.a: occurs twice"},
+      {R"({"innerByName":{"a":{"seq":1,"seq":1}}})", "innerByName.a.seq: occurs twice"},
       {R"({"innerByName":{"a":{"name":1}}})", "innerByName.a.name: Inner has no such field"},
       {R"({"text":"a\u0000b"})", "text: NUL is not allowed"},
       {R"({"labels":{"a\u0000":""}})", "labels.a?: NUL is not allowed"},
@@ -108,7 +107,7 @@ TEST(Body, WhatIsNotOfTheRequestIsRefusedWithTheField) {
       {R"({"inner":"x"})", "inner: must be an object, { }"},
       {R"({"truth":"true"})", "truth: must be true or false"},
       {R"({"boolValue":"true"})", "boolValue: must be true or false"},
-      {R"({"small":true})", "small: must not be a bool"},
+      {R"({"small":true})", "small: must not be true or false"},
       {R"({"large":9007199254740993.0})", "large: must be in quotes to be exact"},
       {R"({"real":"0x1p3"})", "real: must be a finite number"},
       {R"({"real":"NaN"})", "real: must be a finite number"},
@@ -162,7 +161,7 @@ TEST(Body, ValuesOfAnotherTypeAreRefused) {
   }
 }
 
-TEST(Body, ThirtyTwoLevelsAreReadAndNoMore) {
+TEST(Body, NestingIsLimitedTo32Levels) {
   const auto nested = [](std::size_t levels) {
     std::string text;
     for (std::size_t i = 1; i < levels; ++i) text += i == 1 ? R"({"inner":)" : R"({"deeper":)";

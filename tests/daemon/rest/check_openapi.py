@@ -1,5 +1,5 @@
-"""Checks the OpenAPI document that a program prints: by the OpenAPI Initiative's own schema, for what that schema cannot
-say, and against requests and answers as they are. Usage: check_openapi.py DOCUMENT_PROGRAM SAMPLES_PROGRAM"""
+"""Checks the OpenAPI document that a program prints: against the OpenAPI Initiative's schema, for rules beyond that
+schema, and against samples of requests and answers. Usage: check_openapi.py DOCUMENT_PROGRAM SAMPLES_PROGRAM"""
 import copy
 import json
 import re
@@ -11,8 +11,8 @@ import jsonschema
 
 SCHEMA = "/usr/share/openapi-specification/schemas/v3.0/schema.json"
 METHODS = {"get", "put", "post", "delete", "patch", "head"}
-OPEN = {"GetHealth", "GetMetrics", "GetOpenApi", "SignIn"}  # which needs no sign-in
-# What drawn requests do not keep to: the services check it.
+OPEN = {"GetHealth", "GetMetrics", "GetOpenApi", "SignIn"}  # operations without sign-in
+# Random requests may break these rules, which the services check.
 RULES = {"required", "minimum", "maximum", "maxLength", "minItems", "maxItems", "maxProperties"}
 BY_HAND = {"GetHealth", "GetMetrics", "GetOpenApi", "DownloadArtifact", "HeadArtifact", "HeadUpload", "PatchUpload"}
 
@@ -113,7 +113,7 @@ def undescribed(document):
 
 
 def wrong_rules(document):
-    """Some rules of fields (proto/hydroprint/v1/field_rules.proto), in each of their forms."""
+    """Checks examples of all forms of field rules (proto/hydroprint/v1/field_rules.proto)."""
     schemas = document["components"]["schemas"]
     expected = {
         ("SimulateSpecInput", "dpi"): {"minimum": 20, "maximum": 2400, "default": 300, "example": 600,
@@ -147,7 +147,7 @@ def wrong_rules(document):
 
 
 def wrong_values(document):
-    """Defaults and examples that their own schemas refuse."""
+    """Defaults and examples that violate their own schemas."""
     for name, schema in document["components"]["schemas"].items():
         for field, value in schema.get("properties", {}).items():
             for keyword in ("default", "example"):
@@ -157,7 +157,7 @@ def wrong_values(document):
 
 
 def closed(document):
-    """The same, where a field that no schema has is wrong in answers, too."""
+    """The same document, except that unknown fields are errors in answers too."""
     document = copy.deepcopy(document)
     for _, node in everything_in(document):
         if isinstance(node, dict) and isinstance(node.get("properties"), dict) and "type" in node:
@@ -166,7 +166,7 @@ def closed(document):
 
 
 def check(value, schema, document, but=()):
-    """What is wrong with the value, but for those rules: what is drawn lacks things that the services require."""
+    """The violations in a value, except of the rules in `but`: random values lack fields that the services require."""
     validator = jsonschema.Draft4Validator(schema, resolver=jsonschema.RefResolver("", document))
     return [f"{list(error.absolute_path)}: {error.message[:300]}" for error in validator.iter_errors(value)
             if error.validator not in but]

@@ -14,7 +14,7 @@ namespace {
 
 using Values = std::vector<std::string>;
 
-// What the template's variables get from the path; none if it does not match.
+// Values of the template's variables in the path; nullopt if it does not match.
 std::optional<Values> values_of(const std::string& path_template, const std::string& path) {
   const auto parsed = parse_template(path_template);
   if (!parsed) throw std::logic_error(parsed.error().message);
@@ -23,7 +23,7 @@ std::optional<Values> values_of(const std::string& path_template, const std::str
   return match(*parsed, **parts);
 }
 
-TEST(PathTemplate, IsReadByTheGrammar) {
+TEST(PathTemplate, FollowsTheGrammar) {
   const auto parsed = parse_template("/v1/{a.b_c=jobs/*/x}/*/{d}:do-it");
   ASSERT_TRUE(parsed) << parsed.error().message;
   EXPECT_EQ(parsed->segments.size(), 6U);
@@ -35,7 +35,7 @@ TEST(PathTemplate, IsReadByTheGrammar) {
   EXPECT_EQ(parsed->variables[1].field_path, "d");
 }
 
-TEST(PathTemplate, WhatTheGrammarDoesNotHaveIsRefused) {
+TEST(PathTemplate, OtherTextIsRefused) {
   for (const char* text :
        {"",      "v1",       "/",     "/v1/",    "//v1",  "/v1:",      "/v1:a:b",   "/v1:a/b",
         "/{}",   "/{a",      "/{a=}", "/{a=b/}", "/{=b}", "/{a..b}",   "/{.a}",     "/{a.}",
@@ -46,20 +46,20 @@ TEST(PathTemplate, WhatTheGrammarDoesNotHaveIsRefused) {
   }
 }
 
-TEST(PathTemplate, AVerbIsNoPartOfTheLastVariable) {
+TEST(PathTemplate, VerbIsNotPartOfTheLastVariable) {
   EXPECT_EQ(values_of("/v1/{name=jobs/*}:cancel", "/v1/jobs/7:cancel"), Values{"jobs/7"});
   EXPECT_EQ(values_of("/v1/{name=jobs/*}", "/v1/jobs/7:cancel"), std::nullopt);
   EXPECT_EQ(values_of("/v1/{name=jobs/*}:cancel", "/v1/jobs/7"), std::nullopt);
   EXPECT_EQ(values_of("/v1/{name=**}:cancel", "/v1/a/b:cancel"), Values{"a/b"});
   EXPECT_EQ(values_of("/v1/{name=**}:cancel", "/v1:cancel"), Values{""});
-  // An encoded colon, or one further left, begins no verb.
+  // An encoded colon, or one in an earlier segment, does not begin a verb.
   EXPECT_EQ(values_of("/v1/{name=jobs/*}", "/v1/jobs/7%3Acancel"), Values{"jobs/7:cancel"});
   EXPECT_EQ(values_of("/v1/{name=jobs/*}:cancel", "/v1/jobs/7:8:cancel"), Values{"jobs/7:8"});
   EXPECT_EQ(values_of("/{a}/{b}", "/x:y/z"), (Values{"x:y", "z"}));
   EXPECT_EQ(values_of("/v1/{name}:cancel", "/v1/7:c%61ncel"), Values{"7"});
 }
 
-TEST(PathTemplate, OneSegmentIsDecodedOfSeveralASlashStays) {
+TEST(PathTemplate, SlashStaysEncodedInMultiSegmentVariables) {
   EXPECT_EQ(values_of("/{a}", "/x%2Fy%2fz%20%C3%A9%25"), Values{"x/y/z é%"});
   EXPECT_EQ(values_of("/{a=*}", "/x%2Fy"), Values{"x/y"});
   EXPECT_EQ(values_of("/{a=b/*}", "/b/x%2Fy%2fz%20%C3%A9"), Values{"b/x%2Fy%2fz é"});
@@ -81,7 +81,7 @@ TEST(PathTemplate, EmptySegmentsAndTrailingSlashesMatchNothing) {
   EXPECT_EQ(values_of("/a/{b=**}", "/a"), Values{""});
 }
 
-TEST(PathTemplate, WhatIsNoUrlIsRefused) {
+TEST(PathTemplate, InvalidUrlsAreRefused) {
   for (const char* path : {"/%", "/%4", "/%4/a", "/%zz", "/a%00", "/%c0%af", "/%e0%80%af",
                            "/%ed%a0%80", "/%f4%90%80%80", "/%ff", "/%c3", "/%c3/%a9", "/a b",
                            "/a\tb", "/a#b", "/\xc3\xa9", "/a\x7f", "a%", "//%"}) {
@@ -104,7 +104,7 @@ class Regex {
   Regex(const Regex&) = delete;
   Regex& operator=(const Regex&) = delete;
 
-  // What its groups match, from 1 on.
+  // The texts that its groups match, from group 1 on.
   [[nodiscard]] std::optional<Values> groups(const std::string& text) const {
     regmatch_t found[10];
     if (regexec(&regex_, text.c_str(), std::size(found), found, 0) != 0) return std::nullopt;
@@ -121,7 +121,7 @@ class Regex {
   regex_t regex_{};
 };
 
-// Templates of up to three segments over few words, and all paths over these and one more.
+// Templates of up to three segments over a few words, and all paths over these and one more word.
 class Drawn {
  public:
   std::string path_template() {
@@ -153,7 +153,7 @@ class Drawn {
     return text + (has_verb ? ":v" : "");
   }
 
-  // The same by a regular expression, which knows nothing of segments.
+  // Same, with a regular expression, which knows nothing of segments.
   [[nodiscard]] std::optional<Values> expected(const std::string& path) const {
     const auto found = regex_->groups(path);
     if (!found) return std::nullopt;
@@ -186,10 +186,10 @@ class Drawn {
 
   std::mt19937 random_{7};
   std::unique_ptr<Regex> regex_;
-  std::vector<std::size_t> groups_;  // of the variables
+  std::vector<std::size_t> groups_;  // group of each variable
 };
 
-TEST(PathTemplate, MatchesWhatARegularExpressionDoes) {
+TEST(PathTemplate, MatchesLikeARegularExpression) {
   Drawn drawn;
   std::size_t matched = 0;
   for (int i = 0; i < 400; ++i) {

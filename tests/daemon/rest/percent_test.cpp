@@ -20,14 +20,15 @@ std::string utf8(std::uint32_t point) {
           byte(0x80 | (point & 63))};
 }
 
-TEST(Percent, OfAllCodePointsOnlySurrogatesAreNoUtf8) {
+TEST(Percent, AllCodePointsExceptSurrogatesAreValidUtf8) {
   for (std::uint32_t point = 0; point <= 0x10ffff; ++point) {
     const bool is_surrogate = point >= 0xd800 && point <= 0xdfff;
     ASSERT_EQ(not_utf8_at(utf8(point)) != std::string::npos, is_surrogate) << point;
   }
 }
 
-// How many bytes the character there has; 0: it is none. It is one if encoding it gives the same.
+// Number of bytes of the character at that place; 0 if it is not valid UTF-8. A character is valid
+// if encoding its code point gives the same bytes.
 std::size_t length_at(const std::string& bytes, std::size_t at) {
   for (std::size_t length = 1; length <= 4 && at + length <= bytes.size(); ++length) {
     const std::string part = bytes.substr(at, length);
@@ -51,7 +52,7 @@ bool is_utf8(const std::string& bytes) {
   return true;
 }
 
-TEST(Percent, OnlyWhatCodePointsGiveIsUtf8) {
+TEST(Percent, OnlyEncodedCodePointsAreValidUtf8) {
   std::mt19937 random(3);
   std::size_t good = 0;
   for (std::uint32_t i = 0; i < 0x10000 + 200000; ++i) {
@@ -70,7 +71,7 @@ TEST(Percent, OnlyWhatCodePointsGiveIsUtf8) {
   EXPECT_GT(good, 20000U);
 }
 
-TEST(Percent, WhatIsEncodedIsDecoded) {
+TEST(Percent, DecodesWhatItEncodes) {
   for (int byte = 1; byte < 0x80; ++byte) {
     const std::string text(1, static_cast<char>(byte));
     EXPECT_EQ(decode(encode(text)), text);
@@ -80,17 +81,17 @@ TEST(Percent, WhatIsEncodedIsDecoded) {
   EXPECT_EQ(encode("é/ "), "%C3%A9%2F%20");
 }
 
-TEST(Percent, APlusIsABlankInQueriesOnly) {
+TEST(Percent, PlusIsASpaceOnlyInQueries) {
   EXPECT_EQ(decode("a+b"), "a+b");
   EXPECT_EQ(decode_query("a+b%2B"), "a b+");
 }
 
-TEST(Percent, TheMessageTellsTheByte) {
+TEST(Percent, ErrorNamesTheByte) {
   EXPECT_EQ(decode("ab%4x").error().message,
             "\"ab%4x\", byte 2: % must be followed by two hex digits");
 }
 
-TEST(Percent, AStrangersTextIsShownPlainly) {
+TEST(Percent, UntrustedTextIsSanitised) {
   EXPECT_EQ(plain("a\n\"é\\"), "a?????");
   EXPECT_EQ(plain(std::string(200, 'a')), std::string(100, 'a') + "...");
 }

@@ -1,4 +1,4 @@
-// What path and query of a request say, by the rules of google/api/http.proto.
+// Paths and queries of requests, by the rules of google/api/http.proto.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -54,7 +54,7 @@ TEST(Query, EachTypeIsReadAsInJson) {
   EXPECT_EQ(read("GET", "/r/query?"), "{}");
 }
 
-TEST(Query, WhatIsNoValueIsRefusedByName) {
+TEST(Query, InvalidValuesAreRefusedByName) {
   const std::map<std::string, std::string> cases = {
       {"truth=1", R"(truth: "1" is not "true" or "false")"},
       {"truth=True", R"(truth: "True" is not "true" or "false")"},
@@ -82,8 +82,8 @@ TEST(Query, WhatIsNoValueIsRefusedByName) {
       {"small_count=1&smallCount=1", "small_count: is given twice"},
       {"inner.text=a&inner.text=b", "inner.text: is given twice"},
       {"time=1970-01-01T00:00:00Z&time=1970-01-01T00:00:00Z", "time: is given twice"},
-      {"left=a&right=1", "right: excludes left, which is given, too"},
-      {"both.text=a&left=", "left: excludes both, which is given, too"},
+      {"left=a&right=1", "right: excludes left, which is also given"},
+      {"both.text=a&left=", "left: excludes both, which is also given"},
       {"name=x", "name: Everything has no such field"},
       {"Text=x", "Text: Everything has no such field"},
       {"=x", ": Everything has no such field"},
@@ -93,9 +93,9 @@ TEST(Query, WhatIsNoValueIsRefusedByName) {
       {"text.text=x", "text.text: text has no fields to name"},
       {"time.seconds=1", "time.seconds: time has no fields to name"},
       {"inners.text=1", "inners.text: inners has no fields to name"},
-      {"inner=x", "inner: is a message and has no place in a URL"},
-      {"inners=x", "inners: is a message and has no place in a URL"},
-      {"labels=x", "labels: is a map and has no place in a URL"},
+      {"inner=x", "inner: is a message and cannot be in a URL"},
+      {"inners=x", "inners: is a message and cannot be in a URL"},
+      {"labels=x", "labels: is a map and cannot be in a URL"},
       {"$alt=json", "$alt: Everything has no such field"},
   };
   for (const auto& [text, expected] : cases) {
@@ -108,26 +108,26 @@ TEST(Query, WhatIsNoValueIsRefusedByName) {
   EXPECT_EQ(call.error().metadata.at("field"), "inner.seq");
 }
 
-TEST(Query, WhatIsNoUrlIsRefused) {
+TEST(Query, InvalidUrlsAreRefused) {
   for (const char* text : {"text=%", "text=%4", "text=%zz", "text=%00", "text=%c0%80", "t%65xt=%ff",
                            "%00=x", "text=a b", "text=\xc3\xa9", "text=a#b", "text=%ed%a0%80"}) {
     EXPECT_EQ(query(text).substr(0, 11), "URL_INVALID") << text;
   }
 }
 
-TEST(Query, WhatPathOrBodyGiveIsRefused) {
+TEST(Query, FieldsOfPathOrBodyAreRefused) {
   EXPECT_EQ(read("GET", "/r/single/a?text=a"), "PARAMETER_INVALID text: is given by the path");
   EXPECT_EQ(read("PUT", "/r/all/a/1?inner.text=a"),
             "PARAMETER_INVALID inner.text: is given by the path");
-  EXPECT_EQ(read("POST", "/r/all?text=a"), "PARAMETER_INVALID text: belongs into the body");
+  EXPECT_EQ(read("POST", "/r/all?text=a"), "PARAMETER_INVALID text: belongs in the body");
   EXPECT_EQ(read("PATCH", "/r/part/a?inner.text=a"),
-            "PARAMETER_INVALID inner.text: belongs into the body");
-  EXPECT_EQ(read("PATCH", "/r/part/a?inner=a"), "PARAMETER_INVALID inner: belongs into the body");
+            "PARAMETER_INVALID inner.text: belongs in the body");
+  EXPECT_EQ(read("PATCH", "/r/part/a?inner=a"), "PARAMETER_INVALID inner: belongs in the body");
   EXPECT_EQ(read("PATCH", "/r/part/a?both.text=b", "{}"),
             R"({"text":"a","inner":{},"both":{"text":"b"}})");
 }
 
-TEST(Path, ItsVariablesAreFieldsOfAnyType) {
+TEST(Path, VariablesMayHaveAnyFieldType) {
   EXPECT_EQ(read("GET", "/r/typed/true/-7/0.5/RED/AA=="),
             R"({"truth":true,"large":"-7","real":0.5,"raw":"AA==","colour":"RED"})");
   EXPECT_EQ(read("GET", "/r/typed/yes/-7/0.5/RED/AA=="),

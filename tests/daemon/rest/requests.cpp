@@ -24,7 +24,8 @@ std::string decimal(Number number) {
   return text;
 }
 
-// One value of a leaf field as a URL has it; of a repeated one that at `index`, else -1.
+// One value of a leaf field as a URL shows it. `index` is the position in a repeated field,
+// otherwise -1.
 std::string text_of(const pb::Message& message, const pb::FieldDescriptor& field, int index) {
   const pb::Reflection& look = *message.GetReflection();
   const bool one = index < 0;
@@ -62,7 +63,7 @@ pb::Message& inside(pb::Message& message, const FieldPath& path) {
   return *at;
 }
 
-// The segments that a variable stands for; its field is set to what they say.
+// The segments of a variable; sets the field to their values.
 std::vector<std::string> segments_of(const Route& route, std::size_t variable, pb::Message& message,
                                      Random& random) {
   const FieldPath& path = route.path_fields[variable];
@@ -118,7 +119,7 @@ std::string json_of(const pb::Message& message) {
   return text;
 }
 
-// Appends what a query can say of the message, and removes from it what it cannot.
+// Appends the fields that a query can express, and removes the others from the message.
 void write_query(const Route& route, pb::Message& message, const FieldPath& before,
                  const std::string& prefix, std::string& query) {
   const pb::Reflection& look = *message.GetReflection();
@@ -130,7 +131,7 @@ void write_query(const Route& route, pb::Message& message, const FieldPath& befo
     const auto& bound = route.path_fields;
     if (std::find(bound.begin(), bound.end(), path) != bound.end()) continue;
     if (before.empty() && field == route.body_field) continue;
-    // Either name will do.
+    // Both names are accepted.
     const std::string name = prefix + (query.size() % 2 == 0 ? field->name() : field->json_name());
     const bool is_object = field->message_type() != nullptr && !is_written_as_value(*field);
     if (is_object && field->is_repeated()) {

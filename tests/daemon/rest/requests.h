@@ -11,10 +11,10 @@
 
 namespace hydroprint::rest {
 
-/// A path that the route has, with some value for each variable.
+/// A path that matches the route, with some value for each variable.
 std::string some_path(const Route& route);
 
-/// "GET, POST".
+/// Joins words: "GET, POST".
 std::string joined(const std::vector<std::string>& words);
 
 /// A request as a client writes it.
@@ -23,8 +23,9 @@ struct Sent {
   std::string body;
 };
 
-/// What a client sends so that the route gets this message; fields that cannot be sent (a list of
-/// messages in a query, say) are removed from it, and those that the path needs are set.
+/// The request with which a client sends this message to the route. Fields that cannot be sent
+/// (such as a list of messages in a query) are removed from the message, and fields that the path
+/// needs are set.
 Sent sent(const Route& route, google::protobuf::Message& message, std::mt19937& random);
 
 }  // namespace hydroprint::rest

@@ -1,4 +1,4 @@
-// Messages that were drawn, sent as a client would, arrive as they were; answers can be read back.
+// Random messages arrive unchanged when sent as by a client; answers can be read back.
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ std::vector<std::string> all_services() {
   return services;
 }
 
-TEST(RoundTrip, EveryRouteGetsWhatWasSent) {
+TEST(RoundTrip, EveryRequestArrivesUnchanged) {
   const auto routes = read_routes(all_services());
   const auto transcoder = Transcoder::make(all_services());
   ASSERT_TRUE(routes && transcoder);
@@ -63,7 +63,7 @@ TEST(RoundTrip, EveryAnswerCanBeReadBack) {
   }
 }
 
-TEST(Answer, HasAllFieldsThatCannotBeUnset) {
+TEST(Answer, HasAllFieldsWithoutPresence) {
   const auto transcoder = Transcoder::make();
   ASSERT_TRUE(transcoder);
   const auto text = transcoder->write("/hydroprint.v1.JobService/ListJobs", "");
@@ -77,13 +77,13 @@ TEST(Answer, HasAllFieldsThatCannotBeUnset) {
   EXPECT_EQ(transcoder->write("/hydroprint.v1.JobService/DeleteJob", ""), "{}");
 }
 
-TEST(Answer, OfACallThatStreamsIntoTheDaemonCanBeWrittenToo) {
+TEST(Answer, IsWrittenForClientStreamingCallsToo) {
   const auto transcoder = Transcoder::make();
   ASSERT_TRUE(transcoder);
   EXPECT_EQ(transcoder->write("/hydroprint.v1.AssetService/UploadChunk", ""), "{}");
 }
 
-TEST(Answer, ThatIsNoneIsRefused) {
+TEST(Answer, OfAnotherTypeIsRefused) {
   const auto transcoder = Transcoder::make();
   ASSERT_TRUE(transcoder);
   for (const auto& [method, bytes] :

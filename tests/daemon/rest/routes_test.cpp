@@ -1,4 +1,4 @@
-// Which services have routes, and what of a rule is refused at start.
+// The routes of the services, and the rules that are refused at start.
 #include "daemon/rest/routes.h"
 
 #include <google/protobuf/descriptor.h>
@@ -25,10 +25,10 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST(Routes, ARuleThatCannotBeMeantIsRefusedAtStart) {
+TEST(Routes, InvalidRulesAreRefusedAtStart) {
   const std::map<std::string, std::string> words = {
-      {"SamePath", "some path is that of hydroprint.rest.test.SamePath.One"},
-      {"SamePathTwice", "some path is that of"},
+      {"SamePath", "a path matches hydroprint.rest.test.SamePath.One"},
+      {"SamePathTwice", "a path matches"},
       {"UnknownVariable", "name: Inner has no such field"},
       {"RepeatedVariable", "texts must be one value"},
       {"MessageVariable", "time must be one value"},
@@ -36,13 +36,13 @@ TEST(Routes, ARuleThatCannotBeMeantIsRefusedAtStart) {
       {"VariableTwice", "text is bound twice"},
       {"BadTemplate", "} is missing"},
       {"UnknownBody", "there is no field name"},
-      {"TextBody", "text must be one message"},
-      {"ListBody", "children must be one message"},
-      {"BodyInPath", "inner is bound by the path too"},
+      {"TextBody", "text must be a single message"},
+      {"ListBody", "children must be a single message"},
+      {"BodyInPath", "inner is also bound by the path"},
       {"GetWithBody", "GET has no body"},
       {"DeleteWithBody", "DELETE has no body"},
-      {"ClientStreams", "the client streams"},
-      {"BothStream", "the client streams"},
+      {"ClientStreams", "client streaming is not possible"},
+      {"BothStream", "client streaming is not possible"},
       {"OwnVerb", "no GET, PUT"},
       {"NoPattern", "no GET, PUT"},
       {"PartOfAnswer", "response_body is not supported"},
@@ -66,7 +66,7 @@ TEST(Routes, OnePathMayServeDifferentMethods) {
   EXPECT_TRUE(made->methods_at("/x/%").empty());
 }
 
-TEST(Routes, OfTheApiAllServicesAreThere) {
+TEST(Routes, ApiHasAllServices) {
   EXPECT_GE(api_services().size(), 7U);
   ASSERT_TRUE(Transcoder::make()) << Transcoder::make().error().message;
   for (const std::string& name : api_services()) {
@@ -75,7 +75,7 @@ TEST(Routes, OfTheApiAllServicesAreThere) {
   }
 }
 
-TEST(Routes, OfTheApiEachIsReachedByItsOwnMethodAndNoOther) {
+TEST(Routes, EachApiRouteHasOnlyItsOwnMethods) {
   const auto transcoder = Transcoder::make();
   const auto routes = read_routes(api_services());
   ASSERT_TRUE(transcoder && routes);
@@ -98,8 +98,8 @@ TEST(Routes, OfTheApiEachIsReachedByItsOwnMethodAndNoOther) {
   }
 }
 
-// What a browser fetches on its own account must not change anything.
-TEST(Routes, OfTheApiOnlyWhatReadsIsGet) {
+// Requests that a browser sends on its own must not change anything.
+TEST(Routes, OnlyReadingMethodsOfTheApiUseGet) {
   const auto routes = read_routes(api_services());
   ASSERT_TRUE(routes);
   for (const Route& route : *routes) {
@@ -114,7 +114,7 @@ TEST(Routes, OfTheApiOnlyWhatReadsIsGet) {
   }
 }
 
-TEST(Routes, TheCallsOfTheApiThatStopMotionAreKnown) {
+TEST(Routes, StopsMotionIsSetOnTheStopCalls) {
   const auto routes = read_routes(api_services());
   ASSERT_TRUE(routes);
   std::set<std::string> stops;
@@ -125,7 +125,7 @@ TEST(Routes, TheCallsOfTheApiThatStopMotionAreKnown) {
                                           "hydroprint.v1.RigService.StopMotion"}));
 }
 
-TEST(Routes, AStopIsTheSameCallWhateverItsBodyAndQuerySay) {
+TEST(Routes, StopIgnoresBodyAndQuery) {
   const auto transcoder = Transcoder::make();
   ASSERT_TRUE(transcoder);
   for (const std::string path : {"/v1/rig:stop", "/v1/jobs/7:cancel"}) {
@@ -153,7 +153,7 @@ TEST(Routes, AStopIsTheSameCallWhateverItsBodyAndQuerySay) {
   EXPECT_FALSE(transcoder->stops_motion("POST", "/v1/nothing:stop"));
 }
 
-TEST(Routes, WhatIsWrittenByHandIsNoRouteOfTheApi) {
+TEST(Routes, HandWrittenRoutesAreNotInTheApi) {
   const auto transcoder = Transcoder::make();
   ASSERT_TRUE(transcoder);
   for (const OtherRoute& route : other_routes()) {
@@ -162,7 +162,7 @@ TEST(Routes, WhatIsWrittenByHandIsNoRouteOfTheApi) {
   }
 }
 
-TEST(Routes, AtNoPathOfTheApiThereIsNothing) {
+TEST(Routes, UnknownPathsAreNotFound) {
   const auto transcoder = Transcoder::make();
   ASSERT_TRUE(transcoder);
   for (const char* path : {"",

@@ -6,11 +6,11 @@
 
 namespace hydroprint::rest {
 
-/// Of the service Rules in rules/rules.proto, whose requests are all of type Everything.
+/// Requests to the service Rules in rules/rules.proto, which all have the type Everything.
 const Transcoder& rules();
 
-/// The request that it reads, as JSON of what is set; else the reason and what is wrong. Whatever
-/// is wrong must be kInvalidArgument and told in one line.
+/// The parsed request as JSON of the fields that are set, otherwise reason and message of the
+/// error. Every error must be kInvalidArgument with a message of one line.
 std::string read(const std::string& http_method, const std::string& target,
                  const std::string& body = "");
 

@@ -1,5 +1,5 @@
-// Prints requests that the daemon takes and answers that it gives, drawn for every route of the
-// API, one JSON object a line, for check_openapi.py to hold against the document.
+// Prints random requests and answers for every route of the API, one JSON object per line, for
+// check_openapi.py to validate against the document.
 #include <google/protobuf/descriptor.h>
 
 #include <iostream>
@@ -17,7 +17,7 @@ using nlohmann::json;
 
 constexpr int kDraws = 12;
 
-// The first of each is the message with nothing in it.
+// The first of each is the empty message.
 json sample_of(const rest::Transcoder& transcoder, const rest::Route& route, std::mt19937& random,
                int draw) {
   const auto& method = *route.method;

@@ -1,4 +1,4 @@
-// Streams that go on where they broke off.
+// Resuming streams.
 #include <gtest/gtest.h>
 
 #include "tests/daemon/rest/rules/rules.pb.h"
@@ -9,7 +9,7 @@ namespace {
 
 using test::Everything;
 
-TEST(Stream, ItsEventsHaveTheNumberOfTheirMessage) {
+TEST(Stream, EventsHaveTheSeqOfTheirMessage) {
   test::Numbered message;
   message.set_seq(9007199254740993);
   const std::string method = "/hydroprint.rest.test.Rules/Stream";
@@ -19,7 +19,7 @@ TEST(Stream, ItsEventsHaveTheNumberOfTheirMessage) {
   EXPECT_EQ(rules().event_id("/hydroprint.rest.test.Rules/None", ""), "");
 }
 
-TEST(Stream, GoesOnAfterTheLastEvent) {
+TEST(Stream, ResumesAfterTheLastEvent) {
   const auto call = rules().read("GET", "/r/stream?afterSeq=3&text=a", "");
   ASSERT_TRUE(call);
   EXPECT_TRUE(call->streams);

@@ -25,7 +25,7 @@ class AssetStoreTest : public StoreTest {
   Asset put(const std::string& bytes, const std::string& owner = "ann") {
     return std::get<Asset>(send(begin(bytes, {}, owner).id, 0, bytes, owner).value());
   }
-  /// A job of these files.
+  /// A job with these files.
   Job made_of(const Asset& asset, const std::string& owner) {
     NewJob made;
     made.owner = owner;
@@ -45,14 +45,14 @@ class AssetStoreTest : public StoreTest {
   const AssetUser ann{"ann"}, bob{"bob"}, oper{"oper", true};
 };
 
-TEST_F(AssetStoreTest, VerifiedBytesBecomeAnAssetThatIsNotUploadedAgain) {
+TEST_F(AssetStoreTest, VerifiedBytesBecomeAnAssetAndAreNotUploadedAgain) {
   const Asset asset = put("mesh");
   EXPECT_EQ(asset.sha256, sha256("mesh"));
   EXPECT_EQ(sha256_of_file(layout.asset(asset.sha256)).value(), asset.sha256);
   EXPECT_EQ(std::get<Asset>(ask("mesh", ann).value()).sha256, asset.sha256);
 }
 
-TEST_F(AssetStoreTest, WhoOnlyKnowsAHashHasToSendTheBytes) {
+TEST_F(AssetStoreTest, HashAloneRequiresAnUpload) {
   const Asset asset = put("mesh");
   EXPECT_FALSE(may("bob", asset));
   EXPECT_EQ(assets->asset_for(asset.sha256, bob).error().reason, "ASSET_NOT_FOUND");
@@ -71,25 +71,26 @@ TEST_F(AssetStoreTest, WhoOnlyKnowsAHashHasToSendTheBytes) {
   EXPECT_EQ(sha256_of_file(layout.asset(asset.sha256)).value(), asset.sha256);
 }
 
-TEST_F(AssetStoreTest, AnUploadIsItsOwnersAlone) {
+TEST_F(AssetStoreTest, UploadBelongsToItsOwner) {
   const Upload upload = begin("mesh");
   EXPECT_EQ(assets->upload(upload.id, "bob").error().reason, "UPLOAD_NOT_FOUND");
   EXPECT_EQ(send(upload.id, 0, "mesh", "bob").error().reason, "UPLOAD_NOT_FOUND");
   EXPECT_TRUE(send(upload.id, 0, "mesh"));
 }
 
-TEST_F(AssetStoreTest, WhatASharedJobWasMadeOfIsEverybodysAsLongAsItIsShared) {
+TEST_F(AssetStoreTest, InputsOfASharedJobAreUsableWhileItIsShared) {
   const Asset asset = put("mesh");
   const Job job = made_of(asset, "ann");
   EXPECT_FALSE(may("bob", asset));
   ASSERT_TRUE(jobs->share(job.id, true));
   EXPECT_TRUE(may("bob", asset));
-  EXPECT_EQ(assets->remove(asset.sha256, bob).error().reason, "ASSET_NOT_FOUND");  // not bob's
+  EXPECT_EQ(assets->remove(asset.sha256, bob).error().reason,
+            "ASSET_NOT_FOUND");  // not counted for bob
   ASSERT_TRUE(jobs->share(job.id, false));
   EXPECT_FALSE(may("bob", asset));
 }
 
-TEST_F(AssetStoreTest, ItGoesWithItsLastOwnerUnlessAJobWasMadeOfIt) {
+TEST_F(AssetStoreTest, AssetEndsWithItsLastOwnerUnlessAJobUsesIt) {
   const Asset asset = put("mesh");
   put("mesh", "bob");
   EXPECT_EQ(stored("bob"), 4);
@@ -99,34 +100,34 @@ TEST_F(AssetStoreTest, ItGoesWithItsLastOwnerUnlessAJobWasMadeOfIt) {
   EXPECT_TRUE(may("ann", asset));
   const Job job = made_of(asset, "ann"), others = made_of(asset, "bob");
   EXPECT_EQ(assets->remove(asset.sha256, ann).error().reason, "STATE_FORBIDS");
-  EXPECT_EQ(stored("ann"), 4);  // nothing that is kept counts for nobody
+  EXPECT_EQ(stored("ann"), 4);  // stored bytes always count for an owner
   ASSERT_TRUE(jobs->cancel(job.id));
   ASSERT_TRUE(jobs->remove(job.id));
   ASSERT_TRUE(assets->remove(asset.sha256, ann));
   EXPECT_FALSE(may("ann", asset));
-  EXPECT_TRUE(may("bob", asset));  // by the job
+  EXPECT_TRUE(may("bob", asset));  // through his job
   EXPECT_TRUE(std::filesystem::exists(layout.asset(asset.sha256)));
   const Asset other = put("other");
   ASSERT_TRUE(assets->remove(other.sha256, ann));
   EXPECT_FALSE(std::filesystem::exists(layout.asset(other.sha256)));
 }
 
-TEST_F(AssetStoreTest, ARestartGivesNobodyWhatTheyDidNotSend) {
+TEST_F(AssetStoreTest, RestartGrantsNoAssetsWithoutAnUpload) {
   const Asset asset = put("mesh");
-  const Upload upload = begin("mesh", {}, "bob");  // and nothing was sent
+  const Upload upload = begin("mesh", {}, "bob");  // without sending any bytes
   open();
   EXPECT_FALSE(may("bob", asset));
   EXPECT_EQ(assets->upload(upload.id, "bob")->received_bytes, 0);
 }
 
-TEST_F(AssetStoreTest, OnesOwnAreListedAndOperatorsListAll) {
+TEST_F(AssetStoreTest, OwnersListTheirAssetsAndOperatorsListAll) {
   const Asset mesh = put("mesh"), other = put("other", "bob");
   ASSERT_EQ(assets->list("", 10, "ann")->size(), 1U);
   EXPECT_EQ(assets->list("", 10, "ann")->front().sha256, mesh.sha256);
   EXPECT_EQ(assets->list("", 10, "")->size(), 2U);
 }
 
-TEST_F(AssetStoreTest, BytesBeyondTheQuotaAreRefusedWhenAnnouncedAndWhenThere) {
+TEST_F(AssetStoreTest, QuotaIsCheckedAtTheStartAndEndOfAnUpload) {
   asset_options.quota.max_stored_bytes = 10;
   open();
   put("12345");
@@ -137,11 +138,11 @@ TEST_F(AssetStoreTest, BytesBeyondTheQuotaAreRefusedWhenAnnouncedAndWhenThere) {
   EXPECT_EQ(refused.error().metadata.at("quota"), "bytes");
   EXPECT_EQ(refused.error().metadata.at("used"), "5");
   EXPECT_EQ(refused.error().metadata.at("allowed"), "10");
-  EXPECT_TRUE(ask("123456", bob));  // of each
-  // What is on its way counts, so that many at once come to no more.
+  EXPECT_TRUE(ask("123456", bob));  // quota of each owner
+  // Open uploads count, so that several at once cannot exceed the quota.
   const Upload upload = begin("abcde");
   EXPECT_FALSE(ask("x", ann));
-  // A job's artifacts came meanwhile.
+  // Artifacts of a job were added meanwhile.
   const Job job = add();
   complete(job.id);
   const auto late = send(upload.id, 0, "abcde");
@@ -154,7 +155,7 @@ TEST_F(AssetStoreTest, BytesBeyondTheQuotaAreRefusedWhenAnnouncedAndWhenThere) {
   put("abcde");
 }
 
-TEST_F(AssetStoreTest, WhatNoJobNeedsIsDeletedWhenItsTimeIsUp) {
+TEST_F(AssetStoreTest, UnusedAssetsAreDeletedAfterTheirRetention) {
   asset_options.keep_unused_ms = 1000;
   open();
   const Asset used = put("used"), unused = put("unused"), asked = put("asked");
@@ -162,7 +163,7 @@ TEST_F(AssetStoreTest, WhatNoJobNeedsIsDeletedWhenItsTimeIsUp) {
   now_ms += 999;
   ASSERT_TRUE(assets->purge());
   EXPECT_TRUE(may("ann", unused));
-  EXPECT_TRUE(ask("asked", ann));  // counts anew
+  EXPECT_TRUE(ask("asked", ann));  // retention starts again
   now_ms += 1;
   ASSERT_TRUE(assets->purge());
   EXPECT_FALSE(assets->asset(unused.sha256));
@@ -185,7 +186,7 @@ TEST_F(AssetStoreTest, ZeroDaysKeepsForEver) {
   EXPECT_TRUE(may("ann", asset));
 }
 
-TEST_F(AssetStoreTest, AFileOfTheDaemonsOwnBecomesAnAssetThatOutlivesIt) {
+TEST_F(AssetStoreTest, AdoptedFileOutlivesItsSource) {
   const auto file = layout.root / "film.png";
   std::ofstream(file) << "film";
   for (int i = 0; i < 2; ++i) {
@@ -199,7 +200,7 @@ TEST_F(AssetStoreTest, AFileOfTheDaemonsOwnBecomesAnAssetThatOutlivesIt) {
   EXPECT_EQ(sha256_of_file(layout.asset(sha256("film"))).value(), sha256("film"));
 }
 
-TEST_F(AssetStoreTest, WrongHashLeavesNothing) {
+TEST_F(AssetStoreTest, WrongHashDeletesTheUpload) {
   const Upload upload = begin("mesh");
   const auto result = send(upload.id, 0, "mess");
   ASSERT_FALSE(result);
@@ -209,7 +210,7 @@ TEST_F(AssetStoreTest, WrongHashLeavesNothing) {
   EXPECT_FALSE(std::filesystem::exists(layout.upload(upload.id)));
 }
 
-TEST_F(AssetStoreTest, BrokenUploadGoesOnWhereItWasAlsoAfterARestart) {
+TEST_F(AssetStoreTest, BrokenUploadResumesEvenAfterARestart) {
   const Upload upload = begin("some mesh");
   EXPECT_EQ(std::get<Upload>(send(upload.id, 0, "some ").value()).received_bytes, 5);
   open();
@@ -230,7 +231,7 @@ TEST_F(AssetStoreTest, MoreThanAnnouncedOrAllowedIsRefused) {
   EXPECT_EQ(large.error().metadata.at("max_bytes"), "100");
 }
 
-TEST_F(AssetStoreTest, OnlyOneCallSendsToAnUpload) {
+TEST_F(AssetStoreTest, OneCallAtATimeWritesAnUpload) {
   const Upload upload = begin("mesh");
   auto first = UploadWriter::open(*assets, upload.id, "ann");
   ASSERT_TRUE(first);
@@ -251,13 +252,13 @@ TEST_F(AssetStoreTest, UploadsAreLimitedInNumberAndTime) {
   EXPECT_TRUE(assets->start(wanted, ann, {}));
 }
 
-TEST_F(AssetStoreTest, RepeatedRequestGetsTheSameUpload) {
+TEST_F(AssetStoreTest, RepeatedRequestReturnsTheSameUpload) {
   const RequestKey key{"StartUpload", "id", "x"};
   EXPECT_EQ(begin("mesh", key).id, begin("mesh", key).id);
   EXPECT_NE(begin("mesh").id, begin("mesh", key).id);
 }
 
-TEST_F(AssetStoreTest, FullDiskIsRefusedBeforeAnythingIsSent) {
+TEST_F(AssetStoreTest, FullDiskIsReportedBeforeAnyUpload) {
   asset_options.min_free_bytes = 1LL << 60;
   open();
   const auto refused = assets->start({"", std::string(64, 'a'), 1, 0, "", 0}, ann, {});
@@ -278,12 +279,12 @@ TEST_F(AssetStoreTest, AssetOfAnUnfinishedJobStays) {
   EXPECT_EQ(assets->remove(asset.sha256, oper).error().reason, "ASSET_NOT_FOUND");
 }
 
-TEST_F(AssetStoreTest, StartAfterACrashSetsUnknownFilesAsideAndAdoptsVerifiedOnes) {
+TEST_F(AssetStoreTest, RestartSetsUnknownFilesAsideAndAdoptsVerifiedOnes) {
   const Asset kept = put("kept");
   std::filesystem::create_directories(layout.asset(sha256("junk")).parent_path());
   std::ofstream(layout.asset(sha256("junk"))) << "junk";
   std::ofstream(layout.upload("0123")) << "nobody's";
-  // Killed between the rename and the row: the bytes were verified and must not be lost.
+  // The daemon was killed between the rename and the row: the verified bytes must not be lost.
   const Upload upload = begin("renamed");
   std::filesystem::create_directories(layout.asset(upload.sha256).parent_path());
   std::ofstream(layout.asset(upload.sha256)) << "renamed";
@@ -296,7 +297,7 @@ TEST_F(AssetStoreTest, StartAfterACrashSetsUnknownFilesAsideAndAdoptsVerifiedOne
   EXPECT_FALSE(assets->upload(upload.id, "ann"));
 }
 
-TEST_F(AssetStoreTest, AnAbsentFolderOfAssetsDeletesNothing) {
+TEST_F(AssetStoreTest, MissingAssetFolderDeletesNothing) {
   const Asset asset = put("mesh");
   std::filesystem::rename(layout.assets(), layout.root / "elsewhere");
   open();
@@ -308,7 +309,7 @@ TEST_F(AssetStoreTest, AnAbsentFolderOfAssetsDeletesNothing) {
   EXPECT_TRUE(may("ann", asset));
 }
 
-TEST_F(AssetStoreTest, AnAssetWhoseFileIsMissingCanBeUploadedAgain) {
+TEST_F(AssetStoreTest, AssetWithAMissingFileCanBeUploadedAgain) {
   const Asset asset = put("mesh");
   std::filesystem::remove(layout.asset(asset.sha256));
   open();
@@ -316,7 +317,7 @@ TEST_F(AssetStoreTest, AnAssetWhoseFileIsMissingCanBeUploadedAgain) {
   EXPECT_EQ(sha256_of_file(layout.asset(asset.sha256)).value(), asset.sha256);
 }
 
-TEST_F(AssetStoreTest, AMissingDatabaseDeletesNothing) {
+TEST_F(AssetStoreTest, MissingDatabaseDeletesNothing) {
   put("mesh");
   complete(add("1").id);
   begin("part");
@@ -331,7 +332,7 @@ TEST_F(AssetStoreTest, AMissingDatabaseDeletesNothing) {
   EXPECT_EQ(set_aside(), (std::multiset<std::string>{"mesh", "film", "part"}));
 }
 
-TEST_F(AssetStoreTest, AnOlderDatabaseDeletesNothing) {
+TEST_F(AssetStoreTest, OlderDatabaseDeletesNothing) {
   complete(add("1").id, "early");
   const Job running = add("2");
   assets.reset();
@@ -354,7 +355,7 @@ TEST_F(AssetStoreTest, AnOlderDatabaseDeletesNothing) {
   EXPECT_TRUE(std::filesystem::exists(layout.artifacts(1) / "film.png"));
 }
 
-TEST_F(AssetStoreTest, EmptyFileIsAnAssetToo) {
+TEST_F(AssetStoreTest, EmptyFileIsAnAsset) {
   EXPECT_EQ(put("").size_bytes, 0);
   EXPECT_EQ(assets->list("", 10, "")->size(), 1U);
 }

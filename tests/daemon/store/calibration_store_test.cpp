@@ -19,7 +19,7 @@ class CalibrationStoreTest : public StoreTest {
   Calibration enter(CalibrationKind kind = CalibrationKind::kObject, const std::string& id = "") {
     return store->create({kind, "ann", 0, 0, "body"}, {"CreateCalibration", id, "d"}).value();
   }
-  /// A job that is at its worker.
+  /// A running job.
   std::int64_t running(const std::string& verb = "calibrate") {
     NewJob made;
     made.work.verb = verb;
@@ -31,7 +31,7 @@ class CalibrationStoreTest : public StoreTest {
   std::unique_ptr<CalibrationStore> store;
 };
 
-TEST_F(CalibrationStoreTest, TheNewestOfAKindIsActiveUntilAnotherOneIsMadeSo) {
+TEST_F(CalibrationStoreTest, NewestIsActiveUntilAnotherIsActivated) {
   const auto active = [&](CalibrationKind kind) { return store->active(kind).value()->id; };
   EXPECT_FALSE(store->active(CalibrationKind::kObject).value());
   const auto first = enter().id, lens = enter(CalibrationKind::kCamera).id, second = enter().id;
@@ -49,13 +49,13 @@ TEST_F(CalibrationStoreTest, TheNewestOfAKindIsActiveUntilAnotherOneIsMadeSo) {
   EXPECT_EQ(store->remove(first).error().reason, "CALIBRATION_NOT_FOUND");
 }
 
-TEST_F(CalibrationStoreTest, ARequestThatIsRepeatedEntersNothing) {
+TEST_F(CalibrationStoreTest, RepeatedRequestStoresNothing) {
   const auto id = enter(CalibrationKind::kObject, "r").id;
   EXPECT_EQ(enter(CalibrationKind::kObject, "r").id, id);
   EXPECT_EQ(store->list(0, 10).value().size(), 1U);
 }
 
-TEST_F(CalibrationStoreTest, ListsNewestFirstByPages) {
+TEST_F(CalibrationStoreTest, ListIsPagedNewestFirst) {
   for (int i = 0; i < 3; ++i) enter();
   const auto page = store->list(0, 2).value();
   ASSERT_EQ(page.size(), 2U);
@@ -63,7 +63,7 @@ TEST_F(CalibrationStoreTest, ListsNewestFirstByPages) {
   EXPECT_EQ(store->list(page[1].id, 2).value().size(), 1U);
 }
 
-TEST_F(CalibrationStoreTest, ComesToBeWithTheSuccessOfItsJobOrNotAtAll) {
+TEST_F(CalibrationStoreTest, IsStoredWithTheSuccessOfItsJobOrNotAtAll) {
   const std::int64_t done = running();
   ASSERT_TRUE(
       jobs->succeed(done, {}, NewCalibration{CalibrationKind::kObject, "ann", done, 0, ""}));
@@ -76,7 +76,7 @@ TEST_F(CalibrationStoreTest, ComesToBeWithTheSuccessOfItsJobOrNotAtAll) {
   EXPECT_EQ(store->list(0, 10).value().size(), 1U);
 }
 
-TEST_F(CalibrationStoreTest, KeepsItsJobFromBeingDeleted) {
+TEST_F(CalibrationStoreTest, PreventsTheDeletionOfItsJob) {
   const std::int64_t job = running();
   ASSERT_TRUE(jobs->succeed(job, {}, NewCalibration{CalibrationKind::kObject, "ann", job, 0, ""}));
   EXPECT_EQ(jobs->remove(job).error().reason, "STATE_FORBIDS");
@@ -88,7 +88,7 @@ TEST_F(CalibrationStoreTest, KeepsItsJobFromBeingDeleted) {
   EXPECT_FALSE(jobs->get(job));
 }
 
-TEST_F(CalibrationStoreTest, WhereTheRigWasOutlivesTheCapture) {
+TEST_F(CalibrationStoreTest, RigStateOutlivesTheCapture) {
   const RigPlace place{true, true, 20.5, 3, 4};
   NewJob made;
   made.work.verb = "capture";
@@ -111,7 +111,7 @@ TEST_F(CalibrationStoreTest, WhereTheRigWasOutlivesTheCapture) {
   EXPECT_FALSE(store->capture(77).value());
 }
 
-TEST_F(CalibrationStoreTest, ACaptureThatWasLostIsInterruptedForGood) {
+TEST_F(CalibrationStoreTest, LostCaptureStaysInterrupted) {
   NewJob made;
   made.work.verb = "capture";
   made.traits.computed = false;

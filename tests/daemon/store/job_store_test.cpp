@@ -9,14 +9,14 @@ using States = std::vector<JobState>;
 
 class JobStoreTest : public StoreTest {};
 
-TEST_F(JobStoreTest, IdsAreNeverGivenTwice) {
+TEST_F(JobStoreTest, IdsAreNeverReused) {
   const std::int64_t first = complete(add().id).id;
   EXPECT_TRUE(jobs->remove(first));
   open();
   EXPECT_GT(add().id, first);
 }
 
-TEST_F(JobStoreTest, RepeatedRequestGetsTheSameJobAndAnotherOneIsRefused) {
+TEST_F(JobStoreTest, RepeatedRequestReturnsTheSameJob) {
   NewJob made;
   made.owner = "ann";
   made.work.verb = "simulate";
@@ -42,7 +42,7 @@ TEST_F(JobStoreTest, RequestIsForgottenAfterSevenDays) {
   EXPECT_NE(jobs->create(made, key)->id, job.id);
 }
 
-TEST_F(JobStoreTest, FullQueueRefusesWithoutAnyTrace) {
+TEST_F(JobStoreTest, FullQueueRefusesWithoutSideEffects) {
   for (int i = 0; i < 5; ++i) add();
   NewJob made;
   made.work.verb = "simulate";
@@ -65,7 +65,7 @@ TEST_F(JobStoreTest, MissingInputIsNamed) {
   EXPECT_TRUE(jobs->list({})->empty());
 }
 
-TEST_F(JobStoreTest, LostDaemonShowsInTheHistoryAndTheJobIsQueuedAgain) {
+TEST_F(JobStoreTest, LostDaemonIsRecordedAndTheJobIsQueuedAgain) {
   const std::int64_t id = add().id;
   ASSERT_TRUE(jobs->start(id));
   open();
@@ -74,7 +74,7 @@ TEST_F(JobStoreTest, LostDaemonShowsInTheHistoryAndTheJobIsQueuedAgain) {
                                 JobState::kQueued}));
 }
 
-TEST_F(JobStoreTest, ThirdLossFailsTheJobAndARetryStartsAfresh) {
+TEST_F(JobStoreTest, ThirdLossFailsTheJobAndARetryStartsOver) {
   const std::int64_t id = add().id;
   for (int loss = 1; loss <= 3; ++loss) {
     EXPECT_EQ(jobs->get(id)->state, JobState::kQueued) << loss;
@@ -91,7 +91,7 @@ TEST_F(JobStoreTest, ThirdLossFailsTheJobAndARetryStartsAfresh) {
   EXPECT_EQ(jobs->get(retried.id)->state, JobState::kQueued);
 }
 
-TEST_F(JobStoreTest, ShutdownsAndLossesWhileItWaitsDoNotCountAgainstAJob) {
+TEST_F(JobStoreTest, OnlyLossesWhileRunningCount) {
   const std::int64_t id = add().id;
   for (int i = 0; i < 4; ++i) {
     open();
@@ -101,17 +101,17 @@ TEST_F(JobStoreTest, ShutdownsAndLossesWhileItWaitsDoNotCountAgainstAJob) {
   EXPECT_EQ(jobs->get(id)->state, JobState::kQueued);
 }
 
-// SQLite's own limit on a file stands in for the disk.
-TEST_F(JobStoreTest, FullDatabaseRefusesWithoutAnyTraceAndWorksOnAfterwards) {
+// SQLite's own limit on the file size replaces a full disk.
+TEST_F(JobStoreTest, FullDatabaseRefusesWithoutSideEffectsAndRecovers) {
   job_options.max_queued = 1000000;
   open();
   const std::int64_t first = complete(add("same").id).id;
-  ASSERT_TRUE(database->run("PRAGMA max_page_count=1"));  // no more than there are
+  ASSERT_TRUE(database->run("PRAGMA max_page_count=1"));  // raised to the present number of pages
   NewJob made;
   made.owner = "ann";
   made.work.verb = "simulate";
   made.digest = "same";
-  made.body = std::string(1000000, 'x');  // more than the room that is kept
+  made.body = std::string(1000000, 'x');  // more than the reserved space
   const auto refused = jobs->create(made, {"CreateJob", "id", "x"});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Code::kResourceExhausted);
@@ -138,7 +138,7 @@ TEST_F(JobStoreTest, CancelledJobStaysCancelledEvenIfItsWorkerSucceeds) {
   EXPECT_EQ(jobs->cancel(id)->state, JobState::kCancelled) << "twice is no error";
 }
 
-TEST_F(JobStoreTest, FinishedJobsCannotBeCancelledNorUnfinishedOnesDeleted) {
+TEST_F(JobStoreTest, FinishedJobsCannotBeCancelledAndOpenOnesNotDeleted) {
   const std::int64_t id = add().id;
   EXPECT_EQ(jobs->remove(id).error().reason, "STATE_FORBIDS");
   complete(id);
@@ -160,7 +160,7 @@ TEST_F(JobStoreTest, SameInputsGetTheEarlierArtifacts) {
   EXPECT_EQ(add("other").state, JobState::kQueued);
 }
 
-TEST_F(JobStoreTest, EqualJobThatFinishesMeanwhileSparesTheSecondRun) {
+TEST_F(JobStoreTest, EqualJobThatFinishesFirstSavesTheSecondRun) {
   const Job first = add("same"), second = add("same");
   complete(first.id);
   const Job started = jobs->start(second.id).value();
@@ -174,7 +174,7 @@ TEST_F(JobStoreTest, DamagedCacheIsNotServed) {
   EXPECT_EQ(add("same").state, JobState::kQueued);
 }
 
-TEST_F(JobStoreTest, ProgressIsReportedOnlyWhileRunningAndGoneAfterTheEnd) {
+TEST_F(JobStoreTest, ProgressIsKeptOnlyWhileRunning) {
   const std::int64_t id = add().id;
   ASSERT_TRUE(jobs->report(id, {0.5, "velocity", 0.1, 0}));
   EXPECT_EQ(jobs->get(id)->progress.fraction, 0);
@@ -188,7 +188,7 @@ TEST_F(JobStoreTest, ProgressIsReportedOnlyWhileRunningAndGoneAfterTheEnd) {
   EXPECT_EQ(jobs->get(id)->failure->exit_status, 4);
 }
 
-TEST_F(JobStoreTest, EventNumbersGrowForEverAndUnknownOnesAreRefused) {
+TEST_F(JobStoreTest, EventNumbersNeverRepeatAndUnknownOnesAreRefused) {
   const std::int64_t id = add().id;
   ASSERT_TRUE(jobs->start(id));
   ASSERT_TRUE(jobs->report(id, {0.5, "x", 0, 0}));
@@ -201,7 +201,7 @@ TEST_F(JobStoreTest, EventNumbersGrowForEverAndUnknownOnesAreRefused) {
   EXPECT_GT(jobs->last_seq().value(), last);
 }
 
-TEST_F(JobStoreTest, MovedJobTakesPlaceAndPriority) {
+TEST_F(JobStoreTest, MovedJobTakesOverRankAndPriority) {
   for (int i = 0; i < 3; ++i) add();
   const std::int64_t urgent = add("u", "ann", 5).id;
   const auto order = [&] {
@@ -252,7 +252,7 @@ TEST_F(JobStoreTest, ListFiltersAndPages) {
   EXPECT_EQ(jobs->list({{}, "", 3, 1})->front().id, 2);
 }
 
-TEST_F(JobStoreTest, OldFinishedJobsArePurgedOthersNot) {
+TEST_F(JobStoreTest, OnlyOldFinishedJobsArePurged) {
   complete(add("1").id);
   add("2");
   now_ms += 999;
@@ -264,10 +264,10 @@ TEST_F(JobStoreTest, OldFinishedJobsArePurgedOthersNot) {
   EXPECT_TRUE(jobs->get(2));
 }
 
-TEST_F(JobStoreTest, FoldersThatNoFinishedJobOwnsAreSetAsideAtTheStart) {
+TEST_F(JobStoreTest, UnknownFoldersAreSetAsideAtTheStart) {
   complete(add("1").id);
   ASSERT_TRUE(jobs->start(add("2").id));
-  std::filesystem::create_directories(layout.artifacts(2));  // renamed, then killed
+  std::filesystem::create_directories(layout.artifacts(2));  // killed after the rename
   std::ofstream(layout.artifacts(2) / "film.png") << "not committed";
   std::filesystem::create_directories(layout.run(2) / "in");
   std::filesystem::create_directories(layout.artifacts() / "junk");
@@ -279,7 +279,7 @@ TEST_F(JobStoreTest, FoldersThatNoFinishedJobOwnsAreSetAsideAtTheStart) {
   EXPECT_TRUE(std::filesystem::is_empty(layout.runs()));
 }
 
-TEST_F(JobStoreTest, FileThatIsNoDatabaseIsRefused) {
+TEST_F(JobStoreTest, InvalidDatabaseFileIsRefused) {
   const auto path = folder.path() / "junk.db";
   std::ofstream(path) << std::string(5000, 'x');
   const auto opened = Database::open(path, kSchema);
@@ -288,7 +288,7 @@ TEST_F(JobStoreTest, FileThatIsNoDatabaseIsRefused) {
   EXPECT_NE(opened.error().message.find("junk.db"), std::string::npos);
 }
 
-TEST_F(JobStoreTest, FailedTransactionLeavesNothing) {
+TEST_F(JobStoreTest, FailedTransactionIsRolledBack) {
   const Status status = database->transaction([&]() -> Status {
     EXPECT_TRUE(database->run("INSERT INTO settings VALUES ('a','b')"));
     return fail(Code::kInternal, "no");
@@ -310,7 +310,7 @@ NewJob new_dip() {
   return made;
 }
 
-TEST_F(JobStoreTest, ADipIsNeverQueuedAndThereIsOneAtATime) {
+TEST_F(JobStoreTest, DipsAreNotQueuedAndRunOneAtATime) {
   const Job dip = jobs->create(new_dip(), {}).value();
   EXPECT_EQ(dip.state, JobState::kWaitingForOperator);
   EXPECT_EQ(dip.dip_status, "first");
@@ -331,7 +331,7 @@ NewJob new_print() {
   return made;
 }
 
-TEST_F(JobStoreTest, APrintIsNeverQueuedNorTakenFromTheCacheAndThereIsOneAtATime) {
+TEST_F(JobStoreTest, PrintsAreNotQueuedOrCachedAndRunOneAtATime) {
   const Job print = jobs->create(new_print(), {}).value();
   EXPECT_EQ(print.state, JobState::kRunning);
   EXPECT_TRUE(jobs->waiting()->empty());
@@ -341,7 +341,7 @@ TEST_F(JobStoreTest, APrintIsNeverQueuedNorTakenFromTheCacheAndThereIsOneAtATime
   EXPECT_EQ(jobs->create(new_print(), {})->state, JobState::kRunning);
 }
 
-TEST_F(JobStoreTest, APrintWhoseDaemonWasLostStaysInterruptedAndSaysThatItMayBePrinted) {
+TEST_F(JobStoreTest, LostPrintStaysInterruptedWithAdvice) {
   const Job print = jobs->create(new_print(), {}).value();
   ASSERT_TRUE(jobs->advance(print.id, JobState::kRunning, "", {0.3, "PROCESSING", 0, 0}, "prints"));
   EXPECT_GT(jobs->get(print.id)->start_ms, 0);
@@ -351,7 +351,7 @@ TEST_F(JobStoreTest, APrintWhoseDaemonWasLostStaysInterruptedAndSaysThatItMayBeP
   EXPECT_NE(events.back().message.find("may have printed this or not"), std::string::npos);
 }
 
-TEST_F(JobStoreTest, ADipWhoseDaemonWasLostStaysInterrupted) {
+TEST_F(JobStoreTest, LostDipStaysInterrupted) {
   const Job dip = jobs->create(new_dip(), {}).value();
   ASSERT_TRUE(jobs->advance(dip.id, JobState::kRunning, "soak", {0.5, "SOAK", 0, 0}, "soaks"));
   open();
@@ -363,7 +363,7 @@ TEST_F(JobStoreTest, ADipWhoseDaemonWasLostStaysInterrupted) {
   EXPECT_TRUE(jobs->remove(dip.id));
 }
 
-TEST_F(JobStoreTest, TheRecordOfADipIsKeptHoweverItEnded) {
+TEST_F(JobStoreTest, RecordOfADipIsAlwaysKept) {
   const Job dip = jobs->create(new_dip(), {}).value();
   ASSERT_TRUE(jobs->cancel(dip.id));
   ASSERT_TRUE(jobs->advance(dip.id, JobState::kRunning, "soak", {}, ""));

@@ -1,11 +1,11 @@
-// How much owners may have, and how long what they have is kept.
+// Quotas and retention of jobs and assets.
 #include "daemon/store/calibration_store.h"
 #include "tests/daemon/store/store_fixture.h"
 
 namespace hydroprint::daemon {
 namespace {
 
-constexpr std::int64_t kKeep_ms = 1000;  // the fixture's
+constexpr std::int64_t kKeep_ms = 1000;  // options of the fixture
 
 class Retention : public StoreTest {
  protected:
@@ -29,7 +29,7 @@ class Retention : public StoreTest {
   }
 };
 
-TEST_F(Retention, APinnedJobIsKeptAndItsTimeBeginsAnewWhenItIsNot) {
+TEST_F(Retention, UnpinningRestartsRetention) {
   const Job pinned = done("1"), other = done("2");
   EXPECT_EQ(purge_ms(pinned), now_ms + kKeep_ms);
   const Job after = jobs->pin(pinned.id, true).value();
@@ -48,7 +48,7 @@ TEST_F(Retention, APinnedJobIsKeptAndItsTimeBeginsAnewWhenItIsNot) {
   EXPECT_FALSE(is_there(pinned));
 }
 
-TEST_F(Retention, AJobPinnedBeforeItsEndIsKeptToo) {
+TEST_F(Retention, JobPinnedBeforeItsEndIsKept) {
   const Job job = add("1");
   ASSERT_TRUE(jobs->pin(job.id, true));
   complete(job.id);
@@ -57,7 +57,7 @@ TEST_F(Retention, AJobPinnedBeforeItsEndIsKeptToo) {
   EXPECT_TRUE(is_there(job));
 }
 
-TEST_F(Retention, WhatRunsOrWaitsIsNeverDeleted) {
+TEST_F(Retention, UnfinishedJobsAreNeverDeleted) {
   const Job queued = add("1"), running = add("2");
   ASSERT_TRUE(jobs->start(running.id));
   NewJob made;
@@ -68,7 +68,7 @@ TEST_F(Retention, WhatRunsOrWaitsIsNeverDeleted) {
   for (const Job& job : {queued, running, waiting}) EXPECT_TRUE(is_there(job)) << job.id;
 }
 
-TEST_F(Retention, WhatMadeACalibrationIsKeptAsLongAsThatIs) {
+TEST_F(Retention, JobIsKeptAsLongAsItsCalibration) {
   CalibrationStore calibrations(*database, [this] { return now_ms; });
   const Job job = add("1");
   ASSERT_TRUE(jobs->start(job.id));
@@ -95,7 +95,7 @@ TEST_F(Retention, DipsAreKeptLonger) {
   EXPECT_FALSE(is_there(dipped));
 }
 
-TEST_F(Retention, ZeroKeepsForEverAndAChangeHoldsFromTheNextStartOn) {
+TEST_F(Retention, ZeroKeepsForEverAndChangesApplyAtTheNextStart) {
   job_options.keep_finished_ms = 0;
   open();
   const Job job = done("1"), dipped = dip();
@@ -111,14 +111,14 @@ TEST_F(Retention, ZeroKeepsForEverAndAChangeHoldsFromTheNextStartOn) {
   EXPECT_FALSE(is_there(job));
 }
 
-TEST_F(Retention, NothingIsDeletedWhileSomethingIsPrinted) {
+TEST_F(Retention, NothingIsDeletedDuringAPrint) {
   const Job old = done("1");
   NewJob made;
   made.work.verb = "print";
   made.traits = {false, true, ""};
   const Job print = jobs->create(made, {}).value();
   wait(kKeep_ms);
-  EXPECT_TRUE(is_there(old));  // it may be what is printed
+  EXPECT_TRUE(is_there(old));  // it may be the job that is being printed
   ASSERT_TRUE(jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
   wait(0);
   EXPECT_FALSE(is_there(old));
@@ -127,7 +127,7 @@ TEST_F(Retention, NothingIsDeletedWhileSomethingIsPrinted) {
 
 constexpr std::int64_t kYear_ms = 365LL * 24 * 3600 * 1000;
 
-TEST_F(Retention, AClockThatJumpsAheadDeletesNothingAndComesBackWithoutATrace) {
+TEST_F(Retention, ClockJumpAheadAndBackDeletesNothing) {
   asset_options.keep_unused_ms = 1000;
   open();
   const Job before = done("1");
@@ -149,7 +149,7 @@ TEST_F(Retention, AClockThatJumpsAheadDeletesNothingAndComesBackWithoutATrace) {
   EXPECT_FALSE(is_there(meanwhile));
 }
 
-TEST_F(Retention, AClockThatJumpsAheadLeavesUnusedAssetsAndOpenUploads) {
+TEST_F(Retention, ClockJumpKeepsUnusedAssetsAndOpenUploads) {
   asset_options.keep_unused_ms = 1000;
   open();
   const auto started = assets->start({"", sha256("part"), 4, 0, "", 0}, {"ann", false}, {});
@@ -166,17 +166,17 @@ TEST_F(Retention, AClockThatJumpsAheadLeavesUnusedAssetsAndOpenUploads) {
   EXPECT_FALSE(assets->asset(sha256("mesh")));
 }
 
-TEST_F(Retention, OneDayAtATimeCounts) {
+TEST_F(Retention, StepsOfOneDayCount) {
   const Job job = done("1");
   ASSERT_TRUE(jobs->purge());
   wait(24LL * 3600 * 1000);
   EXPECT_FALSE(is_there(job));
 }
 
-TEST_F(Retention, TheOldestGoFirst) {
+TEST_F(Retention, OldestAreDeletedFirst) {
   const Job first = add("1"), second = done("2");
   now_ms += 10;
-  complete(first.id);  // which ended last
+  complete(first.id);  // the one that ended last
   ASSERT_TRUE(database->run("CREATE TABLE gone(job INTEGER)"));
   ASSERT_TRUE(database->run(
       "CREATE TRIGGER note AFTER DELETE ON jobs BEGIN INSERT INTO gone VALUES (old.id); END"));
@@ -187,7 +187,7 @@ TEST_F(Retention, TheOldestGoFirst) {
   EXPECT_EQ(gone, (std::vector<std::int64_t>{second.id, first.id}));
 }
 
-TEST_F(Retention, AnOwnersQueueIsLimitedAndNotThatOfOthers) {
+TEST_F(Retention, QueueLimitAppliesToEachOwner) {
   job_options.quota.max_queued_jobs = 2;
   open();
   add("1");
@@ -203,11 +203,11 @@ TEST_F(Retention, AnOwnersQueueIsLimitedAndNotThatOfOthers) {
   EXPECT_EQ(refused.error().metadata.at("used"), "2");
   EXPECT_EQ(refused.error().metadata.at("allowed"), "2");
   add("3", "bob");
-  ASSERT_TRUE(jobs->start(second.id));  // runs, and waits no longer
+  ASSERT_TRUE(jobs->start(second.id));  // running, so no longer queued
   EXPECT_TRUE(jobs->create(made, {}));
 }
 
-TEST_F(Retention, AJobIsTakenWhileThereAreFewerBytesThanAllowed) {
+TEST_F(Retention, JobsAreAcceptedBelowTheByteQuota) {
   job_options.quota.max_stored_bytes = 6;
   open();
   const Job first = done("1");  // 4 bytes

@@ -16,12 +16,12 @@
 
 namespace hydroprint::daemon {
 
-/// A store in a folder of the test's, with a clock that the test moves.
+/// A store in a folder of the test, with an adjustable clock.
 class StoreTest : public ::testing::Test {
  protected:
   StoreTest() { open(); }
 
-  /// Opens the store as a daemon does when it starts, as if the one before had been killed.
+  /// Opens the store as a daemon does at the start, as if the previous one had been killed.
   void open() {
     assets.reset();
     jobs.reset();

@@ -7,19 +7,19 @@ namespace {
 
 using Ids = std::vector<std::int64_t>;
 
-TEST(FairScheduler, OwnersAlternateHoweverManyJobsOneHas) {
+TEST(FairScheduler, OwnersAlternateRegardlessOfTheirJobs) {
   const std::vector<WaitingJob> waiting{
       {1, "ann", 0, 1}, {2, "ann", 0, 2}, {3, "ann", 0, 3}, {4, "bob", 0, 4}, {5, "bob", 0, 5}};
   EXPECT_EQ(FairScheduler().order(waiting, {}, 10), (Ids{1, 4, 2, 5, 3}));
 }
 
-TEST(FairScheduler, PriorityThenAgeCountsWithinOneOwnerOnly) {
+TEST(FairScheduler, PriorityThenAgeApplyOnlyWithinAnOwner) {
   const std::vector<WaitingJob> waiting{
       {1, "ann", 0, 1}, {2, "bob", 0, 2}, {3, "bob", 9, 3}, {4, "bob", 9, 4}};
   EXPECT_EQ(FairScheduler().order(waiting, {}, 10), (Ids{1, 3, 4, 2}));
 }
 
-TEST(FairScheduler, WhoeverWasServedLastWaits) {
+TEST(FairScheduler, LastServedOwnerWaits) {
   FairScheduler turns;
   turns.served("ann");
   const std::vector<WaitingJob> waiting{{1, "ann", 0, 1}, {2, "bob", 0, 2}};
@@ -28,7 +28,7 @@ TEST(FairScheduler, WhoeverWasServedLastWaits) {
   EXPECT_EQ(turns.order(waiting, {}, 1), Ids{1});
 }
 
-TEST(FairScheduler, WhoeverHasFewerRunningJobsGoesFirst) {
+TEST(FairScheduler, OwnerWithFewerRunningJobsIsFirst) {
   const std::vector<WaitingJob> waiting{{1, "ann", 0, 1}, {2, "bob", 0, 2}};
   EXPECT_EQ(FairScheduler().order(waiting, {{"ann", 2}, {"bob", 1}}, 10), (Ids{2, 1}));
 }

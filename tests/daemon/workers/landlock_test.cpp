@@ -7,7 +7,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-TEST(FileFence, HasTheSystemAndWhatIsBesideTheProgramAndNothingElse) {
+TEST(FileFence, CoversOnlyTheSystemAndTheProgramsFolder) {
   const hydroprint::testing::TemporaryFolder folder;
   const auto program = folder.path() / "bin" / "worker";
   for (const std::filesystem::path file :

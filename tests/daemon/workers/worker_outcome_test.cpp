@@ -15,7 +15,7 @@ std::string reason(int wait_status, const char* words = "",
 
 TEST(Outcome, ExitZeroIsSuccess) { EXPECT_FALSE(judge(0, StoppedFor::kNothing, "warning: x\n")); }
 
-TEST(Outcome, RefusedInputCarriesTheWorkersOwnLastLine) {
+TEST(Outcome, RefusedInputHasTheWorkersLastLine) {
   const auto failure = judge(exited(3), StoppedFor::kNothing, "note\nspot.obj:7: NaN; fix it\n\n");
   ASSERT_TRUE(failure);
   EXPECT_EQ(failure->error.code, Code::kInvalidArgument);
@@ -25,7 +25,7 @@ TEST(Outcome, RefusedInputCarriesTheWorkersOwnLastLine) {
   EXPECT_FALSE(failure->signal);
 }
 
-TEST(Outcome, AReasonThatTheProgramPrintsIsTakenIfTheApiHasIt) {
+TEST(Outcome, PrintedReasonIsUsedIfKnown) {
   const auto told = [](int status, const std::string& answer) {
     return judge(status, StoppedFor::kNothing, "words", answer)->error.reason;
   };
@@ -39,7 +39,7 @@ TEST(Outcome, AReasonThatTheProgramPrintsIsTakenIfTheApiHasIt) {
   EXPECT_EQ(told(SIGSEGV, R"({"error":{"reason":"MIRRORED"}})"), "WORKER_KILLED");
 }
 
-TEST(Outcome, EachEndHasItsReason) {
+TEST(Outcome, EachKindOfEndHasItsReason) {
   EXPECT_EQ(reason(exited(2)), "INPUT_REFUSED");
   EXPECT_EQ(reason(exited(4), "it failed"), "COMPUTATION_FAILED");
   EXPECT_EQ(reason(exited(127)), "WORKER_UNUSABLE");
@@ -65,7 +65,7 @@ TEST(Outcome, LimitsAreToldByReasonCodesAndNotByWords) {
   EXPECT_EQ(reason(exited(4), "out of memory, the disk is full"), "COMPUTATION_FAILED");
 }
 
-TEST(Outcome, WordsBecomeOnePrintableLine) {
+TEST(Outcome, OutputBecomesOnePrintableLine) {
   EXPECT_EQ(last_line("a\nb\x01\x1b[2J\xff\n  \n"), "b??[2J?");
   EXPECT_EQ(last_line("gr\xc3\xb6\xc3\x9f"
                       "e \xe2\x82\xac"),
@@ -75,7 +75,7 @@ TEST(Outcome, WordsBecomeOnePrintableLine) {
   EXPECT_LE(last_line(std::string(5000, 'x')).size(), 1000U);
 }
 
-TEST(Progress, LineIsRead) {
+TEST(Progress, LineIsParsed) {
   const auto progress = read_progress(
       R"({"stage":"flow map","fraction":0.5,"total_fraction":0.25,"eta_s":3.5})", 1000);
   ASSERT_TRUE(progress);
