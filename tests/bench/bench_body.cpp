@@ -1,5 +1,5 @@
-// Writes the bodies that tests/bench/run hands to the worker: a bundled sample, or an icosphere as
-// an OBJ, plain or with the texture coordinates of the globe (longitude and latitude).
+// Writes the models that tests/bench/run passes to the worker: a bundled sample, or an icosphere as
+// OBJ, plain or with the texture coordinates of the globe (longitude and latitude).
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -17,8 +17,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Longitude and latitude in [0, 1]; the longitude nearest to `near_u`, so that faces across the
-/// date line go past 1.
+/// Longitude and latitude in [0, 1]. The longitude is shifted towards `near_u`, so it may exceed 1
+/// in faces across the date line.
 Vector2d uv_of(const Vector3d& p, double near_u) {
   const double u = std::atan2(p.y(), p.x()) / (2 * std::numbers::pi) + 0.5;
   return {u + std::round(near_u - u), std::asin(p.z() / p.norm()) / std::numbers::pi + 0.5};

@@ -1,5 +1,5 @@
-// Poses from depth frames with all the errors of the camera, and how honest their covariance is.
-// bench_calibrate [POSES [FRAMES]]: 200 and 60 unless told otherwise.
+// Accuracy of poses from depth frames with all camera errors, and of their stated covariance.
+// bench_calibrate [POSES [FRAMES]]: defaults 200 and 60.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -39,7 +39,7 @@ struct Body {
   mesh::Surface surface;
 };
 
-/// A camera of its own lens and noise, as it is and as it was calibrated.
+/// A camera with its own lens and noise, and its calibration.
 struct Camera {
   std::uint64_t seed;
   simulated_camera::Lens truth;
@@ -66,7 +66,7 @@ std::vector<Body> bodies() {
   return out;
 }
 
-/// The i-th way in which someone might hold a board: towards the corners in turn, near and far.
+/// The i-th view of a board held by hand: towards each corner in turn, near and far.
 Pose held(int i, std::mt19937& random) {
   const double towards = even(random, 0, 2 * pi), tilt = (i % 3) * 15 * kDegree;
   const Eigen::Vector3d about(std::cos(towards), std::sin(towards), 0);
@@ -74,13 +74,13 @@ Pose held(int i, std::mt19937& random) {
   X_CB.linear() = Eigen::AngleAxisd(tilt, about).matrix() *
                   Eigen::Vector3d(1, -1, -1).asDiagonal() *
                   Eigen::AngleAxisd(even(random, -0.2, 0.2), Eigen::Vector3d::UnitZ()).matrix();
-  const double away_mm = 520 + 90 * (i % 6), aside = 0.5 - 126 / away_mm;  // whole in the image
+  const double away_mm = 520 + 90 * (i % 6), aside = 0.5 - 126 / away_mm;  // fully inside the image
   X_CB.translation() =
       away_mm * Eigen::Vector3d(aside * std::cos(2.4 * i), 0.66 * aside * std::sin(2.4 * i), 1);
   return X_CB;
 }
 
-/// As calibrate-camera does it.
+/// Calibrates a camera as calibrate-camera does.
 Camera draw_camera(std::mt19937& random) {
   Camera out{seed_from(random), {}, {}};
   out.truth = simulated_camera::drawn_lens(out.seed);
@@ -108,7 +108,7 @@ Camera draw_camera(std::mt19937& random) {
   return out;
 }
 
-/// Figures of a row, over poses.
+/// Figures of a row, collected over poses.
 struct Figures {
   std::vector<double> film_mm, film_deg, seen_mm, object_mm, object_deg, seconds;
   int film_within = 0, object_within = 0, refused = 0;
@@ -151,7 +151,7 @@ Json json_of(const Figures& f) {
           {"seconds", p95(f.seconds)}};
 }
 
-/// Directions of a twist in mm of surface motion: columns are what the scan tells.
+/// Directions of a twist in mm of surface motion; the columns are those that the scan determines.
 Eigen::MatrixXd told_directions(const registration::PoseFit& fit, const Vector6& scale) {
   const auto weak = static_cast<Eigen::Index>(fit.weak.size());
   Eigen::MatrixXd all(6, weak + 6);
@@ -165,7 +165,7 @@ Eigen::MatrixXd told_directions(const registration::PoseFit& fit, const Vector6&
 /// 95 % quantiles of chi-square by degrees of freedom.
 constexpr std::array kSquare95{0.0, 3.841, 5.991, 7.815, 9.488, 11.070, 12.592};
 
-/// A pose's error in the directions that the scan tells; camera frame.
+/// Error of a pose in the directions that the scan determines; camera frame.
 struct Told {
   double mm = 0, deg = 0, square = 0;
   std::size_t directions = 6;
@@ -186,7 +186,7 @@ Told told(const Vector6& twist, const Matrix6& covariance, const registration::P
           along.dot(among.ldlt().solve(along)), static_cast<std::size_t>(directions.cols())};
 }
 
-/// A body hung crookedly before a camera somewhere.
+/// A tilted body in front of a randomly placed camera.
 struct Scene {
   testing::Rig rig;
   registration::ObjectTask task;
@@ -214,8 +214,8 @@ Scene draw_scene(const Body& body, const Camera& camera, std::mt19937& random) {
   return out;
 }
 
-/// How far off film coordinates are of what this camera sees around the film, rms: what is left of
-/// the film frame's error and the lens's, which have much in common.
+/// RMS error of the film coordinates of points that this camera sees around the film. It is what
+/// remains of the errors of film frame and lens, which are strongly correlated.
 double seen_error_mm(const Scene& scene, const Camera& camera, const Pose& X_CF) {
   const scan::Lens truth = testing::lens_of(camera.truth);
   double squares = 0, count = 0;
@@ -234,7 +234,7 @@ double seen_error_mm(const Scene& scene, const Camera& camera, const Pose& X_CF)
   return std::sqrt(squares / count);
 }
 
-/// What calibrate does with frames; without values if it refuses.
+/// Runs the calibration on frames; has no values if it is refused.
 struct Outcome {
   std::optional<registration::FilmFrame> frame;
   std::optional<registration::ObjectPose> pose;

@@ -1,5 +1,5 @@
-// A centred sphere in a circular film against the exact map of field notes, section 2, in both
-// models: README.md.
+// Compares a centred sphere in a circular film with the exact map of field notes, section 2, for
+// both film models. See README.md.
 #include <string>
 
 #include "sim/pipeline/dip.h"

@@ -1,9 +1,9 @@
-// What the rig's motion is like to who uses the API: hydroprintd and hydroprint-virtual-rig, with
-// the machine idle or with a simulation on every core.
+// Measures the rig's motion through the API: hydroprintd and hydroprint-virtual-rig, on an idle
+// machine or with a simulation on every core.
 //
 //   bench_motion idle | busy MODEL.obj
 //
-// Prints one JSON object a row. README.md tells the method.
+// Prints one JSON object per row. README.md describes the method.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 
 constexpr int kTries = 40;
-constexpr int kCores = 2;  // tests/bench/run keeps to these
+constexpr int kCores = 2;  // as in tests/bench/run
 constexpr int kJobs = 400;
 constexpr double kSpeed_mm_per_s = 10;
 constexpr double kDipSpeed_mm_per_s = 5;
@@ -35,7 +35,7 @@ constexpr double kDepth_mm = 40;
 constexpr double kHigh_mm = 10;
 constexpr double kLow_mm = 60;
 
-/// The drive's acceleration, with which it stops too.
+/// The drive's acceleration, also used for stopping.
 double acceleration() {
   const auto profile = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
   if (!profile) throw std::runtime_error(profile.error().message);
@@ -66,7 +66,7 @@ class Bench {
  public:
   explicit Bench(std::string mode) : mode_(std::move(mode)) { client_.make_ready(); }
 
-  /// Keeps a simulation on every core until the end; returns once they run.
+  /// Keeps a simulation running on every core until the end; returns once they run.
   void make_busy(const std::string& model_path);
   void run();
 
@@ -77,7 +77,7 @@ class Bench {
     options.extra = drive_.section();
     return options;
   }
-  /// Looks without pause until its speed is so; the drive at that look.
+  /// Polls without pause until the drive's speed satisfies the condition; returns that state.
   json look_until(const std::function<bool(double)>& speed_is);
   double command_to_motion(double target_mm);
   double stop_to_standstill();
@@ -98,7 +98,7 @@ void Bench::make_busy(const std::string& model_path) {
   std::ifstream file(model_path, std::ios::binary);
   const std::string model{std::istreambuf_iterator<char>(file), {}};
   for (int i = 0; i < kJobs; ++i) {
-    // One mesh, and each time another result, which nothing earlier answers.
+    // The same mesh with a different depth each time, so that no result comes from the cache.
     auto request = simulate_request(client_.upload(model), "model.obj");
     v1::SimulateSpec& spec = *request.mutable_job()->mutable_simulate();
     spec.set_depth_mm(60 + 0.05 * i);
@@ -114,7 +114,7 @@ void Bench::make_busy(const std::string& model_path) {
 void Bench::check_busy() {
   if (mode_ == "idle") return;
   const v1::Queue queue = client_.queue();
-  if (queue.queued_count() == 0) throw std::runtime_error("the simulations ran out");
+  if (queue.queued_count() == 0) throw std::runtime_error("no simulations are left in the queue");
 }
 
 json Bench::look_until(const std::function<bool(double)>& speed_is) {
@@ -122,11 +122,12 @@ json Bench::look_until(const std::function<bool(double)>& speed_is) {
   for (;;) {
     json now = drive_.truth();
     if (speed_is(speed_of(now))) return now;
-    if (std::chrono::steady_clock::now() > deadline) throw std::runtime_error("it never happened");
+    if (std::chrono::steady_clock::now() > deadline)
+      throw std::runtime_error("the expected speed was not reached in time");
   }
 }
 
-/// From the call to when the axis began to move, which its speed then tells: v = a t.
+/// Time from the call to the start of the motion, computed from the observed speed: v = a t.
 double Bench::command_to_motion(double target_mm) {
   const double before_s = time_of(drive_.truth());
   grpc::Status sent;
@@ -137,7 +138,7 @@ double Bench::command_to_motion(double target_mm) {
   return time_of(moving) - speed_of(moving) / acceleration_ - before_s;
 }
 
-/// From the call to standstill, less what braking takes.
+/// Time from the call to standstill, minus the braking time.
 double Bench::stop_to_standstill() {
   look_until([](double speed) { return speed == kSpeed_mm_per_s; });
   const double before_s = time_of(drive_.truth());
@@ -154,10 +155,10 @@ void Bench::take_latencies() {
   for (int i = 0; i < kTries; ++i) {
     const bool is_high = drive_.position_mm() < (kHigh_mm + kLow_mm) / 2;
     commands.push_back(command_to_motion(is_high ? kLow_mm : kHigh_mm));
-    // Not in step with the daemon's looks at the drive.
+    // Out of step with the daemon's polls.
     std::this_thread::sleep_for(milliseconds(60 + 7 * (i % 13)));
     stops.push_back(stop_to_standstill());
-    if (!client_.becomes(v1::Rig::IDLE)) throw std::runtime_error("not at rest");
+    if (!client_.becomes(v1::Rig::IDLE)) throw std::runtime_error("the rig did not become IDLE");
   }
   std::cout << row("motion-command-" + mode_, commands).dump() << '\n'
             << row("motion-stop-" + mode_, stops).dump() << std::endl;
@@ -181,7 +182,7 @@ void Bench::take_dip() {
             << std::endl;
 }
 
-/// How late the looks were since then; the largest is that of all since the daemon started.
+/// Lateness of the polls since `before`; the maximum is over all polls since the daemon started.
 void Bench::take_sampling(const v1::LinkQuality& before) {
   const v1::LinkQuality now = client_.rig().link_quality();
   const auto squares = [](const v1::LinkQuality& of) {

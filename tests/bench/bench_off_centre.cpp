@@ -1,5 +1,5 @@
-// A sphere off the centre of an A4 film, in both models, against the finest run there is time for,
-// and how the error falls with the mesh size: README.md.
+// Compares a sphere off the centre of an A4 film, for both film models, with the finest feasible
+// run, and measures how the error decreases with the mesh size. See README.md.
 #include <string>
 #include <utility>
 

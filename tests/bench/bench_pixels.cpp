@@ -1,4 +1,5 @@
-// The fast pixel map, the tiles of the film image, against one particle per pixel: README.md.
+// Compares the fast pixel map (the tiles of the film image) with one particle per pixel. See
+// README.md.
 //
 // usage: bench_pixels BODY PIXELS
 #include <Eigen/Geometry>
@@ -25,17 +26,17 @@ using flow::reference::PixelMap;
 
 constexpr double kDpi = 600;
 constexpr double kTolerance_mm = 0.04;
-constexpr double kStep_mm = 0.1;      ///< of the particles, in depth
-constexpr double kSettled_mm = 0.01;  ///< by which half of it may move them, on the film
+constexpr double kStep_mm = 0.1;      ///< step of the particles in depth
+constexpr double kSettled_mm = 0.01;  ///< allowed motion on the film when the step is halved
 constexpr unsigned kSeed = 5;
-constexpr int kMostTries = 50'000'000;  ///< at finding a pixel at a jump
+constexpr int kMostTries = 50'000'000;  ///< tries to find a pixel at a jump
 
 struct Body {
   mesh::Model model;
   pipeline::DipOptions options;
 };
 
-/// Turned about the x axis, bounding box centred on the film.
+/// Rotated about the x axis, with the bounding box centred on the film.
 Pose tilted(const mesh::Model& model, double angle_rad) {
   Pose X_FO(Eigen::AngleAxisd(angle_rad, Eigen::Vector3d::UnitX()));
   Eigen::AlignedBox3d box;
@@ -44,7 +45,7 @@ Pose tilted(const mesh::Model& model, double angle_rad) {
   return X_FO;
 }
 
-/// The off-centre sphere, or a sample on A4, the board at 30 degrees to the water.
+/// The off-centre sphere, or a sample on A4; the board is tilted by 30 degrees.
 Body body_named(const std::string& name) {
   Body body;
   if (name == "sphere") {
@@ -73,7 +74,7 @@ void for_each(std::size_t count, Work&& work) {
   if (!done) give_up(done.error());
 }
 
-/// A dip at the default settings as the film image sees it, and what it is compared with.
+/// A dip at the default settings as used for the film image, and its reference.
 class Trial {
  public:
   explicit Trial(const Body& body)
@@ -86,7 +87,7 @@ class Trial {
         finer_(start_.body, reference_, kStep_mm / 2),
         comparison_(map_, start_.body, particles_) {}
 
-  /// Random pixels of those on which something lands by map or particle.
+  /// Random pixels at which the map or a particle lands.
   Json pixels(int count) const {
     std::mt19937 random(kSeed);
     std::vector<Pixel> chosen;
@@ -118,7 +119,7 @@ class Trial {
             {"not_counted_by_rule", ruled}};
   }
 
-  /// Random pixels at the map's jumps.
+  /// Random pixels at jumps of the map.
   Json jumps(int count) const {
     std::mt19937 random(kSeed);
     std::vector<Pixel> chosen;
@@ -154,7 +155,7 @@ class Trial {
   }
 
  private:
-  /// The same body and film in closer steps: particles see velocities linear between waterlines.
+  /// The same body and film with smaller steps: particles use velocities linear between waterlines.
   static flow::DipField reference_of(const Body& body) {
     pipeline::DipOptions close = body.options;
     close.schedule.swept_mm /= 4;

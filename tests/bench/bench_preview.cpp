@@ -1,4 +1,4 @@
-// A preview of the 60 mm sphere on A4, the mesh already in memory: README.md.
+// Measures a preview of the 60 mm sphere on A4 with the mesh in memory. See README.md.
 #include <algorithm>
 #include <chrono>
 #include <vector>

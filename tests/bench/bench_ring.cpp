@@ -1,4 +1,4 @@
-// The sheet with a ring of ink against the one-dimensional solution: README.md.
+// Compares the sheet with a ring of ink with the one-dimensional solution. See README.md.
 #include <algorithm>
 #include <limits>
 
@@ -14,16 +14,16 @@ namespace {
 constexpr double kSphere_mm = 40;
 constexpr double kVat_mm = 105;
 constexpr double kInner_mm = 25, kOuter_mm = 40;  ///< radii of the ring of ink
-constexpr double kEdge_mm = 1;                    ///< over which it begins and ends
-constexpr int kRings = 8400;                      ///< of the one-dimensional solution
+constexpr double kEdge_mm = 1;                    ///< width of its edges
+constexpr int kRings = 8400;                      ///< rings of the one-dimensional solution
 
-/// From 0 to 1 over a width of 1, twice differentiable.
+/// A twice differentiable step from 0 to 1 over a width of 1.
 double rise(double x) {
   const double t = std::clamp(x + 0.5, 0.0, 1.0);
   return t * t * t * (10 + t * (-15 + 6 * t));
 }
 
-/// As much ink as there can be, t = 4, between two radii.
+/// The maximum amount of ink, t = 4, between two radii.
 double ink_at(double r) {
   return ink::kMostInk * (rise((r - kInner_mm) / kEdge_mm) - rise((r - kOuter_mm) / kEdge_mm));
 }

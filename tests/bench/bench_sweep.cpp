@@ -1,5 +1,5 @@
-// A camera swept by hand for 10 s, with all its errors: how far its place drifts, and how far the
-// surface that it fused is off. bench_sweep [CAMERAS [FRAMES]]: 3 and 300 unless told otherwise.
+// A camera with all its errors, moved by hand for 10 s: measures the drift of its position and the
+// error of the fused surface. bench_sweep [CAMERAS [FRAMES]]: defaults 3 and 300.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -24,12 +24,12 @@ namespace {
 using Eigen::Vector3d;
 using testing::SweptCamera;
 
-/// What counts as the rig: within the bars, from the water up.
+/// Limits of the rig: within the bars, from the water up.
 const Eigen::AlignedBox3d kRig_F(Vector3d(-165, -210, -5), Vector3d(165, 210, 400));
-constexpr double kOnObject_mm = 6;  ///< the nearest other thing is farther from it
+constexpr double kOnObject_mm = 6;  ///< points within this distance belong to the object
 constexpr double kLeastFrames = 3;
 
-/// The mug, or where it is not there a ball, hung crookedly.
+/// The tilted mug, or a ball if the mug's model is missing.
 simulated_scene::Body hung() {
   const std::filesystem::path mug = std::filesystem::path(HYDROPRINT_MODELS_DIR) / "mug/mug.obj";
   const mesh::Surface surface =
@@ -52,7 +52,7 @@ double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Figures over all cameras.
+/// Figures collected over all cameras.
 struct Figures {
   std::vector<double> camera_mm, end_mm, end_deg, surface_mm, object_mm, seconds;
   std::size_t lost = 0, refused = 0;

@@ -8,24 +8,24 @@
 #include "sim/base/result.h"
 #include "tests/support/sphere_dips.h"
 
-/// What the programs here have in common. Each takes some of the figures that tests/bench/run
-/// prints, and writes them to stdout as one JSON object a line: {"row": NAME, FIGURE: VALUE, ...}.
+/// Common code of the benchmark programs. Each program measures some of the rows of tests/bench/run
+/// and writes one JSON object per line to stdout: {"row": NAME, FIGURE: VALUE, ...}.
 namespace hydroprint::bench {
 
 using Json = nlohmann::ordered_json;
 
 void print(const std::string& row, Json figures);
 
-/// Root mean square, largest, and how many points there are and are without film.
+/// Root mean square, maximum, number of points, and number of points without film.
 [[nodiscard]] Json json_of(const testing::Errors& errors);
 
-/// Two threads.
+/// A context with two threads.
 [[nodiscard]] Context two_threads();
 
-/// Ends the program.
+/// Prints the error and exits with status 1.
 [[noreturn]] void give_up(const Error& error);
 
-/// The value; without one the program ends.
+/// Returns the value, or ends the program if there is an error.
 template <class T>
 T value_of(Result<T> result) {
   if (!result) give_up(result.error());

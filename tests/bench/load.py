@@ -1,6 +1,6 @@
-"""A daemon with its rig under many visitors over HTTP: 100 pages that watch everything, 20 uploads at a time.
+"""Measures a daemon with a rig under load over HTTP: 100 watching pages and 20 simultaneous uploads.
 
-Prints one JSON object a row. Usage: load.py FOLDER_OF_PROGRAMS RIG_PROFILE [--quick]
+Prints one JSON object per row. Usage: load.py FOLDER_OF_PROGRAMS RIG_PROFILE [--quick]
 """
 import asyncio
 import hashlib
@@ -23,7 +23,7 @@ PATIENCE_S = 60
 
 
 class Connection:
-    """One connection of HTTP/1.1, one request at a time."""
+    """An HTTP/1.1 connection with one request at a time."""
 
     def __init__(self, address):
         self.address = address
@@ -58,20 +58,20 @@ class Connection:
 
 
 async def watch(address, board):
-    """A page: takes all news, and tells the board of each job that it hears was cancelled."""
+    """Acts as a page: reads all events and reports every cancelled job to the board."""
     async with Connection(address) as connection:
         connection.head("GET", "/v1/events:watch", 0, {})
         await connection.reader.readuntil(b"\r\n\r\n")
         while True:
             line = await connection.reader.readline()
             if not line:
-                raise RuntimeError("a watcher was left")
+                raise RuntimeError("the daemon closed the connection of a watcher")
             if line.startswith(b"data:") and b'"CANCELLED"' in line:
                 board.hear(json.loads(line[5:])["job"]["job"]["name"])
 
 
 class Board:
-    """Who has heard of the latest news, and how long after it was asked for."""
+    """Counts the watchers that have received the latest event, and records the delays since its cause."""
 
     def __init__(self):
         self.job, self.delays_s, self.missing, self.all_heard = None, [], 0, asyncio.Event()
@@ -90,7 +90,7 @@ class Board:
 
 
 class File:
-    """A file to upload: one piece over and over, another one for each seed. Hashed beforehand, as that takes time."""
+    """A file to upload: one random piece, repeated. It is hashed in advance, because hashing takes time."""
 
     def __init__(self, seed, size_bytes):
         self.piece, self.pieces = random.Random(seed).randbytes(PIECE_BYTES), size_bytes // PIECE_BYTES
@@ -102,7 +102,7 @@ class File:
 
 
 async def upload(address, file):
-    """From beginning to end. Returns the asset's name."""
+    """Uploads a whole file. Returns the asset's name."""
     async with Connection(address) as connection:
         begun = await connection.ask("POST", "/v1/uploads", {"sizeBytes": str(file.size_bytes), "sha256": file.sha256})
         connection.head("PATCH", "/v1/" + begun["upload"]["name"], file.size_bytes, {"Upload-Offset": "0"})
@@ -113,7 +113,7 @@ async def upload(address, file):
 
 
 async def make_news(connection, board, asset):
-    """Something that every page is told: a job of a queue that is paused is cancelled."""
+    """Causes an event that all watchers receive: cancels a job in a paused queue."""
     spec = {"simulate": {"mesh": {"name": "m.obj", "asset": asset}}}
     job = (await connection.ask("POST", "/v1/jobs", spec))["name"]
     board.ask_for(job)
@@ -181,7 +181,7 @@ async def measure(address, pid, size_bytes):
         await news
         for task in background:
             if task.done():
-                task.result()  # why it ended
+                task.result()  # raises the error that ended it
         found = row(name, board.delays_s, calls_s, memory_mib, before_mib)
         if sent:
             found["upload_mib_per_s"] = sum(file.size_bytes for file in sent) / MIB / seconds
@@ -195,7 +195,7 @@ async def measure(address, pid, size_bytes):
 def main():
     size_bytes = UPLOAD_BYTES // 8 if "--quick" in sys.argv else UPLOAD_BYTES
     with programs.daemon_with_rig(sys.argv[1], sys.argv[2]) as daemon:
-        time.sleep(2)  # what it does at first is not measured
+        time.sleep(2)  # start-up is not measured
         asyncio.run(measure(daemon.http, daemon.process.pid, size_bytes))
 
 

@@ -13,14 +13,14 @@
 //     4 (h f_q)_q = (h_q / q + c / (2q)) f.
 // A uniform film without drag moves with f linear in q.
 //
-// Dip. Take as time the wetted area per radian W. The waterline's q grows with cos(theta), and by
-// eq. (1), tan(theta/2) = (1 - cos(theta)) / sin(theta), the film is drawn in with
-// f = -(1 - cos(theta)) there. Both together: what sticks is not stretched by sticking, so with
-// Q = q at rest and J = q_Q the area stretch, dW = J dQ for the ring Q that is sticking. Nothing
-// here has a pole. A ring follows dq/dW = f, and keeps its volume, h = h0 / J.
+// Dip. Use the wetted area per radian W as time. The waterline's q grows with cos(theta). By
+// eq. (1), tan(theta/2) = (1 - cos(theta)) / sin(theta), the film is drawn in there with
+// f = -(1 - cos(theta)). Film is not stretched by sticking. With Q = q at rest and the area stretch
+// J = q_Q, this gives dW = J dQ for the ring Q that is sticking. No term has a pole. A ring follows
+// dq/dW = f and keeps its volume, h = h0 / J.
 //
-// Steps. As the independent variable serves X, the rest radius of the ring that is sticking. A
-// Runge-Kutta step of two rings then has all its stages on a ring, and no ring is ever cut:
+// Steps. The independent variable is X, the rest radius of the ring that is sticking. All stages of
+// a Runge-Kutta step over two rings then are at a ring, and no ring is ever divided:
 //     dW/dX = q_X (at the waterline),   dq/dX = f q_X (at the waterline).
 
 namespace hydroprint::axisymmetric {
@@ -34,10 +34,10 @@ constexpr std::size_t kSlopeRings = 5;
 
 struct State {
   double wetted = 0;
-  std::vector<double> q;  ///< of all rings; those that have stuck no longer count
+  std::vector<double> q;  ///< of all rings; rings that have stuck are ignored
 };
 
-/// Its change with X.
+/// Derivative of the state with respect to X.
 using Rate = State;
 
 State advanced(const State& from, const Rate& rate, double by, std::size_t first) {
@@ -73,8 +73,8 @@ class Stepper {
   }
 
  private:
-  /// Of h0 X dX from `x` over one ring's width, by two Gauss points: exact where the film is
-  /// uniform, and indifferent to a step between rings.
+  /// Integral of h0 X dX from `x` over one ring's width, by two Gauss points. It is exact for a
+  /// uniform film and not affected by a step between rings.
   [[nodiscard]] double volume_from(double x) const {
     const auto density = [&](double at) { return film_.thickness_mm(at) * at; };
     const double middle = x + width_ / 2;
@@ -118,10 +118,11 @@ class Stepper {
   double width_;
   double drag_ = 0;
   State state_;
-  std::vector<double> volume_;  ///< per radian, between a ring and the next
+  std::vector<double> volume_;  ///< volume per radian between a ring and the next
 };
 
-/// Cubic between two landings, `t` in [0, 1], by a quantity's values and derivatives with X there.
+/// Cubic interpolation of a quantity between two landings, `t` in [0, 1], from its values and its
+/// derivatives with respect to X.
 double cubic(const Landing& a, const Landing& b, double t, std::array<double, 2> value,
              std::array<double, 2> slope) {
   const double s = 1 - t;
@@ -130,7 +131,7 @@ double cubic(const Landing& a, const Landing& b, double t, std::array<double, 2>
          t * t * ((1 + 2 * s) * value[1] - s * width * slope[1]);
 }
 
-/// Of the wetted area with X.
+/// Derivative of the wetted area with respect to X.
 double slope(const Landing& at) { return at.film_mm * at.area_stretch; }
 
 double wetted_between(const Landing& a, const Landing& b, double t) {
@@ -160,7 +161,7 @@ Body cone(double slope_rad, double waterline_mm) {
   return {[cos_theta](double) { return cos_theta; }, waterline_mm * waterline_mm / (2 * cos_theta)};
 }
 
-// Linear elements in q with the thickness constant in each; the term with h_q then is the jump of
+// Linear elements in q with constant thickness in each, so that the term with h_q is the jump of
 // the thickness at a ring. The tridiagonal matrix is positive definite.
 std::vector<double> flux(std::span<const double> q, std::span<const double> volume,
                          double at_waterline, double drag_per_mm) {

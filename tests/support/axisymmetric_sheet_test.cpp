@@ -26,13 +26,13 @@ Film uniform_film() {
   return {kVat, [](double) { return kThickness; }, kThickness};
 }
 
-/// 0 below -0.5, 1 above 0.5, twice differentiable.
+/// A twice differentiable step: 0 below -0.5, 1 above 0.5.
 double rise(double x) {
   const double t = std::clamp(x + 0.5, 0.0, 1.0);
   return t * t * t * (10 + t * (-15 + 6 * t));
 }
 
-/// A ring of two full inks from 30 to 45 mm, its edges 1 mm wide.
+/// A ring of two full inks from 30 to 45 mm with edges 1 mm wide.
 Film ringed_film(double drag_length_mm) {
   return {kVat, [](double x) { return kThickness + 0.1 * (rise(x - 30) - rise(x - 45)); },
           kThickness, drag_length_mm};
@@ -75,7 +75,7 @@ TEST(AxisymmetricSheet, UniformFilmGivesTheTableOfTheFieldNotes) {
   }
 }
 
-TEST(AxisymmetricSheet, UniformFilmIsDilutedAsExactly) {
+TEST(AxisymmetricSheet, UniformFilmIsDilutedAsInTheExactSolution) {
   const Dip dip = sphere_dip(uniform_film(), 150, 4200);
   const double k2 = kVat * kVat / (kSphere * kSphere) - 1;
   const double k = std::sqrt(k2);
@@ -101,7 +101,7 @@ TEST(AxisymmetricSheet, UniformFilmFollowsTheExactMapOfACone) {
   }
 }
 
-TEST(AxisymmetricSheet, NothingIsKnownPastTheEndOfTheDip) {
+TEST(AxisymmetricSheet, ThereIsNoLandingPastTheEndOfTheDip) {
   const Dip dip = sphere_dip(uniform_film(), 90, 500);
   EXPECT_TRUE(dip.at_film(55));
   EXPECT_FALSE(dip.at_film(56));
@@ -162,8 +162,8 @@ TEST(AxisymmetricSheet, ThicknessThatIsAPowerOfTheRadiusGivesPowers) {
   }
 }
 
-// A film of two thicknesses: in each part u = A r + B / r, which leaves each part uniform, so that
-// the whole dip is an ordinary differential equation for the seam's radius and the film taken.
+// A film of two thicknesses: in each part u = A r + B / r, which keeps each part uniform. The whole
+// dip is then an ordinary differential equation for the seam's radius and the consumed film.
 class TwoParts {
  public:
   TwoParts(double inner_mm, double outer_mm, double seam_mm)
@@ -185,7 +185,7 @@ class TwoParts {
   }
 
  private:
-  using Pair = std::array<double, 2>;  // radius of the seam, square of the film radius taken
+  using Pair = std::array<double, 2>;  // radius of the seam, square of the consumed film radius
 
   [[nodiscard]] Pair moved(const Pair& rate, double by) const {
     return {now_[0] + by * rate[0], now_[1] + by * rate[1]};
@@ -197,12 +197,12 @@ class TwoParts {
     const double seam = state[0];
     const double inner_stretch = (seam * seam - a * a) / (rest_ * rest_ - state[1]);
     const double outer_stretch = (kVat * kVat - seam * seam) / (kVat * kVat - rest_ * rest_);
-    // A and B of either part when the seam moves at `u`.
+    // A and B of each part when the seam moves at `u`.
     const auto between = [](double r1, double u1, double r2, double u2) {
       const double slope = (u2 * r2 - u1 * r1) / (r2 * r2 - r1 * r1);
       return Pair{slope, u1 * r1 - slope * r1 * r1};
     };
-    // N_rr = 2 h (3 A - B / r^2) on the seam, inside less outside, is linear in its velocity.
+    // N_rr = 2 h (3 A - B / r^2) at the seam, inside minus outside, is linear in its velocity.
     const auto imbalance = [&](double u) {
       const auto [a1, b1] = between(a, pull, seam, u);
       const auto [a2, b2] = between(seam, u, kVat, 0);
@@ -211,7 +211,8 @@ class TwoParts {
     };
     const double still = imbalance(0);
     const double u = still / (still - imbalance(1));
-    // The sphere wets R^2 sin(theta) per angle and radian; the film's square counts twice.
+    // The wetted area grows by R^2 sin(theta) per angle and radian, the film's squared radius by
+    // twice.
     return {u, 2 * kSphere * kSphere * std::sin(theta) / inner_stretch};
   }
 
@@ -221,7 +222,7 @@ class TwoParts {
   Pair now_;
 };
 
-TEST(AxisymmetricSheet, FilmOfTwoThicknessesFollowsItsOwnEquation) {
+TEST(AxisymmetricSheet, FilmOfTwoThicknessesFollowsItsDifferentialEquation) {
   for (const auto& [inner, outer] : {std::pair(0.5, 0.7), std::pair(0.7, 0.5)}) {
     const auto thickness = [inner = inner, outer = outer](double x) {
       return x < 63 ? inner : outer;
@@ -254,8 +255,8 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return most;
 }
 
-// The ring's edges need rings of film much narrower than they are; the fourth order parts dominate
-// before that.
+// The edges of the ink ring must be much wider than the rings of film. With wider rings, the
+// fourth-order parts of the error dominate.
 TEST(AxisymmetricSheet, MapAroundAnInkRingIsOfSecondOrderOrBetter) {
   for (const double drag_length : {0.0, 20.0}) {
     const Film film = ringed_film(drag_length);
@@ -267,7 +268,7 @@ TEST(AxisymmetricSheet, MapAroundAnInkRingIsOfSecondOrderOrBetter) {
   }
 }
 
-TEST(AxisymmetricSheet, RingsStickWhereTheWaterlineIs) {
+TEST(AxisymmetricSheet, RingsStickAtTheWaterline) {
   for (const double drag_length : {0.0, 20.0}) {
     const Dip dip = sphere_dip(ringed_film(drag_length), 120, 4200);
     for (const Landing& landing : dip.landings()) {
@@ -293,8 +294,8 @@ TEST(AxisymmetricSheet, OnlyRelativeThicknessMatters) {
   EXPECT_LT(largest_difference(film_radii(thin, 500), film_radii(thick, 500)), 1e-10);
 }
 
-// Counted where it lands, by wetted area, and where it came from, by film area at rest.
-TEST(AxisymmetricSheet, DepositIsTheFilmThatWasTaken) {
+// The volume is computed from the wetted area where the film lands, and from its area at rest.
+TEST(AxisymmetricSheet, DepositedVolumeEqualsConsumedVolume) {
   const Film film = ringed_film(20);
   const Dip dip = sphere_dip(film, 150, 4200);
   double deposit = 0;

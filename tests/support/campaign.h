@@ -6,14 +6,14 @@
 
 namespace hydroprint::testing {
 
-/// The positive number in an environment variable; `otherwise` without it.
+/// Returns the positive number in an environment variable, or `otherwise` if it is not set.
 inline int number_in_environment(const char* variable, int otherwise) {
   const char* const text = std::getenv(variable);
   return text == nullptr ? otherwise : std::stoi(text);
 }
 
-/// How many random inputs a test tries: `sample` of them in `tests/run`. `tests/campaign`
-/// multiplies that (HYDROPRINT_ROUNDS_FACTOR).
+/// Number of random inputs of a test: `sample` in `tests/run`, multiplied in `tests/campaign`
+/// (HYDROPRINT_ROUNDS_FACTOR).
 inline int campaign_rounds(int sample) {
   return sample * number_in_environment("HYDROPRINT_ROUNDS_FACTOR", 1);
 }

@@ -25,7 +25,7 @@ Owned<EVP_PKEY> make_key() { return Owned<EVP_PKEY>(EVP_EC_gen("P-256")); }
 template <class Write>
 std::string pem_of(const Write& write) {
   const Owned<BIO> bio(BIO_new(BIO_s_mem()));
-  if (write(bio.get()) != 1) throw std::runtime_error("no PEM");
+  if (write(bio.get()) != 1) throw std::runtime_error("cannot write PEM");
   char* bytes = nullptr;
   const long size = BIO_get_mem_data(bio.get(), &bytes);
   return {bytes, static_cast<std::size_t>(size)};
@@ -41,11 +41,11 @@ void extend(X509& certificate, X509& issuer, int what, const std::string& value)
   const Owned<X509_EXTENSION> extension(
       X509V3_EXT_conf_nid(nullptr, &context, what, value.c_str()));
   if (!extension || X509_add_ext(&certificate, extension.get(), -1) != 1) {
-    throw std::runtime_error("no extension " + value);
+    throw std::runtime_error("cannot add the extension " + value);
   }
 }
 
-// Without issuer: its own.
+// Without an issuer, the certificate is self-signed.
 Owned<X509> make_certificate(EVP_PKEY& key, const std::string& name, const Wanted& wanted,
                              X509* issuer, EVP_PKEY& issuer_key) {
   Owned<X509> made(X509_new());
@@ -71,7 +71,8 @@ Owned<X509> make_certificate(EVP_PKEY& key, const std::string& name, const Wante
   if (!is_authority && !names.empty()) {
     extend(certificate, *issuer, NID_subject_alt_name, names);
   }
-  if (X509_sign(&certificate, &issuer_key, EVP_sha256()) == 0) throw std::runtime_error("unsigned");
+  if (X509_sign(&certificate, &issuer_key, EVP_sha256()) == 0)
+    throw std::runtime_error("cannot sign the certificate");
   return made;
 }
 

@@ -7,18 +7,18 @@
 
 namespace hydroprint::testing {
 
-/// PEM files' contents.
+/// Contents of the PEM files of a certificate and its key.
 struct KeyPair {
   std::string certificate, key;
 };
 
-/// What a certificate is to say.
+/// Requested contents of a certificate.
 struct Wanted {
-  std::vector<std::string> names{"DNS:localhost", "IP:127.0.0.1"};  ///< as OpenSSL writes them
-  int from_days = -1, to_days = 30;                                 ///< from now
+  std::vector<std::string> names{"DNS:localhost", "IP:127.0.0.1"};  ///< in OpenSSL's notation
+  int from_days = -1, to_days = 30;                                 ///< validity, from now
 };
 
-/// An authority of the test's own, whose certificates nobody else trusts.
+/// A certificate authority for tests, which no other program trusts.
 class Authority {
  public:
   Authority();
@@ -26,9 +26,9 @@ class Authority {
   Authority(const Authority&) = delete;
   Authority& operator=(const Authority&) = delete;
 
-  /// Its own certificate.
+  /// The certificate of the authority.
   [[nodiscard]] const std::string& pem() const { return pem_; }
-  /// A certificate with a new key.
+  /// Issues a certificate with a new key.
   [[nodiscard]] KeyPair issue(const Wanted& wanted = {}) const;
 
  private:
@@ -37,12 +37,12 @@ class Authority {
   std::string pem_;
 };
 
-/// The files of a daemon's certificate, in a folder.
+/// The files of a daemon's certificate and key in a folder.
 struct KeyPairFiles {
   explicit KeyPairFiles(const std::filesystem::path& folder)
       : certificate(folder / "certificate.pem"), key(folder / "key.pem") {}
 
-  /// Replaces both, each at once, as one should.
+  /// Replaces both files, each atomically.
   void write(const KeyPair& pair) const;
 
   std::filesystem::path certificate, key;

@@ -17,7 +17,7 @@ std::string talk(const std::filesystem::path& path, const std::string& lines) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::memcpy(address.sun_path, path.c_str(), path.native().size());
-  for (int i = 0; i < 6000; ++i) {  // a busy machine takes its time
+  for (int i = 0; i < 6000; ++i) {  // long, for busy machines
     if (::connect(out, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

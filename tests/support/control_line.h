@@ -5,8 +5,8 @@
 
 namespace hydroprint::testing {
 
-/// Sends lines to a control socket of hydroprint-virtual-rig, as soon as there is one; what comes
-/// back.
+/// Waits for the control socket of hydroprint-virtual-rig, sends lines to it, and returns the
+/// response.
 std::string talk(const std::filesystem::path& path, const std::string& lines);
 
 }  // namespace hydroprint::testing

@@ -15,64 +15,64 @@
 #include "sim/scan/frame.h"
 #include "sim/scan/lens.h"
 
-/// Depth frames of known scenes, as the virtual camera draws them: what the tests of scans know the
-/// truth by.
+/// Depth frames of known scenes, rendered by the virtual camera. They give tests of scans a known
+/// ground truth.
 namespace hydroprint::testing {
 
-/// To compute on.
+/// A context with two threads.
 [[nodiscard]] Context two_threads();
 
-/// The same lens, as scans have it.
+/// Converts a lens of the virtual camera to one for scans.
 [[nodiscard]] scan::Lens lens_of(const simulated_camera::Lens& lens);
 
-/// A rig with something in it, and the camera that looks at it. Film frame, mm.
+/// A rig with bodies and the camera that observes it. Film frame, mm.
 struct Rig {
-  simulated_camera::Lens lens;                       ///< the maker's
+  simulated_camera::Lens lens;                       ///< nominal lens
   simulated_scene::CameraStand stand;                ///< 0.8 m away
-  std::vector<simulated_scene::Marker> markers;      ///< as they stand; where they should, at first
-  std::vector<simulated_scene::MarkerState> states;  ///< of those
-  double gripper_mm = 150;                           ///< height of its lower end
-  std::vector<simulated_scene::Body> more;           ///< what else there is
-  bool furnished = true;                             ///< false: only `more` is there
-  simulated_camera::Errors errors;                   ///< that frames() have
+  std::vector<simulated_scene::Marker> markers;      ///< actual markers; initially nominal
+  std::vector<simulated_scene::MarkerState> states;  ///< states of the markers
+  double gripper_mm = 150;                           ///< height of the gripper's lower end
+  std::vector<simulated_scene::Body> more;           ///< additional bodies
+  bool furnished = true;                             ///< if false, there are only the bodies `more`
+  simulated_camera::Errors errors;                   ///< camera errors in frames()
 
   Rig();
   [[nodiscard]] Pose X_CF() const;
-  /// Depths without errors but the lens's, and not hindered by shadows.
+  /// A frame without errors except those of the lens, and without shadows.
   [[nodiscard]] scan::DepthFrame exact() const;
-  /// Frames of a camera with its errors, 30 a second; `seed` is the camera's, `first` the number of
-  /// its first frame.
+  /// Frames of a camera with errors, 30 per second; `seed` selects the camera, and `first` is the
+  /// number of the first frame.
   [[nodiscard]] std::vector<scan::DepthFrame> frames(int count, std::uint64_t seed,
                                                      int first = 0) const;
 };
 
-/// The film of these rigs.
+/// Size of the film of these rigs.
 [[nodiscard]] Eigen::Vector2d film_mm();
-/// Where these rigs should have their markers.
+/// Nominal layout of the markers of these rigs.
 [[nodiscard]] registration::MarkerLayout nominal_layout();
 
-/// A camera so far from the film's middle, so high over the water, turned about the vertical.
+/// A camera at a distance, elevation and azimuth from the film's middle.
 [[nodiscard]] simulated_scene::CameraStand stand_at(double distance_mm, double elevation_rad,
                                                     double azimuth_rad);
 
-/// Part of an image; the corner on multiples of the noise's patches.
+/// Part of an image; its corner is on multiples of the noise patches.
 struct Window {
   int u = 0, v = 0, width_px = 0, height_px = 0;
 };
 [[nodiscard]] scan::DepthFrame cropped(const scan::DepthFrame& frame, const Window& window);
 [[nodiscard]] scan::Lens cropped(scan::Lens lens, const Window& window);
 
-/// A surface where a pose puts it.
+/// A body with a surface in a pose.
 [[nodiscard]] simulated_scene::Body body_of(const mesh::Surface& surface, const Pose& X_FB);
 
-/// A model's surface, not subdivided.
+/// A model's surface without subdivision.
 [[nodiscard]] mesh::Surface surface_of(const mesh::Model& model);
 [[nodiscard]] mesh::Surface box(const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 /// A closed cylinder along z.
 [[nodiscard]] mesh::Surface cylinder(double radius_mm, double low_mm, double high_mm, int sides);
 
-/// A turn by such an angle about an axis drawn at random, with a shift of up to `shift_mm` each
-/// way.
+/// A rotation by `angle_rad` about a random axis, with a random translation of up to `shift_mm` in
+/// each direction.
 [[nodiscard]] Pose crooked(double angle_rad, double shift_mm, std::uint32_t seed);
 
 }  // namespace hydroprint::testing

@@ -1,6 +1,6 @@
-// main() of the tests that keep time, against drives whose patience is a tenth of a second. Such a
-// test says nothing on a machine that stood still meanwhile, so a failure counts only where the
-// machine kept time itself: else the program says by how much it did not, and runs once more.
+// main() of timing tests, which use drives with timeouts of 0.1 s. On a machine that stalled during
+// the test, the result means nothing. A failure therefore counts only if the machine kept time.
+// Otherwise the program prints the machine's delay and runs the tests again.
 #include <gtest/gtest.h>
 #include <pthread.h>
 #include <sched.h>
@@ -22,12 +22,12 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* kTry = "HYDROPRINT_TEST_TRY";
 constexpr int kTries = 3;
-// Below what any of these tests allows for.
+// Less than the tolerance of any of these tests.
 constexpr double kTolerated_s = 0.02;
 constexpr int kWatchedProcessors = 8;
 constexpr std::chrono::milliseconds kBeat{2};
 
-/// By how much the worst of many short sleeps was too long, on each of the first processors.
+/// Measures the largest delay of many short sleeps, on each of the first processors.
 class Lateness {
  public:
   Lateness() {
@@ -42,7 +42,7 @@ class Lateness {
   Lateness(const Lateness&) = delete;
   Lateness& operator=(const Lateness&) = delete;
 
-  /// Ends the watch; the worst.
+  /// Ends the measurement and returns the largest delay.
   double end() {
     end_ = true;
     for (std::thread& each : watches_) each.join();
@@ -90,8 +90,8 @@ int main(int argc, char** argv) {
   const double late_s = lateness.end();
   const int next = tries_before() + 1;
   if (result == 0 || late_s < kTolerated_s) return result;
-  std::cout << "The machine was " << 1000 * late_s << " ms late itself at try " << next << " of "
-            << kTries << std::endl;
+  std::cout << "The machine was " << 1000 * late_s << " ms late in try " << next << " of " << kTries
+            << std::endl;
   if (next == kTries) return result;
   ::setenv(kTry, std::to_string(next).c_str(), 1);
   ::execv(argv[0], again.data());

@@ -22,7 +22,7 @@ std::string content(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Opens a file under a given number; in the child, where only a few calls are safe.
+/// Opens a file as a given descriptor. Runs in the child, where only a few calls are safe.
 void open_as(int number, const char* path) {
   const int file = ::open(path, O_WRONLY | O_CREAT | O_APPEND, 0600);
   if (file == number) return;
@@ -41,14 +41,14 @@ Process::Process(std::vector<std::string> arguments, const ProcessOptions& optio
   start_s_ = seconds_now();
   pid_ = ::fork();
   if (pid_ != 0) return;
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a test that is killed takes its programs along
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // the program is killed when the test dies
   open_as(STDOUT_FILENO, out.c_str());
   open_as(STDERR_FILENO, err.c_str());
   if (options.close_stdout) ::close(STDOUT_FILENO);
   for (const auto& [number, path] : options.files) open_as(number, path.c_str());
   for (const auto& [number, ours] : options.inherited) {
     ::dup2(ours, number);
-    ::fcntl(number, F_SETFD, 0);  // dup2 onto itself would leave it closing at exec
+    ::fcntl(number, F_SETFD, 0);  // dup2 onto itself would keep close-on-exec
   }
   for (const auto& [resource, value] : options.limits) {
     const rlimit limit{value, value};

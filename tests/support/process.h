@@ -13,9 +13,9 @@
 
 namespace hydroprint::testing {
 
-/// How a program ended and what it said.
+/// Exit status and output of a program.
 struct Ended {
-  int status = -1;  ///< exit status; -1 if a signal ended it
+  int status = -1;  ///< exit status; -1 if it was killed by a signal
   int signal = 0;
   std::string out, err;
   double seconds = 0;
@@ -24,13 +24,13 @@ struct Ended {
 struct ProcessOptions {
   std::vector<std::pair<__rlimit_resource_t, rlim_t>> limits;
   bool close_stdout = false;
-  /// Files that the program finds open for writing, by their numbers.
+  /// Files that are open for writing in the program, by descriptor.
   std::vector<std::pair<int, std::filesystem::path>> files;
-  /// Descriptors of this process that it inherits: {its number, ours}.
+  /// Inherited descriptors: {descriptor in the program, descriptor in this process}.
   std::vector<std::pair<int, int>> inherited;
 };
 
-/// A program of ours, run as users run it; killed if the test forgets it.
+/// A running program of the project. The destructor kills it if it is still running.
 class Process {
  public:
   explicit Process(std::vector<std::string> arguments, const ProcessOptions& options = {});
@@ -40,7 +40,7 @@ class Process {
 
   void signal(int number) const;
   [[nodiscard]] bool running();
-  /// Waits for its end.
+  /// Waits until it has ended.
   Ended wait();
 
  private:

@@ -71,7 +71,7 @@ Errors errors_to(double theta_deg, const mesh::Surface& surface,
 
 Result<MeshSlope> mesh_slope(const mesh::Model& model, pipeline::DipOptions options,
                              const Context& context) {
-  // What the sheet's sweeps leave is no matter of the mesh.
+  // The residual of the sheet's sweeps does not depend on the mesh.
   options.sheet.tolerance_mm = 1e-4;
   options.sheet.most_sweeps = 20;
   const auto with_mesh = [&](double factor) {
@@ -88,7 +88,8 @@ Result<MeshSlope> mesh_slope(const mesh::Model& model, pipeline::DipOptions opti
   HP_ASSIGN_OR_RETURN(out.rms_mm_at_4, error(4));
   HP_ASSIGN_OR_RETURN(out.rms_mm_at_2, error(2));
   HP_ASSIGN_OR_RETURN(out.rms_mm_at_1, error(1));
-  out.slope = std::log2(out.rms_mm_at_4 / out.rms_mm_at_1) / 2;  // the line that fits three best
+  out.slope =
+      std::log2(out.rms_mm_at_4 / out.rms_mm_at_1) / 2;  // least-squares line through three points
   return out;
 }
 

@@ -7,11 +7,11 @@
 #include "sim/pipeline/pipeline.h"
 #include "sim/validate/measure.h"
 
-/// Dips of spheres, whose maps are known or can be compared, for tests and benchmarks.
+/// Dips of spheres with known or comparable maps, for tests and benchmarks.
 namespace hydroprint::testing {
 
-/// A dip at the default settings until one degree past `theta_deg`; the map without tiles, as
-/// `simulate --artifacts map` makes it.
+/// A dip at the default settings to one degree past `theta_deg`, with a map without tiles, as with
+/// `simulate --artifacts map`.
 [[nodiscard]] pipeline::DipOptions sphere_options(const std::string& film, double radius_mm,
                                                   double theta_deg);
 
@@ -19,12 +19,12 @@ namespace hydroprint::testing {
 inline constexpr double kOffCentreRadius_mm = 45;
 [[nodiscard]] pipeline::DipOptions off_centre_options(pipeline::FilmModel model);
 
-/// Every length by which the film is meshed times `factor`.
+/// Multiplies all mesh lengths of the film by `factor`.
 void scale_mesh(pipeline::DipOptions& options, double factor);
 
-/// The order in which the error of a dip falls with the lengths of its mesh: that of the film
-/// points of vertices to 120 degrees from a mesh of 0.4 times the lengths, over lengths from four
-/// times to once, steps and all else being the same.
+/// The order of a dip's error in its mesh lengths. The errors are those of the film points of
+/// vertices up to 120 degrees, for mesh lengths multiplied by 4, 2 and 1, compared with a mesh
+/// multiplied by 0.4. Steps and all other settings are the same.
 struct MeshSlope {
   double slope = 0;
   double rms_mm_at_4 = 0, rms_mm_at_2 = 0, rms_mm_at_1 = 0;
@@ -32,18 +32,18 @@ struct MeshSlope {
 [[nodiscard]] Result<MeshSlope> mesh_slope(const mesh::Model& model, pipeline::DipOptions options,
                                            const Context& context);
 
-/// All that a dip is divided into times `factor`: steps, mesh and, of second order, tolerances.
+/// Multiplies steps and mesh lengths by `factor`, and tolerances by its square.
 void scale_all(pipeline::DipOptions& options, double factor);
 
-/// Contact angle at which the film of a radius lands; NaN where it does not.
+/// Contact angle at which the film of a radius lands; NaN if it does not land.
 using ContactAngle = std::function<double(double film_mm)>;
 
-/// Per point of the surface of a centred sphere: the distance on the sphere between it and the
-/// place where the film found for it lands by a known map; NaN where no film was found.
+/// For each point on a centred sphere: the distance on the sphere between the point and the place
+/// where its computed film point lands by a known map; NaN without a film point.
 [[nodiscard]] std::vector<double> landing_distances_mm(const pipeline::Dip& dip, double radius_mm,
                                                        const ContactAngle& contact_angle_rad);
 
-/// Errors up to a contact angle.
+/// Errors of the points up to a contact angle.
 struct Errors {
   validate::Summary summary;
   std::size_t missing = 0;  ///< points without film

@@ -12,25 +12,26 @@
 
 namespace hydroprint::testing {
 
-/// A camera swept by hand over a rig, as the virtual camera draws it. Film frame, mm.
+/// A camera moved by hand over a rig, rendered by the virtual camera. Film frame, mm.
 class SweptCamera {
  public:
-  /// @param more       what is there beside the rig's own bodies and markers
-  /// @param furnished  false: only `more` is there
+  /// @param more       bodies in addition to the rig's own bodies and markers
+  /// @param furnished  if false, there are only the bodies `more`
   explicit SweptCamera(const std::vector<simulated_scene::Body>& more, std::uint64_t seed = 4,
                        bool has_errors = true, bool furnished = true);
 
-  /// The camera's own.
+  /// The camera's true lens.
   [[nodiscard]] scan::Lens lens() const;
-  /// Where it was at a frame; 30 of them a second.
+  /// Pose of the camera at a frame; there are 30 frames per second.
   [[nodiscard]] Pose X_FC(int frame) const;
-  /// What it saw there.
+  /// The depth frame at that pose.
   [[nodiscard]] scan::DepthFrame frame(int frame) const;
   [[nodiscard]] std::vector<scan::DepthFrame> frames(int count) const;
-  /// All that is there.
+  /// The whole scene.
   [[nodiscard]] const mesh::Surface& scene() const { return scene_; }
 
-  /// Over and over from 0.8 m before the film to the left, above and to the right, in 10 s.
+  /// The nominal path, repeated every 10 s: from 0.8 m before the film to the left, above and to
+  /// the right.
   simulated_scene::CameraStand stand;
 
  private:
@@ -41,7 +42,7 @@ class SweptCamera {
   std::unique_ptr<simulated_camera::Renderer> renderer_;
 };
 
-/// What a camera sees that looks straight at a wall.
+/// The depth frame of a camera that faces a wall.
 [[nodiscard]] scan::DepthFrame wall_frame(float depth_mm);
 
 }  // namespace hydroprint::testing

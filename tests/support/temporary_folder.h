@@ -10,12 +10,13 @@
 
 namespace hydroprint::testing {
 
-/// A folder of its own for one test, gone with all that is in it at the end.
+/// A temporary folder for one test, deleted with its contents by the destructor.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "hydroprint-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    if (mkdtemp(name.data()) == nullptr)
+      throw std::runtime_error("cannot create a temporary folder");
     path_ = name;
   }
   ~TemporaryFolder() {

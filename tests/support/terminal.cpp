@@ -60,7 +60,8 @@ void Terminal::look(std::chrono::milliseconds limit) {
   std::array<char, 4096> bytes{};
   const auto count = ::read(master_, bytes.data(), bytes.size());
   if (count > 0) screen_.append(bytes.data(), static_cast<std::size_t>(count));
-  if (count <= 0) std::this_thread::sleep_for(limit);  // it has ended: nothing more will come
+  if (count <= 0)
+    std::this_thread::sleep_for(limit);  // the program has ended; there is no more output
 }
 
 bool Terminal::shows(const std::string& words, std::chrono::milliseconds limit) {

@@ -9,7 +9,7 @@
 
 namespace hydroprint::testing {
 
-/// A program run at a terminal of its own, as a person sees it.
+/// A program running on its own terminal.
 class Terminal {
  public:
   explicit Terminal(std::vector<std::string> arguments);
@@ -17,21 +17,21 @@ class Terminal {
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
 
-  /// Presses keys.
+  /// Types keys.
   void type(const std::string& keys) const;
-  /// Presses a key again and again, as a keyboard does while it is held.
+  /// Repeats a key, as a keyboard does while the key is held.
   void hold(const std::string& key, std::chrono::milliseconds time,
             std::chrono::milliseconds repeat = std::chrono::milliseconds(30));
-  /// Waits until these words appeared since the last of this that was found; false after `limit`.
+  /// Waits until `words` appear after the previously found words; false after `limit`.
   [[nodiscard]] bool shows(const std::string& words,
                            std::chrono::milliseconds limit = std::chrono::seconds(20));
-  /// Waits for the end; exit status, -1 if it does not end within `limit`.
+  /// Waits for the program to end. Returns its exit status, or -1 after `limit`.
   int wait(std::chrono::seconds limit = std::chrono::seconds(20));
-  /// Whether what is typed is shown and comes by lines, as a shell wants it.
+  /// True if the terminal echoes input and passes it by lines, as a shell expects.
   [[nodiscard]] bool is_cooked() const;
 
   [[nodiscard]] pid_t pid() const { return pid_; }
-  /// All that was shown.
+  /// All output so far.
   [[nodiscard]] const std::string& screen() const { return screen_; }
 
  private:
