@@ -4,8 +4,8 @@
 
 namespace hydroprint {
 
-/// The API's .proto files and their imports as a serialised google.protobuf.FileDescriptorSet. It
-/// includes their comments, which generated code does not contain.
+/// A serialised google.protobuf.FileDescriptorSet of all .proto files of the API and their imports.
+/// It includes the comments, which generated code does not keep.
 [[nodiscard]] std::string_view described_protos();
 
 }  // namespace hydroprint

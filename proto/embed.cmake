@@ -1,4 +1,4 @@
-# Writes the file INPUT as an array to the C++ file OUTPUT; proto/described.h declares its accessor.
+# Writes the content of the file INPUT as an array into the C++ file OUTPUT; proto/described.h declares it.
 file(READ ${INPUT} bytes HEX)
 string(REGEX REPLACE "(..)" "'\\\\x\\1'," bytes "${bytes}")
 file(WRITE ${OUTPUT} "#include <string_view>

@@ -10,7 +10,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// "ipv4:127.0.0.1:50051" or "ipv6:%5B::1%5D:50051" without family, port and brackets.
+// The host in "ipv4:127.0.0.1:50051" or "ipv6:%5B::1%5D:50051".
 std::string address_in(const std::string& peer) {
   if (!peer.starts_with("ipv4:") && !peer.starts_with("ipv6:")) return peer;
   std::string host = peer.substr(5, peer.rfind(':') - 5);
@@ -22,8 +22,8 @@ std::string address_in(const std::string& peer) {
   return host;
 }
 
-/// The credentials of a call that came over the network. Its peer is the connection's; other
-/// metadata that the services trust is not taken from the client.
+/// The credentials of a call from the network. The peer is the connection's address; other metadata
+/// that the services trust is not taken from the client.
 auth::Credentials presented_credentials(const grpc::ServerContextBase& context) {
   auth::Credentials credentials = credentials_of(context);
   credentials.peer = address_in(context.peer());
@@ -34,8 +34,8 @@ bool is_grpcs_own(std::string_view method) {
   return method.starts_with("/grpc.health.v1.") || method.starts_with("/grpc.reflection.v1alpha.");
 }
 
-/// The call as the service sees it: this end of the channel within the process. Its events are
-/// passed to the call that it answers (`Peer`).
+/// The client end of the channel within the process, through which the call reaches the service.
+/// Passes its events to the forwarded call (`Peer`).
 template <class Peer>
 class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
@@ -46,9 +46,9 @@ class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
     for (const auto& [name, value] : metadata) context_.AddMetadata(name, value);
     context_.set_deadline(deadline);
     stub.PrepareBidiStreamingCall(&context_, method, {}, this);
-    AddHold();  // writes begin from outside this reactor's own reactions
+    AddHold();  // writes start outside this reactor's own callbacks
     StartCall();
-    // Always waiting: within a process, gRPC loses a response that is not read when the status
+    // A read is always pending, since gRPC loses an unread in-process response when the status
     // follows it.
     StartRead(&response);
   }
@@ -105,12 +105,12 @@ class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
 
   Peer& peer_;
   grpc::ClientContext context_;
-  std::mutex mutex_;  // of what follows
+  std::mutex mutex_;  // protects the members below
   bool is_closed_ = false;
   int inside_ = 0;
 };
 
-/// One forwarded call. A message is read when the one before was taken, in either direction.
+/// One forwarded call. In each direction, a message is read once the previous one was accepted.
 class ForwardedCall final : public grpc::ServerGenericBidiReactor {
  public:
   ForwardedCall(grpc::GenericStub& stub, const grpc::GenericCallbackServerContext& context,
@@ -119,12 +119,12 @@ class ForwardedCall final : public grpc::ServerGenericBidiReactor {
     read();
   }
 
-  // From the service:
+  // Called for the service.
   void read() { StartRead(&service_.request); }
   void respond() { StartWrite(&service_.response); }
   void finish(const grpc::Status& status) { Finish(status); }
 
-  // From the client:
+  // Called for the client.
   void OnReadDone(bool ok) override { ok ? service_.write() : service_.end_writing(); }
   void OnWriteDone(bool ok) override { ok ? service_.read() : service_.cancel(); }
   void OnCancel() override { service_.try_cancel(); }

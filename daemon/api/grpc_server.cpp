@@ -58,7 +58,7 @@ struct Server::Impl {
 
   RoleCheck roles;
   std::vector<std::unique_ptr<grpc::Service>> services;
-  std::unique_ptr<grpc::Server> within;  // the services; listens nowhere
+  std::unique_ptr<grpc::Server> within;  // the services; listens on no port
   std::unique_ptr<CallForwarder> forwarder;
   std::unique_ptr<grpc::Server> server;  // the endpoint
   Endpoint endpoint;
@@ -90,12 +90,12 @@ void Server::Impl::start_services(bool reflection, auth::AuditLog& audit) {
   builder.SetResourceQuota(grpc::ResourceQuota("hydroprintd").SetMaxThreads(kMostThreads));
   for (const auto& service : services) builder.RegisterService(service.get());
   within = builder.BuildAndStart();
-  grpc::EnableDefaultHealthCheckService(false);  // not of the endpoint itself
+  grpc::EnableDefaultHealthCheckService(false);  // the services provide it, not the endpoint
 }
 
 Status Server::Impl::listen(grpc::ServerBuilder& builder, const Endpoint& wanted,
                             tls::CurrentIdentity identity) {
-  // Without this a second daemon would silently share the port.
+  // Otherwise a second daemon would silently share the port.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   // Clients that say nothing are disconnected.
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshake_ms);
@@ -109,7 +109,7 @@ Status Server::Impl::listen(grpc::ServerBuilder& builder, const Endpoint& wanted
   if (!server || port == 0) {
     return fail(Code::kUnavailable,
                 "cannot listen at " + wanted.text() +
-                    ": the address is in use, perhaps by another hydroprintd; stop that, or give "
+                    ": the address is in use, perhaps by another hydroprintd; stop that, or set "
                     "another port with --grpc");
   }
   endpoint = {wanted.host, port};
@@ -128,7 +128,8 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   HP_ASSIGN_OR_RETURN(RoleCheck roles, RoleCheck::make(backend.access, names));
   std::unique_ptr<Server> server(new Server(std::make_unique<Impl>(std::move(roles), backend)));
   Impl& impl = *server->impl_;
-  grpc::ServerBuilder builder;  // before reflection is switched on, which would join the endpoint
+  grpc::ServerBuilder
+      builder;  // created before reflection is enabled, which would otherwise apply to the endpoint
   impl.start_services(reflection, backend.audit);
   impl.forwarder = std::make_unique<CallForwarder>(server->in_process(), impl.roles);
   HP_RETURN_IF_ERROR(impl.listen(builder, endpoint, std::move(identity)));

@@ -15,12 +15,11 @@ class Channel;
 
 namespace hydroprint::daemon {
 
-/// The services, health for each of them, reflection if wanted; and the gRPC endpoint, which admits
-/// calls and forwards them to the services (call_forwarder.h). The services are called within the
-/// process only.
+/// Runs the services within the process, with health and optional reflection. Also runs the gRPC
+/// endpoint, which admits calls and forwards them to the services (call_forwarder.h).
 class Server {
  public:
-  /// Listens; calls are answered from here on.
+  /// Starts listening and answering calls.
   /// @param identity  TLS certificate and key; null: without TLS
   /// @return kUnavailable if the address cannot be bound, usually because it is in use
   [[nodiscard]] static Result<std::unique_ptr<Server>> start(const Endpoint& endpoint,
@@ -31,16 +30,17 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// Channel to the services for another endpoint, which admits its own calls; may outlive this.
+  /// Channel to the services for another endpoint, which must admit its own calls. May outlive this
+  /// object.
   [[nodiscard]] std::shared_ptr<grpc::Channel> in_process() const;
   /// The check that every endpoint makes before it calls the services.
   [[nodiscard]] const RoleCheck& roles() const;
-  /// The address it listens at, with the real port.
+  /// The address it listens on, with the actual port.
   [[nodiscard]] const Endpoint& endpoint() const;
   /// Health status of the RigService; false at first.
   void set_rig_serving(bool serving);
-  /// Reports "not serving", takes no more calls, and waits for those that run; after `patience`
-  /// they are cancelled.
+  /// Reports "not serving", refuses new calls and waits for running ones; after `patience` they are
+  /// cancelled.
   void stop(std::chrono::milliseconds patience);
 
  private:

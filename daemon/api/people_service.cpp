@@ -68,7 +68,7 @@ v1::AuditEntry entry_message(const auth::AuditEntry& entry) {
   return out;
 }
 
-// Other users' keys and sessions do not exist for callers who are not admins.
+// Hides other users' keys and sessions from callers who are not admins.
 bool is_hidden(const Caller& caller, const std::string& owner) {
   return caller.role < Role::kAdmin && caller.name != owner;
 }

@@ -43,12 +43,12 @@ struct Session {
   std::int64_t use_ms = 0;
 };
 
-/// The headers of a request that say who calls.
+/// The headers of a request that identify the caller.
 struct Credentials {
-  std::string authorization;         ///< "Bearer KEY"; empty without
-  std::string session;               ///< token of the session cookie; empty without
-  std::optional<std::string> owner;  ///< Hydroprint-Owner: the name to use while there are no users
-  std::string peer;                  ///< address without port; empty within this process
+  std::string authorization;         ///< "Bearer KEY"; empty: none
+  std::string session;               ///< token of the session cookie; empty: none
+  std::optional<std::string> owner;  ///< Hydroprint-Owner: name to use while there are no users
+  std::string peer;                  ///< address without port; empty: within this process
 };
 
 /// The user or program that makes a request. Authenticator establishes it once per request.
@@ -58,7 +58,7 @@ struct Caller {
   std::string via;            ///< "session", "key 0a1b...", "loopback"
   std::string session;        ///< id of the session; empty if there is none
   bool is_user = true;        ///< false: there are no users, and callers on this machine are admins
-  Credentials credentials{};  ///< as presented
+  Credentials credentials{};  ///< as received
 };
 
 }  // namespace hydroprint::auth

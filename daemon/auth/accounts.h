@@ -94,13 +94,13 @@ class Accounts {
   /// calibrations or the audit log still refer to it
   [[nodiscard]] Result<User> create(const User& user, const std::string& password,
                                     bool returns = false);
-  /// Changes a user. LAST_ADMIN
+  /// Changes a user. Errors: LAST_ADMIN.
   [[nodiscard]] Result<User> update(const std::string& name, const UserChange& change);
   /// Sets a password and ends all sessions of the user except the one with id `spared`.
   /// @param password  empty: removes the password
   [[nodiscard]] Result<User> set_password(const std::string& name, const std::string& password,
                                           const std::string& spared);
-  /// Deletes a user with keys and sessions. LAST_ADMIN
+  /// Deletes a user with keys and sessions. Errors: LAST_ADMIN.
   [[nodiscard]] Status remove(const std::string& name);
 
   // Sessions.
@@ -120,7 +120,7 @@ class Accounts {
   /// Valid sessions of a user, or of all users (empty), sorted by id, after `after`.
   [[nodiscard]] std::vector<Session> sessions(const std::string& user, const std::string& after,
                                               std::size_t limit) const;
-  /// SESSION_NOT_FOUND
+  /// The session with this id. Errors: SESSION_NOT_FOUND.
   [[nodiscard]] Result<Session> session(const std::string& id) const;
   /// Ends a session; no error if it has already ended.
   [[nodiscard]] Status end_session(const std::string& id);
@@ -139,7 +139,7 @@ class Accounts {
   /// Keys of a user, or of all users (empty), sorted by id, after `after`.
   [[nodiscard]] std::vector<ApiKey> keys(const std::string& user, const std::string& after,
                                          std::size_t limit) const;
-  /// KEY_NOT_FOUND
+  /// The key with this id. Errors: KEY_NOT_FOUND.
   [[nodiscard]] Result<ApiKey> key(const std::string& id) const;
   /// Deletes a key; no error if it does not exist.
   [[nodiscard]] Status remove_key(const std::string& id);

@@ -31,9 +31,9 @@ bool is_loopback(const std::string& address) {
 tl::unexpected<Error> sign_in_needed(const auth::Credentials& credentials) {
   const bool has_some = !credentials.authorization.empty() || !credentials.session.empty();
   return fail(Code::kUnauthenticated,
-              has_some ? "the API key or the session is not valid (any more); sign in again, or "
+              has_some ? "the API key or session is no longer valid; sign in again, or "
                          "create another API key"
-                       : "sign in (hydroprint login), or give an API key",
+                       : "sign-in required; sign in (hydroprint login), or give an API key",
               "SIGN_IN_NEEDED");
 }
 
@@ -50,7 +50,7 @@ Result<auth::Caller> Authenticator::caller(const auth::Credentials& credentials,
   }
   std::optional<auth::Caller> caller;
   if (!credentials.authorization.empty()) {
-    // An invalid key is refused even beside a valid session.
+    // An invalid key is refused even with a valid session.
     if (credentials.authorization.starts_with(kBearer)) {
       const auto key = std::string_view(credentials.authorization).substr(kBearer.size());
       caller = accounts_.by_key(key, is_use);
@@ -66,7 +66,7 @@ Result<auth::Caller> Authenticator::caller(const auth::Credentials& credentials,
 Status check_role(const auth::Caller& caller, auth::Role needed) {
   if (caller.role >= needed) return {};
   auto refused = fail(Code::kPermissionDenied,
-                      caller.name + " is " + auth::name_of(caller.role) + " here, and this needs " +
+                      caller.name + " is " + auth::name_of(caller.role) + ", but this needs " +
                           auth::name_of(needed) + "; ask an admin",
                       "ROLE_TOO_LOW");
   refused.value().metadata = {{"role", auth::name_of(caller.role)},

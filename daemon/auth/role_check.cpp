@@ -17,7 +17,7 @@ Result<Need> need_of(const MethodDescriptor& method) {
     return is_open ? Need() : Need(static_cast<auth::Role>(role));
   }
   return fail(Code::kInternal, method.full_name() +
-                                   ": does not state who may call it; give it either the option "
+                                   ": states no access rule; give it either the option "
                                    "role or without_sign_in (hydroprint/v1/access.proto)");
 }
 

@@ -15,15 +15,15 @@ class MethodDescriptor;
 
 namespace hydroprint::daemon {
 
-/// The least role that may call a method; nullopt: no sign-in is needed.
+/// The role required to call a method; nullopt: no sign-in is needed.
 using Need = std::optional<auth::Role>;
 
 /// The role that a method states in its options (access.proto).
 /// @return kInternal if it states none, or both a role and `without_sign_in`
 [[nodiscard]] Result<Need> need_of(const google::protobuf::MethodDescriptor& method);
 
-/// Admits requests, from their headers alone: the one place where roles are checked. Both endpoints
-/// ask it before they read a message or a body. Any thread may call.
+/// Admits requests by their headers. Roles are checked only here, by both endpoints, before they
+/// read a message or a body. Thread-safe.
 class RoleCheck {
  public:
   /// @param services  full names: "hydroprint.v1.JobService"
@@ -32,10 +32,10 @@ class RoleCheck {
                                               const std::vector<std::string>& services);
 
   /// Establishes the caller and checks the role. nullopt: the method needs no sign-in and the
-  /// caller is not known. A stop is never refused because of the name in `hydroprint-owner`.
+  /// caller is unknown. A stop is never refused because of the name in `hydroprint-owner`.
   /// @param method  "/hydroprint.v1.JobService/GetJob"
   /// @return kUnauthenticated, SIGN_IN_NEEDED; kPermissionDenied, ROLE_TOO_LOW; kUnimplemented for
-  ///   an unknown method; as Authenticator::caller()
+  /// an unknown method; errors of Authenticator::caller()
   [[nodiscard]] Result<std::optional<auth::Caller>> admit(
       std::string_view method, const auth::Credentials& credentials) const;
 

@@ -50,7 +50,7 @@ struct Config {
   std::int64_t camera_patience_s = 5;        ///< camera.patience_s: timeout for answers
   std::string camera_layout;                 ///< camera.layout: file with markers and camera
   double camera_gripper_water_mm = 0;        ///< camera.gripper_water_mm of the axis; 0: unknown
-  std::string people_accounts = "loopback-open";  ///< people.accounts; or "required"
+  std::string people_accounts = "loopback-open";  ///< people.accounts: this or "required"
   std::int64_t people_password_memory_mib = 64;   ///< people.password_memory_mib
   std::int64_t people_password_passes = 3;        ///< people.password_passes
   std::int64_t people_session_idle_h = 12;        ///< people.session_idle_h

@@ -14,25 +14,25 @@
 
 namespace hydroprint::http {
 
-/// What happens to a header field that is not printable ASCII, which gRPC cannot carry.
+/// How to handle a header field that is not printable ASCII, which gRPC cannot carry.
 enum class Unprintable {
   kRefuse,   ///< SPEC_INVALID
-  kReplace,  ///< each such byte becomes '?', so that a stop is never refused because of it
+  kReplace,  ///< replaces each such byte with '?', so that a stop is never refused
 };
 
 /// The credentials in a request's head: Authorization, Hydroprint-Owner, and the session cookie.
 [[nodiscard]] Result<auth::Credentials> credentials_in(
     const Head& head, const std::string& peer, Unprintable unprintable = Unprintable::kRefuse);
 
-/// Establishes the caller of an API method from the request's head and checks its role, before the
+/// Establishes the caller of an API method from the request's head and checks the role, before the
 /// body is read.
 /// @param method  "/hydroprint.v1.JobService/GetJob"
-/// @return the metadata that tells the services who calls
+/// @return metadata that identifies the caller to the services
 [[nodiscard]] Result<InProcessChannel::Metadata> admit(const ServerContext& server,
                                                        Exchange& exchange,
                                                        const std::string& method);
 
-/// The value of a cookie; nullopt without it.
+/// The value of a cookie; nullopt if it is not sent.
 [[nodiscard]] std::optional<std::string_view> cookie(const HeaderFields& fields,
                                                      std::string_view name);
 

@@ -26,7 +26,7 @@ std::string printable(std::string_view text) {
     for (std::size_t j = 1; good && j < length; ++j) {
       good = (static_cast<unsigned char>(text[i + j]) & 0xc0) == 0x80;
     }
-    // Exclude overlong forms, surrogates and C1 controls.
+    // Excludes overlong forms, surrogates and C1 controls.
     if (good && length > 1) {
       const auto d = static_cast<unsigned char>(text[i + 1]);
       good = !(c == 0xe0 && d < 0xa0) && !(c == 0xed && d >= 0xa0) && !(c == 0xc2 && d < 0xa0);

@@ -23,7 +23,7 @@ const std::string kDefaultReason = "SPEC_INVALID";
 
 bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }
 
-// Quotes a value sent by a client, shortened and without control characters.
+// Quotes a value that a client sent, shortened and without control characters.
 std::string quoted(const std::string& text) {
   std::string out = text.substr(0, kLongestQuote);
   std::replace_if(out.begin(), out.end(), is_control, '?');
@@ -117,14 +117,14 @@ class Checker {
     const std::size_t before = violations_.size();
     for (int i = 0; i < count; ++i) {
       const bool has_places = field.message_type() != nullptr && !field.is_map();
-      // For a list of plain values, only the first violation is reported.
+      // One violation is enough for a list of plain values.
       if (!has_places && violations_.size() > before) return;
       check_value(message, field, rules, i,
                   has_places ? path + "[" + std::to_string(i) + "]" : path);
     }
   }
 
-  // `at` is the index in a repeated field, or -1 if the field is not repeated.
+  // `at` is the index in a repeated field; -1 for a field that is not repeated.
   void check_value(const pb::Message& message, const pb::FieldDescriptor& field,
                    const v1::FieldRules& rules, int at, const std::string& path) {
     if (field.is_map()) {
@@ -143,7 +143,7 @@ class Checker {
     }
   }
 
-  // The rules of a map apply to its keys and values.
+  // The rules of a map apply to its keys and to its values.
   void check_map_entry(const pb::Message& message, const pb::FieldDescriptor& field,
                        const v1::FieldRules& rules, int at, const std::string& path) {
     const pb::Message& entry = message.GetReflection()->GetRepeatedMessage(message, &field, at);

@@ -11,22 +11,22 @@ class Message;
 
 namespace hydroprint::rules {
 
-/// A violation of a field's rules.
+/// A field that breaks its rules.
 struct Violation {
-  std::string field;    ///< its path: "simulate.dpi", "simulate.extra_files[1].name"
+  std::string field;    ///< path of the field: "simulate.dpi", "simulate.extra_files[1].name"
   std::string problem;  ///< "must be from 20 to 2400 dots per inch"
   std::string reason;   ///< name of an ErrorReason
 
   bool operator==(const Violation&) const = default;
 };
 
-/// Checks of notations, by name (FieldRules.format). A check returns a description of the problem,
-/// or an empty string. Notations without an entry are not checked.
+/// Checks of notations by their names (FieldRules.format). Each returns the problem with a text, or
+/// an empty string. A notation without a check is not checked.
 using FormatChecks = std::map<std::string, std::function<std::string(const std::string& text)>>;
 
-/// Checks a message and its nested messages. Read-only fields are ignored.
-/// @param path  path of the message itself, for Violation::field; empty at the root
-/// @return all violations in declaration order, at most one for each field
+/// Checks a message and the messages in it. Read-only fields are ignored.
+/// @param path  path of the message itself, for Violation::field; empty: the root
+/// @return all violations, in the order of the fields' declarations; one for each field
 [[nodiscard]] std::vector<Violation> check(const google::protobuf::Message& message,
                                            const FormatChecks& formats = {},
                                            const std::string& path = {});

@@ -15,7 +15,7 @@ namespace {
 
 namespace pb = google::protobuf;
 
-// Returns the shortest notation without an exponent.
+// The shortest decimal notation without an exponent.
 std::string number_text(double value) {
   std::array<char, 400> buffer{};
   const auto end =
@@ -23,7 +23,7 @@ std::string number_text(double value) {
   return {buffer.data(), end.ptr};
 }
 
-// Formats a duration in the largest unit that divides it: "8 hours".
+// A duration in the largest unit that divides it: "8 hours".
 std::string duration_text(double seconds) {
   struct Unit {
     double seconds;
@@ -43,8 +43,8 @@ bool is_duration(const pb::FieldDescriptor& field) {
          field.message_type()->full_name() == "google.protobuf.Duration";
 }
 
-// "sheet" for "MODEL_SHEET": removes the prefix, which is known from the zero value
-// ("MODEL_UNSPECIFIED").
+// "sheet" for "MODEL_SHEET": without the prefix, which the zero value ("MODEL_UNSPECIFIED")
+// defines.
 std::string choice_text(const pb::EnumValueDescriptor& value) {
   constexpr std::string_view kZero = "UNSPECIFIED";
   const std::string& zero = value.type()->value(0)->name();

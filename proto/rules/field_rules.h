@@ -11,28 +11,27 @@ namespace hydroprint::v1 {
 class FieldRules;
 }
 
-/// The field rules declared in the .proto files (hydroprint/v1/field_rules.proto).
+/// The rules that the .proto files declare with their fields (hydroprint/v1/field_rules.proto).
 namespace hydroprint::rules {
 
-/// Returns the rules of a field; null if it has none.
+/// The rules of a field; null if it has none.
 [[nodiscard]] const v1::FieldRules* rules_of(const google::protobuf::FieldDescriptor& field);
 
-/// Returns the range: "from 20 to 2400 dots per inch", "above 0 and at most 4"; empty if there is
-/// none.
+/// "from 20 to 2400 dots per inch", "above 0 and at most 4"; empty if there is no range.
 [[nodiscard]] std::string range_text(const google::protobuf::FieldDescriptor& field);
 
-/// Returns the allowed values of a text or enum, as written by people: "sheet", "stokes". Empty if
-/// there is no such list.
+/// The allowed values of a text or enum, as people write them: "sheet", "stokes". Empty if they are
+/// not restricted.
 [[nodiscard]] std::vector<std::string> choices(const google::protobuf::FieldDescriptor& field);
 
-/// Returns the default, as written by people: "300", "sheet"; empty if none is declared.
+/// The default, as people write it: "300", "sheet"; empty if none is declared.
 [[nodiscard]] std::string default_text(const google::protobuf::FieldDescriptor& field);
 
-/// Returns range, choices and default for help texts: "from 20 to 2400 dots per inch; default 300".
-/// Empty if the field has none of these.
+/// Range, choices and default for help texts: "from 20 to 2400 dots per inch; default 300". Empty
+/// if the field has none of them.
 [[nodiscard]] std::string help_text(const google::protobuf::FieldDescriptor& field);
 
-/// Returns the name of the field's command-line flag without leading dashes: "dip-speed-mm-per-s".
+/// Name of the field's command-line flag, without dashes before it: "dip-speed-mm-per-s".
 [[nodiscard]] std::string flag_of(const google::protobuf::FieldDescriptor& field);
 
 }  // namespace hydroprint::rules

@@ -11,7 +11,7 @@ struct ScheduleOptions {
   /// Surface wetted between two waterlines, as a width: swept area over waterline length. So a
   /// sphere is divided evenly in theta. This value is for bodies with at least the surface of a
   /// sphere of radius kLarge_mm. For smaller bodies it is multiplied by the power 2/3 of the ratio
-  /// of radii, and likewise where the surface has a small radius of curvature upward, so that the
+  /// of radii. The same holds where the surface has a small radius of curvature upward, so that the
   /// error in mm stays about the same. It is halved where the waterline crosses creases.
   double swept_mm = 3.2;
   static constexpr double kLarge_mm = 42;

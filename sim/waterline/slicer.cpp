@@ -76,9 +76,9 @@ std::vector<Contour> Slicer::cut(double immersion_mm) const {
     const int lone = is_wet(0) == is_wet(1) ? 2 : (is_wet(0) == is_wet(2) ? 1 : 0);
     const Crossing c = cross(*body_, t, lone, (lone + 1) % 3, immersion_mm);
     const Crossing d = cross(*body_, t, lone, (lone + 2) % 3, immersion_mm);
-    // Corners are counter-clockwise as seen from outside. For a dry lone corner, the cut runs from
-    // the edge to the next corner to the edge to the previous one, with the solid on its left; for
-    // a wet lone corner, it is reversed.
+    // Corners are counter-clockwise as seen from outside. If the lone corner is dry, the cut starts
+    // on its edge to the next corner and ends on its edge to the previous corner, so that the solid
+    // is on the left. If it is wet, the cut is reversed.
     const Crossing& from = wet == 1 ? d : c;
     const Crossing& to = wet == 1 ? c : d;
     cuts.push_back(

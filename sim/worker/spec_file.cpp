@@ -38,7 +38,8 @@ Result<std::string> read_stdin() {
     if (got < 0) return fail(Code::kDataLoss, std::string("stdin: ") + std::strerror(errno));
     if (got == 0) return text;
     text.append(chunk.data(), static_cast<std::size_t>(got));
-    if (text.size() > kMaxBytes) return fail(Code::kOutOfRange, "stdin: larger than 16 MiB");
+    if (text.size() > kMaxBytes)
+      return fail(Code::kOutOfRange, "stdin: larger than 16 MiB. Give a smaller spec");
   }
 }
 
@@ -54,7 +55,8 @@ Status parse(const std::string& json, const std::filesystem::path& file, Message
 
 Status check_file(const std::string& field, const v1::InputFile& file,
                   const std::filesystem::path& inputs) {
-  if (file.name().empty()) return fail_field(Code::kInvalidArgument, field + ".name", "missing");
+  if (file.name().empty())
+    return fail_field(Code::kInvalidArgument, field + ".name", "missing. Name a file");
   const auto opened = open_input_file(inputs / file.name());
   if (!opened) return fail_field(opened.error().code, field, opened.error().message);
   return {};

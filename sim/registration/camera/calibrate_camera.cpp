@@ -31,7 +31,7 @@ constexpr std::array kNames{"focal length across", "focal length down", "image c
                             "distortion p1",       "distortion p2",     "depth scale"};
 
 tl::unexpected<Error> poor(const std::string& why) {
-  return fail(Code::kFailedPrecondition, "the views do not calibrate the camera: " + why,
+  return fail(Code::kFailedPrecondition, "the camera cannot be calibrated from these views: " + why,
               "POOR_VIEWS");
 }
 

@@ -25,10 +25,10 @@ struct CameraCalibration : scan::Camera {
 /// @param nominal  prior with these standard deviations: a tenth of the focal length, 15 pixels for
 ///                 the image centre, 0.3 and 1 for radial and 0.01 for tangential distortion, and a
 ///                 twentieth of the scale
-/// Fails (kFailedPrecondition, POOR_VIEWS) with a message on how to improve the views: if fewer
-/// than five show the board, they cover less than 60 % of the image, their tilts are within 25
-/// degrees, their distances are within 15 %, residuals exceed twice the noise, or a parameter is
-/// known no better than to a third of its prior standard deviation.
+/// Fails (kFailedPrecondition, POOR_VIEWS) with a message on how to improve the views. The views
+/// must show the board at least five times, cover 60 % of the image, and differ by 25 degrees in
+/// tilt and by 15 % in distance. Residuals must be within twice the noise. All parameters must be
+/// known better than to a third of their prior standard deviations.
 [[nodiscard]] Result<CameraCalibration> calibrate_camera(std::span<const scan::FusedFrame> views,
                                                          const mesh::Surface& board,
                                                          const scan::Lens& nominal,

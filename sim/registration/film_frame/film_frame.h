@@ -11,7 +11,7 @@ namespace hydroprint::registration {
 struct MarkerReport {
   std::string name;
   bool used = false;
-  double rms_mm = 0;       ///< of its points from its surface, placed by the fit of all markers
+  double rms_mm = 0;  ///< rms distance of its points from its surface, in the fit of all markers
   double residual_mm = 0;  ///< distance of its own fit from its place in the fit of all markers
   std::string why_not;     ///< if not used: hidden, moved or not its shape
 };
@@ -38,9 +38,9 @@ struct FilmFrame {
 /// out those that disagree with the layout (agreeing), and fits all others together.
 /// @param nominal_CF  the film's pose in the rig's configuration, accurate to about 30 degrees. It
 ///                    defines up, and tells the two ends of a symmetrical layout apart
-/// Fails with kInvalidArgument if the layout has fewer than three markers, as find_plane() does,
-/// and with TOO_FEW_MARKERS (kFailedPrecondition) if fewer than three can be used or three do not
-/// agree. The message states the problem of each marker.
+/// Fails with kInvalidArgument if the layout has fewer than three markers. Fails with
+/// TOO_FEW_MARKERS (kFailedPrecondition) if fewer than three can be used, or three do not agree;
+/// the message states the problem of each marker. Also fails as find_plane() does.
 [[nodiscard]] Result<FilmFrame> find_film_frame(const scan::Cloud& cloud,
                                                 const MarkerLayout& layout, const Pose& nominal_CF,
                                                 const Context& context);

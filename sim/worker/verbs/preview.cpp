@@ -130,7 +130,8 @@ Status read_request(const std::string& line, const pipeline::DipOptions& otherwi
   const auto id = json.find("id");
   if (id == json.end() || !id->is_number_unsigned() ||
       id->get<std::uint64_t>() > std::uint64_t{1} << 53) {
-    return fail(Code::kInvalidArgument, "id: not a whole number. Give each request one");
+    return fail(Code::kInvalidArgument,
+                "id: missing, or not a whole number. Give each request one");
   }
   request.id = id->get<std::int64_t>();
   for (const auto& [key, value] : json.items()) HP_RETURN_IF_ERROR(take(request, key, value));

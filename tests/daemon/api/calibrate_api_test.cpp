@@ -91,7 +91,7 @@ TEST_F(CalibrateApi, CameraFaultsAreNamed) {
   EXPECT_EQ(reason("camera gone", true), "CAMERA_GONE");
   EXPECT_EQ(reason("camera frozen", true), "CAMERA_FROZEN");
   EXPECT_EQ(reason("camera black", true), "CAMERA_BLACK");
-  EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "and all is well again";
+  EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "captures work again";
 }
 
 TEST_F(CalibrateApi, HangingCameraFailsTheCapture) {
@@ -106,7 +106,7 @@ TEST_F(CalibrateApi, CapturesRunOneAtATimeAndCanBeCancelled) {
   const v1::Job job = create(capture_of(20));
   EXPECT_EQ(job.state(), v1::Job::RUNNING);
   EXPECT_EQ(refusal(capture_of(1)).reason(), "STATE_FORBIDS");
-  EXPECT_EQ(ann->queue().running_jobs_size(), 0) << "no worker is at it";
+  EXPECT_EQ(ann->queue().running_jobs_size(), 0) << "it occupies no worker";
   ann->wait(job.name(), [](const v1::Job& now) { return now.progress_fraction() > 0; });
   ann->cancel(job.name());
   EXPECT_EQ(done(job).state(), v1::Job::CANCELLED);
@@ -184,7 +184,7 @@ TEST_F(CalibrateApi, CalibrationOutlivesTheDaemonAndItsCapture) {
   retry.set_name(found.job());
   v1::Job again;
   ASSERT_TRUE(ann->jobs->RetryJob(ann->context().get(), retry, &again).ok());
-  EXPECT_EQ(done(again).state(), v1::Job::SUCCEEDED) << "its frames are still there";
+  EXPECT_EQ(done(again).state(), v1::Job::SUCCEEDED) << "its frames still exist";
   EXPECT_EQ(all().size(), 2U);
 }
 
@@ -228,13 +228,14 @@ TEST_F(CalibrateApi, ActiveLensIsTheDefault) {
   EXPECT_EQ(given_spec(ann->download(found.job() + "/artifacts/spec.json"))["camera"]["name"],
             "rig/camera.json");
   EXPECT_EQ(ann->job(found.job()).calibrate().camera_calibration(), lens.name());
-  EXPECT_TRUE(get(lens.name()).active()) << "each kind has its own";
+  EXPECT_TRUE(get(lens.name()).active()) << "each kind has its own active calibration";
   v1::Job other = calibrate_of(capture, kMesh);
   other.mutable_calibrate()->set_camera_calibration(found.name());
-  EXPECT_EQ(refusal(other).reason(), "SPEC_INVALID") << "that is no lens";
+  EXPECT_EQ(refusal(other).reason(), "SPEC_INVALID") << "not a lens calibration";
   other.mutable_calibrate()->set_camera_calibration("calibrations/99");
   EXPECT_EQ(refusal(other).reason(), "CALIBRATION_MISSING");
-  EXPECT_EQ(refusal(simulate_by(lens.name())).reason(), "SPEC_INVALID") << "nor that an object";
+  EXPECT_EQ(refusal(simulate_by(lens.name())).reason(), "SPEC_INVALID")
+      << "not the calibration of an object";
 }
 
 TEST_F(CalibrateApi, SimulateUsesPoseFilmAndScaleOfTheCalibration) {
@@ -276,7 +277,7 @@ TEST_F(CalibrateApi, StaleCalibrationIsRefusedUnlessAllowed) {
   wanted.mutable_simulate()->set_allow_stale_calibration(true);
   EXPECT_EQ(refusal(wanted).reason(), "");
   ann->go_to(kAxis_mm);
-  EXPECT_EQ(get(found.name()).stale_size(), 0) << "it is back";
+  EXPECT_EQ(get(found.name()).stale_size(), 0) << "the axis is back in place";
   ASSERT_TRUE(ann->home().ok());
   ASSERT_TRUE(ann->becomes(v1::Rig::IDLE, 30));
   ann->go_to(kAxis_mm);
@@ -289,7 +290,7 @@ TEST_F(CalibrateApi, StaleCalibrationIsRefusedUnlessAllowed) {
   EXPECT_EQ(get(found.name()).stale(0), v1::Calibration::HOMED);
   ann->make_ready();
   ann->go_to(kAxis_mm);
-  EXPECT_EQ(get(found.name()).stale(0), v1::Calibration::HOMED) << "nor after another day's homing";
+  EXPECT_EQ(get(found.name()).stale(0), v1::Calibration::HOMED) << "still stale after homing again";
 }
 
 TEST_F(CalibrateApi, DipUsesTheMeasuredFirstContact) {
@@ -318,7 +319,8 @@ TEST_F(CalibrateApi, DipUsesTheMeasuredFirstContact) {
   const v1::Job told = create(wanted);
   EXPECT_TRUE(has(told.dip_status().warnings(0), "dipped")) << told.ShortDebugString();
   const v1::Job looks = ann->guide_to(told.name(), v1::DipStatus::FIND_CONTACT);
-  EXPECT_TRUE(has(looks.dip_status().instruction(), "jog down")) << "somebody has to look";
+  EXPECT_TRUE(has(looks.dip_status().instruction(), "jog down"))
+      << "the operator has to find first contact";
   ann->cancel(told.name());
 }
 
@@ -352,7 +354,7 @@ TEST_F(CalibrateApi, CalibrationCanBeEnteredByHand) {
   for (const double x : {1.0, 0.0, 0.0, 0.0}) entered.mutable_pose()->add_rotation_wxyz(x);
   for (const double x : {1.0, 2.0, 0.0}) entered.mutable_pose()->add_translation_mm(x);
   ASSERT_TRUE(enter().ok());
-  EXPECT_EQ(made.job(), "") << "what the daemon sets is not taken";
+  EXPECT_EQ(made.job(), "") << "read-only fields are ignored";
   EXPECT_TRUE(made.active());
   EXPECT_EQ(made.scale(), 1);
   EXPECT_FALSE(made.has_contact_mm());

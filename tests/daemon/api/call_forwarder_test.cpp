@@ -21,7 +21,7 @@ using auth::Role;
 using std::chrono::seconds;
 constexpr std::size_t kPiece_bytes = 100'000;
 
-/// Reports its caller; pausing fails with a reason or, without one, waits until it is cancelled.
+/// Reports its caller. Pausing fails with a reason; without one it waits until it is cancelled.
 class Queue final : public v1::QueueService::Service {
  public:
   grpc::Status GetQueue(grpc::ServerContext* context, const v1::GetQueueRequest*,
@@ -47,7 +47,7 @@ class Queue final : public v1::QueueService::Service {
   std::atomic<bool> was_cancelled = false;
 };
 
-/// Adds up the bytes of an upload; breaks off after one piece if the upload is called "short".
+/// Counts the bytes of an upload; ends early after one piece if the upload is named "short".
 class Assets final : public v1::AssetService::Service {
  public:
   grpc::Status UploadChunk(grpc::ServerContext*, grpc::ServerReader<v1::UploadChunkRequest>* reader,
@@ -63,7 +63,7 @@ class Assets final : public v1::AssetService::Service {
   }
 };
 
-/// Sends as many pieces as the offset says.
+/// Sends `offset` pieces.
 class Artifacts final : public v1::ArtifactService::Service {
  public:
   grpc::Status DownloadArtifact(grpc::ServerContext*, const v1::DownloadArtifactRequest* request,
@@ -107,7 +107,7 @@ class Forwarder : public auth::PeopleTest {
     context->set_deadline(std::chrono::system_clock::now() + seconds(20));
     return context;
   }
-  /// "NAME VIA PEER" as the service sees the caller; "" if the call is refused.
+  /// "NAME VIA PEER" of the caller that the service sees; "" if the call is refused.
   std::string caller(const Metadata& metadata) {
     v1::Queue reply;
     return stub->GetQueue(context(metadata).get(), {}, &reply).ok() ? reply.pause_reason() : "";
@@ -143,7 +143,7 @@ TEST_F(Forwarder, NothingThatAClientSendsPassesForAnEstablishedCaller) {
   EXPECT_EQ(caller({{"hydroprint-caller", "root"}, {"hydroprint-caller-role", "4"}}), "");
 }
 
-TEST_F(Forwarder, ACallIsRefusedBeforeItsMessageIsRead) {
+TEST_F(Forwarder, CallIsRefusedBeforeItsMessageIsRead) {
   add("ann", Role::kAdmin);
   const auto call = context();
   grpc::CompletionQueue completions;
@@ -161,7 +161,7 @@ TEST_F(Forwarder, ACallIsRefusedBeforeItsMessageIsRead) {
   EXPECT_EQ(queue.calls, 0);
 }
 
-TEST_F(Forwarder, ARefusalCarriesItsReason) {
+TEST_F(Forwarder, RefusalCarriesItsReason) {
   v1::PauseQueueRequest request;
   request.set_reason("film runs out");
   v1::Queue reply;
@@ -171,7 +171,7 @@ TEST_F(Forwarder, ARefusalCarriesItsReason) {
   EXPECT_NE(status.error_details().find("STATE_FORBIDS"), std::string::npos);
 }
 
-TEST_F(Forwarder, AClientThatCancelsCancelsTheService) {
+TEST_F(Forwarder, CancelReachesTheService) {
   const auto call = context();
   std::thread canceller([&] {
     while (queue.calls == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -194,7 +194,7 @@ TEST_F(Forwarder, TheClientsDeadlineHoldsForTheService) {
             grpc::StatusCode::DEADLINE_EXCEEDED);
 }
 
-TEST_F(Forwarder, AStreamOfTheClientArrivesWhole) {
+TEST_F(Forwarder, ClientStreamArrivesCompletely) {
   const auto assets_stub = v1::AssetService::NewStub(channel);
   for (const int pieces : {0, 1, 50}) {
     const auto call = context();
@@ -209,7 +209,7 @@ TEST_F(Forwarder, AStreamOfTheClientArrivesWhole) {
   }
 }
 
-TEST_F(Forwarder, AServiceMayEndAStreamThatTheClientStillSends) {
+TEST_F(Forwarder, ServiceMayEndAClientStreamEarly) {
   const auto assets_stub = v1::AssetService::NewStub(channel);
   for (int round = 0; round < 20; ++round) {
     const auto call = context();
@@ -225,7 +225,7 @@ TEST_F(Forwarder, AServiceMayEndAStreamThatTheClientStillSends) {
   }
 }
 
-TEST_F(Forwarder, AStreamOfTheServiceArrivesWholeOrEndsWithTheClient) {
+TEST_F(Forwarder, ServiceStreamArrivesCompletelyOrEndsWithTheClient) {
   const auto artifacts_stub = v1::ArtifactService::NewStub(channel);
   v1::DownloadArtifactRequest request;
   v1::DownloadArtifactResponse piece;

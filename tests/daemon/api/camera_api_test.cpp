@@ -57,7 +57,7 @@ TEST_F(CameraApi, PictureShowsThePresentView) {
   EXPECT_TRUE(wait_until([&] {
     const v1::DepthPicture later = look().picture;
     return later.time().seconds() > first.time().seconds() && later.png() != first.png();
-  })) << "pictures go on";
+  })) << "pictures continue";
 }
 
 TEST_F(CameraApi, OneProcessServesAllViewersAndEndsWithoutThem) {
@@ -84,12 +84,12 @@ TEST_F(CameraApi, CaptureBorrowsTheCamera) {
   EXPECT_EQ(error_info(meanwhile.status).metadata().at("job"), job.name());
   ann->wait(job.name(), [](const v1::Job& now) { return now.progress_fraction() > 0; });
   if (proc_is_mounted()) {
-    EXPECT_EQ(daemon->workers().size(), 1U) << "the capture's alone";
+    EXPECT_EQ(daemon->workers().size(), 1U) << "only the capture's process";
   }
   ann->cancel(job.name());
   done(job);
-  EXPECT_TRUE(comes_to("")) << "it is shown again";
-  EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "and taken again";
+  EXPECT_TRUE(comes_to("")) << "pictures are shown again";
+  EXPECT_EQ(captured().state(), v1::Job::SUCCEEDED) << "captures work again";
 }
 
 TEST_F(CameraApi, CameraFaultIsReportedUntilItIsCleared) {
@@ -116,7 +116,7 @@ TEST_F(CameraApi, HangingCameraBlocksOnlyItsViewers) {
   EXPECT_TRUE(ann->stop().ok());
   watcher.join();
   const v1::Job job = done(create(capture_of(0.2)));
-  EXPECT_EQ(job.error().reason(), "CAMERA_STALLED") << "the capture's own word";
+  EXPECT_EQ(job.error().reason(), "CAMERA_STALLED") << "the capture's own error";
   rig->act("clear");
   EXPECT_TRUE(comes_to(""));
 }

@@ -83,7 +83,7 @@ TEST_F(Crash, WorkersDieWithTheDaemon) {
   for (std::string word; stat >> word && word.back() != ')';) {
   }
   stat >> state;
-  EXPECT_TRUE(!stat || state == "Z") << "it is still there";
+  EXPECT_TRUE(!stat || state == "Z") << "the worker still runs";
 }
 
 TEST_F(Crash, QueuedJobsPauseAndRequestIdsAreKept) {

@@ -199,7 +199,7 @@ TEST_F(DipApi, ConfirmationCountsForOneStepOnly) {
   EXPECT_EQ(reason_of(ann.confirm(name, v1::DipStatus::SOAK)), "STATE_FORBIDS");
   EXPECT_EQ(reason_of(ann.confirm(name, v1::DipStatus::STEP_UNSPECIFIED)), "SPEC_INVALID");
   ASSERT_TRUE(ann.confirm(name, v1::DipStatus::PRINT_FILM).ok());
-  EXPECT_TRUE(ann.confirm(name, v1::DipStatus::PRINT_FILM).ok()) << "said again";
+  EXPECT_TRUE(ann.confirm(name, v1::DipStatus::PRINT_FILM).ok()) << "confirmed again";
   EXPECT_EQ(ann.job(name).dip_status().step(), v1::DipStatus::LOAD_OBJECT);
   RigClient bob(daemon.address(), "bob");
   EXPECT_EQ(reason_of(bob.confirm(name, v1::DipStatus::LOAD_OBJECT)), "LEASE_REQUIRED");
@@ -385,9 +385,9 @@ TEST_F(DipApi, KillDuringTheDescentStopsTheRigAndInterruptsTheDip) {
   EXPECT_EQ(report.at("outcome"), "INTERRUPTED");
   EXPECT_EQ(report.at("step"), "DESCEND");
   EXPECT_GT(positions(again.download(name + "/artifacts/positions.csv")).size(), 8U)
-      << "all but the last quarter of a second";
+      << "complete except for the last 0.25 s";
   std::this_thread::sleep_for(milliseconds(500));
-  EXPECT_EQ(again.job(name).state(), v1::Job::INTERRUPTED) << "it stays so";
+  EXPECT_EQ(again.job(name).state(), v1::Job::INTERRUPTED) << "the state is final";
   EXPECT_EQ(rig.position_mm(), rest_mm);
   again.reset();
   again.make_ready();
@@ -423,7 +423,7 @@ TEST_F(DipApi, HangingStoreDelaysNeitherMotionNorStop) {
     EXPECT_EQ(rig.speed_mm_per_s(), 2);
     const double asked_s = rig.now_s();
     EXPECT_TRUE(ann.stop().ok());
-    EXPECT_LT(rig.rested_s() - asked_s, 1) << "whatever waits for the store waits five times that";
+    EXPECT_LT(rig.rested_s() - asked_s, 1) << "a wait for the store takes five times as long";
   }
   EXPECT_EQ(ann.wait_for_end(name).state(), v1::Job::CANCELLED);
   EXPECT_GT(ann.report(name).at("depth_reached_mm"), 4);
@@ -510,7 +510,7 @@ TEST(DipOfASimulation, UsesDepthSpeedAndFilmOfItsReport) {
     simulated = ann.job(simulated.name());
     return finished(simulated);
   };
-  ASSERT_TRUE(wait_until(computed, 200)) << "a worker gives way to all others";
+  ASSERT_TRUE(wait_until(computed, 200)) << "workers have the lowest priority";
   ASSERT_EQ(simulated.state(), v1::Job::SUCCEEDED) << simulated.error().message();
   v1::DipSpec dip;
   dip.set_simulate_job(simulated.name());

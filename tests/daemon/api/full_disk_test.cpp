@@ -22,7 +22,7 @@ class FullDisk : public ::testing::Test {
     fs::create_directory(disk);
     mounted = ::mount("none", disk.c_str(), "tmpfs", 0, "size=12m") == 0;
     if (!mounted) {
-      GTEST_SKIP() << "no small disk to fill: mount: " << std::strerror(errno) << " (needs root)";
+      GTEST_SKIP() << "cannot mount a small disk: " << std::strerror(errno) << " (needs root)";
     }
   }
   void TearDown() override {
@@ -101,7 +101,7 @@ TEST_F(FullDisk, UploadThatFillsTheDiskIsRefusedAndDeleted) {
             grpc::NOT_FOUND);
 
   const grpc::Status again = client->assets->StartUpload(client->context().get(), begin, &begun);
-  EXPECT_EQ(error_info(again).reason(), "DISK_FULL") << "refused before anything is sent";
+  EXPECT_EQ(error_info(again).reason(), "DISK_FULL") << "refused before the upload";
   make_room();
   EXPECT_EQ(client->upload(bytes), "assets/" + hash_of(bytes));
 }
@@ -124,7 +124,7 @@ TEST_F(FullDisk, RealJobFailsIfItsArtifactsDoNotFit) {
   client->resume();
   const v1::Job ended = client->wait_for_end(job.name());
   expect_no_room_for(ended);
-  EXPECT_EQ(ended.error().exit_status(), 3) << "it was the worker that met the full disk";
+  EXPECT_EQ(ended.error().exit_status(), 3) << "the worker found the disk full";
   make_room();
   v1::RetryJobRequest retry;
   retry.set_name(job.name());

@@ -160,7 +160,7 @@ TEST_F(KeepingApi, BytesBeyondTheQuotaAreRefusedAndUsageIsReported) {
   const auto refused = maker.start_upload(larger, started);
   expect_refused(refused, StatusCode::RESOURCE_EXHAUSTED, "QUOTA_EXCEEDED");
   EXPECT_EQ(refused.error_message(),
-            "maker has 3 of 4 MiB here, and this is 3 MiB more; delete jobs (hydroprint list "
+            "maker uses 3 of 4 MiB, and this needs 3 MiB more; delete jobs (hydroprint list "
             "--mine, delete) or files (hydroprint assets list, delete)");
   EXPECT_TRUE((*this)["other"].start_upload(larger, started).ok());
   v1::Usage usage;

@@ -232,7 +232,7 @@ void Campaign::prepare(const Plan& plan) {
     (void)client_->stop();
     (void)client_->disarm();
   }
-  FAIL() << "the rig does not get ready: " << client_->rig().trouble();
+  FAIL() << "the rig does not become ready: " << client_->rig().trouble();
 }
 
 /// On a busy machine, an answer of the drive or a call of a jog may be late. The daemon then stops
@@ -306,7 +306,7 @@ void Campaign::expect_stopped_in_time(const Plan& plan, const Standstill& stop) 
   const rig::RigConfig config;
   EXPECT_GE(stop.position_mm, config.end_low_mm);
   EXPECT_LE(in_mm, rig::stopping_distance_mm(config, *profile, speed))
-      << "what the keep-out is for";
+      << "the keep-out must be long enough";
   if (!stop.was_moving) return;
   most_time_share_ = std::max(most_time_share_, stop.seconds / in_s);
   most_way_share_ = std::max(most_way_share_, stop.way_mm / in_mm);
@@ -388,7 +388,7 @@ void Campaign::run() {
     expect_jobs();
     if (::testing::Test::HasFailure()) return;
   }
-  EXPECT_LE(spoilt_, 1 + rounds / 20) << "too few rounds were as planned";
+  EXPECT_LE(spoilt_, 1 + rounds / 20) << "too many rounds did not go as planned";
 }
 
 nlohmann::ordered_json Campaign::summary() const {

@@ -181,7 +181,7 @@ TEST_F(PeopleApi, OnlyOperatorsCreateRigJobs) {
   }
 }
 
-TEST_F(PeopleApi, ASessionEndsWhenSignedOutAndWhenRevoked) {
+TEST_F(PeopleApi, SessionEndsWhenSignedOutOrRevoked) {
   const auto in = sign_in("maker");
   Client client(daemon.address());
   client.session = in.session_token();

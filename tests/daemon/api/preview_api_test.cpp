@@ -66,9 +66,9 @@ TEST_F(Previews, KeepTheMeshInTheirOwnWorker) {
   ASSERT_TRUE(preview("b", other).ok());
   EXPECT_NE(first.depth_mm(), other.depth_mm());
   ASSERT_TRUE(preview("a", third, false, "somebody").ok());
-  EXPECT_NE(first.depth_mm(), third.depth_mm()) << "each has their own";
+  EXPECT_NE(first.depth_mm(), third.depth_mm()) << "each user has a process";
   if (proc_is_mounted()) {
-    EXPECT_EQ(daemon->workers().size(), 2u) << "and no more than one";
+    EXPECT_EQ(daemon->workers().size(), 2u) << "one process per user";
   }
   EXPECT_EQ(daemon->terminate(), 0);
 }

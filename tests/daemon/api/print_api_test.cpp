@@ -102,7 +102,7 @@ TEST_F(PrintApi, PrintImageUsesFilmAndResolutionOfItsSimulation) {
   ASSERT_EQ(job.state(), v1::Job::SUCCEEDED) << job.error().message();
   EXPECT_EQ(job.display_name(), "print-image " + simulation.name());
   EXPECT_EQ(job.print_image().simulate_job(), simulation.name());
-  EXPECT_FALSE(job.print_image().has_film_image()) << "the job is what was asked for";
+  EXPECT_FALSE(job.print_image().has_film_image()) << "the job shows the spec as sent";
   const json spec = given_spec(file(job, "spec.json"));
   EXPECT_EQ(spec["filmImage"]["name"], "image/film.png");
   EXPECT_EQ(spec["film"], "polygon:film.json");
@@ -173,8 +173,9 @@ TEST_F(PrintApi, SimulationMustHaveSucceeded) {
   EXPECT_EQ(refusal(print_image_of(nobody)), "ID_INVALID");
   const v1::Job failed = done(client_->simulate("exit 4 broken"));
   EXPECT_EQ(refusal(print_image_of(failed)), "STATE_FORBIDS");
-  EXPECT_EQ(refusal(print_image_of(pages())), "SPEC_INVALID") << "pages are no simulation";
-  EXPECT_EQ(refusal(print_of(failed)), "SPEC_INVALID") << "nor is a simulation pages";
+  EXPECT_EQ(refusal(print_image_of(pages())), "SPEC_INVALID")
+      << "a print-image job is not a simulation";
+  EXPECT_EQ(refusal(print_of(failed)), "SPEC_INVALID") << "a simulation has no pages";
 }
 
 TEST_F(PrintApi, PagesAreSentOnceAndFollowedToTheEnd) {
@@ -204,7 +205,7 @@ TEST_F(PrintApi, PagesAreSentOnceAndFollowedToTheEnd) {
   retry.set_name(job.name());
   v1::Job retried;
   const auto status = client_->jobs->RetryJob(client_->context().get(), retry, &retried);
-  EXPECT_EQ(error_info(status).reason(), "STATE_FORBIDS") << "nothing is printed by chance";
+  EXPECT_EQ(error_info(status).reason(), "STATE_FORBIDS") << "prints are not retried";
 }
 
 TEST_F(PrintApi, PrinterOutOfPaperIsReported) {
@@ -277,7 +278,7 @@ TEST_F(PrintApi, KillInterruptsThePrintAndNothingIsSentAgain) {
   EXPECT_EQ(client_->job(job.name()).state(), v1::Job::INTERRUPTED);
   EXPECT_TRUE(has(told(job), "may already have printed this"));
   there.finish();
-  EXPECT_TRUE(std::filesystem::exists(there.spooled())) << "and only that";
+  EXPECT_TRUE(std::filesystem::exists(there.spooled())) << "the document was sent once";
 }
 
 TEST_F(PrintApi, ShutdownLeavesThePrintToThePrinter) {

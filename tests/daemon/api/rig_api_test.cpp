@@ -155,7 +155,7 @@ TEST_F(RigApi, HealthFollowsTheRig) {
 TEST_F(RigApi, StopNeedsNoLease) {
   ann.make_ready();
   RigClient bob(daemon.address(), "bob");
-  EXPECT_TRUE(bob.stop().ok()) << "nothing moves: no harm";
+  EXPECT_TRUE(bob.stop().ok()) << "harmless at rest";
   ASSERT_TRUE(ann.move_to(200, 10).ok());
   ASSERT_TRUE(rig.gets_to(10));
   const double asked_s = rig.now_s();
@@ -163,7 +163,7 @@ TEST_F(RigApi, StopNeedsNoLease) {
   EXPECT_LT(rig.rested_s() - asked_s, 0.3);
   ASSERT_TRUE(ann.becomes(v1::Rig::IDLE));
   EXPECT_EQ(ann.rig().motion().outcome(), v1::Motion::STOPPED);
-  EXPECT_TRUE(ann.move_to(10).ok()) << "the next order goes";
+  EXPECT_TRUE(ann.move_to(10).ok()) << "the next order is accepted";
 }
 
 TEST_F(RigApi, StopIgnoresUnknownFields) {
@@ -201,7 +201,7 @@ TEST_F(RigApi, SecondOperatorMayBreakTheLeaseWithAReason) {
   EXPECT_EQ(reason_of(ann.move_to(20)), "LEASE_REQUIRED");
   bob.take_lease();
   EXPECT_TRUE(bob.move_to(20).ok());
-  EXPECT_TRUE(ann.release().ok()) << "no error, and no effect";
+  EXPECT_TRUE(ann.release().ok()) << "no error and no effect";
   EXPECT_EQ(bob.rig().lease().holder(), "bob");
 }
 
@@ -257,7 +257,8 @@ TEST_F(RigApi, RepeatedRequestMovesOnce) {
   EXPECT_EQ(ann.rig().motion().number(), motion);
   EXPECT_EQ(reason_of(ann.move_to(30, 10, "m1")), "REQUEST_ID_REUSED");
   EXPECT_EQ(reason_of(ann.move_to(299, 10, "m2")), "LIMIT_EXCEEDED");
-  EXPECT_EQ(reason_of(ann.move_to(299, 10, "m2")), "LIMIT_EXCEEDED") << "it was not done before";
+  EXPECT_EQ(reason_of(ann.move_to(299, 10, "m2")), "LIMIT_EXCEEDED")
+      << "the request was not carried out before";
   EXPECT_TRUE(ann.home("h1").ok());
   ASSERT_TRUE(ann.becomes(v1::Rig::IDLE, 30));
   EXPECT_TRUE(ann.home("h1").ok());
@@ -414,7 +415,7 @@ TEST_F(RigApi, WatchesAndUploadsDoNotBlockAStop) {
   EXPECT_TRUE(wait_until([&] {
     return ann.rigs->GetRig(ann.context().get(), {}, &reply).error_code() ==
            grpc::RESOURCE_EXHAUSTED;
-  })) << "else this proves nothing";
+  })) << "otherwise the test proves nothing";
   const auto asked = SteadyClock::now();
   EXPECT_TRUE(ann.stop().ok());
   EXPECT_LT(seconds_since(asked), 0.2);

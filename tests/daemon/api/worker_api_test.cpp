@@ -249,7 +249,7 @@ TEST_F(RealWorker, ComputesAllArtifactsOfAModel) {
        {"surface_map.ply", "film_map.exr", "stretch.png", "predicted.png", "report.json"}) {
     EXPECT_FALSE(client->download(job.name() + "/artifacts/" + name).empty()) << name;
   }
-  EXPECT_TRUE(client->simulate(ball_obj()).cache_hit() == false) << "another dpi is another input";
+  EXPECT_TRUE(client->simulate(ball_obj()).cache_hit() == false) << "dpi is part of the inputs";
   v1::Job again;
   ASSERT_TRUE(client->create(request, again).ok());
   EXPECT_TRUE(again.cache_hit());

@@ -36,26 +36,26 @@ class MethodOptions : public ::testing::Test {
   int count_ = 0;
 };
 
-TEST_F(MethodOptions, AMethodWithoutARoleIsRefused) {
+TEST_F(MethodOptions, MethodWithoutARoleIsRefused) {
   const auto refused = need({});
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("MadeService.Do"), std::string::npos);
 }
 
-TEST_F(MethodOptions, AMethodWithARoleAndWithoutSignInIsRefused) {
+TEST_F(MethodOptions, MethodWithRoleAndWithoutSignInIsRefused) {
   google::protobuf::MethodOptions options;
   options.SetExtension(v1::role, v1::MAKER);
   options.SetExtension(v1::without_sign_in, true);
   EXPECT_FALSE(need(options));
 }
 
-TEST_F(MethodOptions, AnUnspecifiedRoleIsRefused) {
+TEST_F(MethodOptions, UnspecifiedRoleIsRefused) {
   google::protobuf::MethodOptions options;
   options.SetExtension(v1::role, v1::ROLE_UNSPECIFIED);
   EXPECT_FALSE(need(options));
 }
 
-TEST_F(MethodOptions, ARoleOrWithoutSignInIsAccepted) {
+TEST_F(MethodOptions, RoleOrWithoutSignInIsAccepted) {
   google::protobuf::MethodOptions role, none;
   role.SetExtension(v1::role, v1::MAKER);
   EXPECT_EQ(need(role).value(), Role::kMaker);
@@ -92,7 +92,7 @@ class Admission : public auth::PeopleTest {
           .value();
 };
 
-TEST_F(Admission, WithoutUsersCallersOnThisMachineAreAdminsUnderTheNameTheyGive) {
+TEST_F(Admission, WithoutUsersLoopbackCallersAreAdminWithTheClaimedName) {
   const auto caller = check.admit(kPause, named("ann")).value().value();
   EXPECT_EQ(caller.name, "ann");
   EXPECT_EQ(caller.via, "loopback");
@@ -101,11 +101,11 @@ TEST_F(Admission, WithoutUsersCallersOnThisMachineAreAdminsUnderTheNameTheyGive)
   EXPECT_EQ(check.admit(kGet, from("::1")).value()->name, "anonymous");
 }
 
-TEST_F(Admission, WithoutUsersCallersOnOtherMachinesMustSignIn) {
+TEST_F(Admission, WithoutUsersRemoteCallersMustSignIn) {
   EXPECT_EQ(reason_of_refusal(kGet, from("192.0.2.7")), "SIGN_IN_NEEDED");
 }
 
-TEST_F(Admission, AMalformedNameIsRefusedUnlessTheCallStopsMotion) {
+TEST_F(Admission, MalformedNameIsRefusedUnlessTheCallStopsMotion) {
   EXPECT_EQ(reason_of_refusal(kGet, named("two words")), "SPEC_INVALID");
   EXPECT_EQ(check.admit(kStop, named("two words")).value()->name, "anonymous");
 }
@@ -131,14 +131,14 @@ TEST_F(Admission, KeysAndSessionsIdentifyTheCaller) {
   EXPECT_EQ(by_session.via, "session");
 }
 
-TEST_F(Admission, AnInvalidKeyIsRefusedBesideAValidSession) {
+TEST_F(Admission, InvalidKeyIsRefusedDespiteAValidSession) {
   add("ann", Role::kAdmin);
   auto credentials = with_session(accounts->sign_in("ann", kPassword, "p")->token);
   credentials.authorization = "Bearer hp_a_b";
   EXPECT_EQ(reason_of_refusal(kGet, credentials), "SIGN_IN_NEEDED");
 }
 
-TEST_F(Admission, ALesserRoleIsRefused) {
+TEST_F(Admission, LowerRoleIsRefused) {
   add("ann", Role::kAdmin);
   const auto viewer = accounts->create_key({"ann", "", Role::kViewer, 0})->second;
   const auto operator_key = accounts->create_key({"ann", "", Role::kOperator, 0})->second;
@@ -157,7 +157,7 @@ TEST_F(Admission, UnknownMethodsAreRefused) {
   EXPECT_EQ(reason_of_refusal("/hydroprint.v1.QueueService/Get", from("")), "METHOD_NOT_FOUND");
 }
 
-TEST_F(Admission, AStreamEndsWithItsSession) {
+TEST_F(Admission, StreamEndsWithItsSession) {
   add("ann", Role::kAdmin);
   const auto session = accounts->sign_in("ann", kPassword, "p").value();
   const auto caller = check.admit(kGet, with_session(session.token)).value().value();

@@ -44,7 +44,7 @@ TEST(DipPlan, DescendsFromClearanceToDepthAndReturns) {
 TEST(DipPlan, RetractionEndsAboveTheWater) {
   EXPECT_EQ(ways_from(plan_of_depth(30), 100, 99, kConfig, profile())->up_mm, 80);
   EXPECT_EQ(ways_from(plan_of_depth(30), 100, -1, kConfig, profile())->up_mm, 2)
-      << "an axis may rest outside of its limits, but is not sent there";
+      << "the axis may rest outside its limits, but is not sent there";
 }
 
 TEST(DipPlan, ClearanceShrinksNearTheLimit) {

@@ -62,10 +62,10 @@ class Api:
         found, kind = [], ""
         while len(found) < count and kind != "end":
             line = response.readline()
-            require(line, "a stream broke off")
+            require(line, "a stream ended unexpectedly")
             if line.startswith(b"event:"):
                 kind = line[6:].decode().strip()
-                require(kind != "error", "a stream ended by an error")
+                require(kind != "error", "a stream ended with an error")
             elif line.startswith(b"data:") and kind != "end":
                 found.append(json.loads(line[5:]))
         return json.dumps(found).encode()
@@ -115,8 +115,8 @@ def upload(api, data):
     number, half = last(begun["upload"]["name"]), len(data) // 2
     part = api.call("PatchUpload", data[:half], {"Upload-Offset": "0"}, upload=number)
     require(part.status == 204, "half an upload is", part.status)
-    require(api.call("HeadUpload", upload=number).headers["Upload-Offset"] == str(half), "HEAD tells another offset")
-    require(api.call("GetUpload", upload=number).json["receivedBytes"] == str(half), "GET tells another offset")
+    require(api.call("HeadUpload", upload=number).headers["Upload-Offset"] == str(half), "HEAD returns another offset")
+    require(api.call("GetUpload", upload=number).json["receivedBytes"] == str(half), "GET returns another offset")
     asset = api.call("PatchUpload", data[half:], {"Upload-Offset": str(half)}, upload=number).json
     require(asset["sha256"] == digest, asset)
     return asset["name"]
@@ -144,13 +144,13 @@ def jobs(api, asset):
     api.call("CancelJob", job=second)
     api.call("ResumeQueue")
     seen = api.call("WatchJob", job=first, until=10**6).json
-    require(seen, "nothing was seen of a job")
+    require(seen, "no events of a job arrived")
     require(api.call("GetJob", job=first).json["state"] == "SUCCEEDED", api.ask("GetJob", job=first).body)
-    require(len(api.call("ListJobs").json["jobs"]) == 2, "two jobs were made")
+    require(len(api.call("ListJobs").json["jobs"]) == 2, "expected two jobs")
     api.call("ListJobEvents", job=first)
     api.call("ShareJob", {"shared": True}, job=first)
-    require("purgeTime" not in api.call("PinJob", {"pinned": True}, job=first).json, "a pinned job is not kept")
-    require(int(api.call("GetUsage").json["pinnedBytes"]) > 0, "what is pinned does not count")
+    require("purgeTime" not in api.call("PinJob", {"pinned": True}, job=first).json, "a pinned job has a purge time")
+    require(int(api.call("GetUsage").json["pinnedBytes"]) > 0, "pinned bytes are not counted")
     api.call("WatchEvents", query={"afterSeq": 0, "topics": "job"}, until=3)
     artifacts(api, first)
     again = last(api.call("RetryJob", job=second).json["name"])
@@ -165,7 +165,7 @@ def artifacts(api, job):
     require("film.png" in names, names)
     stated = api.call("GetArtifact", job=job, artifact="film.png").json
     whole = api.call("DownloadArtifact", job=job, artifact="film.png")
-    require(hashlib.sha256(whole.body).hexdigest() == stated["sha256"], "other bytes than stated")
+    require(hashlib.sha256(whole.body).hexdigest() == stated["sha256"], "the bytes do not match the hash")
     part = api.call("DownloadArtifact", headers={"Range": "bytes=1-3"}, job=job, artifact="film.png")
     require(part.status == 206 and part.body == b"PNG", part.status, part.body)
     same = api.call("DownloadArtifact", headers={"If-None-Match": whole.headers["ETag"]}, job=job, artifact="film.png")
@@ -227,7 +227,7 @@ def sign_in(api, body):
     answer = api.call("SignIn", body)
     cookie = answer.headers["Set-Cookie"]
     require("HttpOnly" in cookie and "SameSite=Strict" in cookie, cookie)
-    require(answer.json.get("sessionToken", "") == "", "the token of a session is for the cookie alone")
+    require(answer.json.get("sessionToken", "") == "", "the session token must only be in the cookie")
     api.identity = {"Cookie": cookie.split(";")[0], "X-Hydroprint-Csrf": answer.json["csrfToken"]}
 
 
@@ -235,7 +235,7 @@ def people(api):
     """Creates the first admin, who makes all further calls."""
     api.call("CreateUser", {"user": {"name": "users/ann", "role": "ADMIN"}, "password": PASSWORD})
     sign_in(api, {"user": "ann", "password": PASSWORD})
-    require(api.call("WhoAmI").json["role"] == "ADMIN", "the first user is an admin")
+    require(api.call("WhoAmI").json["role"] == "ADMIN", "the first user is not an admin")
     admin = {"Authorization": "Bearer " + api.call("CreateApiKey", {"displayName": "scripts"}).json["key"]}
     api.identity = admin
     api.call("CreateUser", {"user": {"name": "users/bob", "role": "VIEWER"}, "password": PASSWORD})
@@ -243,14 +243,14 @@ def people(api):
     api.call("SetPassword", {"newPassword": PASSWORD + " too"}, user="bob")
     sign_in(api, {"linkToken": api.call("CreateSignInLink", user="bob").json["token"]})
     made = api.call("CreateApiKey", {"displayName": "to be deleted"}).json["apiKey"]["name"]
-    require(len(api.call("ListApiKeys").json["apiKeys"]) == 1, "bob made one key")
+    require(len(api.call("ListApiKeys").json["apiKeys"]) == 1, "expected one key")
     api.call("DeleteApiKey", apiKey=last(made))
     api.call("SignOut")
     api.identity = admin
-    require(len(api.call("ListUsers").json["users"]) == 2, "two users were made")
+    require(len(api.call("ListUsers").json["users"]) == 2, "expected two users")
     for session in api.call("ListSessions").json["sessions"]:
         api.call("RevokeSession", session=last(session["name"]))
-    require(api.call("ListAudit").json["entries"], "nothing stands in the audit log")
+    require(api.call("ListAudit").json["entries"], "the audit log is empty")
     api.call("DeleteUser", user="bob")
 
 
@@ -280,11 +280,11 @@ def wrong_calls(api):
     for name in api.operations:
         if places_of(api, name):
             answer = ask_for_nothing(api, name)
-            require(400 <= answer.status < 500, name, "of nothing:", answer.status, answer.body)
+            require(400 <= answer.status < 500, name, "for a missing resource:", answer.status, answer.body)
     api.identity = {}
     for name in api.operations.keys() - check_openapi.OPEN:
         answer = ask_for_nothing(api, name)
-        require(answer.status == 401, name, "by a stranger:", answer.status, answer.body)
+        require(answer.status == 401, name, "without authentication:", answer.status, answer.body)
 
 
 def main():

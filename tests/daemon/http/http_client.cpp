@@ -132,7 +132,7 @@ std::string HttpConnection::receive() {
   const ssize_t got = tls_ ? SSL_read(tls_.get(), buffer.data(), static_cast<int>(buffer.size()))
                            : ::recv(socket_, buffer.data(), buffer.size(), 0);
   if (got <= 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
-    throw std::runtime_error("the server says nothing");
+    throw std::runtime_error("the server sends nothing");
   }
   return {buffer.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0))};
 }

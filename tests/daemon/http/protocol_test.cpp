@@ -139,7 +139,7 @@ TEST_F(HttpProtocol, UnknownTransferEncodingClosesTheConnection) {
     EXPECT_TRUE(text.starts_with("HTTP/1.1 " + std::to_string(status) + " ")) << text;
     EXPECT_NE(text.find("Connection: close\r\n"), std::string::npos) << text;
     EXPECT_NE(text.find("REQUEST_MALFORMED"), std::string::npos) << text;
-    EXPECT_EQ(text.find("\r\nDate: "), text.rfind("\r\nDate: ")) << "one answer alone: " << text;
+    EXPECT_EQ(text.find("\r\nDate: "), text.rfind("\r\nDate: ")) << "exactly one answer: " << text;
   };
   for (const char* value : {"xchunked", "identity", "gzip", "", "chunked,", "chunked, chunked",
                             "chunked, identity", "chunked\r\nTransfer-Encoding: chunked",
@@ -155,7 +155,7 @@ TEST_F(HttpProtocol, UnknownTransferEncodingClosesTheConnection) {
     SCOPED_TRACE(value);
     expect_refused(answer_to(std::string("Transfer-Encoding: ") + value + "\r\n"), 501);
   }
-  EXPECT_EQ(get("/v1/queue").json().at("paused"), false) << "nothing of it was carried out";
+  EXPECT_EQ(get("/v1/queue").json().at("paused"), false) << "the request was not carried out";
 }
 
 TEST_F(HttpProtocol, UnreadBodyIsNotTheNextRequest) {

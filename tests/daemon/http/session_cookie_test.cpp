@@ -28,7 +28,7 @@ class HttpSession : public PeopleApi {
     EXPECT_EQ(answer.status, 200) << answer.body;
     const std::string set = answer.field("set-cookie");
     EXPECT_NE(set.find("; HttpOnly; SameSite=Strict"), std::string::npos) << set;
-    EXPECT_EQ(answer.json().at("sessionToken"), "") << "no script can read it";
+    EXPECT_EQ(answer.json().at("sessionToken"), "") << "hidden from scripts";
     return {"Cookie: " + set.substr(0, set.find(';')) + "\r\n", answer.json().at("csrfToken")};
   }
 };
@@ -38,7 +38,7 @@ TEST_F(HttpSession, CookieIsHiddenFromScripts) {
   const HttpAnswer who = get("/v1/session", maker.cookie);
   EXPECT_EQ(who.status, 200) << who.body;
   EXPECT_EQ(who.json().at("user"), "maker");
-  EXPECT_EQ(who.json().at("csrfToken"), maker.csrf) << "a page that is loaded anew is told it";
+  EXPECT_EQ(who.json().at("csrfToken"), maker.csrf) << "a reloaded page gets it again";
   EXPECT_EQ(get("/v1/jobs").status, 401);
   EXPECT_EQ(get("/v1/jobs", maker.cookie).status, 200);
 }
@@ -120,7 +120,7 @@ TEST_F(HttpSession, EventStreamEndsWithTheSession) {
     EXPECT_NE(event.data.find("SIGN_IN_NEEDED"), std::string::npos) << event.data;
     return;
   }
-  FAIL() << "it went on";
+  FAIL() << "the stream continued";
 }
 
 }  // namespace

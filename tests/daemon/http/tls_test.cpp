@@ -104,7 +104,8 @@ TEST_F(Tls, SessionCookieIsSecure) {
     return connect().ask("POST", "/v1/queue:pause", "{\"reason\":\"film\"}",
                          fields + "Origin: " + origin + "\r\n");
   };
-  EXPECT_EQ(pause("http://localhost").reason(), "ORIGIN_FORBIDDEN") << "anybody may have sent that";
+  EXPECT_EQ(pause("http://localhost").reason(), "ORIGIN_FORBIDDEN")
+      << "an origin without TLS may be forged";
   EXPECT_EQ(pause("https://localhost").status, 200);
   const HttpAnswer out = connect().ask("POST", "/v1/session:signOut", "{}", fields);
   EXPECT_NE(out.field("set-cookie").find("Secure; Max-Age=0"), std::string::npos);
@@ -211,7 +212,7 @@ TEST_F(Tls, InvalidPairKeepsThePreviousOne) {
     std::this_thread::sleep_for(milliseconds(50));
     is_shown = shows(other);
   }
-  EXPECT_TRUE(is_shown) << "a good pair is taken after all";
+  EXPECT_TRUE(is_shown) << "a valid pair is loaded later";
 }
 
 TEST_F(Tls, ExpiryIsAMetricAndAWarning) {
@@ -246,7 +247,7 @@ TEST_F(Tls, IdleConnectionsCostLittle) {
 #ifndef __SANITIZE_ADDRESS__
   EXPECT_LT(each, 60'000U);
 #endif
-  EXPECT_EQ(daemon.terminate(), 0) << "and none keeps the daemon from ending";
+  EXPECT_EQ(daemon.terminate(), 0) << "idle connections do not delay the shutdown";
 }
 
 // The HTTP server in this process, with short timeouts.

@@ -22,7 +22,7 @@ TEST(Staleness, DependsOnAxisHomingAndDips) {
   EXPECT_EQ(staleness(then, now), Why{v1::Calibration::HOMED});
   now = then;
   now.homed = false;
-  EXPECT_EQ(staleness(then, now), Why{v1::Calibration::HOMED}) << "it lost its place";
+  EXPECT_EQ(staleness(then, now), Why{v1::Calibration::HOMED}) << "the reference was lost";
   now = then;
   now.dips = 1;
   EXPECT_EQ(staleness(then, now), Why{v1::Calibration::DIPPED});
@@ -31,7 +31,7 @@ TEST(Staleness, DependsOnAxisHomingAndDips) {
 TEST(Staleness, IsUnknownWithoutARig) {
   EXPECT_EQ(staleness({}, {true, true, 5, 1, 1}), Why{});
   EXPECT_EQ(staleness({true, true, 5, 1, 1}, {}), Why{v1::Calibration::HOMED})
-      << "it had one, which nobody watches now";
+      << "there was a rig, but none is configured now";
 }
 
 TEST(CalibrationFile, MissingAndInvalidKeysAreNamed) {

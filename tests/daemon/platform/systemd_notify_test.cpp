@@ -78,7 +78,7 @@ TEST_F(ServiceManager, WatchdogIsNotFedWhenTheLoopHangs) {
     ++looks;
     return std::optional<std::uint64_t>(7);
   });
-  EXPECT_EQ(heard(), "WATCHDOG=1") << "at first nothing is known of it";
+  EXPECT_EQ(heard(), "WATCHDOG=1") << "nothing is known of the loop yet";
   while (looks < 10) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ(heard(MSG_DONTWAIT), "");
 }

@@ -23,7 +23,7 @@ def output_of(program):
 
 def without_repeats(pairs):
     names = [name for name, _ in pairs]
-    assert len(names) == len(set(names)), f"a name is there twice among {names}"
+    assert len(names) == len(set(names)), f"a name occurs twice in {names}"
     return dict(pairs)
 
 
@@ -59,12 +59,12 @@ def wrong_references(document):
         if isinstance(node.get("$ref"), str):
             used.add(node["$ref"])
             if len(node) > 1:
-                yield f"{place}: what stands beside $ref counts for nothing"
+                yield f"{place}: keywords next to $ref are ignored"
         for name in node.get("required", []) if "properties" in node else []:
             if name not in node["properties"]:
-                yield f"{place}: requires {name}, which it does not have"
+                yield f"{place}: requires {name}, but has no such property"
     for name in used ^ known:
-        yield f"{name} leads nowhere, or nothing leads there"
+        yield f"{name} is undefined or unused"
 
 
 def wrong_operations(document):
@@ -73,18 +73,18 @@ def wrong_operations(document):
         yield f"two operations have the same name: {sorted(names)}"
     for path, method, operation in operations_of(document):
         if method not in METHODS:
-            yield f"{path}: {method} is no HTTP method"
+            yield f"{path}: {method} is not an HTTP method"
         parameters = [(p["in"], p["name"]) for p in operation.get("parameters", [])]
         if len(parameters) != len(set(parameters)):
-            yield f"{method} {path}: a parameter is there twice"
+            yield f"{method} {path}: a parameter occurs twice"
         declared = {name for place, name in parameters if place == "path"}
         if declared != set(re.findall(r"{([^}]*)}", path)):
             yield f"{method} {path}: declares {declared}"
         if not operation.get("summary"):
-            yield f"{method} {path}: says nothing of itself"
+            yield f"{method} {path}: has no summary"
     shapes = [re.sub(r"{[^}]*}", "{}", path) for path in document["paths"]]
     if len(shapes) != len(set(shapes)):
-        yield "two paths differ in the names of their parameters only"
+        yield "two paths differ only in the names of their parameters"
 
 
 def wrong_security(document):
@@ -97,19 +97,19 @@ def wrong_security(document):
             by_cookie = any(schemes[scheme].get("in") == "cookie" for scheme in one)
             by_header = any(schemes[scheme].get("in") == "header" for scheme in one)
             if by_header != (by_cookie and method not in {"get", "head"}):
-                yield f"{name}: a cookie alone changes nothing, and needs nothing else to look: {one}"
+                yield f"{name}: a cookie needs the CSRF header exactly for changes: {one}"
         if needed and not any(schemes[scheme].get("scheme") == "bearer" for one in needed for scheme in one):
-            yield f"{name}: no script can call it"
+            yield f"{name}: an API key is not accepted"
 
 
 def undescribed(document):
     for name, schema in document["components"]["schemas"].items():
         for field, value in schema.get("properties", {}).items():
             if name != "Error" and "description" not in value:
-                yield f"{name}.{field}: nothing is said of it"
+                yield f"{name}.{field}: has no description"
         for word in schema.get("enum", []):
             if f"- `{word}`: " not in schema["description"]:
-                yield f"{name}.{word}: nothing is said of it"
+                yield f"{name}.{word}: has no description"
 
 
 def wrong_rules(document):
@@ -141,9 +141,9 @@ def wrong_rules(document):
         if field not in schemas[name].get("required", []):
             yield f"{name} does not require {field}"
     if "default" in schemas["SimulateSpecInput"]["properties"]["depthMm"]:
-        yield "SimulateSpecInput.depthMm: a word is no number"
+        yield "SimulateSpecInput.depthMm: a word is not a valid default for a number"
     if "minimum" in schemas["SimulateSpec"]["properties"]["dpi"]:
-        yield "SimulateSpec.dpi: an answer may be older than its rules"
+        yield "SimulateSpec.dpi: answers may be older than the rules"
 
 
 def wrong_values(document):
@@ -204,7 +204,7 @@ def wrong_samples(document, samples):
         for trouble in check(sample["answer"], content_of(operation["responses"]["200"], kind), document):
             yield f"{name}: {trouble}"
     for name in seen ^ set(operations):
-        yield f"{name} is in the document only, or not there"
+        yield f"{name} is only in the document, or missing there"
 
 
 def main():

@@ -43,7 +43,7 @@ TEST_F(CalibrationStoreTest, NewestIsActiveUntilAnotherIsActivated) {
   EXPECT_EQ(active(CalibrationKind::kObject), first);
   EXPECT_EQ(active(CalibrationKind::kCamera), lens);
   EXPECT_TRUE(store->remove(first));
-  EXPECT_FALSE(store->active(CalibrationKind::kObject).value()) << "nobody chose another one";
+  EXPECT_FALSE(store->active(CalibrationKind::kObject).value()) << "no other one was activated";
   EXPECT_EQ(store->get(first).error().reason, "CALIBRATION_NOT_FOUND");
   EXPECT_EQ(store->activate(first).error().reason, "CALIBRATION_NOT_FOUND");
   EXPECT_EQ(store->remove(first).error().reason, "CALIBRATION_NOT_FOUND");

@@ -28,7 +28,7 @@ TEST_F(JobStoreTest, RepeatedRequestReturnsTheSameJob) {
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().reason, "REQUEST_ID_REUSED");
   made.owner = "bob";
-  EXPECT_NE(jobs->create(made, key)->id, job.id) << "ids of different owners do not meet";
+  EXPECT_NE(jobs->create(made, key)->id, job.id) << "request ids are separate for each owner";
 }
 
 TEST_F(JobStoreTest, RequestIsForgottenAfterSevenDays) {
@@ -51,7 +51,7 @@ TEST_F(JobStoreTest, FullQueueRefusesWithoutSideEffects) {
   EXPECT_EQ(sixth.error().reason, "QUEUE_FULL");
   EXPECT_EQ(jobs->list({})->size(), 5U);
   ASSERT_TRUE(jobs->cancel(1));
-  EXPECT_TRUE(jobs->create(made, {"CreateJob", "id", "other"})) << "the id was not used up";
+  EXPECT_TRUE(jobs->create(made, {"CreateJob", "id", "other"})) << "the id is still unused";
 }
 
 TEST_F(JobStoreTest, MissingInputIsNamed) {
@@ -135,7 +135,7 @@ TEST_F(JobStoreTest, CancelledJobStaysCancelledEvenIfItsWorkerSucceeds) {
   ASSERT_TRUE(jobs->start(id));
   ASSERT_TRUE(jobs->cancel(id));
   EXPECT_EQ(jobs->succeed(id, {})->state, JobState::kCancelled);
-  EXPECT_EQ(jobs->cancel(id)->state, JobState::kCancelled) << "twice is no error";
+  EXPECT_EQ(jobs->cancel(id)->state, JobState::kCancelled) << "a second cancel is not an error";
 }
 
 TEST_F(JobStoreTest, FinishedJobsCannotBeCancelledAndOpenOnesNotDeleted) {
@@ -155,7 +155,7 @@ TEST_F(JobStoreTest, SameInputsGetTheEarlierArtifacts) {
   EXPECT_EQ(hit.state, JobState::kSucceeded);
   EXPECT_TRUE(hit.cache_hit);
   EXPECT_EQ(jobs->artifact(hit.id, "film.png")->sha256, sha256("film"));
-  EXPECT_TRUE(jobs->remove(1)) << "the earlier job may go";
+  EXPECT_TRUE(jobs->remove(1)) << "the earlier job can be deleted";
   EXPECT_EQ(sha256_of_file(layout.artifacts(hit.id) / "film.png").value(), sha256("film"));
   EXPECT_EQ(add("other").state, JobState::kQueued);
 }
@@ -336,7 +336,7 @@ TEST_F(JobStoreTest, PrintsAreNotQueuedOrCachedAndRunOneAtATime) {
   EXPECT_EQ(print.state, JobState::kRunning);
   EXPECT_TRUE(jobs->waiting()->empty());
   EXPECT_EQ(jobs->create(new_print(), {}).error().reason, "STATE_FORBIDS");
-  EXPECT_TRUE(jobs->create(new_dip(), {})) << "which is of the rig";
+  EXPECT_TRUE(jobs->create(new_dip(), {})) << "a dip uses the rig, not the printer";
   ASSERT_TRUE(jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
   EXPECT_EQ(jobs->create(new_print(), {})->state, JobState::kRunning);
 }
@@ -367,7 +367,7 @@ TEST_F(JobStoreTest, RecordOfADipIsAlwaysKept) {
   const Job dip = jobs->create(new_dip(), {}).value();
   ASSERT_TRUE(jobs->cancel(dip.id));
   ASSERT_TRUE(jobs->advance(dip.id, JobState::kRunning, "soak", {}, ""));
-  EXPECT_EQ(jobs->get(dip.id)->state, JobState::kCancelling) << "and nothing else";
+  EXPECT_EQ(jobs->get(dip.id)->state, JobState::kCancelling) << "no other state";
   std::filesystem::create_directories(layout.artifacts(dip.id));
   std::ofstream(layout.artifacts(dip.id) / "report.json") << "{}";
   const JobFailure failure{{Code::kFailedPrecondition, "stalled", "RIG_FAULTED", {}}, {}, {}};

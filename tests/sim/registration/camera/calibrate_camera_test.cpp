@@ -184,7 +184,7 @@ TEST(CalibrateCamera, MissingCoverageOfViewsIsNamed) {
   for (Hold& h : flat) h.tilt_rad = 0;
   EXPECT_NE(lacking_in(flat).find("tilt"), std::string::npos);
   for (Hold& h : far) h.distance_mm = 700;
-  EXPECT_NE(lacking_in(far).find("equally far"), std::string::npos);
+  EXPECT_NE(lacking_in(far).find("same distance"), std::string::npos);
   for (Hold& h : middle) h.across = h.down = 0;
   for (Hold& h : middle) h.distance_mm += 400;
   EXPECT_NE(lacking_in(middle).find("too little of the image"), std::string::npos);

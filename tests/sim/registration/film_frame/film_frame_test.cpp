@@ -101,7 +101,7 @@ TEST(FilmFrame, ACoveredMarkerIsLeftOut) {
 TEST(FilmFrame, AMissingMarkerIsLeftOut) {
   Rig rig;
   rig.markers.erase(rig.markers.begin() + 1);
-  EXPECT_NE(left_out(rig).find("gone"), std::string::npos);
+  EXPECT_NE(left_out(rig).find("missing"), std::string::npos);
 }
 
 TEST(FilmFrame, AMarkerWithALumpOnItIsLeftOut) {
