@@ -9,7 +9,7 @@ import typing
 
 
 def start(command, ready):
-    """Starts a program and waits for the line that says where it listens. Returns the process and the match of `ready`."""
+    """Starts a program and waits for an output line that matches `ready`. Returns the process and the match."""
     child = subprocess.Popen([str(part) for part in command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                              text=True)
     said = []
@@ -17,14 +17,14 @@ def start(command, ready):
         said.append(line)
         found = re.search(ready, line)
         if found:
-            # What it says from here on must not fill the pipe.
+            # Reads further output, so that it cannot fill the pipe.
             threading.Thread(target=lambda: [None for _ in child.stdout], daemon=True).start()
             return child, found
     raise RuntimeError(f"{command[0]} did not start: {''.join(said)[-2000:]}")
 
 
 class Daemon(typing.NamedTuple):
-    """A running daemon: its process, its addresses, and a folder for the test's own files."""
+    """A running daemon: its process, its addresses, and a folder for files of the test."""
     process: subprocess.Popen
     http: str
     grpc: str
@@ -33,7 +33,7 @@ class Daemon(typing.NamedTuple):
 
 @contextlib.contextmanager
 def daemon_with_rig(programs, profile, *arguments):
-    """Yields a Daemon with a virtual rig, a virtual camera, and a state folder of its own."""
+    """Yields a Daemon with a virtual rig, a virtual camera, and its own state folder."""
     programs, children = pathlib.Path(programs), []
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)

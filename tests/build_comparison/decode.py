@@ -1,11 +1,11 @@
-"""Decodes the artifact formats that say more about a difference than its first byte: PNG, PLY, OpenEXR. Standard
-library only; reads what Hydroprint's programs write, and raises ValueError for anything else."""
+"""Decodes PNG, PLY and OpenEXR artifacts, to describe differences better than by the first differing byte. Uses only the
+standard library, reads only files of Hydroprint's programs, and raises ValueError for all others."""
 import array
 import itertools
 import struct
 import zlib
 
-CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}  # of a PNG, by its colour type
+CHANNELS = {0: 1, 2: 3, 4: 2, 6: 4}  # number of channels of a PNG, by its colour type
 PLY_TYPES = {"double": "d", "float": "f", "uchar": "B", "int": "i"}
 
 
@@ -25,7 +25,7 @@ def paeth(left, up, corner):
 
 
 def unfilter(kind, row, above, step):
-    """One row of a PNG; `above` is the decoded row before it, `step` the bytes of a pixel."""
+    """Decodes one row of a PNG; `above` is the decoded previous row, `step` the bytes per pixel."""
     if kind == 0:
         return row
     if kind == 1:
@@ -104,7 +104,7 @@ def exr_channels(attribute):
 
 
 def exr_block(packed, size):
-    """Undoes OpenEXR's ZIP compression: deflate, differences of bytes, the two halves interleaved."""
+    """Undoes OpenEXR's ZIP compression: deflate, byte differences, and two interleaved halves."""
     if len(packed) == size:
         return packed
     steps = zlib.decompress(packed)

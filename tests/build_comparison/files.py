@@ -1,9 +1,9 @@
-"""Compares what two builds wrote: folders, and files by what may differ in them.
+"""Compares the output folders of two builds.
 
-Everything must be equal byte for byte, except
+All files must be identical, except for these differences:
   - pictures with text (PICTURES_WITH_TEXT): pixels that are paper or ink in both may differ; the size may not;
   - PDF: the letters may differ; pages, boxes, other lines and images may not;
-  - report.json, report.html and other JSON: times, memory and wording may differ, and where a camera is;
+  - report.json, report.html and other JSON: times, memory, wording and the camera's address may differ;
   - film_profile.toml: comments may differ;
   - residuals.csv: the reason in the last column may differ.
 """
@@ -29,17 +29,17 @@ PICTURES_WITHOUT_TEXT = "validate-*-film.png"
 
 # Keys of JSON whose values may differ; the keys themselves, types and lengths of lists may not.
 MEASURED = {"total_seconds", "stage_seconds", "seconds", "peak_memory_bytes"}
-OF_THE_CALL = {"threads", "uri"}  # uri: where the virtual rig's control socket is
+OF_THE_CALL = {"threads", "uri"}  # uri: path of the virtual rig's control socket
 WORDING = {"message", "why", "why_not", "text", "title", "caption", "paper", "method", "frame",
            "from_nominal_pose", "marks", "marks_dropped"}
-TABLES = {"where", "header", "rows"}  # wording, but the numbers in it may not differ
+TABLES = {"where", "header", "rows"}  # wording with numbers, which may not differ
 
 
 @dataclasses.dataclass
 class Finding:
-    """What became of one file."""
+    """The result for one file."""
     name: str
-    how: str = ""  # it differs; empty: not at all, or in times and memory alone
+    how: str = ""  # description of the difference; empty if none, or only in times and memory
     is_allowed: bool = True
 
 
@@ -58,7 +58,7 @@ def is_code(value):
 
 
 def json_differences(old, new, path="", freedom=""):
-    """Yields (path, freedom) for each value that differs; freedom says why it may, or is empty."""
+    """Yields (path, freedom) for each value that differs; freedom is the reason why it may differ, or empty."""
     if kind_of(old) is not kind_of(new):
         yield path, ""
     elif isinstance(old, dict):
@@ -79,7 +79,7 @@ def kind_of(value):
 
 
 def is_free(old, new, freedom):
-    """Whether two values that differ may do so."""
+    """Returns whether the difference between two values is allowed."""
     if freedom == "measured":
         return True
     return isinstance(old, str) and (freedom != "table" or numbers(old) == numbers(new))
@@ -96,7 +96,7 @@ def freedom_of(key, value):
 
 
 def compare_json(old, new):
-    """Returns how they differ, and whether they may."""
+    """Returns a description of the difference, and whether it is allowed."""
     differences = list(json_differences(json.loads(old), json.loads(new)))
     paths = sorted(path.lstrip(".") for path, freedom in differences if not freedom)
     if paths:
@@ -126,7 +126,7 @@ def compare_toml(old, new):
 
 
 def compare_residuals(old, new):
-    """Compares all columns but the last, which says in words why a point is left out."""
+    """Compares all columns except the last, which describes why a point is ignored."""
     tables = [list(csv.reader(io.StringIO(text.decode()))) for text in (old, new)]
     lines = [i + 1 for i, (a, b) in enumerate(itertools.zip_longest(*tables, fillvalue=[]))
              if a[:-1] != b[:-1] or len(a) != len(b) or bool(a[-1:]) != bool(b[-1:])]
@@ -134,14 +134,14 @@ def compare_residuals(old, new):
 
 
 def is_mixture(pixel, colours):
-    """Whether a colour lies between paper and ink, as the edges of letters do."""
+    """Returns whether a colour is between paper and ink, as at the edges of letters."""
     paper, ink = colours
     share = (paper[0] - pixel[0]) / (paper[0] - ink[0])
     return -0.02 < share < 1.02 and all(abs(p + share * (i - p) - v) <= 1 for p, i, v in zip(paper, ink, pixel))
 
 
 def compare_png(old, new, colours=None):
-    """`colours`: of paper and ink, if there may be text in the picture."""
+    """`colours` are those of paper and ink, if the picture may contain text."""
     *shapes, = decode.read_png(old), decode.read_png(new)
     if shapes[0][:4] != shapes[1][:4]:
         return "size, channels or resolution differ", False
@@ -200,14 +200,14 @@ def same_numbers(a, b):
 
 
 def distance(x, y):
-    """NaN equals NaN, and differs from any number without bound."""
+    """NaN equals NaN, and its difference from any number is infinite."""
     if x != x or y != y:
         return 0.0 if x != x and y != y else float("inf")
     return abs(x - y)
 
 
 def compare_interface(old, new):
-    """Compares lists of flags and commands: none may vanish."""
+    """Compares lists of flags and commands; none may be missing in the new build."""
     old, new = json.loads(old), json.loads(new)
     gone = [f"{of} {name}" for of, names in old.items() for name in names if name not in new.get(of, [])]
     if gone:
@@ -221,7 +221,7 @@ def compare_pdf(old, new):
 
 
 def compare_placement(old, new):
-    """A PDF, too; its second page shows views of the object with their names."""
+    """Compares a PDF; its second page shows views of the object with their names."""
     return pdf.compare(old, new, functools.partial(compare_png, colours=VIEWS))
 
 
@@ -243,13 +243,13 @@ def comparison_for(base):
 
 
 def compare_bytes(name, old, new):
-    """Returns the Finding for two files that both builds wrote."""
+    """Returns the Finding for a file that both builds wrote."""
     if old == new:
         return Finding(name)
     base = name.rpartition("/")[2]
     try:
         how, is_allowed = comparison_for(base)(old, new)
-    except Exception as error:  # of whatever kind a damaged file leads to
+    except Exception as error:  # a damaged file can cause any kind of error
         how, is_allowed = f"cannot be decoded ({error})", False
     return Finding(name, how if is_allowed else f"{how}; {first_difference(old, new)}", is_allowed)
 
@@ -259,7 +259,7 @@ def files_in(folder):
 
 
 def compare_folders(old, new):
-    """Yields a Finding for each file of either folder. Names of the folders themselves, in JSON, do not count."""
+    """Yields a Finding for each file in either folder. The folders' own names in JSON are ignored."""
     for name in sorted(files_in(old) | files_in(new)):
         if not (new / name).exists():
             yield Finding(name, "not written by the new build", False)

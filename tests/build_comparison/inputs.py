@@ -1,4 +1,4 @@
-"""What the runs read, apart from what other runs wrote: small files, and frames of the virtual rig's depth camera."""
+"""Inputs of the runs that do not come from other runs: small files, and frames of the virtual rig's depth camera."""
 import contextlib
 import json
 import math
@@ -14,18 +14,18 @@ from build_comparison import decode
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 LAYOUT = ROOT / "deploy/rig_layout.toml.example"
 PROFILE = ROOT / "deploy/film_profile.toml.example"
-CMYK_PROFILE = "/usr/share/color/icc/ghostscript/default_cmyk.icc"  # of libgs-common
+CMYK_PROFILE = "/usr/share/color/icc/ghostscript/default_cmyk.icc"  # from libgs-common
 
-WATER_MM = 240  # its place along the axis
-GRIPPER_MM = 135  # height of the gripper above the water while frames are taken
-VIEWS = 8  # of the calibration board
+WATER_MM = 240  # axis position of the water
+GRIPPER_MM = 135  # height of the gripper above the water during the capture
+VIEWS = 8  # number of views of the calibration board
 OTHER_FILM = """\
 swelling = [1.03, 1.02]
 drag_length_mm = 60.0
 poisson_ratio = 0.4
 """
 
-# The least that the virtual rig takes. Nothing moves.
+# The smallest profile that the virtual rig accepts. Nothing moves.
 DRIVE = """\
 name = "virtual drive"
 tried_on_hardware = false
@@ -93,7 +93,7 @@ stopping_actions = [1]
 
 
 def product(a, b):
-    """Of two quaternions, w first."""
+    """Product of two quaternions, w first."""
     return [a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
             a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
             a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
@@ -101,7 +101,7 @@ def product(a, b):
 
 
 def turn(degrees, x, y, z):
-    """The quaternion of a turn about a unit vector."""
+    """The quaternion of a rotation about a unit vector."""
     half = math.radians(degrees) / 2
     return [math.cos(half), math.sin(half) * x, math.sin(half) * y, math.sin(half) * z]
 
@@ -133,7 +133,7 @@ def board_obj():
 
 
 def held_board(view):
-    """The pose of the calibration board in the camera's frame: tilted each way, near and far, all over the image."""
+    """Pose of the calibration board in the camera's frame: tilted in all directions, near and far, all over the image."""
     way, away_mm = 1.7 * view, 560 + 60 * (view % 5)
     facing = product(turn(view % 3 * 16, math.cos(way), math.sin(way), 0), [0, 1, 0, 0])
     aside = 0.5 - 126 / away_mm
@@ -154,22 +154,22 @@ def binary_stl(obj):
 
 
 def measured_points(surface_map, count=150):
-    """Points for `fit`, spread over the vertices of a surface_map.ply that film reaches."""
+    """Points for `fit`, spread over the vertices of a surface_map.ply that the film reaches."""
     _, names, vertices, _ = decode.read_ply(surface_map)
     columns = [names.index(name) for name in ("film_x", "film_y", "x", "y", "z", "stretch")]
     rows = [[vertex[column] for column in columns] for vertex in vertices]
-    landed = [row[:5] for row in rows if row[5] < 2]  # NaN, where no film arrives, is not
+    landed = [row[:5] for row in rows if row[5] < 2]  # false for NaN, where the film does not reach
     lines = [",".join("%.6f" % x for x in landed[i * len(landed) // count]) for i in range(count)]
     return "\n".join(["film_x_mm,film_y_mm,X_mm,Y_mm,Z_mm", *lines, ""])
 
 
 def motion():
-    """A way down that is not quite vertical."""
+    """A downward path that is not exactly vertical."""
     return "t_s,x_mm,y_mm,z_mm\n" + "".join(f"{0.5 * i},{0.02 * i},{-0.01 * i},{100 - 2.5 * i}\n" for i in range(60))
 
 
 def write_all(folder):
-    """Writes the files that all runs share."""
+    """Writes the inputs shared by all runs."""
     folder.mkdir()
     (folder / "pose.json").write_text(pose(product(turn(20, 1, 0, 0), turn(15, 0, 0, 1)), [6, -9, 0]))
     (folder / "hung.json").write_text(pose(product(turn(-30, 1, 0, 0), turn(45, 0, 0, 1)), [0, 0, -95]))
@@ -198,7 +198,7 @@ SWEEP = ("[camera.sweep]\nvia_mm = [[-150.0, -300.0, 700.0], [0.0, -250.0, 760.0
 
 
 class Camera:
-    """A virtual rig and hydroprint-capture of one build. The same scene gives the same frames, bit for bit."""
+    """A virtual rig and hydroprint-capture of one build. The same scene gives identical frames."""
 
     def __init__(self, bin_folder, control):
         self.bin_folder, self.control = bin_folder, control
@@ -220,7 +220,7 @@ class Camera:
 
 @contextlib.contextmanager
 def camera(bin_folder, inputs, scene_text):
-    with tempfile.TemporaryDirectory() as name:  # a short path: sockets have no others
+    with tempfile.TemporaryDirectory() as name:  # sockets need a short path
         folder = pathlib.Path(name)
         (folder / "scene.toml").write_text(scene_text)
         rig, _ = programs.start([bin_folder / "hydroprint-virtual-rig", "--profile", inputs / "drive.toml",
@@ -234,7 +234,7 @@ def camera(bin_folder, inputs, scene_text):
 
 
 def take_frames(bin_folder, inputs, mesh, out):
-    """Takes the frames that calibrate ("hung"), calibrate-camera ("view0" and so on) and fuse ("sweep") read."""
+    """Captures the frames for calibrate ("hung"), calibrate-camera ("view0" and so on) and fuse ("sweep")."""
     with camera(bin_folder, inputs, scene(mesh, inputs / "hung.json", "")) as still:
         still.take(out / "hung", 12)
         for view in range(VIEWS):

@@ -1,5 +1,5 @@
-"""Compares two PDF files by what is printed, apart from text: pages, their boxes, images and where they are, and lines
-that are not letters. Letters are strokes by a pen of 0.17 of their height, or text of a font. Takes mutool
+"""Compares the printed content of two PDF files, except text: pages, their boxes, images with their positions, and lines
+that are not letters. Letters are strokes with a width of 0.17 of their height, or text of a font. Needs mutool
 (mupdf-tools) and pdfimages (poppler-utils)."""
 import pathlib
 import re
@@ -29,21 +29,21 @@ def is_letter(line):
 
 
 def drawing(path, page):
-    """The lines of a page's content without letters."""
+    """Returns the lines of a page's content without letters."""
     text = output_of("mutool", "show", "-b", path, f"pages/{page}/Contents").decode("latin-1")
     text = re.sub(r"\bBT\b.*?\bET\b", "", text, flags=re.DOTALL)
     return [line for line in text.splitlines() if line.strip() and not is_letter(line)]
 
 
 def images(path, folder):
-    """The pixels of all images, in their order: PNG, or TIFF for CMYK."""
+    """Returns the pixels of all images in order, as PNG, or TIFF for CMYK."""
     folder.mkdir()
     output_of("pdfimages", "-png" if b"DeviceCMYK" not in path.read_bytes() else "-tiff", path, folder / "image")
     return [file.read_bytes() for file in sorted(folder.iterdir())]
 
 
 def compare_images(old, new, compare_png):
-    """Returns the first difference that may not be; empty if there is none."""
+    """Returns the first difference that is not allowed; empty if there is none."""
     if len(old) != len(new):
         return "the number of images differs"
     for i, (a, b) in enumerate(zip(old, new)):
@@ -56,7 +56,7 @@ def compare_images(old, new, compare_png):
 
 
 def compare(old, new, compare_png):
-    """Returns how two files (bytes) differ, and whether they may."""
+    """Returns a description of the difference between two files (bytes), and whether it is allowed."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         paths = [folder / "old.pdf", folder / "new.pdf"]

@@ -1,4 +1,4 @@
-"""The runs by which two builds are compared. Each leaves a folder of files: what the program wrote, and its summary."""
+"""The runs for the comparison of two builds. Each writes a folder with the program's files and its summary."""
 import dataclasses
 import json
 import pathlib
@@ -16,12 +16,12 @@ TIMEOUT_S = 1800
 
 
 class Failure(Exception):
-    """A program did not do what a run needs."""
+    """A program failed in a run."""
 
 
 @dataclasses.dataclass
 class Build:
-    """One of the two builds, and where its runs leave their files."""
+    """One of the two builds, and the folder for the files of its runs."""
     bin_folder: pathlib.Path
     work: pathlib.Path
     threads: int
@@ -34,7 +34,7 @@ class Build:
             raise Failure(f"{program} {arguments[0]}: not done after {TIMEOUT_S} s") from None
 
     def output(self, program, *arguments):
-        """Calls a program that must succeed. Returns its standard output."""
+        """Runs a program, which must succeed. Returns its standard output."""
         result = self.call(program, *arguments)
         if result.returncode != 0:
             message = result.stderr.decode(errors="replace").strip()
@@ -45,12 +45,12 @@ class Build:
 @dataclasses.dataclass
 class Run:
     name: str
-    action: typing.Callable  # (build, files, folder): leaves files in the folder, which exists
+    action: typing.Callable  # (build, files, folder): writes files to the folder, which exists
     is_quick: bool = False
 
 
 class Files:
-    """Where runs find what they read: the shared inputs, and what the old build's runs wrote."""
+    """The files that runs read: the shared inputs, and the output of the old build's runs."""
 
     def __init__(self, folder, old_run):
         self.folder, self.old_run = folder, old_run
@@ -68,7 +68,7 @@ class Files:
         return self.old_run("capture") / name
 
     def derived(self, name, content):
-        """A file that is made when it is first asked for, whole at once: other threads may ask for it, too."""
+        """Returns a file and creates it atomically on first use, because several threads may need it."""
         path = self.folder / name
         if not path.exists():
             data = content()
@@ -79,7 +79,7 @@ class Files:
 
 
 def worker(verb, flags):
-    """A run of the worker. `flags`: of the files, without --out, --threads and --json."""
+    """A run of the worker. `flags` returns the flags for the files, without --out, --threads and --json."""
     def action(build, files, folder):
         summary = build.output("hydroprint-worker", verb, "--out", folder / "artifacts", "--threads", build.threads,
                                "--json", *flags(files))
@@ -104,7 +104,7 @@ PREVIEW_REQUESTS = (
 
 
 def preview(build, files, folder):
-    """Keeps the answers to a few requests, each sent once the one before it is answered."""
+    """Saves the responses to a few requests, each sent after the response to the previous one."""
     command = [build.bin_folder / "hydroprint-worker", "preview", "--mesh", files.mesh("board"), "--threads",
                str(build.threads)]
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
@@ -125,14 +125,14 @@ def preview(build, files, folder):
 
 
 def keep_answer(stream, path):
-    """An answer is a line of JSON and as many bytes as it says."""
+    """Reads a response: a line of JSON, and as many bytes as the line states."""
     head = json.loads(stream.readline())
     path.with_suffix(".json").write_text(json.dumps(head))
     path.with_suffix(".bytes").write_bytes(stream.read(head["bytes"]))
 
 
 def names_in(help_text):
-    """Flags and commands that a help text lists: each at the beginning of a line, apart from its description."""
+    """Returns the flags and commands in a help text; each is at the start of a line, separate from its description."""
     return re.findall(r"^  (?:-\w,)?(--[a-z][a-z0-9-]*|[a-z][a-z0-9-]*(?=  |$))", help_text, re.MULTILINE)
 
 

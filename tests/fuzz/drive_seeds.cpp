@@ -1,5 +1,5 @@
-// Inputs for fuzz_drive: what the virtual rig, as each of the given drives, replies to the requests
-// that these drives really get. drive_seeds FOLDER PROFILE...
+// Creates inputs for fuzz_drive: real requests to each of the given drives, and the replies of the
+// virtual rig. Usage: drive_seeds FOLDER PROFILE...
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -16,7 +16,7 @@ using drive::DriveProfile;
 using drive::Function;
 using drive::Request;
 
-/// Writes inputs as files, and their list as -seed_inputs takes it.
+/// Writes inputs as files, and a list of them for -seed_inputs.
 class Seeds {
  public:
   explicit Seeds(std::filesystem::path folder) : folder_(std::move(folder)) {}

@@ -10,29 +10,29 @@ namespace hydroprint::fuzz {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// What the first byte of an input of fuzz_drive chooses (of the others, the rest of the division).
+/// The kind of an input of fuzz_drive, selected by its first byte (modulo the number of kinds).
 enum class Kind : std::uint8_t {
-  kExchange,  ///< one request and something that came back
-  kPoll,      ///< something that came back to each request of a poll
+  kExchange,  ///< one request and any reply
+  kPoll,      ///< any reply to each request of a poll
   kNumber,    ///< a format, a value and two words
 };
 inline constexpr std::uint8_t kKinds = 3;
 
-/// A request and what came back: unit, function and data.
+/// A request and its reply: unit, function and data.
 struct Exchange {
   drive::Request request;
   Bytes reply;
 };
 
-/// The input that stands for an exchange. Of words that are written it keeps how many there are and
-/// the first, which is all that a reply repeats.
+/// Encodes an exchange as an input. For written words it keeps only their number and the first one,
+/// because a reply repeats nothing else.
 [[nodiscard]] Bytes input_of(const Exchange& exchange);
-/// The input that stands for these replies to a poll by the profile of this number.
+/// Encodes the replies to a poll with the profile of this number as an input.
 [[nodiscard]] Bytes input_of(std::uint8_t profile, const std::vector<Bytes>& replies);
 
-/// What an input stands for, without its first byte; missing bytes are 0.
+/// Decodes an input without its first byte; missing bytes are 0.
 [[nodiscard]] Exchange exchange_of(std::span<const std::uint8_t> input);
-/// The next reply, which is taken off the input.
+/// Removes the next reply from the input and returns it.
 [[nodiscard]] Bytes next_reply(std::span<const std::uint8_t>& input);
 
 }  // namespace hydroprint::fuzz

@@ -1,5 +1,5 @@
-// What a drive says may be anything: decode_reply, decode_state and the codec crash on nothing,
-// take exactly what is a reply, and tell of it what it says.
+// Replies of a drive are untrusted. decode_reply, decode_state and the codec must never crash, must
+// accept exactly the valid replies, and must decode them correctly.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -20,7 +20,7 @@ using drive::Request;
 using Input = std::span<const std::uint8_t>;
 using Words = std::vector<std::uint16_t>;
 
-// What the profile reader lets pass.
+// Values that the profile reader accepts.
 constexpr double kLeastPerUnit = 1e-9;
 constexpr double kMostPerUnit = 1e9;
 
@@ -42,7 +42,7 @@ bool is_read(const Request& request) {
   return request.function == Function::kReadHolding || request.function == Function::kReadInput;
 }
 
-/// The one reply that says `words` (of a read), or that it was written.
+/// The only valid reply that contains `words` (for a read) or confirms a write.
 Bytes good_reply(const Request& request, const Words& words) {
   if (!is_read(request)) {
     Bytes out = encode_request(request);
@@ -74,7 +74,7 @@ void check_error(const Request& request, const Bytes& reply, const Error& error)
   HP_EXPECT(error.metadata.at("exception") == std::to_string(reply[2]));
 }
 
-/// Words are told only if their reply is, byte for byte, the one that says them; and then always.
+/// Words are decoded if and only if the reply is, byte for byte, the valid reply with these words.
 Result<Words> decode_checked(const Request& request, const Bytes& reply) {
   auto words = decode_reply(request, reply);
   if (words) {
@@ -98,7 +98,7 @@ void try_exchange(Input input) {
   (void)decode_checked(exchange.request, exchange.reply);
 }
 
-/// What a number that was told is in registers again.
+/// A decoded number, encoded again, gives the original registers.
 void check_number(const Format& format, const Words& words) {
   const double value = drive::decode(format, words);
   HP_EXPECT(!std::isnan(value));
@@ -190,7 +190,7 @@ T take(Input& input) {
   return out;
 }
 
-/// What can be put in registers is told again to within half a count.
+/// A number that can be encoded is decoded to within half a count.
 void check_value(const Format& format, double value) {
   const auto words = drive::encode(format, value);
   if (!words) {

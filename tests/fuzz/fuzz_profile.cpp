@@ -1,5 +1,5 @@
-// A profile may hold anything: it is refused in one line, or whatever a drive then says and
-// whatever it is told by this profile stays in bounds.
+// A profile is untrusted. Either it is refused with one line, or all values that are read from or
+// written to a drive with it stay within bounds.
 #include <cmath>
 #include <fstream>
 #include <span>

@@ -1,5 +1,5 @@
-// Whatever a body holds: it is refused in one line, or is JSON by another parser's judgement too,
-// and what was read can be written and read again.
+// Either a request body is refused with one line, or another parser also accepts it as JSON, and
+// the message can be written and read again.
 #include <google/protobuf/util/message_differencer.h>
 
 #include <nlohmann/json.hpp>

@@ -1,5 +1,4 @@
-// Whatever stands in a request line: it is refused in one line, or becomes a request that can be
-// read.
+// Either a request line is refused with one line, or it gives a request that can be read.
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
@@ -35,7 +34,7 @@ void check_refusal(const Error& error) {
   HP_EXPECT(!error.reason.empty());
 }
 
-// Every text in it can go on to a file name, a log or an answer: UTF-8 without NUL.
+// All its texts can be used in file names, logs and responses: UTF-8 without NUL.
 void check_texts(const pb::Message& message) {
   const pb::Reflection& look = *message.GetReflection();
   std::vector<const pb::FieldDescriptor*> fields;

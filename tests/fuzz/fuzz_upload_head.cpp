@@ -1,5 +1,5 @@
-// Whatever bytes come over a connection as the head of an upload or a download: however they are
-// cut into pieces, they are the same request or none, and what its headers say can be acted upon.
+// The head of an upload or a download gives the same result however its bytes are split into
+// pieces: the same request with usable headers, or an error.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -25,7 +25,7 @@ struct Taken {
   bool is_done = false, is_refused = false;
 };
 
-// As a connection does: what the parser has not taken is offered again with what comes next.
+// As in a connection, bytes that the parser has not consumed are passed again with the next ones.
 Taken take(std::string_view bytes, std::size_t piece) {
   RequestParser parser(kHeadLimit_bytes);
   Taken taken;
@@ -48,7 +48,7 @@ Taken take(std::string_view bytes, std::size_t piece) {
   return taken;
 }
 
-// What is no request may be refused sooner or later.
+// An invalid request may be refused earlier or later.
 void expect_same(const Taken& a, const Taken& b) {
   HP_EXPECT(a.is_done == b.is_done);
   if (!a.head || !b.head) return;
@@ -80,7 +80,7 @@ void expect_fit_for_use(const http::Head& head) {
   }
   HP_EXPECT(!http::lists_tag(head.fields.find("If-None-Match").value_or(""), "\"\"") ||
             head.fields.count("If-None-Match") > 0);
-  // No field can begin another one where it is said again.
+  // A field cannot start another field when it is written again.
   for (const http::HeaderField& field : head.fields.all()) {
     HP_EXPECT(field.name.find_first_of("\r\n:") == std::string::npos);
     HP_EXPECT(field.value.find('\n') == std::string::npos);

@@ -1,4 +1,4 @@
-// What the .proto files declare, field by field.
+// Tests of the rules that the .proto files declare.
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/dynamic_message.h>
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ void visit_message(const pb::Descriptor& message, const EachField& visit,
   }
 }
 
-// Fields of all specs and of the messages in them.
+// Fields of all specs and of the messages that they contain.
 void visit_spec_fields(const EachField& visit) {
   std::set<const pb::Descriptor*> seen;
   const pb::OneofDescriptor& specs = *v1::Job::descriptor()->FindOneofByName("spec");
@@ -44,7 +44,7 @@ void visit_spec_fields(const EachField& visit) {
   ASSERT_GT(seen.size(), 11U);
 }
 
-// Fields of all requests and answers.
+// Fields of all requests and responses.
 void visit_all_fields(const EachField& visit) {
   std::set<const pb::Descriptor*> seen;
   for (const char* name : {"ArtifactService", "AssetService", "CalibrationService", "CameraService",
@@ -158,7 +158,7 @@ TEST(DeclaredRules, EveryTextOfASpecIsBounded) {
   });
 }
 
-// A message with this field alone set.
+// A message with only this field set.
 class OneField {
  public:
   explicit OneField(const pb::FieldDescriptor& field)
