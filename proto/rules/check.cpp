@@ -40,10 +40,7 @@ std::string listed(const std::vector<std::string>& names) {
 
 std::string number_problem(const pb::FieldDescriptor& field, const v1::FieldRules& rules,
                            double value) {
-  const bool is_enough =
-      !rules.has_min() || (rules.above_min() ? value > rules.min() : value >= rules.min());
-  const bool is_in_range = is_enough && (!rules.has_max() || value <= rules.max());
-  if (is_in_range && std::isfinite(value)) return {};
+  if (std::isfinite(value) && is_in_range(rules, value)) return {};
   const std::string range = range_text(field);
   return "must be " + (range.empty() ? "a finite number" : range);
 }

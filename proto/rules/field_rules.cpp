@@ -69,6 +69,12 @@ const v1::FieldRules* rules_of(const pb::FieldDescriptor& field) {
   return other == nullptr ? nullptr : &other->options().GetExtension(v1::rules);
 }
 
+bool is_in_range(const v1::FieldRules& rules, double value) {
+  const bool is_enough =
+      !rules.has_min() || (rules.above_min() ? value > rules.min() : value >= rules.min());
+  return is_enough && (!rules.has_max() || value <= rules.max());
+}
+
 std::string range_text(const pb::FieldDescriptor& field) {
   const v1::FieldRules* const rules = rules_of(field);
   if (rules == nullptr || (!rules->has_min() && !rules->has_max())) return {};

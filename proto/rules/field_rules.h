@@ -17,6 +17,9 @@ namespace hydroprint::rules {
 /// The rules of a field; null if it has none.
 [[nodiscard]] const v1::FieldRules* rules_of(const google::protobuf::FieldDescriptor& field);
 
+/// Whether a finite value lies in the range of the rules; true if they declare none.
+[[nodiscard]] bool is_in_range(const v1::FieldRules& rules, double value);
+
 /// "from 20 to 2400 dots per inch", "above 0 and at most 4"; empty if there is no range.
 [[nodiscard]] std::string range_text(const google::protobuf::FieldDescriptor& field);
 

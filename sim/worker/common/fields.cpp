@@ -3,14 +3,12 @@
 #include <google/protobuf/message.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <sstream>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "sim/image/film/film_image.h"
+#include "proto/rules/field_rules.h"
 
 namespace hydroprint::worker {
 namespace {
@@ -18,28 +16,12 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-struct Range {
-  std::string_view field;
-  double min, max;
-};
-
-/// A field has the same meaning and range in every spec.
-constexpr std::array kRanges = {Range{"scale", 1e-6, 1e6},
-                                Range{"dpi", image::kMinDpi, image::kMaxDpi},
-                                Range{"dip_speed_mm_per_s", 1e-3, 1000},
-                                Range{"depth_mm", 1e-3, 1e4},
-                                Range{"voxel_mm", 1.5, 4},
-                                Range{"gripper_mm", -1e4, 1e4},
-                                Range{"ink_passes", 0, 20},
-                                Range{"threads", 1, 1024}};
-
 Status check_range(const FieldDescriptor& field, double value, Code code) {
   if (!std::isfinite(value)) return fail_field(code, field.name(), "not a finite number");
-  const auto* const range = std::find_if(kRanges.begin(), kRanges.end(),
-                                         [&](const Range& r) { return r.field == field.name(); });
-  if (range == kRanges.end() || (value >= range->min && value <= range->max)) return {};
+  const v1::FieldRules* const rules = rules::rules_of(field);
+  if (rules == nullptr || rules::is_in_range(*rules, value)) return {};
   std::ostringstream problem;
-  problem << value << " is out of range. Use " << range->min << " to " << range->max;
+  problem << value << " is out of range. It must be " << rules::range_text(field);
   return fail_field(code, field.name(), problem.str());
 }
 
