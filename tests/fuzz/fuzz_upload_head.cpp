@@ -48,7 +48,7 @@ Taken take(std::string_view bytes, std::size_t piece) {
   return taken;
 }
 
-// What is no request may be refused sooner or later.
+// The point at which a malformed request is refused may differ.
 void expect_same(const Taken& a, const Taken& b) {
   HP_EXPECT(a.is_done == b.is_done);
   if (!a.head || !b.head) return;
