@@ -51,7 +51,7 @@ class LiveCamera {
   };
   /// A job has the camera as long as this object lives.
   using Loan = std::unique_ptr<LiveCamera, GiveBack>;
-  /// Gives the camera to a job, one at a time; from then on no pictures are shown.
+  /// Gives the camera to a job, one at a time. No pictures are shown meanwhile.
   [[nodiscard]] Loan lend(std::int64_t job);
   /// Waits up to 5 s until a lent camera is free. A camera that still hangs is reported by the job.
   void wait_until_free();

@@ -25,7 +25,7 @@ std::string instruction(Step step, const Plan& plan) {
              (plan.simulate_job.empty() ? std::string() : " of " + plan.simulate_job) +
              " at its full size and let it dry; then confirm";
     case Step::kLoadObject:
-      return "hang the object in the gripper as planned; then confirm";
+      return "mount the object in the gripper as planned; then confirm";
     case Step::kFindContact:
       if (plan.contact_mm) {
         return text("first contact is known from ", plan.calibration, ", at ", *plan.contact_mm,

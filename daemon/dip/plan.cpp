@@ -62,7 +62,7 @@ Result<Ways> ways_from(const Plan& plan, double contact_mm, double loaded_mm,
     return out_of_reach(
         text("from first contact at ", contact_mm, " mm a depth of ", plan.depth_mm, " mm ends at ",
              ways.bottom_mm, " mm, beyond the limit of ", range.high_mm,
-             " mm; hang the object lower in the gripper, or dip less deep"),
+             " mm; mount the object lower in the gripper, or dip less deep"),
         ways.bottom_mm, range);
   }
   ways.clear_mm = std::max(contact_mm - plan.clearance_mm, range.low_mm);
@@ -70,7 +70,7 @@ Result<Ways> ways_from(const Plan& plan, double contact_mm, double loaded_mm,
   if (!(contact_mm - ways.clear_mm >= needed_mm)) {
     return out_of_reach(text("first contact at ", contact_mm, " mm leaves less than ", needed_mm,
                              " mm above the water before the limit of ", range.low_mm,
-                             " mm; hang the object higher in the gripper, so that the axis is "
+                             " mm; mount the object higher in the gripper, so that the axis is "
                              "lower at first contact"),
                         contact_mm, {range.low_mm + needed_mm, range.high_mm});
   }

@@ -67,7 +67,7 @@ class AssetStore {
                                             const RequestKey& request);
   /// An upload of this owner; kNotFound, UPLOAD_NOT_FOUND if there is none.
   [[nodiscard]] Result<Upload> upload(const std::string& id, const std::string& owner);
-  /// The asset, whoever owns it. kNotFound, ASSET_NOT_FOUND.
+  /// The asset of any owner. kNotFound, ASSET_NOT_FOUND.
   [[nodiscard]] Result<Asset> asset(const std::string& sha256);
   /// The asset, with the owners that the user may know. Also ASSET_NOT_FOUND if the user may not
   /// use it.

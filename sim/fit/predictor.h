@@ -17,7 +17,7 @@ namespace hydroprint::fit {
 class Predictor {
  public:
   /// @param model    must outlive the predictor
-  /// @param options  all but the profile
+  /// @param options  all except the profile
   Predictor(const mesh::Model& model, pipeline::DipOptions options)
       : model_(model), options_(std::move(options)) {}
 

@@ -47,7 +47,7 @@ struct FixedPattern {
   /// pattern is unknown.
   [[nodiscard]] double left(int u, int v) const { return is_known() ? sigma[patch_at(u, v)] : 1; }
 
-  /// Fails (kInvalidArgument) if the pattern is known, but for another image or patch size.
+  /// Fails (kInvalidArgument) if the pattern is known and has another image or patch size.
   [[nodiscard]] Status check_for(int image_width_px, int image_height_px,
                                  const DepthNoise& noise) const;
 

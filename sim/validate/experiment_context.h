@@ -82,7 +82,7 @@ class ExperimentContext {
   std::map<std::string, std::unique_ptr<Plan>> plans_;
 };
 
-/// Computes the film image of a body's texture and its dip, like ExperimentContext::plan but for
+/// Computes the film image of a body's texture and its dip, like ExperimentContext::plan, with
 /// any options.
 /// @param ink_passes  0: the thickness of the film is taken to be uniform
 [[nodiscard]] Result<Plan> make_plan(const Body& body, const pipeline::DipOptions& options,

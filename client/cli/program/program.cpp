@@ -131,9 +131,8 @@ std::string calibration_name(const std::string& text) {
 }
 
 void add_stale_flag(CLI::App& command, bool& is_allowed) {
-  command.add_flag(
-      "--allow-stale-calibration", is_allowed,
-      "Use the calibration even if the rig has moved since, or if it is for another object");
+  command.add_flag("--allow-stale-calibration", is_allowed,
+                   "Use the calibration even if it is no longer valid, or is for another object");
 }
 
 void add_job_argument(CLI::App& command, std::string& job) {

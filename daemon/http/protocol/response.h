@@ -26,7 +26,7 @@ struct Framing {
   std::optional<std::uint64_t>
       length;  ///< none: chunked, or until the connection closes for HTTP/1.0
   bool keeps_alive = true;
-  bool is_secure = false;  ///< over TLS: tells browsers to use only TLS from then on
+  bool is_secure = false;  ///< over TLS: tells browsers to use only TLS afterwards
 };
 
 /// Status line and header fields, including those of every response. They forbid sniffing, framing

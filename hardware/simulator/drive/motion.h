@@ -18,7 +18,7 @@ struct Goal {
   double deceleration_mm_per_s2 = 1;  ///< while the speed decreases
 };
 
-/// Whether the goal is reached: from then on, only x changes, at constant velocity.
+/// Whether the goal is reached. Afterwards only x changes, at constant velocity.
 [[nodiscard]] bool is_reached(const Kinematics& now, const Goal& goal);
 
 /// Advances the time-optimal trajectory within the limits by `dt_s`. It consists of pieces of

@@ -52,21 +52,21 @@ Status check_replaceable(const fs::path& dir) {
   }
   bool has_report = false;
   bool empty = true;
-  std::string stranger;
+  std::string other_file;
   for (fs::directory_iterator entry(dir, error), end; !error && entry != end;
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
     empty = false;
     has_report = has_report || is_record(name);
-    if (!is_artifact_name(name)) stranger = name;
+    if (!is_artifact_name(name)) other_file = name;
   }
   if (error) {
     return fail(Code::kPermissionDenied,
                 dir.string() + ": cannot be listed. Check its permissions");
   }
-  if (!stranger.empty()) {
+  if (!other_file.empty()) {
     return fail(Code::kAlreadyExists,
-                dir.string() + ": holds " + stranger +
+                dir.string() + ": holds " + other_file +
                     ", which is not an artifact of an earlier run. Choose another --out");
   }
   if (!empty && !has_report) {

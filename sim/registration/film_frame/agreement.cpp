@@ -77,16 +77,16 @@ Matching agreeing(Matching matching, const std::vector<FoundMarker>& found,
   auto spots = spots_of(matching, found, layout);
   Settled all = settled(spots, matching.X_CF);
   while (spots.size() > 3 && !is_chance(all.square, spots.size())) {
-    std::size_t stranger = 0;
+    std::size_t outlier = 0;
     Settled best{all.X_CF, INFINITY};
     for (std::size_t i = 0; i < spots.size(); ++i) {
       const Settled others = settled(without(spots, i), all.X_CF);
       if (others.square >= best.square) continue;
       best = others;
-      stranger = i;
+      outlier = i;
     }
-    matching.found[spots[stranger].marker] = -1;
-    spots = without(spots, stranger);
+    matching.found[spots[outlier].marker] = -1;
+    spots = without(spots, outlier);
     all = best;
   }
   matching.X_CF = all.X_CF;

@@ -223,8 +223,8 @@ TEST_F(Api, HostileNamesAreRefused) {
   get.set_name("jobs/1");
   expect_refused(client.jobs->GetJob(client.context().get(), get, &job), StatusCode::NOT_FOUND,
                  "JOB_NOT_FOUND");
-  Client stranger(daemon.address(), "two words");
-  expect_refused(stranger.create(simulate_request(asset), job), StatusCode::INVALID_ARGUMENT,
+  Client other(daemon.address(), "two words");
+  expect_refused(other.create(simulate_request(asset), job), StatusCode::INVALID_ARGUMENT,
                  "SPEC_INVALID");
 }
 

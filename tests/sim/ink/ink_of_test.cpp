@@ -116,7 +116,7 @@ TEST(InkOf, EachPixelsInkIsAtThePixelsPlace) {
   EXPECT_NEAR(field.at({15, -5}), 1, 1e-12);
   EXPECT_EQ(field.at({15, 5}), 0);
   EXPECT_EQ(field.at({-15, -5}), 0);
-  EXPECT_NEAR(field.mean({-20, 0}, {-10, 0}, {-20, 10}), 2, 0.1) << "but for the cells at the edge";
+  EXPECT_NEAR(field.mean({-20, 0}, {-10, 0}, {-20, 10}), 2, 0.1) << "except the cells at the edge";
 }
 
 TEST(InkOf, ConvertsPixelsBeforeItAveragesThem) {

@@ -24,8 +24,8 @@ export const calibrated = computed<{ calibration: Calibration; pose: Pose } | un
 
 const kStale: Record<string, string> = {
   MOVED: 'the axis has moved since the calibration',
-  HOMED: 'the rig was homed since the calibration',
-  DIPPED: 'something was dipped since the calibration',
+  HOMED: 'the rig has been homed since the calibration, or has lost its position',
+  DIPPED: 'an object has been dipped since the calibration',
 };
 
 /** Describes why the calibration is no longer valid; empty if it is valid. */
