@@ -81,7 +81,7 @@ class CalibrationService final : public v1::CalibrationService::Service {
     HP_ASSIGN_OR_RETURN(const std::string mesh, parse_asset_name(entered.mesh().asset()));
     HP_RETURN_IF_ERROR(backend_.jobs.check_inputs({{entered.mesh().name(), mesh}}));
     NewCalibration made;
-    HP_ASSIGN_OR_RETURN(made.owner, owner_of(backend_, context));
+    HP_ASSIGN_OR_RETURN(made.owner, owner_of(context));
     made.body = entered.SerializeAsString();
     HP_ASSIGN_OR_RETURN(
         const Calibration out,

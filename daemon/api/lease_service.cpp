@@ -77,7 +77,7 @@ class LeaseService final : public v1::LeaseService::Service {
                         const v1::AcquireLeaseRequest& request) {
     HP_RETURN_IF_ERROR(check_serving(backend_));
     HP_RETURN_IF_ERROR(check_fields(request));
-    HP_ASSIGN_OR_RETURN(const std::string holder, owner_of(backend_, context));
+    HP_ASSIGN_OR_RETURN(const std::string holder, owner_of(context));
     return leases().acquire(holder, request.purpose(), ttl_ms_of(request),
                             request_key("AcquireLease", request));
   }
@@ -89,7 +89,7 @@ class LeaseService final : public v1::LeaseService::Service {
 
   Status take_away(const grpc::ServerContext& context, const v1::BreakLeaseRequest& request) {
     HP_RETURN_IF_ERROR(check_fields(request));
-    HP_ASSIGN_OR_RETURN(const std::string breaker, owner_of(backend_, context));
+    HP_ASSIGN_OR_RETURN(const std::string breaker, owner_of(context));
     HP_ASSIGN_OR_RETURN(const auto ended, leases().take_away());
     if (!ended) return {};
     backend_.gateway.end_jog();

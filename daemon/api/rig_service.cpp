@@ -129,8 +129,7 @@ class RigService final
       HP_ASSIGN_OR_RETURN(auto taken, backend_.gateway.order(request.lease_id(), order));
       HP_ASSIGN_OR_RETURN(const std::uint64_t motion, taken.get());
       log(LogLevel::kInfo, event,
-          {{"by", owner_of(backend_, context).value_or("")},
-           {"motion", static_cast<std::int64_t>(motion)}});
+          {{"by", owner_of(context).value_or("")}, {"motion", static_cast<std::int64_t>(motion)}});
       return {};
     }();
     return answer(done, reply);
@@ -144,7 +143,7 @@ class RigService final
     if (request.request_id().empty()) return action();
     const std::lock_guard lock(once_mutex_);  // the same request may arrive twice at once
     const RequestKey key = request_key(method, request);
-    const auto owner = owner_of(backend_, context);
+    const auto owner = owner_of(context);
     if (!owner) return to_grpc(owner.error());
     const auto is_new = first_time(backend_.database, *owner, key, system_clock_ms());
     if (!is_new) return to_grpc(never_again(is_new.error()));
@@ -165,8 +164,7 @@ class RigService final
     HP_ASSIGN_OR_RETURN(const std::uint64_t motion, taken.get());
     if (last_jog_.exchange(motion) != motion) {
       log(LogLevel::kInfo, "rig_jogging",
-          {{"by", owner_of(backend_, context).value_or("")},
-           {"motion", static_cast<std::int64_t>(motion)}});
+          {{"by", owner_of(context).value_or("")}, {"motion", static_cast<std::int64_t>(motion)}});
     }
     return {};
   }

@@ -5,8 +5,7 @@
 
 namespace hydroprint::daemon {
 
-Result<std::string> owner_of(const ServiceContext& backend,
-                             const grpc::ServerContextBase& context) {
+Result<std::string> owner_of(const grpc::ServerContextBase& context) {
   HP_ASSIGN_OR_RETURN(auth::Caller caller, caller_of(context));
   return std::move(caller).name;
 }

@@ -48,8 +48,7 @@ struct ServiceContext {
 };
 
 /// The name of the caller (see Authenticator::caller), who owns created resources.
-[[nodiscard]] Result<std::string> owner_of(const ServiceContext& backend,
-                                           const grpc::ServerContextBase& context);
+[[nodiscard]] Result<std::string> owner_of(const grpc::ServerContextBase& context);
 
 /// Page size: the default for 0, at most 1000; a negative size is refused (SPEC_INVALID).
 [[nodiscard]] Result<int> page_size(std::int32_t asked, int otherwise);
