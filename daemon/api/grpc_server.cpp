@@ -4,6 +4,8 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/impl/server_builder_option.h>
+#include <grpcpp/impl/server_builder_plugin.h>
 #include <grpcpp/resource_quota.h>
 
 #include "daemon/api/audit_interceptor.h"
@@ -49,6 +51,15 @@ void log_of_grpc(gpr_log_func_args* entry) {
   log(is_ours ? LogLevel::kWarning : LogLevel::kDebug, "grpc", {{"message", entry->message}});
 }
 
+/// A server without the extensions that libraries add to every server, such as reflection.
+class NoPlugins final : public grpc::ServerBuilderOption {
+ public:
+  void UpdateArguments(grpc::ChannelArguments*) override {}
+  void UpdatePlugins(std::vector<std::unique_ptr<grpc::ServerBuilderPlugin>>* plugins) override {
+    plugins->clear();
+  }
+};
+
 }  // namespace
 
 struct Server::Impl {
@@ -60,12 +71,13 @@ struct Server::Impl {
   std::vector<std::unique_ptr<grpc::Service>> services;
   std::unique_ptr<grpc::Server> within;  // the services; listens on no port
   std::unique_ptr<CallForwarder> forwarder;
+  // gRPC calls into them for as long as the endpoint exists.
+  std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
   std::unique_ptr<grpc::Server> server;  // the endpoint
   Endpoint endpoint;
 
   void start_services(bool reflection, auth::AuditLog& audit);
-  Status listen(grpc::ServerBuilder& builder, const Endpoint& wanted,
-                tls::CurrentIdentity identity);
+  Status listen(const Endpoint& wanted, tls::CurrentIdentity identity);
 
   void set(const char* service, bool serving) const {
     within->GetHealthCheckService()->SetServingStatus(service, serving);
@@ -84,6 +96,7 @@ void Server::Impl::start_services(bool reflection, auth::AuditLog& audit) {
   grpc::EnableDefaultHealthCheckService(true);
   if (reflection) grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
+  if (!reflection) builder.SetOption(std::make_unique<NoPlugins>());
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(make_audit_interceptor(audit));
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
@@ -93,15 +106,15 @@ void Server::Impl::start_services(bool reflection, auth::AuditLog& audit) {
   grpc::EnableDefaultHealthCheckService(false);  // the services provide it, not the endpoint
 }
 
-Status Server::Impl::listen(grpc::ServerBuilder& builder, const Endpoint& wanted,
-                            tls::CurrentIdentity identity) {
+Status Server::Impl::listen(const Endpoint& wanted, tls::CurrentIdentity identity) {
+  grpc::ServerBuilder builder;
+  builder.SetOption(std::make_unique<NoPlugins>());  // the services provide them
   // Otherwise a second daemon would silently share the port.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
   // Clients that say nothing are disconnected.
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshake_ms);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdle_ms);
-  const auto credentials =
-      identity ? tls_credentials(std::move(identity)) : grpc::InsecureServerCredentials();
+  if (identity) credentials = tls_credentials(std::move(identity));
   int port = 0;
   builder.AddListeningPort(wanted.text(), credentials, &port);
   builder.RegisterCallbackGenericService(forwarder.get());
@@ -128,11 +141,9 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   HP_ASSIGN_OR_RETURN(RoleCheck roles, RoleCheck::make(backend.access, names));
   std::unique_ptr<Server> server(new Server(std::make_unique<Impl>(std::move(roles), backend)));
   Impl& impl = *server->impl_;
-  grpc::ServerBuilder
-      builder;  // created before reflection is enabled, which would otherwise apply to the endpoint
   impl.start_services(reflection, backend.audit);
   impl.forwarder = std::make_unique<CallForwarder>(server->in_process(), impl.roles);
-  HP_RETURN_IF_ERROR(impl.listen(builder, endpoint, std::move(identity)));
+  HP_RETURN_IF_ERROR(impl.listen(endpoint, std::move(identity)));
   impl.set_rig_serving(false);
   impl.set_serving(true);
   return server;
