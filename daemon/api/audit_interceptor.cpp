@@ -180,6 +180,20 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
   auth::AuditEntry entry_;
 };
 
+// Whether calls of a method are recorded: "/hydroprint.v1.RigService/MoveTo".
+bool is_noted(std::string method) {
+  if (method.empty()) return false;
+  method.erase(0, 1);
+  std::replace(method.begin(), method.end(), '/', '.');
+  const auto* const found =
+      google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
+  if (found == nullptr || found->client_streaming() || found->server_streaming() ||
+      method == kPreview)
+    return false;
+  const auto& options = found->options();
+  return options.HasExtension(v1::role) && !options.GetExtension(google::api::http).has_get();
+}
+
 class AuditInterceptorFactory final : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
   explicit AuditInterceptorFactory(auth::AuditLog& audit) : around_{audit, {}} {}
@@ -190,19 +204,6 @@ class AuditInterceptorFactory final : public grpc::experimental::ServerIntercept
   }
 
  private:
-  static bool is_noted(std::string method) {
-    if (method.empty()) return false;
-    method.erase(0, 1);
-    std::replace(method.begin(), method.end(), '/', '.');
-    const auto* const found =
-        google::protobuf::DescriptorPool::generated_pool()->FindMethodByName(method);
-    if (found == nullptr || found->client_streaming() || found->server_streaming() ||
-        method == kPreview)
-      return false;
-    const auto& options = found->options();
-    return options.HasExtension(v1::role) && !options.GetExtension(google::api::http).has_get();
-  }
-
   Surroundings around_;
 };
 
@@ -211,6 +212,20 @@ class AuditInterceptorFactory final : public grpc::experimental::ServerIntercept
 std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_audit_interceptor(
     auth::AuditLog& audit) {
   return std::make_unique<AuditInterceptorFactory>(audit);
+}
+
+void record_refusal(auth::AuditLog& audit, const auth::Caller& caller, std::string_view method,
+                    const Error& error) {
+  const std::string name(method);
+  if (!is_noted(name)) return;
+  auth::AuditEntry entry;
+  entry.who = caller.name;
+  entry.via = caller.via;
+  entry.peer = caller.credentials.peer;
+  entry.what = short_name(name);
+  entry.outcome = std::string(code_name(error.code));
+  entry.detail = one_line(error.message).substr(0, kLongestDetail);
+  audit.note(std::move(entry));
 }
 
 }  // namespace hydroprint::daemon

@@ -3,7 +3,9 @@
 #include <grpcpp/support/server_interceptor.h>
 
 #include <memory>
+#include <string_view>
 
+#include "daemon/auth/account.h"
 #include "daemon/auth/audit_log.h"
 
 namespace hydroprint::daemon {
@@ -16,5 +18,9 @@ namespace hydroprint::daemon {
 /// keep it in motion (StopMotion, Jog, RenewLease) never wait.
 [[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>
 make_audit_interceptor(auth::AuditLog& audit);
+
+/// Records that an endpoint refused a call, if calls of the method are recorded. Does not wait.
+void record_refusal(auth::AuditLog& audit, const auth::Caller& caller, std::string_view method,
+                    const Error& error);
 
 }  // namespace hydroprint::daemon

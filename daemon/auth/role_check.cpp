@@ -22,8 +22,8 @@ Result<Need> need_of(const MethodDescriptor& method) {
 }
 
 Result<RoleCheck> RoleCheck::make(const Authenticator& authenticator,
-                                  const std::vector<std::string>& services) {
-  RoleCheck check(authenticator);
+                                  const std::vector<std::string>& services, OnRefusal on_refusal) {
+  RoleCheck check(authenticator, std::move(on_refusal));
   for (const std::string& name : services) {
     const ServiceDescriptor* const service =
         google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(name);
@@ -53,7 +53,10 @@ Result<std::optional<auth::Caller>> RoleCheck::admit(std::string_view method,
   }
   if (!need) return caller ? std::optional(*std::move(caller)) : std::nullopt;
   if (!caller) return tl::unexpected(caller.error());
-  HP_RETURN_IF_ERROR(check_role(*caller, *need));
+  if (const Status allowed = check_role(*caller, *need); !allowed) {
+    if (on_refusal_) on_refusal_(*caller, method, allowed.error());
+    return tl::unexpected(allowed.error());
+  }
   return std::optional(*std::move(caller));
 }
 

@@ -22,6 +22,10 @@ using Need = std::optional<auth::Role>;
 /// @return kInternal if it states none, or both a role and `without_sign_in`
 [[nodiscard]] Result<Need> need_of(const google::protobuf::MethodDescriptor& method);
 
+/// Called for each refusal of a known caller. Must not wait.
+using OnRefusal =
+    std::function<void(const auth::Caller& caller, std::string_view method, const Error& error)>;
+
 /// Admits requests by their headers. Roles are checked only here, by both endpoints, before they
 /// read a message or a body. Thread-safe.
 class RoleCheck {
@@ -29,7 +33,8 @@ class RoleCheck {
   /// @param services  full names: "hydroprint.v1.JobService"
   /// @return kInternal for a service that does not exist or a method that states no role
   [[nodiscard]] static Result<RoleCheck> make(const Authenticator& authenticator,
-                                              const std::vector<std::string>& services);
+                                              const std::vector<std::string>& services,
+                                              OnRefusal on_refusal = {});
 
   /// Establishes the caller and checks the role. nullopt: the method needs no sign-in and the
   /// caller is unknown. A stop is never refused because of the name in `hydroprint-owner`.
@@ -40,7 +45,8 @@ class RoleCheck {
       std::string_view method, const auth::Credentials& credentials) const;
 
  private:
-  explicit RoleCheck(const Authenticator& authenticator) : authenticator_(&authenticator) {}
+  RoleCheck(const Authenticator& authenticator, OnRefusal on_refusal)
+      : authenticator_(&authenticator), on_refusal_(std::move(on_refusal)) {}
 
   struct Rule {
     Need need;
@@ -48,6 +54,7 @@ class RoleCheck {
   };
 
   const Authenticator* authenticator_;
+  OnRefusal on_refusal_;
   std::map<std::string, Rule, std::less<>> rules_;  // by method
 };
 
