@@ -1,5 +1,6 @@
 #pragma once
 
+#include "sim/base/result.h"
 #include "sim/film/outline.h"
 #include "sim/fit/fit.h"
 #include "sim/image/io/rgb_image.h"
@@ -8,8 +9,9 @@ namespace hydroprint::fit {
 
 /// Two pictures of the film seen from above, before the fit and after it: its outline, the measured
 /// points (grey: left out, red: outliers) and from each an arrow to where the prediction has it,
-/// enlarged by a factor that stands above. About 1600 pixels wide.
-[[nodiscard]] image::RgbImage residual_picture(const film::Outline& outline,
-                                               const Outcome& outcome);
+/// enlarged by a factor that stands above. About 1600 pixels wide. Fails as text::Font::standard()
+/// does.
+[[nodiscard]] Result<image::RgbImage> residual_picture(const film::Outline& outline,
+                                                       const Outcome& outcome);
 
 }  // namespace hydroprint::fit

@@ -31,22 +31,26 @@ struct Sheet {
   Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< lower left corner of the window
   std::vector<Eigen::Vector2d> film_mm;              ///< the film's edge on this sheet
   std::vector<Stroke> marks;
+  std::vector<Text> texts;                  ///< of the marks
   std::vector<std::string> drawn, dropped;  ///< marks, by name
+  bool is_text_shortened = false;
 };
 
 struct Layout {
   int columns = 1, rows = 1;
   double pitch_mm = 1;
   std::vector<Sheet> sheets;  ///< row by row, from the top
-  Warnings warnings;          ///< marks_dropped
+  Warnings warnings;          ///< marks_dropped, text_glyph_missing, text_shortened
 };
 
 /// Lays a film image out on paper: at exact scale in the middle of one sheet, turned where the film
 /// else would not fit; on several that overlap where it is larger than the paper. Marks stand only
 /// where no film is, a millimetre off it, and where the printer can print: registration marks for
 /// the sliding bars and at the corners, rulers, an arrow to the film's +y, a line of text; what has
-/// no room is left out, with a warning.
-/// Refuses (kOutOfRange) what check refuses, and a film that takes more than 100 sheets.
+/// no room is left out, with a warning. Text that is too long for the paper is shortened, with a
+/// warning.
+/// Refuses (kOutOfRange) what check refuses, and a film that takes more than 100 sheets; fails as
+/// text::Font::standard() does.
 [[nodiscard]] Result<Layout> lay_out(const image::FilmGrid& grid, const film::Outline& outline,
                                      const PageSettings& settings);
 

@@ -16,6 +16,20 @@ struct Stroke {
   double ink = 1;  ///< black, from 0 to 1
 };
 
+/// A line of text in the document's font, UTF-8. Places are in the page's frame, as a Stroke's are.
+struct Text {
+  std::string text;
+  Eigen::Vector2d at_mm = Eigen::Vector2d::Zero();  ///< where its baseline begins
+  double x_height_mm = 1.6;                         ///< height of a lower-case x
+  double ink = 1;                                   ///< black, from 0 to 1
+};
+
+/// Lines and text that belong together.
+struct Drawing {
+  std::vector<Stroke> strokes;
+  std::vector<Text> texts;
+};
+
 /// An image on a page: square pixels, each of them exactly pitch_mm wide.
 struct PlacedImage {
   image::PrinterImage image;
@@ -28,13 +42,14 @@ struct Page {
   Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
   std::vector<PlacedImage> images;
   std::vector<Stroke> strokes;  ///< over the images
+  std::vector<Text> texts;      ///< over the strokes
 };
 
 /// Pages that are printed together, and what their colours mean.
 struct Document {
   std::string title;
   std::string icc_profile;  ///< of the printer, that the images are for; empty: sRGB or plain CMYK
-  bool cmyk = false;        ///< images have four channels, strokes are of black ink alone
+  bool cmyk = false;        ///< images have four channels; strokes and text are of black ink alone
   std::vector<Page> pages;
 };
 

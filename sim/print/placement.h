@@ -19,7 +19,9 @@ struct Placement {
   /// Middle of what the water meets first, and its extent: the box round the cross-section
   /// kFirstContact_mm above the lowest point, in F.
   Eigen::Vector2d contact_mm = Eigen::Vector2d::Zero(), contact_size_mm = Eigen::Vector2d::Zero();
-  Warnings warnings;  ///< template_cut_off: parts of it that have no room on the paper
+  /// template_cut_off: parts of it that have no room on the paper; text_glyph_missing,
+  /// text_shortened
+  Warnings warnings;
 };
 
 /// How deep the object is in the water where its first contact is drawn.
@@ -29,7 +31,7 @@ inline constexpr double kFirstContact_mm = 0.5;
 /// with a tick every 10 mm, in bold what touches the water first and in grey the object's
 /// silhouette; a ruler, the pose and a line of text where there is room. Refuses (kOutOfRange) what
 /// check refuses and paper that is smaller than the film, either way round; (kFailedPrecondition) a
-/// first contact that misses the film.
+/// first contact that misses the film. Fails as text::Font::standard() does.
 [[nodiscard]] Result<Placement> placement(const mesh::Surface& surface,
                                           const std::optional<Pose>& X_FO,
                                           const film::Outline& outline,

@@ -29,7 +29,7 @@ struct Print {
   double dpi = 0;
   double most_ink = 0, limited_share = 0;  ///< see PrinterColoured
   double cut_off_mm2 = 0;  ///< of the image's colours, where the printer cannot print
-  Warnings warnings;       ///< marks_dropped, image_in_printer_margin
+  Warnings warnings;       ///< those of the layout, image_in_printer_margin
 };
 
 /// A film image as written by `simulate`, or any PNG, JPEG or TIFF: as 8-bit sRGB, transparency on
@@ -38,7 +38,7 @@ struct Print {
                                                       const Context& context);
 
 /// Puts a film image on paper: exact scale, the printer's colours, marks (lay_out). The same bytes
-/// for the same settings, whenever and wherever.
+/// for the same settings and the same font file, whenever and wherever.
 /// @param name  of the image, for messages
 /// Refuses (kInvalidArgument) an image that has not the size of a film image of this film
 /// (contract, "Frames and units"), and what lay_out and printer_coloured refuse.

@@ -16,7 +16,7 @@ namespace hydroprint::image {
 inline constexpr int kLegend_px = 110;
 
 /// The standard views on one sheet, each drawn by `draw`, with their names, and room for a legend
-/// below.
+/// below. Fails as text::Font::standard() does.
 [[nodiscard]] Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px,
                                           const Context& context,
                                           const std::function<void(ViewDrawing&)>& draw);
@@ -31,13 +31,13 @@ struct Range {
 
 /// What a sheet's colours mean.
 struct Scale {
-  std::string label;  ///< letters as draw_text has them
+  std::string label;
   Range range;
   std::function<Eigen::Vector3f(double)> coded;  ///< sRGB-coded, of the range as [0, 1]
   std::string hatched;                           ///< what hatch() stands for; empty: nothing
 };
 
-/// Draws one into the room that draw_sheet() left for it.
-void draw_legend(RgbImage& sheet, const Scale& scale);
+/// Draws one into the room that draw_sheet() left for it. Fails as text::Font::standard() does.
+[[nodiscard]] Status draw_legend(RgbImage& sheet, const Scale& scale);
 
 }  // namespace hydroprint::image

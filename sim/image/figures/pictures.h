@@ -23,7 +23,7 @@ namespace hydroprint::image {
 
 /// Something to colour an object by.
 struct Quantity {
-  std::string label;           ///< beside the legend; letters as draw_text has them
+  std::string label;           ///< beside the legend
   std::vector<double> values;  ///< of which all but the extremes fit the scale; NaN: left out
   double rest = 0, least_span = 0.1;  ///< the scale holds the one and is no shorter than the other
   /// At a tile's corners; NaN shows as where no film arrives.

@@ -1,28 +1,20 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <string_view>
-#include <vector>
 
 #include "sim/image/io/rgb_image.h"
+#include "sim/text/font.h"
 
 namespace hydroprint::image {
 
-/// Draws text with strokes of its own, so that pictures need no font on the machine: lower-case
-/// letters, digits, space and "+-._:/,#()". Other characters leave a gap.
+/// Draws a line of UTF-8. Parts beyond the image are left out. The same pixels for any number of
+/// threads.
 /// @param left_px, baseline_px  where the text starts
 /// @param size_px  height of a lower-case x
-void draw_text(RgbImage& image, double left_px, double baseline_px, double size_px,
-               std::string_view text, const Rgb8& colour);
+void draw_text(RgbImage& image, const text::Font& font, double left_px, double baseline_px,
+               double size_px, std::string_view text, const Rgb8& colour);
 
 /// Width that draw_text takes.
-[[nodiscard]] double text_width_px(double size_px, std::string_view text);
-
-/// The strokes of the same text as poly-lines, for those who draw lines themselves: in heights of a
-/// lower-case x, from (0, 0) on the baseline to the right, y up.
-[[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> text_strokes(std::string_view text);
-
-/// Thickness of the pen in heights of a lower-case x.
-inline constexpr double kPen = 0.17;
+[[nodiscard]] double text_width_px(const text::Font& font, double size_px, std::string_view text);
 
 }  // namespace hydroprint::image
