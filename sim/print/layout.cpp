@@ -259,7 +259,9 @@ Result<Layout> lay_out(const image::FilmGrid& grid, const film::Outline& outline
       warn_of_marks(out.sheets.back(), out.sheets.size(), out.warnings);
     }
   }
-  if (font != nullptr) warn_of_missing_glyphs(*font, texts_of(out.sheets), "text", out.warnings);
+  if (font != nullptr) {
+    warn_of_missing_glyphs(*font, texts_of(out.sheets), "text beside the film", out.warnings);
+  }
   return out;
 }
 

@@ -8,7 +8,7 @@ void add_page_flags(Flags& flags) {
   flags.add("paper", "A4, A3, letter or WxH (mm)", {.default_value = "A4", .type = "PAPER"});
   flags.add("printer_margin_mm", "Strip along each edge of the paper that the printer leaves blank",
             {.default_value = default_text(print::PageSettings{}.printer_margin_mm)});
-  flags.add("job_name", "Printed beside the film");
+  flags.add("job_name", "Printed beside the film, as given");
   flags.add("date", "Printed beside the film, as given");
 }
 

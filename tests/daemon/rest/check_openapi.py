@@ -119,6 +119,7 @@ def wrong_rules(document):
         ("SimulateSpecInput", "dpi"): {"minimum": 20, "maximum": 2400, "default": 300, "example": 600,
                                        "x-unit": "dots per inch"},
         ("PredictSpecInput", "dpi"): {"minimum": 20, "maximum": 2400},
+        ("PrintImageSpecInput", "jobName"): {"maxLength": 200, "x-max-bytes": 200},
         ("SimulateSpecInput", "film"): {"maxLength": 300, "default": "A4", "format": "film"},
         ("SimulateSpecInput", "model"): {"default": "MODEL_SHEET"},
         ("SimulateSpecInput", "extraFiles"): {"maxItems": 256},
