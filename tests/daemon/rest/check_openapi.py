@@ -127,7 +127,7 @@ def wrong_rules(document):
         ("PrintImageSpecInput", "inkLimit"): {"minimum": 0, "exclusiveMinimum": True, "maximum": 4},
         ("PrintImageSpecInput", "formats"): {"items": {"type": "string", "enum": ["pdf", "png", "tiff"]}},
         ("JobInput", "labels"): {"maxProperties": 32,
-                                 "additionalProperties": {"type": "string", "maxLength": 200}},
+                                 "additionalProperties": {"type": "string", "maxLength": 200, "x-max-bytes": 200}},
         ("JobInput", "state"): {"readOnly": True},
         ("Job", "state"): {"readOnly": True},
         ("MoveToRequest", "positionMm"): {"x-unit": "mm"},
