@@ -3,6 +3,7 @@
 
 #include <hb-subset.h>
 
+#include <array>
 #include <memory>
 
 namespace hydroprint::text {
@@ -24,9 +25,9 @@ using Input = Owned<hb_subset_input_t, hb_subset_input_destroy>;
 using Plan = Owned<hb_subset_plan_t, hb_subset_plan_destroy>;
 
 /// A PDF names glyphs by number: it needs no tables for choosing and placing them, and no names.
-constexpr hb_tag_t kUnneeded[] = {HB_TAG('G', 'S', 'U', 'B'), HB_TAG('G', 'P', 'O', 'S'),
-                                  HB_TAG('G', 'D', 'E', 'F'), HB_TAG('k', 'e', 'r', 'n'),
-                                  HB_TAG('n', 'a', 'm', 'e')};
+constexpr std::array<hb_tag_t, 5> kUnneeded = {
+    HB_TAG('G', 'S', 'U', 'B'), HB_TAG('G', 'P', 'O', 'S'), HB_TAG('G', 'D', 'E', 'F'),
+    HB_TAG('k', 'e', 'r', 'n'), HB_TAG('n', 'a', 'm', 'e')};
 
 tl::unexpected<Error> failure() {
   return fail(Code::kInternal,
