@@ -9,6 +9,7 @@
 
 #include "sim/image/figures/strokes.h"
 #include "sim/image/figures/text.h"
+#include "sim/text/font.h"
 
 namespace hydroprint::fit {
 namespace {
@@ -74,8 +75,8 @@ void draw_arrow(RgbImage& image, const Vector2d& from, const Vector2d& to, const
   image::draw_line(image, to, to + back - side, 1.6, colour);
 }
 
-void draw_panel(RgbImage& image, const film::Outline& outline, const Outcome& outcome,
-                const Panel& panel, const Scale& scale) {
+void draw_panel(RgbImage& image, const text::Font& font, const film::Outline& outline,
+                const Outcome& outcome, const Panel& panel, const Scale& scale) {
   const std::vector<Vector2d>& polygon = outline.polygon;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     image::draw_line(image, scale.at(panel, polygon[i]),
@@ -93,13 +94,14 @@ void draw_panel(RgbImage& image, const film::Outline& outline, const Outcome& ou
   std::array<char, 120> title{};
   std::snprintf(title.data(), title.size(), "%s  rms %.3f mm  arrows enlarged %.0f times",
                 panel.name.c_str(), panel.rms_mm, factor);
-  image::draw_text(image, panel.corner_px.x(), panel.corner_px.y() - kLetter_px, kLetter_px,
+  image::draw_text(image, font, panel.corner_px.x(), panel.corner_px.y() - kLetter_px, kLetter_px,
                    title.data(), kInk);
 }
 
 }  // namespace
 
-RgbImage residual_picture(const film::Outline& outline, const Outcome& outcome) {
+Result<RgbImage> residual_picture(const film::Outline& outline, const Outcome& outcome) {
+  HP_ASSIGN_OR_RETURN(const text::Font* const font, text::Font::standard());
   const Vector2d size_mm = outline.size_mm();
   const Scale scale{outline.min_mm, size_mm, kPanel_px / size_mm.maxCoeff()};
   // Titles need some room even above a narrow film.
@@ -114,7 +116,7 @@ RgbImage residual_picture(const film::Outline& outline, const Outcome& outcome) 
         outcome.rms_after_mm,
         &PointResult::after_mm,
         {2 * kGap_px + width_px, kTitle_px}}}};
-  for (const Panel& panel : panels) draw_panel(image, outline, outcome, panel, scale);
+  for (const Panel& panel : panels) draw_panel(image, *font, outline, outcome, panel, scale);
   return image;
 }
 

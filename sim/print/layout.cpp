@@ -6,6 +6,8 @@
 
 #include "sim/base/check.h"
 #include "sim/print/marks.h"
+#include "sim/print/page_text.h"
+#include "sim/text/font.h"
 
 namespace hydroprint::print {
 namespace {
@@ -149,8 +151,9 @@ std::vector<double> joins(const std::vector<Cut>& cuts, std::size_t own) {
   return out;
 }
 
-std::string text_of(const PageSettings& settings, std::size_t number, std::size_t sheets) {
-  std::string out = settings.job_name;
+/// What follows the job name on a sheet.
+std::string details(const PageSettings& settings, std::size_t number, std::size_t sheets) {
+  std::string out;
   const auto add = [&out](const std::string& text) {
     if (!text.empty()) out += (out.empty() ? "" : "  ") + text;
   };
@@ -162,9 +165,10 @@ std::string text_of(const PageSettings& settings, std::size_t number, std::size_
 
 class LayOut {
  public:
+  /// @param font  nullptr: no marks
   LayOut(const image::FilmGrid& grid, const film::Outline& outline, const PageSettings& settings,
-         const Cuts& cuts)
-      : grid_(grid), outline_(outline), settings_(settings), cuts_(cuts) {}
+         const Cuts& cuts, const text::Font* font)
+      : grid_(grid), outline_(outline), settings_(settings), cuts_(cuts), font_(font) {}
 
   [[nodiscard]] Sheet sheet(std::size_t row, std::size_t column) const {
     Sheet out;
@@ -180,7 +184,7 @@ class LayOut {
     out.printable = printable_pixels(out, printable, grid_.pitch_mm);
     const ToPage to_page(grid_, out, settings_.mirror);
     out.film_mm = film_on(out, outline_, to_page, cuts_.sheets() > 1, grid_.pitch_mm);
-    if (settings_.marks) add_marks(out, plan(out, printable, to_page));
+    if (font_ != nullptr) add_marks(out, plan(out, printable, to_page), *font_);
     return out;
   }
 
@@ -202,7 +206,8 @@ class LayOut {
       out.joins_y_mm.push_back(to_page.from_cell({0, y}).y());
     }
     out.bar_mm = settings_.bar_mm;
-    out.text = text_of(settings_, row * cuts_.across.size() + column + 1, cuts_.sheets());
+    out.job_name = settings_.job_name;
+    out.details = details(settings_, row * cuts_.across.size() + column + 1, cuts_.sheets());
     return out;
   }
 
@@ -210,16 +215,27 @@ class LayOut {
   const film::Outline& outline_;
   const PageSettings& settings_;
   const Cuts& cuts_;
+  const text::Font* font_;
 };
 
-void warn_of_dropped(const Sheet& sheet, std::size_t number, Warnings& warnings) {
+void warn_of_marks(const Sheet& sheet, std::size_t number, Warnings& warnings) {
+  const std::string where = "sheet " + std::to_string(number);
+  if (sheet.is_text_shortened) warn_of_shortened_text(where, warnings);
   if (sheet.dropped.empty()) return;
   std::string names;
   for (const std::string& name : sheet.dropped) names += (names.empty() ? "" : ", ") + name;
   warnings.push_back({"marks_dropped",
                       "there is not enough room beside the film, so these are left out: " + names +
                           ". Use larger paper",
-                      "sheet " + std::to_string(number)});
+                      where});
+}
+
+std::vector<Text> texts_of(const std::vector<Sheet>& sheets) {
+  std::vector<Text> out;
+  for (const Sheet& sheet : sheets) {
+    out.insert(out.end(), sheet.texts.begin(), sheet.texts.end());
+  }
+  return out;
 }
 
 }  // namespace
@@ -232,12 +248,19 @@ Result<Layout> lay_out(const image::FilmGrid& grid, const film::Outline& outline
   out.columns = static_cast<int>(cuts.across.size());
   out.rows = static_cast<int>(cuts.down.size());
   out.pitch_mm = grid.pitch_mm;
-  const LayOut lay(grid, outline, settings, cuts);
+  const text::Font* font = nullptr;
+  if (settings.marks) {
+    HP_ASSIGN_OR_RETURN(font, text::Font::standard());
+  }
+  const LayOut lay(grid, outline, settings, cuts, font);
   for (std::size_t row = 0; row < cuts.down.size(); ++row) {
     for (std::size_t column = 0; column < cuts.across.size(); ++column) {
       out.sheets.push_back(lay.sheet(row, column));
-      warn_of_dropped(out.sheets.back(), out.sheets.size(), out.warnings);
+      warn_of_marks(out.sheets.back(), out.sheets.size(), out.warnings);
     }
+  }
+  if (font != nullptr) {
+    warn_of_missing_glyphs(*font, texts_of(out.sheets), "text beside the film", out.warnings);
   }
   return out;
 }

@@ -31,14 +31,16 @@ struct Sheet {
   Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< lower left corner of the window
   std::vector<Eigen::Vector2d> film_mm;              ///< the film's edge on this sheet
   std::vector<Stroke> marks;
+  std::vector<Text> texts;                  ///< of the marks
   std::vector<std::string> drawn, dropped;  ///< marks, by name
+  bool is_text_shortened = false;
 };
 
 struct Layout {
   int columns = 1, rows = 1;
   double pitch_mm = 1;
   std::vector<Sheet> sheets;  ///< row by row, from the top
-  Warnings warnings;          ///< marks_dropped
+  Warnings warnings;          ///< marks_dropped, text_glyph_missing, text_shortened
 };
 
 /// Lays out a film image on paper at exact scale. It is in the middle of one sheet, rotated if it

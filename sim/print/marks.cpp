@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 
-#include "sim/image/figures/text.h"
+#include "sim/print/page_text.h"
 
 namespace hydroprint::print {
 namespace {
@@ -16,10 +17,9 @@ using Strokes = std::vector<Stroke>;
 
 constexpr double kPen_mm = 0.25;
 constexpr double kClearance_mm = 1;  ///< from the film
-constexpr double kLetter_mm = 1.6;   ///< height of a lower-case x
 constexpr double kOff_mm = 2;        ///< from the film's edge to the start of a registration mark
 constexpr double kMark_mm = 5;       ///< its length
-constexpr double kBleed_mm = 0.5;    ///< around text
+constexpr double kBleed_mm = 0.5;    ///< around the arrow
 
 Stroke line(const Vector2d& from_mm, const Vector2d& to_mm) {
   return {{from_mm, to_mm}, kPen_mm, 1};
@@ -35,10 +35,6 @@ Box box_of(const Strokes& strokes) {
     }
   }
   return box;
-}
-
-void append(Strokes& to, Strokes from) {
-  std::move(from.begin(), from.end(), std::back_inserter(to));
 }
 
 /// Draws marks on a sheet while there is room.
@@ -63,17 +59,17 @@ class Marker {
     note(name, all);
   }
 
-  /// Draws a mark that may be anywhere.
-  /// @param draw  draws from the lower left corner of its box
-  template <class Draw>
-  [[nodiscard]] bool place(const Vector2d& size_mm, const Vector2d& near_mm, Draw&& draw) {
+  /// The place of a mark that may be anywhere; nullopt if there is no room.
+  [[nodiscard]] std::optional<Box> find_room(const Vector2d& size_mm, const Vector2d& near_mm) {
     settle();
-    const auto box = space_.find(size_mm, near_mm);
-    if (!box) return false;
-    append(sheet_.marks, draw(box->low_mm));
-    pending_.push_back(*box);
-    return true;
+    return space_.find(size_mm, near_mm);
   }
+  /// Draws a mark into room that was found for it.
+  void draw(const Box& room, Drawing mark) {
+    append(sheet_.marks, sheet_.texts, std::move(mark));
+    pending_.push_back(room);
+  }
+  void note_shortened_text() { sheet_.is_text_shortened = true; }
 
   void note(const std::string& name, bool drawn) {
     (drawn ? sheet_.drawn : sheet_.dropped).push_back(name);
@@ -150,20 +146,24 @@ Strokes on_this_sheet(Strokes marks, const Box& window) {
 
 /// An arrow to the film's +y, which is up, with a label beside it.
 constexpr double kArrow_mm = 12;
-const std::string kArrowText = "top +y";
+constexpr double kArrowText_mm = 3.5;  ///< from the arrow to the word
+const Vector2d kArrowFoot_mm(2.5, kBleed_mm);
 
-Vector2d arrow_size_mm() {
-  return {6 + text_width_mm(kArrowText, kLetter_mm) + kBleed_mm, kArrow_mm + 2 * kBleed_mm};
+Drawing arrow(const Vector2d& low_mm) {
+  const Vector2d foot = low_mm + kArrowFoot_mm;
+  const Vector2d tip = foot + Vector2d(0, kArrow_mm);
+  const Vector2d text = foot + Vector2d(kArrowText_mm, kArrow_mm / 2 - kLetter_mm / 2);
+  return {{{{foot, tip}, 2 * kPen_mm, 1},
+           {{tip + Vector2d(-2, -3.5), tip, tip + Vector2d(2, -3.5)}, 2 * kPen_mm, 1}},
+          {{"top +y", text, kLetter_mm, 1}}};
 }
 
-Strokes arrow(const Vector2d& low_mm) {
-  const Vector2d foot = low_mm + Vector2d(2.5, kBleed_mm);
-  const Vector2d tip = foot + Vector2d(0, kArrow_mm);
-  Strokes out = {{{foot, tip}, 2 * kPen_mm, 1},
-                 {{tip + Vector2d(-2, -3.5), tip, tip + Vector2d(2, -3.5)}, 2 * kPen_mm, 1}};
-  append(out,
-         lettered(kArrowText, foot + Vector2d(3.5, kArrow_mm / 2 - kLetter_mm / 2), kLetter_mm));
-  return out;
+void add_arrow(Marker& marker, const Box& printable, const text::Font& font) {
+  const Box text = text_box(font, arrow(Vector2d::Zero()).texts.front());
+  const Vector2d size_mm(text.high_mm.x() + kBleed_mm, kArrow_mm + 2 * kBleed_mm);
+  const auto room = marker.find_room(size_mm, printable.high_mm);
+  if (room) marker.draw(*room, arrow(room->low_mm));
+  marker.note("arrow", room.has_value());
 }
 
 void add_ruler(Marker& marker, const Box& printable, bool upright) {
@@ -171,74 +171,69 @@ void add_ruler(Marker& marker, const Box& printable, bool upright) {
   const Vector2d near = upright ? Vector2d(printable.low_mm.x(), middle.y())
                                 : Vector2d(middle.x(), printable.low_mm.y());
   for (const double length_mm : {200.0, 150.0, 100.0, 50.0}) {
-    if (marker.place(ruler_size_mm(length_mm, upright), near,
-                     [&](const Vector2d& low_mm) { return ruler(low_mm, length_mm, upright); })) {
-      return marker.note(upright ? "upright ruler" : "ruler", true);
-    }
+    const auto room = marker.find_room(ruler_size_mm(length_mm, upright), near);
+    if (!room) continue;
+    marker.draw(*room, ruler(room->low_mm, length_mm, upright));
+    return marker.note(upright ? "upright ruler" : "ruler", true);
   }
   marker.note(upright ? "upright ruler" : "ruler", false);
 }
 
-void add_text(Marker& marker, const Box& printable, const std::string& text) {
+/// The job name and the details on one line of at most that width.
+std::string text_line(const MarkPlan& plan, const text::Font& font, double width) {
+  if (plan.job_name.empty()) return font.shortened(plan.details, width);
+  const std::string rest = plan.details.empty() ? "" : "  " + plan.details;
+  const std::string name = font.shortened(plan.job_name, width - font.lay_out(rest).width);
+  return name.empty() ? font.shortened(plan.job_name + rest, width) : name + rest;
+}
+
+void add_text(Marker& marker, const MarkPlan& plan, const text::Font& font) {
+  const Box& printable = plan.printable;
   const Vector2d near((printable.low_mm.x() + printable.high_mm.x()) / 2, printable.high_mm.y());
-  for (const double letter_mm : {kLetter_mm, 1.2, 0.9}) {
-    const Vector2d size_mm(text_width_mm(text, letter_mm) + 2 * kBleed_mm,
-                           2.2 * letter_mm + 2 * kBleed_mm);
-    if (marker.place(size_mm, near, [&](const Vector2d& low_mm) {
-          return lettered(text, low_mm + Vector2d(kBleed_mm, kBleed_mm + 0.6 * letter_mm),
-                          letter_mm);
-        })) {
-      return marker.note("text", true);
-    }
-  }
-  marker.note("text", false);
+  const auto lines = [&](double width) {
+    return std::vector<std::string>{text_line(plan, font, width)};
+  };
+  auto block = place_text(font, lines,
+                          [&](const Vector2d& size_mm) { return marker.find_room(size_mm, near); });
+  marker.note("text", block.has_value());
+  if (!block) return;
+  if (block->is_shortened) marker.note_shortened_text();
+  marker.draw(block->box, {{}, std::move(block->texts)});
 }
 
 }  // namespace
-
-Strokes lettered(const std::string& text, const Vector2d& at_mm, double size_mm) {
-  std::string lower = text;  // the only letters available
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  Strokes out;
-  for (auto& points : image::text_strokes(lower)) {
-    for (Vector2d& point : points) point = at_mm + size_mm * point;
-    out.push_back({std::move(points), image::kPen * size_mm, 1});
-  }
-  return out;
-}
-
-double text_width_mm(const std::string& text, double size_mm) {
-  std::string lower = text;
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return image::text_width_px(size_mm, lower);
-}
 
 Vector2d ruler_size_mm(double length_mm, bool upright) {
   const Vector2d lying(length_mm + 12, 8);
   return upright ? Vector2d(12, length_mm + 6) : lying;
 }
 
-Strokes ruler(const Vector2d& low_mm, double length_mm, bool upright) {
+Drawing ruler(const Vector2d& low_mm, double length_mm, bool upright) {
   const Vector2d zero = low_mm + (upright ? Vector2d(0.5, 3) : Vector2d(2, 0.5));
   const Vector2d along = upright ? Vector2d::UnitY() : Vector2d::UnitX();
   const Vector2d across = upright ? Vector2d::UnitX() : Vector2d::UnitY();
-  Strokes out = {line(zero, zero + length_mm * along)};
+  Drawing out{{line(zero, zero + length_mm * along)}, {}};
   const int ticks = static_cast<int>(std::lround(length_mm / 10));
   for (int i = 0; i <= ticks; ++i) {
     const Vector2d at = zero + 10.0 * i * along;
-    out.push_back(line(at, at + (i % 5 == 0 ? 3.5 : 2.0) * across));
+    out.strokes.push_back(line(at, at + (i % 5 == 0 ? 3.5 : 2.0) * across));
   }
   const auto label = [&](const std::string& text, double at_mm) {
     const Vector2d at = upright ? zero + Vector2d(4.5, at_mm - kLetter_mm / 2)
                                 : zero + Vector2d(at_mm - 0.5 * kLetter_mm, 4.6);
-    append(out, lettered(text, at, upright ? 0.8 : 1.1));
+    out.texts.push_back({text, at, upright ? 0.8 : 1.1, 1});
   };
   label("0", 0);
   label(std::to_string(static_cast<int>(length_mm)) + " mm", length_mm);
   return out;
 }
 
-void add_marks(Sheet& sheet, const MarkPlan& plan) {
+void append(Strokes& strokes, std::vector<Text>& texts, Drawing drawing) {
+  std::move(drawing.strokes.begin(), drawing.strokes.end(), std::back_inserter(strokes));
+  std::move(drawing.texts.begin(), drawing.texts.end(), std::back_inserter(texts));
+}
+
+void add_marks(Sheet& sheet, const MarkPlan& plan, const text::Font& font) {
   Marker marker(sheet, plan.printable);
   const bool is_part = !plan.joins_x_mm.empty() || !plan.joins_y_mm.empty();
   const auto here = [&](Strokes marks) {
@@ -249,8 +244,8 @@ void add_marks(Sheet& sheet, const MarkPlan& plan) {
   if (is_part) marker.draw_fixed("join marks", join_marks(plan));
   add_ruler(marker, plan.printable, false);
   add_ruler(marker, plan.printable, true);
-  marker.note("arrow", marker.place(arrow_size_mm(), plan.printable.high_mm, arrow));
-  if (!plan.text.empty()) add_text(marker, plan.printable, plan.text);
+  add_arrow(marker, plan.printable, font);
+  if (!plan.job_name.empty() || !plan.details.empty()) add_text(marker, plan, font);
 }
 
 }  // namespace hydroprint::print

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "sim/print/layout.h"
+#include "sim/text/font.h"
 
 namespace hydroprint::print {
 
@@ -15,22 +16,19 @@ struct MarkPlan {
   /// Edges of neighbouring sheets' windows within this one.
   std::vector<double> joins_x_mm, joins_y_mm;
   double bar_mm = 0;
-  std::string text;  ///< empty: none
+  /// The line of text; empty: none. The job name is shortened if there is no room for both.
+  std::string job_name, details;
 };
 
 /// Draws those marks of a sheet (lay_out) for which there is room.
-void add_marks(Sheet& sheet, const MarkPlan& plan);
-
-/// Text as strokes; `at_mm` is the start of its baseline, `size_mm` the height of a lower-case x.
-[[nodiscard]] std::vector<Stroke> lettered(const std::string& text, const Eigen::Vector2d& at_mm,
-                                           double size_mm);
-/// Width of such a text.
-[[nodiscard]] double text_width_mm(const std::string& text, double size_mm);
+void add_marks(Sheet& sheet, const MarkPlan& plan, const text::Font& font);
 
 /// A ruler for measuring, with ticks every 10 mm. Its line is on the left or the lower edge of its
 /// box, whose size is ruler_size_mm().
-[[nodiscard]] std::vector<Stroke> ruler(const Eigen::Vector2d& low_mm, double length_mm,
-                                        bool upright);
+[[nodiscard]] Drawing ruler(const Eigen::Vector2d& low_mm, double length_mm, bool upright);
 [[nodiscard]] Eigen::Vector2d ruler_size_mm(double length_mm, bool upright);
+
+/// Adds what is drawn to a page or sheet.
+void append(std::vector<Stroke>& strokes, std::vector<Text>& texts, Drawing drawing);
 
 }  // namespace hydroprint::print

@@ -16,6 +16,20 @@ struct Stroke {
   double ink = 1;  ///< black, from 0 to 1
 };
 
+/// A line of text in the document's font, UTF-8. Places are in the page's frame, as a Stroke's are.
+struct Text {
+  std::string text;
+  Eigen::Vector2d at_mm = Eigen::Vector2d::Zero();  ///< where its baseline begins
+  double x_height_mm = 1.6;                         ///< height of a lower-case x
+  double ink = 1;                                   ///< black, from 0 to 1
+};
+
+/// Lines and text that belong together.
+struct Drawing {
+  std::vector<Stroke> strokes;
+  std::vector<Text> texts;
+};
+
 /// An image on a page: square pixels, each of them exactly pitch_mm wide.
 struct PlacedImage {
   image::PrinterImage image;
@@ -28,6 +42,7 @@ struct Page {
   Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
   std::vector<PlacedImage> images;
   std::vector<Stroke> strokes;  ///< drawn over the images
+  std::vector<Text> texts;      ///< drawn over the strokes
 };
 
 /// Pages that are printed together, and the meaning of their colours.

@@ -6,10 +6,12 @@
 
 #define POINTERHOLDER_TRANSITION 4  // required by its headers; 4: its old pointers are not used
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <qpdf/Buffer.hh>
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFObjectHandle.hh>
@@ -17,6 +19,8 @@
 #include <string>
 
 #include "sim/image/io/png.h"
+#include "sim/print/embedded_font.h"
+#include "sim/text/utf8.h"
 
 namespace hydroprint::print {
 namespace {
@@ -82,6 +86,12 @@ std::string drawn(const Stroke& stroke, bool cmyk) {
   return out + "S\n";
 }
 
+std::string drawn(const Text& text, const EmbeddedFont& font, bool cmyk) {
+  return "BT " + (cmyk ? "0 0 0 " + number(text.ink) + " k " : number(1 - text.ink) + " g ") +
+         "/F0 " + points(text.x_height_mm / font.font->x_height_em()) + " Tf " + place(text.at_mm) +
+         " Td " + font.encoded(text.text) + " Tj ET\n";
+}
+
 QPDFObjectHandle box(const Eigen::Vector2d& size_mm) {
   QPDFObjectHandle out = QPDFObjectHandle::newArray();
   for (const double side_mm : {0.0, 0.0, size_mm.x(), size_mm.y()}) {
@@ -90,7 +100,84 @@ QPDFObjectHandle box(const Eigen::Vector2d& size_mm) {
   return out;
 }
 
-Status add_page(QPDF& pdf, const Page& page, bool cmyk, const Context& context) {
+QPDFObjectHandle real(double value) { return QPDFObjectHandle::newReal(number(value)); }
+
+QPDFObjectHandle font_descriptor(QPDF& pdf, const EmbeddedFont& font) {
+  constexpr int kSymbolic = 4;  // its characters are not those of a standard set
+  constexpr int kStem = 80;     // a guess, which viewers only use without the font
+  const text::FontMetrics& metrics = font.metrics;
+  QPDFObjectHandle file = QPDFObjectHandle::newStream(&pdf, font.file);
+  file.getDict().replaceKey("/Length1", integer(static_cast<long long>(font.file.size())));
+  QPDFObjectHandle bounds = QPDFObjectHandle::newArray();
+  for (const Eigen::Vector2d& corner : {metrics.low, metrics.high}) {
+    bounds.appendItem(real(corner.x()));
+    bounds.appendItem(real(corner.y()));
+  }
+  QPDFObjectHandle out = QPDFObjectHandle::newDictionary();
+  out.replaceKey("/Type", name("FontDescriptor"));
+  out.replaceKey("/FontName", name(metrics.name));
+  out.replaceKey("/Flags", integer(kSymbolic));
+  out.replaceKey("/FontBBox", bounds);
+  out.replaceKey("/ItalicAngle", integer(0));
+  out.replaceKey("/Ascent", real(metrics.ascent));
+  out.replaceKey("/Descent", real(metrics.descent));
+  out.replaceKey("/CapHeight", real(metrics.capital_height));
+  out.replaceKey("/StemV", integer(kStem));
+  out.replaceKey("/FontFile2", file);
+  return pdf.makeIndirectObject(out);
+}
+
+QPDFObjectHandle descendant_font(QPDF& pdf, const EmbeddedFont& font) {
+  QPDFObjectHandle system = QPDFObjectHandle::newDictionary();
+  system.replaceKey("/Registry", QPDFObjectHandle::newString("Adobe"));
+  system.replaceKey("/Ordering", QPDFObjectHandle::newString("Identity"));
+  system.replaceKey("/Supplement", integer(0));
+  QPDFObjectHandle each = QPDFObjectHandle::newArray();
+  for (const double width : font.widths) each.appendItem(real(width));
+  QPDFObjectHandle widths = QPDFObjectHandle::newArray();
+  widths.appendItem(integer(0));
+  widths.appendItem(each);
+  QPDFObjectHandle out = QPDFObjectHandle::newDictionary();
+  out.replaceKey("/Type", name("Font"));
+  out.replaceKey("/Subtype", name("CIDFontType2"));
+  out.replaceKey("/BaseFont", name(font.metrics.name));
+  out.replaceKey("/CIDSystemInfo", system);
+  out.replaceKey("/FontDescriptor", font_descriptor(pdf, font));
+  out.replaceKey("/W", widths);
+  out.replaceKey("/CIDToGIDMap", QPDFObjectHandle::newStream(&pdf, font.cid_to_gid));
+  return pdf.makeIndirectObject(out);
+}
+
+QPDFObjectHandle font_object(QPDF& pdf, const EmbeddedFont& font) {
+  QPDFObjectHandle descendants = QPDFObjectHandle::newArray();
+  descendants.appendItem(descendant_font(pdf, font));
+  QPDFObjectHandle out = QPDFObjectHandle::newDictionary();
+  out.replaceKey("/Type", name("Font"));
+  out.replaceKey("/Subtype", name("Type0"));
+  out.replaceKey("/BaseFont", name(font.metrics.name));
+  out.replaceKey("/Encoding", name("Identity-H"));
+  out.replaceKey("/DescendantFonts", descendants);
+  out.replaceKey("/ToUnicode", QPDFObjectHandle::newStream(&pdf, font.to_unicode));
+  return pdf.makeIndirectObject(out);
+}
+
+/// The font of a document's texts, and the object that its pages refer to.
+struct DocumentFont {
+  EmbeddedFont font;
+  QPDFObjectHandle object;
+};
+
+Result<std::optional<DocumentFont>> document_font(QPDF& pdf, const Document& document) {
+  const auto has_text = [](const Page& page) { return !page.texts.empty(); };
+  if (std::none_of(document.pages.begin(), document.pages.end(), has_text)) return std::nullopt;
+  DocumentFont out;
+  HP_ASSIGN_OR_RETURN(out.font, embed_font(document.pages));
+  out.object = font_object(pdf, out.font);
+  return out;
+}
+
+Status add_page(QPDF& pdf, const Page& page, bool cmyk, const std::optional<DocumentFont>& font,
+                const Context& context) {
   QPDFObjectHandle images = QPDFObjectHandle::newDictionary();
   std::string content;
   for (std::size_t i = 0; i < page.images.size(); ++i) {
@@ -101,9 +188,15 @@ Status add_page(QPDF& pdf, const Page& page, bool cmyk, const Context& context) 
   }
   content += "1 J 1 j\n";  // round pen
   for (const Stroke& stroke : page.strokes) content += drawn(stroke, cmyk);
+  for (const Text& text : page.texts) content += drawn(text, font->font, cmyk);
 
   QPDFObjectHandle resources = QPDFObjectHandle::newDictionary();
   resources.replaceKey("/XObject", images);
+  if (!page.texts.empty()) {
+    QPDFObjectHandle fonts = QPDFObjectHandle::newDictionary();
+    fonts.replaceKey("/F0", font->object);
+    resources.replaceKey("/Font", fonts);
+  }
   QPDFObjectHandle object = QPDFObjectHandle::newDictionary();
   object.replaceKey("/Type", name("Page"));
   object.replaceKey("/MediaBox", box(page.size_mm));
@@ -136,7 +229,9 @@ void describe(QPDF& pdf, const Document& document) {
     pdf.getRoot().replaceKey("/OutputIntents", output_intents(pdf, document));
   }
   QPDFObjectHandle info = QPDFObjectHandle::newDictionary();
-  info.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(document.title));
+  // The job name may be malformed UTF-8, which a PDF must not hold.
+  const std::string title = text::encode_utf8(text::decode_utf8(document.title));
+  info.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
   info.replaceKey("/Producer", QPDFObjectHandle::newString("Hydroprint"));
   pdf.getTrailer().replaceKey("/Info", pdf.makeIndirectObject(info));
 }
@@ -157,9 +252,10 @@ Result<std::vector<unsigned char>> encode_pdf(const Document& document, const Co
   try {
     QPDF pdf;
     pdf.emptyPDF();
+    HP_ASSIGN_OR_RETURN(const auto font, document_font(pdf, document));
     for (const Page& page : document.pages) {
       HP_RETURN_IF_ERROR(check_cancelled(context));
-      HP_RETURN_IF_ERROR(add_page(pdf, page, document.cmyk, context));
+      HP_RETURN_IF_ERROR(add_page(pdf, page, document.cmyk, font, context));
     }
     describe(pdf, document);
     return written(pdf);

@@ -5,12 +5,15 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sim/image/figures/pictures.h"
 #include "sim/print/marks.h"
+#include "sim/print/page_text.h"
+#include "sim/text/font.h"
 #include "sim/waterline/body.h"
 #include "sim/waterline/cross_section.h"
 #include "sim/waterline/slicer.h"
@@ -21,7 +24,6 @@ namespace {
 using Eigen::Vector2d;
 using Strokes = std::vector<Stroke>;
 
-constexpr double kLetter_mm = 1.6;
 constexpr double kSlice_mm = 0.5;  ///< between the cuts that form the silhouette
 constexpr int kMostSlices = 400;
 constexpr double kBold_mm = 0.6, kThin_mm = 0.15, kLine_mm = 0.25;
@@ -71,29 +73,27 @@ Box box_round(const waterline::CrossSection& section) {
   return box;
 }
 
-void append(Strokes& to, Strokes from) {
-  std::move(from.begin(), from.end(), std::back_inserter(to));
-}
+void append(Page& page, Drawing drawing) { append(page.strokes, page.texts, std::move(drawing)); }
 
 /// Both axes over the whole film, with a tick every 10 mm, longer every 50 mm.
-Strokes axes(const film::Outline& outline, const Vector2d& origin_mm) {
-  Strokes out;
+Drawing axes(const film::Outline& outline, const Vector2d& origin_mm) {
+  Drawing out;
   for (int axis = 0; axis < 2; ++axis) {
     const Vector2d along = Vector2d::Unit(axis), across = Vector2d::Unit(1 - axis);
     const double low = outline.min_mm[axis], high = outline.max_mm[axis];
-    out.push_back({{origin_mm + low * along, origin_mm + high * along}, kThin_mm, 0.6});
+    out.strokes.push_back({{origin_mm + low * along, origin_mm + high * along}, kThin_mm, 0.6});
     const long last = std::lround(std::floor(high / 10));
     for (long tick = std::lround(std::ceil(low / 10)); tick <= last; ++tick) {
       const double at = 10 * static_cast<double>(tick);
       const double half = tick % 5 == 0 ? 2 : 1;
-      out.push_back(
+      out.strokes.push_back(
           {{origin_mm + at * along - half * across, origin_mm + at * along + half * across},
            kThin_mm,
            0.6});
     }
     const Vector2d end =
         origin_mm + high * along - (axis == 0 ? Vector2d(6, -2.5) : Vector2d(-2.5, 6));
-    append(out, lettered(axis == 0 ? "+x" : "+y", end, kLetter_mm));
+    out.texts.push_back({axis == 0 ? "+x" : "+y", end, kLetter_mm, 1});
   }
   return out;
 }
@@ -141,9 +141,9 @@ std::vector<std::string> lines_of(const Placement& placement, const PageSettings
 /// Places text where the object is not.
 class Legend {
  public:
-  Legend(Page& page, const Box& printable, const waterline::CrossSection& object,
-         const Vector2d& origin_mm)
-      : page_(page), printable_(printable), space_(printable) {
+  Legend(Page& page, const text::Font& font, const Box& printable,
+         const waterline::CrossSection& object, const Vector2d& origin_mm)
+      : page_(page), font_(font), printable_(printable), space_(printable) {
     for (const waterline::Loop& loop : object) {
       if (loop.is_hole) continue;
       std::vector<Vector2d> polygon;
@@ -160,38 +160,32 @@ class Legend {
       const Vector2d near(printable_.low_mm.x(), printable_.low_mm.y());
       const auto box = space_.find(ruler_size_mm(length_mm, false), near);
       if (!box) continue;
-      append(page_.strokes, ruler(box->low_mm, length_mm, false));
+      append(page_, ruler(box->low_mm, length_mm, false));
       space_.take(*box);
       return true;
     }
     return false;
   }
 
-  [[nodiscard]] bool add_text(const std::vector<std::string>& lines) {
-    for (const double letter_mm : {kLetter_mm, 1.2, 0.9}) {
-      double width_mm = 0;
-      for (const std::string& line : lines) {
-        width_mm = std::max(width_mm, text_width_mm(line, letter_mm));
-      }
-      const double step_mm = 2.8 * letter_mm;
-      const Vector2d size_mm(width_mm + 1, step_mm * static_cast<double>(lines.size()) + 1);
-      const Vector2d near(printable_.low_mm.x(), printable_.high_mm.y());
-      const auto box = space_.find(size_mm, near);
-      if (!box) continue;
-      double baseline = box->high_mm.y();
-      for (const std::string& line : lines) {
-        baseline -= step_mm;
-        append(page_.strokes,
-               lettered(line, {box->low_mm.x() + 0.5, baseline + letter_mm}, letter_mm));
-      }
-      space_.take(*box);
-      return true;
-    }
-    return false;
+  /// Returns what was placed; nullopt if there was no room.
+  [[nodiscard]] std::optional<TextBlock> add_text(const std::vector<std::string>& lines) {
+    const auto of_width = [&](double width) {
+      std::vector<std::string> out;
+      for (const std::string& line : lines) out.push_back(font_.shortened(line, width));
+      return out;
+    };
+    const Vector2d near(printable_.low_mm.x(), printable_.high_mm.y());
+    auto block = place_text(font_, of_width,
+                            [&](const Vector2d& size_mm) { return space_.find(size_mm, near); });
+    if (!block) return std::nullopt;
+    append(page_, {{}, block->texts});
+    space_.take(block->box);
+    return block;
   }
 
  private:
   Page& page_;
+  const text::Font& font_;
   Box printable_;
   FreeSpace space_;
 };
@@ -231,6 +225,7 @@ Result<Placement> placement(const mesh::Surface& surface, const std::optional<Po
                             const film::Outline& outline, const PageSettings& settings,
                             const Context& context) {
   HP_RETURN_IF_ERROR(check(settings));
+  HP_ASSIGN_OR_RETURN(const text::Font* const font, text::Font::standard());
   Page page;
   HP_ASSIGN_OR_RETURN(page.size_mm, sheet_for(outline, settings));
   Placement out;
@@ -247,15 +242,17 @@ Result<Placement> placement(const mesh::Surface& surface, const std::optional<Po
 
   const Vector2d origin_mm = page.size_mm / 2 - (outline.min_mm + outline.max_mm) / 2;
   page.strokes.push_back(film_edge(outline, origin_mm));
-  append(page.strokes, axes(outline, origin_mm));
-  append(page.strokes, outlines(object, origin_mm, kLine_mm, 0.5));
-  append(page.strokes, outlines(contact, origin_mm, kBold_mm, 1));
-  append(page.strokes, cross(origin_mm + out.contact_mm));
+  append(page, axes(outline, origin_mm));
+  append(page, {outlines(object, origin_mm, kLine_mm, 0.5), {}});
+  append(page, {outlines(contact, origin_mm, kBold_mm, 1), {}});
+  append(page, {cross(origin_mm + out.contact_mm), {}});
   const Vector2d margin = Vector2d::Constant(std::max(settings.printer_margin_mm, 4.0));
-  Legend legend(page, {margin, page.size_mm - margin}, object, origin_mm);
+  Legend legend(page, *font, {margin, page.size_mm - margin}, object, origin_mm);
   const bool has_ruler = legend.add_ruler();
-  const bool has_text = legend.add_text(lines_of(out, settings));
-  if (!has_ruler || !has_text) {
+  const auto text = legend.add_text(lines_of(out, settings));
+  if (text && text->is_shortened) warn_of_shortened_text("page 1", out.warnings);
+  warn_of_missing_glyphs(*font, page.texts, "page 1", out.warnings);
+  if (!has_ruler || !text) {
     out.warnings.push_back(
         {"template_cut_off",
          "the ruler or the text is left out, because there is no room beside the "

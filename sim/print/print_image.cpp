@@ -118,6 +118,7 @@ void add_pages(const image::PrinterImage& image, const PrintSettings& settings, 
     page.size_mm = sheet.size_mm;
     page.images.push_back({std::move(part.image), print.layout.pitch_mm, sheet.low_mm});
     page.strokes = sheet.marks;
+    page.texts = sheet.texts;
     print.document.pages.push_back(std::move(page));
   }
 }

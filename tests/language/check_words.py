@@ -8,11 +8,12 @@ import words
 
 SUFFIXES = {'.h', '.cpp', '.in', '.ts', '.tsx', '.css', '.html', '.proto', '.py', '.md', '.toml', '.example', '.txt',
             '.cmake', '.service', '.rules', ''}
+GENERATED = {'LICENSE', 'package-lock.json', 'schema.d.ts'}
 SKIPPED = {'node_modules', '__pycache__', 'language'}
 
 
 def is_checked(path):
-    return (path.suffix in SUFFIXES and path.name not in ('LICENSE', 'package-lock.json')
+    return (path.suffix in SUFFIXES and path.name not in GENERATED
             and not any(part.startswith(('.', 'build')) or part in SKIPPED for part in path.parts[:-1]))
 
 

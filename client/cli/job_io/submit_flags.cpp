@@ -157,7 +157,8 @@ void add_page_flags(CLI::App& command, client::Spec& spec) {
                   field_help("PrintImageSpec.printer_margin_mm",
                              "Unprintable margin along the edges of the paper"))
       ->type_name("D");
-  command.add_option("--job-name", page.job_name, "Printed beside the film")->type_name("TEXT");
+  command.add_option("--job-name", page.job_name, "Printed beside the film, as given")
+      ->type_name("TEXT");
   command.add_option("--date", page.date, "Printed beside the film, as given")->type_name("TEXT");
   add_threads_flag(command, spec);
 }

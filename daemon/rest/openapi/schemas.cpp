@@ -139,7 +139,11 @@ void add_limits(const v1::FieldRules& rules, Json& schema) {
   if (is_number && rules.has_min()) schema["minimum"] = number_of(rules.min());
   if (is_number && rules.above_min()) schema["exclusiveMinimum"] = true;
   if (is_number && rules.has_max()) schema["maximum"] = number_of(rules.max());
-  if (is_text && rules.max_bytes() > 0) schema["maxLength"] = rules.max_bytes();
+  // JSON schema counts characters, the rule bytes of UTF-8: longer text is refused either way.
+  if (is_text && rules.max_bytes() > 0) {
+    schema["maxLength"] = rules.max_bytes();
+    schema["x-max-bytes"] = rules.max_bytes();
+  }
   if (is_text && !rules.format().empty()) schema["format"] = rules.format();
   for (const std::string& value : rules.values()) schema["enum"].push_back(value);
 }

@@ -56,7 +56,7 @@ Result<RgbImage> alignment_picture(const ObjectViews& views,
     drawing.draw_points(points_O, colours, kPoint_mm, kDeep_mm);
   };
   HP_ASSIGN_OR_RETURN(RgbImage sheet, draw_sheet(views, kLegend_px, context, draw));
-  draw_legend(sheet, {"mm off", range, diverging, {}});
+  HP_RETURN_IF_ERROR(draw_legend(sheet, {"mm off", range, diverging, {}}));
   return sheet;
 }
 

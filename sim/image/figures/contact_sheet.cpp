@@ -6,6 +6,7 @@
 
 #include "sim/image/figures/text.h"
 #include "sim/image/io/colour.h"
+#include "sim/text/font.h"
 
 namespace hydroprint::image {
 namespace {
@@ -42,6 +43,7 @@ Eigen::Vector3f hatch(int x, int y) {
 
 Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px, const Context& context,
                             const std::function<void(ViewDrawing&)>& draw) {
+  HP_ASSIGN_OR_RETURN(const text::Font* const font, text::Font::standard());
   const int cell_height = views.height_px + kCaption_px + kMargin_px;
   const int rows = static_cast<int>(views.seen.size()) / views.columns;
   RgbImage sheet{kSheetWidth_px, kMargin_px + rows * cell_height + legend_px, {}};
@@ -58,17 +60,19 @@ Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px, const Conte
     drawing.put_on(sheet, left, top);
     const std::string& name = views.names[v];
     const double middle = left + 0.5 * views.width_px;
-    draw_text(sheet, middle - 0.5 * text_width_px(kLetter_px, name), top + views.height_px + 34,
-              kLetter_px, name, kInk);
+    draw_text(sheet, *font, middle - 0.5 * text_width_px(*font, kLetter_px, name),
+              top + views.height_px + 34, kLetter_px, name, kInk);
     return Status{};
   }));
   return sheet;
 }
 
-void draw_legend(RgbImage& sheet, const Scale& scale) {
+Status draw_legend(RgbImage& sheet, const Scale& scale) {
+  HP_ASSIGN_OR_RETURN(const text::Font* const font, text::Font::standard());
   constexpr int kBarWidth = 760, kBarHeight = 24;
   const int left = 330, top = sheet.height - kLegend_px + 8;
-  draw_text(sheet, left - 30 - text_width_px(16, scale.label), top + 20, 16, scale.label, kInk);
+  draw_text(sheet, *font, left - 30 - text_width_px(*font, 16, scale.label), top + 20, 16,
+            scale.label, kInk);
   fill(sheet, {left, top, left + kBarWidth, top + kBarHeight},
        [&](int x, int) { return scale.coded((x - left + 0.5) / kBarWidth); });
   const int steps =
@@ -78,17 +82,16 @@ void draw_legend(RgbImage& sheet, const Scale& scale) {
     fill(sheet, {x, top + kBarHeight, x + 1, top + kBarHeight + 7}, [](int, int) {
       return Eigen::Vector3f(Eigen::Vector3f(kInk[0], kInk[1], kInk[2]) / 255.0F);
     });
-    const std::string text =
-        number(scale.range.low + i * scale.range.step) + (i == steps ? "+" : "");
-    draw_text(sheet,
-              x - 0.5 * text_width_px(kLetter_px, number(scale.range.low + i * scale.range.step)),
-              top + kBarHeight + 34, kLetter_px, text, kInk);
+    const std::string text = number(scale.range.low + i * scale.range.step);
+    draw_text(sheet, *font, x - 0.5 * text_width_px(*font, kLetter_px, text), top + kBarHeight + 34,
+              kLetter_px, text + (i == steps ? "+" : ""), kInk);
   }
-  if (scale.hatched.empty()) return;
+  if (scale.hatched.empty()) return {};
   const int box = left + kBarWidth + 70;
   fill(sheet, {box, top, box + 54, top + kBarHeight},
        [](int x, int y) { return srgb_from_linear(hatch(2 * x, 2 * y)); });
-  draw_text(sheet, box + 70, top + 19, kLetter_px, scale.hatched, kInk);
+  draw_text(sheet, *font, box + 70, top + 19, kLetter_px, scale.hatched, kInk);
+  return {};
 }
 
 }  // namespace hydroprint::image

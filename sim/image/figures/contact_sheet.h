@@ -32,13 +32,14 @@ struct Range {
 
 /// The meaning of a sheet's colours.
 struct Scale {
-  std::string label;  ///< in letters that draw_text() supports
+  std::string label;
   Range range;
   std::function<Eigen::Vector3f(double)> coded;  ///< sRGB-coded; takes the range as [0, 1]
   std::string hatched;                           ///< label of hatch(); empty: not used
 };
 
-/// Draws a legend into the space that draw_sheet() left for it.
-void draw_legend(RgbImage& sheet, const Scale& scale);
+/// Draws a legend into the space that draw_sheet() left for it. Fails if text::Font::standard()
+/// fails.
+[[nodiscard]] Status draw_legend(RgbImage& sheet, const Scale& scale);
 
 }  // namespace hydroprint::image

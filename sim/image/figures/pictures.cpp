@@ -96,7 +96,7 @@ Result<RgbImage> quantity_picture(const ObjectViews& views, const Quantity& quan
                         drawing.draw_tiles(colour_of);
                         drawing.draw_bare(hatch);
                       }));
-  draw_legend(sheet, {quantity.label, range, scale_colour, quantity.hatched});
+  HP_RETURN_IF_ERROR(draw_legend(sheet, {quantity.label, range, scale_colour, quantity.hatched}));
   return sheet;
 }
 

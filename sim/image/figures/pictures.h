@@ -23,7 +23,7 @@ namespace hydroprint::image {
 
 /// A quantity by which to colour an object.
 struct Quantity {
-  std::string label;                  ///< for the legend; in letters that draw_text() supports
+  std::string label;                  ///< for the legend
   std::vector<double> values;         ///< the scale ignores extremes and NaN
   double rest = 0, least_span = 0.1;  ///< the scale contains `rest` and spans at least `least_span`
   /// At a tile's corners; NaN is drawn as if no film arrived.

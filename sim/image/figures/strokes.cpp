@@ -7,12 +7,16 @@ namespace hydroprint::image {
 
 using Eigen::Vector2d;
 
+namespace {
+
 double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   const Vector2d along = b - a;
   const double square = along.squaredNorm();
   const double t = square > 0 ? std::clamp((p - a).dot(along) / square, 0.0, 1.0) : 0;
   return (p - a - t * along).norm();
 }
+
+}  // namespace
 
 void mix_in(std::uint8_t* pixel, const Rgb8& colour, double share) {
   for (int c = 0; c < 3; ++c) {

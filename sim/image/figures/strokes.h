@@ -7,9 +7,6 @@
 
 namespace hydroprint::image {
 
-[[nodiscard]] double distance_to_segment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
-                                         const Eigen::Vector2d& b);
-
 /// Blends a colour into a pixel (R, G, B) with a share from 0 to 1.
 void mix_in(std::uint8_t* pixel, const Rgb8& colour, double share);
 

@@ -266,8 +266,8 @@ Status Fit::write(const std::filesystem::path& folder) const {
       image::write_artifact(folder / "film_profile.toml", film::profile_toml(outcome_.profile)));
   HP_RETURN_IF_ERROR(
       image::write_artifact(folder / "residuals.csv", residuals_csv(outcome_.points)));
-  return image::write_png(folder / "residuals.png", fit::residual_picture(dip_.outline, outcome_),
-                          image::kScreenDpi);
+  HP_ASSIGN_OR_RETURN(const image::RgbImage picture, fit::residual_picture(dip_.outline, outcome_));
+  return image::write_png(folder / "residuals.png", picture, image::kScreenDpi);
 }
 
 std::string Fit::summary(const Report& /*report*/, const std::filesystem::path& dir) const {

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "sim/film/outline.h"
+#include "sim/print/marks.h"
+#include "sim/print/page_text.h"
 #include "tests/sim/print/polygons.h"
 #include "tests/support/temporary_folder.h"
 
@@ -32,10 +34,58 @@ Layout laid(const std::string& film, const PageSettings& settings, double dpi = 
   return *layout;
 }
 
-/// Checks every stroke with its pen's width, at points 0.25 mm apart: it must be within the
-/// printable area and a millimetre away from the film.
+const text::Font& font() { return *text::Font::standard().value(); }
+
+/// Places 0.25 mm apart all over a box.
+std::vector<Vector2d> places_in(const Box& box) {
+  std::vector<Vector2d> out;
+  const Eigen::Vector2i steps = (box.size_mm() / 0.25).cast<int>() + Eigen::Vector2i::Ones();
+  for (int i = 0; i <= steps.x(); ++i) {
+    for (int k = 0; k <= steps.y(); ++k) {
+      const Eigen::Array2d share(static_cast<double>(i) / steps.x(),
+                                 static_cast<double>(k) / steps.y());
+      out.emplace_back(box.low_mm.array() + share * box.size_mm().array());
+    }
+  }
+  return out;
+}
+
+bool overlap(const Box& a, const Box& b) {
+  return (a.low_mm.array() < b.high_mm.array()).all() &&
+         (b.low_mm.array() < a.high_mm.array()).all();
+}
+
+/// The ink of all text is on paper that can be printed, a millimetre off the film, and does not
+/// overlap other text or strokes.
+void expect_text_off_film(const Sheet& sheet, double margin_mm) {
+  for (std::size_t i = 0; i < sheet.texts.size(); ++i) {
+    const Box box = text_box(font(), sheet.texts[i]);
+    SCOPED_TRACE(sheet.texts[i].text);
+    for (const Vector2d& p : places_in(box)) {
+      ASSERT_GE(p.minCoeff(), margin_mm);
+      ASSERT_GE((sheet.size_mm - p).minCoeff(), margin_mm);
+      ASSERT_GE(distance_to_polygon(sheet.film_mm, p), 0.999) << p.transpose();
+    }
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_FALSE(overlap(box, text_box(font(), sheet.texts[k]))) << sheet.texts[k].text;
+    }
+    for (const Stroke& stroke : sheet.marks) {
+      for (std::size_t k = 0; k + 1 < stroke.points_mm.size(); ++k) {
+        const Vector2d a = stroke.points_mm[k], b = stroke.points_mm[k + 1];
+        for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+          const Vector2d p = a + t * (b - a);
+          EXPECT_FALSE(overlap(box, {p, p})) << p.transpose();
+        }
+      }
+    }
+  }
+}
+
+/// Every stroke, at places 0.25 mm apart along it and with its pen's width, on paper that can be
+/// printed and a millimetre off the film.
 void expect_marks_off_film(const Layout& layout, double margin_mm) {
   for (const Sheet& sheet : layout.sheets) {
+    expect_text_off_film(sheet, margin_mm);
     for (const Stroke& stroke : sheet.marks) {
       const double half = stroke.width_mm / 2;
       for (std::size_t i = 0; i + 1 < stroke.points_mm.size(); ++i) {
@@ -86,6 +136,74 @@ TEST(Layout, MarksNeverLieOnFilm) {
         settings.mirror = mirror;
         SCOPED_TRACE(film + " on " + paper);
         expect_marks_off_film(laid(film, settings), margin_mm);
+      }
+    }
+  }
+}
+
+/// The text beside the film; empty if there is none.
+std::string text_of(const Sheet& sheet) {
+  for (const Text& text : sheet.texts) {
+    if (text.text.find("2025-03-14") != std::string::npos) return text.text;
+  }
+  return {};
+}
+
+TEST(Layout, TheJobNameStandsUnchangedBesideTheFilm) {
+  PageSettings settings = on("A3");
+  settings.job_name = "Mug 7 - Ärztin GROSS & klein, №3";
+  const Layout layout = laid("A4", settings);
+  EXPECT_EQ(text_of(layout.sheets[0]), settings.job_name + "  2025-03-14");
+  EXPECT_TRUE(layout.warnings.empty());
+}
+
+TEST(Layout, LongJobNamesAreShortenedBeforeDateAndSheetNumber) {
+  PageSettings settings = on("A4");
+  for (int i = 0; i < 25; ++i) settings.job_name += " ÅÄÖ gjpqy";
+  for (const std::string film : {"100x160", "circle:60", "500x200"}) {
+    SCOPED_TRACE(film);
+    const Layout layout = laid(film, settings);
+    expect_marks_off_film(layout, 0);
+    for (const Sheet& sheet : layout.sheets) {
+      const std::string text = text_of(sheet);
+      ASSERT_TRUE(sheet.is_text_shortened);
+      EXPECT_TRUE(text.starts_with("globe 12 ÅÄÖ")) << text;
+      EXPECT_NE(text.find("…  2025-03-14"), std::string::npos) << text;
+    }
+    EXPECT_EQ(layout.warnings.at(0).code, "text_shortened");
+  }
+}
+
+TEST(Layout, TextOnANarrowStripIsShortenedOrLeftOut) {
+  PageSettings settings = on("60x60");
+  settings.job_name = "Mug 7 - Ärztin GROSS & klein, №3";
+  for (const std::string film : {"20x20", "40x40", "50x20", "58x58", "60x60"}) {
+    const Layout layout = laid(film, settings);
+    expect_marks_off_film(layout, 0);
+    const Sheet& sheet = layout.sheets[0];
+    const bool is_drawn = std::count(sheet.drawn.begin(), sheet.drawn.end(), "text") == 1;
+    EXPECT_EQ(is_drawn, std::count(sheet.dropped.begin(), sheet.dropped.end(), "text") == 0);
+  }
+}
+
+TEST(Layout, CharactersThatTheFontLacksAreWarnedOfOnce) {
+  PageSettings settings = on("A4");
+  settings.job_name = "Mug 漢字 \U0001F9D9";
+  const Layout layout = laid("500x200", settings);
+  ASSERT_GT(layout.sheets.size(), 1U);
+  ASSERT_EQ(layout.warnings.size(), 1U);
+  EXPECT_EQ(layout.warnings[0].code, "text_glyph_missing");
+  EXPECT_NE(layout.warnings[0].message.find("'漢' (U+6F22), '字' (U+5B57)"), std::string::npos);
+}
+
+TEST(Layout, TheRulersNumbersStandInItsBox) {
+  for (const bool upright : {false, true}) {
+    for (const double length_mm : {50.0, 200.0}) {
+      const Vector2d size = ruler_size_mm(length_mm, upright);
+      for (const Text& text : ruler(Vector2d::Zero(), length_mm, upright).texts) {
+        const Box box = text_box(font(), text);
+        EXPECT_GE(box.low_mm.minCoeff(), 0) << text.text;
+        EXPECT_GE((size - box.high_mm).minCoeff(), 0) << text.text;
       }
     }
   }

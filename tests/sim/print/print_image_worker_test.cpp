@@ -289,7 +289,7 @@ TEST_F(PrintImage, FilmOfThePapersSizeIsPrintedWithoutMarksWithAWarning) {
   film(blank(827, 1169));
   const Ended ended = testing::run(command({}));
   EXPECT_EQ(ended.status, 0);
-  EXPECT_NE(ended.err.find("warning: left out"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("so these are left out"), std::string::npos) << ended.err;
   EXPECT_EQ(traced_by_mupdf(path("out/print.pdf")).find("stroke_path"), std::string::npos);
   testing::run(command({"--no-marks"}, "silent"));
   EXPECT_EQ(nlohmann::json::parse(bytes_of(path("silent/report.json")))["warnings"].size(), 0U);

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/base/result.h"
+#include "sim/print/page.h"
+#include "sim/text/font.h"
+
+namespace hydroprint::print {
+
+/// The font of a document's texts as its PDF holds it: a composite font (ISO 32000-1, 9.7) whose
+/// character codes (CIDs) number the characters that are drawn. So every character can be copied
+/// and searched for, even where several of them share a glyph.
+struct EmbeddedFont {
+  const text::Font* font = nullptr;
+  std::map<char32_t, unsigned> cids;  ///< 1, 2, ... in the order of the characters
+  text::FontMetrics metrics;          ///< the name with the tag of a subset: "ABCDEF+DejaVuSans"
+  std::vector<double> widths;         ///< by CID, in thousandths of the em
+  std::string file;                   ///< TrueType, glyphs of these characters only
+  std::string cid_to_gid;             ///< its glyphs by CID, two bytes each
+  std::string to_unicode;             ///< a CMap: characters by CID
+
+  /// A line of text as a hexadecimal string of CIDs.
+  [[nodiscard]] std::string encoded(const std::string& text) const;
+};
+
+/// Prepares the font for the texts of all pages. The same characters give the same bytes. Fails as
+/// text::Font::standard() and text::make_subset() do.
+[[nodiscard]] Result<EmbeddedFont> embed_font(const std::vector<Page>& pages);
+
+}  // namespace hydroprint::print

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace hydroprint::text {
+
+/// Stands for whatever cannot be drawn: U+FFFD, a question mark on a black diamond.
+inline constexpr char32_t kReplacement = 0xFFFD;
+
+/// Decodes UTF-8. Each malformed sequence becomes one U+FFFD, cut as the Unicode Standard
+/// recommends (section 3.9, maximal subparts), and so does each control character.
+[[nodiscard]] std::u32string decode_utf8(std::string_view text);
+
+/// Encodes code points as UTF-8; surrogates and numbers above U+10FFFF become U+FFFD.
+[[nodiscard]] std::string encode_utf8(std::u32string_view text);
+
+}  // namespace hydroprint::text
