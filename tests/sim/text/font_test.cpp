@@ -141,9 +141,8 @@ TEST(Font, AnyBytesCanBeLaidOutAndShortened) {
 TEST(Font, AMissingOrBrokenFileIsNamedWithItsPackage) {
   const testing::TemporaryFolder folder;
   std::string cut = font().file().substr(0, 2000);
-  for (const auto& file :
-       {folder.path() / "none.ttf", folder.write("empty.ttf", ""), folder.path(),
-        folder.write("text.ttf", "not a font"), folder.write("cut.ttf", cut)}) {
+  for (const auto& file : {folder.path() / "none.ttf", folder.write("empty.ttf", ""), folder.path(),
+                           folder.write("text.ttf", "not a font"), folder.write("cut.ttf", cut)}) {
     const auto opened = Font::open(file);
     ASSERT_FALSE(opened) << file;
     EXPECT_EQ(opened.error().code, Code::kInternal);

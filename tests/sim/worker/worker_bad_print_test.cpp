@@ -43,7 +43,8 @@ TEST_F(BadPrint, PrintImageErrorsAreOneLine) {
   expect_refusal(3, print_image({"--paper", "30x30"}), {"paper: too small for the film"});
   expect_refusal(3, print_image({"--printer-margin-mm", "200"}), {"printer margin"});
   expect_refusal(3, print_image({"--ink-limit", "3"}), {"ink limit: does not apply to RGB"});
-  expect_refusal(3, print_image({"--colours", "cmyk", "--ink-limit", "7"}), {"ink limit: 7"});
+  expect_refusal(3, print_image({"--colours", "cmyk", "--ink-limit", "7"}),
+                 {"--ink-limit: 7 is out of range"});
   expect_refusal(3, print_image({"--colours", "cmyk", "--formats", "png"}),
                  {"PNG does not support CMYK"});
   expect_refusal(2, print_image({"--formats", "gif"}), {"'gif' is unknown"});

@@ -72,7 +72,8 @@ TEST_F(BadSpec, MissingFilesAreRefusedByField) {
 
 TEST_F(BadSpec, ValuesOutOfRangeAreBadInput) {
   const std::string mesh = R"({"mesh": {"name": "sphere.obj"}, )";
-  expect_bad_spec("simulate", mesh + R"("dpi": 0})", {"dpi: 0 is out of range. It must be from 20 to 2400 dots per inch"});
+  expect_bad_spec("simulate", mesh + R"("dpi": 0})",
+                  {"dpi: 0 is out of range. It must be from 20 to 2400 dots per inch"});
   expect_bad_spec("simulate", mesh + R"("dpi": "NaN"})", {"dpi: "});
   expect_bad_spec("simulate", mesh + R"("inkPasses": 21})", {"ink_passes: 21 is out of range"});
   expect_bad_spec("simulate", mesh + R"("threads": 0})", {"threads: 0 is out of range"});

@@ -98,7 +98,7 @@ TEST_F(Stages, OfAPredictionComeAsListed) {
 TEST_F(Stages, UnusedStagesAreLeftOut) {
   const Arguments colourless = simulate({"--artifacts", "map"});  // and therefore without ink
   const Arguments patient =
-      simulate({"--artifacts", "map", "--texture", path("texture.png"), "--ink-passes", "20"});
+      simulate({"--artifacts", "map", "--texture", path("texture.png"), "--ink-passes", "10"});
   for (const Arguments& command : {colourless, patient}) {
     const Names some = reported(command), all = listed(command);
     EXPECT_LT(some.size(), all.size());
