@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "client/connection/rpc.h"
-#include "client/convert.h"
 #include "client/files/files.h"
 
 namespace hydroprint::client {
@@ -68,20 +67,20 @@ class PartFile {
 // Fetches one artifact into a part file and reconnects when a call breaks.
 class Downloader {
  public:
-  Downloader(Connection& connection, const Artifact& artifact, PartFile& file,
+  Downloader(Connection& connection, const v1::Artifact& artifact, PartFile& file,
              const ByteProgress& progress)
       : connection_(connection), artifact_(artifact), file_(file), progress_(progress) {}
 
   Status run(std::int64_t have_bytes) {
     done_ = have_bytes;
     for (int attempt = 0; attempt < kAttemptsWithoutProgress; ++attempt) {
-      if (done_ == artifact_.size_bytes) return {};
+      if (done_ == artifact_.size_bytes()) return {};
       const std::int64_t before = done_;
       Status received = receive();
       if (!received && received.error().code != Code::kUnavailable) return received;
       if (!received) last_ = received.error();
       if (done_ > before) attempt = 0;
-      if (done_ != artifact_.size_bytes) pause(connection_, kTryAgainAfter);
+      if (done_ != artifact_.size_bytes()) pause(connection_, kTryAgainAfter);
     }
     return tl::unexpected(last_);
   }
@@ -90,7 +89,7 @@ class Downloader {
   Status receive() {
     Call call(connection_);
     v1::DownloadArtifactRequest request;
-    request.set_name(artifact_.name);
+    request.set_name(artifact_.name());
     request.set_offset(done_);
     auto stream = connection_.impl().artifacts->DownloadArtifact(call.context(), request);
     v1::DownloadArtifactResponse piece;
@@ -105,18 +104,18 @@ class Downloader {
 
   Status take(const v1::DownloadArtifactResponse& piece) {
     const auto size = static_cast<std::int64_t>(piece.data().size());
-    if (piece.offset() != done_ || done_ + size > artifact_.size_bytes)
-      return fail(Code::kDataLoss, artifact_.name + ": byte " + std::to_string(piece.offset()) +
+    if (piece.offset() != done_ || done_ + size > artifact_.size_bytes())
+      return fail(Code::kDataLoss, artifact_.name() + ": byte " + std::to_string(piece.offset()) +
                                        " arrived, but byte " + std::to_string(done_) +
                                        " was expected; download it again");
     HP_RETURN_IF_ERROR(file_.append(piece.data()));
     done_ += size;
-    if (progress_) progress_(done_, artifact_.size_bytes);
+    if (progress_) progress_(done_, artifact_.size_bytes());
     return {};
   }
 
   Connection& connection_;
-  const Artifact& artifact_;
+  const v1::Artifact& artifact_;
   PartFile& file_;
   const ByteProgress& progress_;
   std::int64_t done_ = 0;
@@ -130,9 +129,9 @@ bool has_digest(const std::filesystem::path& path, const std::string& sha256,
 }
 
 // Artifacts of two jobs may share a name, so the name of the part file includes the digest.
-std::filesystem::path part_path(const std::filesystem::path& folder, const Artifact& artifact) {
-  std::string name = artifact.file_name();
-  name.insert(0, 1, '.').append(".").append(artifact.sha256, 0, 16).append(".part");
+std::filesystem::path part_path(const std::filesystem::path& folder, const v1::Artifact& artifact) {
+  std::string name = file_name(artifact);
+  name.insert(0, 1, '.').append(".").append(artifact.sha256(), 0, 16).append(".part");
   return folder / name;
 }
 
@@ -144,46 +143,42 @@ std::int64_t size_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::string Artifact::file_name() const { return std::filesystem::path(name).filename().string(); }
-
-Result<std::vector<Artifact>> list_artifacts(Connection& connection, const std::string& job) {
-  v1::ListArtifactsRequest request;
-  request.set_parent(job);
-  request.set_page_size(kPageSize);
-  std::vector<Artifact> artifacts;
-  do {
-    HP_ASSIGN_OR_RETURN(const auto page, call(connection, *connection.impl().artifacts,
-                                              &ArtifactStub::ListArtifacts, request));
-    for (const auto& artifact : page.artifacts()) artifacts.push_back(from_proto(artifact));
-    request.set_page_token(page.next_page_token());
-  } while (!request.page_token().empty());
-  return artifacts;
+std::string file_name(const v1::Artifact& artifact) {
+  return std::filesystem::path(artifact.name()).filename().string();
 }
 
-Result<std::filesystem::path> download(Connection& connection, const Artifact& artifact,
+Result<v1::ListArtifactsResponse> list_artifacts(Connection& connection, const std::string& job) {
+  v1::ListArtifactsRequest request;
+  request.set_parent(job);
+  return all_pages(connection, *connection.impl().artifacts, &ArtifactStub::ListArtifacts, request,
+                   &v1::ListArtifactsResponse::artifacts_size);
+}
+
+Result<std::filesystem::path> download(Connection& connection, const v1::Artifact& artifact,
                                        const std::filesystem::path& folder,
                                        const ByteProgress& progress) {
-  std::filesystem::path path = folder / artifact.file_name();
+  std::filesystem::path path = folder / file_name(artifact);
   const std::stop_token& stop = connection.options().stop;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) return cannot_write(folder, error.value());
-  if (size_of(path) == artifact.size_bytes && has_digest(path, artifact.sha256, stop)) return path;
+  if (size_of(path) == artifact.size_bytes() && has_digest(path, artifact.sha256(), stop))
+    return path;
 
   const std::filesystem::path part = part_path(folder, artifact);
   PartFile file(part);
   HP_RETURN_IF_ERROR(file.is_open());
   std::int64_t have_bytes = size_of(part);
-  if (have_bytes > artifact.size_bytes) {
+  if (have_bytes > artifact.size_bytes()) {
     HP_RETURN_IF_ERROR(file.truncate());
     have_bytes = 0;
   }
   HP_RETURN_IF_ERROR(Downloader(connection, artifact, file, progress).run(have_bytes));
-  if (!has_digest(part, artifact.sha256, stop)) {
+  if (!has_digest(part, artifact.sha256(), stop)) {
     if (stop.stop_requested()) return fail(Code::kCancelled, "interrupted");
     std::filesystem::remove(part, error);
     return fail(Code::kDataLoss,
-                artifact.name + ": SHA-256 does not match the bytes received; download it again");
+                artifact.name() + ": SHA-256 does not match the bytes received; download it again");
   }
   HP_RETURN_IF_ERROR(file.rename_to(path));
   return path;

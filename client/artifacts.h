@@ -2,27 +2,20 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "client/connection/connection.h"
 #include "client/files/files.h"
+#include "hydroprint/v1/artifact_service.pb.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::client {
 
-/// A file that a job produced.
-struct Artifact {
-  std::string name;  ///< "jobs/7/artifacts/film.png"
-  std::int64_t size_bytes = 0;
-  std::string sha256;
-  std::string media_type;
-
-  [[nodiscard]] std::string file_name() const;  ///< "film.png"
-};
+/// Returns the artifact's file name: "film.png" for "jobs/7/artifacts/film.png".
+[[nodiscard]] std::string file_name(const v1::Artifact& artifact);
 
 /// Returns all artifacts of a job, sorted by name; empty until the job has succeeded.
-[[nodiscard]] Result<std::vector<Artifact>> list_artifacts(Connection& connection,
-                                                           const std::string& job);
+[[nodiscard]] Result<v1::ListArtifactsResponse> list_artifacts(Connection& connection,
+                                                               const std::string& job);
 
 /// Downloads an artifact into `folder` (created if missing) under its file name. The bytes go into
 /// a hidden file beside it, from which a later attempt resumes. The final file appears only when it
@@ -30,7 +23,7 @@ struct Artifact {
 /// other bytes is replaced.
 /// @return the file's path; kDataLoss if the bytes are not what the daemon announced
 [[nodiscard]] Result<std::filesystem::path> download(Connection& connection,
-                                                     const Artifact& artifact,
+                                                     const v1::Artifact& artifact,
                                                      const std::filesystem::path& folder,
                                                      const ByteProgress& progress = {});
 

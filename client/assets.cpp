@@ -1,9 +1,9 @@
 #include "client/assets.h"
 
+#include <optional>
 #include <utility>
 
 #include "client/connection/rpc.h"
-#include "client/convert.h"
 #include "client/uuid.h"
 
 namespace hydroprint::client {
@@ -53,7 +53,7 @@ class Uploader {
 
  private:
   // Returns the asset if the daemon already has the bytes; otherwise opens an upload.
-  Result<std::optional<Asset>> start() {
+  Result<std::optional<v1::Asset>> start() {
     v1::StartUploadRequest request;
     request.set_size_bytes(digest_.size_bytes);
     request.set_sha256(digest_.sha256);
@@ -61,28 +61,28 @@ class Uploader {
     request.set_request_id(make_uuid());
     HP_ASSIGN_OR_RETURN(const auto answer, call(connection_, *connection_.impl().assets,
                                                 &AssetStub::StartUpload, request));
-    if (answer.has_asset()) return std::optional(from_proto(answer.asset()));
+    if (answer.has_asset()) return std::optional(answer.asset());
     upload_ = answer.upload().name();
     received_ = answer.upload().received_bytes();
-    return std::optional<Asset>();
+    return std::optional<v1::Asset>();
   }
 
   // After a lost connection: reads the resume offset, or returns the asset if the upload completed.
-  Result<std::optional<Asset>> find_out() {
+  Result<std::optional<v1::Asset>> find_out() {
     v1::GetUploadRequest request;
     request.set_name(upload_);
     const auto upload =
         call(connection_, *connection_.impl().assets, &AssetStub::GetUpload, request);
     if (upload) {
       received_ = upload->received_bytes();
-      return std::optional<Asset>();
+      return std::optional<v1::Asset>();
     }
     if (upload.error().code == Code::kNotFound) return start();
     return tl::unexpected(upload.error());
   }
 
   // Makes one call; returns the asset if it completed the upload.
-  Result<std::optional<Asset>> send() {
+  Result<std::optional<v1::Asset>> send() {
     Call call(connection_);
     v1::UploadChunkResponse answer;
     auto stream = connection_.impl().assets->UploadChunk(call.context(), &answer);
@@ -91,9 +91,9 @@ class Uploader {
     const grpc::Status status = stream->Finish();
     if (!read) return tl::unexpected(read.error());
     if (!status.ok()) return tl::unexpected(to_error(connection_, status));
-    if (answer.has_asset()) return std::optional(from_proto(answer.asset()));
+    if (answer.has_asset()) return std::optional(answer.asset());
     received_ = answer.upload().received_bytes();
-    return std::optional<Asset>();
+    return std::optional<v1::Asset>();
   }
 
   Status write_file(grpc::ClientWriter<v1::UploadChunkRequest>& stream) {
@@ -139,23 +139,14 @@ Result<Uploaded> upload_file(Connection& connection, const std::filesystem::path
   });
 }
 
-Result<std::vector<Asset>> list_assets(Connection& connection) {
-  v1::ListAssetsRequest request;
-  request.set_page_size(kPageSize);
-  std::vector<Asset> assets;
-  do {
-    HP_ASSIGN_OR_RETURN(const auto page, call(connection, *connection.impl().assets,
-                                              &AssetStub::ListAssets, request));
-    for (const auto& asset : page.assets()) assets.push_back(from_proto(asset));
-    request.set_page_token(page.next_page_token());
-  } while (!request.page_token().empty());
-  return assets;
+Result<v1::ListAssetsResponse> list_assets(Connection& connection) {
+  return all_pages(connection, *connection.impl().assets, &AssetStub::ListAssets,
+                   v1::ListAssetsRequest(), &v1::ListAssetsResponse::assets_size);
 }
 
 Status delete_asset(Connection& connection, const std::string& name) {
-  v1::DeleteAssetRequest request;
-  request.set_name(name);
-  HP_RETURN_IF_ERROR(call(connection, *connection.impl().assets, &AssetStub::DeleteAsset, request));
+  HP_RETURN_IF_ERROR(call(connection, *connection.impl().assets, &AssetStub::DeleteAsset,
+                          named<v1::DeleteAssetRequest>(name)));
   return {};
 }
 

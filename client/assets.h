@@ -1,30 +1,18 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "client/connection/connection.h"
 #include "client/files/files.h"
-#include "client/job.h"
+#include "hydroprint/v1/asset_service.pb.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::client {
 
-/// An uploaded file, identified by its content.
-struct Asset {
-  std::string name;  ///< "assets/{sha256}"
-  std::string sha256;
-  std::int64_t size_bytes = 0;
-  std::string media_type;
-  std::optional<Time> create_time;
-  std::vector<std::string> owners;  ///< operators see all owners, other users only themselves
-};
-
 /// The result of an upload.
 struct Uploaded {
-  Asset asset;
+  v1::Asset asset;
   bool was_known = false;  ///< the daemon had the bytes already; none were sent
 };
 
@@ -36,7 +24,7 @@ struct Uploaded {
                                            const ByteProgress& progress = {});
 
 /// Lists the caller's assets, sorted by hash; for an operator, the assets of all users.
-[[nodiscard]] Result<std::vector<Asset>> list_assets(Connection& connection);
+[[nodiscard]] Result<v1::ListAssetsResponse> list_assets(Connection& connection);
 
 /// Removes the caller from an asset's owners; as an operator, deletes it unless an unfinished job
 /// needs it.

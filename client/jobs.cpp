@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "client/connection/rpc.h"
-#include "client/convert.h"
 #include "client/uuid.h"
 
 namespace hydroprint::client {
@@ -15,19 +14,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kGiveUpAfter{60};
 
-Result<Job> to_job(Result<v1::Job> answer) {
-  return std::move(answer).map([](const v1::Job& job) { return from_proto(job); });
-}
-
-template <class Request>
-Request named(const std::string& name) {
-  Request request;
-  request.set_name(name);
-  return request;
-}
-
-v1::CreateJobRequest creation(const JobOptions& options) {
+v1::CreateJobRequest creation(v1::Job job, const JobOptions& options) {
   v1::CreateJobRequest request;
+  *request.mutable_job() = std::move(job);
   request.mutable_job()->set_display_name(options.display_name);
   request.mutable_job()->set_priority(options.priority);
   request.set_request_id(make_uuid());
@@ -39,12 +28,12 @@ v1::CreateJobRequest creation(const JobOptions& options) {
 class Watcher {
  public:
   Watcher(Connection& connection, const std::string& name,
-          const std::function<void(const JobUpdate&)>& update)
+          const std::function<void(const v1::WatchJobResponse&)>& update)
       : connection_(connection), update_(update) {
     request_.set_name(name);
   }
 
-  Result<Job> run(const std::function<void(const Error&)>& lost) {
+  Result<v1::Job> run(const std::function<void(const Error&)>& lost) {
     wait_for_connection(connection_, kConnectLimit);
     for (;;) {
       const grpc::Status status = follow();
@@ -57,7 +46,7 @@ class Watcher {
         request_.clear_after_seq();
         continue;
       }
-      const bool never_answered = last_.name.empty();
+      const bool never_answered = last_.name().empty();
       if (error.code != Code::kUnavailable || never_answered ||
           Clock::now() - last_news_ > kGiveUpAfter)
         return tl::unexpected(error);
@@ -81,94 +70,85 @@ class Watcher {
     request_.set_after_seq(message.seq());
     last_news_ = Clock::now();
     told_ = false;
-    JobUpdate update;
-    if (message.has_job()) update.job = last_ = from_proto(message.job());
-    if (message.has_event()) update.event = from_proto(message.event());
-    update_(update);
+    if (message.has_job()) last_ = message.job();
+    update_(message);
   }
 
   Connection& connection_;
-  const std::function<void(const JobUpdate&)>& update_;
+  const std::function<void(const v1::WatchJobResponse&)>& update_;
   v1::WatchJobRequest request_;
-  Job last_;
+  v1::Job last_;
   Clock::time_point last_news_ = Clock::now();
   bool told_ = false;
 };
 
 }  // namespace
 
-Result<Job> create_job(Connection& connection, const Spec& spec, const JobOptions& options) {
-  v1::CreateJobRequest request = creation(options);
-  HP_RETURN_IF_ERROR(to_proto(spec, *request.mutable_job()));
-  return to_job(call(connection, *connection.impl().jobs, &JobStub::CreateJob, request));
+Result<v1::Job> create_job(Connection& connection, v1::Job job, const JobOptions& options) {
+  return call(connection, *connection.impl().jobs, &JobStub::CreateJob,
+              creation(std::move(job), options));
 }
 
-Result<Job> create_dip(Connection& connection, const DipSpec& spec, const std::string& lease_id,
-                       const JobOptions& options) {
-  v1::CreateJobRequest request = creation(options);
-  *request.mutable_job()->mutable_dip() = to_proto(spec);
+Result<v1::Job> create_dip(Connection& connection, const v1::DipSpec& spec,
+                           const std::string& lease_id, const JobOptions& options) {
+  v1::Job job;
+  *job.mutable_dip() = spec;
+  v1::CreateJobRequest request = creation(std::move(job), options);
   request.set_lease_id(lease_id);
-  return to_job(call_once(connection, *connection.impl().jobs, &JobStub::CreateJob, request));
+  return call_once(connection, *connection.impl().jobs, &JobStub::CreateJob, request);
 }
 
-Result<Job> confirm_step(Connection& connection, const std::string& name, DipStep step,
-                         const std::string& lease_id) {
+Result<v1::Job> confirm_step(Connection& connection, const std::string& name,
+                             v1::DipStatus::Step step, const std::string& lease_id) {
   auto request = named<v1::ConfirmStepRequest>(name);
-  request.set_step(to_proto(step));
+  request.set_step(step);
   request.set_lease_id(lease_id);
-  return to_job(call_once(connection, *connection.impl().jobs, &JobStub::ConfirmStep, request));
+  return call_once(connection, *connection.impl().jobs, &JobStub::ConfirmStep, request);
 }
 
-Result<Job> create_print(Connection& connection, const std::string& print_image_job,
-                         const JobOptions& options) {
-  v1::CreateJobRequest request = creation(options);
-  request.mutable_job()->mutable_print()->set_print_image_job(print_image_job);
-  return to_job(call(connection, *connection.impl().jobs, &JobStub::CreateJob, request));
+Result<v1::Job> create_print(Connection& connection, const std::string& print_image_job,
+                             const JobOptions& options) {
+  v1::Job job;
+  job.mutable_print()->set_print_image_job(print_image_job);
+  return create_job(connection, std::move(job), options);
 }
 
-Result<Job> create_capture(Connection& connection, std::optional<double> seconds,
-                           const JobOptions& options) {
-  v1::CreateJobRequest request = creation(options);
-  v1::CaptureSpec& spec = *request.mutable_job()->mutable_capture();
+Result<v1::Job> create_capture(Connection& connection, std::optional<double> seconds,
+                               const JobOptions& options) {
+  v1::Job job;
+  v1::CaptureSpec& spec = *job.mutable_capture();
   if (seconds) spec.set_seconds(*seconds);
-  return to_job(call(connection, *connection.impl().jobs, &JobStub::CreateJob, request));
+  return create_job(connection, std::move(job), options);
 }
 
-Result<Job> get_job(Connection& connection, const std::string& name) {
-  return to_job(
-      call(connection, *connection.impl().jobs, &JobStub::GetJob, named<v1::GetJobRequest>(name)));
+Result<v1::Job> get_job(Connection& connection, const std::string& name) {
+  return call(connection, *connection.impl().jobs, &JobStub::GetJob,
+              named<v1::GetJobRequest>(name));
 }
 
-Result<std::vector<Job>> list_jobs(Connection& connection, const JobFilter& filter) {
+Result<v1::ListJobsResponse> list_jobs(Connection& connection, const JobFilter& filter) {
   v1::ListJobsRequest request;
   request.set_owner(filter.owner);
-  for (const JobState state : filter.states) request.add_states(to_proto(state));
-  std::vector<Job> jobs;
-  do {
-    request.set_page_size(filter.limit - static_cast<int>(jobs.size()));
-    HP_ASSIGN_OR_RETURN(const auto page,
-                        call(connection, *connection.impl().jobs, &JobStub::ListJobs, request));
-    for (const auto& job : page.jobs()) jobs.push_back(from_proto(job));
-    request.set_page_token(page.next_page_token());
-  } while (!request.page_token().empty() && std::ssize(jobs) < filter.limit);
-  return jobs;
+  for (const v1::Job::State state : filter.states) request.add_states(state);
+  return all_pages(connection, *connection.impl().jobs, &JobStub::ListJobs, request,
+                   &v1::ListJobsResponse::jobs_size, filter.limit);
 }
 
-Result<Job> cancel_job(Connection& connection, const std::string& name) {
-  return to_job(call(connection, *connection.impl().jobs, &JobStub::CancelJob,
-                     named<v1::CancelJobRequest>(name)));
+Result<v1::Job> cancel_job(Connection& connection, const std::string& name) {
+  return call(connection, *connection.impl().jobs, &JobStub::CancelJob,
+              named<v1::CancelJobRequest>(name));
 }
 
-Result<Job> retry_job(Connection& connection, const std::string& name) {
+Result<v1::Job> retry_job(Connection& connection, const std::string& name) {
   auto request = named<v1::RetryJobRequest>(name);
   request.set_request_id(make_uuid());
-  return to_job(call(connection, *connection.impl().jobs, &JobStub::RetryJob, request));
+  return call(connection, *connection.impl().jobs, &JobStub::RetryJob, request);
 }
 
-Result<Job> pin_job(Connection& connection, const std::string& name, bool pinned) {
+Result<v1::Job> pin_job(Connection& connection, const std::string& name, bool pinned) {
   auto request = named<v1::PinJobRequest>(name);
   request.set_pinned(pinned);
-  return to_job(call(connection, *connection.impl().jobs, &JobStub::PinJob, request));
+  return call(connection, *connection.impl().jobs, &JobStub::PinJob, request);
 }
 
 Status delete_job(Connection& connection, const std::string& name) {
@@ -177,23 +157,16 @@ Status delete_job(Connection& connection, const std::string& name) {
   return {};
 }
 
-Result<std::vector<JobEvent>> list_job_events(Connection& connection, const std::string& name) {
+Result<v1::ListJobEventsResponse> list_job_events(Connection& connection, const std::string& name) {
   v1::ListJobEventsRequest request;
   request.set_parent(name);
-  request.set_page_size(1000);
-  std::vector<JobEvent> events;
-  do {
-    HP_ASSIGN_OR_RETURN(const auto page, call(connection, *connection.impl().jobs,
-                                              &JobStub::ListJobEvents, request));
-    for (const auto& event : page.events()) events.push_back(from_proto(event));
-    request.set_page_token(page.next_page_token());
-  } while (!request.page_token().empty());
-  return events;
+  return all_pages(connection, *connection.impl().jobs, &JobStub::ListJobEvents, request,
+                   &v1::ListJobEventsResponse::events_size);
 }
 
-Result<Job> watch_job(Connection& connection, const std::string& name,
-                      const std::function<void(const JobUpdate&)>& update,
-                      const std::function<void(const Error&)>& lost) {
+Result<v1::Job> watch_job(Connection& connection, const std::string& name,
+                          const std::function<void(const v1::WatchJobResponse&)>& update,
+                          const std::function<void(const Error&)>& lost) {
   return Watcher(connection, name, update).run(lost);
 }
 

@@ -7,6 +7,7 @@
 
 #include "client/connection/connection.h"
 #include "client/job.h"
+#include "hydroprint/v1/job_service.pb.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::client {
@@ -18,72 +19,72 @@ struct JobOptions {
   bool validate_only = false;  ///< checks only; the returned job has no name
 };
 
-/// Queues a job. Errors: the daemon's, as JobService.CreateJob describes them.
-[[nodiscard]] Result<Job> create_job(Connection& connection, const Spec& spec,
-                                     const JobOptions& options = {});
+/// Queues a job.
+/// @param job  its spec; the name and the priority come from `options`
+/// @return the daemon's errors, as JobService.CreateJob describes them
+[[nodiscard]] Result<v1::Job> create_job(Connection& connection, v1::Job job,
+                                         const JobOptions& options = {});
 
 /// Creates a dip, which is WAITING_FOR_OPERATOR at once. The request is sent once, since with
 /// `yes_to_all` it moves the axis. If the answer is lost (kUnavailable), call list_jobs before
 /// another attempt.
 /// @param lease_id  the caller's lease of the rig
-[[nodiscard]] Result<Job> create_dip(Connection& connection, const DipSpec& spec,
-                                     const std::string& lease_id, const JobOptions& options = {});
+[[nodiscard]] Result<v1::Job> create_dip(Connection& connection, const v1::DipSpec& spec,
+                                         const std::string& lease_id,
+                                         const JobOptions& options = {});
 
 /// Confirms that the operator has done the current step. The request is sent once, as the rig may
 /// move next. If the answer is lost, call get_job.
-[[nodiscard]] Result<Job> confirm_step(Connection& connection, const std::string& name,
-                                       DipStep step, const std::string& lease_id);
+[[nodiscard]] Result<v1::Job> confirm_step(Connection& connection, const std::string& name,
+                                           v1::DipStatus::Step step, const std::string& lease_id);
 
 /// Prints the pages of a print-image job on the daemon's printer. Errors: PRINTER_MISSING,
 /// STATE_FORBIDS. A failure of the printer is reported by the job itself.
-[[nodiscard]] Result<Job> create_print(Connection& connection, const std::string& print_image_job,
-                                       const JobOptions& options = {});
+[[nodiscard]] Result<v1::Job> create_print(Connection& connection,
+                                           const std::string& print_image_job,
+                                           const JobOptions& options = {});
 
 /// Records frames of the daemon's camera at once. Errors: CAMERA_MISSING, STATE_FORBIDS,
 /// MOTION_IN_PROGRESS.
 /// @param seconds  nullopt: the daemon's default
-[[nodiscard]] Result<Job> create_capture(Connection& connection, std::optional<double> seconds,
-                                         const JobOptions& options = {});
+[[nodiscard]] Result<v1::Job> create_capture(Connection& connection, std::optional<double> seconds,
+                                             const JobOptions& options = {});
 
-[[nodiscard]] Result<Job> get_job(Connection& connection, const std::string& name);
+[[nodiscard]] Result<v1::Job> get_job(Connection& connection, const std::string& name);
 
 /// Selects the jobs to list.
 struct JobFilter {
-  std::vector<JobState> states;  ///< empty: all
-  std::string owner;             ///< empty: all
-  int limit = 50;                ///< maximum number of jobs
+  std::vector<v1::Job::State> states;  ///< empty: all
+  std::string owner;                   ///< empty: all
+  int limit = 50;                      ///< maximum number of jobs
 };
 
 /// Lists jobs, newest first.
-[[nodiscard]] Result<std::vector<Job>> list_jobs(Connection& connection, const JobFilter& filter);
+[[nodiscard]] Result<v1::ListJobsResponse> list_jobs(Connection& connection,
+                                                     const JobFilter& filter);
 
-[[nodiscard]] Result<Job> cancel_job(Connection& connection, const std::string& name);
+[[nodiscard]] Result<v1::Job> cancel_job(Connection& connection, const std::string& name);
 
 /// Queues a new job with the spec of a finished one and computes it without the cache.
-[[nodiscard]] Result<Job> retry_job(Connection& connection, const std::string& name);
+[[nodiscard]] Result<v1::Job> retry_job(Connection& connection, const std::string& name);
 
 /// Pins a job, which exempts it from retention, or unpins it.
-[[nodiscard]] Result<Job> pin_job(Connection& connection, const std::string& name, bool pinned);
+[[nodiscard]] Result<v1::Job> pin_job(Connection& connection, const std::string& name, bool pinned);
 
 /// Deletes a finished job with its events and artifacts.
 [[nodiscard]] Status delete_job(Connection& connection, const std::string& name);
 
 /// Returns the stored events of a job, oldest first.
-[[nodiscard]] Result<std::vector<JobEvent>> list_job_events(Connection& connection,
-                                                            const std::string& name);
+[[nodiscard]] Result<v1::ListJobEventsResponse> list_job_events(Connection& connection,
+                                                                const std::string& name);
 
-/// One message of watch_job.
-struct JobUpdate {
-  std::optional<Job> job;         ///< in the first message, and with every change of state
-  std::optional<JobEvent> event;  ///< not in the first message
-};
-
-/// Follows a job until it is finished and reports its events. A lost connection is resumed; the
-/// call fails after a minute without news from the daemon.
+/// Follows a job until it is finished and reports each message of the stream. A lost connection is
+/// resumed; the call fails after a minute without news from the daemon.
 /// @param lost  called once each time the connection is lost
 /// @return the finished job; kCancelled if the connection is asked to stop (the job continues)
-[[nodiscard]] Result<Job> watch_job(Connection& connection, const std::string& name,
-                                    const std::function<void(const JobUpdate&)>& update,
-                                    const std::function<void(const Error&)>& lost = {});
+[[nodiscard]] Result<v1::Job> watch_job(
+    Connection& connection, const std::string& name,
+    const std::function<void(const v1::WatchJobResponse&)>& update,
+    const std::function<void(const Error&)>& lost = {});
 
 }  // namespace hydroprint::client

@@ -1,19 +1,12 @@
 #include "client/lease.h"
 
-#include <utility>
-
 #include "client/connection/rpc.h"
-#include "client/convert.h"
 #include "client/uuid.h"
 
 namespace hydroprint::client {
 namespace {
 
 using LeaseStub = v1::LeaseService::Stub;
-
-Result<Lease> to_lease(Result<v1::Lease> answer) {
-  return std::move(answer).map([](const v1::Lease& lease) { return from_proto(lease); });
-}
 
 // All of these requests may be sent twice: acquiring carries a request_id.
 template <class Request, class Response>
@@ -26,25 +19,25 @@ Result<Response> ask(Connection& connection,
 
 }  // namespace
 
-Result<Lease> get_lease(Connection& connection) {
-  return to_lease(ask(connection, &LeaseStub::GetLease, v1::GetLeaseRequest()));
+Result<v1::Lease> get_lease(Connection& connection) {
+  return ask(connection, &LeaseStub::GetLease, v1::GetLeaseRequest());
 }
 
-Result<Lease> acquire_lease(Connection& connection, const std::string& purpose,
-                            std::chrono::seconds ttl) {
+Result<v1::Lease> acquire_lease(Connection& connection, const std::string& purpose,
+                                std::chrono::seconds ttl) {
   v1::AcquireLeaseRequest request;
   request.set_purpose(purpose);
   request.mutable_ttl()->set_seconds(ttl.count());
   request.set_request_id(make_uuid());
-  return to_lease(ask(connection, &LeaseStub::AcquireLease, request));
+  return ask(connection, &LeaseStub::AcquireLease, request);
 }
 
-Result<Lease> renew_lease(Connection& connection, const std::string& lease_id,
-                          std::chrono::seconds ttl) {
+Result<v1::Lease> renew_lease(Connection& connection, const std::string& lease_id,
+                              std::chrono::seconds ttl) {
   v1::RenewLeaseRequest request;
   request.set_lease_id(lease_id);
   request.mutable_ttl()->set_seconds(ttl.count());
-  return to_lease(ask(connection, &LeaseStub::RenewLease, request));
+  return ask(connection, &LeaseStub::RenewLease, request);
 }
 
 Status release_lease(Connection& connection, const std::string& lease_id) {

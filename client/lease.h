@@ -1,37 +1,27 @@
 #pragma once
 
 #include <chrono>
-#include <optional>
 #include <string>
 
 #include "client/connection/connection.h"
-#include "client/time.h"
+#include "hydroprint/v1/rig.pb.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::client {
 
-/// The exclusive right to command the rig, for a limited time. Stop does not need it.
-struct Lease {
-  std::string lease_id;  ///< required by commands; set only by acquire_lease and renew_lease
-  std::string holder;    ///< the owner as the client states it
-  std::string purpose;
-  std::optional<Time> acquire_time;
-  std::optional<Time> expire_time;  ///< unless it is renewed
-};
-
 /// Returns the public part of the lease; kNotFound (LEASE_NOT_FOUND) if nobody holds it.
-[[nodiscard]] Result<Lease> get_lease(Connection& connection);
+[[nodiscard]] Result<v1::Lease> get_lease(Connection& connection);
 
 /// Acquires the lease if nobody holds it.
 /// @param ttl  1 s to 8 h
 /// @return kAborted (LEASE_HELD; metadata holder, purpose, expire_time) while somebody holds it
-[[nodiscard]] Result<Lease> acquire_lease(Connection& connection, const std::string& purpose,
-                                          std::chrono::seconds ttl);
+[[nodiscard]] Result<v1::Lease> acquire_lease(Connection& connection, const std::string& purpose,
+                                              std::chrono::seconds ttl);
 
 /// Extends the lease to `ttl` from now. @return kFailedPrecondition (LEASE_REQUIRED) if it is no
 /// longer ours
-[[nodiscard]] Result<Lease> renew_lease(Connection& connection, const std::string& lease_id,
-                                        std::chrono::seconds ttl);
+[[nodiscard]] Result<v1::Lease> renew_lease(Connection& connection, const std::string& lease_id,
+                                            std::chrono::seconds ttl);
 
 /// Releases the lease; not an error if it is no longer ours. A jog ends.
 [[nodiscard]] Status release_lease(Connection& connection, const std::string& lease_id);

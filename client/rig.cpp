@@ -1,11 +1,8 @@
 #include "client/rig.h"
 
-#include <array>
 #include <chrono>
-#include <utility>
 
 #include "client/connection/rpc.h"
-#include "client/convert.h"
 #include "client/uuid.h"
 
 namespace hydroprint::client {
@@ -16,10 +13,6 @@ using RigStub = v1::RigService::Stub;
 // The next jog command follows in 100 ms, so one that hangs must not take effect late.
 constexpr std::chrono::milliseconds kJogAnswerLimit{250};
 
-Result<Rig> to_rig(Result<v1::Rig> answer) {
-  return std::move(answer).map([](const v1::Rig& rig) { return from_proto(rig); });
-}
-
 template <class Request>
 Request leased(const std::string& lease_id) {
   Request request;
@@ -28,33 +21,21 @@ Request leased(const std::string& lease_id) {
 }
 
 template <class Request>
-Result<Rig> command(Connection& connection,
-                    grpc::Status (RigStub::*method)(grpc::ClientContext*, const Request&, v1::Rig*),
-                    const Request& request, std::chrono::milliseconds limit = kAnswerLimit) {
-  return to_rig(call_once(connection, *connection.impl().rig, method, request, limit));
+Result<v1::Rig> command(Connection& connection,
+                        grpc::Status (RigStub::*method)(grpc::ClientContext*, const Request&,
+                                                        v1::Rig*),
+                        const Request& request, std::chrono::milliseconds limit = kAnswerLimit) {
+  return call_once(connection, *connection.impl().rig, method, request, limit);
 }
 
 }  // namespace
 
-std::string_view name_of(RigState state) {
-  static constexpr std::array<std::string_view, 10> kNames{
-      "UNKNOWN", "OFFLINE", "DISARMED", "UNHOMED", "IDLE",
-      "MOVING",  "DIPPING", "STOPPING", "FAULT",   "ESTOPPED"};
-  return kNames.at(static_cast<std::size_t>(state));
-}
-
-std::string_view name_of(MotionOutcome outcome) {
-  static constexpr std::array<std::string_view, 5> kNames{"UNKNOWN", "RUNNING", "DONE", "STOPPED",
-                                                          "FAILED"};
-  return kNames.at(static_cast<std::size_t>(outcome));
-}
-
-Result<Rig> get_rig(Connection& connection) {
-  return to_rig(call(connection, *connection.impl().rig, &RigStub::GetRig, v1::GetRigRequest()));
+Result<v1::Rig> get_rig(Connection& connection) {
+  return call(connection, *connection.impl().rig, &RigStub::GetRig, v1::GetRigRequest());
 }
 
 Status watch_rig(Connection& connection, double max_rate_hz,
-                 const std::function<bool(const Rig&)>& update) {
+                 const std::function<bool(const v1::Rig&)>& update) {
   v1::WatchRigRequest request;
   request.set_max_rate_hz(max_rate_hz);
   Call one(connection);
@@ -62,7 +43,7 @@ Status watch_rig(Connection& connection, double max_rate_hz,
   auto stream = connection.impl().rig->WatchRig(one.context(), request);
   v1::Rig rig;
   while (stream->Read(&rig)) {
-    if (update(from_proto(rig))) continue;
+    if (update(rig)) continue;
     one.context()->TryCancel();
     while (stream->Read(&rig)) continue;
     static_cast<void>(stream->Finish());
@@ -73,22 +54,22 @@ Status watch_rig(Connection& connection, double max_rate_hz,
   return fail(Code::kUnavailable, "the daemon closed the stream");
 }
 
-Result<Rig> arm_rig(Connection& connection, const std::string& lease_id) {
+Result<v1::Rig> arm_rig(Connection& connection, const std::string& lease_id) {
   return command(connection, &RigStub::Arm, leased<v1::ArmRequest>(lease_id));
 }
 
-Result<Rig> disarm_rig(Connection& connection, const std::string& lease_id) {
+Result<v1::Rig> disarm_rig(Connection& connection, const std::string& lease_id) {
   return command(connection, &RigStub::Disarm, leased<v1::DisarmRequest>(lease_id));
 }
 
-Result<Rig> home_rig(Connection& connection, const std::string& lease_id) {
+Result<v1::Rig> home_rig(Connection& connection, const std::string& lease_id) {
   auto request = leased<v1::HomeRequest>(lease_id);
   request.set_request_id(make_uuid());
   return command(connection, &RigStub::Home, request);
 }
 
-Result<Rig> move_rig(Connection& connection, const std::string& lease_id, double position_mm,
-                     std::optional<double> speed_mm_per_s) {
+Result<v1::Rig> move_rig(Connection& connection, const std::string& lease_id, double position_mm,
+                         std::optional<double> speed_mm_per_s) {
   auto request = leased<v1::MoveToRequest>(lease_id);
   request.set_position_mm(position_mm);
   if (speed_mm_per_s) request.set_speed_mm_per_s(*speed_mm_per_s);
@@ -96,19 +77,19 @@ Result<Rig> move_rig(Connection& connection, const std::string& lease_id, double
   return command(connection, &RigStub::MoveTo, request);
 }
 
-Result<Rig> jog_rig(Connection& connection, const std::string& lease_id, double speed_mm_per_s) {
+Result<v1::Rig> jog_rig(Connection& connection, const std::string& lease_id,
+                        double speed_mm_per_s) {
   auto request = leased<v1::JogRequest>(lease_id);
   request.set_speed_mm_per_s(speed_mm_per_s);
   return command(connection, &RigStub::Jog, request, kJogAnswerLimit);
 }
 
-Result<Rig> reset_rig(Connection& connection, const std::string& lease_id) {
+Result<v1::Rig> reset_rig(Connection& connection, const std::string& lease_id) {
   return command(connection, &RigStub::ResetFault, leased<v1::ResetFaultRequest>(lease_id));
 }
 
-Result<Rig> stop_rig(Connection& connection) {
-  return to_rig(
-      call(connection, *connection.impl().rig, &RigStub::StopMotion, v1::StopMotionRequest()));
+Result<v1::Rig> stop_rig(Connection& connection) {
+  return call(connection, *connection.impl().rig, &RigStub::StopMotion, v1::StopMotionRequest());
 }
 
 }  // namespace hydroprint::client

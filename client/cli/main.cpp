@@ -10,6 +10,7 @@
 #include "client/cli/commands/commands.h"
 #include "client/cli/format/json.h"
 #include "client/cli/program/program.h"
+#include "client/cli/program/usage.h"
 #include "client/cli/rig_session/held_lease.h"
 #include "client/cli/terminal/console.h"
 #include "client/connection/connection.h"
@@ -28,11 +29,6 @@ constexpr char kFooter[] = R"(Examples:
 Exit status: 0 success; 2 wrong usage; 3 bad input, or refused by the daemon;
 4 failed, or data was damaged in transit; 5 no daemon responds; 130 cancelled.)";
 
-// Returns for example "hydroprint submit simulate".
-std::string full_name(const CLI::App& app) {
-  return (app.get_parent() != nullptr ? full_name(*app.get_parent()) + " " : "") + app.get_name();
-}
-
 // Adds the parent commands to the usage line, which CLI11 omits.
 class Help : public CLI::Formatter {
  public:
@@ -40,12 +36,6 @@ class Help : public CLI::Formatter {
     return CLI::Formatter::make_usage(app, full_name(*app));
   }
 };
-
-std::string usage_error(const CLI::App* app, const CLI::Error& error) {
-  for (auto chosen = app->get_subcommands(); !chosen.empty(); chosen = app->get_subcommands())
-    app = chosen.front();
-  return "hydroprint: " + printable(error.what()) + "; see " + full_name(*app) + " --help\n";
-}
 
 void add_commands(CLI::App& app, Program& program) {
   add_sample(app, program);
@@ -83,6 +73,7 @@ void add_commands(CLI::App& app, Program& program) {
   add_status(app, program);
   add_admin(app, program);
   add_completion(app, program);
+  add_help(app, program);
 }
 
 void report(const Program& program, const Error& error) {
@@ -108,6 +99,10 @@ int run(int argc, char** argv) {
   Program program(app);
   add_commands(app, program);
   app.footer(kFooter);  // after the commands, which would inherit it
+  if (argc == 1) {
+    std::cerr << app.help();
+    return static_cast<int>(ExitStatus::kUsage);
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

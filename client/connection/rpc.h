@@ -4,8 +4,10 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -24,8 +26,6 @@
 #include "sim/base/result.h"
 
 namespace hydroprint::client {
-
-namespace v1 = ::hydroprint::v1;
 
 struct Connection::Impl {
   explicit Impl(ConnectionOptions connection_options);
@@ -67,7 +67,7 @@ inline constexpr std::chrono::seconds kConnectLimit{1};
 inline constexpr std::chrono::milliseconds kTryAgainAfter{500};
 /// Number of attempts without progress after which a transfer fails.
 inline constexpr int kAttemptsWithoutProgress = 5;
-/// Page size of list requests.
+/// Largest page size of list requests.
 inline constexpr int kPageSize = 1000;
 
 /// Converts a failed call's status to an error, with the reason from its google.rpc.ErrorInfo.
@@ -115,6 +115,34 @@ template <class Stub, class Request, class Response>
   const grpc::Status status = (stub.*method)(one.context(), request, &response);
   if (!status.ok()) return tl::unexpected(to_error(connection, status));
   return response;
+}
+
+/// Requests pages until `limit` items are there or no page is left, and joins them. The token is
+/// that of the last page.
+/// @param count  number of items in a response, for example &v1::ListJobsResponse::jobs_size
+template <class Stub, class Request, class Response>
+[[nodiscard]] Result<Response> all_pages(Connection& connection, Stub& stub,
+                                         grpc::Status (Stub::*method)(grpc::ClientContext*,
+                                                                      const Request&, Response*),
+                                         Request request, int (Response::*count)() const,
+                                         int limit = std::numeric_limits<int>::max()) {
+  Response all;
+  do {
+    request.set_page_size(std::min(kPageSize, limit - (all.*count)()));
+    HP_ASSIGN_OR_RETURN(const Response page, call(connection, stub, method, request));
+    all.MergeFrom(page);
+    all.set_next_page_token(page.next_page_token());
+    request.set_page_token(page.next_page_token());
+  } while (!all.next_page_token().empty() && (all.*count)() < limit);
+  return all;
+}
+
+/// Creates a request that names a resource.
+template <class Request>
+[[nodiscard]] Request named(const std::string& name) {
+  Request request;
+  request.set_name(name);
+  return request;
 }
 
 }  // namespace hydroprint::client

@@ -89,16 +89,4 @@ Status read_json(std::string_view text, pb::Message& message) {
   return check_values(message);
 }
 
-Result<std::string> write_json(const pb::Message& message) {
-  pb::util::JsonPrintOptions options;
-  options.always_print_primitive_fields = true;
-  std::string text;
-  const auto status = pb::util::MessageToJsonString(message, &text, options);
-  if (!status.ok()) {
-    return fail(Code::kInternal, message.GetTypeName() + " cannot be written as JSON: " +
-                                     plain(status.message().ToString()));
-  }
-  return text;
-}
-
 }  // namespace hydroprint::rest

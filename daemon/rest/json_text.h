@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <string_view>
 
 #include "sim/base/result.h"
@@ -20,11 +19,6 @@ namespace hydroprint::rest {
 /// - an unknown field, or one that occurs twice, even if under both of its names;
 /// - NUL in a string, a number that is not finite, an unknown enum number, a value of another type.
 [[nodiscard]] Status read_json(std::string_view text, google::protobuf::Message& message);
-
-/// Writes a message as JSON: field names in camelCase, all fields without presence, enums by name,
-/// int64 as strings. Refuses (kInternal) a message without a JSON form, such as an Any of unknown
-/// type.
-[[nodiscard]] Result<std::string> write_json(const google::protobuf::Message& message);
 
 /// Refuses (kInvalidArgument, JSON_INVALID) numbers that are not finite and unknown enum numbers.
 [[nodiscard]] Status check_values(const google::protobuf::Message& message);

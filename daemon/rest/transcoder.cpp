@@ -14,6 +14,7 @@
 #include "daemon/rest/routes.h"
 #include "daemon/rest/sequence.h"
 #include "daemon/rest/values.h"
+#include "proto/write_json.h"
 
 namespace hydroprint::rest {
 namespace {

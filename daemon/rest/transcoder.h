@@ -58,7 +58,7 @@ class Transcoder {
   /// HTTP methods of the routes with that path ("GET", "POST"), for the Allow header.
   [[nodiscard]] std::vector<std::string> methods_at(std::string_view target) const;
 
-  /// A response as JSON (write_json() in json_text.h). Refuses (kInternal) an unknown method and a
+  /// A response as JSON (proto/write_json.h). Refuses (kInternal) an unknown method and a
   /// response of another type.
   [[nodiscard]] Result<std::string> write(std::string_view method, std::string_view response) const;
 

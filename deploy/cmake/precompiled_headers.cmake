@@ -40,7 +40,8 @@ hydroprint_precompiled_headers(worker
 hydroprint_precompiled_headers(messages HEADERS <google/protobuf/util/time_util.h> <nlohmann/json.hpp>
   LIBS hydroprint_messages)
 if(HYDROPRINT_DAEMON)
-  hydroprint_precompiled_headers(command_line HEADERS <CLI/CLI.hpp> <nlohmann/json.hpp>)
+  hydroprint_precompiled_headers(command_line
+    HEADERS <CLI/CLI.hpp> <google/protobuf/message.h> <nlohmann/json.hpp> LIBS hydroprint_messages)
   hydroprint_precompiled_headers(service
     HEADERS <google/protobuf/util/time_util.h> <grpcpp/grpcpp.h> <nlohmann/json.hpp> LIBS hydroprint_proto)
 endif()

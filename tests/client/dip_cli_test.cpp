@@ -36,7 +36,7 @@ class DipCli : public ::testing::Test {
   std::filesystem::path out() const { return programs_.folder.path() / "record"; }
   json report() const { return json::parse(std::ifstream(out() / "report.json"), nullptr, false); }
   std::string step_of(const std::string& job) const {
-    return programs_.client_json({"show", job}).at("dip_status").at("step");
+    return programs_.client_json({"show", job}).at("dipStatus").at("step");
   }
   bool comes_to(const std::string& job, const std::string& step) const {
     for (int i = 0; i < 100; ++i) {
@@ -101,7 +101,7 @@ TEST_F(DipCli, CtrlCAbortsTheDipAndPrintsInstructions) {
   EXPECT_EQ(dip_at.wait(), 130) << dip_at.screen();
   const json job = programs_.client_json({"list"}).at("jobs").at(0);
   EXPECT_EQ(job.at("state"), "CANCELLED");
-  EXPECT_TRUE(dip_at.shows(job.at("dip_status").at("instruction").get<std::string>().substr(0, 40)))
+  EXPECT_TRUE(dip_at.shows(job.at("dipStatus").at("instruction").get<std::string>().substr(0, 40)))
       << dip_at.screen();
   EXPECT_TRUE(dip_at.is_cooked());
 }

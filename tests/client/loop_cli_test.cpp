@@ -95,7 +95,7 @@ TEST_F(LoopCli, CameraCommandShowsTheCurrentPicture) {
       << looked.err;
   const json told = json::parse(looked.out);
   EXPECT_EQ(told.at("camera"), "Hydroprint virtual rig");
-  EXPECT_LT(told.at("nearest_mm").get<double>(), told.at("farthest_mm").get<double>());
+  EXPECT_LT(told.at("nearestMm").get<double>(), told.at("farthestMm").get<double>());
   std::ifstream file(picture, std::ios::binary);
   const std::string bytes(std::istreambuf_iterator<char>(file), {});
   EXPECT_EQ(bytes.substr(1, 3), "PNG");

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "tests/client/rig_programs.h"
+#include "tests/daemon/http/http_client.h"
 #include "tests/support/terminal.h"
 
 namespace hydroprint::tests {
@@ -66,7 +67,7 @@ TEST_F(RigCli, TheLeaseFileIsReadableOnlyByItsOwner) {
 TEST_F(RigCli, ARefusalNamesTheHolderAndPurposeOfTheLease) {
   programs_.client({"rig", "lease", "acquire", "--purpose", "a mug"}, "alice");
   const json lease = programs_.client_json({"rig", "lease", "show"});
-  EXPECT_FALSE(lease.contains("lease_id")) << "it is a secret";
+  EXPECT_EQ(lease.at("leaseId"), "") << "it is a secret";
   const std::vector<std::string> words{"alice", "a mug", "until 20", "lease break --reason"};
   expect_error({"rig", "lease", "acquire", "--purpose", "mine"}, 4, words);
   expect_error({"rig", "arm"}, 3, words);
@@ -80,9 +81,9 @@ TEST_F(RigCli, ARefusalNamesTheHolderAndPurposeOfTheLease) {
 TEST_F(RigCli, ALeaseIsRenewedForTheRequestedTime) {
   programs_.client({"rig", "lease", "acquire", "--purpose", "x", "--for", "1.5h"});
   const auto left = [&] { return programs_.client_json({"rig", "lease", "show"}); };
-  const std::string long_one = left().at("expire_time");
+  const std::string long_one = left().at("expireTime");
   programs_.client({"rig", "lease", "renew", "--for", "30min"});
-  EXPECT_LT(left().at("expire_time").get<std::string>(), long_one);
+  EXPECT_LT(left().at("expireTime").get<std::string>(), long_one);
   expect_error({"rig", "lease", "renew", "--for", "9h"}, 3, {"ttl"});
   expect_error({"rig", "lease", "renew", "--for", "soon"}, 2, {"--for"});
 }
@@ -96,11 +97,25 @@ TEST_F(RigCli, ArmsHomesAndMoves) {
   EXPECT_EQ(one({"rig", "home"}).at("state"), "IDLE");
   const json rig = one({"rig", "move", "12.5", "--speed", "10"});
   EXPECT_EQ(rig.at("motion").at("outcome"), "DONE");
-  EXPECT_NEAR(rig.at("position_mm"), 12.5, kSettled_mm);
+  EXPECT_NEAR(rig.at("positionMm"), 12.5, kSettled_mm);
   EXPECT_NEAR(programs_.rig.position_mm(), 12.5, kSettled_mm);
   EXPECT_EQ(one({"rig", "disarm"}).at("state"), "DISARMED");
   EXPECT_FALSE(programs_.client_json({"rig", "status"}).contains("lease"))
       << "each command released it";
+}
+
+TEST_F(RigCli, StatusPrintsTheJsonOfRest) {
+  programs_.make_ready(6);
+  json shown = programs_.client_json({"rig", "status"});
+  json rest = ask(programs_.daemon.http(), "GET", "/v1/rig").json();
+  for (json* rig : {&shown, &rest}) {  // these values change all the time
+    for (const char* key : {"sampleTime", "linkQuality", "positionMm", "velocityMmPerS"}) {
+      EXPECT_EQ(rig->erase(key), 1U) << key;
+    }
+  }
+  EXPECT_EQ(shown, rest);
+  EXPECT_EQ(programs_.client_json({"rig", "lease", "show"}),
+            ask(programs_.daemon.http(), "GET", "/v1/rig/lease").json());
 }
 
 TEST_F(RigCli, RefusalsOfTheRigAreOneLine) {

@@ -9,6 +9,7 @@
 #include "daemon/rest/json_text.h"
 #include "daemon/rest/percent.h"
 #include "hydroprint/v1/job.pb.h"
+#include "proto/write_json.h"
 #include "tests/daemon/rest/rules/rules.pb.h"
 #include "tests/fuzz/expect.h"
 
@@ -27,7 +28,7 @@ void try_body(std::string_view text) {
     return;
   }
   HP_EXPECT(nlohmann::json::accept(text));
-  const auto written = rest::write_json(message);
+  const auto written = write_json(message);
   HP_EXPECT(written.has_value());
   Message again;
   HP_EXPECT(rest::read_json(*written, again).has_value());

@@ -13,14 +13,14 @@ namespace hydroprint::cli {
 namespace {
 
 Status artifacts(Program& program, const std::string& job) {
-  HP_ASSIGN_OR_RETURN(const auto artifacts, client::list_artifacts(program.daemon(), job));
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_artifacts(program.daemon(), job));
   if (program.json()) {
-    print({{"artifacts", to_json(artifacts)}});
+    print(list);
     return {};
   }
-  for (const client::Artifact& artifact : artifacts)
-    std::cout << artifact.sha256 << "  " << format_bytes(artifact.size_bytes) << "  "
-              << printable(artifact.file_name()) << "\n";
+  for (const v1::Artifact& artifact : list.artifacts())
+    std::cout << artifact.sha256() << "  " << format_bytes(artifact.size_bytes()) << "  "
+              << printable(client::file_name(artifact)) << "\n";
   return {};
 }
 

@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -8,9 +7,9 @@
 #include "client/calibration.h"
 #include "client/cli/commands/commands.h"
 #include "client/cli/format/calibration_text.h"
-#include "client/cli/format/json.h"
 #include "client/cli/job_io/finish.h"
 #include "client/cli/job_io/inputs.h"
+#include "client/cli/job_io/spec_fields.h"
 #include "client/cli/job_io/wait.h"
 #include "client/cli/program/program.h"
 #include "client/jobs.h"
@@ -20,7 +19,7 @@ namespace hydroprint::cli {
 namespace {
 
 struct CalibrateOptions {
-  client::Spec spec;
+  v1::CalibrateSpec spec;
   std::string mesh, pose, film, capture_job, frames, layout, camera;
   std::optional<double> seconds;
   client::JobOptions job;
@@ -28,91 +27,84 @@ struct CalibrateOptions {
 };
 
 struct CameraOptions {
-  client::Spec spec;
   std::vector<std::string> capture_jobs, frames;
   client::JobOptions job;
   FinishOptions finish;
 };
 
-std::vector<std::filesystem::path> folders(const std::vector<std::string>& names) {
-  return {names.begin(), names.end()};
-}
-
 /// Uses the given frames, or captures new ones.
 Status take_frames(Program& program, const CalibrateOptions& options, Inputs& inputs,
-                   client::ScanSpec& scan) {
+                   v1::CalibrateSpec& spec) {
   if (!options.frames.empty()) {
-    HP_ASSIGN_OR_RETURN(scan.frames, inputs.add_frames({options.frames}));
+    HP_ASSIGN_OR_RETURN(const auto frames, inputs.add_frames({options.frames}));
+    spec.mutable_frames()->Add(frames.begin(), frames.end());
     return {};
   }
   std::string capture = job_name(options.capture_job);
   if (capture.empty()) {
-    HP_ASSIGN_OR_RETURN(const client::Job job,
+    HP_ASSIGN_OR_RETURN(const v1::Job job,
                         client::create_capture(program.daemon(), options.seconds, {}));
-    capture = job.name;
+    capture = job.name();
     if (!program.json()) std::cout << capture << std::endl;
     HP_RETURN_IF_ERROR(wait_for(program, capture, options.finish.wait));
   }
-  scan.capture_jobs = {capture};
+  spec.set_capture_job(capture);
   return {};
 }
 
 /// Accepts the name of a camera calibration, or a file.
-Status take_camera(const std::string& camera, Inputs& inputs, client::ScanSpec& scan) {
-  if (camera.empty()) return {};
+Status take_camera(const std::string& camera, Inputs& inputs, v1::CalibrateSpec& spec) {
   const std::string name = calibration_name(camera);
-  if (name.starts_with("calibrations/")) {
-    scan.camera_calibration = name;
-    return {};
-  }
-  HP_ASSIGN_OR_RETURN(scan.camera, inputs.add(camera));
+  if (!name.starts_with("calibrations/")) return inputs.add_to(spec, "camera", camera);
+  spec.set_camera_calibration(name);
   return {};
 }
 
-Result<client::Spec> make_spec(Program& program, const CalibrateOptions& options) {
-  client::Spec spec = options.spec;
+Result<v1::Job> make_job(Program& program, const CalibrateOptions& options) {
+  v1::Job job;
+  v1::CalibrateSpec& spec = *job.mutable_calibrate();
+  spec = options.spec;
   Inputs inputs(program.daemon());
   if (!options.pose.empty()) {
-    HP_ASSIGN_OR_RETURN(spec.pose, client::read_pose_file(options.pose));
+    HP_ASSIGN_OR_RETURN(*spec.mutable_pose(), client::read_pose_file(options.pose));
   }
   HP_RETURN_IF_ERROR(inputs.add_model(options.mesh, spec));
-  if (!options.film.empty()) {
-    HP_ASSIGN_OR_RETURN(spec.film, inputs.add_film(options.film, spec));
-  }
-  HP_ASSIGN_OR_RETURN(spec.scan.layout, inputs.add(options.layout));
-  HP_RETURN_IF_ERROR(take_camera(options.camera, inputs, spec.scan));
-  HP_RETURN_IF_ERROR(take_frames(program, options, inputs, spec.scan));
-  return spec;
+  HP_RETURN_IF_ERROR(inputs.add_film(options.film, spec));
+  HP_RETURN_IF_ERROR(inputs.add_to(spec, "layout", options.layout));
+  HP_RETURN_IF_ERROR(take_camera(options.camera, inputs, spec));
+  HP_RETURN_IF_ERROR(take_frames(program, options, inputs, spec));
+  return job;
 }
 
 /// Follows the job, then prints its result.
-Status finish(Program& program, const client::Job& job, const FinishOptions& options) {
+Status finish(Program& program, const v1::Job& job, const FinishOptions& options) {
   HP_RETURN_IF_ERROR(finish_job(program, job, options));
   if (options.no_wait || program.json()) return {};
-  HP_ASSIGN_OR_RETURN(const auto found, client::list_calibrations(program.daemon(), 100));
-  for (const client::Calibration& calibration : found) {
-    if (calibration.job == job.name) std::cout << text_of(calibration) << std::flush;
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_calibrations(program.daemon(), 100));
+  for (const v1::Calibration& calibration : list.calibrations()) {
+    if (calibration.job() == job.name()) std::cout << text_of(calibration) << std::flush;
   }
   return {};
 }
 
 Status calibrate(Program& program, const CalibrateOptions& options) {
-  HP_ASSIGN_OR_RETURN(const client::Spec spec, make_spec(program, options));
-  HP_ASSIGN_OR_RETURN(const client::Job job,
-                      client::create_job(program.daemon(), spec, options.job));
-  return finish(program, job, options.finish);
+  HP_ASSIGN_OR_RETURN(const v1::Job job, make_job(program, options));
+  HP_ASSIGN_OR_RETURN(const v1::Job created,
+                      client::create_job(program.daemon(), job, options.job));
+  return finish(program, created, options.finish);
 }
 
 Status calibrate_camera(Program& program, const CameraOptions& options) {
-  client::Spec spec = options.spec;
+  v1::Job job;
+  v1::CalibrateCameraSpec& spec = *job.mutable_calibrate_camera();
   Inputs inputs(program.daemon());
-  for (const std::string& job : options.capture_jobs) {
-    spec.scan.capture_jobs.push_back(job_name(job));
-  }
-  HP_ASSIGN_OR_RETURN(spec.scan.frames, inputs.add_frames(folders(options.frames)));
-  HP_ASSIGN_OR_RETURN(const client::Job job,
-                      client::create_job(program.daemon(), spec, options.job));
-  return finish(program, job, options.finish);
+  for (const std::string& capture : options.capture_jobs) spec.add_capture_jobs(job_name(capture));
+  HP_ASSIGN_OR_RETURN(const auto frames,
+                      inputs.add_frames({options.frames.begin(), options.frames.end()}));
+  spec.mutable_frames()->Add(frames.begin(), frames.end());
+  HP_ASSIGN_OR_RETURN(const v1::Job created,
+                      client::create_job(program.daemon(), job, options.job));
+  return finish(program, created, options.finish);
 }
 
 void add_name(CLI::App& command, client::JobOptions& job) {
@@ -123,7 +115,7 @@ void add_object_flags(CLI::App& command, CalibrateOptions& options) {
   command.add_option("--mesh", options.mesh, "The object: OBJ, STL, PLY, glTF or GLB")
       ->type_name("FILE")
       ->required();
-  command.add_option("--scale", options.spec.scale, "Model units to mm")->type_name("FACTOR");
+  add_field(command, "--scale", options.spec, "scale", "Model units to mm")->type_name("FACTOR");
   command
       .add_option(
           "--pose", options.pose,
@@ -156,7 +148,6 @@ constexpr char kCameraFooter[] =
 
 void add_calibrate(CLI::App& app, Program& program) {
   auto options = std::make_shared<CalibrateOptions>();
-  options->spec.verb = client::Verb::kCalibrate;
   CLI::App* command =
       app.add_subcommand("calibrate", "Measure the object's pose over the film with the camera");
   add_object_flags(*command, *options);
@@ -180,10 +171,9 @@ void add_calibrate(CLI::App& app, Program& program) {
                    "Camera calibration: calibrations/2, 2, or a camera.json; default: the active "
                    "one")
       ->type_name("CALIBRATION");
-  command
-      ->add_option("--gripper-mm", options->spec.scan.gripper_mm,
-                   "Height of the gripper's lower end above the water; default: from the daemon's "
-                   "configuration, or no gripper in view")
+  add_field(*command, "--gripper-mm", options->spec, "gripper_mm",
+            "Height of the gripper's lower end above the water; default: from the daemon's "
+            "configuration, or no gripper in view")
       ->type_name("MM");
   add_name(*command, options->job);
   add_finish_flags(*command, options->finish);
@@ -193,7 +183,6 @@ void add_calibrate(CLI::App& app, Program& program) {
 
 void add_calibrate_camera(CLI::App& app, Program& program) {
   auto options = std::make_shared<CameraOptions>();
-  options->spec.verb = client::Verb::kCalibrateCamera;
   CLI::App* command = app.add_subcommand(
       "calibrate-camera", "Calibrate the camera's lens and depth scale from views of the board");
   auto* jobs = command->add_option("--capture-jobs", options->capture_jobs,

@@ -8,38 +8,42 @@
 #include "client/cli/format/calibration_text.h"
 #include "client/cli/format/json.h"
 #include "client/cli/job_io/inputs.h"
+#include "client/cli/job_io/spec_fields.h"
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/console.h"
+#include "client/name_of.h"
 #include "client/pose_file.h"
+#include "client/time.h"
 
 namespace hydroprint::cli {
 namespace {
 
 struct EnterOptions {
-  client::Calibration entered;
+  v1::Calibration entered;
   std::string mesh, pose;
 };
 
-std::string holds(const client::Calibration& calibration) {
+std::string holds(const v1::Calibration& calibration) {
   std::string out;
-  for (const std::string& why : calibration.stale) out += (out.empty() ? "" : ",") + why;
+  for (const std::string& why : staleness_of(calibration)) out += (out.empty() ? "" : ",") + why;
   return out.empty() ? "yes" : out;
 }
 
-void print_table(const std::vector<client::Calibration>& all) {
+void print_table(const v1::ListCalibrationsResponse& list) {
   std::cout << std::left << std::setw(18) << "CALIBRATION" << std::setw(8) << "KIND" << std::setw(8)
             << "ACTIVE" << std::setw(14) << "VALID" << std::setw(21) << "CREATED"
             << "NAME\n";
-  for (const client::Calibration& one : all) {
-    std::cout << std::setw(18) << one.name << std::setw(8) << one.kind << std::setw(8)
-              << (one.active ? "yes" : "") << std::setw(14) << holds(one) << std::setw(21)
-              << format_time(one.create_time) << printable(one.display_name) << "\n";
+  for (const v1::Calibration& one : list.calibrations()) {
+    std::cout << std::setw(18) << one.name() << std::setw(8) << client::name_of(one.kind())
+              << std::setw(8) << (one.active() ? "yes" : "") << std::setw(14) << holds(one)
+              << std::setw(21) << format_time(client::time_of(one.create_time()))
+              << printable(one.display_name()) << "\n";
   }
 }
 
-void tell(const Program& program, const client::Calibration& calibration) {
+void tell(const Program& program, const v1::Calibration& calibration) {
   if (program.json())
-    print(to_json(calibration));
+    print(calibration);
   else
     std::cout << text_of(calibration) << std::flush;
 }
@@ -47,24 +51,21 @@ void tell(const Program& program, const client::Calibration& calibration) {
 Status list(Program& program, int limit) {
   HP_ASSIGN_OR_RETURN(const auto all, client::list_calibrations(program.daemon(), limit));
   if (program.json())
-    print({{"calibrations", to_json(all)}});
+    print(all);
   else
     print_table(all);
   return {};
 }
 
 Status show(Program& program, const std::string& name) {
-  HP_ASSIGN_OR_RETURN(const client::Calibration found,
+  HP_ASSIGN_OR_RETURN(const v1::Calibration found,
                       client::get_calibration(program.daemon(), calibration_name(name)));
-  if (program.json())
-    print(to_json(found));
-  else
-    print_tree(to_json(found));
+  program.json() ? print(found) : print_tree(tree_of(found));
   return {};
 }
 
 Status activate(Program& program, const std::string& name) {
-  HP_ASSIGN_OR_RETURN(const client::Calibration found,
+  HP_ASSIGN_OR_RETURN(const v1::Calibration found,
                       client::activate_calibration(program.daemon(), calibration_name(name)));
   tell(program, found);
   return {};
@@ -81,12 +82,10 @@ Status remove(Program& program, const std::string& text) {
 }
 
 Status enter(Program& program, const EnterOptions& options) {
-  client::Calibration entered = options.entered;
-  HP_ASSIGN_OR_RETURN(entered.pose, client::read_pose_file(options.pose));
-  Inputs inputs(program.daemon());
-  HP_ASSIGN_OR_RETURN(const auto mesh, inputs.add(options.mesh));
-  entered.mesh = mesh.value_or(client::InputFile());
-  HP_ASSIGN_OR_RETURN(const client::Calibration made,
+  v1::Calibration entered = options.entered;
+  HP_ASSIGN_OR_RETURN(*entered.mutable_pose(), client::read_pose_file(options.pose));
+  HP_RETURN_IF_ERROR(Inputs(program.daemon()).add_to(entered, "mesh", options.mesh));
+  HP_ASSIGN_OR_RETURN(const v1::Calibration made,
                       client::create_calibration(program.daemon(), entered));
   tell(program, made);
   return {};
@@ -122,12 +121,13 @@ void add_enter(CLI::App& parent, Program& program) {
                    R"({"rotation_wxyz":[w,x,y,z],"translation_mm":[x,y,z]})")
       ->type_name("FILE")
       ->required();
-  command->add_option("--scale", options->entered.scale, "Model units to mm")->type_name("FACTOR");
-  command
-      ->add_option("--film", options->entered.film,
-                   "A4, A3, letter, WxH or circle:RADIUS, in mm; default A4")
+  v1::Calibration& entered = options->entered;
+  entered.set_scale(1);
+  add_field(*command, "--scale", entered, "scale", "Model units to mm")->type_name("FACTOR");
+  add_field(*command, "--film", entered, "film",
+            "A4, A3, letter, WxH or circle:RADIUS, in mm; default A4")
       ->type_name("FILM");
-  command->add_option("--name", options->entered.display_name, "Display name")->type_name("TEXT");
+  add_field(*command, "--name", entered, "display_name", "Display name")->type_name("TEXT");
   command->footer(
       "For a rig without a camera: position the object as the placement template shows\n"
       "('hydroprint submit template'). hydroprint cannot detect when the pose becomes invalid.\n\n"

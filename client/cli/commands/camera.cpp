@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 
 #include "client/cli/commands/commands.h"
@@ -13,25 +14,23 @@
 namespace hydroprint::cli {
 namespace {
 
-void show(const client::DepthPicture& seen) {
+void show(const v1::DepthPicture& seen) {
   std::printf("%s: %.0f to %.0f mm, %.0f %% of the picture measured, %.1f s ago\n",
-              printable(seen.camera).c_str(), seen.nearest_mm, seen.farthest_mm,
-              100 * seen.measured_share, seen.age_s);
-}
-
-Json camera_json(const client::DepthPicture& seen) {
-  return {{"camera", seen.camera},           {"nearest_mm", seen.nearest_mm},
-          {"farthest_mm", seen.farthest_mm}, {"measured_share", seen.measured_share},
-          {"time", format_time(seen.time)},  {"age_s", seen.age_s}};
+              printable(seen.camera()).c_str(), seen.nearest_mm(), seen.farthest_mm(),
+              100 * seen.measured_share(), seen.age_s());
 }
 
 Status look(Program& program, const std::filesystem::path& out) {
-  HP_ASSIGN_OR_RETURN(const client::DepthPicture seen, client::depth_picture(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const v1::DepthPicture seen, client::depth_picture(program.daemon()));
+  if (out == "-") {
+    std::cout << seen.png() << std::flush;
+    return {};
+  }
   if (!out.empty()) {
-    HP_RETURN_IF_ERROR(image::write_artifact(out, std::string_view(seen.png)));
+    HP_RETURN_IF_ERROR(image::write_artifact(out, std::string_view(seen.png())));
   }
   if (program.json()) {
-    print(camera_json(seen));
+    print(seen);
   } else {
     show(seen);
   }
@@ -44,7 +43,9 @@ void add_camera(CLI::App& app, Program& program) {
   auto out = std::make_shared<std::filesystem::path>();
   CLI::App* command =
       app.add_subcommand("camera", "Show the current picture of the daemon's depth camera");
-  command->add_option("--out", *out, "Write the picture to a PNG file; nearer is brighter")
+  command
+      ->add_option("--out", *out,
+                   "Write the picture to a PNG file, or - for standard output; nearer is brighter")
       ->type_name("FILE");
   command->footer(
       "The camera runs while pictures are requested, and a little longer. A capture has "

@@ -7,19 +7,20 @@
 #include "client/cli/format/json.h"
 #include "client/cli/program/program.h"
 #include "client/jobs.h"
+#include "client/name_of.h"
 
 namespace hydroprint::cli {
 namespace {
 
 Status cancel(Program& program, const std::vector<std::string>& names) {
-  std::vector<client::Job> jobs;
+  Json jobs = Json::array();
   for (const std::string& name : names) {
-    HP_ASSIGN_OR_RETURN(const client::Job job,
-                        client::cancel_job(program.daemon(), job_name(name)));
-    jobs.push_back(job);
-    if (!program.json()) std::cout << job.name << " is " << client::name_of(job.state) << std::endl;
+    HP_ASSIGN_OR_RETURN(const v1::Job job, client::cancel_job(program.daemon(), job_name(name)));
+    jobs.push_back(to_json(job));
+    if (!program.json())
+      std::cout << job.name() << " is " << client::name_of(job.state()) << std::endl;
   }
-  if (program.json()) print({{"jobs", to_json(jobs)}});
+  if (program.json()) print({{"jobs", jobs}});
   return {};
 }
 

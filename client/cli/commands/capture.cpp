@@ -20,7 +20,7 @@ struct CaptureOptions {
 };
 
 Status capture(Program& program, const CaptureOptions& options) {
-  HP_ASSIGN_OR_RETURN(const client::Job job,
+  HP_ASSIGN_OR_RETURN(const v1::Job job,
                       client::create_capture(program.daemon(), options.seconds, options.job));
   return finish_job(program, job, options.finish);
 }

@@ -44,6 +44,7 @@ void add_pin(CLI::App& app, Program& program);  // also adds unpin
 void add_admin(CLI::App& app, Program& program);
 void add_share(CLI::App& app, Program& program);
 void add_completion(CLI::App& app, Program& program);
+void add_help(CLI::App& app, Program& program);
 
 /// Adds `rig lease` to `rig`.
 void add_lease(CLI::App& parent, Program& program);

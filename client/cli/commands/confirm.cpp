@@ -6,6 +6,7 @@
 #include "client/cli/program/program.h"
 #include "client/cli/rig_session/dip_steps.h"
 #include "client/cli/rig_session/held_lease.h"
+#include "client/dip.h"
 #include "client/jobs.h"
 
 namespace hydroprint::cli {
@@ -17,9 +18,11 @@ struct ConfirmOptions {
 
 Status confirm(Program& program, const ConfirmOptions& options) {
   HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take(program, options.with_lease));
-  HP_ASSIGN_OR_RETURN(const client::Job job,
-                      client::confirm_step(program.daemon(), job_name(options.job),
-                                           client::dip_step_of(options.step), lease->id()));
+  v1::DipStatus::Step step = v1::DipStatus::STEP_UNSPECIFIED;
+  v1::DipStatus::Step_Parse(options.step, &step);
+  HP_ASSIGN_OR_RETURN(
+      const v1::Job job,
+      client::confirm_step(program.daemon(), job_name(options.job), step, lease->id()));
   print_dip(program, job);
   return {};
 }

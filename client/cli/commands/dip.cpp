@@ -1,5 +1,3 @@
-#include "client/dip.h"
-
 #include <unistd.h>
 
 #include <iostream>
@@ -12,6 +10,7 @@
 #include "client/cli/format/json.h"
 #include "client/cli/job_io/dip_record.h"
 #include "client/cli/job_io/field_help.h"
+#include "client/cli/job_io/spec_fields.h"
 #include "client/cli/job_io/wait.h"
 #include "client/cli/program/program.h"
 #include "client/cli/rig_session/dip_guide.h"
@@ -25,18 +24,18 @@ namespace hydroprint::cli {
 namespace {
 
 struct DipOptions {
-  client::DipSpec spec;
+  v1::DipSpec spec;
   client::JobOptions job;
   std::string simulate_job, calibration, out;
   bool no_guide = false;
 };
 
-std::string purpose_of(const client::DipSpec& spec) {
-  return spec.simulate_job.empty() ? "a dip" : "the dip of " + spec.simulate_job;
+std::string purpose_of(const v1::DipSpec& spec) {
+  return spec.simulate_job().empty() ? "a dip" : "the dip of " + spec.simulate_job();
 }
 
 Status check_terminal(const DipOptions& options) {
-  if (options.no_guide || options.spec.yes_to_all || options.job.validate_only ||
+  if (options.no_guide || options.spec.yes_to_all() || options.job.validate_only ||
       Keyboard::is_there())
     return {};
   return fail(Code::kInvalidArgument,
@@ -45,57 +44,56 @@ Status check_terminal(const DipOptions& options) {
 }
 
 // On Ctrl-C the daemon aborts the dip; waits until it has.
-Result<client::Job> abort_dip(const Program& program, const std::string& job) {
+Result<v1::Job> abort_dip(const Program& program, const std::string& job) {
   client::Connection daemon = program.uninterrupted();
   HP_RETURN_IF_ERROR(client::cancel_job(daemon, job));
-  return client::watch_job(daemon, job, [](const client::JobUpdate&) {});
+  return client::watch_job(daemon, job, [](const v1::WatchJobResponse&) {});
 }
 
-Result<client::Job> follow(Program& program, const HeldLease& lease, const client::Job& job) {
-  if (!job.dip || !job.dip->yes_to_all) return guide(program, lease, job);
-  return follow_job(program, job.name, {});
+Result<v1::Job> follow(Program& program, const HeldLease& lease, const v1::Job& job) {
+  if (!job.dip().yes_to_all()) return guide(program, lease, job);
+  return follow_job(program, job.name(), {});
 }
 
 // Guides or follows the dip to its end; aborts it on Ctrl-C.
-Result<client::Job> go_through(Program& program, const HeldLease& lease, const client::Job& job) {
+Result<v1::Job> go_through(Program& program, const HeldLease& lease, const v1::Job& job) {
   auto ended = follow(program, lease, job);
   if (ended || ended.error().code != Code::kCancelled) return ended;
   if (!program.is_interrupted()) return ended;  // the terminal was closed
-  std::cerr << "aborting " << job.name << std::endl;
-  return abort_dip(program, job.name);
+  std::cerr << "aborting " << job.name() << std::endl;
+  return abort_dip(program, job.name());
 }
 
-void tell(const Program& program, const client::Job& job, const std::vector<Downloaded>& files) {
+void tell(const Program& program, const v1::Job& job, const std::vector<Downloaded>& files) {
   if (program.json()) {
     Json json = to_json(job);
-    json["files"] = to_json(files);
+    json["files"] = files_json(files);
     print(json);
     return;
   }
   for (const Downloaded& file : files) std::cout << file.path.string() << "\n";
-  if (job.state == client::JobState::kSucceeded) std::cout << dip_summary(job, files) << "\n";
+  if (job.state() == v1::Job::SUCCEEDED) std::cout << dip_summary(job, files) << "\n";
   std::cout << std::flush;
 }
 
-Status finish(const Program& program, const client::Job& job, const DipOptions& options) {
+Status finish(const Program& program, const v1::Job& job, const DipOptions& options) {
   client::Connection daemon = program.uninterrupted();
   std::vector<Downloaded> files;
   if (!options.out.empty()) {
-    HP_ASSIGN_OR_RETURN(files, fetch_record(daemon, job.name, options.out));
+    HP_ASSIGN_OR_RETURN(files, fetch_record(daemon, job.name(), options.out));
   }
   tell(program, job, files);
-  if (job.state == client::JobState::kSucceeded) return {};
+  if (job.state() == v1::Job::SUCCEEDED) return {};
   return tl::unexpected(why(job));
 }
 
 Status dip(Program& program, DipOptions options) {
   HP_RETURN_IF_ERROR(check_terminal(options));
-  if (!options.simulate_job.empty()) options.spec.simulate_job = job_name(options.simulate_job);
-  if (!options.calibration.empty())
-    options.spec.calibration = calibration_name(options.calibration);
+  options.spec.set_simulate_job(job_name(options.simulate_job));
+  options.spec.set_calibration(calibration_name(options.calibration));
   HP_ASSIGN_OR_RETURN(const auto lease,
                       HeldLease::take_or_acquire(program, purpose_of(options.spec)));
-  HP_ASSIGN_OR_RETURN(const client::Job job,
+  HP_ASSIGN_OR_RETURN(const v1::Job job,
                       client::create_dip(program.daemon(), options.spec, lease->id(), options.job));
   if (options.job.validate_only || options.no_guide) {
     if (options.no_guide) lease->leave();
@@ -110,67 +108,54 @@ Status dip(Program& program, DipOptions options) {
   return finish(program, *ended, options);
 }
 
-void add_film_flags(CLI::App& command, client::DipSpec& spec) {
-  command
-      .add_option(
-          "--film-area-mm2", spec.film_area_mm2,
-          field_help(
-              "DipSpec.film_area_mm2",
-              "Area of the film, for the amount of activator; default: from the simulation, or A4"))
+void add_film_flags(CLI::App& command, v1::DipSpec& spec) {
+  add_field(
+      command, "--film-area-mm2", spec, "film_area_mm2",
+      field_help(
+          "DipSpec.film_area_mm2",
+          "Area of the film, for the amount of activator; default: from the simulation, or A4"))
       ->type_name("MM2");
-  command
-      .add_option("--activator-ml-per-m2", spec.activator_ml_per_m2,
-                  field_help("DipSpec.activator_ml_per_m2",
-                             "Amount of activator; default: from the film profile, if any"))
+  add_field(command, "--activator-ml-per-m2", spec, "activator_ml_per_m2",
+            field_help("DipSpec.activator_ml_per_m2",
+                       "Amount of activator; default: from the film profile, if any"))
       ->type_name("ML/M2");
-  command
-      .add_option("--soak-s", spec.soak_s,
-                  field_help("DipSpec.soak_s",
-                             "Time that the film floats before the activator; default: from the "
-                             "profile, if any"))
+  add_field(command, "--soak-s", spec, "soak_s",
+            field_help("DipSpec.soak_s",
+                       "Time that the film floats before the activator; default: from the "
+                       "profile, if any"))
       ->type_name("S");
-  command
-      .add_option("--activator-wait-s", spec.activator_wait_s,
-                  field_help("DipSpec.activator_wait_s",
-                             "Time that the activator works before the dip; default: from the "
-                             "profile, if any"))
+  add_field(command, "--activator-wait-s", spec, "activator_wait_s",
+            field_help("DipSpec.activator_wait_s",
+                       "Time that the activator works before the dip; default: from the "
+                       "profile, if any"))
       ->type_name("S");
-  command
-      .add_option("--activation-window-s", spec.activation_window_s,
-                  field_help("DipSpec.activation_window_s",
-                             "Time after that in which the film can be dipped"))
+  add_field(
+      command, "--activation-window-s", spec, "activation_window_s",
+      field_help("DipSpec.activation_window_s", "Time after that in which the film can be dipped"))
       ->type_name("S");
-  command
-      .add_option(
-          "--water-temperature-c", spec.water_temperature_c,
-          field_help("DipSpec.water_temperature_c", "Temperature of the water, for the record"))
+  add_field(command, "--water-temperature-c", spec, "water_temperature_c",
+            field_help("DipSpec.water_temperature_c", "Temperature of the water, for the record"))
       ->type_name("C");
 }
 
-void add_motion_flags(CLI::App& command, client::DipSpec& spec) {
-  command
-      .add_option(
-          "--depth-mm", spec.depth_mm,
-          field_help("DipSpec.depth_mm", "Depth below first contact; default: from the simulation"))
+void add_motion_flags(CLI::App& command, v1::DipSpec& spec) {
+  add_field(
+      command, "--depth-mm", spec, "depth_mm",
+      field_help("DipSpec.depth_mm", "Depth below first contact; default: from the simulation"))
       ->type_name("MM");
-  command
-      .add_option("--speed", spec.speed_mm_per_s,
-                  field_help("DipSpec.speed_mm_per_s",
-                             "Speed of the descent; default: from the simulation, if any"))
+  add_field(command, "--speed", spec, "speed_mm_per_s",
+            field_help("DipSpec.speed_mm_per_s",
+                       "Speed of the descent; default: from the simulation, if any"))
       ->type_name("MM/S");
-  command
-      .add_option("--retract-speed", spec.retract_speed_mm_per_s,
-                  field_help("DipSpec.retract_speed_mm_per_s",
-                             "Speed of the retraction; default: that of the descent"))
+  add_field(command, "--retract-speed", spec, "retract_speed_mm_per_s",
+            field_help("DipSpec.retract_speed_mm_per_s",
+                       "Speed of the retraction; default: that of the descent"))
       ->type_name("MM/S");
-  command
-      .add_option("--hold-s", spec.hold_s,
-                  field_help("DipSpec.hold_s", "Time that the object stays at the depth"))
+  add_field(command, "--hold-s", spec, "hold_s",
+            field_help("DipSpec.hold_s", "Time that the object stays at the depth"))
       ->type_name("S");
-  command
-      .add_option(
-          "--clearance-mm", spec.clearance_mm,
-          field_help("DipSpec.clearance_mm", "Height above the water at which the object waits"))
+  add_field(command, "--clearance-mm", spec, "clearance_mm",
+            field_help("DipSpec.clearance_mm", "Height above the water at which the object waits"))
       ->type_name("MM");
 }
 
@@ -203,7 +188,7 @@ void add_dip(CLI::App& app, Program& program) {
                    "Pose and first contact of the object: calibrations/3, 3 or active; default: "
                    "that of the simulation")
       ->type_name("CALIBRATION");
-  add_stale_flag(*command, options->spec.allow_stale_calibration);
+  add_stale_flag(*command, options->spec);
   add_motion_flags(*command, options->spec);
   add_film_flags(*command, options->spec);
   command->add_option("--name", options->job.display_name, "Display name of the job")
@@ -212,8 +197,8 @@ void add_dip(CLI::App& app, Program& program) {
       ->type_name("DIR");
   command->add_flag("--no-guide", options->no_guide,
                     "Create the dip and return; you keep the lease");
-  command->add_flag("--yes-to-all", options->spec.yes_to_all,
-                    "Skip confirmations and timers; on the virtual rig only");
+  add_field(*command, "--yes-to-all", options->spec, "yes_to_all",
+            "Skip confirmations and timers; on the virtual rig only");
   command->add_flag("--validate-only", options->job.validate_only, "Check, but create nothing");
   command->footer(kDipFooter);
   program.on(*command, [&program, options] { return dip(program, *options); });

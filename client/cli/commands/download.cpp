@@ -1,4 +1,7 @@
-#include <algorithm>
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -23,13 +26,43 @@ std::string default_folder(const std::string& job) {
   return "job-" + job.substr(job.find('/') + 1);
 }
 
+// A new folder under /tmp that is deleted at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder() { ::mkdtemp(path_.data()); }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  [[nodiscard]] const std::string& path() const { return path_; }
+
+ private:
+  std::string path_ = std::filesystem::temp_directory_path() / "hydroprint-XXXXXX";
+};
+
+// The bytes are checked before the first one is printed.
+Status print_artifact(Program& program, const std::string& job, const DownloadOptions& options) {
+  if (options.artifacts.size() != 1)
+    return fail(Code::kInvalidArgument, "--out - prints one artifact; give its name");
+  const ScratchFolder scratch;
+  HP_ASSIGN_OR_RETURN(const auto files,
+                      download_all(program.daemon(), job, options.artifacts, scratch.path()));
+  if (std::filesystem::file_size(files.front().path) == 0) return {};
+  std::cout << std::ifstream(files.front().path, std::ios::binary).rdbuf() << std::flush;
+  return {};
+}
+
 Status download(Program& program, const DownloadOptions& options) {
   const std::string job = job_name(options.job);
+  if (options.out == "-") return print_artifact(program, job, options);
   const std::string folder = options.out.empty() ? default_folder(job) : options.out;
   HP_ASSIGN_OR_RETURN(const auto files,
                       download_all(program.daemon(), job, options.artifacts, folder));
   if (program.json()) {
-    print({{"files", to_json(files)}});
+    print({{"files", files_json(files)}});
     return {};
   }
   for (const Downloaded& file : files) std::cout << file.path.string() << std::endl;
@@ -44,7 +77,9 @@ void add_download(CLI::App& app, Program& program) {
   add_job_argument(*command, options->job);
   command->add_option("artifacts", options->artifacts, "Names of the artifacts; default: all")
       ->type_name("ARTIFACT");
-  command->add_option("--out", options->out, "Destination folder; default: job-NUMBER")
+  command
+      ->add_option("--out", options->out,
+                   "Destination folder; default: job-NUMBER; - prints one artifact")
       ->type_name("DIR");
   command->footer(
       "Each file is checked against its SHA-256 and appears only when it is complete.\n"

@@ -8,20 +8,23 @@
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/console.h"
 #include "client/jobs.h"
+#include "client/name_of.h"
+#include "client/time.h"
 
 namespace hydroprint::cli {
 namespace {
 
 Status events(Program& program, const std::string& name) {
-  HP_ASSIGN_OR_RETURN(const auto events, client::list_job_events(program.daemon(), name));
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_job_events(program.daemon(), name));
   if (program.json()) {
-    print({{"events", to_json(events)}});
+    print(list);
     return {};
   }
-  for (const client::JobEvent& event : events)
-    std::cout << format_time(event.time) << "  " << event.kind << "  "
-              << client::name_of(event.state) << "  " << std::lround(100 * event.progress_fraction)
-              << "%  " << printable(event.phase) << "  " << printable(event.message) << "\n";
+  for (const v1::JobEvent& event : list.events())
+    std::cout << format_time(client::time_of(event.time())) << "  " << client::name_of(event.kind())
+              << "  " << client::name_of(event.state()) << "  "
+              << std::lround(100 * event.progress_fraction()) << "%  " << printable(event.phase())
+              << "  " << printable(event.message()) << "\n";
   return {};
 }
 

@@ -29,9 +29,9 @@ struct LeaseOptions {
   }
 };
 
-void tell(const Program& program, const client::Lease& lease) {
+void tell(const Program& program, const v1::Lease& lease) {
   if (program.json())
-    print(to_json(lease));
+    print(lease);
   else
     std::cout << lease_line(&lease) << std::endl;
 }
@@ -58,10 +58,10 @@ Status show_lease(Program& program) {
 }
 
 Status acquire(Program& program, const LeaseOptions& options) {
-  HP_ASSIGN_OR_RETURN(const client::Lease lease,
+  HP_ASSIGN_OR_RETURN(const v1::Lease lease,
                       client::acquire_lease(program.daemon(), options.purpose, options.time()));
-  if (Status kept = keep_lease(program.server(), lease.lease_id); !kept) {
-    static_cast<void>(client::release_lease(program.daemon(), lease.lease_id));
+  if (Status kept = keep_lease(program.server(), lease.lease_id()); !kept) {
+    static_cast<void>(client::release_lease(program.daemon(), lease.lease_id()));
     return kept;
   }
   tell(program, lease);
@@ -70,7 +70,7 @@ Status acquire(Program& program, const LeaseOptions& options) {
 
 Status renew(Program& program, const LeaseOptions& options) {
   HP_ASSIGN_OR_RETURN(const std::string lease_id, our_lease(program));
-  HP_ASSIGN_OR_RETURN(const client::Lease lease,
+  HP_ASSIGN_OR_RETURN(const v1::Lease lease,
                       client::renew_lease(program.daemon(), lease_id, options.time()));
   tell(program, lease);
   return {};

@@ -11,6 +11,8 @@
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/console.h"
 #include "client/jobs.h"
+#include "client/name_of.h"
+#include "client/time.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -21,40 +23,37 @@ struct ListOptions {
   bool mine = false;
 };
 
-const std::map<std::string, client::JobState>& states_by_name() {
-  using enum client::JobState;
-  static const auto kStates = [] {
-    std::map<std::string, client::JobState> states;
-    for (const auto state : {kQueued, kWaitingForOperator, kRunning, kCancelling, kSucceeded,
-                             kFailed, kCancelled, kInterrupted})
-      states.emplace(client::name_of(state), state);
-    return states;
-  }();
-  return kStates;
+// Names of all states of a job.
+std::vector<std::string> state_names() {
+  std::vector<std::string> names;
+  for (int i = 1; i < v1::Job::State_descriptor()->value_count(); ++i)
+    names.push_back(v1::Job::State_descriptor()->value(i)->name());
+  return names;
 }
 
-void print_table(const std::vector<client::Job>& jobs) {
+void print_table(const v1::ListJobsResponse& list) {
   std::cout << std::left << std::setw(12) << "JOB" << std::setw(22) << "STATE" << std::setw(6)
             << "DONE" << std::setw(21) << "CREATED" << std::setw(14) << "OWNER"
             << "NAME\n";
-  for (const client::Job& job : jobs) {
-    const auto done = std::to_string(std::lround(100 * job.progress_fraction)) + "%";
-    std::cout << std::setw(12) << job.name << std::setw(22) << client::name_of(job.state)
-              << std::setw(6) << done << std::setw(21) << format_time(job.create_time)
-              << std::setw(14) << printable(job.owner) << printable(job.display_name) << "\n";
+  for (const v1::Job& job : list.jobs()) {
+    const auto done = std::to_string(std::lround(100 * job.progress_fraction())) + "%";
+    std::cout << std::setw(12) << job.name() << std::setw(22) << client::name_of(job.state())
+              << std::setw(6) << done << std::setw(21)
+              << format_time(client::time_of(job.create_time())) << std::setw(14)
+              << printable(job.owner()) << printable(job.display_name()) << "\n";
   }
 }
 
 Status list(Program& program, const ListOptions& options) {
   client::JobFilter filter = options.filter;
-  if (options.mine) {
+  if (options.mine && filter.owner.empty()) {
     HP_ASSIGN_OR_RETURN(filter.owner, program.own_name());
   }
-  for (const std::string& state : options.states)
-    filter.states.push_back(states_by_name().at(state));
+  for (const std::string& name : options.states)
+    v1::Job::State_Parse(name, &filter.states.emplace_back());
   HP_ASSIGN_OR_RETURN(const auto jobs, client::list_jobs(program.daemon(), filter));
   if (program.json())
-    print({{"jobs", to_json(jobs)}});
+    print(jobs);
   else
     print_table(jobs);
   return {};
@@ -65,13 +64,13 @@ Status list(Program& program, const ListOptions& options) {
 void add_list(CLI::App& app, Program& program) {
   auto options = std::make_shared<ListOptions>();
   CLI::App* command = app.add_subcommand("list", "List jobs, newest first");
-  std::vector<std::string> names;
-  for (const auto& [name, state] : states_by_name()) names.push_back(name);
   command->add_option("--state", options->states, "Only jobs in this state; may be repeated")
       ->type_name("STATE")
-      ->transform(CLI::IsMember(names, CLI::ignore_case));
+      ->transform(CLI::IsMember(state_names(), CLI::ignore_case));
   command->add_flag("--mine", options->mine,
                     "Only your jobs; without user accounts, those of --owner");
+  command->add_option("--owner", options->filter.owner, "Only jobs of this owner")
+      ->type_name("NAME");
   command->add_option("--limit", options->filter.limit, "Maximum number")
       ->type_name("N")
       ->check(CLI::Range(1, 1000000))

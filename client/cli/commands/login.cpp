@@ -7,11 +7,11 @@
 
 #include "client/cli/commands/commands.h"
 #include "client/cli/format/json.h"
-#include "client/cli/format/people_json.h"
 #include "client/cli/program/credentials.h"
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/console.h"
 #include "client/cli/terminal/secret.h"
+#include "client/name_of.h"
 #include "client/people.h"
 
 namespace hydroprint::cli {
@@ -35,14 +35,14 @@ std::string name_of_key(const std::string& key) {
   return "apiKeys/" + key.substr(3, key.find('_', 3) - 3);
 }
 
-Status show_identity(const Program& program, const client::Identity& me) {
+Status show_identity(const Program& program, const v1::WhoAmIResponse& me) {
   if (program.json()) {
-    print(to_json(me));
+    print(me);
     return {};
   }
-  std::cout << printable(me.user) << " is " << me.role << " at " << program.server() << " (by "
-            << printable(me.via) << ")" << std::endl;
-  if (!me.accounts) {
+  std::cout << printable(me.user()) << " is " << client::name_of(me.role()) << " at "
+            << program.server() << " (by " << printable(me.via()) << ")" << std::endl;
+  if (!me.accounts()) {
     std::cout
         << "There are no users yet: everybody on that machine is admin. Add the first user with "
            "'hydroprint users add NAME --role ADMIN'."
@@ -58,8 +58,8 @@ std::string of_allowed(const std::string& used, const std::string& allowed, bool
 
 // Prints the caller's identity, then usage and quota.
 Status show_all(Program& program) {
-  HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(program.daemon()));
-  HP_ASSIGN_OR_RETURN(const client::Usage usage, client::get_usage(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const v1::WhoAmIResponse me, client::who_am_i(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const v1::Usage usage, client::get_usage(program.daemon()));
   if (program.json()) {
     Json json = to_json(me);
     json["usage"] = to_json(usage);
@@ -68,12 +68,13 @@ Status show_all(Program& program) {
   }
   HP_RETURN_IF_ERROR(show_identity(program, me));
   std::cout << "queued: "
-            << of_allowed(std::to_string(usage.queued_jobs), std::to_string(usage.max_queued_jobs),
-                          usage.max_queued_jobs > 0)
+            << of_allowed(std::to_string(usage.queued_jobs()),
+                          std::to_string(usage.max_queued_jobs()), usage.max_queued_jobs() > 0)
             << " jobs\nstored: "
-            << of_allowed(format_bytes(usage.stored_bytes), format_bytes(usage.max_stored_bytes),
-                          usage.max_stored_bytes > 0);
-  if (usage.pinned_bytes > 0) std::cout << ", " << format_bytes(usage.pinned_bytes) << " pinned";
+            << of_allowed(format_bytes(usage.stored_bytes()),
+                          format_bytes(usage.max_stored_bytes()), usage.max_stored_bytes() > 0);
+  if (usage.pinned_bytes() > 0)
+    std::cout << ", " << format_bytes(usage.pinned_bytes()) << " pinned";
   std::cout << std::endl;
   return {};
 }
@@ -94,10 +95,13 @@ Result<std::string> make_key(const Program& program, const LoginOptions& options
   client::Connection nobody(program.options_as("", ""));
   HP_ASSIGN_OR_RETURN(const std::string session, begin_session(nobody, options));
   client::Connection somebody(program.options_as("", session));
-  auto key = client::create_api_key(somebody, "hydroprint login on " + host_name(), "", kKeyHolds);
+  v1::CreateApiKeyRequest request;
+  request.set_display_name("hydroprint login on " + host_name());
+  request.mutable_ttl()->set_seconds(std::chrono::seconds(kKeyHolds).count());
+  const auto key = client::create_api_key(somebody, request);
   HP_RETURN_IF_ERROR(client::sign_out(somebody));
   HP_RETURN_IF_ERROR(key);
-  return key->text;
+  return key->key();
 }
 
 Status log_in(Program& program, const LoginOptions& options) {
@@ -105,8 +109,8 @@ Status log_in(Program& program, const LoginOptions& options) {
   HP_ASSIGN_OR_RETURN(const std::string key, options.key_from_stdin ? ask_secret("API key: ")
                                                                     : make_key(program, options));
   client::Connection connection(program.options_as(key, ""));
-  HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(connection));
-  if (!me.accounts) {
+  HP_ASSIGN_OR_RETURN(const v1::WhoAmIResponse me, client::who_am_i(connection));
+  if (!me.accounts()) {
     return fail(Code::kFailedPrecondition,
                 "there are no users at " + program.server() + " yet; no login is needed");
   }
@@ -129,7 +133,7 @@ Status log_out(const Program& program) {
     return fail(ended.error().code, "the stored key was deleted, but it is still valid: " +
                                         ended.error().message + "; delete it: hydroprint keys");
   }
-  if (program.json()) print({{"logged_out", program.server()}});
+  if (program.json()) print({{"loggedOut", program.server()}});
   if (!program.json()) std::cout << "logged out of " << program.server() << std::endl;
   return {};
 }

@@ -6,6 +6,7 @@
 
 #include "client/cli/commands/commands.h"
 #include "client/cli/format/json.h"
+#include "client/cli/job_io/spec_fields.h"
 #include "client/cli/loop/rounds.h"
 #include "client/cli/program/program.h"
 #include "client/cli/rig_session/held_lease.h"
@@ -21,16 +22,16 @@ namespace {
 /// Arms and homes the axis, also after a fault. On an overloaded machine, the drive's watchdog may
 /// stop the axis between two poses, which is harmless.
 Status make_ready(Program& program, const HeldLease& lease) {
-  HP_ASSIGN_OR_RETURN(client::Rig rig, client::get_rig(program.daemon()));
-  if (!rig.axis || !rig.axis->is_virtual)
+  HP_ASSIGN_OR_RETURN(v1::Rig rig, client::get_rig(program.daemon()));
+  if (!rig.axis().is_virtual())
     return fail(Code::kFailedPrecondition,
                 "the loop needs hydroprint-virtual-rig; start the daemon with one");
-  if (rig.state == client::RigState::kFault) {
+  if (rig.state() == v1::Rig::FAULT) {
     HP_ASSIGN_OR_RETURN(rig, client::reset_rig(program.daemon(), lease.id()));
   }
-  if (rig.state == client::RigState::kDisarmed)
+  if (rig.state() == v1::Rig::DISARMED)
     HP_RETURN_IF_ERROR(client::arm_rig(program.daemon(), lease.id()));
-  if (rig.homed) return {};
+  if (rig.homed()) return {};
   HP_RETURN_IF_ERROR(wait_for_motion(program, client::home_rig(program.daemon(), lease.id())));
   return {};
 }
@@ -103,9 +104,8 @@ void add_loop(CLI::App& app, Program& program) {
   command->add_option("--dpi", options->dpi, "Resolution of the film image")
       ->type_name("DPI")
       ->capture_default_str();
-  command->add_option("--model", options->model, "Film model; stokes is faster")
-      ->type_name("MODEL")
-      ->check(CLI::IsMember({"sheet", "stokes"}));
+  add_field(*command, "--model", options->simulation, "model", "Film model; stokes is faster")
+      ->type_name("MODEL");
   command->add_option("--out", options->out, "Folder for report.html, report.json and the pictures")
       ->type_name("DIR")
       ->required();

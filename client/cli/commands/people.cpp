@@ -7,10 +7,12 @@
 #include <string>
 
 #include "client/cli/commands/commands.h"
-#include "client/cli/format/people_json.h"
+#include "client/cli/format/json.h"
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/console.h"
 #include "client/cli/terminal/secret.h"
+#include "client/name_of.h"
+#include "client/time.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -30,77 +32,85 @@ std::string in_collection(const std::string& collection, const std::string& text
 
 std::string bare(const std::string& name) { return printable(name.substr(name.find('/') + 1)); }
 
-Status show_user(const Program& program, const Result<client::User>& user) {
+// Returns ROLE_UNSPECIFIED for no name.
+v1::Role role_of(const std::string& name) {
+  v1::Role role = v1::ROLE_UNSPECIFIED;
+  v1::Role_Parse(name, &role);
+  return role;
+}
+
+Status show_user(const Program& program, const Result<v1::User>& user) {
   HP_RETURN_IF_ERROR(user);
   if (program.json()) {
-    print(to_json(*user));
+    print(*user);
   } else {
-    std::cout << bare(user->name) << " is " << user->role << (user->disabled ? ", disabled" : "")
-              << std::endl;
+    std::cout << bare(user->name()) << " is " << client::name_of(user->role())
+              << (user->disabled() ? ", disabled" : "") << std::endl;
   }
   return {};
 }
 
 Status list_people(Program& program) {
-  HP_ASSIGN_OR_RETURN(const auto users, client::list_users(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_users(program.daemon()));
   if (program.json()) {
-    print({{"users", array_json(users)}});
+    print(list);
     return {};
   }
   std::cout << std::left << std::setw(24) << "USER" << std::setw(10) << "ROLE" << std::setw(21)
             << "CREATED"
             << "PASSWORD\n";
-  for (const client::User& user : users) {
-    std::cout << std::setw(24) << bare(user.name) << std::setw(10) << user.role << std::setw(21)
-              << format_time(user.create_time) << (user.has_password ? "yes" : "none")
-              << (user.disabled ? ", disabled" : "") << "\n";
+  for (const v1::User& user : list.users()) {
+    std::cout << std::setw(24) << bare(user.name()) << std::setw(10) << client::name_of(user.role())
+              << std::setw(21) << format_time(client::time_of(user.create_time()))
+              << (user.has_password() ? "yes" : "none") << (user.disabled() ? ", disabled" : "")
+              << "\n";
   }
   return {};
 }
 
 // The page's address differs from the daemon's and is not known here.
 Status show_link(Program& program, const std::string& name) {
-  HP_ASSIGN_OR_RETURN(const std::string token, client::create_sign_in_link(program.daemon(), name));
+  HP_ASSIGN_OR_RETURN(const auto link, client::create_sign_in_link(program.daemon(), name));
   if (program.json()) {
-    print({{"user", name}, {"link_token", token}});
+    print(link);
   } else {
     std::cout << bare(name)
               << " can sign in once, within 15 minutes, at the page's address followed by "
-              << "/sign-in#" << token << std::endl;
+              << "/sign-in#" << link.token() << std::endl;
   }
   return {};
 }
 
 Status add_user(Program& program, const UserOptions& options) {
-  const std::string name = in_collection("users", options.name);
-  std::string password;
+  v1::CreateUserRequest request;
+  request.mutable_user()->set_name(in_collection("users", options.name));
+  request.mutable_user()->set_role(role_of(options.role));
+  request.set_returns(options.returns);
   if (options.with_password) {
-    HP_ASSIGN_OR_RETURN(password, ask_new_password());
+    HP_ASSIGN_OR_RETURN(*request.mutable_password(), ask_new_password());
   }
-  return show_user(program, client::create_user(program.daemon(), name, options.role, password,
-                                                options.returns));
+  return show_user(program, client::create_user(program.daemon(), request));
 }
 
 Status set_user(Program& program, const UserOptions& options) {
-  const auto role = options.role.empty() ? std::nullopt : std::optional(options.role);
-  const auto disabled =
-      options.disable || options.enable ? std::optional(options.disable) : std::nullopt;
-  return show_user(
-      program,
-      client::update_user(program.daemon(), in_collection("users", options.name), role, disabled));
+  v1::UpdateUserRequest request;
+  request.set_name(in_collection("users", options.name));
+  if (!options.role.empty()) request.set_role(role_of(options.role));
+  if (options.disable || options.enable) request.set_disabled(options.disable);
+  return show_user(program, client::update_user(program.daemon(), request));
 }
 
 Status change_password(Program& program, const std::string& of) {
-  HP_ASSIGN_OR_RETURN(const client::Identity me, client::who_am_i(program.daemon()));
-  const bool is_own = of.empty() || in_collection("users", of) == "users/" + me.user;
-  std::string old_password;
+  HP_ASSIGN_OR_RETURN(const auto me, client::who_am_i(program.daemon()));
+  const bool is_own = of.empty() || in_collection("users", of) == "users/" + me.user();
+  v1::SetPasswordRequest request;
+  request.set_name(in_collection("users", is_own ? me.user() : of));
   if (is_own) {
-    HP_ASSIGN_OR_RETURN(old_password, ask_secret("Old password (empty if none is set): "));
+    HP_ASSIGN_OR_RETURN(*request.mutable_old_password(),
+                        ask_secret("Old password (empty if none is set): "));
   }
-  HP_ASSIGN_OR_RETURN(const std::string password, ask_new_password());
-  return show_user(
-      program, client::set_password(program.daemon(), in_collection("users", is_own ? me.user : of),
-                                    old_password, password));
+  HP_ASSIGN_OR_RETURN(*request.mutable_new_password(), ask_new_password());
+  return show_user(program, client::set_password(program.daemon(), request));
 }
 
 Status say_done(const Program& program, const std::string& name, const Status& done,
@@ -111,10 +121,18 @@ Status say_done(const Program& program, const std::string& name, const Status& d
   return {};
 }
 
+// The names of all roles.
+std::vector<std::string> role_names() {
+  std::vector<std::string> names;
+  for (int i = 1; i < v1::Role_descriptor()->value_count(); ++i)
+    names.push_back(v1::Role_descriptor()->value(i)->name());
+  return names;
+}
+
 void add_role(CLI::App& command, std::string& role) {
   command.add_option("--role", role, "The user's role")
       ->type_name("ROLE")
-      ->transform(CLI::IsMember(client::role_names(), CLI::ignore_case));
+      ->transform(CLI::IsMember(role_names(), CLI::ignore_case));
 }
 
 CLI::App* add_named(CLI::App& parent, const char* verb, const char* help, std::string& name,
@@ -125,18 +143,20 @@ CLI::App* add_named(CLI::App& parent, const char* verb, const char* help, std::s
 }
 
 Status list_all_keys(Program& program) {
-  HP_ASSIGN_OR_RETURN(const auto keys, client::list_api_keys(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_api_keys(program.daemon()));
   if (program.json()) {
-    print({{"api_keys", array_json(keys)}});
+    print(list);
     return {};
   }
   std::cout << std::left << std::setw(18) << "KEY" << std::setw(16) << "USER" << std::setw(10)
             << "ROLE" << std::setw(21) << "LAST USED" << std::setw(21) << "ENDS"
             << "NAME\n";
-  for (const client::ApiKey& key : keys) {
-    std::cout << std::setw(18) << bare(key.name) << std::setw(16) << bare(key.user) << std::setw(10)
-              << key.role << std::setw(21) << format_time(key.use_time) << std::setw(21)
-              << format_time(key.expire_time) << printable(key.display_name) << "\n";
+  for (const v1::ApiKey& key : list.api_keys()) {
+    std::cout << std::setw(18) << bare(key.name()) << std::setw(16) << bare(key.user())
+              << std::setw(10) << client::name_of(key.role()) << std::setw(21)
+              << format_time(client::time_of(key.use_time())) << std::setw(21)
+              << format_time(client::time_of(key.expire_time())) << printable(key.display_name())
+              << "\n";
   }
   return {};
 }
@@ -147,33 +167,37 @@ struct KeyOptions {
 };
 
 Status add_key(Program& program, const KeyOptions& options) {
-  HP_ASSIGN_OR_RETURN(const auto made,
-                      client::create_api_key(program.daemon(), options.display_name, options.role,
-                                             std::chrono::hours(24) * options.days));
+  v1::CreateApiKeyRequest request;
+  request.set_display_name(options.display_name);
+  if (!options.role.empty()) request.set_role(role_of(options.role));
+  const std::chrono::seconds ttl = std::chrono::hours(24) * options.days;
+  if (ttl.count() > 0) request.mutable_ttl()->set_seconds(ttl.count());
+  HP_ASSIGN_OR_RETURN(const auto made, client::create_api_key(program.daemon(), request));
   if (program.json()) {
-    print({{"api_key", to_json(made.key)}, {"key", made.text}});
+    print(made);
   } else {
     std::cerr
         << "This key is shown once. Set HYDROPRINT_API_KEY to it, or pass it to 'hydroprint login "
            "--api-key-stdin':\n";
-    std::cout << made.text << std::endl;
+    std::cout << made.key() << std::endl;
   }
   return {};
 }
 
 Status list_all_sessions(Program& program) {
-  HP_ASSIGN_OR_RETURN(const auto sessions, client::list_sessions(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_sessions(program.daemon()));
   if (program.json()) {
-    print({{"sessions", array_json(sessions)}});
+    print(list);
     return {};
   }
   std::cout << std::left << std::setw(18) << "SESSION" << std::setw(16) << "USER" << std::setw(21)
             << "LAST USED" << std::setw(21) << "ENDS"
             << "FROM\n";
-  for (const client::Session& session : sessions) {
-    std::cout << std::setw(18) << bare(session.name) << std::setw(16) << bare(session.user)
-              << std::setw(21) << format_time(session.use_time) << std::setw(21)
-              << format_time(session.expire_time) << printable(session.peer) << "\n";
+  for (const v1::Session& session : list.sessions()) {
+    std::cout << std::setw(18) << bare(session.name()) << std::setw(16) << bare(session.user())
+              << std::setw(21) << format_time(client::time_of(session.use_time())) << std::setw(21)
+              << format_time(client::time_of(session.expire_time())) << printable(session.peer())
+              << "\n";
   }
   return {};
 }
@@ -184,17 +208,18 @@ struct AuditOptions {
 };
 
 Status show_audit(Program& program, const AuditOptions& options) {
-  HP_ASSIGN_OR_RETURN(const auto entries, client::list_audit(program.daemon(), options.who,
-                                                             options.what, options.limit));
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_audit(program.daemon(), options.who,
+                                                          options.what, options.limit));
   if (program.json()) {
-    print({{"entries", array_json(entries)}});
+    print(list);
     return {};
   }
-  for (const client::AuditEntry& entry : entries) {
-    std::cout << format_time(entry.time) << "  " << std::left << std::setw(16)
-              << (entry.who.empty() ? "-" : printable(entry.who)) << std::setw(32)
-              << printable(entry.what) << std::setw(18) << printable(entry.object) << entry.outcome
-              << (entry.detail.empty() ? "" : "  " + printable(entry.detail)) << "\n";
+  for (const v1::AuditEntry& entry : list.entries()) {
+    std::cout << format_time(client::time_of(entry.time())) << "  " << std::left << std::setw(16)
+              << (entry.who().empty() ? "-" : printable(entry.who())) << std::setw(32)
+              << printable(entry.what()) << std::setw(18) << printable(entry.object())
+              << entry.outcome() << (entry.detail().empty() ? "" : "  " + printable(entry.detail()))
+              << "\n";
   }
   return {};
 }
@@ -300,9 +325,12 @@ void add_share(CLI::App& app, Program& program) {
   add_job_argument(*command, *job);
   command->add_flag("--off", *off, "Stop sharing");
   program.on(*command, [&program, job, off]() -> Status {
-    HP_ASSIGN_OR_RETURN(const client::Job shared,
+    HP_ASSIGN_OR_RETURN(const v1::Job shared,
                         client::share_job(program.daemon(), job_name(*job), !*off));
-    return say_done(program, shared.name, {}, *off ? "unshared" : "shared");
+    if (program.json()) print(shared);
+    if (!program.json())
+      std::cout << shared.name() << " " << (*off ? "unshared" : "shared") << std::endl;
+    return {};
   });
 }
 

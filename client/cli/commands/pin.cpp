@@ -8,22 +8,23 @@
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/console.h"
 #include "client/jobs.h"
+#include "client/time.h"
 
 namespace hydroprint::cli {
 namespace {
 
-std::string fate_of(const client::Job& job) {
-  if (job.pinned) return "is pinned";
-  if (!job.purge_time) return "is no longer pinned";
-  return "will be deleted on " + format_time(job.purge_time);
+std::string fate_of(const v1::Job& job) {
+  if (job.pinned()) return "is pinned";
+  if (!job.has_purge_time()) return "is no longer pinned";
+  return "will be deleted on " + format_time(client::time_of(job.purge_time()));
 }
 
 Status pin(Program& program, const std::vector<std::string>& names, bool pinned) {
   Json all = Json::array();
   for (const std::string& name : names) {
-    HP_ASSIGN_OR_RETURN(const client::Job job,
+    HP_ASSIGN_OR_RETURN(const v1::Job job,
                         client::pin_job(program.daemon(), job_name(name), pinned));
-    if (!program.json()) std::cout << printable(job.name) << " " << fate_of(job) << std::endl;
+    if (!program.json()) std::cout << printable(job.name()) << " " << fate_of(job) << std::endl;
     all.push_back(to_json(job));
   }
   if (program.json()) print({{"jobs", all}});

@@ -12,42 +12,23 @@
 namespace hydroprint::cli {
 namespace {
 
-Json preview_json(const client::Preview& preview) {
-  Json warnings = Json::array();
-  for (const Warning& warning : preview.warnings) {
-    warnings.push_back(
-        {{"code", warning.code}, {"message", warning.message}, {"where", warning.where}});
-  }
-  return {{"pose",
-           {{"rotation_wxyz", preview.pose.rotation_wxyz},
-            {"translation_mm", preview.pose.translation_mm}}},
-          {"depth_mm", preview.depth_mm},
-          {"coverage", preview.coverage},
-          {"theta_clamped_share", preview.theta_clamped_share},
-          {"stretch_p50", preview.stretch_p50},
-          {"stretch_p95", preview.stretch_p95},
-          {"stretch_max", preview.stretch_max},
-          {"seconds", preview.seconds},
-          {"warnings", warnings}};
-}
-
-void show(const client::Preview& preview) {
+void show(const v1::Preview& preview) {
   std::printf(
       "film reaches %.0f %% of the surface at a depth of %.1f mm; stretch is below %.2f for half "
       "of that, below %.2f for 95 %%\n",
-      100 * preview.coverage, preview.depth_mm, preview.stretch_p50, preview.stretch_p95);
-  for (const Warning& warning : preview.warnings) {
-    std::fprintf(stderr, "hydroprint: warning: %s (%s)\n", printable(warning.message).c_str(),
-                 printable(warning.where).c_str());
+      100 * preview.coverage(), preview.depth_mm(), preview.stretch_p50(), preview.stretch_p95());
+  for (const v1::Preview::Warning& warning : preview.warnings()) {
+    std::fprintf(stderr, "hydroprint: warning: %s (%s)\n", printable(warning.message()).c_str(),
+                 printable(warning.where()).c_str());
   }
 }
 
 Status preview(Program& program, const SubmitOptions& options) {
-  HP_ASSIGN_OR_RETURN(const client::Spec spec, upload_inputs(program, options));
-  HP_ASSIGN_OR_RETURN(const client::Preview answer,
-                      client::compute_preview(program.daemon(), spec));
+  HP_ASSIGN_OR_RETURN(const v1::Job job, upload_inputs(program, options));
+  HP_ASSIGN_OR_RETURN(const v1::Preview answer,
+                      client::compute_preview(program.daemon(), job.simulate()));
   if (program.json()) {
-    print(preview_json(answer));
+    print(answer);
   } else {
     show(answer);
   }
@@ -58,6 +39,7 @@ Status preview(Program& program, const SubmitOptions& options) {
 
 void add_preview(CLI::App& app, Program& program) {
   auto options = std::make_shared<SubmitOptions>();
+  options->job.mutable_simulate();
   CLI::App* command =
       app.add_subcommand("preview", "Predict a dip roughly, in a fraction of a second");
   add_preview_flags(*command, *options);

@@ -29,21 +29,21 @@ Status follow_to_end(Program& program, const std::string& name, const PrintOptio
   if (!files) return tl::unexpected(files.error());
   if (!program.json()) return {};
   Json json = to_json(*ended);
-  if (!options.out.empty()) json["files"] = to_json(*files);
+  if (!options.out.empty()) json["files"] = files_json(*files);
   print(json);
   return {};
 }
 
 Status print_pages(Program& program, const PrintOptions& options) {
   HP_ASSIGN_OR_RETURN(
-      const client::Job job,
+      const v1::Job job,
       client::create_print(program.daemon(), job_name(options.print_image_job), options.job));
   if (options.job.validate_only) {
     tell_valid(program, job);
     return {};
   }
   if (options.no_wait || !program.json()) tell_created(program, job);
-  return options.no_wait ? Status() : follow_to_end(program, job.name, options);
+  return options.no_wait ? Status() : follow_to_end(program, job.name(), options);
 }
 
 }  // namespace

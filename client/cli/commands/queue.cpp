@@ -12,30 +12,30 @@
 namespace hydroprint::cli {
 namespace {
 
-void print_names(const char* title, const std::vector<std::string>& names) {
+void print_names(const char* title, const google::protobuf::RepeatedPtrField<std::string>& names) {
   std::cout << title;
   for (const std::string& name : names) std::cout << " " << name;
   std::cout << "\n";
 }
 
-Status show(const Program& program, const Result<client::Queue>& queue) {
+Status show(const Program& program, const Result<v1::Queue>& queue) {
   if (!queue) return tl::unexpected(queue.error());
   if (program.json()) {
-    print(to_json(*queue));
+    print(*queue);
     return {};
   }
-  std::cout << (queue->paused ? "paused: " + printable(queue->pause_reason) : "open") << "\n";
-  print_names("running:", queue->running_jobs);
-  print_names("queued: ", queue->queued_jobs);
+  std::cout << (queue->paused() ? "paused: " + printable(queue->pause_reason()) : "open") << "\n";
+  print_names("running:", queue->running_jobs());
+  print_names("queued: ", queue->queued_jobs());
   return {};
 }
 
 Status move(Program& program, const std::string& name, const std::string& before) {
-  HP_ASSIGN_OR_RETURN(const client::Job job, client::move_job(program.daemon(), name, before));
+  HP_ASSIGN_OR_RETURN(const v1::Job job, client::move_job(program.daemon(), name, before));
   if (program.json())
-    print(to_json(job));
+    print(job);
   else
-    std::cout << job.name << " moved" << std::endl;
+    std::cout << job.name() << " moved" << std::endl;
   return {};
 }
 
@@ -68,9 +68,9 @@ void add_move(CLI::App& parent, Program& program) {
 
 void add_queue(CLI::App& app, Program& program) {
   CLI::App* command = app.add_subcommand("queue", "Show, pause, resume or reorder the queue");
-  command->require_subcommand(1);
-  program.on(*command->add_subcommand("show", "Show the queue"),
-             [&program] { return show(program, client::get_queue(program.daemon())); });
+  command->require_subcommand(0, 1);
+  for (CLI::App* shown : {command, command->add_subcommand("show", "Show the queue (default)")})
+    program.on(*shown, [&program] { return show(program, client::get_queue(program.daemon())); });
   add_pause(*command, program);
   program.on(*command->add_subcommand("resume", "Resume the queue"),
              [&program] { return show(program, client::resume_queue(program.daemon())); });

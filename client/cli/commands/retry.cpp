@@ -11,11 +11,11 @@ namespace hydroprint::cli {
 namespace {
 
 Status retry(Program& program, const std::string& name) {
-  HP_ASSIGN_OR_RETURN(const client::Job job, client::retry_job(program.daemon(), name));
+  HP_ASSIGN_OR_RETURN(const v1::Job job, client::retry_job(program.daemon(), name));
   if (program.json())
-    print(to_json(job));
+    print(job);
   else
-    std::cout << job.name << std::endl;
+    std::cout << job.name() << std::endl;
   return {};
 }
 

@@ -26,10 +26,10 @@ namespace {
 constexpr char kLeaseFooter[] =
     "Needs the lease: 'hydroprint rig lease acquire --purpose ...', or --with-lease.\n\n";
 
-Status show(const Program& program, const Result<client::Rig>& rig, bool whole = false) {
+Status show(const Program& program, const Result<v1::Rig>& rig, bool whole = false) {
   if (!rig) return tl::unexpected(rig.error());
   if (program.json())
-    print(to_json(*rig));
+    print(*rig);
   else
     std::cout << (whole ? rig_lines(*rig) : rig_line(*rig) + "\n") << std::flush;
   return {};
@@ -38,12 +38,11 @@ Status show(const Program& program, const Result<client::Rig>& rig, bool whole =
 Status watch(Program& program, double rate_hz) {
   RigDisplay display(STDOUT_FILENO);
   for (bool seen = false;;) {
-    const Status watched =
-        client::watch_rig(program.daemon(), rate_hz, [&](const client::Rig& rig) {
-          seen = true;
-          program.json() ? print(to_json(rig)) : display.update(rig);
-          return static_cast<bool>(std::cout);
-        });
+    const Status watched = client::watch_rig(program.daemon(), rate_hz, [&](const v1::Rig& rig) {
+      seen = true;
+      program.json() ? print(rig) : display.update(rig);
+      return static_cast<bool>(std::cout);
+    });
     if (watched) return {};
     if (watched.error().code != Code::kUnavailable || !seen) return watched;
     if (!program.json()) display.say("hydroprint: " + watched.error().message + "; trying again");
@@ -60,7 +59,7 @@ struct CommandOptions {
   bool no_wait = false;
 };
 
-using Order = Result<client::Rig> (*)(client::Connection&, const std::string&);
+using Order = Result<v1::Rig> (*)(client::Connection&, const std::string&);
 
 Status command(Program& program, const CommandOptions& options, Order order) {
   HP_ASSIGN_OR_RETURN(const auto lease, HeldLease::take(program, options.with_lease));
@@ -76,9 +75,10 @@ Status drive(Program& program, const CommandOptions& options, const Motion& moti
 }
 
 void add_rig_status(CLI::App& parent, Program& program) {
-  CLI::App* command = parent.add_subcommand("status", "Show the state of the rig");
-  program.on(*command,
-             [&program] { return show(program, client::get_rig(program.daemon()), true); });
+  for (CLI::App* shown :
+       {&parent, parent.add_subcommand("status", "Show the state of the rig (default)")})
+    program.on(*shown,
+               [&program] { return show(program, client::get_rig(program.daemon()), true); });
 }
 
 void add_rig_watch(CLI::App& parent, Program& program) {
@@ -180,7 +180,7 @@ void add_stop(CLI::App& parent, Program& program) {
 
 void add_rig(CLI::App& app, Program& program) {
   CLI::App* command = app.add_subcommand("rig", "Watch, move and stop the rig; manage its lease");
-  command->require_subcommand(1);
+  command->require_subcommand(0, 1);
   add_rig_status(*command, program);
   add_rig_watch(*command, program);
   add_order(*command, program, "arm", "Enable the drive's torque", "Example:\n  hydroprint rig arm",

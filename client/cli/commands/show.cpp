@@ -9,23 +9,28 @@
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/console.h"
 #include "client/jobs.h"
+#include "google/rpc/code.pb.h"
 
 namespace hydroprint::cli {
 namespace {
 
+std::string error_code_name(const v1::Job& job) {
+  return google::rpc::Code_Name(static_cast<google::rpc::Code>(job.error().code()));
+}
+
 Status show(Program& program, const std::string& name) {
-  HP_ASSIGN_OR_RETURN(const client::Job job, client::get_job(program.daemon(), name));
-  HP_ASSIGN_OR_RETURN(const auto artifacts, client::list_artifacts(program.daemon(), name));
-  Json json = to_json(job);
+  HP_ASSIGN_OR_RETURN(const v1::Job job, client::get_job(program.daemon(), name));
   if (program.json()) {
-    json["artifacts"] = to_json(artifacts);
-    print(json);
+    print(job);
     return {};
   }
-  print_tree(json);
-  for (const client::Artifact& artifact : artifacts)
-    std::cout << std::setw(20) << "artifact" << artifact.file_name() << "  "
-              << format_bytes(artifact.size_bytes) << "\n";
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_artifacts(program.daemon(), name));
+  Json tree = tree_of(job);
+  if (job.has_error()) tree["error"]["code"] = error_code_name(job);
+  print_tree(tree);
+  for (const v1::Artifact& artifact : list.artifacts())
+    std::cout << std::setw(20) << "artifact" << client::file_name(artifact) << "  "
+              << format_bytes(artifact.size_bytes()) << "\n";
   return {};
 }
 

@@ -10,21 +10,21 @@
 namespace hydroprint::cli {
 namespace {
 
-void show(const Program& program, const std::string& health, const client::Queue& queue) {
+void show(const Program& program, const std::string& health, const v1::Queue& queue) {
   if (program.json()) {
     print({{"server", program.server()}, {"health", health}, {"queue", to_json(queue)}});
     return;
   }
-  std::cout << "hydroprintd " << queue.daemon_version << " at " << program.server() << ": "
+  std::cout << "hydroprintd " << queue.daemon_version() << " at " << program.server() << ": "
             << health << "\n"
-            << queue.running_jobs.size() << " running on " << queue.worker_slots << " workers, "
-            << queue.queued_count << " queued"
-            << (queue.paused ? ", paused: " + printable(queue.pause_reason) : "") << "\n";
+            << queue.running_jobs_size() << " running on " << queue.worker_slots() << " workers, "
+            << queue.queued_count() << " queued"
+            << (queue.paused() ? ", paused: " + printable(queue.pause_reason()) : "") << "\n";
 }
 
 Status status(Program& program) {
   HP_ASSIGN_OR_RETURN(const std::string health, client::check_health(program.daemon()));
-  HP_ASSIGN_OR_RETURN(const client::Queue queue, client::get_queue(program.daemon()));
+  HP_ASSIGN_OR_RETURN(const v1::Queue queue, client::get_queue(program.daemon()));
   show(program, health, queue);
   if (health != "SERVING")
     return fail(Code::kUnavailable, program.server() + ": hydroprintd reports " + health +

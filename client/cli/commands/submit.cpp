@@ -1,12 +1,15 @@
+#include <algorithm>
 #include <memory>
 #include <string>
 
 #include "client/cli/commands/commands.h"
 #include "client/cli/job_io/field_help.h"
 #include "client/cli/job_io/finish.h"
+#include "client/cli/job_io/spec_fields.h"
 #include "client/cli/job_io/submit_flags.h"
 #include "client/cli/job_io/wait.h"
 #include "client/cli/program/program.h"
+#include "client/jobs.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -36,9 +39,9 @@ void add_job_flags(CLI::App& command, JobFlags& options) {
 }
 
 Status submit(Program& program, const JobFlags& options) {
-  HP_ASSIGN_OR_RETURN(const client::Spec spec, upload_inputs(program, options.inputs));
-  HP_ASSIGN_OR_RETURN(const client::Job job,
-                      client::create_job(program.daemon(), spec, options.job));
+  HP_ASSIGN_OR_RETURN(const v1::Job described, upload_inputs(program, options.inputs));
+  HP_ASSIGN_OR_RETURN(const v1::Job job,
+                      client::create_job(program.daemon(), described, options.job));
   if (options.job.validate_only) {
     tell_valid(program, job);
     return {};
@@ -47,11 +50,14 @@ Status submit(Program& program, const JobFlags& options) {
   return finish_job(program, job, {options.out, !waits, options.wait_options});
 }
 
-void add_verb(CLI::App& parent, Program& program, client::Verb verb, const char* help,
+// Adds the command for a kind of job, for example "print_image".
+void add_kind(CLI::App& parent, Program& program, const std::string& kind, const char* help,
               const char* footer) {
   auto options = std::make_shared<JobFlags>();
-  options->inputs.spec.verb = verb;
-  CLI::App* command = parent.add_subcommand(std::string(client::name_of(verb)), help);
+  options->inputs.job = job_of_kind(kind);
+  std::string name = kind;
+  std::replace(name.begin(), name.end(), '_', '-');
+  CLI::App* command = parent.add_subcommand(name, help);
   add_spec_flags(*command, options->inputs);
   add_job_flags(*command, *options);
   command->footer(footer);
@@ -63,30 +69,29 @@ void add_verb(CLI::App& parent, Program& program, client::Verb verb, const char*
 void add_submit(CLI::App& app, Program& program) {
   CLI::App* command = app.add_subcommand("submit", "Upload files and queue a job");
   command->require_subcommand(1);
-  add_verb(
-      *command, program, client::Verb::kSimulate, "Compute the film image for a textured model",
+  add_kind(
+      *command, program, "simulate", "Compute the film image for a textured model",
       "Files that an OBJ, MTL or glTF refers to are uploaded too. Omitted flags take the\n"
       "worker's defaults.\n\n"
       "Example:\n"
       "  hydroprint submit simulate --mesh spot.obj --texture spot.png --scale 50 --out result");
-  add_verb(*command, program, client::Verb::kPredict,
-           "Predict the colours on the object from a film image",
+  add_kind(*command, program, "predict", "Predict the colours on the object from a film image",
            "Example:\n"
            "  hydroprint submit predict --mesh spot.obj --film-image film.png --scale 50 --wait");
-  add_verb(*command, program, client::Verb::kFit, "Fit a film profile to measured landing points",
+  add_kind(*command, program, "fit", "Fit a film profile to measured landing points",
            "Example:\n"
            "  hydroprint submit fit --mesh ball.ply --points measured.csv --ink-image film.png "
            "--out fitted");
-  add_verb(*command, program, client::Verb::kValidate,
+  add_kind(*command, program, "validate",
            "Run the paper's experiments in silico and write a report",
            "Example:\n  hydroprint submit validate --out validation");
-  add_verb(*command, program, client::Verb::kPrintImage,
+  add_kind(*command, program, "print_image",
            "Lay out a film image at exact scale, as files to print",
            "Example:\n"
            "  hydroprint submit print-image --simulate-job 7 --job-name \"mug 7\" --out paper\n"
            "  hydroprint submit print-image --film-image result/film.png --out paper");
-  add_verb(
-      *command, program, client::Verb::kTemplate,
+  add_kind(
+      *command, program, "template",
       "Create a page that shows where to place the object, for a rig without a camera",
       "Example:\n"
       "  hydroprint submit template --simulate-job 7 --out placement\n"

@@ -13,15 +13,15 @@ namespace hydroprint::cli {
 namespace {
 
 Status upload(Program& program, const std::vector<std::string>& files) {
-  std::vector<client::Asset> assets;
+  Json assets = Json::array();
   for (const std::string& file : files) {
     HP_ASSIGN_OR_RETURN(const client::Uploaded uploaded, upload_shown(program.daemon(), file));
-    assets.push_back(uploaded.asset);
+    assets.push_back(to_json(uploaded.asset));
     if (!program.json())
-      std::cout << uploaded.asset.name << "  " << file
+      std::cout << uploaded.asset.name() << "  " << file
                 << (uploaded.was_known ? "  (already uploaded)" : "") << std::endl;
   }
-  if (program.json()) print({{"assets", to_json(assets)}});
+  if (program.json()) print({{"assets", assets}});
   return {};
 }
 

@@ -1,46 +1,38 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <google/protobuf/message.h>
 
-#include "client/artifacts.h"
-#include "client/assets.h"
-#include "client/calibration.h"
-#include "client/job.h"
-#include "client/lease.h"
-#include "client/queue.h"
-#include "client/rig.h"
+#include <nlohmann/json.hpp>
+#include <string>
+
 #include "sim/base/result.h"
 
 namespace hydroprint::cli {
 
-/// The output of --json: the API's field names, RFC 3339 times; unset fields are omitted.
+/// The output of --json: messages of the API as REST writes them.
 using Json = nlohmann::ordered_json;
 
-[[nodiscard]] Json to_json(const client::Spec& spec);
-[[nodiscard]] Json to_json(const client::Job& job);
-[[nodiscard]] Json to_json(const client::DipSpec& spec);
-[[nodiscard]] Json to_json(const client::DipStatus& status);
-[[nodiscard]] Json to_json(const client::JobEvent& event);
-[[nodiscard]] Json to_json(const client::Lease& lease);
-[[nodiscard]] Json to_json(const client::Rig& rig);
-[[nodiscard]] Json to_json(const client::Queue& queue);
-[[nodiscard]] Json to_json(const client::Asset& asset);
-[[nodiscard]] Json to_json(const client::Artifact& artifact);
-[[nodiscard]] Json to_json(const client::Calibration& calibration);
+[[nodiscard]] Json to_json(const google::protobuf::Message& message);
 [[nodiscard]] Json to_json(const Error& error);
 
-/// Converts a list to a JSON array.
-template <class T>
-[[nodiscard]] Json to_json(const std::vector<T>& values) {
+/// Converts messages to a JSON array.
+template <class Messages>
+[[nodiscard]] Json array_json(const Messages& messages) {
   Json array = Json::array();
-  for (const T& value : values) array.push_back(to_json(value));
+  for (const auto& message : messages) array.push_back(to_json(message));
   return array;
 }
 
-/// Prints JSON in readable form: one key per line, list items one below the other.
+/// Converts a message for print_tree(): with the field names of the .proto files.
+[[nodiscard]] Json tree_of(const google::protobuf::Message& message);
+
+/// Prints JSON in readable form: one field per line, list items one below the other. Fields without
+/// content are omitted.
 void print_tree(const Json& json, const std::string& indent = "");
 
 /// Prints JSON on one line of standard output.
 void print(const Json& json);
+/// Same, for a message.
+void print(const google::protobuf::Message& message);
 
 }  // namespace hydroprint::cli

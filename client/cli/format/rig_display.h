@@ -4,20 +4,20 @@
 #include <string>
 
 #include "client/cli/terminal/console.h"
-#include "client/rig.h"
+#include "hydroprint/v1/rig.pb.h"
 
 namespace hydroprint::cli {
 
 /// Describes the rig in one line: state, position, speed, lease holder, fault and remedy.
-[[nodiscard]] std::string rig_line(const client::Rig& rig);
+[[nodiscard]] std::string rig_line(const v1::Rig& rig);
 
 /// Describes the rig in several lines, with the axis limits and the quality of the link to the
 /// drive.
-[[nodiscard]] std::string rig_lines(const client::Rig& rig);
+[[nodiscard]] std::string rig_lines(const v1::Rig& rig);
 
 /// Returns "alice holds the lease for 'calibration' until 2026-03-01 14:05:09", or "nobody holds
 /// the lease".
-[[nodiscard]] std::string lease_line(const client::Lease* lease);
+[[nodiscard]] std::string lease_line(const v1::Lease* lease);
 
 /// Shows changes of the rig: one live line on a terminal; elsewhere one line for each change.
 /// Changes of the position alone are shown at most once a second.
@@ -26,7 +26,7 @@ class RigDisplay {
   /// @param descriptor  destination: STDOUT_FILENO or STDERR_FILENO
   explicit RigDisplay(int descriptor) : line_(descriptor) {}
 
-  void update(const client::Rig& rig);
+  void update(const v1::Rig& rig);
   /// Prints a line that stays on the screen.
   void say(const std::string& text) { line_.say(text); }
 

@@ -18,7 +18,7 @@ std::string told(const nlohmann::json& report, const char* pointer, const std::s
 
 nlohmann::json read_report(const std::vector<Downloaded>& files) {
   for (const Downloaded& file : files) {
-    if (file.artifact.file_name() != "report.json") continue;
+    if (client::file_name(file.artifact) != "report.json") continue;
     auto report = nlohmann::json::parse(std::ifstream(file.path), nullptr, false);
     if (report.is_object()) return report;
   }
@@ -30,13 +30,13 @@ nlohmann::json read_report(const std::vector<Downloaded>& files) {
 Result<std::vector<Downloaded>> fetch_record(client::Connection& daemon, const std::string& job,
                                              const std::filesystem::path& folder) {
   HP_ASSIGN_OR_RETURN(const auto artifacts, client::list_artifacts(daemon, job));
-  if (artifacts.empty()) return std::vector<Downloaded>();
+  if (artifacts.artifacts().empty()) return std::vector<Downloaded>();
   return download_all(daemon, job, {}, folder);
 }
 
-std::string dip_summary(const client::Job& job, const std::vector<Downloaded>& files) {
+std::string dip_summary(const v1::Job& job, const std::vector<Downloaded>& files) {
   const nlohmann::json report = read_report(files);
-  return job.name + ": dipped" + told(report, "/depth_reached_mm", " ", " mm deep") +
+  return job.name() + ": dipped" + told(report, "/depth_reached_mm", " ", " mm deep") +
          told(report, "/descent/speed_mm_per_s", " at ", " mm/s") +
          told(report, "/descent/largest_deviation_share", ", constant within ", " %", 100) +
          told(report, "/descent/largest_deviation_mm", " and ", " mm") +

@@ -17,6 +17,6 @@ namespace hydroprint::cli {
 
 /// Summarizes a dip's record in one line: depth, speed, largest deviation from constant speed.
 /// Values missing from report.json are omitted.
-[[nodiscard]] std::string dip_summary(const client::Job& job, const std::vector<Downloaded>& files);
+[[nodiscard]] std::string dip_summary(const v1::Job& job, const std::vector<Downloaded>& files);
 
 }  // namespace hydroprint::cli

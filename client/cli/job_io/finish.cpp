@@ -15,34 +15,34 @@ void add_finish_flags(CLI::App& command, FinishOptions& options) {
   add_wait_flags(command, options.wait);
 }
 
-void tell_created(const Program& program, const client::Job& job) {
+void tell_created(const Program& program, const v1::Job& job) {
   if (program.json())
-    print(to_json(job));
+    print(job);
   else
-    std::cout << job.name << std::endl;
+    std::cout << job.name() << std::endl;
 }
 
-void tell_valid(const Program& program, const client::Job& job) {
+void tell_valid(const Program& program, const v1::Job& job) {
   if (program.json())
-    print(to_json(job));
+    print(job);
   else
     std::cout << "The job is valid." << std::endl;
 }
 
-Status finish_job(Program& program, const client::Job& job, const FinishOptions& options) {
+Status finish_job(Program& program, const v1::Job& job, const FinishOptions& options) {
   if (options.no_wait || !program.json()) tell_created(program, job);
   if (options.no_wait) return {};
-  HP_ASSIGN_OR_RETURN(const client::Job ended, wait_for(program, job.name, options.wait));
+  HP_ASSIGN_OR_RETURN(const v1::Job ended, wait_for(program, job.name(), options.wait));
   std::vector<Downloaded> files;
   if (!options.out.empty()) {
-    HP_ASSIGN_OR_RETURN(files, download_all(program.daemon(), job.name, {}, options.out));
+    HP_ASSIGN_OR_RETURN(files, download_all(program.daemon(), job.name(), {}, options.out));
   }
   if (!program.json()) {
     for (const Downloaded& file : files) std::cout << file.path.string() << std::endl;
     return {};
   }
   Json json = to_json(ended);
-  if (!options.out.empty()) json["files"] = to_json(files);
+  if (!options.out.empty()) json["files"] = files_json(files);
   print(json);
   return {};
 }

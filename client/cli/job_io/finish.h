@@ -19,13 +19,12 @@ struct FinishOptions {
 void add_finish_flags(CLI::App& command, FinishOptions& options);
 
 /// Prints the name of a new job.
-void tell_created(const Program& program, const client::Job& job);
+void tell_created(const Program& program, const v1::Job& job);
 
 /// Reports that a job passed --validate-only.
-void tell_valid(const Program& program, const client::Job& job);
+void tell_valid(const Program& program, const v1::Job& job);
 
 /// Prints a job's name, waits until it is finished, and downloads its artifacts.
-[[nodiscard]] Status finish_job(Program& program, const client::Job& job,
-                                const FinishOptions& options);
+[[nodiscard]] Status finish_job(Program& program, const v1::Job& job, const FinishOptions& options);
 
 }  // namespace hydroprint::cli

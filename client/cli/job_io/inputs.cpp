@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "client/cli/job_io/spec_fields.h"
 #include "client/cli/terminal/console.h"
 #include "client/files/references.h"
 
@@ -21,30 +22,34 @@ Result<client::Uploaded> upload_shown(client::Connection& connection,
   });
 }
 
-Status Inputs::add_model(const std::filesystem::path& mesh, client::Spec& spec) {
-  HP_ASSIGN_OR_RETURN(spec.mesh, add_as(mesh.filename().string(), mesh));
+Status Inputs::add_model(const std::filesystem::path& mesh, google::protobuf::Message& spec) {
+  HP_ASSIGN_OR_RETURN(file_in(spec, "mesh"), add_as(mesh.filename().string(), mesh));
   HP_ASSIGN_OR_RETURN(const client::References references, client::find_references(mesh));
   for (const std::string& note : references.notes)
     std::cerr << "hydroprint: note: " << printable(note) << std::endl;
   for (const client::Reference& reference : references.files) {
-    HP_ASSIGN_OR_RETURN(auto file, add_as(reference.name, reference.path));
-    spec.extra_files.push_back(std::move(file));
+    HP_ASSIGN_OR_RETURN(file_in(spec, "extra_files"), add_as(reference.name, reference.path));
   }
   return {};
 }
 
-Result<std::optional<client::InputFile>> Inputs::add(const std::filesystem::path& file) {
-  if (file.empty()) return std::nullopt;
+Result<v1::InputFile> Inputs::add(const std::filesystem::path& file) {
   std::string name = file.filename().string();
   for (int i = 2; names_.contains(name); ++i)
     name = std::to_string(i) + "-" + file.filename().string();
-  HP_ASSIGN_OR_RETURN(auto input, add_as(name, file));
-  return input;
+  return add_as(name, file);
 }
 
-Result<std::vector<client::InputFile>> Inputs::add_frames(
+Status Inputs::add_to(google::protobuf::Message& spec, const std::string& field,
+                      const std::filesystem::path& file) {
+  if (file.empty()) return {};
+  HP_ASSIGN_OR_RETURN(file_in(spec, field), add(file));
+  return {};
+}
+
+Result<std::vector<v1::InputFile>> Inputs::add_frames(
     const std::vector<std::filesystem::path>& folders) {
-  std::vector<client::InputFile> out;
+  std::vector<v1::InputFile> out;
   for (std::size_t i = 0; i < folders.size(); ++i) {
     std::error_code error;
     std::vector<std::filesystem::path> files;
@@ -65,21 +70,26 @@ Result<std::vector<client::InputFile>> Inputs::add_frames(
   return out;
 }
 
-Result<std::string> Inputs::add_film(const std::string& film, client::Spec& spec) {
+Status Inputs::add_film(const std::string& film, google::protobuf::Message& spec) {
   constexpr std::string_view kPolygon = "polygon:";
-  if (!film.starts_with(kPolygon)) return film;
-  HP_ASSIGN_OR_RETURN(auto file, add(film.substr(kPolygon.size())));
-  if (!file)
+  if (!film.empty()) set_text(spec, "film", film);
+  if (!film.starts_with(kPolygon)) return {};
+  const std::string path = film.substr(kPolygon.size());
+  if (path.empty())
     return fail(Code::kInvalidArgument, "--film polygon: a file is missing; use polygon:FILE.json");
-  spec.extra_files.push_back(*file);
-  return std::string(kPolygon) + file->name;
+  HP_ASSIGN_OR_RETURN(const v1::InputFile file, add(path));
+  file_in(spec, "extra_files") = file;
+  set_text(spec, "film", std::string(kPolygon) + file.name());
+  return {};
 }
 
-Result<client::InputFile> Inputs::add_as(const std::string& name,
-                                         const std::filesystem::path& file) {
+Result<v1::InputFile> Inputs::add_as(const std::string& name, const std::filesystem::path& file) {
   HP_ASSIGN_OR_RETURN(const client::Uploaded uploaded, upload_shown(connection_, file));
   names_.insert(name);
-  return client::InputFile{name, uploaded.asset.name};
+  v1::InputFile input;
+  input.set_name(name);
+  input.set_asset(uploaded.asset.name());
+  return input;
 }
 
 }  // namespace hydroprint::cli

@@ -1,13 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "client/assets.h"
-#include "client/job.h"
+#include "hydroprint/v1/spec.pb.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::cli {
@@ -23,21 +22,25 @@ class Inputs {
 
   /// Adds the mesh and the files it refers to, under the names it uses. Notes about references that
   /// cannot be sent go to standard error.
-  [[nodiscard]] Status add_model(const std::filesystem::path& mesh, client::Spec& spec);
+  [[nodiscard]] Status add_model(const std::filesystem::path& mesh,
+                                 google::protobuf::Message& spec);
 
-  /// Adds a file that no other file refers to; returns nullopt for an empty path.
-  [[nodiscard]] Result<std::optional<client::InputFile>> add(const std::filesystem::path& file);
+  /// Adds a file that no other file refers to.
+  [[nodiscard]] Result<v1::InputFile> add(const std::filesystem::path& file);
+  /// Same, and sets a field of the spec to it. An empty path leaves the field unset.
+  [[nodiscard]] Status add_to(google::protobuf::Message& spec, const std::string& field,
+                              const std::filesystem::path& file);
 
   /// Adds folders written by hydroprint-capture, each under its own name: "view1/frames.json", ...
-  [[nodiscard]] Result<std::vector<client::InputFile>> add_frames(
+  [[nodiscard]] Result<std::vector<v1::InputFile>> add_frames(
       const std::vector<std::filesystem::path>& folders);
 
-  /// Returns the value of the worker's --film; uploads the file of a polygon.
-  [[nodiscard]] Result<std::string> add_film(const std::string& film, client::Spec& spec);
+  /// Sets the spec's film, unless it is empty; uploads the file of a polygon.
+  [[nodiscard]] Status add_film(const std::string& film, google::protobuf::Message& spec);
 
  private:
-  [[nodiscard]] Result<client::InputFile> add_as(const std::string& name,
-                                                 const std::filesystem::path& file);
+  [[nodiscard]] Result<v1::InputFile> add_as(const std::string& name,
+                                             const std::filesystem::path& file);
 
   client::Connection& connection_;
   std::set<std::string> names_;

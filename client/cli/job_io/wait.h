@@ -24,21 +24,21 @@ void add_wait_flags(CLI::App& command, WaitOptions& options);
 /// Waits until a job is finished. @return the job if it succeeded; kInvalidArgument if it failed
 /// because of its input, kInternal if it failed otherwise, kCancelled if it was cancelled or on
 /// Ctrl-C
-[[nodiscard]] Result<client::Job> wait_for(Program& program, const std::string& job,
-                                           const WaitOptions& options);
+[[nodiscard]] Result<v1::Job> wait_for(Program& program, const std::string& job,
+                                       const WaitOptions& options);
 
 /// Waits until a job is finished and shows its progress. @return the finished job, successful or
 /// not; kCancelled on Ctrl-C
-[[nodiscard]] Result<client::Job> follow_job(Program& program, const std::string& job,
-                                             const WaitOptions& options);
+[[nodiscard]] Result<v1::Job> follow_job(Program& program, const std::string& job,
+                                         const WaitOptions& options);
 
 /// Explains why a finished job did not succeed; for a dip, also what to do with film and object.
-[[nodiscard]] Error why(const client::Job& job);
+[[nodiscard]] Error why(const v1::Job& job);
 
 /// A downloaded file.
 struct Downloaded {
   std::filesystem::path path;
-  client::Artifact artifact;
+  v1::Artifact artifact;
 };
 
 /// Downloads the named artifacts of a job into `folder`; all artifacts if `names` is empty.
@@ -47,7 +47,7 @@ struct Downloaded {
                                                            const std::vector<std::string>& names,
                                                            const std::filesystem::path& folder);
 
-/// [{"path": ..., "sha256": ..., "size_bytes": ...}, ...]
-[[nodiscard]] nlohmann::ordered_json to_json(const std::vector<Downloaded>& files);
+/// Returns an array of the artifacts, each with the "path" of its file.
+[[nodiscard]] nlohmann::ordered_json files_json(const std::vector<Downloaded>& files);
 
 }  // namespace hydroprint::cli

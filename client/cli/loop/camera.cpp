@@ -40,9 +40,9 @@ class HeldBoard {
 
 /// Returns the calibration that a job produced.
 Result<std::string> made_by(Program& program, const std::string& job) {
-  HP_ASSIGN_OR_RETURN(const auto all, client::list_calibrations(program.daemon(), 100));
-  for (const client::Calibration& one : all) {
-    if (one.job == job) return one.name;
+  HP_ASSIGN_OR_RETURN(const auto list, client::list_calibrations(program.daemon(), 100));
+  for (const v1::Calibration& one : list.calibrations()) {
+    if (one.job() == job) return one.name();
   }
   return fail(Code::kAborted,
               job + " has no calibration; it may have been deleted. Run the loop again");
@@ -55,21 +55,20 @@ Result<std::string> calibrate_loop_camera(Program& program, const std::string& c
   const auto say = [&](const std::string& what) {
     if (!program.json()) std::cerr << "camera: " << what << std::endl;
   };
-  client::Spec spec;
-  spec.verb = client::Verb::kCalibrateCamera;
+  v1::Job job;
   {
     const HeldBoard board(control, folder);
     HP_RETURN_IF_ERROR(board.make());
     for (int i = 0; i < kViews; ++i) {
       say("view " + std::to_string(i + 1) + " of " + std::to_string(kViews));
       HP_RETURN_IF_ERROR(board.hold(loop::held_board(seed, i)));
-      HP_ASSIGN_OR_RETURN(const client::Job capture, capture_quietly(program, kSeconds));
-      spec.scan.capture_jobs.push_back(capture.name);
+      HP_ASSIGN_OR_RETURN(const v1::Job capture, capture_quietly(program, kSeconds));
+      job.mutable_calibrate_camera()->add_capture_jobs(capture.name());
     }
   }
   say("calibrate-camera");
-  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program, spec));
-  return made_by(program, job.name);
+  HP_ASSIGN_OR_RETURN(const v1::Job ended, run_quietly(program, job));
+  return made_by(program, ended.name());
 }
 
 }  // namespace hydroprint::cli

@@ -7,33 +7,35 @@
 
 namespace hydroprint::cli {
 
-Result<client::Job> finish_quietly(Program& program, const client::Job& job) {
-  auto ended = client::watch_job(program.daemon(), job.name, [](const client::JobUpdate&) {});
-  if (ended && ended->state != client::JobState::kSucceeded) return tl::unexpected(why(*ended));
+Result<v1::Job> finish_quietly(Program& program, const v1::Job& job) {
+  auto ended = client::watch_job(program.daemon(), job.name(), [](const v1::WatchJobResponse&) {});
+  if (ended && ended->state() != v1::Job::SUCCEEDED) return tl::unexpected(why(*ended));
   return ended;
 }
 
-Result<client::Job> run_quietly(Program& program, const client::Spec& spec) {
-  HP_ASSIGN_OR_RETURN(const client::Job job, client::create_job(program.daemon(), spec, {}));
+Result<v1::Job> run_quietly(Program& program, const v1::Job& job) {
+  HP_ASSIGN_OR_RETURN(const v1::Job created, client::create_job(program.daemon(), job, {}));
+  return finish_quietly(program, created);
+}
+
+Result<v1::Job> capture_quietly(Program& program, double seconds) {
+  HP_ASSIGN_OR_RETURN(const v1::Job job, client::create_capture(program.daemon(), seconds, {}));
   return finish_quietly(program, job);
 }
 
-Result<client::Job> capture_quietly(Program& program, double seconds) {
-  HP_ASSIGN_OR_RETURN(const client::Job job, client::create_capture(program.daemon(), seconds, {}));
-  return finish_quietly(program, job);
-}
-
-client::PoseSpec spec_of(const Pose& pose) {
+v1::Pose message_of(const Pose& pose) {
   const Eigen::Quaterniond q(pose.linear());
-  const Eigen::Vector3d t = pose.translation();
-  return {{q.w(), q.x(), q.y(), q.z()}, {t.x(), t.y(), t.z()}};
+  v1::Pose message;
+  for (const double x : {q.w(), q.x(), q.y(), q.z()}) message.add_rotation_wxyz(x);
+  for (const double x : pose.translation()) message.add_translation_mm(x);
+  return message;
 }
 
-Pose pose_of(const client::PoseSpec& spec) {
-  const auto& q = spec.rotation_wxyz;
+Pose pose_of(const v1::Pose& message) {
+  const auto& q = message.rotation_wxyz();
   Pose out = Pose::Identity();
   out.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().matrix();
-  out.translation() = Eigen::Vector3d(spec.translation_mm.data());
+  out.translation() = Eigen::Vector3d(message.translation_mm().data());
   return out;
 }
 

@@ -1,23 +1,23 @@
 #pragma once
 
 #include "client/cli/program/program.h"
-#include "client/job.h"
+#include "hydroprint/v1/job.pb.h"
 #include "sim/base/pose.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::cli {
 
 /// Waits for a job without showing progress. @return the job if it succeeded, otherwise the error
-[[nodiscard]] Result<client::Job> finish_quietly(Program& program, const client::Job& job);
+[[nodiscard]] Result<v1::Job> finish_quietly(Program& program, const v1::Job& job);
 
 /// Queues a job and waits for it in the same way.
-[[nodiscard]] Result<client::Job> run_quietly(Program& program, const client::Spec& spec);
+[[nodiscard]] Result<v1::Job> run_quietly(Program& program, const v1::Job& job);
 
 /// Captures frames with the daemon's camera and waits in the same way.
-[[nodiscard]] Result<client::Job> capture_quietly(Program& program, double seconds);
+[[nodiscard]] Result<v1::Job> capture_quietly(Program& program, double seconds);
 
-/// Convert a pose to and from a spec.
-[[nodiscard]] client::PoseSpec spec_of(const Pose& pose);
-[[nodiscard]] Pose pose_of(const client::PoseSpec& spec);
+/// Convert a pose to and from the API's message, which must have all its numbers.
+[[nodiscard]] v1::Pose message_of(const Pose& pose);
+[[nodiscard]] Pose pose_of(const v1::Pose& message);
 
 }  // namespace hydroprint::cli

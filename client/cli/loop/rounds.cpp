@@ -89,70 +89,73 @@ Status LoopRounds::take_camera() {
 
 Status LoopRounds::move_to_view() {
   const loop::Truth straight{loop::nominal_pose(body_), {0, 0}, {0, 0}, 1};
-  HP_ASSIGN_OR_RETURN(const client::Rig rig, client::get_rig(program_.daemon()));
+  HP_ASSIGN_OR_RETURN(const v1::Rig rig, client::get_rig(program_.daemon()));
   HP_ASSIGN_OR_RETURN(const double now_mm, gripper_mm());
   const double wanted_mm = kAbove_mm - loop::height_mm(body_, straight, 0);
-  const double axis_mm = rig.position_mm.value_or(0) + now_mm - wanted_mm;
+  const double axis_mm = rig.position_mm() + now_mm - wanted_mm;
   HP_RETURN_IF_ERROR(wait_for_motion(
       program_, client::move_rig(program_.daemon(), lease_.id(), axis_mm, std::nullopt)));
   HP_ASSIGN_OR_RETURN(gripper_mm_, gripper_mm());
   return {};
 }
 
-Result<client::Calibration> LoopRounds::calibrate(loop::Round& out) {
+Result<v1::Calibration> LoopRounds::calibrate(loop::Round& out) {
   say("capture");
-  HP_ASSIGN_OR_RETURN(const client::Job capture, capture_quietly(program_, options_.seconds));
-  client::Spec spec = object_;
-  spec.verb = client::Verb::kCalibrate;
-  spec.pose = spec_of(loop::nominal_pose(body_));
-  spec.scan.capture_jobs = {capture.name};
-  spec.scan.camera = camera_;
-  spec.scan.camera_calibration = camera_calibration_;
-  spec.scan.gripper_mm = gripper_mm_;
+  HP_ASSIGN_OR_RETURN(const v1::Job capture, capture_quietly(program_, options_.seconds));
+  v1::Job job;
+  v1::CalibrateSpec& spec = *job.mutable_calibrate();
+  spec = object_;
+  *spec.mutable_pose() = message_of(loop::nominal_pose(body_));
+  spec.set_capture_job(capture.name());
+  if (camera_) *spec.mutable_camera() = *camera_;
+  spec.set_camera_calibration(camera_calibration_);
+  spec.set_gripper_mm(gripper_mm_);
   say("calibrate");
-  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
-  out.jobs = {capture.name, job.name};
-  HP_RETURN_IF_ERROR(fetch(job.name, "alignment.png", "alignment", out));
-  HP_ASSIGN_OR_RETURN(const client::Calibration found,
+  HP_ASSIGN_OR_RETURN(const v1::Job ended, run_quietly(program_, job));
+  out.jobs = {capture.name(), ended.name()};
+  HP_RETURN_IF_ERROR(fetch(ended.name(), "alignment.png", "alignment", out));
+  HP_ASSIGN_OR_RETURN(const v1::Calibration found,
                       client::get_calibration(program_.daemon(), "calibrations/active"));
-  if (found.job == job.name) return found;
+  if (found.job() == ended.name()) return found;
   return fail(
       Code::kAborted,
       "another calibration became active during the loop; run the loop again, with no other user");
 }
 
-Result<client::Job> LoopRounds::simulate(const std::string& calibration, loop::Round& out) {
+Result<v1::Job> LoopRounds::simulate(const std::string& calibration, loop::Round& out) {
   say("simulate");
-  client::Spec spec = object_;
-  spec.calibration = calibration;
-  spec.dpi = options_.dpi;
-  spec.model = options_.model;
-  if (body_.is_round) spec.depth_mm = kRoundDepth_mm;
-  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
-  out.jobs.push_back(job.name);
-  return job;
+  v1::Job job;
+  v1::SimulateSpec& spec = *job.mutable_simulate();
+  *spec.mutable_mesh() = object_.mesh();
+  *spec.mutable_extra_files() = object_.extra_files();
+  spec.set_calibration(calibration);
+  spec.set_dpi(options_.dpi);
+  spec.set_model(options_.simulation.model());
+  if (body_.is_round) spec.set_depth_mm(kRoundDepth_mm);
+  HP_ASSIGN_OR_RETURN(const v1::Job ended, run_quietly(program_, job));
+  out.jobs.push_back(ended.name());
+  return ended;
 }
 
-Result<client::Job> LoopRounds::print(const std::string& simulation, loop::Round& out) {
+Result<v1::Job> LoopRounds::print(const std::string& simulation, loop::Round& out) {
   say("print-image");
-  client::Spec spec;
-  spec.verb = client::Verb::kPrintImage;
-  spec.simulate_job = simulation;
-  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
-  out.jobs.push_back(job.name);
-  HP_RETURN_IF_ERROR(fetch(job.name, "print.pdf", "print", out));
-  return job;
+  v1::Job job;
+  job.mutable_print_image()->set_simulate_job(simulation);
+  HP_ASSIGN_OR_RETURN(const v1::Job ended, run_quietly(program_, job));
+  out.jobs.push_back(ended.name());
+  HP_RETURN_IF_ERROR(fetch(ended.name(), "print.pdf", "print", out));
+  return ended;
 }
 
-Result<client::Job> LoopRounds::dip(const std::string& simulation, loop::Round& out) {
+Result<v1::Job> LoopRounds::dip(const std::string& simulation, loop::Round& out) {
   say("dip");
-  client::DipSpec spec;
-  spec.simulate_job = simulation;
-  spec.yes_to_all = true;
-  HP_ASSIGN_OR_RETURN(const client::Job job,
+  v1::DipSpec spec;
+  spec.set_simulate_job(simulation);
+  spec.set_yes_to_all(true);
+  HP_ASSIGN_OR_RETURN(const v1::Job job,
                       client::create_dip(program_.daemon(), spec, lease_.id(), {}));
-  HP_ASSIGN_OR_RETURN(const client::Job ended, finish_quietly(program_, job));
-  out.jobs.push_back(ended.name);
+  HP_ASSIGN_OR_RETURN(const v1::Job ended, finish_quietly(program_, job));
+  out.jobs.push_back(ended.name());
   return ended;
 }
 
@@ -173,17 +176,23 @@ Result<std::string> LoopRounds::fetch(const std::string& job, const std::string&
   return name;
 }
 
+Result<v1::Job> LoopRounds::run_predict(const v1::PredictSpec& spec) {
+  v1::Job job;
+  *job.mutable_predict() = spec;
+  return run_quietly(program_, job);
+}
+
 /// Computes with predict where a film image lands at a pose.
-Result<loop::SurfaceMap> LoopRounds::predict(client::Spec spec, const Pose& pose,
+Result<loop::SurfaceMap> LoopRounds::predict(v1::PredictSpec spec, const Pose& pose,
                                              const std::string& as, loop::Round& out) {
-  spec.pose = spec_of(pose);
-  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
-  HP_ASSIGN_OR_RETURN(const std::string map, fetch(job.name, "surface_map.ply", as, out));
+  *spec.mutable_pose() = message_of(pose);
+  HP_ASSIGN_OR_RETURN(const v1::Job job, run_predict(spec));
+  HP_ASSIGN_OR_RETURN(const std::string map, fetch(job.name(), "surface_map.ply", as, out));
   return loop::read_surface_map(file(map));
 }
 
 /// The actual motion of the descent, along its true direction.
-Result<client::InputFile> LoopRounds::driven(const std::string& dip, loop::Round& out) {
+Result<v1::InputFile> LoopRounds::driven(const std::string& dip, loop::Round& out) {
   HP_ASSIGN_OR_RETURN(const std::string positions, fetch(dip, "positions.csv", "positions", out));
   std::ifstream from(file(positions));
   std::ostringstream rows;
@@ -202,69 +211,70 @@ Result<client::InputFile> LoopRounds::driven(const std::string& dip, loop::Round
   }
   const fs::path path = file("pose" + std::to_string(number_) + "-motion.csv");
   HP_RETURN_IF_ERROR(image::write_artifact(path, rows.str()));
-  HP_ASSIGN_OR_RETURN(const auto input, inputs_.add(path));
-  return *input;
+  return inputs_.add(path);
 }
 
-Status LoopRounds::compare(const client::Calibration& found, loop::Round& out) const {
-  if (!found.pose) return fail(Code::kInternal, found.name + " has no pose");
+Status LoopRounds::compare(const v1::Calibration& found, loop::Round& out) const {
+  if (found.pose().rotation_wxyz_size() != 4 || found.pose().translation_mm_size() != 3)
+    return fail(Code::kInternal, found.name() + " has no pose");
   Pose seen = out.truth.X_GO;  // the true pose during the capture, F
   seen.translation().z() += gripper_mm_;
-  const Pose pose = pose_of(*found.pose);
+  const Pose pose = pose_of(found.pose());
   const Eigen::Matrix3d off = pose.linear().transpose() * seen.linear();
   out.turn_off_deg = Eigen::AngleAxisd(off).angle() / loop::kDegree;
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : body_.points) box.extend(p);
   const Eigen::Vector3d middle = box.center();
   out.shift_off_mm = (pose * middle - seen * middle).head<2>().norm();
-  if (found.contact_mm && found.axis_mm)
+  if (found.has_contact_mm() && found.has_axis_mm())
     out.contact_off_mm =
-        *found.contact_mm - *found.axis_mm - loop::height_mm(body_, out.truth, gripper_mm_);
-  out.stated_p95_mm = found.error_p95_mm.value_or(0);
+        found.contact_mm() - found.axis_mm() - loop::height_mm(body_, out.truth, gripper_mm_);
+  out.stated_p95_mm = found.error_p95_mm();
   return {};
 }
 
 /// Spec of a virtual dip of the film image.
-Result<client::Spec> LoopRounds::landing(const client::Job& simulation, loop::Round& out) {
-  HP_ASSIGN_OR_RETURN(const std::string film, fetch(simulation.name, "film.png", "film", out));
-  client::Spec spec = object_;
-  spec.verb = client::Verb::kPredict;
-  spec.artifacts = "map";
-  spec.dpi = options_.dpi;
-  spec.model = options_.model;
-  spec.depth_mm = simulation.spec ? simulation.spec->depth_mm : std::nullopt;
-  HP_ASSIGN_OR_RETURN(spec.film_image, inputs_.add(file(film)));
+Result<v1::PredictSpec> LoopRounds::landing(const v1::Job& simulation, loop::Round& out) {
+  HP_ASSIGN_OR_RETURN(const std::string film, fetch(simulation.name(), "film.png", "film", out));
+  v1::PredictSpec spec;
+  *spec.mutable_mesh() = object_.mesh();
+  *spec.mutable_extra_files() = object_.extra_files();
+  spec.set_artifacts(v1::ARTIFACT_SET_MAP);
+  spec.set_dpi(options_.dpi);
+  spec.set_model(options_.simulation.model());
+  if (simulation.simulate().has_depth_mm()) spec.set_depth_mm(simulation.simulate().depth_mm());
+  HP_RETURN_IF_ERROR(inputs_.add_to(spec, "film_image", file(film)));
   return spec;
 }
 
 /// Fetches a picture of the printed object for the report.
-Status LoopRounds::show_landed(client::Spec spec, loop::Round& out) {
-  spec.pose = spec_of(loop::pose_at_contact(body_, out.truth, gripper_mm_));
-  spec.artifacts = "all";
-  HP_ASSIGN_OR_RETURN(const client::Job job, run_quietly(program_, spec));
-  HP_RETURN_IF_ERROR(fetch(job.name, "predicted.png", "landed", out));
+Status LoopRounds::show_landed(v1::PredictSpec spec, loop::Round& out) {
+  *spec.mutable_pose() = message_of(loop::pose_at_contact(body_, out.truth, gripper_mm_));
+  spec.set_artifacts(v1::ARTIFACT_SET_ALL);
+  HP_ASSIGN_OR_RETURN(const v1::Job job, run_predict(spec));
+  HP_RETURN_IF_ERROR(fetch(job.name(), "predicted.png", "landed", out));
   return {};
 }
 
-Status LoopRounds::measure(const client::Calibration& found, const client::Job& simulation,
+Status LoopRounds::measure(const v1::Calibration& found, const v1::Job& simulation,
                            const std::string& dip, loop::Round& out) {
   HP_ASSIGN_OR_RETURN(const std::string planned,
-                      fetch(simulation.name, "surface_map.ply", "planned", out));
+                      fetch(simulation.name(), "surface_map.ply", "planned", out));
   HP_ASSIGN_OR_RETURN(const loop::SurfaceMap plan, loop::read_surface_map(file(planned)));
-  HP_RETURN_IF_ERROR(fetch(simulation.name, "predicted.png", "planned", out));
-  HP_ASSIGN_OR_RETURN(client::Spec spec, landing(simulation, out));
+  HP_RETURN_IF_ERROR(fetch(simulation.name(), "predicted.png", "planned", out));
+  HP_ASSIGN_OR_RETURN(v1::PredictSpec spec, landing(simulation, out));
   const loop::Truth well;
   loop::Truth upright = out.truth;
   upright.slope.setZero();
   say("predict: as calibrated");
-  HP_ASSIGN_OR_RETURN(auto map, predict(spec, pose_of(*found.pose), "as-calibrated", out));
+  HP_ASSIGN_OR_RETURN(auto map, predict(spec, pose_of(found.pose()), "as-calibrated", out));
   out.numerics = loop::cross_errors(body_, plan, map, well);
   say("predict: at the true pose");
   HP_ASSIGN_OR_RETURN(
       map, predict(spec, loop::pose_at_contact(body_, upright, gripper_mm_), "upright", out));
   out.calibration = loop::cross_errors(body_, plan, map, well);
   say("predict: with the actual motion");
-  HP_ASSIGN_OR_RETURN(spec.motion, driven(dip, out));
+  HP_ASSIGN_OR_RETURN(*spec.mutable_motion(), driven(dip, out));
   HP_ASSIGN_OR_RETURN(
       map, predict(spec, loop::pose_at_contact(body_, out.truth, gripper_mm_), "landed", out));
   out.motion = loop::cross_errors(body_, plan, map, well);
@@ -278,12 +288,12 @@ Result<loop::Round> LoopRounds::round(int index) {
   out.truth = loop::draw(body_, options_.seed, index);
   HP_RETURN_IF_ERROR(hang(out.truth.X_GO));
   if (index > 0) HP_RETURN_IF_ERROR(move_to_view());
-  HP_ASSIGN_OR_RETURN(const client::Calibration found, calibrate(out));
+  HP_ASSIGN_OR_RETURN(const v1::Calibration found, calibrate(out));
   HP_RETURN_IF_ERROR(compare(found, out));
-  HP_ASSIGN_OR_RETURN(const client::Job simulation, simulate(found.name, out));
-  HP_RETURN_IF_ERROR(print(simulation.name, out));
-  HP_ASSIGN_OR_RETURN(const client::Job dipped, dip(simulation.name, out));
-  HP_RETURN_IF_ERROR(measure(found, simulation, dipped.name, out));
+  HP_ASSIGN_OR_RETURN(const v1::Job simulation, simulate(found.name(), out));
+  HP_RETURN_IF_ERROR(print(simulation.name(), out));
+  HP_ASSIGN_OR_RETURN(const v1::Job dipped, dip(simulation.name(), out));
+  HP_RETURN_IF_ERROR(measure(found, simulation, dipped.name(), out));
   return out;
 }
 

@@ -20,7 +20,7 @@ struct LoopOptions {
   int poses = 10;
   std::uint32_t seed = 1;
   double dpi = 150, seconds = 2;
-  std::optional<std::string> model;  ///< film model: "sheet" or "stokes"
+  v1::SimulateSpec simulation;  ///< only its model is used
 };
 
 /// Runs the whole loop pose by pose, from the object's pose to the place where its film lands.
@@ -42,20 +42,21 @@ class LoopRounds {
   [[nodiscard]] Status hang(const Pose& X_GO) const;
   Status take_camera();
   Status move_to_view();
-  Result<client::Calibration> calibrate(loop::Round& out);
-  Result<client::Job> simulate(const std::string& calibration, loop::Round& out);
-  Result<client::Job> print(const std::string& simulation, loop::Round& out);
-  Result<client::Job> dip(const std::string& simulation, loop::Round& out);
+  Result<v1::Calibration> calibrate(loop::Round& out);
+  Result<v1::Job> simulate(const std::string& calibration, loop::Round& out);
+  Result<v1::Job> print(const std::string& simulation, loop::Round& out);
+  Result<v1::Job> dip(const std::string& simulation, loop::Round& out);
   Result<std::string> fetch(const std::string& job, const std::string& artifact,
                             const std::string& as, loop::Round& out) const;
-  Result<loop::SurfaceMap> predict(client::Spec spec, const Pose& pose, const std::string& as,
+  Result<v1::Job> run_predict(const v1::PredictSpec& spec);
+  Result<loop::SurfaceMap> predict(v1::PredictSpec spec, const Pose& pose, const std::string& as,
                                    loop::Round& out);
-  Result<client::InputFile> driven(const std::string& dip, loop::Round& out);
-  Result<client::Spec> landing(const client::Job& simulation, loop::Round& out);
-  Status measure(const client::Calibration& found, const client::Job& simulation,
-                 const std::string& dip, loop::Round& out);
-  Status show_landed(client::Spec spec, loop::Round& out);
-  Status compare(const client::Calibration& found, loop::Round& out) const;
+  Result<v1::InputFile> driven(const std::string& dip, loop::Round& out);
+  Result<v1::PredictSpec> landing(const v1::Job& simulation, loop::Round& out);
+  Status measure(const v1::Calibration& found, const v1::Job& simulation, const std::string& dip,
+                 loop::Round& out);
+  Status show_landed(v1::PredictSpec spec, loop::Round& out);
+  Status compare(const v1::Calibration& found, loop::Round& out) const;
   void say(const std::string& what) const;
 
   Program& program_;
@@ -63,8 +64,8 @@ class LoopRounds {
   loop::Body body_;
   const HeldLease& lease_;
   Inputs inputs_;
-  client::Spec object_;  // mesh and related fields
-  std::optional<client::InputFile> camera_;
+  v1::CalibrateSpec object_;  // mesh and its files
+  std::optional<v1::InputFile> camera_;
   std::string camera_calibration_, camera_name_;
   double gripper_mm_ = 0;  // height above the water during the capture
   int number_ = 0;

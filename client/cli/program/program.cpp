@@ -66,12 +66,14 @@ Program::Program(CLI::App& app) : owner_(login_name()) {
       ->envname("HYDROPRINT_OWNER")
       ->check(check_owner)
       ->capture_default_str();
-  app.add_flag("--json", json_, "Print JSON, for scripts");
+  app.add_flag("--json", json_, "Print the JSON of the REST API, for scripts");
   app.set_version_flag("--version", std::string("hydroprint ") + HYDROPRINT_VERSION);
 }
 
 void Program::on(CLI::App& command, std::function<Status()> action) {
-  command.callback([this, action = std::move(action)] { action_ = action; });
+  command.callback([this, &command, action = std::move(action)] {
+    if (command.get_subcommands().empty()) action_ = action;
+  });
 }
 
 Status Program::find_server() {
@@ -97,8 +99,8 @@ Status Program::run() {
 
 Result<std::string> Program::own_name() {
   if (key_.empty()) return owner_;
-  HP_ASSIGN_OR_RETURN(client::Identity me, client::who_am_i(daemon()));
-  return std::move(me).user;
+  HP_ASSIGN_OR_RETURN(const v1::WhoAmIResponse me, client::who_am_i(daemon()));
+  return me.user();
 }
 
 client::ConnectionOptions Program::options(std::stop_token stop) const {
@@ -128,11 +130,6 @@ std::string job_name(const std::string& text) {
 std::string calibration_name(const std::string& text) {
   const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   return is_number || text == "active" ? "calibrations/" + text : text;
-}
-
-void add_stale_flag(CLI::App& command, bool& is_allowed) {
-  command.add_flag("--allow-stale-calibration", is_allowed,
-                   "Use the calibration even if it is no longer valid, or is for another object");
 }
 
 void add_job_argument(CLI::App& command, std::string& job) {

@@ -17,7 +17,7 @@ class Program {
   /// Adds --server, --ca, --owner, --json and --version.
   explicit Program(CLI::App& app);
 
-  /// Registers `action` to run if `command` is on the command line.
+  /// Registers `action` to run if `command` is on the command line, without a subcommand.
   void on(CLI::App& command, std::function<Status()> action);
   /// Runs the chosen action, with the stored API key if there is one.
   [[nodiscard]] Status run();
@@ -61,9 +61,6 @@ class Program {
 
 /// Returns "calibrations/3" for "3" or "calibrations/3", and "calibrations/active" for "active".
 [[nodiscard]] std::string calibration_name(const std::string& text);
-
-/// Adds --allow-stale-calibration.
-void add_stale_flag(CLI::App& command, bool& is_allowed);
 
 /// Adds the positional argument JOB.
 void add_job_argument(CLI::App& command, std::string& job);

@@ -13,7 +13,11 @@
 #include "client/cli/rig_session/jogger.h"
 #include "client/cli/terminal/console.h"
 #include "client/cli/terminal/terminal.h"
+#include "client/dip.h"
 #include "client/jobs.h"
+#include "client/name_of.h"
+#include "client/rig.h"
+#include "client/time.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -31,7 +35,7 @@ constexpr char kConfirmKey[] = "  Enter when done; Ctrl-C aborts the dip";
 // Watches the job on its own thread.
 class WatchedJob {
  public:
-  WatchedJob(const Program& program, client::Job job)
+  WatchedJob(const Program& program, v1::Job job)
       : daemon_(program.options(stop_.get_token())),
         job_(std::move(job)),
         watcher_([this] { watch(); }) {}
@@ -42,7 +46,7 @@ class WatchedJob {
   WatchedJob(const WatchedJob&) = delete;
   WatchedJob& operator=(const WatchedJob&) = delete;
 
-  [[nodiscard]] client::Job job() const {
+  [[nodiscard]] v1::Job job() const {
     const std::lock_guard lock(mutex_);
     return job_;
   }
@@ -52,26 +56,26 @@ class WatchedJob {
     return std::exchange(messages_, {});
   }
   /// The result of watching; nullopt while it continues.
-  [[nodiscard]] std::optional<Result<client::Job>> ended() const {
+  [[nodiscard]] std::optional<Result<v1::Job>> ended() const {
     const std::lock_guard lock(mutex_);
     return ended_;
   }
 
  private:
   void watch() {
-    const std::string name = job().name;
+    const std::string name = job().name();
     auto ended = client::watch_job(
-        daemon_, name, [this](const client::JobUpdate& update) { take(update); },
+        daemon_, name, [this](const v1::WatchJobResponse& update) { take(update); },
         [this](const Error& error) { say("hydroprint: " + error.message + "; retrying"); });
     const std::lock_guard lock(mutex_);
     ended_ = std::move(ended);
   }
 
-  void take(const client::JobUpdate& update) {
+  void take(const v1::WatchJobResponse& update) {
     if (std::string news = message_of(update); !news.empty()) say(std::move(news));
-    if (!update.job) return;
+    if (!update.has_job()) return;
     const std::lock_guard lock(mutex_);
-    job_ = *update.job;
+    job_ = update.job();
   }
 
   void say(std::string message) {
@@ -82,35 +86,35 @@ class WatchedJob {
   std::stop_source stop_;
   client::Connection daemon_;
   mutable std::mutex mutex_;
-  client::Job job_;
+  v1::Job job_;
   std::vector<std::string> messages_;
-  std::optional<Result<client::Job>> ended_;
+  std::optional<Result<v1::Job>> ended_;
   std::thread watcher_;  // last member: it uses all the others
 };
 
 double to_seconds(auto time) { return std::chrono::duration<double>(time).count(); }
 
-bool waits(const client::Job& job) {
-  return job.state == client::JobState::kWaitingForOperator && job.dip_status &&
-         client::waits_for_operator(job.dip_status->step);
+bool waits(const v1::Job& job) {
+  return job.state() == v1::Job::WAITING_FOR_OPERATOR &&
+         client::waits_for_operator(job.dip_status().step());
 }
 
 class Guide {
  public:
-  Guide(Program& program, const HeldLease& lease, client::Job job)
+  Guide(Program& program, const HeldLease& lease, v1::Job job)
       : program_(program),
         daemon_(program.daemon()),
         lease_(lease),
         watched_(program, std::move(job)),
         line_(STDERR_FILENO) {}
 
-  Result<client::Job> run() {
+  Result<v1::Job> run() {
     for (;;) {
       if (const auto ended = watched_.ended()) return *ended;
       if (program_.is_interrupted()) return fail(Code::kCancelled, "interrupted");
       if (keyboard_.gone())
         return fail(Code::kCancelled,
-                    "the terminal was closed; " + watched_.job().name + " continues");
+                    "the terminal was closed; " + watched_.job().name() + " continues");
       show(watched_.job());
       take_keys(keyboard_.read(30ms));
       jog();
@@ -119,45 +123,47 @@ class Guide {
   }
 
  private:
-  void show(const client::Job& job) {
+  void show(const v1::Job& job) {
     for (const std::string& message : watched_.take_messages()) line_.say(message);
-    if (!job.dip_status) return;
-    const client::DipStatus& status = *job.dip_status;
-    for (const std::string& warning : new_warnings(shown_, status))
+    if (!job.has_dip_status()) return;
+    const v1::DipStatus& status = job.dip_status();
+    for (const std::string& warning : new_warnings(shown_.value_or(v1::DipStatus()), status))
       line_.say("  WARNING: " + warning);
-    if (!shown_ || shown_->step != status.step) begin(status);
+    if (!shown_ || shown_->step() != status.step()) begin(status);
     shown_ = status;
     show_clock(job);
   }
 
   // At a new step, pending keys are discarded: they were not meant for it.
-  void begin(const client::DipStatus& status) {
+  void begin(const v1::DipStatus& status) {
     Keyboard::forget();
     begun_ = std::chrono::system_clock::now();
     drawn_ = {};
     line_.say("");
-    line_.say(std::string(client::name_of(status.step)) + ": " + status.instruction);
+    line_.say(client::name_of(status.step()) + ": " + status.instruction());
     jogger_.reset();
-    if (status.step == client::DipStep::kFindContact) {
+    if (status.step() == v1::DipStatus::FIND_CONTACT) {
       line_.say(kJogKeys);
       jogger_.emplace(daemon_, lease_.id(), kJogSpeed_mm_per_s);
     }
-    if (client::waits_for_operator(status.step)) line_.say(kConfirmKey);
+    if (client::waits_for_operator(status.step())) line_.say(kConfirmKey);
   }
 
-  void show_clock(const client::Job& job) {
+  void show_clock(const v1::Job& job) {
     if (Clock::now() - drawn_ < kRedrawEvery) return;
     drawn_ = Clock::now();
-    const client::DipStatus& status = *job.dip_status;
-    const std::string name(client::name_of(status.step));
+    const v1::DipStatus& status = job.dip_status();
+    const std::string name = client::name_of(status.step());
     const Time now = std::chrono::system_clock::now();
     std::string text;
     if (jogger_ || !waits(job)) text = place();
     if (jogger_) text += "  " + jogger_->text();
-    if (status.activation_end_time) text += "  " + film_age(*status.activation_end_time - now);
-    if (!status.step_end_time) return line_.show(name, job.progress_fraction, text);
-    const auto left = *status.step_end_time - now;
-    const double whole_s = to_seconds(*status.step_end_time - begun_);
+    if (const auto end = client::time_of(status.activation_end_time()))
+      text += "  " + film_age(*end - now);
+    const auto step_end = client::time_of(status.step_end_time());
+    if (!step_end) return line_.show(name, job.progress_fraction(), text);
+    const auto left = *step_end - now;
+    const double whole_s = to_seconds(*step_end - begun_);
     text = format_duration(std::chrono::ceil<std::chrono::seconds>(left)) + " left  " + text;
     line_.show(name, whole_s > 0 ? 1 - to_seconds(left) / whole_s : 1, text);
   }
@@ -169,8 +175,8 @@ class Guide {
   }
 
   std::string place() const {
-    if (!rig_.position_mm) return std::string(client::name_of(rig_.state));
-    return "at " + format_fixed(*rig_.position_mm) + " mm";
+    if (!rig_.has_position_mm()) return client::name_of(rig_.state());
+    return "at " + format_fixed(rig_.position_mm()) + " mm";
   }
 
   void take_keys(const std::vector<Key>& keys) {
@@ -181,11 +187,12 @@ class Guide {
   }
 
   void confirm() {
-    const client::Job job = watched_.job();
-    if (!waits(job) || !shown_ || shown_->step != job.dip_status->step) return;
+    const v1::Job job = watched_.job();
+    if (!waits(job) || !shown_ || shown_->step() != job.dip_status().step()) return;
     if (jogger_ && jogger_->is_held()) return;  // release the key first: contact is at standstill
     // The next step is shown as soon as it is reported; this response may be older.
-    const auto next = client::confirm_step(daemon_, job.name, job.dip_status->step, lease_.id());
+    const auto next =
+        client::confirm_step(daemon_, job.name(), job.dip_status().step(), lease_.id());
     if (!next) line_.say("  REFUSED: " + in_our_words(next.error()).message);
   }
 
@@ -210,17 +217,17 @@ class Guide {
   WatchedJob watched_;
   ProgressLine line_;
   Keyboard keyboard_;
-  std::optional<client::DipStatus> shown_;
+  std::optional<v1::DipStatus> shown_;
   Time begun_;  // when the current step was first shown
   std::optional<Jogger> jogger_;
-  client::Rig rig_;
+  v1::Rig rig_;
   Clock::time_point looked_;
   Clock::time_point drawn_;  // of the live line; other lines and a new step are shown at once
 };
 
 }  // namespace
 
-Result<client::Job> guide(Program& program, const HeldLease& lease, client::Job job) {
+Result<v1::Job> guide(Program& program, const HeldLease& lease, v1::Job job) {
   return Guide(program, lease, std::move(job)).run();
 }
 

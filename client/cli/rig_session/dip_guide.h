@@ -2,7 +2,7 @@
 
 #include "client/cli/program/program.h"
 #include "client/cli/rig_session/held_lease.h"
-#include "client/job.h"
+#include "hydroprint/v1/job.pb.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::cli {
@@ -12,6 +12,6 @@ namespace hydroprint::cli {
 /// axis.
 /// @param job  the new dip
 /// @return the finished job, successful or not; kCancelled on Ctrl-C, while the dip still runs
-[[nodiscard]] Result<client::Job> guide(Program& program, const HeldLease& lease, client::Job job);
+[[nodiscard]] Result<v1::Job> guide(Program& program, const HeldLease& lease, v1::Job job);
 
 }  // namespace hydroprint::cli

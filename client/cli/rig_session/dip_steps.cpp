@@ -4,23 +4,25 @@
 
 #include "client/cli/format/json.h"
 #include "client/cli/terminal/console.h"
+#include "client/dip.h"
+#include "client/name_of.h"
 
 namespace hydroprint::cli {
 
-void print_dip(const Program& program, const client::Job& job) {
-  if (program.json()) return print(to_json(job));
-  if (job.name.empty()) {  // only validated
+void print_dip(const Program& program, const v1::Job& job) {
+  if (program.json()) return print(job);
+  if (job.name().empty()) {  // only validated
     std::cout << "The dip is valid." << std::endl;
     return;
   }
-  std::cout << job.name << "\n";
-  if (job.dip_status) {
-    const std::string step(client::name_of(job.dip_status->step));
-    for (const std::string& warning : job.dip_status->warnings)
+  std::cout << job.name() << "\n";
+  if (job.has_dip_status()) {
+    const std::string step = client::name_of(job.dip_status().step());
+    for (const std::string& warning : job.dip_status().warnings())
       std::cout << "warning: " << printable(warning) << "\n";
-    std::cout << step << ": " << printable(job.dip_status->instruction) << "\n";
-    if (client::waits_for_operator(job.dip_status->step))
-      std::cout << "then: hydroprint confirm " << job.name << " " << step << "\n";
+    std::cout << step << ": " << printable(job.dip_status().instruction()) << "\n";
+    if (client::waits_for_operator(job.dip_status().step()))
+      std::cout << "then: hydroprint confirm " << job.name() << " " << step << "\n";
   }
   std::cout << std::flush;
 }

@@ -1,5 +1,7 @@
 #include "client/cli/rig_session/held_lease.h"
 
+#include <google/protobuf/util/time_util.h>
+
 #include <algorithm>
 #include <condition_variable>
 #include <mutex>
@@ -7,6 +9,7 @@
 
 #include "client/cli/rig_session/lease_file.h"
 #include "client/cli/terminal/console.h"
+#include "client/time.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -31,17 +34,18 @@ std::string who_has_it(const Error& error) {
          at(error.metadata, "expire_time");
 }
 
-std::map<std::string, std::string> metadata_of(const client::Lease& lease) {
-  return {{"holder", lease.holder},
-          {"purpose", lease.purpose},
-          {"expire_time", lease.expire_time ? format_rfc3339(*lease.expire_time) : ""}};
+std::map<std::string, std::string> metadata_of(const v1::Lease& lease) {
+  return {{"holder", lease.holder()},
+          {"purpose", lease.purpose()},
+          {"expire_time", google::protobuf::util::TimeUtil::ToString(lease.expire_time())}};
 }
 
 // Remaining time of a lease, at least kLeaseTime: renewing must not shorten it.
-std::chrono::seconds time_to_renew_to(const client::Lease& lease) {
-  if (!lease.expire_time) return kLeaseTime;
+std::chrono::seconds time_to_renew_to(const v1::Lease& lease) {
+  const auto end = client::time_of(lease.expire_time());
+  if (!end) return kLeaseTime;
   using namespace std::chrono;
-  return std::max<seconds>(kLeaseTime, ceil<seconds>(*lease.expire_time - system_clock::now()));
+  return std::max<seconds>(kLeaseTime, ceil<seconds>(*end - system_clock::now()));
 }
 
 Error none_is_kept(Program& program) {
@@ -69,9 +73,9 @@ HeldLease::~HeldLease() {
 
 Result<std::unique_ptr<HeldLease>> HeldLease::acquire(Program& program,
                                                       const std::string& purpose) {
-  HP_ASSIGN_OR_RETURN(const client::Lease lease,
+  HP_ASSIGN_OR_RETURN(const v1::Lease lease,
                       client::acquire_lease(program.daemon(), purpose, kLeaseTime));
-  return std::unique_ptr<HeldLease>(new HeldLease(program, lease.lease_id, true));
+  return std::unique_ptr<HeldLease>(new HeldLease(program, lease.lease_id(), true));
 }
 
 Result<std::unique_ptr<HeldLease>> HeldLease::take(Program& program, const std::string& purpose) {
@@ -100,8 +104,8 @@ void HeldLease::renew_until(const std::stop_token& stop) {
   // A failed renewal is not reported here: the next command is refused.
   while (!bell.wait_for(lock, stop, kLookEvery, [] { return false; }) && !stop.stop_requested()) {
     const auto lease = client::get_lease(daemon_);
-    if (!lease || !lease->expire_time) continue;
-    if (*lease->expire_time - std::chrono::system_clock::now() < kRenewBefore)
+    const auto end = lease ? client::time_of(lease->expire_time()) : std::nullopt;
+    if (end && *end - std::chrono::system_clock::now() < kRenewBefore)
       static_cast<void>(client::renew_lease(daemon_, id_, kLeaseTime));
   }
 }

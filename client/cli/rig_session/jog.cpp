@@ -52,7 +52,7 @@ Status jog_by_keys(Program& program, const std::string& lease_id, double speed_m
   Keyboard keyboard;
   Jogger jogger(program.daemon(), lease_id, speed_mm_per_s);
   auto looked = Clock::now() - 1s;
-  client::Rig rig;
+  v1::Rig rig;
   while (!program.is_interrupted() && !keyboard.gone()) {
     for (const Key key : keyboard.read(20ms)) {
       if (key == Key::kQuit) return {};
@@ -95,7 +95,7 @@ Status jog(Program& program, const JogOptions& options) {
   if (!rig) return tl::unexpected(rig.error());
   if (cancelled) return fail(Code::kCancelled, "interrupted: the axis was stopped");
   if (program.json())
-    print(to_json(*rig));
+    print(*rig);
   else
     std::cout << rig_line(*rig) << std::endl;
   return {};

@@ -44,7 +44,7 @@ void Jogger::press(Key key, TimePoint now) {
   if (key == Key::kSlower) speed_mm_per_s_ = std::max(speed_mm_per_s_ / 2, kLeast_mm_per_s);
 }
 
-Result<std::optional<client::Rig>> Jogger::tick(TimePoint now) {
+Result<std::optional<v1::Rig>> Jogger::tick(TimePoint now) {
   if (now - pressed_ > kHeldFor) direction_ = 0;
   if (direction_ == 0) return let_go();
   if (now - told_ < kPeriod) return std::nullopt;
@@ -58,7 +58,7 @@ Result<std::optional<client::Rig>> Jogger::tick(TimePoint now) {
   return tl::unexpected(std::move(rig).error());
 }
 
-Result<std::optional<client::Rig>> Jogger::let_go() {
+Result<std::optional<v1::Rig>> Jogger::let_go() {
   if (!std::exchange(moved_, false)) return std::nullopt;
   HP_ASSIGN_OR_RETURN(auto rig, client::stop_rig(daemon_));
   return rig;

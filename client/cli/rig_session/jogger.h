@@ -36,7 +36,7 @@ class Jogger {
   /// Must be called at least every 50 ms. Jogs while a key is held, and stops the axis after its
   /// release. Temporary refusals of the rig (a limit, a motion that has to end) appear in text().
   /// @return the rig's response, if a command was sent; an error if jogging cannot continue
-  [[nodiscard]] Result<std::optional<client::Rig>> tick(TimePoint now);
+  [[nodiscard]] Result<std::optional<v1::Rig>> tick(TimePoint now);
 
   /// "down at 5.00 mm/s", or the reason why the axis does not move.
   [[nodiscard]] std::string text() const;
@@ -44,7 +44,7 @@ class Jogger {
   [[nodiscard]] bool is_held() const { return direction_ != 0 || moved_; }
 
  private:
-  [[nodiscard]] Result<std::optional<client::Rig>> let_go();
+  [[nodiscard]] Result<std::optional<v1::Rig>> let_go();
 
   client::Connection& daemon_;
   std::string lease_id_;

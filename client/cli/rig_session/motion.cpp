@@ -9,6 +9,7 @@
 
 #include "client/cli/format/rig_display.h"
 #include "client/cli/terminal/console.h"
+#include "client/rig.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -18,36 +19,36 @@ using Clock = std::chrono::steady_clock;
 constexpr double kRate_hz = 10;
 constexpr std::chrono::seconds kRestWithin{2};
 
-bool moves(const client::Rig& rig) {
-  using enum client::RigState;
-  return rig.state == kMoving || rig.state == kDipping || rig.state == kStopping;
+bool moves(const v1::Rig& rig) {
+  return rig.state() == v1::Rig::MOVING || rig.state() == v1::Rig::DIPPING ||
+         rig.state() == v1::Rig::STOPPING;
 }
 
-std::string position(const client::Rig& rig) {
-  return rig.position_mm ? "at " + format_fixed(*rig.position_mm) + " mm"
-                         : "at an unknown position";
+std::string position(const v1::Rig& rig) {
+  return rig.has_position_mm() ? "at " + format_fixed(rig.position_mm()) + " mm"
+                               : "at an unknown position";
 }
 
 // Whether the motion has ended, and the axis is at standstill or no longer moving.
-bool is_over(const client::Rig& rig, std::uint64_t number) {
-  if (!rig.motion || rig.motion->number != number) return true;
-  if (rig.motion->outcome == client::MotionOutcome::kRunning) return false;
-  return rig.motion->at_rest || !moves(rig);
+bool is_over(const v1::Rig& rig, std::uint64_t number) {
+  if (!rig.has_motion() || rig.motion().number() != number) return true;
+  if (rig.motion().outcome() == v1::Motion::RUNNING) return false;
+  return rig.motion().at_rest() || !moves(rig);
 }
 
 // Returns an error if the motion did not reach its target.
-Status judge(const client::Rig& rig, std::uint64_t number) {
-  if (!rig.motion || rig.motion->number != number)
+Status judge(const v1::Rig& rig, std::uint64_t number) {
+  if (!rig.has_motion() || rig.motion().number() != number)
     return fail(Code::kAborted,
                 "another motion has replaced this one; see 'hydroprint rig status'");
-  const client::Motion& motion = *rig.motion;
-  if (motion.outcome == client::MotionOutcome::kDone) return {};
-  if (motion.outcome == client::MotionOutcome::kStopped)
+  const v1::Motion& motion = rig.motion();
+  if (motion.outcome() == v1::Motion::DONE) return {};
+  if (motion.outcome() == v1::Motion::STOPPED)
     return fail(Code::kAborted, "the axis was stopped " + position(rig));
   return fail(Code::kInternal,
               "the motion failed " + position(rig) + ": " +
-                  (rig.trouble.empty() ? motion.cause : rig.trouble),
-              motion.cause);
+                  (rig.trouble().empty() ? motion.cause() : rig.trouble()),
+              motion.cause());
 }
 
 Error stopped_on_request(const Program& program) {
@@ -70,7 +71,7 @@ Error lost(Error error) {
 
 }  // namespace
 
-Result<client::Rig> wait_for_rest(const Program& program) {
+Result<v1::Rig> wait_for_rest(const Program& program) {
   client::Connection daemon = program.uninterrupted();
   auto rig = client::get_rig(daemon);
   for (const auto begin = Clock::now(); rig && moves(*rig) && Clock::now() - begin < kRestWithin;) {
@@ -80,19 +81,19 @@ Result<client::Rig> wait_for_rest(const Program& program) {
   return rig;
 }
 
-Result<client::Rig> stop_and_wait(const Program& program) {
+Result<v1::Rig> stop_and_wait(const Program& program) {
   client::Connection daemon = program.uninterrupted();
   HP_RETURN_IF_ERROR(client::stop_rig(daemon));
   return wait_for_rest(program);
 }
 
-Result<client::Rig> wait_for_motion(Program& program, Result<client::Rig> begun) {
+Result<v1::Rig> wait_for_motion(Program& program, Result<v1::Rig> begun) {
   RigDisplay display(STDERR_FILENO);
   std::uint64_t number = 0;
   Status followed;
   if (begun) {
-    number = begun->motion ? begun->motion->number : 0;
-    followed = client::watch_rig(program.daemon(), kRate_hz, [&](const client::Rig& rig) {
+    number = begun->motion().number();
+    followed = client::watch_rig(program.daemon(), kRate_hz, [&](const v1::Rig& rig) {
       begun = rig;
       if (is_over(rig, number)) return false;
       display.update(rig);

@@ -11,12 +11,12 @@ namespace hydroprint::cli {
 /// @param begun  the daemon's response to the command
 /// @return the rig if the motion reached its target; kAborted if it was stopped, kInternal if it
 ///   failed, kCancelled on Ctrl-C, kUnavailable if the daemon is lost
-[[nodiscard]] Result<client::Rig> wait_for_motion(Program& program, Result<client::Rig> begun);
+[[nodiscard]] Result<v1::Rig> wait_for_motion(Program& program, Result<v1::Rig> begun);
 
 /// Waits for up to two seconds until the axis is at standstill. Not affected by Ctrl-C.
-[[nodiscard]] Result<client::Rig> wait_for_rest(const Program& program);
+[[nodiscard]] Result<v1::Rig> wait_for_rest(const Program& program);
 
 /// Stops the axis and waits in the same way.
-[[nodiscard]] Result<client::Rig> stop_and_wait(const Program& program);
+[[nodiscard]] Result<v1::Rig> stop_and_wait(const Program& program);
 
 }  // namespace hydroprint::cli

@@ -64,16 +64,6 @@ std::string format_time(const std::optional<std::chrono::system_clock::time_poin
   return format_calendar("%Y-%m-%d %H:%M:%S", local);
 }
 
-std::string format_rfc3339(std::chrono::system_clock::time_point time) {
-  using namespace std::chrono;
-  const auto whole = floor<seconds>(time);
-  const std::time_t counted = system_clock::to_time_t(whole);
-  std::tm utc{};
-  gmtime_r(&counted, &utc);
-  const auto part = static_cast<int>(duration_cast<milliseconds>(time - whole).count());
-  return format_calendar("%Y-%m-%dT%H:%M:%S", utc) + format(".%03dZ", part);
-}
-
 std::string format_fixed(double value) { return format("%.2f", value); }
 
 LiveLine::LiveLine(int descriptor)

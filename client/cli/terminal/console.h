@@ -21,9 +21,6 @@ namespace hydroprint::cli {
 [[nodiscard]] std::string format_time(
     const std::optional<std::chrono::system_clock::time_point>& time);
 
-/// UTC, RFC 3339, for JSON.
-[[nodiscard]] std::string format_rfc3339(std::chrono::system_clock::time_point time);
-
 /// "0.05", "-12.30": for millimetres and millimetres per second.
 [[nodiscard]] std::string format_fixed(double value);
 

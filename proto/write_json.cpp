@@ -1,0 +1,24 @@
+#include "proto/write_json.h"
+
+#include <google/protobuf/message.h>
+#include <google/protobuf/util/json_util.h>
+
+#include "sim/base/one_line.h"
+
+namespace hydroprint {
+
+namespace pb = google::protobuf;
+
+Result<std::string> write_json(const pb::Message& message) {
+  pb::util::JsonPrintOptions options;
+  options.always_print_primitive_fields = true;
+  std::string text;
+  const auto status = pb::util::MessageToJsonString(message, &text, options);
+  if (!status.ok()) {
+    return fail(Code::kInternal, message.GetTypeName() + " cannot be written as JSON: " +
+                                     one_line(status.message().ToString()));
+  }
+  return text;
+}
+
+}  // namespace hydroprint
