@@ -11,6 +11,8 @@
 #include "client/cli/rig_session/held_lease.h"
 #include "client/loop/draws.h"
 #include "client/loop/measure.h"
+#include "hydroprint/v1/calibration_service.pb.h"
+#include "hydroprint/v1/job.pb.h"
 #include "sim/base/result.h"
 
 namespace hydroprint::cli {
