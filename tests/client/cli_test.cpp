@@ -321,11 +321,11 @@ TEST_F(Cli, WithoutACommandItPrintsTheHelp) {
 
 TEST_F(Cli, CommandsWithoutAVerbShowTheirState) {
   start();
-  submit("sleep 0.1");
-  EXPECT_EQ(client({"queue"}).out, client({"queue", "show"}).out);
+  EXPECT_EQ(client_json({"queue", "pause"}).at("paused"), true);
+  const std::string job = submit("sleep 0.1");
+  EXPECT_EQ(client({"queue"}).out, "paused: \nrunning:\nqueued:  " + job + "\n");
   EXPECT_EQ(client({"rig"}).out, client({"rig", "status"}).out);
   EXPECT_EQ(client_json({"assets"}).at("assets").size(), 1U);
-  EXPECT_EQ(client_json({"queue", "pause"}).at("paused"), true);
 }
 
 TEST_F(Cli, ListShowsTheJobsOfAnOwner) {
