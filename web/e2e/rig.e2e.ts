@@ -197,12 +197,12 @@ test('a dip is guided step by step with one large button', async () => {
   await page.locator('input[type=file]').setInputFiles([obj, mtl, png]);
   await page.getByLabel('Longest side').fill('30');
   await page.getByText('More settings').click();
-  await type(page, 'Depth', '4000');
-  await page.getByText('Out of range. Enter 0.1 to 2000 mm.').waitFor();
+  await type(page, 'Depth', '40000');
+  await page.getByText('Out of range. Enter 0.001 to 10000 mm.').waitFor();
   await page.getByText('Correct “Depth” first').waitFor();
   const compute = page.getByRole('button', { name: 'Simulate' });
   expect(await compute.isDisabled()).toBe(true);
-  expect(await page.getByLabel('Depth').inputValue()).toBe('4000');
+  expect(await page.getByLabel('Depth').inputValue()).toBe('40000');
   await look(person, 'new-print-out-of-range');
   await page.getByLabel('Depth').fill('4');
   await page.getByLabel('Simulation model').selectOption('MODEL_STOKES');

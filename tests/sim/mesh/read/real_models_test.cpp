@@ -15,7 +15,7 @@ struct Expected {
   bool closed;
 };
 
-class RealModel : public testing::TestWithParam<Expected> {};
+class RealModel : public ::testing::TestWithParam<Expected> {};
 
 std::filesystem::path model_path(const std::string& name) {
   return std::filesystem::path(HYDROPRINT_MODELS_DIR) / name;
@@ -39,7 +39,7 @@ TEST_P(RealModel, IsReadAsItsReadmeDescribesIt) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, RealModel,
-    testing::Values(Expected{"spot/spot_triangulated.obj", 2930, 5856, true, true},
+    ::testing::Values(Expected{"spot/spot_triangulated.obj", 2930, 5856, true, true},
                     Expected{"spot/spot_quadrangulated.obj", 2930, 5856, true, true},
                     Expected{"bunny/bunny_with_uv.obj", 2741, 4968, true, false},
                     Expected{"bunny/bunny_hr.obj", 29834, 59664, false, true},
