@@ -134,7 +134,7 @@ TEST_F(Previews, EndWithTheDaemonEvenIfAWorkerIsSilent) {
     v1::Preview out;
     EXPECT_FALSE(preview("mute", out).ok());
   });
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  std::this_thread::sleep_for(std::chrono::seconds(2));  // a slow build still uploads
   EXPECT_EQ(daemon->terminate(), 0);
   waiting.join();
 }
