@@ -40,14 +40,14 @@ TEST_P(RealModel, IsReadAsItsReadmeDescribesIt) {
 INSTANTIATE_TEST_SUITE_P(
     All, RealModel,
     ::testing::Values(Expected{"spot/spot_triangulated.obj", 2930, 5856, true, true},
-                    Expected{"spot/spot_quadrangulated.obj", 2930, 5856, true, true},
-                    Expected{"bunny/bunny_with_uv.obj", 2741, 4968, true, false},
-                    Expected{"bunny/bunny_hr.obj", 29834, 59664, false, true},
-                    Expected{"head/LeePerrySmith_converted.obj", 8838, 17672, true, true},
-                    Expected{"mug/mug.obj", 12272, 24544, true, true},
-                    Expected{"cat/cat-low-resolution.obj", 7949, 15894, false, true},
-                    Expected{"bottle/WaterBottle.gltf", 2549, 4510, true, false},
-                    Expected{"bottle/WaterBottle_converted.obj", 2385, 4510, true, false}));
+                      Expected{"spot/spot_quadrangulated.obj", 2930, 5856, true, true},
+                      Expected{"bunny/bunny_with_uv.obj", 2741, 4968, true, false},
+                      Expected{"bunny/bunny_hr.obj", 29834, 59664, false, true},
+                      Expected{"head/LeePerrySmith_converted.obj", 8838, 17672, true, true},
+                      Expected{"mug/mug.obj", 12272, 24544, true, true},
+                      Expected{"cat/cat-low-resolution.obj", 7949, 15894, false, true},
+                      Expected{"bottle/WaterBottle.gltf", 2549, 4510, true, false},
+                      Expected{"bottle/WaterBottle_converted.obj", 2385, 4510, true, false}));
 
 TEST(RealModels, BottleAsGltfAndAsObjAgree) {
   const auto path = model_path("bottle/WaterBottle.gltf");
