@@ -118,14 +118,38 @@ class Quiet {
   std::map<std::string, std::int64_t> told_;
 };
 
-struct Surroundings {
-  auth::AuditLog& audit;
-  Quiet quiet;
+// Calls that clients repeat for as long as something goes on.
+bool is_frequent(const std::string& what) {
+  return what == "RigService.Jog" || what == "LeaseService.RenewLease";
+}
+
+/// Records calls; frequent ones at most once a minute for each caller and outcome.
+class Recorder {
+ public:
+  explicit Recorder(auth::AuditLog& audit) : audit_(audit) {}
+
+  void record(const auth::AuditEntry& entry) { static_cast<void>(note(entry)); }
+  /// Also waits until the entry is on disk, except for calls that stop the rig or keep it in
+  /// motion.
+  void record_on_disk(const auth::AuditEntry& entry) {
+    const std::uint64_t noted = note(entry);
+    if (is_frequent(entry.what) || entry.what == "RigService.StopMotion") return;
+    audit_.wait_written(noted, kWritten_ms);
+  }
+
+ private:
+  std::uint64_t note(const auth::AuditEntry& entry) {
+    const std::string key = entry.who + " " + entry.what + entry.outcome;
+    return is_frequent(entry.what) && !quiet_.is_new(key) ? 0 : audit_.note(entry);
+  }
+
+  auth::AuditLog& audit_;
+  Quiet quiet_;
 };
 
 class AuditInterceptor final : public grpc::experimental::Interceptor {
  public:
-  AuditInterceptor(ServerRpcInfo& call, Surroundings& around) : call_(call), around_(around) {}
+  AuditInterceptor(ServerRpcInfo& call, Recorder& recorder) : call_(call), recorder_(recorder) {}
 
   void Intercept(InterceptorBatchMethods* step) override {
     if (step->QueryInterceptionHookPoint(InterceptionHookPoints::POST_RECV_INITIAL_METADATA)) {
@@ -166,17 +190,11 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
     entry_.outcome = outcome_of(status);
     if (!status.ok()) entry_.detail = one_line(status.error_message());
     entry_.detail = entry_.detail.substr(0, kLongestDetail);
-    const bool is_repeated =
-        entry_.what == "RigService.Jog" || entry_.what == "LeaseService.RenewLease";
-    if (is_repeated && !around_.quiet.is_new(entry_.who + " " + entry_.what + entry_.outcome))
-      return;
-    const std::uint64_t noted = around_.audit.note(entry_);
-    if (is_repeated || entry_.what == "RigService.StopMotion") return;
-    around_.audit.wait_written(noted, kWritten_ms);
+    recorder_.record_on_disk(entry_);
   }
 
   ServerRpcInfo& call_;
-  Surroundings& around_;
+  Recorder& recorder_;
   auth::AuditEntry entry_;
 };
 
@@ -196,15 +214,15 @@ bool is_noted(std::string method) {
 
 class AuditInterceptorFactory final : public grpc::experimental::ServerInterceptorFactoryInterface {
  public:
-  explicit AuditInterceptorFactory(auth::AuditLog& audit) : around_{audit, {}} {}
+  explicit AuditInterceptorFactory(auth::AuditLog& audit) : recorder_(audit) {}
 
   grpc::experimental::Interceptor* CreateServerInterceptor(ServerRpcInfo* call) override {
-    return is_noted(call->method()) ? new AuditInterceptor(*call, around_)
+    return is_noted(call->method()) ? new AuditInterceptor(*call, recorder_)
                                     : nullptr;  // gRPC takes ownership
   }
 
  private:
-  Surroundings around_;
+  Recorder recorder_;
 };
 
 }  // namespace
@@ -214,18 +232,20 @@ std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> make_audi
   return std::make_unique<AuditInterceptorFactory>(audit);
 }
 
-void record_refusal(auth::AuditLog& audit, const auth::Caller& caller, std::string_view method,
-                    const Error& error) {
-  const std::string name(method);
-  if (!is_noted(name)) return;
-  auth::AuditEntry entry;
-  entry.who = caller.name;
-  entry.via = caller.via;
-  entry.peer = caller.credentials.peer;
-  entry.what = short_name(name);
-  entry.outcome = std::string(code_name(error.code));
-  entry.detail = one_line(error.message).substr(0, kLongestDetail);
-  audit.note(std::move(entry));
+OnRefusal make_refusal_recorder(auth::AuditLog& audit) {
+  return [recorder = std::make_shared<Recorder>(audit)](
+             const auth::Caller& caller, std::string_view method, const Error& error) {
+    const std::string name(method);
+    if (!is_noted(name)) return;
+    auth::AuditEntry entry;
+    entry.who = caller.name;
+    entry.via = caller.via;
+    entry.peer = caller.credentials.peer;
+    entry.what = short_name(name);
+    entry.outcome = std::string(code_name(error.code));
+    entry.detail = one_line(error.message).substr(0, kLongestDetail);
+    recorder->record(entry);
+  };
 }
 
 }  // namespace hydroprint::daemon

@@ -3,10 +3,9 @@
 #include <grpcpp/support/server_interceptor.h>
 
 #include <memory>
-#include <string_view>
 
-#include "daemon/auth/account.h"
 #include "daemon/auth/audit_log.h"
+#include "daemon/auth/role_check.h"
 
 namespace hydroprint::daemon {
 
@@ -19,8 +18,8 @@ namespace hydroprint::daemon {
 [[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>
 make_audit_interceptor(auth::AuditLog& audit);
 
-/// Records that an endpoint refused a call, if calls of the method are recorded. Does not wait.
-void record_refusal(auth::AuditLog& audit, const auth::Caller& caller, std::string_view method,
-                    const Error& error);
+/// Records calls that an endpoint refuses because of the caller's role, by the same rules. Does not
+/// wait. `audit` must outlive it.
+[[nodiscard]] OnRefusal make_refusal_recorder(auth::AuditLog& audit);
 
 }  // namespace hydroprint::daemon

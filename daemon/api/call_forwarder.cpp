@@ -34,12 +34,13 @@ bool is_grpcs_own(std::string_view method) {
   return method.starts_with("/grpc.health.v1.") || method.starts_with("/grpc.reflection.v1alpha.");
 }
 
+class ForwardedCall;
+
 /// The client end of the channel within the process, through which the call reaches the service.
-/// Passes its events to the forwarded call (`Peer`).
-template <class Peer>
+/// Passes its events to the forwarded call.
 class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
-  explicit ServiceSide(Peer& peer) : peer_(peer) {}
+  explicit ServiceSide(ForwardedCall& call) : call_(call) {}
 
   void begin(grpc::GenericStub& stub, const std::string& method, const CallMetadata& metadata,
              std::chrono::system_clock::time_point deadline) {
@@ -69,11 +70,9 @@ class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
   }
   void try_cancel() { context_.TryCancel(); }
 
-  void OnReadDone(bool ok) override { ok ? peer_.respond() : close(); }
-  void OnWriteDone(bool ok) override {
-    if (ok) peer_.read();
-  }
-  void OnDone(const grpc::Status& status) override { peer_.finish(status); }
+  void OnReadDone(bool ok) override;
+  void OnWriteDone(bool ok) override;
+  void OnDone(const grpc::Status& status) override;
 
   grpc::ByteBuffer request, response;
 
@@ -103,7 +102,7 @@ class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
     if (is_last) RemoveHold();
   }
 
-  Peer& peer_;
+  ForwardedCall& call_;
   grpc::ClientContext context_;
   std::mutex mutex_;  // protects the members below
   bool is_closed_ = false;
@@ -131,8 +130,14 @@ class ForwardedCall final : public grpc::ServerGenericBidiReactor {
   void OnDone() override { delete this; }
 
  private:
-  ServiceSide<ForwardedCall> service_{*this};
+  ServiceSide service_{*this};
 };
+
+void ServiceSide::OnReadDone(bool ok) { ok ? call_.respond() : close(); }
+void ServiceSide::OnWriteDone(bool ok) {
+  if (ok) call_.read();
+}
+void ServiceSide::OnDone(const grpc::Status& status) { call_.finish(status); }
 
 class RefusedCall final : public grpc::ServerGenericBidiReactor {
  public:

@@ -138,11 +138,8 @@ Result<std::unique_ptr<Server>> Server::start(const Endpoint& endpoint, bool ref
   gpr_set_log_function(log_of_grpc);
   std::vector<std::string> names;
   for (const NamedService& service : kServices) names.emplace_back(service.name);
-  const auto on_refusal = [&audit = backend.audit](const auth::Caller& caller,
-                                                   std::string_view method, const Error& error) {
-    record_refusal(audit, caller, method, error);
-  };
-  HP_ASSIGN_OR_RETURN(RoleCheck roles, RoleCheck::make(backend.access, names, on_refusal));
+  HP_ASSIGN_OR_RETURN(RoleCheck roles,
+                      RoleCheck::make(backend.access, names, make_refusal_recorder(backend.audit)));
   std::unique_ptr<Server> server(new Server(std::make_unique<Impl>(std::move(roles), backend)));
   Impl& impl = *server->impl_;
   impl.start_services(reflection, backend.audit);

@@ -39,7 +39,6 @@ class OutFolder {
 
  private:
   explicit OutFolder(std::filesystem::path dir);
-  [[nodiscard]] bool lock();
 
   std::filesystem::path dir_;
   std::filesystem::path partial_;

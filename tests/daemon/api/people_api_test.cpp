@@ -359,6 +359,17 @@ TEST_F(PeopleApi, AuditLogHasMotionsAndRefusals) {
   EXPECT_EQ(entries[2].who(), "operator");
 }
 
+TEST_F(PeopleApi, RepeatedRefusalsOfAFrequentCallAreRecordedOnce) {
+  const auto rig = v1::RigService::NewStub(as("")->channel);
+  const auto viewer = as("viewer"), admin = as("admin");
+  for (int i = 0; i < 5; ++i) {
+    v1::Rig reply;
+    expect_refusal(rig->Jog(viewer->context().get(), {}, &reply), StatusCode::PERMISSION_DENIED,
+                   "ROLE_TOO_LOW");
+  }
+  EXPECT_EQ(audit(*admin, "RigService.Jog").size(), 1U);
+}
+
 TEST_F(PeopleApi, UsersSurviveAKill) {
   daemon.kill();
   daemon.start();
