@@ -37,7 +37,7 @@ class Seeds {
   std::string list_;
 };
 
-simulated_drive::Body body_of(const DriveProfile& profile) {
+simulated_drive::Plant plant_of(const DriveProfile& profile) {
   const auto& watchdog = profile.watchdog;
   const bool acts = watchdog && !watchdog->stopping.empty();
   simulated_drive::Registers registers(profile, watchdog ? watchdog->largest_time_s : 0,
@@ -51,33 +51,33 @@ Request read(const DriveProfile& profile, const drive::Block& block) {
   return {profile.unit, function, block.address, block.count, {}};
 }
 
-Bytes ask(simulated_drive::Body& body, const Request& request) {
-  return body.answer(encode_request(request)).reply;
+Bytes ask(simulated_drive::Plant& plant, const Request& request) {
+  return plant.answer(encode_request(request)).reply;
 }
 
-void add_poll(Seeds& seeds, simulated_drive::Body& body, std::uint8_t number,
+void add_poll(Seeds& seeds, simulated_drive::Plant& plant, std::uint8_t number,
               const DriveProfile& profile) {
   std::vector<Bytes> replies;
   for (const drive::Block& block : profile.blocks) {
-    replies.push_back(ask(body, read(profile, block)));
+    replies.push_back(ask(plant, read(profile, block)));
   }
   seeds.add(input_of(number, replies));
 }
 
 void add_drive(Seeds& seeds, std::uint8_t number, const DriveProfile& profile) {
-  simulated_drive::Body body = body_of(profile);
-  add_poll(seeds, body, number, profile);
+  simulated_drive::Plant plant = plant_of(profile);
+  add_poll(seeds, plant, number, profile);
   for (std::size_t i = 0; i < drive::kCommands; ++i) {
     const auto requests = drive::requests_for(profile, static_cast<Command>(i), 12.5, 5);
     if (!requests) continue;
-    for (const Request& request : *requests) seeds.add(input_of({request, ask(body, request)}));
+    for (const Request& request : *requests) seeds.add(input_of({request, ask(plant, request)}));
   }
-  add_poll(seeds, body, number, profile);
+  add_poll(seeds, plant, number, profile);
   const Request nowhere{profile.unit, Function::kReadHolding, 0xfff0, 4, {}};
-  seeds.add(input_of({nowhere, ask(body, nowhere)}));
-  body.strike({simulated_drive::ReplyFault::kBusy});
+  seeds.add(input_of({nowhere, ask(plant, nowhere)}));
+  plant.set_reply_fault({simulated_drive::ReplyFaultKind::kBusy});
   const Request busy = read(profile, profile.blocks.front());
-  seeds.add(input_of({busy, ask(body, busy)}));
+  seeds.add(input_of({busy, ask(plant, busy)}));
 }
 
 int make(const std::filesystem::path& folder, std::span<char*> profiles) {
