@@ -73,6 +73,7 @@ std::unique_ptr<Message> copy_of(const Message& message) {
 
 Result<JobRequest> job_request(const JobKind& kind, const v1::Job& sent,
                                const JobSources& sources) {
+  HP_RETURN_IF_ERROR(check_fields(sent));
   JobRequest out;
   out.job.set_display_name(sent.display_name());
   *out.job.mutable_labels() = sent.labels();

@@ -4,10 +4,6 @@
 
 namespace hydroprint::daemon {
 
-tl::unexpected<Error> taken_from(const std::string& field, const std::string& source) {
-  return invalid_field(field, "is taken from " + source + "; leave one of the two out");
-}
-
 Status check_frames(const std::string& kind, const InputFiles& frames, int most_views) {
   const int views = count_views(frames);
   if (views == 0) {

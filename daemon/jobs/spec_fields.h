@@ -14,9 +14,6 @@ namespace hydroprint::daemon {
 
 using InputFiles = google::protobuf::RepeatedPtrField<v1::InputFile>;
 
-/// Refuses a field whose value comes from elsewhere: "is taken from simulate_job; ...".
-[[nodiscard]] tl::unexpected<Error> taken_from(const std::string& field, const std::string& source);
-
 /// Checks frames as hydroprint-capture writes them: a folder with frames.json for each view.
 [[nodiscard]] Status check_frames(const std::string& kind, const InputFiles& frames,
                                   int most_views);

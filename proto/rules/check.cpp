@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "hydroprint/v1/field_rules.pb.h"
 #include "proto/rules/field_rules.h"
@@ -73,15 +74,47 @@ std::string duration_problem(const pb::FieldDescriptor& field, const v1::FieldRu
       static_cast<double>(duration.seconds()) + static_cast<double>(duration.nanos()) * 1e-9);
 }
 
+int count_of(const pb::Message& message, const pb::FieldDescriptor& field) {
+  const pb::Reflection& reflection = *message.GetReflection();
+  return field.is_repeated() ? reflection.FieldSize(message, &field)
+                             : reflection.HasField(message, &field);
+}
+
+bool has(const pb::Message& message, const std::string& name) {
+  const pb::FieldDescriptor* const field = message.GetDescriptor()->FindFieldByName(name);
+  return field != nullptr && count_of(message, *field) > 0;
+}
+
+// Names of the fields that other fields, which are set, replace; with the names of those.
+std::map<std::string, std::string> replaced_fields(const pb::Message& message) {
+  std::map<std::string, std::string> out;
+  std::vector<const pb::FieldDescriptor*> fields;
+  message.GetReflection()->ListFields(message, &fields);
+  for (const pb::FieldDescriptor* field : fields) {
+    const v1::FieldRules* const rules = rules_of(*field);
+    if (rules == nullptr) continue;
+    for (const std::string& name : rules->replaces()) out[name] = field->name();
+  }
+  return out;
+}
+
 class Checker {
  public:
   explicit Checker(const FormatChecks& formats) : formats_(formats) {}
 
   void check_message(const pb::Message& message, const std::string& path) {
     const pb::Descriptor& type = *message.GetDescriptor();
+    const auto replaced = replaced_fields(message);
     for (int i = 0; i < type.field_count(); ++i) {
       const pb::FieldDescriptor& field = *type.field(i);
-      check_field(message, field, (path.empty() ? "" : path + ".") + field.name());
+      const std::string place = (path.empty() ? "" : path + ".") + field.name();
+      const auto by = replaced.find(field.name());
+      if (by != replaced.end() && count_of(message, field) > 0) {
+        violations_.push_back(
+            {place, "is taken from " + by->second + "; leave one of the two out", kDefaultReason});
+      } else {
+        check_field(message, field, place);
+      }
     }
   }
 
@@ -93,11 +126,9 @@ class Checker {
     const v1::FieldRules* const found = rules_of(field);
     const v1::FieldRules& rules = found == nullptr ? v1::FieldRules::default_instance() : *found;
     if (rules.read_only()) return;
-    const pb::Reflection& reflection = *message.GetReflection();
-    const int count = field.is_repeated() ? reflection.FieldSize(message, &field)
-                                          : reflection.HasField(message, &field);
+    const int count = count_of(message, field);
     if (count == 0) {
-      if (rules.required()) add(path, rules, "is missing");
+      if (rules.required() && !has(message, rules.unless())) add(path, rules, "is missing");
       return;
     }
     if (!field.is_repeated()) {

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "hydroprint/v1/field_rules.pb.h"
+#include "proto/rules/comments.h"
 
 namespace hydroprint::rules {
 namespace {
@@ -58,15 +59,34 @@ std::string choice_text(const pb::EnumValueDescriptor& value) {
   return text;
 }
 
+// The field that declares the rules: the one itself, or the one that it names as `like`.
+const pb::FieldDescriptor& declared_by(const pb::FieldDescriptor& field) {
+  const std::string& like = field.options().GetExtension(v1::rules).like();
+  if (like.empty()) return field;
+  const auto* other = field.file()->pool()->FindFieldByName(field.file()->package() + "." + like);
+  return other == nullptr ? field : *other;
+}
+
+std::string joined(const std::string& first, const std::string& second) {
+  return first.empty() || second.empty() ? first + second : first + "; " + second;
+}
+
+// Range, unit and choices.
+std::string limits(const pb::FieldDescriptor& field) {
+  std::string text = range_text(field);
+  const v1::FieldRules* const rules = rules_of(field);
+  if (text.empty() && rules != nullptr && !rules->unit().empty()) text = "in " + rules->unit();
+  std::string names;
+  for (const std::string& name : choices(field)) names += (names.empty() ? "" : ", ") + name;
+  return joined(text, names);
+}
+
 }  // namespace
 
 const v1::FieldRules* rules_of(const pb::FieldDescriptor& field) {
-  if (!field.options().HasExtension(v1::rules)) return nullptr;
-  const v1::FieldRules& rules = field.options().GetExtension(v1::rules);
-  if (rules.like().empty()) return &rules;
-  const auto* other =
-      field.file()->pool()->FindFieldByName(field.file()->package() + "." + rules.like());
-  return other == nullptr ? nullptr : &other->options().GetExtension(v1::rules);
+  const pb::FieldDescriptor& declared = declared_by(field);
+  if (!declared.options().HasExtension(v1::rules)) return nullptr;
+  return &declared.options().GetExtension(v1::rules);
 }
 
 bool is_in_range(const v1::FieldRules& rules, double value) {
@@ -111,15 +131,20 @@ std::string default_text(const pb::FieldDescriptor& field) {
 }
 
 std::string help_text(const pb::FieldDescriptor& field) {
-  std::string text = range_text(field);
-  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
+  const std::string value = default_text(field);
+  return joined(limits(field), value.empty() ? value : "default " + value);
+}
+
+std::string flag_help(const pb::FieldDescriptor& field) {
   const v1::FieldRules* const rules = rules_of(field);
-  if (text.empty() && rules != nullptr && !rules->unit().empty()) add("in " + rules->unit());
-  std::string names;
-  for (const std::string& name : choices(field)) names += (names.empty() ? "" : ", ") + name;
-  if (!names.empty()) add(names);
-  if (const std::string value = default_text(field); !value.empty()) add("default " + value);
-  return text;
+  std::string comment = comment_on(field.full_name());
+  if (comment.starts_with("See ")) comment = comment_on(declared_by(field).full_name());
+  std::string text = rules == nullptr ? std::string() : rules->flag_help();
+  const std::string value = text.empty() ? stated_default(comment) : std::string();
+  if (text.empty()) text = first_sentence(comment);
+  const std::string details =
+      value.empty() ? help_text(field) : joined(limits(field), "default: " + value);
+  return details.empty() ? text : text + " (" + details + ")";
 }
 
 std::string flag_of(const pb::FieldDescriptor& field) {

@@ -34,6 +34,12 @@ namespace hydroprint::rules {
 /// if the field has none of them.
 [[nodiscard]] std::string help_text(const google::protobuf::FieldDescriptor& field);
 
+/// Help text of the field's command-line flag: its `flag_help`, otherwise the first sentence of its
+/// comment. Range, choices and default follow in parentheses; a default that the comment states
+/// ("Default: ...") replaces the declared one. If the comment is only "See ...", that of the field
+/// with the same rules (`like`) is used.
+[[nodiscard]] std::string flag_help(const google::protobuf::FieldDescriptor& field);
+
 /// Name of the field's command-line flag, without dashes before it: "dip-speed-mm-per-s".
 [[nodiscard]] std::string flag_of(const google::protobuf::FieldDescriptor& field);
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "proto/flags/field_flag.h"
 #include "sim/worker/common/fields.h"
 #include "sim/worker/common/flags.h"
 #include "sim/worker/common/input_folder.h"
@@ -106,7 +107,8 @@ void VerbParser::add_run_flags() {
                     "File descriptor for progress, one JSON object per line")
         ->type_name("N");
   }
-  flags_.add("threads", "Number of threads; default: all cores");
+  flags::add_field(app_, *spec_, *spec_->GetDescriptor()->FindFieldByName("threads"))
+      ->description("Number of threads; default: all cores");
 }
 
 void VerbParser::add_spec_flags() {

@@ -5,12 +5,10 @@
 #include <google/protobuf/util/json_util.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <string>
-#include <string_view>
 
 #include "hydroprint/v1/spec.pb.h"
 #include "sim/base/input_file.h"
@@ -23,11 +21,6 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
 constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
-
-/// References that a daemon replaces with files and values before a worker starts.
-constexpr std::array<std::string_view, 6> kReferences = {
-    "simulate_job", "capture_job",        "capture_jobs",
-    "calibration",  "camera_calibration", "allow_stale_calibration"};
 
 Result<std::string> read_stdin() {
   std::string text;
@@ -86,7 +79,7 @@ Status check(const Message& spec, const std::filesystem::path& inputs) {
   std::vector<const FieldDescriptor*> fields;
   spec.GetReflection()->ListFields(spec, &fields);
   for (const FieldDescriptor* field : fields) {
-    if (std::find(kReferences.begin(), kReferences.end(), field->name()) != kReferences.end()) {
+    if (is_reference(*field)) {
       return fail_field(Code::kInvalidArgument, field->name(),
                         "only a daemon can resolve this. Give files and values instead");
     }

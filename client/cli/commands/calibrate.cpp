@@ -9,18 +9,17 @@
 #include "client/cli/format/calibration_text.h"
 #include "client/cli/job_io/finish.h"
 #include "client/cli/job_io/inputs.h"
-#include "client/cli/job_io/spec_fields.h"
+#include "client/cli/job_io/submit_flags.h"
 #include "client/cli/job_io/wait.h"
 #include "client/cli/program/program.h"
 #include "client/jobs.h"
-#include "client/pose_file.h"
 
 namespace hydroprint::cli {
 namespace {
 
 struct CalibrateOptions {
-  v1::CalibrateSpec spec;
-  std::string mesh, pose, film, capture_job, frames, layout, camera;
+  SubmitOptions inputs;
+  std::string capture_job, frames, camera;
   std::optional<double> seconds;
   client::JobOptions job;
   FinishOptions finish;
@@ -61,16 +60,9 @@ Status take_camera(const std::string& camera, Inputs& inputs, v1::CalibrateSpec&
 }
 
 Result<v1::Job> make_job(Program& program, const CalibrateOptions& options) {
-  v1::Job job;
-  v1::CalibrateSpec& spec = *job.mutable_calibrate();
-  spec = options.spec;
   Inputs inputs(program.daemon());
-  if (!options.pose.empty()) {
-    HP_ASSIGN_OR_RETURN(*spec.mutable_pose(), client::read_pose_file(options.pose));
-  }
-  HP_RETURN_IF_ERROR(inputs.add_model(options.mesh, spec));
-  HP_RETURN_IF_ERROR(inputs.add_film(options.film, spec));
-  HP_RETURN_IF_ERROR(inputs.add_to(spec, "layout", options.layout));
+  HP_ASSIGN_OR_RETURN(v1::Job job, upload_inputs(inputs, options.inputs));
+  v1::CalibrateSpec& spec = *job.mutable_calibrate();
   HP_RETURN_IF_ERROR(take_camera(options.camera, inputs, spec));
   HP_RETURN_IF_ERROR(take_frames(program, options, inputs, spec));
   return job;
@@ -111,23 +103,6 @@ void add_name(CLI::App& command, client::JobOptions& job) {
   command.add_option("--name", job.display_name, "Display name")->type_name("TEXT");
 }
 
-void add_object_flags(CLI::App& command, CalibrateOptions& options) {
-  command.add_option("--mesh", options.mesh, "The object: OBJ, STL, PLY, glTF or GLB")
-      ->type_name("FILE")
-      ->required();
-  add_field(command, "--scale", options.spec, "scale", "Model units to mm")->type_name("FACTOR");
-  command
-      .add_option(
-          "--pose", options.pose,
-          "Nominal pose: {\"rotation_wxyz\":[w,x,y,z],\"translation_mm\":[x,y,z]}; used for "
-          "motions that the scan cannot determine (a ball's rotation)")
-      ->type_name("FILE");
-  command
-      .add_option("--film", options.film,
-                  "A4, A3, letter, WxH, circle:RADIUS or polygon:FILE.json, in mm; default A4")
-      ->type_name("FILM");
-}
-
 constexpr char kCalibrateFooter[] =
     "Captures frames, unless some are given, and finds the pose of the object over the film in\n"
     "them. The result is stored as a calibration and becomes active. 'hydroprint submit simulate\n"
@@ -150,7 +125,9 @@ void add_calibrate(CLI::App& app, Program& program) {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command =
       app.add_subcommand("calibrate", "Measure the object's pose over the film with the camera");
-  add_object_flags(*command, *options);
+  options->inputs.job.mutable_calibrate();
+  add_spec_flags(*command, options->inputs,
+                 {"mesh", "scale", "pose", "film", "layout", "gripper_mm"});
   auto* seconds =
       command->add_option("--seconds", options->seconds, "Duration of the capture; default 2");
   seconds->type_name("S");
@@ -163,18 +140,10 @@ void add_calibrate(CLI::App& app, Program& program) {
       ->type_name("DIR")
       ->excludes(seconds, job);
   command
-      ->add_option("--layout", options->layout,
-                   "The rig's markers and camera, TOML; default: the daemon's camera.layout")
-      ->type_name("FILE");
-  command
       ->add_option("--camera", options->camera,
                    "Camera calibration: calibrations/2, 2, or a camera.json; default: the active "
                    "one")
       ->type_name("CALIBRATION");
-  add_field(*command, "--gripper-mm", options->spec, "gripper_mm",
-            "Height of the gripper's lower end above the water; default: from the daemon's "
-            "configuration, or no gripper in view")
-      ->type_name("MM");
   add_name(*command, options->job);
   add_finish_flags(*command, options->finish);
   command->footer(kCalibrateFooter);

@@ -123,11 +123,7 @@ void add_enter(CLI::App& parent, Program& program) {
       ->required();
   v1::Calibration& entered = options->entered;
   entered.set_scale(1);
-  add_field(*command, "--scale", entered, "scale", "Model units to mm")->type_name("FACTOR");
-  add_field(*command, "--film", entered, "film",
-            "A4, A3, letter, WxH or circle:RADIUS, in mm; default A4")
-      ->type_name("FILM");
-  add_field(*command, "--name", entered, "display_name", "Display name")->type_name("TEXT");
+  for (const char* field : {"scale", "film", "display_name"}) add_field(*command, entered, field);
   command->footer(
       "For a rig without a camera: position the object as the placement template shows\n"
       "('hydroprint submit template'). hydroprint cannot detect when the pose becomes invalid.\n\n"

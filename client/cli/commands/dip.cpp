@@ -9,7 +9,6 @@
 #include "client/cli/commands/commands.h"
 #include "client/cli/format/json.h"
 #include "client/cli/job_io/dip_record.h"
-#include "client/cli/job_io/field_help.h"
 #include "client/cli/job_io/spec_fields.h"
 #include "client/cli/job_io/wait.h"
 #include "client/cli/program/program.h"
@@ -26,7 +25,7 @@ namespace {
 struct DipOptions {
   v1::DipSpec spec;
   client::JobOptions job;
-  std::string simulate_job, calibration, out;
+  std::string out;
   bool no_guide = false;
 };
 
@@ -87,10 +86,8 @@ Status finish(const Program& program, const v1::Job& job, const DipOptions& opti
   return tl::unexpected(why(job));
 }
 
-Status dip(Program& program, DipOptions options) {
+Status dip(Program& program, const DipOptions& options) {
   HP_RETURN_IF_ERROR(check_terminal(options));
-  options.spec.set_simulate_job(job_name(options.simulate_job));
-  options.spec.set_calibration(calibration_name(options.calibration));
   HP_ASSIGN_OR_RETURN(const auto lease,
                       HeldLease::take_or_acquire(program, purpose_of(options.spec)));
   HP_ASSIGN_OR_RETURN(const v1::Job job,
@@ -106,57 +103,6 @@ Status dip(Program& program, DipOptions options) {
     return tl::unexpected(std::move(ended).error());
   }
   return finish(program, *ended, options);
-}
-
-void add_film_flags(CLI::App& command, v1::DipSpec& spec) {
-  add_field(
-      command, "--film-area-mm2", spec, "film_area_mm2",
-      field_help(
-          "DipSpec.film_area_mm2",
-          "Area of the film, for the amount of activator; default: from the simulation, or A4"))
-      ->type_name("MM2");
-  add_field(command, "--activator-ml-per-m2", spec, "activator_ml_per_m2",
-            field_help("DipSpec.activator_ml_per_m2",
-                       "Amount of activator; default: from the film profile, if any"))
-      ->type_name("ML/M2");
-  add_field(command, "--soak-s", spec, "soak_s",
-            field_help("DipSpec.soak_s",
-                       "Time that the film floats before the activator; default: from the "
-                       "profile, if any"))
-      ->type_name("S");
-  add_field(command, "--activator-wait-s", spec, "activator_wait_s",
-            field_help("DipSpec.activator_wait_s",
-                       "Time that the activator works before the dip; default: from the "
-                       "profile, if any"))
-      ->type_name("S");
-  add_field(
-      command, "--activation-window-s", spec, "activation_window_s",
-      field_help("DipSpec.activation_window_s", "Time after that in which the film can be dipped"))
-      ->type_name("S");
-  add_field(command, "--water-temperature-c", spec, "water_temperature_c",
-            field_help("DipSpec.water_temperature_c", "Temperature of the water, for the record"))
-      ->type_name("C");
-}
-
-void add_motion_flags(CLI::App& command, v1::DipSpec& spec) {
-  add_field(
-      command, "--depth-mm", spec, "depth_mm",
-      field_help("DipSpec.depth_mm", "Depth below first contact; default: from the simulation"))
-      ->type_name("MM");
-  add_field(command, "--speed", spec, "speed_mm_per_s",
-            field_help("DipSpec.speed_mm_per_s",
-                       "Speed of the descent; default: from the simulation, if any"))
-      ->type_name("MM/S");
-  add_field(command, "--retract-speed", spec, "retract_speed_mm_per_s",
-            field_help("DipSpec.retract_speed_mm_per_s",
-                       "Speed of the retraction; default: that of the descent"))
-      ->type_name("MM/S");
-  add_field(command, "--hold-s", spec, "hold_s",
-            field_help("DipSpec.hold_s", "Time that the object stays at the depth"))
-      ->type_name("S");
-  add_field(command, "--clearance-mm", spec, "clearance_mm",
-            field_help("DipSpec.clearance_mm", "Height above the water at which the object waits"))
-      ->type_name("MM");
 }
 
 constexpr char kDipFooter[] =
@@ -178,27 +124,13 @@ constexpr char kDipFooter[] =
 void add_dip(CLI::App& app, Program& program) {
   auto options = std::make_shared<DipOptions>();
   CLI::App* command = app.add_subcommand("dip", "Dip an object, step by step");
-  command
-      ->add_option(
-          "--simulate-job", options->simulate_job,
-          "The simulation whose film image was printed: jobs/7, or 7; gives depth and speed")
-      ->type_name("JOB");
-  command
-      ->add_option("--calibration", options->calibration,
-                   "Pose and first contact of the object: calibrations/3, 3 or active; default: "
-                   "that of the simulation")
-      ->type_name("CALIBRATION");
-  add_stale_flag(*command, options->spec);
-  add_motion_flags(*command, options->spec);
-  add_film_flags(*command, options->spec);
+  add_fields(*command, options->spec);
   command->add_option("--name", options->job.display_name, "Display name of the job")
       ->type_name("TEXT");
   command->add_option("--out", options->out, "Download the dip's record into this folder")
       ->type_name("DIR");
   command->add_flag("--no-guide", options->no_guide,
                     "Create the dip and return; you keep the lease");
-  add_field(*command, "--yes-to-all", options->spec, "yes_to_all",
-            "Skip confirmations and timers; on the virtual rig only");
   command->add_flag("--validate-only", options->job.validate_only, "Check, but create nothing");
   command->footer(kDipFooter);
   program.on(*command, [&program, options] { return dip(program, *options); });

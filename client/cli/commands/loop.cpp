@@ -104,8 +104,7 @@ void add_loop(CLI::App& app, Program& program) {
   command->add_option("--dpi", options->dpi, "Resolution of the film image")
       ->type_name("DPI")
       ->capture_default_str();
-  add_field(*command, "--model", options->simulation, "model", "Film model; stokes is faster")
-      ->type_name("MODEL");
+  add_field(*command, options->simulation, "model");
   command->add_option("--out", options->out, "Folder for report.html, report.json and the pictures")
       ->type_name("DIR")
       ->required();

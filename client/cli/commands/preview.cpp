@@ -24,7 +24,8 @@ void show(const v1::Preview& preview) {
 }
 
 Status preview(Program& program, const SubmitOptions& options) {
-  HP_ASSIGN_OR_RETURN(const v1::Job job, upload_inputs(program, options));
+  Inputs inputs(program.daemon());
+  HP_ASSIGN_OR_RETURN(const v1::Job job, upload_inputs(inputs, options));
   HP_ASSIGN_OR_RETURN(const v1::Preview answer,
                       client::compute_preview(program.daemon(), job.simulate()));
   if (program.json()) {
@@ -42,7 +43,8 @@ void add_preview(CLI::App& app, Program& program) {
   options->job.mutable_simulate();
   CLI::App* command =
       app.add_subcommand("preview", "Predict a dip roughly, in a fraction of a second");
-  add_preview_flags(*command, *options);
+  add_spec_flags(*command, *options,
+                 {"mesh", "scale", "pose", "film", "profile", "depth_mm", "dip_speed_mm_per_s"});
   command->footer(
       "Uses Stokes flow on a coarse film; creates no job. The daemon keeps the mesh in memory for "
       "the next one.\n\n"

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <array>
+#include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "client/cli/commands/commands.h"
 #include "client/cli/job_io/field_help.h"
@@ -10,6 +13,7 @@
 #include "client/cli/job_io/wait.h"
 #include "client/cli/program/program.h"
 #include "client/jobs.h"
+#include "proto/rules/field_rules.h"
 
 namespace hydroprint::cli {
 namespace {
@@ -39,7 +43,8 @@ void add_job_flags(CLI::App& command, JobFlags& options) {
 }
 
 Status submit(Program& program, const JobFlags& options) {
-  HP_ASSIGN_OR_RETURN(const v1::Job described, upload_inputs(program, options.inputs));
+  Inputs inputs(program.daemon());
+  HP_ASSIGN_OR_RETURN(const v1::Job described, upload_inputs(inputs, options.inputs));
   HP_ASSIGN_OR_RETURN(const v1::Job job,
                       client::create_job(program.daemon(), described, options.job));
   if (options.job.validate_only) {
@@ -50,17 +55,45 @@ Status submit(Program& program, const JobFlags& options) {
   return finish_job(program, job, {options.out, !waits, options.wait_options});
 }
 
-// Adds the command for a kind of job, for example "print_image".
-void add_kind(CLI::App& parent, Program& program, const std::string& kind, const char* help,
-              const char* footer) {
+/// Kinds with commands of their own.
+constexpr std::array<std::string_view, 5> kOwnCommands = {"dip", "print", "capture", "calibrate",
+                                                          "calibrate_camera"};
+
+// Examples, shown below the help of a kind.
+std::string footer_of(const std::string& kind) {
+  static const std::map<std::string, std::string> kFooters = {
+      {"simulate",
+       "Files that an OBJ, MTL or glTF refers to are uploaded too. Omitted flags take the\n"
+       "worker's defaults.\n\n"
+       "Example:\n"
+       "  hydroprint submit simulate --mesh spot.obj --texture spot.png --scale 50 --out result"},
+      {"predict",
+       "Example:\n"
+       "  hydroprint submit predict --mesh spot.obj --film-image film.png --scale 50 --wait"},
+      {"fit",
+       "Example:\n"
+       "  hydroprint submit fit --mesh ball.ply --points measured.csv --ink-image film.png "
+       "--out fitted"},
+      {"validate", "Example:\n  hydroprint submit validate --out validation"},
+      {"print_image",
+       "Examples:\n"
+       "  hydroprint submit print-image --simulate-job 7 --job-name \"mug 7\" --out paper\n"
+       "  hydroprint submit print-image --film-image result/film.png --out paper"},
+      {"template",
+       "Examples:\n"
+       "  hydroprint submit template --simulate-job 7 --out placement\n"
+       "  hydroprint submit template --mesh mug.obj --scale 10 --pose pose.json --out placement"}};
+  const auto found = kFooters.find(kind);
+  return found == kFooters.end() ? std::string() : found->second;
+}
+
+void add_kind(CLI::App& parent, Program& program, const google::protobuf::FieldDescriptor& kind) {
   auto options = std::make_shared<JobFlags>();
-  options->inputs.job = job_of_kind(kind);
-  std::string name = kind;
-  std::replace(name.begin(), name.end(), '_', '-');
-  CLI::App* command = parent.add_subcommand(name, help);
+  options->inputs.job = job_of_kind(kind.name());
+  CLI::App* command = parent.add_subcommand(rules::flag_of(kind), rules::flag_help(kind));
   add_spec_flags(*command, options->inputs);
   add_job_flags(*command, *options);
-  command->footer(footer);
+  command->footer(footer_of(kind.name()));
   program.on(*command, [&program, options] { return submit(program, *options); });
 }
 
@@ -69,33 +102,12 @@ void add_kind(CLI::App& parent, Program& program, const std::string& kind, const
 void add_submit(CLI::App& app, Program& program) {
   CLI::App* command = app.add_subcommand("submit", "Upload files and queue a job");
   command->require_subcommand(1);
-  add_kind(
-      *command, program, "simulate", "Compute the film image for a textured model",
-      "Files that an OBJ, MTL or glTF refers to are uploaded too. Omitted flags take the\n"
-      "worker's defaults.\n\n"
-      "Example:\n"
-      "  hydroprint submit simulate --mesh spot.obj --texture spot.png --scale 50 --out result");
-  add_kind(*command, program, "predict", "Predict the colours on the object from a film image",
-           "Example:\n"
-           "  hydroprint submit predict --mesh spot.obj --film-image film.png --scale 50 --wait");
-  add_kind(*command, program, "fit", "Fit a film profile to measured landing points",
-           "Example:\n"
-           "  hydroprint submit fit --mesh ball.ply --points measured.csv --ink-image film.png "
-           "--out fitted");
-  add_kind(*command, program, "validate",
-           "Run the paper's experiments in silico and write a report",
-           "Example:\n  hydroprint submit validate --out validation");
-  add_kind(*command, program, "print_image",
-           "Lay out a film image at exact scale, as files to print",
-           "Example:\n"
-           "  hydroprint submit print-image --simulate-job 7 --job-name \"mug 7\" --out paper\n"
-           "  hydroprint submit print-image --film-image result/film.png --out paper");
-  add_kind(
-      *command, program, "template",
-      "Create a page that shows where to place the object, for a rig without a camera",
-      "Example:\n"
-      "  hydroprint submit template --simulate-job 7 --out placement\n"
-      "  hydroprint submit template --mesh mug.obj --scale 10 --pose pose.json --out placement");
+  const auto& kinds = *v1::Job::descriptor()->FindOneofByName("spec");
+  for (int i = 0; i < kinds.field_count(); ++i) {
+    const auto& kind = *kinds.field(i);
+    if (std::find(kOwnCommands.begin(), kOwnCommands.end(), kind.name()) == kOwnCommands.end())
+      add_kind(*command, program, kind);
+  }
 }
 
 }  // namespace hydroprint::cli

@@ -18,17 +18,15 @@ namespace hydroprint::cli {
 
 /// Returns the file in a field; for a repeated field, a new last one.
 [[nodiscard]] v1::InputFile& file_in(google::protobuf::Message& spec, const std::string& field);
-[[nodiscard]] v1::Pose& pose_in(google::protobuf::Message& spec);
 
 void set_text(google::protobuf::Message& spec, const std::string& field, const std::string& text);
-void set_number(google::protobuf::Message& spec, const std::string& field, double number);
 
-/// Adds a flag that sets a field: numbers, text, the choices of an enum, a comma-separated list for
-/// a repeated field, and a flag without a value for a bool. `spec` must outlive the parsing.
-CLI::Option* add_field(CLI::App& command, const std::string& flag, google::protobuf::Message& spec,
-                       const std::string& field, const std::string& help);
+/// Adds the flag of a field (proto/flags). Names of jobs and calibrations are completed: "7"
+/// becomes "jobs/7". `spec` must outlive the parsing.
+CLI::Option* add_field(CLI::App& command, google::protobuf::Message& spec,
+                       const std::string& field);
 
-/// Adds --allow-stale-calibration.
-void add_stale_flag(CLI::App& command, google::protobuf::Message& spec);
+/// Adds the flags of all fields.
+void add_fields(CLI::App& command, google::protobuf::Message& spec);
 
 }  // namespace hydroprint::cli

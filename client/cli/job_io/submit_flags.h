@@ -1,31 +1,29 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "client/cli/program/program.h"
+#include "client/cli/job_io/inputs.h"
 #include "hydroprint/v1/job.pb.h"
 
 namespace hydroprint::cli {
 
-/// The flags of `submit VERB` and `preview`. Flags of the worker keep their names.
+/// The flags of `submit KIND` and `preview`.
 struct SubmitOptions {
-  v1::Job job;  ///< flags that need no upload are stored in its spec directly
-  std::string mesh, pose, film;
-  std::optional<std::string> depth;
-  std::vector<std::pair<std::string, std::string>> files;  ///< field of the spec, and path
+  v1::Job job;  ///< flags that need no file are stored in its spec directly
+  /// Fields whose flags name files, which are read and uploaded after the parsing, and the flags'
+  /// texts.
+  std::vector<std::pair<const google::protobuf::FieldDescriptor*, std::string>> files;
 };
 
-/// Adds the flags for the kind of options.job.
-void add_spec_flags(CLI::App& command, SubmitOptions& options);
-
-/// Adds the flags used by a preview.
-void add_preview_flags(CLI::App& command, SubmitOptions& options);
+/// Adds a flag for each field of the spec of options.job, or for the named ones. They are required
+/// and exclude each other as their rules say (proto/rules).
+void add_spec_flags(CLI::App& command, SubmitOptions& options,
+                    const std::vector<std::string>& only = {});
 
 /// Uploads the files given by the flags. @return the job with its whole spec
-[[nodiscard]] Result<v1::Job> upload_inputs(Program& program, const SubmitOptions& options);
+[[nodiscard]] Result<v1::Job> upload_inputs(Inputs& inputs, const SubmitOptions& options);
 
 }  // namespace hydroprint::cli

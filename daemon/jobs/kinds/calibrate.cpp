@@ -68,7 +68,6 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
   [[nodiscard]] Status resolve_spec(v1::CalibrateSpec& shown, v1::CalibrateSpec& resolved,
                                     const JobSources& sources) const override {
     if (!shown.capture_job().empty()) {
-      if (shown.frames_size() > 0) return taken_from("calibrate.frames", "capture_job");
       HP_RETURN_IF_ERROR(adopt_frames(shown.capture_job(), "calibrate.capture_job", "frames",
                                       sources, *resolved.mutable_frames()));
     }
@@ -102,10 +101,7 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
 
   [[nodiscard]] static Status take_lens(v1::CalibrateSpec& shown, v1::CalibrateSpec& resolved,
                                         const JobSources& sources) {
-    if (shown.has_camera()) {
-      if (shown.camera_calibration().empty()) return {};
-      return taken_from("calibrate.camera", "camera_calibration");
-    }
+    if (shown.has_camera()) return {};
     HP_ASSIGN_OR_RETURN(const auto lens, lens_of(shown, sources.calibrations));
     if (!lens) return {};
     shown.set_camera_calibration(calibration_name(lens->id));

@@ -47,7 +47,6 @@ class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
                                     v1::CalibrateCameraSpec& resolved,
                                     const JobSources& sources) const override {
     if (shown.capture_jobs().empty()) return {};
-    if (shown.frames_size() > 0) return taken_from("calibrate_camera.frames", "capture_jobs");
     if (shown.capture_jobs_size() > kMostViews) {
       return invalid_field("calibrate_camera.capture_jobs", "has more than 30 entries");
     }

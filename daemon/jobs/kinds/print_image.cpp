@@ -24,17 +24,11 @@ class PrintImageKind final : public KindOf<v1::PrintImageSpec> {
   }
 
   [[nodiscard]] Status check_spec(const v1::PrintImageSpec& spec) const override {
-    if (!spec.has_film_image()) return invalid_field("print_image.film_image", "is missing");
     HP_RETURN_IF_ERROR(check_polygon(field().name(), spec));
     return check_margin(field().name(), spec);
   }
 
   [[nodiscard]] static Status take_simulation(v1::PrintImageSpec& spec, const JobSources& sources) {
-    const std::string source = "simulate_job";
-    if (spec.has_film_image()) return taken_from("print_image.film_image", source);
-    if (spec.has_film()) return taken_from("print_image.film", source);
-    if (spec.has_dpi()) return taken_from("print_image.dpi", source);
-    if (spec.extra_files_size() > 0) return taken_from("print_image.extra_files", source);
     HP_ASSIGN_OR_RETURN(
         const EarlierSimulation simulation,
         earlier_simulation(spec.simulate_job(), "print_image.simulate_job", sources.jobs));

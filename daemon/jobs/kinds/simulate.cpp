@@ -25,13 +25,9 @@ class SimulateKind final : public KindOf<v1::SimulateSpec> {
   }
 
   [[nodiscard]] static Status take_calibration(v1::SimulateSpec& spec, const JobSources& sources) {
-    const std::string source = "the calibration";
     HP_ASSIGN_OR_RETURN(
         const Calibration found,
         needed_calibration(spec.calibration(), "simulate.calibration", sources.calibrations));
-    if (spec.has_pose()) return taken_from("simulate.pose", source);
-    if (spec.has_film()) return taken_from("simulate.film", source);
-    if (spec.has_scale()) return taken_from("simulate.scale", source);
     const v1::Calibration calibration = to_message(found, sources.place);
     HP_RETURN_IF_ERROR(check_objection(calibration, objection(calibration, spec.mesh()),
                                        spec.allow_stale_calibration()));

@@ -18,18 +18,11 @@ class TemplateKind final : public KindOf<v1::TemplateSpec> {
   }
 
   [[nodiscard]] Status check_spec(const v1::TemplateSpec& spec) const override {
-    if (!spec.has_mesh()) return invalid_field("template.mesh", "is missing");
     HP_RETURN_IF_ERROR(check_polygon(field().name(), spec));
     return check_margin(field().name(), spec);
   }
 
   [[nodiscard]] static Status take_simulation(v1::TemplateSpec& spec, const JobSources& sources) {
-    const std::string source = "simulate_job";
-    if (spec.has_mesh()) return taken_from("template.mesh", source);
-    if (spec.extra_files_size() > 0) return taken_from("template.extra_files", source);
-    if (spec.has_scale()) return taken_from("template.scale", source);
-    if (spec.has_pose()) return taken_from("template.pose", source);
-    if (spec.has_film()) return taken_from("template.film", source);
     HP_ASSIGN_OR_RETURN(
         const EarlierSimulation simulation,
         earlier_simulation(spec.simulate_job(), "template.simulate_job", sources.jobs));

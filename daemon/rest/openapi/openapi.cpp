@@ -10,12 +10,12 @@
 
 #include "daemon/rest/openapi/error_schema.h"
 #include "daemon/rest/openapi/extra_routes.h"
-#include "daemon/rest/openapi/proto_comments.h"
 #include "daemon/rest/openapi/schemas.h"
 #include "daemon/rest/routes.h"
 #include "daemon/rest/security.h"
 #include "daemon/rest/sequence.h"
 #include "hydroprint/v1/access.pb.h"
+#include "proto/rules/comments.h"
 
 namespace hydroprint::rest {
 namespace {
@@ -47,7 +47,7 @@ std::string comment_at(const Route& route, std::size_t at) {
     const Variable& variable = route.path.variables[i];
     if (at >= variable.begin && at < variable.end) {
       return "Part of `" + path_text(route.path_fields[i]) +
-             "`: " + comment_on(route.path_fields[i].back()->full_name());
+             "`: " + rules::comment_on(route.path_fields[i].back()->full_name());
     }
   }
   return {};
@@ -89,10 +89,10 @@ class Document {
 
   Status add(const Route& route) {
     const pb::MethodDescriptor& method = *route.method;
-    const std::string comment = comment_on(method.full_name());
+    const std::string comment = rules::comment_on(method.full_name());
     Json operation = {{"operationId", method.name()},
                       {"tags", Json::array({method.service()->name()})},
-                      {"summary", first_sentence(comment)},
+                      {"summary", rules::first_sentence(comment)},
                       {"description", comment}};
     ShownPath path = shown(route);
     add_query(route, path.parameters);
@@ -102,7 +102,7 @@ class Document {
     operation["responses"] = {{"200", answer_of(method)}, {"default", error_answer()}};
     const bool is_open = method.options().GetExtension(v1::without_sign_in);
     operation["security"] = security_of(is_open, route.http_method);
-    add_tag(method.service()->name(), comment_on(method.service()->full_name()));
+    add_tag(method.service()->name(), rules::comment_on(method.service()->full_name()));
     return place(path.text, route.http_method, method.name(), std::move(operation));
   }
 
@@ -209,7 +209,7 @@ class Document {
     Json body = Json::object();
     Json schema;
     if (route.body == Body::kField) {
-      body["description"] = comment_on(route.body_field->full_name());
+      body["description"] = rules::comment_on(route.body_field->full_name());
       schema = schemas_.reference(*route.body_field->message_type(), Way::kSent);
     } else if (route.path_fields.empty()) {
       schema = schemas_.reference(request, Way::kSent);

@@ -6,9 +6,9 @@
 #include <map>
 #include <utility>
 
-#include "daemon/rest/openapi/proto_comments.h"
 #include "daemon/rest/routes.h"
 #include "hydroprint/v1/field_rules.pb.h"
+#include "proto/rules/comments.h"
 #include "proto/rules/field_rules.h"
 
 namespace hydroprint::rest {
@@ -41,6 +41,10 @@ bool is_always_there(const pb::FieldDescriptor& field) {
 const v1::FieldRules& rules_of(const pb::FieldDescriptor& field) {
   const v1::FieldRules* const found = rules::rules_of(field);
   return found == nullptr ? v1::FieldRules::default_instance() : *found;
+}
+
+bool is_required(const pb::FieldDescriptor& field) {
+  return rules_of(field).required() && rules_of(field).unless().empty();
 }
 
 // Whether the sent and the answered schema differ, for the message or one inside it.
@@ -174,7 +178,7 @@ std::string oneofs_of(const pb::Descriptor& message) {
     for (int k = 0; k < oneof.field_count(); ++k) {
       names += (k == 0 ? "`" : ", `") + oneof.field(k)->json_name() + "`";
     }
-    text += "\n\nAt most one of " + names + " is set. " + comment_on(oneof.full_name());
+    text += "\n\nAt most one of " + names + " is set. " + rules::comment_on(oneof.full_name());
   }
   return text;
 }
@@ -182,7 +186,7 @@ std::string oneofs_of(const pb::Descriptor& message) {
 }  // namespace
 
 std::string description_of(const pb::FieldDescriptor& field) {
-  std::string text = comment_on(field.full_name());
+  std::string text = rules::comment_on(field.full_name());
   if (is_oneof_member(field)) {
     text += (text.empty() ? "" : "\n") + std::string("At most one of `") +
             field.real_containing_oneof()->name() + "` is set.";
@@ -220,11 +224,11 @@ Json Schemas::reference(const pb::EnumDescriptor& names) {
   const std::string name = short_name(names);
   if (all_.contains(name)) return reference_to(name);
   Json values = Json::array();
-  std::string description = comment_on(names.full_name()) + "\n";
+  std::string description = rules::comment_on(names.full_name()) + "\n";
   for (int i = 0; i < names.value_count(); ++i) {
     const std::string& value = names.value(i)->name();
     values.push_back(value);
-    description += "\n- `" + value + "`: " + comment_on(names.full_name() + "." + value);
+    description += "\n- `" + value + "`: " + rules::comment_on(names.full_name() + "." + value);
   }
   all_[name] = {{"type", "string"}, {"enum", values}, {"description", description}};
   return reference_to(name);
@@ -258,7 +262,7 @@ Json Schemas::of_field(const pb::FieldDescriptor& field, Way way) {
 
 Json Schemas::object(const pb::Descriptor& message, Way way, const std::set<std::string>& without) {
   Json schema = {{"type", "object"}};
-  const std::string description = comment_on(message.full_name()) + oneofs_of(message);
+  const std::string description = rules::comment_on(message.full_name()) + oneofs_of(message);
   if (!description.empty()) schema["description"] = description;
   Json properties = Json::object();
   Json required = Json::array();
@@ -266,7 +270,7 @@ Json Schemas::object(const pb::Descriptor& message, Way way, const std::set<std:
     const pb::FieldDescriptor& field = *message.field(i);
     if (without.count(field.name()) > 0) continue;
     properties[field.json_name()] = of_field(field, way);
-    const bool needed = way == Way::kSent ? rules_of(field).required() : is_always_there(field);
+    const bool needed = way == Way::kSent ? is_required(field) : is_always_there(field);
     if (needed) required.push_back(field.json_name());
   }
   if (!properties.empty()) schema["properties"] = std::move(properties);

@@ -7,15 +7,6 @@
 
 namespace hydroprint::worker {
 
-void add_dip_flags(Flags& flags) {
-  add_object_flags(flags);
-  flags.add("profile", "Film profile", {.type = "FILE.toml"});
-  add_film_flag(flags);
-  flags.add_depth();
-  flags.add("dip_speed_mm_per_s", "Speed of the dip",
-            {.default_value = default_text(DipOptions{}.dip_speed_mm_per_s)});
-}
-
 Result<pipeline::DipOptions> read_dip(const DipOptions& options) {
   pipeline::DipOptions dip;
   HP_ASSIGN_OR_RETURN(dip.outline, film::parse_outline(options.object.film));

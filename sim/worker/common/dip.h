@@ -19,8 +19,6 @@ struct DipOptions {
   double dip_speed_mm_per_s = 5;
 };
 
-void add_dip_flags(Flags& flags);
-
 template <class Spec>
 Result<DipOptions> dip_options(const Spec& spec, const InputFolder& inputs) {
   DipOptions out;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "hydroprint/v1/field_rules.pb.h"
 #include "proto/rules/field_rules.h"
 
 namespace hydroprint::worker {
@@ -64,6 +65,12 @@ std::string flag_of(const std::string& field) {
   std::string out = "--" + field;
   std::replace(out.begin(), out.end(), '_', '-');
   return out;
+}
+
+bool is_reference(const FieldDescriptor& field) {
+  const v1::FieldRules* const rules = rules::rules_of(field);
+  return (rules != nullptr && !rules->resource().empty()) ||
+         field.name() == "allow_stale_calibration";
 }
 
 Status check_fields(const Message& spec) {

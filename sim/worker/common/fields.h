@@ -5,8 +5,9 @@
 #include "sim/base/result.h"
 
 namespace google::protobuf {
+class FieldDescriptor;
 class Message;
-}
+}  // namespace google::protobuf
 
 namespace hydroprint::worker {
 
@@ -21,6 +22,10 @@ namespace hydroprint::worker {
 
 /// "--ink-passes" for "ink_passes".
 [[nodiscard]] std::string flag_of(const std::string& field);
+
+/// True if only a daemon can resolve the field: the name of a job or calibration, or an option of
+/// such a field. A daemon replaces it with files and values before a worker starts.
+[[nodiscard]] bool is_reference(const google::protobuf::FieldDescriptor& field);
 
 /// Checks the numbers and choices of a spec. Fails with fail_field() for the first one that is out
 /// of range (kOutOfRange; kInvalidArgument for whole numbers) or unknown (kInvalidArgument).

@@ -50,28 +50,6 @@ std::vector<Stage> stages(const FlowOptions& options, bool is_simulation) {
 
 }  // namespace
 
-void add_flow_flags(Flags& flags) {
-  const FlowOptions defaults;
-  add_dip_flags(flags);
-  flags.add("dpi", "Resolution of the film image", {.default_value = default_text(defaults.dpi)});
-  flags.add("model",
-            "Model of the film: viscous sheet or Stokes flow. Stokes flow is faster, and good "
-            "while the film is stretched less than 1.3 times",
-            {.default_value = "sheet"});
-  flags.add("inertia",
-            "Simulate the sheet with inertia (Young's modulus, density and Poisson's ratio of the "
-            "profile). Slower; of these, only Poisson's ratio affects the result");
-  flags.add("ink_passes",
-            "Number of passes that account for the thickness of the image's own ink. Only with "
-            "--model sheet",
-            {.default_value = default_text(defaults.ink_passes)});
-  flags.add("ink_image",
-            "RGB film image whose ink thickness is used, instead of computing it with --ink-passes",
-            {.type = "FILE.png"});
-  flags.add("artifacts", "Files to write; map: only the surface map and report.json",
-            {.default_value = "all"});
-}
-
 Status choose(FlowOptions& options, v1::Model model, bool inertia, v1::ArtifactSet artifacts) {
   if (inertia && model == v1::MODEL_STOKES) {
     return fail_field(Code::kInvalidArgument, "inertia",

@@ -35,8 +35,6 @@ struct FlowOptions {
   [[nodiscard]] bool is_sheet() const { return film_model == pipeline::FilmModel::kSheet; }
 };
 
-void add_flow_flags(Flags& flags);
-
 /// Sets the options that are choices. Fails with fail_field() if they exclude each other.
 [[nodiscard]] Status choose(FlowOptions& options, v1::Model model, bool inertia,
                             v1::ArtifactSet artifacts);

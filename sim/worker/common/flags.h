@@ -1,14 +1,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
+#include <vector>
 
 #include "sim/base/result.h"
 
 namespace CLI {
 class App;
-class Option;
 }  // namespace CLI
 namespace google::protobuf {
 class FieldDescriptor;
@@ -17,32 +16,20 @@ class Message;
 
 namespace hydroprint::worker {
 
-/// Details of a flag in the help text. Empty texts are derived from the field's type.
-struct FlagHelp {
-  std::string default_value = {};
-  std::string type = {};
-};
-
-/// The flags of a verb. Each fills the spec's field of the same name: `--ink-passes` fills
+/// The flags of a verb, from the fields of its spec (proto/flags): `--ink-passes` fills
 /// `ink_passes`.
 class Flags {
  public:
   /// Both must live while the command line is parsed.
   Flags(CLI::App& app, google::protobuf::Message& spec) : app_(app), spec_(spec) {}
 
-  /// Adds a flag for a number, choice, text, switch, list of names or file.
-  void add(const std::string& field, const std::string& description, const FlagHelp& help = {});
-  /// Adds a required flag for a file.
-  void require(const std::string& field, const std::string& description, const FlagHelp& help = {});
-
-  /// Adds `--pose FILE.json`; read_pose() reads the file.
-  void add_pose();
-  /// Adds `--depth-mm D|full`.
-  void add_depth();
-  /// Adds a flag for at most `most` folders; 0: any number. The spec gets the path of `file` in
-  /// each folder.
-  void require_folders(const std::string& field, const std::string& file,
-                       const std::string& description, int most);
+  /// Adds the flags of all fields, or of the named ones; except threads, lists of files, and
+  /// references that only a daemon resolves.
+  void add_fields(const std::vector<std::string>& only = {});
+  /// Makes the flag of a field required.
+  void require(const std::string& field);
+  /// Adds a required flag for folders. The spec gets the path of `file` in each folder.
+  void require_folders(const std::string& field, const std::string& file);
 
   /// After parsing: fills in the pose from the file of `--pose`, if the flag was given. Fails as
   /// read_pose_file() does.
@@ -50,10 +37,8 @@ class Flags {
   [[nodiscard]] const std::filesystem::path& pose_file() const { return pose_file_; }
 
  private:
-  CLI::Option& add_option(const google::protobuf::FieldDescriptor& field,
-                          const std::string& description);
-  CLI::Option& add_text(const std::string& field, const std::string& description,
-                        const std::function<void(const std::string&)>& set);
+  void add_field(const google::protobuf::FieldDescriptor& field);
+  void add_file(const google::protobuf::FieldDescriptor& field);
   [[nodiscard]] const google::protobuf::FieldDescriptor& field(const std::string& name) const;
 
   CLI::App& app_;
@@ -61,7 +46,7 @@ class Flags {
   std::filesystem::path pose_file_;
 };
 
-/// A default value for FlagHelp: "300", "0.5".
-[[nodiscard]] std::string default_text(double value);
+/// Adds the flags of all fields.
+void add_field_flags(Flags& flags);
 
 }  // namespace hydroprint::worker

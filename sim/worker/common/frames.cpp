@@ -52,15 +52,7 @@ void append_frames(std::vector<InputPath>& files,
   for (const auto& folder : folders) files.push_back({"frames", folder / kListing});
 }
 
-void add_frames_flag(Flags& flags, const std::string& description, int most) {
-  flags.require_folders("frames", kListing, description, most);
-}
-
-void add_camera_flag(Flags& flags) {
-  flags.add("camera",
-            "Camera calibration, from calibrate-camera; default: the lens that the driver reports",
-            {.type = "FILE.json"});
-}
+void add_frames_flag(Flags& flags) { flags.require_folders("frames", kListing); }
 
 Result<Scan> read_scan(const std::filesystem::path& folder, const std::filesystem::path& camera,
                        const Context& context) {

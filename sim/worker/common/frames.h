@@ -37,8 +37,7 @@ void append_frames(std::vector<InputPath>& files,
                    const std::vector<std::filesystem::path>& folders);
 
 /// Adds `--frames DIR`.
-void add_frames_flag(Flags& flags, const std::string& description, int most);
-void add_camera_flag(Flags& flags);
+void add_frames_flag(Flags& flags);
 
 /// Frames and the camera that took them.
 struct Scan {

@@ -23,18 +23,6 @@ bool all_finite(const google::protobuf::RepeatedField<double>& numbers) {
 
 }  // namespace
 
-void add_object_flags(Flags& flags) {
-  flags.require("mesh", "Model: OBJ, STL, PLY, glTF or GLB");
-  flags.add("scale", "Millimetres per model unit",
-            {.default_value = default_text(ObjectOptions{}.scale)});
-  flags.add_pose();
-}
-
-void add_film_flag(Flags& flags) {
-  flags.add("film", "Film: A4, A3, letter, WxH or circle:RADIUS (in mm), or polygon:FILE.json",
-            {.default_value = ObjectOptions{}.film, .type = "FILM"});
-}
-
 InputPath film_file(const std::string& film) {
   return {"film", film::polygon_file(film).value_or("")};
 }

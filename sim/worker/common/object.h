@@ -26,9 +26,6 @@ struct ObjectOptions {
   std::string film = "A4";          ///< for film::parse_outline()
 };
 
-void add_object_flags(Flags& flags);
-void add_film_flag(Flags& flags);
-
 /// The input file of a film for report.json: that of a polygon, otherwise an empty path.
 [[nodiscard]] InputPath film_file(const std::string& film);
 

@@ -8,9 +8,6 @@
 // Page options that print-image and template share. For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
-/// Flags for the paper and the text on it.
-void add_page_flags(Flags& flags);
-
 /// Sets the paper size. Fails as print::parse_paper() does.
 [[nodiscard]] Status set_paper(print::PageSettings& page, const std::string& paper);
 

@@ -22,7 +22,7 @@ struct Verb {
   std::string summary;
   std::string examples;                            ///< end of the help text
   const google::protobuf::Message* spec_template;  ///< an empty spec
-  void (*add_flags)(Flags& flags);
+  void (*add_flags)(Flags& flags);                 ///< mostly add_field_flags()
   /// Builds the task of a spec whose fields are in range (check_fields()). Fails with fail_field()
   /// if the spec is not valid.
   Result<std::unique_ptr<Task>> (*plan)(const google::protobuf::Message& spec,

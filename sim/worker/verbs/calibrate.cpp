@@ -47,14 +47,9 @@ struct CalibrateOptions {
 };
 
 void add_flags(Flags& flags) {
-  add_frames_flag(flags, "Depth frames: a folder written by hydroprint-capture", 1);
-  flags.require("layout", "The rig's markers and camera", {.type = "FILE.toml"});
-  add_camera_flag(flags);
-  add_object_flags(flags);
-  add_film_flag(flags);
-  flags.add("gripper_mm",
-            "Height above the water of the lower end of the gripper that holds the object, mm; "
-            "default: the gripper is not in view");
+  flags.add_fields();
+  add_frames_flag(flags);
+  flags.require("layout");
 }
 
 Result<CalibrateOptions> read_options(const v1::CalibrateSpec& spec, const InputFolder& inputs) {

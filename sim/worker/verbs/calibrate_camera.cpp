@@ -30,7 +30,8 @@ constexpr std::size_t kFramesForSteps = 10;
 using Views = std::vector<std::filesystem::path>;
 
 void add_flags(Flags& flags) {
-  add_frames_flag(flags, "Views of the board: folders written by hydroprint-capture", 0);
+  flags.add_fields();
+  add_frames_flag(flags);
 }
 
 /// Finds the camera's depth steps from all views, because a single view may not show them.

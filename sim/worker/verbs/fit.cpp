@@ -42,21 +42,6 @@ struct FitOptions {
   fit::Options fit;
 };
 
-void add_flags(Flags& flags) {
-  add_dip_flags(flags);
-  flags.require("points", "Measured landing points", {.type = "FILE.csv"});
-  flags.add("ink_image",
-            "RGB film image that was printed on the film. Without it the ink ratio cannot be "
-            "fitted",
-            {.type = "FILE.png"});
-  flags.add("free",
-            "Parameters to fit: ink_ratio, drag, swelling; default: all that the points determine",
-            {.type = "NAME[,NAME]"});
-  flags.add("drop_outliers",
-            "Leave out points beyond 4 robust standard deviations; by default they are only "
-            "reported");
-}
-
 Result<FitOptions> read_options(const v1::FitSpec& spec, const InputFolder& inputs) {
   FitOptions out;
   HP_ASSIGN_OR_RETURN(out.dip, dip_options(spec, inputs));
@@ -292,9 +277,9 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb fit_verb() {
-  return {"fit",     "Fit a film profile to measured landing points",
-          kExamples, &v1::FitSpec::default_instance(),
-          add_flags, plan};
+  return {"fit",           "Fit a film profile to measured landing points",
+          kExamples,       &v1::FitSpec::default_instance(),
+          add_field_flags, plan};
 }
 
 }  // namespace hydroprint::worker

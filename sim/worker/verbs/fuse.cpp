@@ -40,12 +40,8 @@ struct FuseOptions {
 };
 
 void add_flags(Flags& flags) {
-  add_frames_flag(
-      flags, "Depth frames of a camera swept by hand: a folder written by hydroprint-capture", 1);
-  flags.add("layout", "The rig's markers and camera", {.type = "FILE.toml"});
-  add_camera_flag(flags);
-  flags.add("voxel_mm", "Voxel size of the volume",
-            {.default_value = default_text(FuseOptions{}.voxel_mm)});
+  flags.add_fields();
+  add_frames_flag(flags);
 }
 
 Result<FuseOptions> read_options(const v1::FuseSpec& spec, const InputFolder& inputs) {

@@ -27,13 +27,6 @@ struct PredictOptions {
   std::filesystem::path motion;  ///< empty: straight down
 };
 
-void add_flags(Flags& flags) {
-  add_flow_flags(flags);
-  flags.require("film_image", "The film image as printed");
-  flags.add("motion", "Measured path of the dip, with the header t_s,x_mm,y_mm,z_mm",
-            {.type = "FILE.csv"});
-}
-
 Result<PredictOptions> read_options(const v1::PredictSpec& spec, const InputFolder& inputs) {
   PredictOptions out;
   HP_ASSIGN_OR_RETURN(out.flow, flow_options(spec, inputs));
@@ -127,9 +120,9 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb predict_verb() {
-  return {"predict", "Predict the colours that a printed film image leaves on the object",
-          kExamples, &v1::PredictSpec::default_instance(),
-          add_flags, plan};
+  return {"predict",       "Predict the colours that a printed film image leaves on the object",
+          kExamples,       &v1::PredictSpec::default_instance(),
+          add_field_flags, plan};
 }
 
 }  // namespace hydroprint::worker

@@ -223,12 +223,16 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
   return std::make_unique<Preview>(std::move(options));
 }
 
+void add_flags(Flags& flags) {
+  flags.add_fields({"mesh", "scale", "pose", "film", "profile", "depth_mm", "dip_speed_mm_per_s"});
+}
+
 }  // namespace
 
 Verb preview_verb() {
-  return {"preview",     "Answer requests for fast approximate dips while the pose changes",
-          kExamples,     &v1::SimulateSpec::default_instance(),
-          add_dip_flags, plan,
+  return {"preview", "Answer requests for fast approximate dips while the pose changes",
+          kExamples, &v1::SimulateSpec::default_instance(),
+          add_flags, plan,
           false};
 }
 

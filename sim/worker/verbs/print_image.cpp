@@ -45,31 +45,6 @@ struct PrintImageOptions {
   std::vector<Format> formats;  ///< empty: chosen by the colours
 };
 
-void add_flags(Flags& flags) {
-  const print::PrintSettings defaults;
-  flags.require("film_image", "Film image: film.png from simulate");
-  add_film_flag(flags);
-  flags.add("dpi", "Resolution of the film image; default: computed from its size, in whole dpi");
-  add_page_flags(flags);
-  flags.add("bar_mm",
-            "Length of the sliding bars that hold the film, for marks at their ends; 0: only marks "
-            "at their middles",
-            {.default_value = default_text(defaults.page.bar_mm)});
-  flags.add("overlap_mm", "Overlap of neighbouring sheets if the film takes several",
-            {.default_value = default_text(defaults.page.overlap_mm)});
-  flags.add("mirror", "Print the image mirrored; default: as seen from above, ink side up");
-  flags.add("no_marks", "Print only the film image, without marks and text");
-  flags.add("colours", "Colour space; rgb: sRGB; cmyk: plain CMYK", {.default_value = "rgb"});
-  flags.add("icc_profile",
-            "The printer's ICC output profile, CMYK or RGB; used instead of --colours",
-            {.type = "FILE.icc"});
-  flags.add("ink_limit", "Limit of C + M + Y + K in each pixel; only for CMYK",
-            {.default_value = default_text(defaults.colours.ink_limit)});
-  flags.add("formats",
-            "Files to write: pdf, png, tiff; default: pdf, and png for RGB or tiff for CMYK",
-            {.type = "FORMAT[,FORMAT]"});
-}
-
 /// Reads the field `formats`; repeated names count once.
 Result<std::vector<Format>> read_formats(const v1::PrintImageSpec& spec) {
   constexpr std::array kNames = {"pdf", "png", "tiff"};
@@ -276,9 +251,9 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb print_image_verb() {
-  return {"print-image", "Make printable pages of a film image, at exact scale",
-          kExamples,     &v1::PrintImageSpec::default_instance(),
-          add_flags,     plan};
+  return {"print-image",   "Make printable pages of a film image, at exact scale",
+          kExamples,       &v1::PrintImageSpec::default_instance(),
+          add_field_flags, plan};
 }
 
 }  // namespace hydroprint::worker

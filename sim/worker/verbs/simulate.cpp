@@ -28,11 +28,6 @@ struct SimulateOptions {
   std::filesystem::path texture;  ///< empty: the model's own colours
 };
 
-void add_flags(Flags& flags) {
-  add_flow_flags(flags);
-  flags.add("texture", "Texture: PNG, JPEG or TIFF; default: the model's own materials");
-}
-
 Result<SimulateOptions> read_options(const v1::SimulateSpec& spec, const InputFolder& inputs) {
   SimulateOptions out;
   HP_ASSIGN_OR_RETURN(out.flow, flow_options(spec, inputs));
@@ -167,9 +162,9 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb simulate_verb() {
-  return {"simulate", "Compute the film image to print from a textured model",
-          kExamples,  &v1::SimulateSpec::default_instance(),
-          add_flags,  plan};
+  return {"simulate",      "Compute the film image to print from a textured model",
+          kExamples,       &v1::SimulateSpec::default_instance(),
+          add_field_flags, plan};
 }
 
 }  // namespace hydroprint::worker

@@ -35,12 +35,6 @@ struct TemplateOptions {
   print::PageSettings page;
 };
 
-void add_flags(Flags& flags) {
-  add_object_flags(flags);
-  add_film_flag(flags);
-  add_page_flags(flags);
-}
-
 Result<TemplateOptions> read_options(const v1::TemplateSpec& spec, const InputFolder& inputs) {
   TemplateOptions out;
   HP_ASSIGN_OR_RETURN(out.object, object_options(spec, inputs));
@@ -136,9 +130,9 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb template_verb() {
-  return {"template", "Draw a page for placing the object over the film without a camera",
-          kExamples,  &v1::TemplateSpec::default_instance(),
-          add_flags,  plan};
+  return {"template",      "Draw a page for placing the object over the film without a camera",
+          kExamples,       &v1::TemplateSpec::default_instance(),
+          add_field_flags, plan};
 }
 
 }  // namespace hydroprint::worker

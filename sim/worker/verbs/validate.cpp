@@ -23,13 +23,6 @@ constexpr const char* kExamples = R"(Examples:
 
 Exit status: 0 done, even if figures are beyond their limits; 2 bad usage, 4 the computation failed, 130 cancelled.)";
 
-void add_flags(Flags& flags) {
-  std::string names;
-  for (const auto& kind : validate::kinds()) names += (names.empty() ? "" : ", ") + kind.name;
-  flags.add("only", "Experiments to run: " + names + "; default: all", {.type = "NAME[,NAME]"});
-  flags.add("quick", "Run coarsely, to check that everything works; the figures are not accurate");
-}
-
 Result<validate::Options> read_options(const v1::ValidateSpec& spec) {
   validate::Options out{{spec.only().begin(), spec.only().end()}, spec.quick()};
   if (const Status known = validate::check(out); !known) {
@@ -157,9 +150,9 @@ Result<std::unique_ptr<Task>> plan(const google::protobuf::Message& spec,
 }  // namespace
 
 Verb validate_verb() {
-  return {"validate", "Run the paper's experiments in silico; writes a report with pictures",
-          kExamples,  &v1::ValidateSpec::default_instance(),
-          add_flags,  plan};
+  return {"validate",      "Run the paper's experiments in silico; writes a report with pictures",
+          kExamples,       &v1::ValidateSpec::default_instance(),
+          add_field_flags, plan};
 }
 
 }  // namespace hydroprint::worker

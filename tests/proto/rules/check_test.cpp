@@ -122,6 +122,25 @@ TEST(Check, ARequiredTextMustNotBeEmpty) {
   EXPECT_EQ(wrong_field(request), "");
 }
 
+TEST(Check, AFieldThatAnotherOneReplacesIsRefusedBesideIt) {
+  v1::SimulateSpec spec = spec_with_mesh();
+  spec.set_calibration("calibrations/active");
+  EXPECT_EQ(violations_of(spec), Violations());
+  spec.set_scale(0);
+  spec.set_film("A4");
+  const std::string problem = "is taken from calibration; leave one of the two out";
+  EXPECT_EQ(violations_of(spec), (Violations{{"scale", problem}, {"film", problem}}));
+  spec.clear_calibration();
+  EXPECT_EQ(wrong_field(spec), "scale");
+}
+
+TEST(Check, ARequiredFieldMayBeMissingIfItsAlternativeIsSet) {
+  v1::TemplateSpec spec;
+  EXPECT_EQ(violations_of(spec), (Violations{{"mesh", "is missing"}}));
+  spec.set_simulate_job("jobs/7");
+  EXPECT_EQ(violations_of(spec), Violations());
+}
+
 TEST(Check, TextsAreShortAndWithoutControlCharacters) {
   v1::PrintImageSpec spec;
   spec.set_job_name(std::string(200, 'x'));

@@ -87,6 +87,18 @@ TEST(DeclaredRules, ReferencesLeadToRulesAndSayNothingElse) {
   });
 }
 
+TEST(DeclaredRules, FieldsThatRefuseOrReplaceEachOtherAreInOneMessage) {
+  visit_all_fields([](const pb::FieldDescriptor& field) {
+    const v1::FieldRules& stated = field.options().GetExtension(v1::rules);
+    std::vector<std::string> names(stated.replaces().begin(), stated.replaces().end());
+    if (!stated.unless().empty()) names.push_back(stated.unless());
+    for (const std::string& name : names) {
+      EXPECT_NE(field.containing_type()->FindFieldByName(name), nullptr)
+          << field.full_name() << ": " << name;
+    }
+  });
+}
+
 TEST(DeclaredRules, FitTheTypesOfTheirFields) {
   visit_all_fields([](const pb::FieldDescriptor& field) {
     const v1::FieldRules* const rules = rules_of(field);

@@ -59,6 +59,20 @@ TEST(FieldRules, HelpNamesRangeChoicesAndDefault) {
   EXPECT_EQ(help_text(field<v1::SimulateSpec>("texture")), "");
 }
 
+TEST(FieldRules, FlagsAreExplainedByTheCommentAndTheRules) {
+  EXPECT_EQ(flag_help(field<v1::SimulateSpec>("dpi")),
+            "Resolution of the film image (from 20 to 2400 dots per inch; default 300)");
+  EXPECT_EQ(flag_help(field<v1::PredictSpec>("dpi")), flag_help(field<v1::SimulateSpec>("dpi")));
+  EXPECT_EQ(flag_help(field<v1::SimulateSpec>("texture")),
+            "The object's texture: PNG, JPEG or TIFF (default: the model's own materials)");
+  EXPECT_EQ(
+      flag_help(field<v1::DipSpec>("retract_speed_mm_per_s")),
+      "Speed of the retraction (above 0 and at most 1000 mm/s; default: that of the descent)");
+  EXPECT_EQ(
+      flag_help(field<v1::SimulateSpec>("calibration")),
+      "Use this calibration instead of --pose, --film and --scale: calibrations/3, 3 or active");
+}
+
 TEST(FieldRules, FlagsAreTheFieldsNamesWithDashes) {
   EXPECT_EQ(flag_of(field<v1::SimulateSpec>("dip_speed_mm_per_s")), "dip-speed-mm-per-s");
   EXPECT_EQ(flag_of(field<v1::SimulateSpec>("mesh")), "mesh");

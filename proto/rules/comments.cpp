@@ -1,13 +1,14 @@
-#include "daemon/rest/openapi/proto_comments.h"
+#include "proto/rules/comments.h"
 
 #include <google/protobuf/descriptor.pb.h>
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 
 #include "proto/described.h"
 
-namespace hydroprint::rest {
+namespace hydroprint::rules {
 namespace {
 
 namespace pb = google::protobuf;
@@ -77,4 +78,13 @@ std::string first_sentence(const std::string& comment) {
   return sentence;
 }
 
-}  // namespace hydroprint::rest
+std::string stated_default(const std::string& comment) {
+  constexpr std::string_view kStart = "Default: ";
+  const std::size_t start = comment.find(kStart);
+  if (start == std::string::npos) return {};
+  std::string text = first_sentence(comment.substr(start + kStart.size()));
+  text.erase(std::remove(text.begin(), text.end(), '`'), text.end());
+  return text;
+}
+
+}  // namespace hydroprint::rules

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace hydroprint::rest {
+namespace hydroprint::rules {
 
 /// The comment in front of an element in the .proto file, by full name: "hydroprint.v1.Job.state",
 /// "hydroprint.v1.JobService.GetJob", or "hydroprint.v1.Job.State.QUEUED" for an enum value. Empty
@@ -12,4 +12,8 @@ namespace hydroprint::rest {
 /// The first sentence of a comment, on one line.
 [[nodiscard]] std::string first_sentence(const std::string& comment);
 
-}  // namespace hydroprint::rest
+/// The default that a comment states in a sentence "Default: ...", on one line without quotation of
+/// code; empty if there is none.
+[[nodiscard]] std::string stated_default(const std::string& comment);
+
+}  // namespace hydroprint::rules
