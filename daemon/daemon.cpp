@@ -80,22 +80,31 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const Config& config,
 
 Status Daemon::open_store(const Config& config) {
   HP_ASSIGN_OR_RETURN(database_, daemon::open_store(layout_.database()));
-  jobs_ = std::make_unique<JobStore>(
-      *database_, layout_,
-      JobStoreOptions{config.queue_max_jobs, config.store_keep_finished_days * 24 * kHourMs,
-                      config.store_keep_dips_days * 24 * kHourMs, quota_of(config)},
+  job_changes_ =
+      std::make_unique<JobChanges>(*database_,
+                                   RetentionTimes{config.store_keep_finished_days * 24 * kHourMs,
+                                                  config.store_keep_dips_days * 24 * kHourMs},
+                                   system_clock_ms);
+  jobs_ = std::make_unique<JobStore>(*job_changes_, layout_,
+                                     JobStoreOptions{config.queue_max_jobs, quota_of(config)});
+  queue_ = std::make_unique<JobQueue>(*job_changes_);
+  device_jobs_ = std::make_unique<DeviceJobs>(*job_changes_);
+  job_retention_ = std::make_unique<JobRetention>(*job_changes_, layout_);
+  assets_ = std::make_unique<AssetStore>(*database_, layout_, system_clock_ms);
+  uploads_ = std::make_unique<Uploads>(
+      *database_, *assets_, layout_,
+      UploadOptions{config.assets_max_mib * kMiB, config.assets_max_open_uploads,
+                    config.assets_upload_expires_h * kHourMs, config.store_min_free_mib * kMiB,
+                    quota_of(config)},
       system_clock_ms);
-  assets_ = std::make_unique<AssetStore>(
-      *database_, layout_,
-      AssetStoreOptions{config.assets_max_mib * kMiB, config.assets_max_open_uploads,
-                        config.assets_upload_expires_h * kHourMs, config.store_min_free_mib * kMiB,
-                        config.assets_keep_unused_days * 24 * kHourMs, quota_of(config)},
-      system_clock_ms);
+  asset_retention_ = std::make_unique<AssetRetention>(
+      *database_, layout_, config.assets_keep_unused_days * 24 * kHourMs, system_clock_ms);
   calibrations_ = std::make_unique<CalibrationStore>(*database_, system_clock_ms);
-  HP_RETURN_IF_ERROR(jobs_->sweep());  // first, since it may free space that the next step needs
-  HP_RETURN_IF_ERROR(end_lost_dips(*jobs_, layout_));
+  // First, since it may free space that the next step needs.
+  HP_RETURN_IF_ERROR(job_retention_->sweep());
+  HP_RETURN_IF_ERROR(end_lost_dips(*device_jobs_, layout_));
   HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss));
-  HP_RETURN_IF_ERROR(assets_->sweep());
+  HP_RETURN_IF_ERROR(asset_retention_->sweep());
   clean_up();
   return {};
 }
@@ -103,15 +112,15 @@ Status Daemon::open_store(const Config& config) {
 Status Daemon::open_people(const Config& config) {
   auth::AccountsOptions options;
   options.password_cost = {config.people_password_memory_mib << 10, config.people_password_passes};
-  options.session_idle_ms = config.people_session_idle_h * kHourMs;
-  options.session_most_ms = config.people_session_days * 24 * kHourMs;
+  options.sessions.idle_ms = config.people_session_idle_h * kHourMs;
+  options.sessions.most_ms = config.people_session_days * 24 * kHourMs;
   HP_ASSIGN_OR_RETURN(accounts_, auth::Accounts::open(*database_, options, system_clock_ms));
   audit_ = std::make_unique<auth::AuditLog>(*database_, system_clock_ms);
   // Access without a user must not be possible from other machines by mistake.
   const bool is_open = config.people_accounts == "loopback-open" && !is_exposed(config);
   access_ = std::make_unique<Authenticator>(*accounts_, is_open);
   outside_ = std::make_unique<auth::ExternalChanges>(*database_, *accounts_);
-  if (!is_open && !accounts_->any()) {
+  if (!is_open && !accounts_->users().any()) {
     log(LogLevel::kWarning, "no_users",
         {{"message",
           "accounts are required, but there is no user; start the daemon with --first-admin "
@@ -157,15 +166,15 @@ std::string Daemon::sign_in_link() const {
 
 Status Daemon::make_first_admin(const std::string& name) {
   HP_RETURN_IF_ERROR(auth::check_user_name("name", name));
-  const auto found = accounts_->user(name);
+  const auto found = accounts_->users().get(name);
   if (!found) {
-    HP_RETURN_IF_ERROR(accounts_->create({name, auth::Role::kAdmin, false, "", 0}, ""));
+    HP_RETURN_IF_ERROR(accounts_->users().create({name, auth::Role::kAdmin, false, "", 0}, ""));
   } else if (found->role != auth::Role::kAdmin || found->disabled) {
     return fail(Code::kFailedPrecondition,
                 "--first-admin: " + name + " exists but is not an admin; name another user",
                 "STATE_FORBIDS");
   }
-  HP_ASSIGN_OR_RETURN(const auto link, accounts_->make_link(name));
+  HP_ASSIGN_OR_RETURN(const auto link, accounts_->sessions().make_link(name));
   auth::AuditEntry entry;
   entry.via = "command line";
   entry.what = "hydroprintd --first-admin";
@@ -188,15 +197,15 @@ Status Daemon::open_rig(const Config& config) {
   gateway_ = std::make_unique<RigGateway>(rig_.get(), *leases_);
   places_ = std::make_unique<RigReference>(*database_, rig_.get());
   HP_RETURN_IF_ERROR(places_->load());
-  dips_ = std::make_unique<DipExecutor>(
-      DipSurroundings{*gateway_, *places_, *jobs_, *calibrations_, layout_, system_clock_ms});
+  dips_ = std::make_unique<DipExecutor>(DipSurroundings{*gateway_, *places_, *jobs_, *device_jobs_,
+                                                        *calibrations_, layout_, system_clock_ms});
   return {};
 }
 
 // The printer may be absent at the start.
 Status Daemon::open_printer(const Config& config) {
   HP_ASSIGN_OR_RETURN(auto setup, read_printer_setup(config));
-  prints_ = std::make_unique<PrintExecutor>(std::move(setup), *jobs_, layout_);
+  prints_ = std::make_unique<PrintExecutor>(std::move(setup), *jobs_, *device_jobs_, layout_);
   return {};
 }
 
@@ -211,11 +220,12 @@ Status Daemon::open_camera(const Config& config) {
 }
 
 Status Daemon::start_serving(const Config& config) {
-  HP_ASSIGN_OR_RETURN(pool_,
-                      WorkerPool::make(pool_options(config), *jobs_, layout_, system_clock_ms));
+  HP_ASSIGN_OR_RETURN(
+      pool_, WorkerPool::make(pool_options(config), *jobs_, *queue_, layout_, system_clock_ms));
   HP_ASSIGN_OR_RETURN(previews_, PreviewPool::make(preview_options(pool_options(config)), layout_));
   const ServiceContext backend{*database_,       *accounts_,  *audit_,
-                               *access_,         *jobs_,      *assets_,
+                               *access_,         *jobs_,      *queue_,
+                               *job_retention_,  *assets_,    *uploads_,
                                *pool_,           *gateway_,   *dips_,
                                *captures_,       executors(), *calibrations_,
                                *previews_,       *live_,      *places_,
@@ -268,8 +278,8 @@ std::optional<std::uint64_t> Daemon::control_rounds() const {
 }
 
 void Daemon::clean_up() {
-  log_failure("jobs_not_purged", jobs_->purge());
-  log_failure("uploads_not_purged", assets_->purge());
+  log_failure("jobs_not_purged", job_retention_->purge());
+  log_failure("uploads_not_purged", asset_retention_->purge());
   if (!accounts_) return;  // nothing to do before accounts are open
   log_failure("sessions_not_purged", accounts_->clean_up());
   log_failure("audit_not_purged", audit_->clean_up());

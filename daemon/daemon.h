@@ -20,9 +20,13 @@
 #include "daemon/rig/rig_gateway.h"
 #include "daemon/rig/rig_monitor.h"
 #include "daemon/rig/rig_reference.h"
-#include "daemon/store/asset_store.h"
+#include "daemon/store/assets/asset_retention.h"
+#include "daemon/store/assets/uploads.h"
 #include "daemon/store/calibration_store.h"
 #include "daemon/store/database/database.h"
+#include "daemon/store/device_jobs.h"
+#include "daemon/store/job_queue.h"
+#include "daemon/store/job_retention.h"
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_lock.h"
 #include "daemon/tls/certificate_reloader.h"
@@ -86,8 +90,14 @@ class Daemon {
   std::unique_ptr<auth::AuditLog> audit_;
   std::unique_ptr<Authenticator> access_;
   std::unique_ptr<auth::ExternalChanges> outside_;
+  std::unique_ptr<JobChanges> job_changes_;
   std::unique_ptr<JobStore> jobs_;
+  std::unique_ptr<JobQueue> queue_;
+  std::unique_ptr<DeviceJobs> device_jobs_;
+  std::unique_ptr<JobRetention> job_retention_;
   std::unique_ptr<AssetStore> assets_;
+  std::unique_ptr<Uploads> uploads_;
+  std::unique_ptr<AssetRetention> asset_retention_;
   std::unique_ptr<CalibrationStore> calibrations_;
   std::unique_ptr<rig::Controller> rig_;  // null if no rig is configured
   std::unique_ptr<LeaseManager> leases_;

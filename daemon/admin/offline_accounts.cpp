@@ -18,7 +18,7 @@ Status reset_password(State& state, const std::string& user, const std::string& 
     return fail(Code::kInvalidArgument, "the password is empty; give one of 10 bytes or more");
   }
   HP_ASSIGN_OR_RETURN(const auto accounts, accounts_of(state));
-  HP_RETURN_IF_ERROR(accounts->set_password(user, password, ""));
+  HP_RETURN_IF_ERROR(accounts->users().set_password(user, password, ""));
   HP_RETURN_IF_ERROR(note(*state.database, "reset-password", "users/" + user));
   HP_ASSIGN_OR_RETURN(const std::string word, auth::tell_daemon(*state.database));
   return state.daemon_runs() ? auth::wait_for_daemon(*state.database, word) : Status();
@@ -26,12 +26,12 @@ Status reset_password(State& state, const std::string& user, const std::string& 
 
 Result<std::string> sign_in_link(State& state, const std::string& user) {
   HP_ASSIGN_OR_RETURN(const auto accounts, accounts_of(state));
-  HP_ASSIGN_OR_RETURN(const auth::User found, accounts->user(user));
+  HP_ASSIGN_OR_RETURN(const auth::User found, accounts->users().get(user));
   if (found.disabled) {
     return fail(Code::kFailedPrecondition,
                 "users/" + user + ": barred from signing in; an admin must admit this user first");
   }
-  HP_ASSIGN_OR_RETURN(const auto link, accounts->make_link(user));
+  HP_ASSIGN_OR_RETURN(const auto link, accounts->sessions().make_link(user));
   HP_RETURN_IF_ERROR(note(*state.database, "sign-in-link", "users/" + user));
   return link.first;
 }

@@ -5,6 +5,7 @@
 #include "daemon/platform/resource_names.h"
 #include "daemon/rpc/caller_metadata.h"
 #include "daemon/rpc/grpc_status.h"
+#include "daemon/store/assets/upload_writer.h"
 #include "daemon/store/to_proto.h"
 #include "hydroprint/v1/asset_service.grpc.pb.h"
 
@@ -75,7 +76,7 @@ class AssetService final : public v1::AssetService::Service {
     HP_ASSIGN_OR_RETURN(const std::string hash, parse_asset_name("assets/" + request.sha256()));
     HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
     const Upload wanted{"", hash, request.size_bytes(), 0, request.media_type(), 0};
-    return backend_.assets.start(wanted, user, request_key("StartUpload", request));
+    return backend_.uploads.start(wanted, user, request_key("StartUpload", request));
   }
 
   Result<AssetUser> user_of(const grpc::ServerContext& context) const {
@@ -87,7 +88,7 @@ class AssetService final : public v1::AssetService::Service {
                              const v1::GetUploadRequest& request) {
     HP_ASSIGN_OR_RETURN(const std::string id, parse_upload_name(request.name()));
     HP_ASSIGN_OR_RETURN(const AssetUser user, user_of(context));
-    return backend_.assets.upload(id, user.name);
+    return backend_.uploads.get(id, user.name);
   }
 
   Result<Asset> get(const grpc::ServerContext& context, const v1::GetAssetRequest& request) {
@@ -109,7 +110,7 @@ class AssetService final : public v1::AssetService::Service {
     if (!reader.Read(&chunk))
       return invalid_field("upload", "is missing: the stream has no messages");
     HP_ASSIGN_OR_RETURN(const std::string id, parse_upload_name(chunk.upload()));
-    HP_ASSIGN_OR_RETURN(const auto writer, UploadWriter::open(backend_.assets, id, user.name));
+    HP_ASSIGN_OR_RETURN(const auto writer, UploadWriter::open(backend_.uploads, id, user.name));
     do {
       HP_RETURN_IF_ERROR(check_fields(chunk));
       if (!chunk.upload().empty() && chunk.upload() != "uploads/" + id) {

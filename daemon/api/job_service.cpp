@@ -120,7 +120,7 @@ class JobService final : public v1::JobService::Service {
 
   Result<Job> pin(const grpc::ServerContext& context, const v1::PinJobRequest& request) {
     HP_ASSIGN_OR_RETURN(const Job job, own(context, request.name()));
-    return backend_.jobs.pin(job.id, request.pinned());
+    return backend_.retention.pin(job.id, request.pinned());
   }
 
   Result<Job> create(const grpc::ServerContext& context, const v1::CreateJobRequest& request) {
@@ -128,7 +128,7 @@ class JobService final : public v1::JobService::Service {
     HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const JobKind* const kind, kind_of(request.job()));
     HP_RETURN_IF_ERROR(check_may_create(caller, kind->least_role(), request.job(), backend_.jobs,
-                                        backend_.assets));
+                                        backend_.database));
     HP_RETURN_IF_ERROR(check_text("request_id", request.request_id(), 100));
     HP_ASSIGN_OR_RETURN(JobRequest checked, job_request(*kind, request.job(), sources()));
     checked.made.owner = caller.name;
@@ -176,7 +176,7 @@ class JobService final : public v1::JobService::Service {
     JobRequest again;
     again.job = to_message(old);
     HP_RETURN_IF_ERROR(
-        check_may_create(caller, kind->least_role(), again.job, backend_.jobs, backend_.assets));
+        check_may_create(caller, kind->least_role(), again.job, backend_.jobs, backend_.database));
     again.made = old.made;
     again.made.owner = caller.name;
     again.made.retry_of = old.id;

@@ -116,7 +116,7 @@ class PeopleService final : public v1::PeopleService::Service {
   grpc::Status DeleteUser(grpc::ServerContext*, const v1::DeleteUserRequest* request,
                           google::protobuf::Empty*) override {
     const auto name = name_in("users", request->name());
-    return name ? to_grpc(backend_.accounts.remove(*name)) : to_grpc(name.error());
+    return name ? to_grpc(backend_.accounts.users().remove(*name)) : to_grpc(name.error());
   }
   grpc::Status ListApiKeys(grpc::ServerContext* context, const v1::ListApiKeysRequest* request,
                            v1::ListApiKeysResponse* reply) override {
@@ -178,21 +178,22 @@ class PeopleService final : public v1::PeopleService::Service {
       return invalid_field("user", "is required with a password, unless link_token is set");
     }
     const std::string peer = credentials_of(context).peer;
-    const auto in = request.link_token().empty()
-                        ? backend_.accounts.sign_in(request.user(), request.password(), peer)
-                        : backend_.accounts.sign_in_by_link(request.link_token(), peer);
+    const auto in =
+        request.link_token().empty()
+            ? backend_.accounts.sessions().sign_in(request.user(), request.password(), peer)
+            : backend_.accounts.sessions().sign_in_by_link(request.link_token(), peer);
     note_sign_in(context, request, in);
     HP_RETURN_IF_ERROR(in);
     reply.set_session_token(in->token);
     reply.set_csrf_token(auth::csrf_token(in->token));
     *reply.mutable_user() = user_message(in->user);
-    *reply.mutable_expire_time() = time_of(backend_.accounts.most_ms(in->session));
+    *reply.mutable_expire_time() = time_of(backend_.accounts.sessions().most_ms(in->session));
     return {};
   }
 
   Status sign_out(const grpc::ServerContext& context) {
     HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
-    return caller.session.empty() ? Status() : backend_.accounts.end_session(caller.session);
+    return caller.session.empty() ? Status() : backend_.accounts.sessions().end(caller.session);
   }
 
   Status who(const grpc::ServerContext& context, v1::WhoAmIResponse& reply) {
@@ -204,7 +205,7 @@ class PeopleService final : public v1::PeopleService::Service {
     if (!caller.session.empty()) {
       reply.set_csrf_token(auth::csrf_token(caller.credentials.session));
     }
-    const auto user = backend_.accounts.user(caller.name);
+    const auto user = backend_.accounts.users().get(caller.name);
     reply.set_has_password(user && !user->password.empty());
     return {};
   }
@@ -214,7 +215,7 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     const std::string& owner = request.owner().empty() ? caller.name : request.owner();
     if (owner != caller.name) HP_RETURN_IF_ERROR(check_role(caller, Role::kAdmin));
-    HP_ASSIGN_OR_RETURN(const Usage usage, backend_.assets.usage(owner));
+    HP_ASSIGN_OR_RETURN(const Usage usage, usage_of(backend_.database, owner));
     reply.set_owner(owner);
     reply.set_queued_jobs(usage.queued_jobs);
     reply.set_max_queued_jobs(backend_.quota.max_queued_jobs);
@@ -226,7 +227,8 @@ class PeopleService final : public v1::PeopleService::Service {
 
   Status list_users(const v1::ListUsersRequest& request, v1::ListUsersResponse& reply) {
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
-    auto users = backend_.accounts.users(request.page_token(), static_cast<std::size_t>(size) + 1);
+    auto users =
+        backend_.accounts.users().list(request.page_token(), static_cast<std::size_t>(size) + 1);
     if (cut_page(users, size)) reply.set_next_page_token(users.back().name);
     for (const auth::User& user : users) *reply.add_users() = user_message(user);
     return {};
@@ -235,8 +237,8 @@ class PeopleService final : public v1::PeopleService::Service {
   Result<auth::User> create(const v1::CreateUserRequest& request) {
     HP_ASSIGN_OR_RETURN(const std::string name, name_in("users", request.user().name()));
     HP_ASSIGN_OR_RETURN(const Role role, role_in("user.role", request.user().role()));
-    return backend_.accounts.create({name, role, request.user().disabled(), "", 0},
-                                    request.password(), request.returns());
+    return backend_.accounts.users().create({name, role, request.user().disabled(), "", 0},
+                                            request.password(), request.returns());
   }
 
   Result<auth::User> update(const v1::UpdateUserRequest& request) {
@@ -246,7 +248,7 @@ class PeopleService final : public v1::PeopleService::Service {
       HP_ASSIGN_OR_RETURN(change.role, role_in("role", request.role()));
     }
     if (request.has_disabled()) change.disabled = request.disabled();
-    return backend_.accounts.update(name, change);
+    return backend_.accounts.users().update(name, change);
   }
 
   Result<auth::User> set_password(const grpc::ServerContext& context,
@@ -255,12 +257,12 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     const bool is_own = caller.name == name && caller.is_user;
     if (!is_own) HP_RETURN_IF_ERROR(check_role(caller, Role::kAdmin));
-    HP_ASSIGN_OR_RETURN(const auth::User user, backend_.accounts.user(name));
+    HP_ASSIGN_OR_RETURN(const auth::User user, backend_.accounts.users().get(name));
     if (is_own) {
       if (request.new_password().empty()) return invalid_field("new_password", "is missing");
       HP_RETURN_IF_ERROR(check_old_password(caller, user, request.old_password(), context));
     }
-    return backend_.accounts.set_password(name, request.new_password(), caller.session);
+    return backend_.accounts.users().set_password(name, request.new_password(), caller.session);
   }
 
   // Without an old password the caller must have a session, which a link started. A key may have a
@@ -268,8 +270,8 @@ class PeopleService final : public v1::PeopleService::Service {
   Status check_old_password(const Caller& caller, const auth::User& user,
                             const std::string& password, const grpc::ServerContext& context) {
     if (user.password.empty() && !caller.session.empty()) return {};
-    const Status right =
-        backend_.accounts.check_password(user.name, password, credentials_of(context).peer);
+    const Status right = backend_.accounts.sessions().check_password(user.name, password,
+                                                                     credentials_of(context).peer);
     if (right || right.error().code != Code::kUnauthenticated) return right;
     return fail(Code::kPermissionDenied, "old_password: wrong password; ask an admin to reset it",
                 "SIGN_IN_FAILED");
@@ -277,7 +279,7 @@ class PeopleService final : public v1::PeopleService::Service {
 
   Status link(const v1::CreateSignInLinkRequest& request, v1::SignInLink& reply) {
     HP_ASSIGN_OR_RETURN(const std::string name, name_in("users", request.name()));
-    HP_ASSIGN_OR_RETURN(const auto made, backend_.accounts.make_link(name));
+    HP_ASSIGN_OR_RETURN(const auto made, backend_.accounts.sessions().make_link(name));
     reply.set_token(made.first);
     *reply.mutable_expire_time() = time_of(made.second);
     return {};
@@ -296,8 +298,8 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     HP_ASSIGN_OR_RETURN(const std::string user, wanted(caller, request.user()));
-    auto keys =
-        backend_.accounts.keys(user, request.page_token(), static_cast<std::size_t>(size) + 1);
+    auto keys = backend_.accounts.keys().list(user, request.page_token(),
+                                              static_cast<std::size_t>(size) + 1);
     if (cut_page(keys, size)) reply.set_next_page_token(keys.back().id);
     for (const auth::ApiKey& key : keys) *reply.add_api_keys() = key_message(key);
     return {};
@@ -318,7 +320,7 @@ class PeopleService final : public v1::PeopleService::Service {
       HP_RETURN_IF_ERROR(check_role(caller, made.role));
     }
     if (request.has_ttl()) made.ttl_ms = request.ttl().seconds() * 1000;
-    HP_ASSIGN_OR_RETURN(const auto key, backend_.accounts.create_key(made));
+    HP_ASSIGN_OR_RETURN(const auto key, backend_.accounts.keys().create(made));
     *reply.mutable_api_key() = key_message(key.first);
     reply.set_key(key.second);
     return {};
@@ -327,12 +329,12 @@ class PeopleService final : public v1::PeopleService::Service {
   Status delete_key(const grpc::ServerContext& context, const v1::DeleteApiKeyRequest& request) {
     HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("apiKeys", request.name()));
-    const auto key = backend_.accounts.key(id);
+    const auto key = backend_.accounts.keys().get(id);
     if (!key || is_hidden(caller, key->user)) {
       return fail(Code::kNotFound, request.name() + ": there is no such API key of yours",
                   "KEY_NOT_FOUND");
     }
-    return backend_.accounts.remove_key(id);
+    return backend_.accounts.keys().remove(id);
   }
 
   Status list_sessions(const grpc::ServerContext& context, const v1::ListSessionsRequest& request,
@@ -340,8 +342,8 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const int size, page_size(request.page_size(), 50));
     HP_ASSIGN_OR_RETURN(const std::string user, wanted(caller, request.user()));
-    auto sessions =
-        backend_.accounts.sessions(user, request.page_token(), static_cast<std::size_t>(size) + 1);
+    auto sessions = backend_.accounts.sessions().list(user, request.page_token(),
+                                                      static_cast<std::size_t>(size) + 1);
     if (cut_page(sessions, size)) reply.set_next_page_token(sessions.back().id);
     for (const auth::Session& session : sessions) {
       v1::Session& out = *reply.add_sessions();
@@ -349,7 +351,7 @@ class PeopleService final : public v1::PeopleService::Service {
       out.set_user("users/" + session.user);
       *out.mutable_create_time() = time_of(session.create_ms);
       *out.mutable_use_time() = time_of(session.use_ms);
-      *out.mutable_expire_time() = time_of(backend_.accounts.expire_ms(session));
+      *out.mutable_expire_time() = time_of(backend_.accounts.sessions().expire_ms(session));
       out.set_peer(session.peer);
       out.set_current(session.id == caller.session);
     }
@@ -359,12 +361,12 @@ class PeopleService final : public v1::PeopleService::Service {
   Status revoke(const grpc::ServerContext& context, const v1::RevokeSessionRequest& request) {
     HP_ASSIGN_OR_RETURN(const Caller caller, caller_of(context));
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("sessions", request.name()));
-    const auto session = backend_.accounts.session(id);
+    const auto session = backend_.accounts.sessions().get(id);
     if (!session || is_hidden(caller, session->user)) {
       return fail(Code::kNotFound, request.name() + ": there is no such session of yours",
                   "SESSION_NOT_FOUND");
     }
-    return backend_.accounts.end_session(id);
+    return backend_.accounts.sessions().end(id);
   }
 
   Status list_audit(const v1::ListAuditRequest& request, v1::ListAuditResponse& reply) {

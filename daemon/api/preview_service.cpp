@@ -70,7 +70,7 @@ class PreviewService final : public v1::PreviewService::Service {
     HP_RETURN_IF_ERROR(check_serving(backend_));
     HP_ASSIGN_OR_RETURN(const auth::Caller caller, caller_of(context));
     const std::string& owner = caller.name;
-    HP_RETURN_IF_ERROR(check_may_use_files(caller, request, backend_.assets));
+    HP_RETURN_IF_ERROR(check_may_use_files(caller, request, backend_.database));
     HP_ASSIGN_OR_RETURN(const PreviewRequest ask, check_preview(request));
     HP_ASSIGN_OR_RETURN(Previewed shown, backend_.previews.compute(owner, ask, [&context] {
       return context.IsCancelled();

@@ -45,7 +45,7 @@ class QueueService final : public v1::QueueService::Service {
   }
 
   Status set(const QueuePause& pause, v1::Queue& reply) {
-    HP_RETURN_IF_ERROR(backend_.jobs.set_pause(pause));
+    HP_RETURN_IF_ERROR(backend_.queue.set_pause(pause));
     backend_.pool.wake();
     log(LogLevel::kInfo, pause.paused ? "queue_paused" : "queue_resumed",
         {{"reason", pause.reason}});
@@ -58,7 +58,7 @@ class QueueService final : public v1::QueueService::Service {
     if (!request.before().empty()) {
       HP_ASSIGN_OR_RETURN(before, parse_job_name(request.before()));
     }
-    return backend_.jobs.move(id, before);
+    return backend_.queue.move(id, before);
   }
 
   ServiceContext backend_;

@@ -14,8 +14,10 @@
 #include "daemon/dip/executor.h"
 #include "daemon/jobs/executor.h"
 #include "daemon/rig/rig_gateway.h"
-#include "daemon/store/asset_store.h"
+#include "daemon/store/assets/uploads.h"
 #include "daemon/store/calibration_store.h"
+#include "daemon/store/job_queue.h"
+#include "daemon/store/job_retention.h"
 #include "daemon/store/job_store.h"
 #include "daemon/workers/preview_pool.h"
 #include "daemon/workers/worker_pool.h"
@@ -29,7 +31,10 @@ struct ServiceContext {
   auth::AuditLog& audit;
   const Authenticator& access;
   JobStore& jobs;
+  JobQueue& queue;
+  JobRetention& retention;
   AssetStore& assets;
+  Uploads& uploads;
   WorkerPool& pool;
   RigGateway& gateway;
   DipExecutor& dips;

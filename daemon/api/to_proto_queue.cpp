@@ -10,7 +10,7 @@ constexpr std::size_t kMostQueuedShown = 1000;
 }  // namespace
 
 Result<v1::Queue> queue_message(const ServiceContext& backend) {
-  HP_ASSIGN_OR_RETURN(const QueuePause pause, backend.jobs.pause());
+  HP_ASSIGN_OR_RETURN(const QueuePause pause, backend.queue.pause());
   HP_ASSIGN_OR_RETURN(const auto order, backend.pool.order(kMostQueuedShown));
   HP_ASSIGN_OR_RETURN(const auto queued, backend.jobs.ids_in_state(JobState::kQueued));
   v1::Queue queue;
@@ -18,7 +18,7 @@ Result<v1::Queue> queue_message(const ServiceContext& backend) {
   queue.set_pause_reason(pause.reason);
   for (const std::int64_t id : order) queue.add_queued_jobs(job_name(id));
   queue.set_queued_count(static_cast<std::int32_t>(queued.size()));
-  HP_ASSIGN_OR_RETURN(const auto computing, backend.jobs.computing());
+  HP_ASSIGN_OR_RETURN(const auto computing, backend.queue.computing());
   for (const std::int64_t id : computing) queue.add_running_jobs(job_name(id));
   queue.set_worker_slots(backend.pool.slots());
   queue.set_daemon_version(HYDROPRINT_VERSION);

@@ -1,5 +1,7 @@
 #include "daemon/auth/audit_log.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "daemon/store/database/retention_clock.h"
@@ -29,7 +31,7 @@ AuditEntry told_of_loss(std::int64_t count, std::int64_t time_ms) {
   entry.time_ms = time_ms;
   entry.what = "AuditLog";
   entry.outcome = "DATA_LOSS";
-  entry.detail = std::to_string(count) + " entries could not be written";
+  entry.detail = fmt::format("{} entries could not be written", count);
   return entry;
 }
 

@@ -44,7 +44,7 @@ Status Authenticator::check_still(const auth::Caller& caller) const {
 
 Result<auth::Caller> Authenticator::caller(const auth::Credentials& credentials,
                                            bool is_use) const {
-  if (open_on_loopback_ && !accounts_.any() && is_loopback(credentials.peer)) {
+  if (open_on_loopback_ && !accounts_.users().any() && is_loopback(credentials.peer)) {
     HP_ASSIGN_OR_RETURN(const std::string name, claimed_name(credentials));
     return auth::Caller{name, auth::Role::kAdmin, "loopback", "", false, credentials};
   }
@@ -53,10 +53,10 @@ Result<auth::Caller> Authenticator::caller(const auth::Credentials& credentials,
     // An invalid key is refused even with a valid session.
     if (credentials.authorization.starts_with(kBearer)) {
       const auto key = std::string_view(credentials.authorization).substr(kBearer.size());
-      caller = accounts_.by_key(key, is_use);
+      caller = accounts_.keys().caller(key, is_use);
     }
   } else if (!credentials.session.empty()) {
-    caller = accounts_.by_session(credentials.session, is_use);
+    caller = accounts_.sessions().caller(credentials.session, is_use);
   }
   if (!caller) return sign_in_needed(credentials);
   caller->credentials = credentials;

@@ -1,6 +1,9 @@
+#include "daemon/auth/sessions.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 
-#include "daemon/auth/accounts.h"
 #include "daemon/auth/secret.h"
 #include "sim/base/sha256.h"
 
@@ -16,35 +19,36 @@ tl::unexpected<Error> sign_in_failed(const char* what) {
 }
 
 tl::unexpected<Error> too_many_attempts(std::int64_t wait_ms) {
-  const std::string seconds = std::to_string((wait_ms + 999) / 1000);
-  auto refused = fail(Code::kResourceExhausted,
-                      "too many attempts to sign in failed; try again in " + seconds + " s",
-                      "TOO_MANY_ATTEMPTS");
-  refused.value().metadata["retry_s"] = seconds;
+  const std::int64_t seconds = (wait_ms + 999) / 1000;
+  auto refused =
+      fail(Code::kResourceExhausted,
+           fmt::format("too many attempts to sign in failed; try again in {} s", seconds),
+           "TOO_MANY_ATTEMPTS");
+  refused.value().metadata["retry_s"] = fmt::to_string(seconds);
   return refused;
 }
 
 }  // namespace
 
-std::int64_t Accounts::expire_ms(const Session& session) const {
-  return std::min(session.use_ms + options_.session_idle_ms, most_ms(session));
+std::int64_t Sessions::expire_ms(const Session& session) const {
+  return std::min(session.use_ms + options_.idle_ms, most_ms(session));
 }
 
-bool Accounts::holds(const Session& session) const { return clock_() < expire_ms(session); }
+bool Sessions::is_valid(const Session& session) const { return clock_() < expire_ms(session); }
 
-std::optional<Caller> Accounts::by_session(std::string_view token, bool is_use) {
+std::optional<Caller> Sessions::caller(std::string_view token, bool is_use) {
   if (token.size() > kLongestToken) return std::nullopt;
   const std::string hash = sha256(token);
-  const std::lock_guard lock(now_);
-  const auto found = sessions_.find(hash);
-  if (found == sessions_.end() || !holds(found->second)) return std::nullopt;
-  const User* const user = admitted(found->second.user);
+  const std::lock_guard lock(rows_.memory);
+  const auto found = rows_.sessions.find(hash);
+  if (found == rows_.sessions.end() || !is_valid(found->second)) return std::nullopt;
+  const User* const user = rows_.admitted(found->second.user);
   if (user == nullptr) return std::nullopt;
   if (is_use) found->second.use_ms = clock_();
   return Caller{user->name, user->role, "session", found->second.id, true};
 }
 
-Status Accounts::check_password(const std::string& name, const std::string& password,
+Status Sessions::check_password(const std::string& name, const std::string& password,
                                 const std::string& peer) {
   const std::string key = name.substr(0, 64);  // stores no more than this of untrusted text
   if (const std::int64_t wait_ms = attempts_.begin(key, peer); wait_ms > 0) {
@@ -52,8 +56,8 @@ Status Accounts::check_password(const std::string& name, const std::string& pass
   }
   std::string hashed;
   {
-    const std::lock_guard lock(now_);
-    if (const User* const user = admitted(name)) hashed = user->password;
+    const std::lock_guard lock(rows_.memory);
+    if (const User* const user = rows_.admitted(name)) hashed = user->password;
   }
   HP_ASSIGN_OR_RETURN(const bool right, passwords_.check(password, hashed));
   if (!right) return sign_in_failed("the name or the password is wrong; ask an admin for a link");
@@ -61,22 +65,23 @@ Status Accounts::check_password(const std::string& name, const std::string& pass
   return {};
 }
 
-Result<SignedIn> Accounts::sign_in(const std::string& name, const std::string& password,
+Result<SignedIn> Sessions::sign_in(const std::string& name, const std::string& password,
                                    const std::string& peer) {
   HP_RETURN_IF_ERROR(check_password(name, password, peer));
-  HP_ASSIGN_OR_RETURN(const User user, this->user(name));
-  return begin_session(user, peer);
+  HP_ASSIGN_OR_RETURN(const User user, users_.get(name));
+  return begin(user, peer);
 }
 
-Result<std::pair<std::string, std::int64_t>> Accounts::make_link(const std::string& name) {
-  const std::lock_guard writing(writing_);
-  HP_RETURN_IF_ERROR(user(name));
+Result<std::pair<std::string, std::int64_t>> Sessions::make_link(const std::string& name) {
+  const std::lock_guard writing(rows_.writing);
+  HP_RETURN_IF_ERROR(users_.get(name));
   const std::string token = random_hex(kTokenBytes);
   const std::int64_t expire_ms = clock_() + options_.link_ms;
-  const Status done = database_.transaction([&]() -> Status {
-    HP_RETURN_IF_ERROR(database_.run("DELETE FROM sign_in_links WHERE user=?", {name}));
-    return database_.run("INSERT INTO sign_in_links(token_hash, user, expire_ms) VALUES (?,?,?)",
-                         {sha256(token), name, expire_ms});
+  const Status done = rows_.database.transaction([&]() -> Status {
+    HP_RETURN_IF_ERROR(rows_.database.run("DELETE FROM sign_in_links WHERE user=?", {name}));
+    return rows_.database.run(
+        "INSERT INTO sign_in_links(token_hash, user, expire_ms) VALUES (?,?,?)",
+        {sha256(token), name, expire_ms});
   });
   HP_RETURN_IF_ERROR(done);
   return std::pair{token, expire_ms};
@@ -84,67 +89,67 @@ Result<std::pair<std::string, std::int64_t>> Accounts::make_link(const std::stri
 
 // The row is deleted first, so of two callers with the same link only one finds it. Tokens cannot
 // be guessed, so attempts are not limited; each costs only one lookup.
-Result<SignedIn> Accounts::sign_in_by_link(const std::string& token, const std::string& peer) {
+Result<SignedIn> Sessions::sign_in_by_link(const std::string& token, const std::string& peer) {
   const std::string hash = sha256(token.substr(0, kLongestToken));
-  const std::lock_guard writing(writing_);
+  const std::lock_guard writing(rows_.writing);
   std::string name;
   HP_RETURN_IF_ERROR(
-      database_.each("SELECT user FROM sign_in_links WHERE token_hash=? AND expire_ms>?",
-                     {hash, clock_()}, [&](const daemon::DbRow& row) { name = row.text(0); }));
-  const auto user = this->user(name);
+      rows_.database.each("SELECT user FROM sign_in_links WHERE token_hash=? AND expire_ms>?",
+                          {hash, clock_()}, [&](const daemon::DbRow& row) { name = row.text(0); }));
+  const auto user = users_.get(name);
   if (!user || user->disabled) {
     attempts_.reject();
     return sign_in_failed(
         "the link was used or replaced, or has expired; ask an admin for another");
   }
-  HP_RETURN_IF_ERROR(database_.run("DELETE FROM sign_in_links WHERE token_hash=?", {hash}));
-  return begin_session(*user, peer);
+  HP_RETURN_IF_ERROR(rows_.database.run("DELETE FROM sign_in_links WHERE token_hash=?", {hash}));
+  return begin(*user, peer);
 }
 
-Result<SignedIn> Accounts::begin_session(const User& user, const std::string& peer) {
-  const std::lock_guard writing(writing_);
-  HP_RETURN_IF_ERROR(drop_oldest_session(user.name));
+Result<SignedIn> Sessions::begin(const User& user, const std::string& peer) {
+  const std::lock_guard writing(rows_.writing);
+  HP_RETURN_IF_ERROR(end_oldest(user.name));
   const std::int64_t now_ms = clock_();
   const std::string token = random_hex(kTokenBytes);
   const Session session{
       random_hex(kSessionIdBytes), user.name, sha256(token), peer, now_ms, now_ms};
-  HP_RETURN_IF_ERROR(database_.run(
+  HP_RETURN_IF_ERROR(rows_.database.run(
       "INSERT INTO sessions(id, user, token_hash, peer, create_ms, use_ms) VALUES (?,?,?,?,?,?)",
       {session.id, session.user, session.token_hash, session.peer, session.create_ms,
        session.use_ms}));
-  const std::lock_guard lock(now_);
-  sessions_[session.token_hash] = session;
+  const std::lock_guard lock(rows_.memory);
+  rows_.sessions[session.token_hash] = session;
   return SignedIn{token, user, session};
 }
 
-Status Accounts::drop_oldest_session(const std::string& user) {
-  std::vector<Session> all = sessions(user, "", options_.most_sessions);
-  if (all.size() < options_.most_sessions) return {};
+Status Sessions::end_oldest(const std::string& user) {
+  std::vector<Session> all = list(user, "", options_.most);
+  if (all.size() < options_.most) return {};
   const auto oldest = std::min_element(
       all.begin(), all.end(), [](const auto& a, const auto& b) { return a.use_ms < b.use_ms; });
-  return end_session(oldest->id);
+  return end(oldest->id);
 }
 
-Status Accounts::drop_sessions(const std::function<bool(const Session&)>& which) {
+Status Sessions::end_expired() {
   std::vector<std::string> ids;
   {
-    const std::lock_guard lock(now_);
-    for (const auto& [hash, session] : sessions_) {
-      if (which(session)) ids.push_back(session.id);
+    const std::lock_guard lock(rows_.memory);
+    for (const auto& [hash, session] : rows_.sessions) {
+      if (!is_valid(session)) ids.push_back(session.id);
     }
   }
-  for (const std::string& id : ids) HP_RETURN_IF_ERROR(end_session(id));
+  for (const std::string& id : ids) HP_RETURN_IF_ERROR(end(id));
   return {};
 }
 
-std::vector<Session> Accounts::sessions(const std::string& user, const std::string& after,
-                                        std::size_t limit) const {
+std::vector<Session> Sessions::list(const std::string& user, const std::string& after,
+                                    std::size_t limit) const {
   std::vector<Session> out;
   {
-    const std::lock_guard lock(now_);
-    for (const auto& [hash, session] : sessions_) {
+    const std::lock_guard lock(rows_.memory);
+    for (const auto& [hash, session] : rows_.sessions) {
       const bool wanted = (user.empty() || session.user == user) && session.id > after;
-      if (wanted && holds(session)) out.push_back(session);
+      if (wanted && is_valid(session)) out.push_back(session);
     }
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.id < b.id; });
@@ -152,20 +157,20 @@ std::vector<Session> Accounts::sessions(const std::string& user, const std::stri
   return out;
 }
 
-Result<Session> Accounts::session(const std::string& id) const {
-  const std::lock_guard lock(now_);
-  for (const auto& [hash, session] : sessions_) {
-    if (session.id == id && holds(session)) return session;
+Result<Session> Sessions::get(const std::string& id) const {
+  const std::lock_guard lock(rows_.memory);
+  for (const auto& [hash, session] : rows_.sessions) {
+    if (session.id == id && is_valid(session)) return session;
   }
   return fail(Code::kNotFound, "sessions/" + id + ": there is no such session",
               "SESSION_NOT_FOUND");
 }
 
-Status Accounts::end_session(const std::string& id) {
-  const std::lock_guard writing(writing_);
-  HP_RETURN_IF_ERROR(database_.run("DELETE FROM sessions WHERE id=?", {id}));
-  const std::lock_guard lock(now_);
-  std::erase_if(sessions_, [&](const auto& entry) { return entry.second.id == id; });
+Status Sessions::end(const std::string& id) {
+  const std::lock_guard writing(rows_.writing);
+  HP_RETURN_IF_ERROR(rows_.database.run("DELETE FROM sessions WHERE id=?", {id}));
+  const std::lock_guard lock(rows_.memory);
+  std::erase_if(rows_.sessions, [&](const auto& entry) { return entry.second.id == id; });
   return {};
 }
 

@@ -125,14 +125,14 @@ void hide_files(const Caller& caller, v1::Calibration& calibration) {
 
 AssetUser asset_user(const Caller& caller) { return {caller.name, caller.role >= Role::kOperator}; }
 
-Status check_may_use_files(const Caller& caller, const Message& request, AssetStore& assets) {
+Status check_may_use_files(const Caller& caller, const Message& request, Database& database) {
   std::vector<InputFile> files;
   find_files(request, files);
-  return assets.check_use(files, asset_user(caller));
+  return check_may_use(database, files, asset_user(caller));
 }
 
 Status check_may_create(const Caller& caller, Role needed, const v1::Job& job, JobStore& jobs,
-                        AssetStore& assets) {
+                        Database& database) {
   HP_RETURN_IF_ERROR(check_role(caller, needed));
   const Message* const spec = spec_of(job);
   if (spec == nullptr || caller.role >= Role::kOperator) return {};
@@ -144,7 +144,7 @@ Status check_may_create(const Caller& caller, Role needed, const v1::Job& job, J
     HP_ASSIGN_OR_RETURN(const Job other, jobs.get(*id));
     HP_RETURN_IF_ERROR(check_may_see(caller, other));
   }
-  return check_may_use_files(caller, *spec, assets);
+  return check_may_use_files(caller, *spec, database);
 }
 
 }  // namespace hydroprint::daemon

@@ -3,8 +3,7 @@
 #include <string>
 
 #include "daemon/auth/account.h"
-#include "daemon/store/asset_owners.h"
-#include "daemon/store/asset_store.h"
+#include "daemon/store/assets/asset_owners.h"
 #include "daemon/store/job.h"
 #include "daemon/store/job_store.h"
 #include "hydroprint/v1/calibration_service.pb.h"
@@ -34,7 +33,7 @@ void hide_files(const auth::Caller& caller, v1::Calibration& calibration);
 /// the caller may not see (NOT_YOURS; JOB_NOT_FOUND), and files that the caller may not use
 /// (ASSET_MISSING).
 [[nodiscard]] Status check_may_create(const auth::Caller& caller, auth::Role needed,
-                                      const v1::Job& job, JobStore& jobs, AssetStore& assets);
+                                      const v1::Job& job, JobStore& jobs, Database& database);
 
 /// The caller, as the asset store sees users.
 [[nodiscard]] AssetUser asset_user(const auth::Caller& caller);
@@ -42,6 +41,6 @@ void hide_files(const auth::Caller& caller, v1::Calibration& calibration);
 /// Refuses (ASSET_MISSING) input files of a request that the caller may not use.
 [[nodiscard]] Status check_may_use_files(const auth::Caller& caller,
                                          const google::protobuf::Message& request,
-                                         AssetStore& assets);
+                                         Database& database);
 
 }  // namespace hydroprint::daemon

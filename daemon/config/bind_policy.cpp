@@ -44,7 +44,7 @@ Status check_exposure(const Config& config) {
       "CONFIG_INVALID");
 }
 
-Status check_admin(const Config& config, const auth::Accounts& accounts) {
+Status check_admin(const Config& config, auth::Accounts& accounts) {
   const auto door = exposed_door(config);
   if (!door) return {};
   HP_ASSIGN_OR_RETURN(const bool has_admin, accounts.has_admin_who_can_sign_in());

@@ -15,6 +15,6 @@ namespace hydroprint::daemon {
 
 /// Refuses (kFailedPrecondition, SIGN_IN_NEEDED) an address beyond loopback while no admin can sign
 /// in. Remote callers need a user, and nobody could create one.
-[[nodiscard]] Status check_admin(const Config& config, const auth::Accounts& accounts);
+[[nodiscard]] Status check_admin(const Config& config, auth::Accounts& accounts);
 
 }  // namespace hydroprint::daemon

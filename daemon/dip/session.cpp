@@ -347,7 +347,7 @@ std::string DipSession::status() const {
 void DipSession::tell(const std::string& message) {
   if (stand_.ending != Ending::kNone) return;
   log_failure("dip_step_lost", job_,
-              around_.jobs.advance(job_, job_state(stand_), status(), progress(), message));
+              around_.device_jobs.advance(job_, job_state(stand_), status(), progress(), message));
   log(LogLevel::kInfo, "dip_step",
       {{"job", job_}, {"step", name(stand_.step)}, {"message", message}});
   write_record();
@@ -408,7 +408,7 @@ bool DipSession::finish() {
     }
     record_ = publish_record();
   }
-  const auto ended = around_.jobs.end(job_, state, failure, status(), *record_, end_words());
+  const auto ended = around_.device_jobs.end(job_, state, failure, status(), *record_, end_words());
   if (!ended) {
     next_end_ = SteadyClock::now() + kStoreAgainAfter;
     log(LogLevel::kError, "job_end_lost", {{"job", job_}, {"message", ended.error().message}});
@@ -419,10 +419,10 @@ bool DipSession::finish() {
   return true;
 }
 
-Status end_lost_dips(JobStore& jobs, const Layout& layout) {
+Status end_lost_dips(DeviceJobs& jobs, const Layout& layout) {
   HP_ASSIGN_OR_RETURN(const auto lost, jobs.open_dips());
-  for (const std::int64_t id : lost) {
-    HP_ASSIGN_OR_RETURN(const Job job, jobs.get(id));
+  std::set<std::int64_t> ended;
+  for (const Job& job : lost) {
     v1::DipStatus status;
     status.ParseFromString(job.dip_status);
     const auto step = static_cast<Step>(
@@ -432,16 +432,16 @@ Status end_lost_dips(JobStore& jobs, const Layout& layout) {
     status.set_instruction(dip::advice(step));
     status.clear_step_end_time();
     std::vector<Artifact> record;
-    const auto folder = layout.dip(id);
+    const auto folder = layout.dip(job.id);
     if (const auto report = read_text_file(folder / dip::kReportName, kLargestRecord)) {
       const Status written = dip::write_report(folder, dip::interrupted_report(*report, words));
-      log_failure("record_not_written", id, written);
-      if (auto published = publish_artifacts(folder, layout.artifacts(id))) record = *published;
+      log_failure("record_not_written", job.id, written);
+      if (auto published = publish_artifacts(folder, layout.artifacts(job.id))) record = *published;
     }
     HP_RETURN_IF_ERROR(
-        jobs.end(id, JobState::kInterrupted, {}, status.SerializeAsString(), record, words));
+        jobs.end(job.id, JobState::kInterrupted, {}, status.SerializeAsString(), record, words));
+    ended.insert(job.id);
   }
-  const std::set<std::int64_t> ended(lost.begin(), lost.end());
   SetAside set_aside(layout, system_clock_ms());
   std::error_code ignored;
   for (const auto& entry : std::filesystem::directory_iterator(layout.dips(), ignored)) {

@@ -12,6 +12,7 @@
 #include "daemon/rig/rig_gateway.h"
 #include "daemon/rig/rig_reference.h"
 #include "daemon/store/calibration_store.h"
+#include "daemon/store/device_jobs.h"
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_layout.h"
 
@@ -22,6 +23,7 @@ struct DipSurroundings {
   RigGateway& gateway;
   RigReference& places;
   JobStore& jobs;
+  DeviceJobs& device_jobs;
   CalibrationStore& calibrations;
   Layout layout;
   Clock clock;
@@ -107,6 +109,6 @@ class DipSession {
 
 /// Ends dips that a crash of the daemon left open: publishes the record and sets the job to
 /// INTERRUPTED, with advice for the operator. Call this before serving clients.
-[[nodiscard]] Status end_lost_dips(JobStore& jobs, const Layout& layout);
+[[nodiscard]] Status end_lost_dips(DeviceJobs& jobs, const Layout& layout);
 
 }  // namespace hydroprint::daemon

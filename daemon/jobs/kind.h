@@ -9,7 +9,7 @@
 #include "daemon/auth/account.h"
 #include "daemon/config/camera_config.h"
 #include "daemon/jobs/executor.h"
-#include "daemon/store/asset_store.h"
+#include "daemon/store/assets/asset_store.h"
 #include "daemon/store/calibration_store.h"
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_layout.h"

@@ -48,7 +48,7 @@ void describe_queue(const ServiceContext& backend, PrometheusText& out) {
     out.sample(count, {{"state", name_of(state)}});
   }
   out.single("hydroprint_queue_depth", "gauge", "Jobs waiting for a worker.", queued);
-  const auto pause = backend.jobs.pause();
+  const auto pause = backend.queue.pause();
   if (pause) {
     out.single("hydroprint_queue_paused", "gauge", "1 while the queue is paused.",
                pause->paused ? 1 : 0);
@@ -126,7 +126,7 @@ std::string metrics_text(const ServiceContext& backend, const JobMetrics& meter,
                static_cast<double>(system_clock_ms() - taken_ms) / 1000);
   }
   out.single("hydroprint_rejected_logins_total", "counter", "Rejected sign-in attempts.",
-             static_cast<double>(backend.accounts.failed_attempts()));
+             static_cast<double>(backend.accounts.sessions().failed_attempts()));
   if (certificate != nullptr) certificate->describe(out);
   describe_process(out);
   return out.text();

@@ -5,8 +5,8 @@
 namespace hydroprint::daemon {
 
 PrintExecutor::PrintExecutor(std::optional<PrinterConfig> setup, JobStore& jobs,
-                             const Layout& layout)
-    : setup_(std::move(setup)), jobs_(jobs), layout_(layout) {}
+                             DeviceJobs& device_jobs, const Layout& layout)
+    : setup_(std::move(setup)), jobs_(jobs), device_jobs_(device_jobs), layout_(layout) {}
 
 PrintExecutor::~PrintExecutor() { stop(); }
 
@@ -36,7 +36,7 @@ Result<Job> PrintExecutor::create(const JobRequest& request) {
   HP_ASSIGN_OR_RETURN(Job job, jobs_.create(request.made, request.key));
   // The store allows only one print at a time.
   if (thread_.joinable()) thread_.join();
-  run_ = std::make_unique<PrintSession>(*setup_, jobs_, layout_, job, plan);
+  run_ = std::make_unique<PrintSession>(*setup_, device_jobs_, layout_, job, plan);
   thread_ = std::thread([run = run_.get()] { run->go(); });
   return job;
 }

@@ -14,7 +14,8 @@ namespace hydroprint::daemon {
 class PrintExecutor final : public JobExecutor {
  public:
   /// @param setup  nullopt: no printer is configured
-  PrintExecutor(std::optional<PrinterConfig> setup, JobStore& jobs, const Layout& layout);
+  PrintExecutor(std::optional<PrinterConfig> setup, JobStore& jobs, DeviceJobs& device_jobs,
+                const Layout& layout);
   /// Calls stop() if needed.
   ~PrintExecutor() override;
 
@@ -33,6 +34,7 @@ class PrintExecutor final : public JobExecutor {
 
   const std::optional<PrinterConfig> setup_;
   JobStore& jobs_;
+  DeviceJobs& device_jobs_;
   const Layout layout_;
   std::mutex mutex_;
   bool end_ = false;

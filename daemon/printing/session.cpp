@@ -30,7 +30,7 @@ std::string phase_of(printer::JobState state) {
 
 }  // namespace
 
-PrintSession::PrintSession(const PrinterConfig& setup, JobStore& jobs, const Layout& layout,
+PrintSession::PrintSession(const PrinterConfig& setup, DeviceJobs& jobs, const Layout& layout,
                            const Job& job, const PrintPlan& plan)
     : setup_(setup), jobs_(jobs), layout_(layout), job_(job.id) {
   facts_.job = job_name(job.id);

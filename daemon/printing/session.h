@@ -7,7 +7,7 @@
 
 #include "daemon/config/printer_config.h"
 #include "daemon/printing/record.h"
-#include "daemon/store/job_store.h"
+#include "daemon/store/device_jobs.h"
 #include "daemon/store/state_layout.h"
 
 namespace hydroprint::daemon {
@@ -18,7 +18,7 @@ namespace hydroprint::daemon {
 class PrintSession {
  public:
   /// @param job  just created
-  PrintSession(const PrinterConfig& setup, JobStore& jobs, const Layout& layout, const Job& job,
+  PrintSession(const PrinterConfig& setup, DeviceJobs& jobs, const Layout& layout, const Job& job,
                const PrintPlan& plan);
 
   [[nodiscard]] std::int64_t job() const { return job_; }
@@ -41,7 +41,7 @@ class PrintSession {
   [[nodiscard]] std::vector<Artifact> publish_record();
 
   const PrinterConfig setup_;
-  JobStore& jobs_;
+  DeviceJobs& jobs_;
   const Layout layout_;
   const std::int64_t job_;
   const std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();

@@ -1,9 +1,9 @@
-// The queue functions of the job store: waiting jobs, their order and the pause.
+#include "daemon/store/job_queue.h"
+
 #include <algorithm>
 
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/job_rows.h"
-#include "daemon/store/job_store.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -35,19 +35,25 @@ tl::unexpected<Error> cannot_move(std::int64_t id, const std::string& why) {
 
 }  // namespace
 
-Result<std::vector<WaitingJob>> JobStore::waiting() {
+Result<std::vector<WaitingJob>> JobQueue::waiting() {
   std::vector<WaitingJob> jobs;
   HP_RETURN_IF_ERROR(database_.each(
       "SELECT id, owner, priority, rank FROM jobs WHERE state=? ORDER BY priority DESC, rank",
-      {static_cast<std::int64_t>(JobState::kQueued)}, [&](const DbRow& row) {
+      {number(JobState::kQueued)}, [&](const DbRow& row) {
         jobs.push_back({row.integer(0), row.text(1), static_cast<std::int32_t>(row.integer(2)),
                         row.integer(3)});
       }));
   return jobs;
 }
 
-Result<Job> JobStore::move(std::int64_t id, std::int64_t before) {
-  return changed(id, [&](const Job& job) -> Status {
+Result<std::vector<std::int64_t>> JobQueue::computing() {
+  return select_numbers(
+      database_, "SELECT id FROM jobs WHERE state IN (?,?) AND computed=1 ORDER BY state, id",
+      {number(JobState::kRunning), number(JobState::kCancelling)});
+}
+
+Result<Job> JobQueue::move(std::int64_t id, std::int64_t before) {
+  return changes_.change(id, [&](const Job& job) -> Status {
     if (job.state != JobState::kQueued)
       return cannot_move(id, "is not queued, so it cannot be moved");
     HP_ASSIGN_OR_RETURN(std::vector<WaitingJob> all, waiting());
@@ -64,18 +70,11 @@ Result<Job> JobStore::move(std::int64_t id, std::int64_t before) {
           database_.run("UPDATE jobs SET rank=?, priority=?, version=version+1 WHERE id=?",
                         {place.rank, std::int64_t{place.priority}, place.id}));
     }
-    return add_event(id, EventKind::kMoved, "");
+    return changes_.add_event(id, EventKind::kMoved, "");
   });
 }
 
-Result<Job> JobStore::share(std::int64_t id, bool shared) {
-  return changed(id, [&](const Job&) {
-    return database_.run("UPDATE jobs SET shared=?, update_ms=?, version=version+1 WHERE id=?",
-                         {std::int64_t{shared}, clock_(), id});
-  });
-}
-
-Result<QueuePause> JobStore::pause() {
+Result<QueuePause> JobQueue::pause() {
   QueuePause pause;
   HP_RETURN_IF_ERROR(
       database_.each("SELECT value FROM settings WHERE name='pause'", {}, [&](const DbRow& row) {
@@ -84,12 +83,12 @@ Result<QueuePause> JobStore::pause() {
   return pause;
 }
 
-Status JobStore::set_pause(const QueuePause& pause) {
+Status JobQueue::set_pause(const QueuePause& pause) {
   Status status =
       pause.paused
           ? database_.run("INSERT OR REPLACE INTO settings VALUES ('pause', ?)", {pause.reason})
           : database_.run("DELETE FROM settings WHERE name='pause'");
-  notifier_.ring();
+  changes_.notifier().ring();
   return status;
 }
 

@@ -1,6 +1,7 @@
-// Retention of finished jobs.
-#include <algorithm>
+#include "daemon/store/job_retention.h"
+
 #include <cstdlib>
+#include <set>
 
 #include "daemon/platform/durable_file.h"
 #include "daemon/platform/log.h"
@@ -8,7 +9,7 @@
 #include "daemon/store/database/retention_clock.h"
 #include "daemon/store/idempotency.h"
 #include "daemon/store/job_rows.h"
-#include "daemon/store/job_store.h"
+#include "daemon/store/set_aside.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -31,39 +32,28 @@ void log_jump(std::int64_t jump_ms) {
 
 }  // namespace
 
-// Sets the deletion time of the finished jobs that `where` (with one value) selects.
-Status JobStore::set_purge_time(const std::string& where, std::int64_t value) {
-  const std::int64_t keep = options_.keep_finished_ms, keep_dips = options_.keep_dips_ms;
-  const bool for_ever = keep == 0 || keep_dips == 0;
-  return database_.run(
-      "UPDATE jobs SET purge_ms=coalesce(keep_from_ms+nullif(CASE WHEN EXISTS(SELECT 1 FROM dips "
-      "WHERE job=jobs.id) THEN ?2 ELSE ?3 END, 0), 0) WHERE " +
-          std::string(where).replace(where.find('?'), 1, "?1"),
-      {value, for_ever ? std::int64_t{0} : std::max(keep, keep_dips), keep});
-}
-
-Result<Job> JobStore::pin(std::int64_t id, bool pinned) {
-  return changed(id, [&](const Job& job) -> Status {
+Result<Job> JobRetention::pin(std::int64_t id, bool pinned) {
+  return changes_.change(id, [&](const Job& job) -> Status {
     if (job.pinned == pinned) return {};
-    const std::int64_t now = clock_();
+    const std::int64_t now = changes_.now_ms();
     HP_RETURN_IF_ERROR(
         database_.run("UPDATE jobs SET pinned=?, update_ms=?, version=version+1 WHERE id=?",
                       {std::int64_t{pinned}, now, id}));
     if (pinned || !is_finished(job.state)) return {};
     HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET keep_from_ms=? WHERE id=?", {now, id}));
-    return set_purge_time("id=?", id);
+    return changes_.set_purge_time("id=?", id);
   });
 }
 
 // Deletes one job, unless it has just been pinned.
-Status JobStore::purge_one(std::int64_t id) {
+Status JobRetention::purge_one(std::int64_t id) {
   bool is_gone = false;
   std::string owner, name;
   const Status done = database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
     if (!is_finished(job.state)) return {};
     HP_RETURN_IF_ERROR(database_.run(std::string("DELETE FROM jobs WHERE ") + kIsDue + " AND id=?2",
-                                     {clock_(), id}));
+                                     {changes_.now_ms(), id}));
     is_gone = database_.changes() > 0;
     owner = job.made.owner;
     name = job.made.display_name;
@@ -74,12 +64,12 @@ Status JobStore::purge_one(std::int64_t id) {
   discard(layout_.artifacts(id));
   log(LogLevel::kInfo, "job_deleted",
       {{"job", id}, {"owner", owner}, {"name", name}, {"why", "its retention time was over"}});
-  notifier_.ring();
+  changes_.notifier().ring();
   return {};
 }
 
-Status JobStore::purge() {
-  HP_ASSIGN_OR_RETURN(const std::int64_t jump_ms, follow_clock(database_, clock_()));
+Status JobRetention::purge() {
+  HP_ASSIGN_OR_RETURN(const std::int64_t jump_ms, follow_clock(database_, changes_.now_ms()));
   log_jump(jump_ms);
   HP_ASSIGN_OR_RETURN(
       const auto readers,
@@ -89,11 +79,28 @@ Status JobStore::purge() {
   HP_ASSIGN_OR_RETURN(const auto old, select_numbers(database_,
                                                      std::string("SELECT id FROM jobs WHERE ") +
                                                          kIsDue + " ORDER BY purge_ms, id",
-                                                     {clock_()}));
+                                                     {changes_.now_ms()}));
   for (const std::int64_t id : old) {
     if (readers.empty()) HP_RETURN_IF_ERROR(purge_one(id));
   }
-  return forget_old_requests(database_, clock_());
+  return forget_old_requests(database_, changes_.now_ms());
+}
+
+Status JobRetention::sweep() {
+  discard(layout_.runs());
+  HP_RETURN_IF_ERROR(make_folder(layout_.runs()));
+  HP_RETURN_IF_ERROR(make_folder(layout_.artifacts()));
+  HP_RETURN_IF_ERROR(changes_.set_purge_time("end_ms>?", 0));
+  HP_ASSIGN_OR_RETURN(const auto done,
+                      select_numbers(database_, "SELECT DISTINCT job FROM artifacts", {}));
+  const std::set<std::int64_t> owned(done.begin(), done.end());
+  SetAside set_aside(layout_, changes_.now_ms());
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(layout_.artifacts(), ignored)) {
+    if (owned.contains(parse_number(entry.path().filename().string()))) continue;
+    HP_RETURN_IF_ERROR(set_aside.move(entry.path()));
+  }
+  return {};
 }
 
 }  // namespace hydroprint::daemon

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 #include <string>
 #include <vector>
@@ -8,6 +9,14 @@
 #include "daemon/store/job.h"
 
 namespace hydroprint::daemon {
+
+/// The number stored for a state or a kind of event.
+[[nodiscard]] constexpr std::int64_t number(JobState state) {
+  return static_cast<std::int64_t>(state);
+}
+[[nodiscard]] constexpr std::int64_t number(EventKind kind) {
+  return static_cast<std::int64_t>(kind);
+}
 
 /// Jobs selected by "WHERE ... ORDER BY ... LIMIT ...", without their inputs.
 [[nodiscard]] Result<std::vector<Job>> select_jobs(Database& database, const std::string& where,

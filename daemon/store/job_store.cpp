@@ -1,24 +1,19 @@
 #include "daemon/store/job_store.h"
 
-#include <algorithm>
-#include <chrono>
-#include <set>
+#include <fmt/format.h>
 
 #include "daemon/platform/durable_file.h"
 #include "daemon/platform/resource_names.h"
-#include "daemon/store/asset_owners.h"
+#include "daemon/store/asset.h"
 #include "daemon/store/calibration_store.h"
+#include "daemon/store/device_jobs.h"
 #include "daemon/store/idempotency.h"
 #include "daemon/store/job_rows.h"
-#include "daemon/store/set_aside.h"
 
 namespace hydroprint::daemon {
 namespace {
 
 constexpr std::int64_t kMostLosses = 3;
-
-std::int64_t number(JobState state) { return static_cast<std::int64_t>(state); }
-std::int64_t number(EventKind kind) { return static_cast<std::int64_t>(kind); }
 
 tl::unexpected<Error> state_forbids(const Job& job, const std::string& remedy) {
   auto error =
@@ -30,15 +25,8 @@ tl::unexpected<Error> state_forbids(const Job& job, const std::string& remedy) {
 
 }  // namespace
 
-std::int64_t system_clock_ms() {
-  using std::chrono::milliseconds;
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<milliseconds>(now).count();
-}
-
-JobStore::JobStore(Database& database, const Layout& layout, const JobStoreOptions& options,
-                   Clock clock)
-    : database_(database), layout_(layout), options_(options), clock_(std::move(clock)) {}
+JobStore::JobStore(JobChanges& changes, const Layout& layout, const JobStoreOptions& options)
+    : changes_(changes), database_(changes.database()), layout_(layout), options_(options) {}
 
 Status JobStore::check_inputs(const std::vector<InputFile>& inputs) {
   for (const InputFile& input : inputs) {
@@ -56,8 +44,8 @@ Status JobStore::check_queue() {
                                      {number(JobState::kQueued)}));
   if (queued.front() >= options_.max_queued) {
     return fail(Code::kResourceExhausted,
-                "the queue is full (" + std::to_string(options_.max_queued) +
-                    " jobs); try again when some have finished",
+                fmt::format("the queue is full ({} jobs); try again when some have finished",
+                            options_.max_queued),
                 "QUEUE_FULL");
   }
   return {};
@@ -69,10 +57,10 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
   const JobState state = traits.computed ? JobState::kQueued
                          : is_dip        ? JobState::kWaitingForOperator
                                          : JobState::kRunning;
-  HP_RETURN_IF_ERROR(traits.computed ? check_queue() : check_none_open(made.work.verb));
+  HP_RETURN_IF_ERROR(traits.computed ? check_queue() : check_none_open(database_, made.work.verb));
   HP_RETURN_IF_ERROR(check_job_quota(database_, made.owner, options_.quota, traits.computed));
   HP_RETURN_IF_ERROR(check_inputs(made.work.inputs));
-  const std::int64_t now = clock_();
+  const std::int64_t now = changes_.now_ms();
   HP_RETURN_IF_ERROR(database_.run(
       "INSERT INTO jobs(uid, display_name, owner, priority, rank, body, verb, spec, flags, pose, "
       "computed, reads_artifacts, interrupted_advice, threads, digest, retry_of, use_cache, state, "
@@ -106,16 +94,16 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
     HP_RETURN_IF_ERROR(
         database_.run("UPDATE assets SET use_ms=? WHERE sha256=?", {now, input.sha256}));
   }
-  if (is_dip) HP_RETURN_IF_ERROR(store_dip_status(id, made.dip_status));
-  HP_RETURN_IF_ERROR(add_event(id, EventKind::kStateChanged, ""));
+  if (is_dip) HP_RETURN_IF_ERROR(store_dip_status(database_, id, made.dip_status));
+  HP_RETURN_IF_ERROR(changes_.add_event(id, EventKind::kStateChanged, ""));
   return id;
 }
 
 Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
   std::int64_t id = 0, inserted = 0;
-  const Status done = database_.transaction([&]() -> Status {
+  const Status done = changes_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const auto earlier,
-                        earlier_result(database_, made.owner, request, clock_()));
+                        earlier_result(database_, made.owner, request, changes_.now_ms()));
     if (earlier) {
       id = parse_number(*earlier);
       return {};
@@ -124,12 +112,19 @@ Result<Job> JobStore::create(const NewJob& made, const RequestKey& request) {
     id = inserted;
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
     if (made.traits.computed) HP_RETURN_IF_ERROR(adopt_cached(job));
-    return remember_result(database_, made.owner, request, std::to_string(id), clock_());
+    return remember_result(database_, made.owner, request, std::to_string(id), changes_.now_ms());
   });
   if (!done && inserted != 0) discard_unowned(inserted);
   HP_RETURN_IF_ERROR(done);
-  notifier_.ring();
   return get(id);
+}
+
+Result<std::optional<Job>> JobStore::repeated(const std::string& owner, const RequestKey& request) {
+  HP_ASSIGN_OR_RETURN(const auto earlier,
+                      earlier_result(database_, owner, request, changes_.now_ms()));
+  if (!earlier) return std::optional<Job>();
+  HP_ASSIGN_OR_RETURN(Job job, get(parse_number(*earlier)));
+  return std::optional(std::move(job));
 }
 
 // Gives a job the artifacts of a finished job with the same inputs, if there is one.
@@ -153,10 +148,11 @@ Result<bool> JobStore::adopt_cached(const Job& job) {
     return false;
   }
   HP_RETURN_IF_ERROR(sync_path(folder));
-  HP_RETURN_IF_ERROR(store_artifacts(job.id, files));
+  HP_RETURN_IF_ERROR(changes_.add_artifacts(job.id, files));
   HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET cache_hit=1, fraction=1 WHERE id=?", {job.id}));
-  HP_RETURN_IF_ERROR(finish(job.id, JobState::kSucceeded,
-                            "same inputs as " + job_name(equal.front()) + "; artifacts reused"));
+  HP_RETURN_IF_ERROR(
+      changes_.finish(job.id, JobState::kSucceeded,
+                      "same inputs as " + job_name(equal.front()) + "; artifacts reused"));
   return true;
 }
 
@@ -171,56 +167,6 @@ void JobStore::discard_unowned(std::int64_t id) {
   });
 }
 
-Status JobStore::store_artifacts(std::int64_t id, const std::vector<Artifact>& artifacts) {
-  for (const Artifact& file : artifacts) {
-    HP_RETURN_IF_ERROR(
-        database_.run("INSERT INTO artifacts VALUES (?,?,?,?,?)",
-                      {id, file.name, file.size_bytes, file.sha256, file.media_type}));
-  }
-  return {};
-}
-
-Status JobStore::add_event(std::int64_t id, EventKind kind, const std::string& message) {
-  return database_.run(
-      "INSERT INTO events(job, time_ms, kind, state, fraction, phase, phase_fraction, eta_ms, "
-      "message) SELECT id, ?, ?, state, fraction, phase, phase_fraction, eta_ms, ? FROM jobs "
-      "WHERE id=?",
-      {clock_(), number(kind), message, id});
-}
-
-Status JobStore::change(std::int64_t id, JobState state, const std::string& message) {
-  HP_RETURN_IF_ERROR(
-      database_.run("UPDATE jobs SET state=?, update_ms=?, version=version+1 WHERE id=?",
-                    {number(state), clock_(), id}));
-  return add_event(id, EventKind::kStateChanged, message);
-}
-
-Status JobStore::finish(std::int64_t id, JobState state, const std::string& message) {
-  const std::int64_t now = clock_();
-  HP_RETURN_IF_ERROR(
-      database_.run("UPDATE jobs SET end_ms=?1, keep_from_ms=?1, phase='', phase_fraction=0, "
-                    "eta_ms=0 WHERE id=?2",
-                    {now, id}));
-  HP_RETURN_IF_ERROR(set_purge_time("id=?", id));
-  HP_RETURN_IF_ERROR(database_.run("DELETE FROM events WHERE job=? AND kind=?",
-                                   {id, number(EventKind::kProgress)}));
-  return change(id, state, message);
-}
-
-// Changes one job within a transaction and returns its new state.
-Result<Job> JobStore::changed(std::int64_t id, const std::function<Status(const Job&)>& body) {
-  Job after;
-  const Status done = database_.transaction([&]() -> Status {
-    HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
-    HP_RETURN_IF_ERROR(body(job));
-    HP_ASSIGN_OR_RETURN(after, select_job(database_, id));
-    return {};
-  });
-  HP_RETURN_IF_ERROR(done);
-  notifier_.ring();
-  return after;
-}
-
 Result<Job> JobStore::get(std::int64_t id) {
   Result<Job> job = fail(Code::kInternal, "");
   // One transaction, so that the job and its inputs are consistent.
@@ -233,18 +179,17 @@ Result<Job> JobStore::get(std::int64_t id) {
 }
 
 Result<std::vector<Job>> JobStore::list(const JobFilter& filter) {
-  std::string states;
-  for (const JobState state : filter.states) states += "," + std::to_string(number(state));
+  std::vector<std::int64_t> states;
+  for (const JobState state : filter.states) states.push_back(number(state));
   const std::string where =
-      "WHERE (?1='' OR owner=?1) AND (?2=0 OR id<?2)" +
-      (states.empty() ? std::string() : " AND state IN (" + states.substr(1) + ")") +
-      " ORDER BY id DESC LIMIT ?3";
+      fmt::format("WHERE (?1='' OR owner=?1) AND (?2=0 OR id<?2) {} ORDER BY id DESC LIMIT ?3",
+                  states.empty() ? "" : fmt::format("AND state IN ({})", fmt::join(states, ",")));
   return select_jobs(database_, where,
                      {filter.owner, filter.before_id, std::int64_t{filter.limit}});
 }
 
 Status JobStore::remove(std::int64_t id) {
-  const Status done = database_.transaction([&]() -> Status {
+  const Status done = changes_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
     if (!is_finished(job.state)) return state_forbids(job, "cancel it first");
     HP_ASSIGN_OR_RETURN(const std::int64_t calibration, calibration_of_job(database_, id));
@@ -256,18 +201,24 @@ Status JobStore::remove(std::int64_t id) {
   });
   HP_RETURN_IF_ERROR(done);
   discard(layout_.artifacts(id));
-  notifier_.ring();
   return {};
+}
+
+Result<Job> JobStore::share(std::int64_t id, bool shared) {
+  return changes_.change(id, [&](const Job&) {
+    return database_.run("UPDATE jobs SET shared=?, update_ms=?, version=version+1 WHERE id=?",
+                         {std::int64_t{shared}, changes_.now_ms(), id});
+  });
 }
 
 Result<Job> JobStore::cancel(std::int64_t id) {
   const auto mark = [&](const Job& job) -> Status {
     switch (job.state) {
       case JobState::kQueued:
-        return finish(id, JobState::kCancelled, "");
+        return changes_.finish(id, JobState::kCancelled, "");
       case JobState::kWaitingForOperator:
       case JobState::kRunning:
-        return change(id, JobState::kCancelling, "");
+        return changes_.set_state(id, JobState::kCancelling, "");
       case JobState::kCancelling:
       case JobState::kCancelled:
         return {};
@@ -275,73 +226,58 @@ Result<Job> JobStore::cancel(std::int64_t id) {
         return state_forbids(job, "it cannot be cancelled");
     }
   };
-  auto marked = changed(id, mark);
+  auto marked = changes_.change(id, mark);
   // This job may have filled the disk. The first attempt has emptied the database's log, so try
   // again.
-  if (!marked && marked.error().reason == "DISK_FULL") marked = changed(id, mark);
+  if (!marked && marked.error().reason == "DISK_FULL") marked = changes_.change(id, mark);
   return marked;
 }
 
 Result<Job> JobStore::start(std::int64_t id) {
-  auto started = changed(id, [&](const Job& job) -> Status {
+  auto started = changes_.change(id, [&](const Job& job) -> Status {
     if (job.state != JobState::kQueued) return state_forbids(job, "only a queued job can start");
     HP_ASSIGN_OR_RETURN(const bool cached, adopt_cached(job));
     if (cached) return {};
     HP_RETURN_IF_ERROR(database_.run(
         "UPDATE jobs SET start_ms=?, fraction=0, phase='', phase_fraction=0, eta_ms=0 WHERE id=?",
-        {clock_(), id}));
-    return change(id, JobState::kRunning, "");
+        {changes_.now_ms(), id}));
+    return changes_.set_state(id, JobState::kRunning, "");
   });
   if (!started && started.error().reason == "DISK_FULL") discard_unowned(id);
   return started;
 }
 
 Status JobStore::report(std::int64_t id, const Progress& progress) {
-  const Status done = database_.transaction([&]() -> Status {
+  return changes_.transaction([&]() -> Status {
     HP_RETURN_IF_ERROR(database_.run(
         "UPDATE jobs SET fraction=?, phase=?, phase_fraction=?, eta_ms=?, update_ms=?, "
         "version=version+1 WHERE id=? AND state=?",
-        {progress.fraction, progress.phase, progress.phase_fraction, progress.eta_ms, clock_(), id,
-         number(JobState::kRunning)}));
-    return database_.changes() == 0 ? Status() : add_event(id, EventKind::kProgress, "");
+        {progress.fraction, progress.phase, progress.phase_fraction, progress.eta_ms,
+         changes_.now_ms(), id, number(JobState::kRunning)}));
+    return database_.changes() == 0 ? Status() : changes_.add_event(id, EventKind::kProgress, "");
   });
-  HP_RETURN_IF_ERROR(done);
-  notifier_.ring();
-  return {};
 }
 
 Result<Job> JobStore::succeed(std::int64_t id, const std::vector<Artifact>& artifacts,
                               const std::optional<NewCalibration>& calibration) {
-  return changed(id, [&](const Job& job) -> Status {
-    if (job.state == JobState::kCancelling) return finish(id, JobState::kCancelled, "");
+  return changes_.change(id, [&](const Job& job) -> Status {
+    if (job.state == JobState::kCancelling) return changes_.finish(id, JobState::kCancelled, "");
     if (job.state != JobState::kRunning) return state_forbids(job, "only a running job can end");
-    HP_RETURN_IF_ERROR(store_artifacts(id, artifacts));
+    HP_RETURN_IF_ERROR(changes_.add_artifacts(id, artifacts));
     HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET fraction=1 WHERE id=?", {id}));
-    if (!calibration) return finish(id, JobState::kSucceeded, "");
+    if (!calibration) return changes_.finish(id, JobState::kSucceeded, "");
     HP_ASSIGN_OR_RETURN(const std::int64_t made,
-                        insert_calibration(database_, *calibration, clock_()));
-    return finish(id, JobState::kSucceeded, calibration_name(made));
+                        insert_calibration(database_, *calibration, changes_.now_ms()));
+    return changes_.finish(id, JobState::kSucceeded, calibration_name(made));
   });
 }
 
 Result<Job> JobStore::give_up(std::int64_t id, const JobFailure& failure) {
-  return changed(id, [&](const Job& job) -> Status {
-    if (job.state == JobState::kCancelling) return finish(id, JobState::kCancelled, "");
+  return changes_.change(id, [&](const Job& job) -> Status {
+    if (job.state == JobState::kCancelling) return changes_.finish(id, JobState::kCancelled, "");
     if (job.state != JobState::kRunning) return state_forbids(job, "only a running job can end");
-    return store_failure(id, failure);
+    return changes_.finish_failed(id, failure);
   });
-}
-
-Status JobStore::store_failure(std::int64_t id, const JobFailure& failure) {
-  const auto optional = [](const std::optional<std::int32_t>& value) {
-    return value ? DbValue(std::int64_t{*value}) : DbValue();
-  };
-  HP_RETURN_IF_ERROR(database_.run(
-      "UPDATE jobs SET error_code=?, error_reason=?, error_message=?, exit_status=?, signal=? "
-      "WHERE id=?",
-      {static_cast<std::int64_t>(failure.error.code), failure.error.reason, failure.error.message,
-       optional(failure.exit_status), optional(failure.signal), id}));
-  return finish(id, JobState::kFailed, failure.error.message);
 }
 
 Status JobStore::change_running(JobState from, const std::function<Status(std::int64_t)>& to) {
@@ -360,40 +296,42 @@ Status JobStore::queue_again(std::int64_t id, Interruption why) {
     HP_ASSIGN_OR_RETURN(const auto losses,
                         select_numbers(database_, "SELECT count FROM losses WHERE job=?", {id}));
     if (losses.front() >= kMostLosses) {
-      const Error lost{Code::kInternal,
-                       "the daemon or its machine was lost " + std::to_string(kMostLosses) +
-                           " times while this job ran, so it is not tried again; check the "
-                           "daemon's log, and retry the job if it was not the cause",
-                       "DAEMON_LOST",
-                       {}};
-      return store_failure(id, {lost, {}, {}});
+      const Error lost{
+          Code::kInternal,
+          fmt::format("the daemon or its machine was lost {} times while this job ran, so it "
+                      "is not tried again; check the daemon's log, and retry the job if it "
+                      "was not the cause",
+                      kMostLosses),
+          "DAEMON_LOST",
+          {}};
+      return changes_.finish_failed(id, {lost, {}, {}});
     }
   }
-  return change(id, JobState::kQueued, "queued again");
+  return changes_.set_state(id, JobState::kQueued, "queued again");
 }
 
 Status JobStore::interrupt_all(Interruption why) {
   const std::string words =
       why == Interruption::kLoss ? "the daemon was restarted" : "the daemon was shut down";
-  const Status done = database_.transaction([&]() -> Status {
-    const auto cancelled = [&](std::int64_t id) { return finish(id, JobState::kCancelled, words); };
+  return changes_.transaction([&]() -> Status {
+    const auto cancelled = [&](std::int64_t id) {
+      return changes_.finish(id, JobState::kCancelled, words);
+    };
     const auto interrupted = [&](std::int64_t id) -> Status {
       HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
       const std::string& advice = job.made.traits.interrupted_advice;
-      return finish(id, JobState::kInterrupted, advice.empty() ? words : words + ": " + advice);
+      return changes_.finish(id, JobState::kInterrupted,
+                             advice.empty() ? words : words + ": " + advice);
     };
     HP_RETURN_IF_ERROR(change_running(JobState::kCancelling, cancelled));
     HP_RETURN_IF_ERROR(change_running(JobState::kWaitingForOperator, interrupted));
     return change_running(JobState::kRunning, [&](std::int64_t id) -> Status {
       HP_ASSIGN_OR_RETURN(const Job job, select_job(database_, id));
       if (!job.made.traits.computed) return interrupted(id);
-      HP_RETURN_IF_ERROR(change(id, JobState::kInterrupted, words));
+      HP_RETURN_IF_ERROR(changes_.set_state(id, JobState::kInterrupted, words));
       return queue_again(id, why);
     });
   });
-  HP_RETURN_IF_ERROR(done);
-  notifier_.ring();
-  return {};
 }
 
 Result<std::vector<Artifact>> JobStore::artifacts(std::int64_t id, const std::string& after,
@@ -418,8 +356,9 @@ Status JobStore::check_was_given(std::int64_t seq) {
   HP_ASSIGN_OR_RETURN(const std::int64_t newest, last_seq());
   if (seq >= 0 && seq <= newest) return {};
   return fail(Code::kOutOfRange,
-              "after_seq: this store has never had event " + std::to_string(seq) +
-                  "; get the job again and watch without after_seq",
+              fmt::format("after_seq: this store has never had event {}; get the job again and "
+                          "watch without after_seq",
+                          seq),
               "EVENTS_GONE");
 }
 
@@ -446,29 +385,6 @@ Result<std::int64_t> JobStore::last_seq() {
 Result<std::vector<std::int64_t>> JobStore::ids_in_state(JobState state) {
   return select_numbers(database_, "SELECT id FROM jobs WHERE state=? ORDER BY id",
                         {number(state)});
-}
-
-Result<std::vector<std::int64_t>> JobStore::computing() {
-  return select_numbers(
-      database_, "SELECT id FROM jobs WHERE state IN (?,?) AND computed=1 ORDER BY state, id",
-      {number(JobState::kRunning), number(JobState::kCancelling)});
-}
-
-Status JobStore::sweep() {
-  discard(layout_.runs());
-  HP_RETURN_IF_ERROR(make_folder(layout_.runs()));
-  HP_RETURN_IF_ERROR(make_folder(layout_.artifacts()));
-  HP_RETURN_IF_ERROR(set_purge_time("end_ms>?", 0));
-  HP_ASSIGN_OR_RETURN(const auto done,
-                      select_numbers(database_, "SELECT DISTINCT job FROM artifacts", {}));
-  const std::set<std::int64_t> owned(done.begin(), done.end());
-  SetAside set_aside(layout_, clock_());
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(layout_.artifacts(), ignored)) {
-    if (owned.contains(parse_number(entry.path().filename().string()))) continue;
-    HP_RETURN_IF_ERROR(set_aside.move(entry.path()));
-  }
-  return {};
 }
 
 }  // namespace hydroprint::daemon

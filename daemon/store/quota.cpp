@@ -1,5 +1,7 @@
 #include "daemon/store/quota.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace hydroprint::daemon {
@@ -11,20 +13,20 @@ tl::unexpected<Error> over_quota(const char* quota, std::int64_t used, std::int6
                                  const std::string& words) {
   auto error = fail(Code::kResourceExhausted, words, "QUOTA_EXCEEDED");
   error.value().metadata = {
-      {"quota", quota}, {"used", std::to_string(used)}, {"allowed", std::to_string(allowed)}};
+      {"quota", quota}, {"used", fmt::to_string(used)}, {"allowed", fmt::to_string(allowed)}};
   return error;
 }
 
 tl::unexpected<Error> too_many_bytes(const std::string& owner, const Usage& usage,
                                      std::int64_t allowed, std::int64_t more_bytes) {
   // Rounded up, so that it never seems that there is space left.
-  const auto up = [](std::int64_t bytes) {
-    return std::to_string((bytes + kMebibyte - 1) / kMebibyte);
-  };
-  std::string words = owner + " uses " + up(usage.stored_bytes) + " of " +
-                      std::to_string(allowed / kMebibyte) + " MiB";
-  if (usage.pinned_bytes > 0) words += " (" + up(usage.pinned_bytes) + " by pinned jobs)";
-  if (more_bytes > 0) words += ", and this needs " + up(more_bytes) + " MiB more";
+  const auto mebibytes = [](std::int64_t bytes) { return (bytes + kMebibyte - 1) / kMebibyte; };
+  std::string words = fmt::format("{} uses {} of {} MiB", owner, mebibytes(usage.stored_bytes),
+                                  allowed / kMebibyte);
+  if (usage.pinned_bytes > 0) {
+    words += fmt::format(" ({} by pinned jobs)", mebibytes(usage.pinned_bytes));
+  }
+  if (more_bytes > 0) words += fmt::format(", and this needs {} MiB more", mebibytes(more_bytes));
   return over_quota("bytes", usage.stored_bytes, allowed,
                     words +
                         "; delete jobs (hydroprint list --mine, delete) or files (hydroprint "
@@ -55,10 +57,9 @@ Status check_job_quota(Database& database, const std::string& owner, const Quota
   const std::int64_t jobs = quota.max_queued_jobs, bytes = quota.max_stored_bytes;
   if (is_queued && jobs > 0 && usage.queued_jobs >= jobs) {
     return over_quota("jobs", usage.queued_jobs, jobs,
-                      owner + " has " + std::to_string(usage.queued_jobs) + " of " +
-                          std::to_string(jobs) +
-                          " jobs in the queue; wait until some have finished, or cancel some "
-                          "(hydroprint cancel JOB)");
+                      fmt::format("{} has {} of {} jobs in the queue; wait until some have "
+                                  "finished, or cancel some (hydroprint cancel JOB)",
+                                  owner, usage.queued_jobs, jobs));
   }
   if (bytes == 0 || usage.stored_bytes < bytes) return {};
   return too_many_bytes(owner, usage, bytes, 0);

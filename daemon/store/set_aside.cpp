@@ -1,5 +1,7 @@
 #include "daemon/store/set_aside.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <ctime>
 #include <system_error>
@@ -23,7 +25,7 @@ std::string time_text(std::int64_t unix_ms) {
 std::filesystem::path unused_folder(const std::filesystem::path& parent, const std::string& name) {
   std::filesystem::path folder = parent / name;
   for (int i = 2; std::filesystem::exists(folder); ++i) {
-    folder = parent / (name + "-" + std::to_string(i));
+    folder = parent / fmt::format("{}-{}", name, i);
   }
   return folder;
 }

@@ -1,6 +1,7 @@
 #include "daemon/store/state_lock.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
@@ -18,7 +19,7 @@ Result<UniqueFd> lock_state(const Layout& layout) {
                 layout.root.string() + ": another hydroprintd (process " + holder +
                     ") uses this state folder; stop it or give another one with --state-dir");
   }
-  const std::string pid = std::to_string(::getpid()) + "\n";
+  const std::string pid = fmt::format("{}\n", ::getpid());
   if (::ftruncate(file.get(), 0) != 0) return system_failure(layout.lock(), "cannot be written");
   HP_RETURN_IF_ERROR(write_at(file, layout.lock(), pid, 0));
   return file;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "daemon/store/asset_store.h"
+#include "daemon/store/asset.h"
 #include "daemon/store/job.h"
 #include "hydroprint/v1/artifact_service.pb.h"
 #include "hydroprint/v1/asset_service.pb.h"

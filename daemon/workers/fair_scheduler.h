@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "daemon/store/job_store.h"
+#include "daemon/store/job_queue.h"
 
 namespace hydroprint::daemon {
 

@@ -53,9 +53,10 @@ class ProgramDigest {
 }  // namespace
 
 struct WorkerPool::Impl {
-  Impl(const PoolOptions& o, JobStore& s, const Layout& l, Clock c, Sandbox box)
+  Impl(const PoolOptions& o, JobStore& s, JobQueue& q, const Layout& l, Clock c, Sandbox box)
       : options(o),
         store(s),
+        queue(q),
         layout(l),
         clock(std::move(c)),
         sandbox(std::move(box)),
@@ -78,6 +79,7 @@ struct WorkerPool::Impl {
 
   PoolOptions options;
   JobStore& store;
+  JobQueue& queue;
   Layout layout;
   Clock clock;
   Sandbox sandbox;
@@ -95,11 +97,12 @@ struct WorkerPool::Impl {
 WorkerPool::WorkerPool() = default;
 
 Result<std::unique_ptr<WorkerPool>> WorkerPool::make(const PoolOptions& options, JobStore& store,
-                                                     const Layout& layout, Clock clock) {
+                                                     JobQueue& queue, const Layout& layout,
+                                                     Clock clock) {
   HP_ASSIGN_OR_RETURN(Sandbox sandbox, Sandbox::make());
   std::unique_ptr<WorkerPool> pool(new WorkerPool);
   pool->impl_ =
-      std::make_unique<Impl>(options, store, layout, std::move(clock), std::move(sandbox));
+      std::make_unique<Impl>(options, store, queue, layout, std::move(clock), std::move(sandbox));
   HP_RETURN_IF_ERROR(pool->impl_->program.get());
   return pool;
 }
@@ -153,7 +156,7 @@ void WorkerPool::wake() {
 int WorkerPool::slots() const { return impl_->options.slots; }
 
 Result<std::vector<std::int64_t>> WorkerPool::order(std::size_t limit) const {
-  HP_ASSIGN_OR_RETURN(const auto waiting, impl_->store.waiting());
+  HP_ASSIGN_OR_RETURN(const auto waiting, impl_->queue.waiting());
   const std::lock_guard lock(impl_->turns_mutex);
   return impl_->turns.order(waiting, impl_->running, limit);
 }
@@ -202,8 +205,8 @@ std::map<std::string, int> WorkerPool::Impl::running_by_owner() const {
 
 // Returns true if another job may be started.
 bool WorkerPool::Impl::start_next() {
-  const auto pause = store.pause();
-  const auto waiting = store.waiting();
+  const auto pause = queue.pause();
+  const auto waiting = queue.waiting();
   if (!pause || pause->paused || !waiting || waiting->empty()) return false;
   std::vector<std::int64_t> next;
   {
@@ -277,7 +280,7 @@ void WorkerPool::Impl::give_up_unstarted() {
 
 Launch WorkerPool::Impl::plan(const Job& job) const {
   // A single job gets all cores; otherwise the cores are divided among running and waiting jobs.
-  const auto waiting = store.waiting();
+  const auto waiting = queue.waiting();
   const int there =
       static_cast<int>(runs.size()) + 1 + static_cast<int>(waiting ? waiting->size() : 0);
   const int shared = std::max(1, options.cores / std::clamp(there, 1, options.slots));

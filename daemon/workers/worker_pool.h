@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "daemon/jobs/executor.h"
+#include "daemon/store/job_queue.h"
 #include "daemon/store/job_store.h"
 #include "daemon/store/state_layout.h"
 #include "sim/base/result.h"
@@ -31,7 +32,7 @@ class WorkerPool final : public JobExecutor {
  public:
   /// @return kFailedPrecondition if workers cannot be confined or the program does not exist
   [[nodiscard]] static Result<std::unique_ptr<WorkerPool>> make(const PoolOptions& options,
-                                                                JobStore& store,
+                                                                JobStore& store, JobQueue& queue,
                                                                 const Layout& layout, Clock clock);
   /// Calls stop() if needed.
   ~WorkerPool() override;

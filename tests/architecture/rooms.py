@@ -9,6 +9,8 @@ CODE = ('.h', '.cpp')
 INCLUDE = re.compile(r'^#include "([^"]+)"', re.MULTILINE)
 # These folders keep the axis safe, and their threads must not throw.
 WITHOUT_CHECKS = ('hardware/rig', 'hardware/drive')
+# Names a class whose member is defined at the beginning of a line: "Status JobStore::start(".
+MEMBER = re.compile(r'^(?:[^\s#/}][^=;({}]*[\s&*])?(?:\w+::)*?(\w+)::(?:~?\w+|operator\S+)\(', re.MULTILINE)
 ROW = re.compile(r'^\| `([^`]+)` \|([^|]*)\|', re.MULTILINE)
 
 
@@ -80,7 +82,7 @@ def violations(files, document):
     document: text of docs/architecture.md.
     """
     return (list(_arrow_violations(files, document)) + list(_size_violations(files)) +
-            list(_header_violations(files, document)))
+            list(_header_violations(files, document)) + list(_member_violations(files)))
 
 
 def _arrow_violations(files, document):
@@ -125,3 +127,12 @@ def _header_violations(files, document):
     for pattern in sorted(excused):
         if not fnmatch.filter(files, pattern):
             yield f'docs/architecture.md excuses {pattern}, which does not exist'
+
+
+def _member_violations(files):
+    for path, text in sorted(files.items()):
+        if path.endswith('.cpp'):
+            own = text + files.get(path[:-4] + '.h', '')
+            for name in sorted(set(MEMBER.findall(text))):
+                if not re.search(rf'\b(?:class|struct|namespace)\b[\w: ]*\b{name}\b', own):
+                    yield f'{path} defines members of {name}, which its header does not declare'

@@ -75,6 +75,17 @@ class Rooms(unittest.TestCase):
         self.assertEqual(['sim/mesh/weld.cpp has no header of the same name'],
                          found({'sim/mesh/weld.cpp': '#include "sim/mesh/surface.h"\n'}))
 
+    def test_members_of_a_class_of_another_header_are_refused(self):
+        files = {'sim/mesh/surface.h': 'class Surface {\n  int size() const;\n};\n',
+                 'sim/mesh/weld.h': '',
+                 'sim/mesh/weld.cpp': '#include "sim/mesh/weld.h"\n\nint Surface::size() const { return 0; }\n'}
+        self.assertEqual(['sim/mesh/weld.cpp defines members of Surface, which its header does not declare'],
+                         found(files))
+
+    def test_members_of_own_classes_are_accepted(self):
+        self.assertEqual([], found({'sim/flow/trace.cpp': 'struct Step {\n  int of() const;\n};\n\n'
+                                                          'int Step::of() const { return 0; }\n'}))
+
     def test_an_exception_for_a_missing_file_is_refused(self):
         files = dict(KEPT)
         del files['sim/flow/reader.cpp']

@@ -30,7 +30,7 @@ class PeopleTest : public ::testing::Test {
   }
   /// A user with kPassword.
   void add(const std::string& name, Role role = Role::kMaker) {
-    const auto made = accounts->create({name, role, false, "", 0}, kPassword);
+    const auto made = accounts->users().create({name, role, false, "", 0}, kPassword);
     ASSERT_TRUE(made) << made.error().message;
   }
   [[nodiscard]] std::string reason_of(const Error& error) const { return error.reason; }

@@ -16,50 +16,50 @@ using Sessions = PeopleTest;
 using Links = PeopleTest;
 
 TEST_F(Users, FirstUserMustBeAnAdmin) {
-  EXPECT_FALSE(accounts->any());
-  const auto refused = accounts->create({"mae", Role::kOperator, false, "", 0}, kPassword);
+  EXPECT_FALSE(accounts->users().any());
+  const auto refused = accounts->users().create({"mae", Role::kOperator, false, "", 0}, kPassword);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, "LAST_ADMIN");
-  EXPECT_FALSE(accounts->any());
+  EXPECT_FALSE(accounts->users().any());
   add("ann", Role::kAdmin);
-  EXPECT_TRUE(accounts->any());
+  EXPECT_TRUE(accounts->users().any());
 }
 
 TEST_F(Users, SurviveAKillOfTheDaemon) {
   add("ann", Role::kAdmin);
   add("mae");
   open();
-  EXPECT_EQ(accounts->user("mae")->role, Role::kMaker);
-  EXPECT_TRUE(accounts->sign_in("mae", kPassword, "p"));
-  EXPECT_EQ(accounts->users("", 10).size(), 2U);
-  EXPECT_EQ(accounts->users("ann", 10).front().name, "mae");
+  EXPECT_EQ(accounts->users().get("mae")->role, Role::kMaker);
+  EXPECT_TRUE(accounts->sessions().sign_in("mae", kPassword, "p"));
+  EXPECT_EQ(accounts->users().list("", 10).size(), 2U);
+  EXPECT_EQ(accounts->users().list("ann", 10).front().name, "mae");
 }
 
 TEST_F(Users, LastAdminCannotBeRemoved) {
   add("ann", Role::kAdmin);
-  EXPECT_EQ(accounts->remove("ann").error().reason, "LAST_ADMIN");
-  EXPECT_EQ(accounts->update("ann", {Role::kMaker, {}}).error().reason, "LAST_ADMIN");
-  EXPECT_EQ(accounts->update("ann", {{}, true}).error().reason, "LAST_ADMIN");
+  EXPECT_EQ(accounts->users().remove("ann").error().reason, "LAST_ADMIN");
+  EXPECT_EQ(accounts->users().update("ann", {Role::kMaker, {}}).error().reason, "LAST_ADMIN");
+  EXPECT_EQ(accounts->users().update("ann", {{}, true}).error().reason, "LAST_ADMIN");
   add("bea", Role::kAdmin);
-  EXPECT_TRUE(accounts->update("ann", {{}, true}));
-  EXPECT_EQ(accounts->remove("bea").error().reason, "LAST_ADMIN");  // ann is barred
-  EXPECT_TRUE(accounts->remove("ann"));
+  EXPECT_TRUE(accounts->users().update("ann", {{}, true}));
+  EXPECT_EQ(accounts->users().remove("bea").error().reason, "LAST_ADMIN");  // ann is barred
+  EXPECT_TRUE(accounts->users().remove("ann"));
 }
 
 TEST_F(Users, NamesAreCheckedAndUnique) {
   add("ann", Role::kAdmin);
   for (const char* const name : {"", ".", "a b", "a/b", "-a", "a\n", "\xC3\xA4"}) {
-    EXPECT_FALSE(accounts->create({name, Role::kMaker, false, "", 0}, "")) << name;
+    EXPECT_FALSE(accounts->users().create({name, Role::kMaker, false, "", 0}, "")) << name;
   }
-  EXPECT_EQ(accounts->create({"ann", Role::kMaker, false, "", 0}, "").error().reason,
+  EXPECT_EQ(accounts->users().create({"ann", Role::kMaker, false, "", 0}, "").error().reason,
             "USER_EXISTS");
-  EXPECT_EQ(accounts->create({"bob", Role::kMaker, false, "", 0}, "short").error().reason,
+  EXPECT_EQ(accounts->users().create({"bob", Role::kMaker, false, "", 0}, "short").error().reason,
             "SPEC_INVALID");
 }
 
 TEST_F(Users, PasswordIsStoredOnlyAsArgon2idHash) {
   add("ann", Role::kAdmin);
-  EXPECT_TRUE(accounts->user("ann")->password.starts_with("$argon2id$"));
+  EXPECT_TRUE(accounts->users().get("ann")->password.starts_with("$argon2id$"));
   std::ifstream file(folder.path() / "hydroprint.db-wal", std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   EXPECT_NE(bytes.find("$argon2id$"), std::string::npos);
@@ -69,163 +69,163 @@ TEST_F(Users, PasswordIsStoredOnlyAsArgon2idHash) {
 TEST_F(Users, BarringAppliesAtOnceToKeysAndSessions) {
   add("ann", Role::kAdmin);
   add("mae");
-  const auto session = accounts->sign_in("mae", kPassword, "p").value();
-  const auto key = accounts->create_key({"mae", "k", Role::kMaker, 0}).value();
-  ASSERT_TRUE(accounts->by_session(session.token));
-  ASSERT_TRUE(accounts->by_key(key.second));
-  ASSERT_TRUE(accounts->update("mae", {{}, true}));
-  EXPECT_FALSE(accounts->by_session(session.token));
-  EXPECT_FALSE(accounts->by_key(key.second));
-  EXPECT_FALSE(accounts->sign_in("mae", kPassword, "p"));
+  const auto session = accounts->sessions().sign_in("mae", kPassword, "p").value();
+  const auto key = accounts->keys().create({"mae", "k", Role::kMaker, 0}).value();
+  ASSERT_TRUE(accounts->sessions().caller(session.token));
+  ASSERT_TRUE(accounts->keys().caller(key.second));
+  ASSERT_TRUE(accounts->users().update("mae", {{}, true}));
+  EXPECT_FALSE(accounts->sessions().caller(session.token));
+  EXPECT_FALSE(accounts->keys().caller(key.second));
+  EXPECT_FALSE(accounts->sessions().sign_in("mae", kPassword, "p"));
 }
 
 TEST_F(Users, PasswordChangeEndsOtherSessions) {
   add("ann", Role::kAdmin);
-  const auto one = accounts->sign_in("ann", kPassword, "p").value();
-  const auto two = accounts->sign_in("ann", kPassword, "p").value();
-  ASSERT_TRUE(accounts->set_password("ann", "battery staple", one.session.id));
-  EXPECT_TRUE(accounts->by_session(one.token));
-  EXPECT_FALSE(accounts->by_session(two.token));
-  EXPECT_FALSE(accounts->sign_in("ann", kPassword, "p"));
-  EXPECT_TRUE(accounts->sign_in("ann", "battery staple", "p"));
+  const auto one = accounts->sessions().sign_in("ann", kPassword, "p").value();
+  const auto two = accounts->sessions().sign_in("ann", kPassword, "p").value();
+  ASSERT_TRUE(accounts->users().set_password("ann", "battery staple", one.session.id));
+  EXPECT_TRUE(accounts->sessions().caller(one.token));
+  EXPECT_FALSE(accounts->sessions().caller(two.token));
+  EXPECT_FALSE(accounts->sessions().sign_in("ann", kPassword, "p"));
+  EXPECT_TRUE(accounts->sessions().sign_in("ann", "battery staple", "p"));
 }
 
 TEST_F(Users, DeletingAUserDeletesKeysAndSessions) {
   add("ann", Role::kAdmin);
   add("mae");
-  const auto session = accounts->sign_in("mae", kPassword, "p").value();
-  const auto key = accounts->create_key({"mae", "k", Role::kMaker, 0}).value();
-  const auto link = accounts->make_link("mae").value();
-  ASSERT_TRUE(accounts->remove("mae"));
+  const auto session = accounts->sessions().sign_in("mae", kPassword, "p").value();
+  const auto key = accounts->keys().create({"mae", "k", Role::kMaker, 0}).value();
+  const auto link = accounts->sessions().make_link("mae").value();
+  ASSERT_TRUE(accounts->users().remove("mae"));
   add("mae");  // another user of that name
   for (int i = 0; i < 2; ++i, open()) {
-    EXPECT_FALSE(accounts->by_session(session.token));
-    EXPECT_FALSE(accounts->by_key(key.second));
-    EXPECT_FALSE(accounts->sign_in_by_link(link.first, "p"));
+    EXPECT_FALSE(accounts->sessions().caller(session.token));
+    EXPECT_FALSE(accounts->keys().caller(key.second));
+    EXPECT_FALSE(accounts->sessions().sign_in_by_link(link.first, "p"));
   }
 }
 
 TEST_F(Keys, AreShownOnceAndExpire) {
   add("ann", Role::kAdmin);
   const auto [key, text] =
-      accounts->create_key({"ann", "bench", Role::kOperator, kHour_ms}).value();
+      accounts->keys().create({"ann", "bench", Role::kOperator, kHour_ms}).value();
   EXPECT_TRUE(text.starts_with("hp_" + key.id + "_"));
-  EXPECT_EQ(accounts->key(key.id)->secret_hash.find(text.substr(20)), std::string::npos);
+  EXPECT_EQ(accounts->keys().get(key.id)->secret_hash.find(text.substr(20)), std::string::npos);
   open();
-  const auto caller = accounts->by_key(text);
+  const auto caller = accounts->keys().caller(text);
   ASSERT_TRUE(caller);
   EXPECT_EQ(caller->name, "ann");
   EXPECT_EQ(caller->role, Role::kOperator);
   now_ms += kHour_ms;
-  EXPECT_FALSE(accounts->by_key(text));
+  EXPECT_FALSE(accounts->keys().caller(text));
 }
 
 TEST_F(Keys, CannotBeGuessedFromTheirParts) {
   add("ann", Role::kAdmin);
-  const auto text = accounts->create_key({"ann", "", Role::kAdmin, 0})->second;
+  const auto text = accounts->keys().create({"ann", "", Role::kAdmin, 0})->second;
   std::string other = text;
   other.back() = other.back() == '0' ? '1' : '0';
   for (const std::string& wrong :
        {other, text.substr(0, text.size() - 1), text + "0", text.substr(3), std::string("hp_"),
         text.substr(0, text.rfind('_')), text.substr(0, text.rfind('_') + 1), std::string()}) {
-    EXPECT_FALSE(accounts->by_key(wrong)) << wrong;
+    EXPECT_FALSE(accounts->keys().caller(wrong)) << wrong;
   }
-  EXPECT_TRUE(accounts->by_key(text));
+  EXPECT_TRUE(accounts->keys().caller(text));
 }
 
 TEST_F(Keys, NeverAllowMoreThanTheUsersRole) {
   add("ann", Role::kAdmin);
   add("mae", Role::kOperator);
-  const auto text = accounts->create_key({"mae", "", Role::kOperator, 0})->second;
-  ASSERT_TRUE(accounts->update("mae", {Role::kViewer, {}}));
-  EXPECT_EQ(accounts->by_key(text)->role, Role::kViewer);
+  const auto text = accounts->keys().create({"mae", "", Role::kOperator, 0})->second;
+  ASSERT_TRUE(accounts->users().update("mae", {Role::kViewer, {}}));
+  EXPECT_EQ(accounts->keys().caller(text)->role, Role::kViewer);
 }
 
 TEST_F(Keys, TimeOfLastUseSurvivesARestart) {
   add("ann", Role::kAdmin);
-  const auto [key, text] = accounts->create_key({"ann", "", Role::kAdmin, 0}).value();
-  EXPECT_EQ(accounts->key(key.id)->use_ms, 0);
-  ASSERT_TRUE(accounts->by_key(text));
+  const auto [key, text] = accounts->keys().create({"ann", "", Role::kAdmin, 0}).value();
+  EXPECT_EQ(accounts->keys().get(key.id)->use_ms, 0);
+  ASSERT_TRUE(accounts->keys().caller(text));
   ASSERT_TRUE(accounts->clean_up());
   open();
-  EXPECT_EQ(accounts->key(key.id)->use_ms, now_ms);
+  EXPECT_EQ(accounts->keys().get(key.id)->use_ms, now_ms);
 }
 
 TEST_F(Keys, AreLimitedInNumber) {
   options.most_keys = 2;
   open();
   add("ann", Role::kAdmin);
-  EXPECT_TRUE(accounts->create_key({"ann", "", Role::kAdmin, 0}));
-  EXPECT_TRUE(accounts->create_key({"ann", "", Role::kAdmin, 0}));
-  EXPECT_EQ(accounts->create_key({"ann", "", Role::kAdmin, 0}).error().reason, "KEYS_FULL");
-  ASSERT_TRUE(accounts->remove_key(accounts->keys("ann", "", 10).front().id));
-  EXPECT_TRUE(accounts->create_key({"ann", "", Role::kAdmin, 0}));
+  EXPECT_TRUE(accounts->keys().create({"ann", "", Role::kAdmin, 0}));
+  EXPECT_TRUE(accounts->keys().create({"ann", "", Role::kAdmin, 0}));
+  EXPECT_EQ(accounts->keys().create({"ann", "", Role::kAdmin, 0}).error().reason, "KEYS_FULL");
+  ASSERT_TRUE(accounts->keys().remove(accounts->keys().list("ann", "", 10).front().id));
+  EXPECT_TRUE(accounts->keys().create({"ann", "", Role::kAdmin, 0}));
 }
 
 TEST_F(Sessions, EndWhenUnused) {
   add("ann", Role::kAdmin);
-  const auto in = accounts->sign_in("ann", kPassword, "p").value();
+  const auto in = accounts->sessions().sign_in("ann", kPassword, "p").value();
   now_ms += 12 * kHour_ms - 1;
-  EXPECT_TRUE(accounts->by_session(in.token));
+  EXPECT_TRUE(accounts->sessions().caller(in.token));
   now_ms += 12 * kHour_ms - 1;
-  EXPECT_TRUE(accounts->by_session(in.token));
+  EXPECT_TRUE(accounts->sessions().caller(in.token));
   now_ms += 12 * kHour_ms;
-  EXPECT_FALSE(accounts->by_session(in.token));
+  EXPECT_FALSE(accounts->sessions().caller(in.token));
   ASSERT_TRUE(accounts->clean_up());
   now_ms -= 12 * kHour_ms;
-  EXPECT_FALSE(accounts->by_session(in.token));  // gone for good
+  EXPECT_FALSE(accounts->sessions().caller(in.token));  // gone for good
 }
 
 TEST_F(Sessions, AreNotKeptAliveByListing) {
   add("ann", Role::kAdmin);
-  const auto in = accounts->sign_in("ann", kPassword, "p").value();
+  const auto in = accounts->sessions().sign_in("ann", kPassword, "p").value();
   now_ms += 11 * kHour_ms;
-  EXPECT_TRUE(accounts->by_session(in.token, false));
+  EXPECT_TRUE(accounts->sessions().caller(in.token, false));
   now_ms += kHour_ms;
-  EXPECT_FALSE(accounts->by_session(in.token));
+  EXPECT_FALSE(accounts->sessions().caller(in.token));
 }
 
 TEST_F(Sessions, EndAfterAWeekEvenIfUsed) {
   add("ann", Role::kAdmin);
-  const auto in = accounts->sign_in("ann", kPassword, "p").value();
+  const auto in = accounts->sessions().sign_in("ann", kPassword, "p").value();
   for (int hour = 1; hour < 7 * 24; ++hour) {
     now_ms += kHour_ms;
-    ASSERT_TRUE(accounts->by_session(in.token)) << hour;
+    ASSERT_TRUE(accounts->sessions().caller(in.token)) << hour;
   }
   now_ms += kHour_ms;
-  EXPECT_FALSE(accounts->by_session(in.token));
+  EXPECT_FALSE(accounts->sessions().caller(in.token));
 }
 
 TEST_F(Sessions, AreListedRevokedAndSurviveARestart) {
   add("ann", Role::kAdmin);
   add("mae");
-  const auto one = accounts->sign_in("ann", kPassword, "1.2.3.4").value();
-  const auto two = accounts->sign_in("mae", kPassword, "5.6.7.8").value();
+  const auto one = accounts->sessions().sign_in("ann", kPassword, "1.2.3.4").value();
+  const auto two = accounts->sessions().sign_in("mae", kPassword, "5.6.7.8").value();
   open();
-  EXPECT_EQ(accounts->sessions("", "", 10).size(), 2U);
-  ASSERT_EQ(accounts->sessions("mae", "", 10).size(), 1U);
-  EXPECT_EQ(accounts->sessions("mae", "", 10).front().peer, "5.6.7.8");
-  EXPECT_EQ(accounts->by_session(two.token)->session, two.session.id);
-  ASSERT_TRUE(accounts->end_session(two.session.id));
-  EXPECT_FALSE(accounts->by_session(two.token));
-  EXPECT_TRUE(accounts->by_session(one.token));
-  EXPECT_EQ(accounts->session(two.session.id).error().reason, "SESSION_NOT_FOUND");
+  EXPECT_EQ(accounts->sessions().list("", "", 10).size(), 2U);
+  ASSERT_EQ(accounts->sessions().list("mae", "", 10).size(), 1U);
+  EXPECT_EQ(accounts->sessions().list("mae", "", 10).front().peer, "5.6.7.8");
+  EXPECT_EQ(accounts->sessions().caller(two.token)->session, two.session.id);
+  ASSERT_TRUE(accounts->sessions().end(two.session.id));
+  EXPECT_FALSE(accounts->sessions().caller(two.token));
+  EXPECT_TRUE(accounts->sessions().caller(one.token));
+  EXPECT_EQ(accounts->sessions().get(two.session.id).error().reason, "SESSION_NOT_FOUND");
 }
 
 TEST_F(Sessions, LimitEndsTheLeastRecentlyUsed) {
-  options.most_sessions = 2;
+  options.sessions.most = 2;
   open();
   add("ann", Role::kAdmin);
-  const auto one = accounts->sign_in("ann", kPassword, "p").value();
+  const auto one = accounts->sessions().sign_in("ann", kPassword, "p").value();
   now_ms += 1;
-  const auto two = accounts->sign_in("ann", kPassword, "p").value();
+  const auto two = accounts->sessions().sign_in("ann", kPassword, "p").value();
   now_ms += 1;
-  ASSERT_TRUE(accounts->by_session(one.token));
+  ASSERT_TRUE(accounts->sessions().caller(one.token));
   now_ms += 1;
-  const auto three = accounts->sign_in("ann", kPassword, "p").value();
-  EXPECT_TRUE(accounts->by_session(one.token));
-  EXPECT_FALSE(accounts->by_session(two.token));
-  EXPECT_TRUE(accounts->by_session(three.token));
+  const auto three = accounts->sessions().sign_in("ann", kPassword, "p").value();
+  EXPECT_TRUE(accounts->sessions().caller(one.token));
+  EXPECT_FALSE(accounts->sessions().caller(two.token));
+  EXPECT_TRUE(accounts->sessions().caller(three.token));
 }
 
 TEST_F(Sessions, CsrfTokenIsDerivedFromTheSessionToken) {
@@ -237,27 +237,27 @@ TEST_F(Sessions, CsrfTokenIsDerivedFromTheSessionToken) {
 
 TEST_F(Links, WorkOnce) {
   add("ann", Role::kAdmin);
-  const auto link = accounts->make_link("ann").value();
+  const auto link = accounts->sessions().make_link("ann").value();
   open();
-  const auto in = accounts->sign_in_by_link(link.first, "p");
+  const auto in = accounts->sessions().sign_in_by_link(link.first, "p");
   ASSERT_TRUE(in);
-  EXPECT_EQ(accounts->by_session(in->token)->name, "ann");
-  EXPECT_EQ(accounts->sign_in_by_link(link.first, "p").error().reason, "SIGN_IN_FAILED");
+  EXPECT_EQ(accounts->sessions().caller(in->token)->name, "ann");
+  EXPECT_EQ(accounts->sessions().sign_in_by_link(link.first, "p").error().reason, "SIGN_IN_FAILED");
 }
 
 TEST_F(Links, ExpireAfter15Minutes) {
   add("ann", Role::kAdmin);
-  const auto link = accounts->make_link("ann").value();
+  const auto link = accounts->sessions().make_link("ann").value();
   now_ms += 15 * kMinute_ms;
-  EXPECT_FALSE(accounts->sign_in_by_link(link.first, "p"));
+  EXPECT_FALSE(accounts->sessions().sign_in_by_link(link.first, "p"));
 }
 
 TEST_F(Links, NewLinkReplacesEarlierOnes) {
   add("ann", Role::kAdmin);
-  const auto one = accounts->make_link("ann").value();
-  const auto two = accounts->make_link("ann").value();
-  EXPECT_FALSE(accounts->sign_in_by_link(one.first, "p"));
-  EXPECT_TRUE(accounts->sign_in_by_link(two.first, "p"));
+  const auto one = accounts->sessions().make_link("ann").value();
+  const auto two = accounts->sessions().make_link("ann").value();
+  EXPECT_FALSE(accounts->sessions().sign_in_by_link(one.first, "p"));
+  EXPECT_TRUE(accounts->sessions().sign_in_by_link(two.first, "p"));
 }
 
 }  // namespace

@@ -99,21 +99,22 @@ TEST_F(LoginThrottleTest, FailuresAreForgottenAfterAnHour) {
 TEST_F(PeopleTest, ThrottlingAppliesToTheRightPasswordToo) {
   add("ann", Role::kAdmin);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(accounts->sign_in("ann", "wrong password", "p").error().reason, "SIGN_IN_FAILED");
+    EXPECT_EQ(accounts->sessions().sign_in("ann", "wrong password", "p").error().reason,
+              "SIGN_IN_FAILED");
   }
-  const auto refused = accounts->sign_in("ann", kPassword, "p");
+  const auto refused = accounts->sessions().sign_in("ann", kPassword, "p");
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, "TOO_MANY_ATTEMPTS");
   EXPECT_EQ(refused.error().metadata.at("retry_s"), "1");
-  EXPECT_TRUE(accounts->sign_in("ann", kPassword, "q"));
+  EXPECT_TRUE(accounts->sessions().sign_in("ann", kPassword, "q"));
   now_ms += 1000;
-  EXPECT_TRUE(accounts->sign_in("ann", kPassword, "p"));
+  EXPECT_TRUE(accounts->sessions().sign_in("ann", kPassword, "p"));
 }
 
 TEST_F(PeopleTest, UnknownNameIsRefusedLikeAWrongPassword) {
   add("ann", Role::kAdmin);
-  const auto no_name = accounts->sign_in("nobody", "wrong password", "p").error();
-  const auto no_password = accounts->sign_in("ann", "wrong password", "p").error();
+  const auto no_name = accounts->sessions().sign_in("nobody", "wrong password", "p").error();
+  const auto no_password = accounts->sessions().sign_in("ann", "wrong password", "p").error();
   EXPECT_EQ(no_name.message, no_password.message);
   EXPECT_EQ(no_name.reason, no_password.reason);
 }

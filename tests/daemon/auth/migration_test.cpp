@@ -5,8 +5,13 @@
 
 #include "daemon/auth/accounts.h"
 #include "daemon/auth/audit_log.h"
-#include "daemon/store/asset_store.h"
+#include "daemon/store/assets/asset_retention.h"
+#include "daemon/store/assets/asset_rows.h"
+#include "daemon/store/assets/asset_store.h"
 #include "daemon/store/database/schema.h"
+#include "daemon/store/device_jobs.h"
+#include "daemon/store/job_queue.h"
+#include "daemon/store/job_retention.h"
 #include "daemon/store/job_store.h"
 #include "tests/support/temporary_folder.h"
 
@@ -106,6 +111,8 @@ constexpr std::array kVersion3{
     "UPDATE settings SET value='3' WHERE name='schema'"};
 constexpr const char* kLatest = "4";
 
+constexpr std::int64_t kMonth_ms = 30LL * 24 * 3600 * 1000;
+
 // One row in each table of version 2 that a used store has: ann's finished job 1 with an asset,
 // bea's queued job 2 with the same asset, and an unused asset.
 constexpr std::array kUsed{
@@ -164,18 +171,19 @@ TEST_F(Migration, Version1KeepsItsDataAndAcceptsUsers) {
     const auto database = open_store(layout.database());
     ASSERT_TRUE(database) << database.error().message;
     EXPECT_EQ(version_of(**database), kLatest);
-    JobStore jobs(**database, layout, {}, system_clock_ms);
+    JobChanges changes(**database, {}, system_clock_ms);
+    JobStore jobs(changes, layout, {});
     const Job job = jobs.get(1).value();
     EXPECT_EQ(job.made.display_name, "old");
     EXPECT_FALSE(job.shared);
     const auto accounts = auth::Accounts::open(**database, {}, system_clock_ms).value();
     if (i == 0) {
-      EXPECT_FALSE(accounts->any());
-      EXPECT_TRUE(accounts->create({"ann", auth::Role::kAdmin, false, "", 0}, ""));
+      EXPECT_FALSE(accounts->users().any());
+      EXPECT_TRUE(accounts->users().create({"ann", auth::Role::kAdmin, false, "", 0}, ""));
       EXPECT_TRUE(jobs.share(1, true)->shared);
       EXPECT_TRUE(jobs.share(1, false));
     } else {
-      EXPECT_TRUE(accounts->any());
+      EXPECT_TRUE(accounts->users().any());
     }
   }
 }
@@ -185,8 +193,10 @@ TEST_F(Migration, Version2KeepsItsDataAndAssetsGetOwners) {
   for (int i = 0; i < 2; ++i) {
     const auto database = open_store(layout.database()).value();
     EXPECT_EQ(version_of(*database), kLatest);
-    JobStore jobs(*database, layout, {}, system_clock_ms);
-    AssetStore assets(*database, layout, {}, system_clock_ms);
+    JobChanges changes(*database, {}, system_clock_ms);
+    JobStore jobs(changes, layout, {});
+    JobRetention retention(changes, layout);
+    AssetStore assets(*database, layout, system_clock_ms);
     const Job job = jobs.get(1).value();
     EXPECT_EQ(job.made.display_name, "old");
     EXPECT_EQ(job.made.work.flags, std::vector<std::string>{"--dpi=300"});
@@ -196,24 +206,25 @@ TEST_F(Migration, Version2KeepsItsDataAndAssetsGetOwners) {
     EXPECT_EQ(job.purge_ms, 9);
     EXPECT_EQ(jobs.artifacts(1, "", 10)->size(), 1U);
     EXPECT_EQ(jobs.events(1, 0, 10)->size(), 1U);
-    EXPECT_EQ(jobs.waiting()->size(), 1U);
+    EXPECT_EQ(JobQueue(changes).waiting()->size(), 1U);
     EXPECT_EQ(assets.asset_for("aa", {"", true})->owners, (std::vector<std::string>{"ann", "bea"}));
     EXPECT_EQ(assets.asset_for("aa", {"bea"})->media_type, "model/obj");
     EXPECT_TRUE(assets.asset_for("bb", {"", true})->owners.empty());
     EXPECT_FALSE(assets.asset_for("bb", {"ann"}));
-    EXPECT_EQ(assets.usage("ann")->stored_bytes, 4 + 4);
-    EXPECT_TRUE(assets.purge());  // all assets count as used at the migration
-    EXPECT_TRUE(assets.asset("bb"));
+    EXPECT_EQ(usage_of(*database, "ann")->stored_bytes, 4 + 4);
+    // All assets count as used at the migration.
+    EXPECT_TRUE(AssetRetention(*database, layout, kMonth_ms, system_clock_ms).purge());
+    EXPECT_TRUE(select_asset(*database, "bb"));
     const auto accounts = auth::Accounts::open(*database, {}, system_clock_ms).value();
-    EXPECT_EQ(accounts->users("", 10).size(), 2U);
-    EXPECT_EQ(accounts->user("ann")->password, "hash");
-    EXPECT_TRUE(accounts->user("bea")->disabled);
-    EXPECT_EQ(accounts->key("k")->display_name, "nightly");
+    EXPECT_EQ(accounts->users().list("", 10).size(), 2U);
+    EXPECT_EQ(accounts->users().get("ann")->password, "hash");
+    EXPECT_TRUE(accounts->users().get("bea")->disabled);
+    EXPECT_EQ(accounts->keys().get("k")->display_name, "nightly");
     auth::AuditLog audit(*database, system_clock_ms);
     EXPECT_EQ(audit.list({})->size(), 1U);
     // New columns and tables exist.
-    EXPECT_TRUE(jobs.pin(1, true)->pinned);
-    EXPECT_TRUE(jobs.pin(1, false));
+    EXPECT_TRUE(retention.pin(1, true)->pinned);
+    EXPECT_TRUE(retention.pin(1, false));
     EXPECT_TRUE(database->run("UPDATE jobs SET purge_ms=9 WHERE id=1"));
   }
 }
@@ -235,9 +246,12 @@ TEST_F(Migration, JobsOfVersion3KeepFlagsAndTraits) {
     ASSERT_TRUE(database->run("INSERT INTO dips VALUES (4, 'status')"));
   }
   const auto database = open_store(layout.database()).value();
-  JobStore jobs(*database, layout, {}, system_clock_ms);
-  EXPECT_EQ(jobs.open_dips().value(), std::vector<std::int64_t>{4});
-  EXPECT_EQ(jobs.computing().value(), std::vector<std::int64_t>{3});
+  JobChanges changes(*database, {}, system_clock_ms);
+  JobStore jobs(changes, layout, {});
+  const auto dips = DeviceJobs(changes).open_dips().value();
+  ASSERT_EQ(dips.size(), 1U);
+  EXPECT_EQ(dips.front().id, 4);
+  EXPECT_EQ(JobQueue(changes).computing().value(), std::vector<std::int64_t>{3});
   ASSERT_TRUE(jobs.interrupt_all(Interruption::kLoss));
   EXPECT_EQ(jobs.get(3)->state, JobState::kQueued) << "a computation is queued again";
   for (const std::int64_t id : {4, 5, 6}) {

@@ -121,8 +121,8 @@ TEST_F(Admission, WithUsersEveryCallerNeedsCredentials) {
 
 TEST_F(Admission, KeysAndSessionsIdentifyTheCaller) {
   add("ann", Role::kAdmin);
-  const auto key = accounts->create_key({"ann", "", Role::kViewer, 0}).value();
-  const auto session = accounts->sign_in("ann", kPassword, "p").value();
+  const auto key = accounts->keys().create({"ann", "", Role::kViewer, 0}).value();
+  const auto session = accounts->sessions().sign_in("ann", kPassword, "p").value();
   const auto by_key = check.admit(kGet, with_key(key.second)).value().value();
   EXPECT_EQ(by_key.name, "ann");
   EXPECT_EQ(by_key.via, "key " + key.first.id);
@@ -133,15 +133,15 @@ TEST_F(Admission, KeysAndSessionsIdentifyTheCaller) {
 
 TEST_F(Admission, InvalidKeyIsRefusedDespiteAValidSession) {
   add("ann", Role::kAdmin);
-  auto credentials = with_session(accounts->sign_in("ann", kPassword, "p")->token);
+  auto credentials = with_session(accounts->sessions().sign_in("ann", kPassword, "p")->token);
   credentials.authorization = "Bearer hp_a_b";
   EXPECT_EQ(reason_of_refusal(kGet, credentials), "SIGN_IN_NEEDED");
 }
 
 TEST_F(Admission, LowerRoleIsRefused) {
   add("ann", Role::kAdmin);
-  const auto viewer = accounts->create_key({"ann", "", Role::kViewer, 0})->second;
-  const auto operator_key = accounts->create_key({"ann", "", Role::kOperator, 0})->second;
+  const auto viewer = accounts->keys().create({"ann", "", Role::kViewer, 0})->second;
+  const auto operator_key = accounts->keys().create({"ann", "", Role::kOperator, 0})->second;
   EXPECT_EQ(reason_of_refusal(kPause, with_key(viewer)), "ROLE_TOO_LOW");
   EXPECT_TRUE(check.admit(kPause, with_key(operator_key)));
 }
@@ -159,10 +159,10 @@ TEST_F(Admission, UnknownMethodsAreRefused) {
 
 TEST_F(Admission, StreamEndsWithItsSession) {
   add("ann", Role::kAdmin);
-  const auto session = accounts->sign_in("ann", kPassword, "p").value();
+  const auto session = accounts->sessions().sign_in("ann", kPassword, "p").value();
   const auto caller = check.admit(kGet, with_session(session.token)).value().value();
   EXPECT_TRUE(authenticator.check_still(caller));
-  ASSERT_TRUE(accounts->end_session(caller.session));
+  ASSERT_TRUE(accounts->sessions().end(caller.session));
   EXPECT_FALSE(authenticator.check_still(caller));
 }
 

@@ -9,8 +9,8 @@ class AssetStoreTest : public StoreTest {
  protected:
   Result<AssetOrUpload> ask(const std::string& bytes, const AssetUser& user,
                             const RequestKey& key = {}) {
-    return assets->start({"", sha256(bytes), static_cast<std::int64_t>(bytes.size()), 0, "x/y", 0},
-                         user, key);
+    return uploads->start({"", sha256(bytes), static_cast<std::int64_t>(bytes.size()), 0, "x/y", 0},
+                          user, key);
   }
   Upload begin(const std::string& bytes, const RequestKey& key = {},
                const std::string& owner = "ann") {
@@ -18,7 +18,7 @@ class AssetStoreTest : public StoreTest {
   }
   Result<AssetOrUpload> send(const std::string& id, std::int64_t offset, const std::string& bytes,
                              const std::string& owner = "ann") {
-    HP_ASSIGN_OR_RETURN(const auto writer, UploadWriter::open(*assets, id, owner));
+    HP_ASSIGN_OR_RETURN(const auto writer, UploadWriter::open(*uploads, id, owner));
     HP_RETURN_IF_ERROR(writer->append(offset, bytes));
     return writer->finish();
   }
@@ -35,11 +35,11 @@ class AssetStoreTest : public StoreTest {
   }
   [[nodiscard]] bool may(const std::string& owner, const Asset& asset) {
     const bool sees = assets->asset_for(asset.sha256, {owner}).has_value();
-    EXPECT_EQ(assets->check_use({{"m.obj", asset.sha256}}, {owner}).has_value(), sees);
+    EXPECT_EQ(check_may_use(*database, {{"m.obj", asset.sha256}}, {owner}).has_value(), sees);
     return sees;
   }
   [[nodiscard]] std::int64_t stored(const std::string& owner) {
-    return assets->usage(owner)->stored_bytes;
+    return usage_of(*database, owner)->stored_bytes;
   }
 
   const AssetUser ann{"ann"}, bob{"bob"}, oper{"oper", true};
@@ -56,9 +56,10 @@ TEST_F(AssetStoreTest, HashAloneRequiresAnUpload) {
   const Asset asset = put("mesh");
   EXPECT_FALSE(may("bob", asset));
   EXPECT_EQ(assets->asset_for(asset.sha256, bob).error().reason, "ASSET_NOT_FOUND");
-  EXPECT_EQ(assets->check_use({{"m.obj", asset.sha256}}, bob).error().reason, "ASSET_MISSING");
-  EXPECT_EQ(assets->check_use({{"m.obj", asset.sha256}}, bob).error().message,
-            assets->check_use({{"m.obj", asset.sha256}}, {"eve"}).error().message);
+  EXPECT_EQ(check_may_use(*database, {{"m.obj", asset.sha256}}, bob).error().reason,
+            "ASSET_MISSING");
+  EXPECT_EQ(check_may_use(*database, {{"m.obj", asset.sha256}}, bob).error().message,
+            check_may_use(*database, {{"m.obj", asset.sha256}}, {"eve"}).error().message);
   const Upload upload = begin("mesh", {}, "bob");
   EXPECT_FALSE(send(upload.id, 0, "mess", "bob"));
   EXPECT_FALSE(may("bob", asset));
@@ -73,7 +74,7 @@ TEST_F(AssetStoreTest, HashAloneRequiresAnUpload) {
 
 TEST_F(AssetStoreTest, UploadBelongsToItsOwner) {
   const Upload upload = begin("mesh");
-  EXPECT_EQ(assets->upload(upload.id, "bob").error().reason, "UPLOAD_NOT_FOUND");
+  EXPECT_EQ(uploads->get(upload.id, "bob").error().reason, "UPLOAD_NOT_FOUND");
   EXPECT_EQ(send(upload.id, 0, "mesh", "bob").error().reason, "UPLOAD_NOT_FOUND");
   EXPECT_TRUE(send(upload.id, 0, "mesh"));
 }
@@ -117,7 +118,7 @@ TEST_F(AssetStoreTest, RestartGrantsNoAssetsWithoutAnUpload) {
   const Upload upload = begin("mesh", {}, "bob");  // without sending any bytes
   open();
   EXPECT_FALSE(may("bob", asset));
-  EXPECT_EQ(assets->upload(upload.id, "bob")->received_bytes, 0);
+  EXPECT_EQ(uploads->get(upload.id, "bob")->received_bytes, 0);
 }
 
 TEST_F(AssetStoreTest, OwnersListTheirAssetsAndOperatorsListAll) {
@@ -128,7 +129,7 @@ TEST_F(AssetStoreTest, OwnersListTheirAssetsAndOperatorsListAll) {
 }
 
 TEST_F(AssetStoreTest, QuotaIsCheckedAtTheStartAndEndOfAnUpload) {
-  asset_options.quota.max_stored_bytes = 10;
+  upload_options.quota.max_stored_bytes = 10;
   open();
   put("12345");
   const auto refused = ask("123456", ann);
@@ -148,7 +149,7 @@ TEST_F(AssetStoreTest, QuotaIsCheckedAtTheStartAndEndOfAnUpload) {
   const auto late = send(upload.id, 0, "abcde");
   ASSERT_FALSE(late);
   EXPECT_EQ(late.error().reason, "QUOTA_EXCEEDED");
-  EXPECT_FALSE(assets->upload(upload.id, "ann"));
+  EXPECT_FALSE(uploads->get(upload.id, "ann"));
   EXPECT_FALSE(std::filesystem::exists(layout.upload(upload.id)));
   EXPECT_FALSE(std::filesystem::exists(layout.asset(sha256("abcde"))));
   ASSERT_TRUE(jobs->remove(job.id));
@@ -156,33 +157,33 @@ TEST_F(AssetStoreTest, QuotaIsCheckedAtTheStartAndEndOfAnUpload) {
 }
 
 TEST_F(AssetStoreTest, UnusedAssetsAreDeletedAfterTheirRetention) {
-  asset_options.keep_unused_ms = 1000;
+  keep_unused_ms = 1000;
   open();
   const Asset used = put("used"), unused = put("unused"), asked = put("asked");
   const Job job = made_of(used, "ann");
   now_ms += 999;
-  ASSERT_TRUE(assets->purge());
+  ASSERT_TRUE(asset_retention->purge());
   EXPECT_TRUE(may("ann", unused));
   EXPECT_TRUE(ask("asked", ann));  // retention starts again
   now_ms += 1;
-  ASSERT_TRUE(assets->purge());
-  EXPECT_FALSE(assets->asset(unused.sha256));
+  ASSERT_TRUE(asset_retention->purge());
+  EXPECT_FALSE(select_asset(*database, unused.sha256));
   EXPECT_FALSE(std::filesystem::exists(layout.asset(unused.sha256)));
   EXPECT_EQ(stored("ann"), 9);
   EXPECT_TRUE(may("ann", asked));
   EXPECT_TRUE(may("ann", used));
   ASSERT_TRUE(jobs->cancel(job.id));
   ASSERT_TRUE(jobs->remove(job.id));
-  ASSERT_TRUE(assets->purge());
-  EXPECT_FALSE(assets->asset(used.sha256));
+  ASSERT_TRUE(asset_retention->purge());
+  EXPECT_FALSE(select_asset(*database, used.sha256));
 }
 
 TEST_F(AssetStoreTest, ZeroDaysKeepsForEver) {
-  asset_options.keep_unused_ms = 0;
+  keep_unused_ms = 0;
   open();
   const Asset asset = put("mesh");
   now_ms += 1LL << 50;
-  ASSERT_TRUE(assets->purge());
+  ASSERT_TRUE(asset_retention->purge());
   EXPECT_TRUE(may("ann", asset));
 }
 
@@ -196,7 +197,7 @@ TEST_F(AssetStoreTest, AdoptedFileOutlivesItsSource) {
   }
   std::filesystem::remove(file);
   open();
-  EXPECT_TRUE(assets->asset(sha256("film")));
+  EXPECT_TRUE(select_asset(*database, sha256("film")));
   EXPECT_EQ(sha256_of_file(layout.asset(sha256("film"))).value(), sha256("film"));
 }
 
@@ -205,8 +206,8 @@ TEST_F(AssetStoreTest, WrongHashDeletesTheUpload) {
   const auto result = send(upload.id, 0, "mess");
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().reason, "ASSET_HASH_MISMATCH");
-  EXPECT_EQ(assets->upload(upload.id, "ann").error().reason, "UPLOAD_NOT_FOUND");
-  EXPECT_EQ(assets->asset(sha256("mesh")).error().reason, "ASSET_NOT_FOUND");
+  EXPECT_EQ(uploads->get(upload.id, "ann").error().reason, "UPLOAD_NOT_FOUND");
+  EXPECT_EQ(select_asset(*database, sha256("mesh")).error().reason, "ASSET_NOT_FOUND");
   EXPECT_FALSE(std::filesystem::exists(layout.upload(upload.id)));
 }
 
@@ -214,7 +215,7 @@ TEST_F(AssetStoreTest, BrokenUploadResumesEvenAfterARestart) {
   const Upload upload = begin("some mesh");
   EXPECT_EQ(std::get<Upload>(send(upload.id, 0, "some ").value()).received_bytes, 5);
   open();
-  EXPECT_EQ(assets->upload(upload.id, "ann")->received_bytes, 5);
+  EXPECT_EQ(uploads->get(upload.id, "ann")->received_bytes, 5);
   const auto gap = send(upload.id, 6, "esh");
   ASSERT_FALSE(gap);
   EXPECT_EQ(gap.error().reason, "OFFSET_MISMATCH");
@@ -225,7 +226,7 @@ TEST_F(AssetStoreTest, BrokenUploadResumesEvenAfterARestart) {
 TEST_F(AssetStoreTest, MoreThanAnnouncedOrAllowedIsRefused) {
   const Upload upload = begin("mesh");
   EXPECT_EQ(send(upload.id, 0, "mesh+").error().reason, "ASSET_TOO_LARGE");
-  const auto large = assets->start({"", std::string(64, 'a'), 101, 0, "", 0}, ann, {});
+  const auto large = uploads->start({"", std::string(64, 'a'), 101, 0, "", 0}, ann, {});
   ASSERT_FALSE(large);
   EXPECT_EQ(large.error().code, Code::kResourceExhausted);
   EXPECT_EQ(large.error().metadata.at("max_bytes"), "100");
@@ -233,11 +234,11 @@ TEST_F(AssetStoreTest, MoreThanAnnouncedOrAllowedIsRefused) {
 
 TEST_F(AssetStoreTest, OneCallAtATimeWritesAnUpload) {
   const Upload upload = begin("mesh");
-  auto first = UploadWriter::open(*assets, upload.id, "ann");
+  auto first = UploadWriter::open(*uploads, upload.id, "ann");
   ASSERT_TRUE(first);
-  EXPECT_EQ(UploadWriter::open(*assets, upload.id, "ann").error().reason, "UPLOAD_BUSY");
+  EXPECT_EQ(UploadWriter::open(*uploads, upload.id, "ann").error().reason, "UPLOAD_BUSY");
   first->reset();
-  EXPECT_TRUE(UploadWriter::open(*assets, upload.id, "ann"));
+  EXPECT_TRUE(UploadWriter::open(*uploads, upload.id, "ann"));
 }
 
 TEST_F(AssetStoreTest, UploadsAreLimitedInNumberAndTime) {
@@ -245,11 +246,11 @@ TEST_F(AssetStoreTest, UploadsAreLimitedInNumberAndTime) {
   begin("2");
   const Upload third = begin("3");
   const Upload wanted{"", sha256("4"), 1, 0, "", 0};
-  EXPECT_EQ(assets->start(wanted, ann, {}).error().reason, "UPLOADS_FULL");
+  EXPECT_EQ(uploads->start(wanted, ann, {}).error().reason, "UPLOADS_FULL");
   now_ms += 1000;
-  EXPECT_EQ(assets->upload(third.id, "ann").error().reason, "UPLOAD_NOT_FOUND");
-  ASSERT_TRUE(assets->purge());
-  EXPECT_TRUE(assets->start(wanted, ann, {}));
+  EXPECT_EQ(uploads->get(third.id, "ann").error().reason, "UPLOAD_NOT_FOUND");
+  ASSERT_TRUE(asset_retention->purge());
+  EXPECT_TRUE(uploads->start(wanted, ann, {}));
 }
 
 TEST_F(AssetStoreTest, RepeatedRequestReturnsTheSameUpload) {
@@ -259,9 +260,9 @@ TEST_F(AssetStoreTest, RepeatedRequestReturnsTheSameUpload) {
 }
 
 TEST_F(AssetStoreTest, FullDiskIsReportedBeforeAnyUpload) {
-  asset_options.min_free_bytes = 1LL << 60;
+  upload_options.min_free_bytes = 1LL << 60;
   open();
-  const auto refused = assets->start({"", std::string(64, 'a'), 1, 0, "", 0}, ann, {});
+  const auto refused = uploads->start({"", std::string(64, 'a'), 1, 0, "", 0}, ann, {});
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, "DISK_FULL");
 }
@@ -289,12 +290,12 @@ TEST_F(AssetStoreTest, RestartSetsUnknownFilesAsideAndAdoptsVerifiedOnes) {
   std::filesystem::create_directories(layout.asset(upload.sha256).parent_path());
   std::ofstream(layout.asset(upload.sha256)) << "renamed";
   open();
-  EXPECT_TRUE(assets->asset(kept.sha256));
+  EXPECT_TRUE(select_asset(*database, kept.sha256));
   EXPECT_FALSE(std::filesystem::exists(layout.asset(sha256("junk"))));
   EXPECT_FALSE(std::filesystem::exists(layout.upload("0123")));
   EXPECT_EQ(set_aside(), (std::multiset<std::string>{"junk", "nobody's"}));
-  EXPECT_TRUE(assets->asset(upload.sha256));
-  EXPECT_FALSE(assets->upload(upload.id, "ann"));
+  EXPECT_TRUE(select_asset(*database, upload.sha256));
+  EXPECT_FALSE(uploads->get(upload.id, "ann"));
 }
 
 TEST_F(AssetStoreTest, MissingAssetFolderDeletesNothing) {
@@ -322,9 +323,7 @@ TEST_F(AssetStoreTest, MissingDatabaseDeletesNothing) {
   complete(add("1").id);
   begin("part");
   std::ofstream(layout.upload("0123")) << "part";
-  assets.reset();
-  jobs.reset();
-  database.reset();
+  close();
   for (const char* const end : {"", "-wal", "-shm"}) {
     std::filesystem::remove(layout.database().string() + end);
   }
@@ -335,17 +334,13 @@ TEST_F(AssetStoreTest, MissingDatabaseDeletesNothing) {
 TEST_F(AssetStoreTest, OlderDatabaseDeletesNothing) {
   complete(add("1").id, "early");
   const Job running = add("2");
-  assets.reset();
-  jobs.reset();
-  database.reset();
+  close();
   std::filesystem::copy_file(layout.database(), layout.root / "older.db");
   open();
   put("mesh");
   complete(running.id, "late");
   complete(add("3").id, "last");
-  assets.reset();
-  jobs.reset();
-  database.reset();
+  close();
   for (const char* const end : {"", "-wal", "-shm"}) {
     std::filesystem::remove(layout.database().string() + end);
   }

@@ -80,11 +80,11 @@ TEST_F(CalibrationStoreTest, PreventsTheDeletionOfItsJob) {
   const std::int64_t job = running();
   ASSERT_TRUE(jobs->succeed(job, {}, NewCalibration{CalibrationKind::kObject, "ann", job, 0, ""}));
   EXPECT_EQ(jobs->remove(job).error().reason, "STATE_FORBIDS");
-  now_ms += 10 * job_options.keep_finished_ms;
-  EXPECT_TRUE(jobs->purge());
+  now_ms += 10 * retention_times.finished_ms;
+  EXPECT_TRUE(job_retention->purge());
   EXPECT_TRUE(jobs->get(job));
   ASSERT_TRUE(store->remove(store->list(0, 1).value().front().id));
-  EXPECT_TRUE(jobs->purge());
+  EXPECT_TRUE(job_retention->purge());
   EXPECT_FALSE(jobs->get(job));
 }
 

@@ -206,18 +206,18 @@ TEST_F(JobStoreTest, MovedJobTakesOverRankAndPriority) {
   const std::int64_t urgent = add("u", "ann", 5).id;
   const auto order = [&] {
     std::vector<std::int64_t> ids;
-    const auto waiting = jobs->waiting().value();
+    const auto waiting = queue->waiting().value();
     for (const WaitingJob& job : waiting) ids.push_back(job.id);
     return ids;
   };
   EXPECT_EQ(order(), (std::vector<std::int64_t>{urgent, 1, 2, 3}));
-  EXPECT_EQ(jobs->move(3, urgent)->made.priority, 5);
+  EXPECT_EQ(queue->move(3, urgent)->made.priority, 5);
   EXPECT_EQ(order(), (std::vector<std::int64_t>{3, urgent, 1, 2}));
-  ASSERT_TRUE(jobs->move(3, 2));
+  ASSERT_TRUE(queue->move(3, 2));
   EXPECT_EQ(order(), (std::vector<std::int64_t>{urgent, 1, 3, 2}));
-  ASSERT_TRUE(jobs->move(urgent, 0));
+  ASSERT_TRUE(queue->move(urgent, 0));
   EXPECT_EQ(order(), (std::vector<std::int64_t>{1, 3, 2, urgent}));
-  ASSERT_TRUE(jobs->move(1, 1));
+  ASSERT_TRUE(queue->move(1, 1));
   EXPECT_EQ(order().front(), 1);
 }
 
@@ -225,20 +225,20 @@ TEST_F(JobStoreTest, OnlyQueuedJobsOfOneOwnerMove) {
   add();
   add("2", "bob");
   complete(add("3").id);
-  EXPECT_EQ(jobs->move(1, 2).error().reason, "STATE_FORBIDS");
-  EXPECT_EQ(jobs->move(1, 3).error().reason, "STATE_FORBIDS");
-  EXPECT_EQ(jobs->move(3, 1).error().reason, "STATE_FORBIDS");
-  EXPECT_EQ(jobs->move(1, 99).error().reason, "JOB_NOT_FOUND");
+  EXPECT_EQ(queue->move(1, 2).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(queue->move(1, 3).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(queue->move(3, 1).error().reason, "STATE_FORBIDS");
+  EXPECT_EQ(queue->move(1, 99).error().reason, "JOB_NOT_FOUND");
 }
 
 TEST_F(JobStoreTest, PauseSurvivesARestart) {
-  EXPECT_FALSE(jobs->pause()->paused);
-  ASSERT_TRUE(jobs->set_pause({true, "lunch"}));
+  EXPECT_FALSE(queue->pause()->paused);
+  ASSERT_TRUE(queue->set_pause({true, "lunch"}));
   open();
-  EXPECT_TRUE(jobs->pause()->paused);
-  EXPECT_EQ(jobs->pause()->reason, "lunch");
-  ASSERT_TRUE(jobs->set_pause({}));
-  EXPECT_FALSE(jobs->pause()->paused);
+  EXPECT_TRUE(queue->pause()->paused);
+  EXPECT_EQ(queue->pause()->reason, "lunch");
+  ASSERT_TRUE(queue->set_pause({}));
+  EXPECT_FALSE(queue->pause()->paused);
 }
 
 TEST_F(JobStoreTest, ListFiltersAndPages) {
@@ -256,10 +256,10 @@ TEST_F(JobStoreTest, OnlyOldFinishedJobsArePurged) {
   complete(add("1").id);
   add("2");
   now_ms += 999;
-  ASSERT_TRUE(jobs->purge());
+  ASSERT_TRUE(job_retention->purge());
   EXPECT_TRUE(jobs->get(1));
   now_ms += 1;
-  ASSERT_TRUE(jobs->purge());
+  ASSERT_TRUE(job_retention->purge());
   EXPECT_FALSE(jobs->get(1));
   EXPECT_TRUE(jobs->get(2));
 }
@@ -314,12 +314,12 @@ TEST_F(JobStoreTest, DipsAreNotQueuedAndRunOneAtATime) {
   const Job dip = jobs->create(new_dip(), {}).value();
   EXPECT_EQ(dip.state, JobState::kWaitingForOperator);
   EXPECT_EQ(dip.dip_status, "first");
-  EXPECT_TRUE(jobs->waiting()->empty());
+  EXPECT_TRUE(queue->waiting()->empty());
   const auto second = jobs->create(new_dip(), {});
   ASSERT_FALSE(second);
   EXPECT_EQ(second.error().reason, "STATE_FORBIDS");
   for (int i = 0; i < 5; ++i) add(std::to_string(i));  // the queue is full
-  ASSERT_TRUE(jobs->end(dip.id, JobState::kCancelled, {}, "", {}, ""));
+  ASSERT_TRUE(device_jobs->end(dip.id, JobState::kCancelled, {}, "", {}, ""));
   EXPECT_TRUE(jobs->create(new_dip(), {}));
 }
 
@@ -334,16 +334,17 @@ NewJob new_print() {
 TEST_F(JobStoreTest, PrintsAreNotQueuedOrCachedAndRunOneAtATime) {
   const Job print = jobs->create(new_print(), {}).value();
   EXPECT_EQ(print.state, JobState::kRunning);
-  EXPECT_TRUE(jobs->waiting()->empty());
+  EXPECT_TRUE(queue->waiting()->empty());
   EXPECT_EQ(jobs->create(new_print(), {}).error().reason, "STATE_FORBIDS");
   EXPECT_TRUE(jobs->create(new_dip(), {})) << "a dip uses the rig, not the printer";
-  ASSERT_TRUE(jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
+  ASSERT_TRUE(device_jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
   EXPECT_EQ(jobs->create(new_print(), {})->state, JobState::kRunning);
 }
 
 TEST_F(JobStoreTest, LostPrintStaysInterruptedWithAdvice) {
   const Job print = jobs->create(new_print(), {}).value();
-  ASSERT_TRUE(jobs->advance(print.id, JobState::kRunning, "", {0.3, "PROCESSING", 0, 0}, "prints"));
+  ASSERT_TRUE(
+      device_jobs->advance(print.id, JobState::kRunning, "", {0.3, "PROCESSING", 0, 0}, "prints"));
   EXPECT_GT(jobs->get(print.id)->start_ms, 0);
   open();
   EXPECT_EQ(jobs->get(print.id)->state, JobState::kInterrupted);
@@ -353,7 +354,8 @@ TEST_F(JobStoreTest, LostPrintStaysInterruptedWithAdvice) {
 
 TEST_F(JobStoreTest, LostDipStaysInterrupted) {
   const Job dip = jobs->create(new_dip(), {}).value();
-  ASSERT_TRUE(jobs->advance(dip.id, JobState::kRunning, "soak", {0.5, "SOAK", 0, 0}, "soaks"));
+  ASSERT_TRUE(
+      device_jobs->advance(dip.id, JobState::kRunning, "soak", {0.5, "SOAK", 0, 0}, "soaks"));
   open();
   const Job lost = jobs->get(dip.id).value();
   EXPECT_EQ(lost.state, JobState::kInterrupted);
@@ -366,13 +368,13 @@ TEST_F(JobStoreTest, LostDipStaysInterrupted) {
 TEST_F(JobStoreTest, RecordOfADipIsAlwaysKept) {
   const Job dip = jobs->create(new_dip(), {}).value();
   ASSERT_TRUE(jobs->cancel(dip.id));
-  ASSERT_TRUE(jobs->advance(dip.id, JobState::kRunning, "soak", {}, ""));
+  ASSERT_TRUE(device_jobs->advance(dip.id, JobState::kRunning, "soak", {}, ""));
   EXPECT_EQ(jobs->get(dip.id)->state, JobState::kCancelling) << "no other state";
   std::filesystem::create_directories(layout.artifacts(dip.id));
   std::ofstream(layout.artifacts(dip.id) / "report.json") << "{}";
   const JobFailure failure{{Code::kFailedPrecondition, "stalled", "RIG_FAULTED", {}}, {}, {}};
-  ASSERT_TRUE(jobs->end(dip.id, JobState::kFailed, failure, "end",
-                        {{"report.json", 2, "", "application/json"}}, ""));
+  ASSERT_TRUE(device_jobs->end(dip.id, JobState::kFailed, failure, "end",
+                               {{"report.json", 2, "", "application/json"}}, ""));
   open();
   EXPECT_EQ(jobs->get(dip.id)->state, JobState::kFailed);
   EXPECT_EQ(jobs->get(dip.id)->failure->error.reason, "RIG_FAULTED");

@@ -16,7 +16,7 @@ class Retention : public StoreTest {
     made.traits.computed = false;
     made.dip_status = "first";
     const Job job = jobs->create(made, {}).value();
-    return jobs->end(job.id, JobState::kSucceeded, {}, "", {}, "").value();
+    return device_jobs->end(job.id, JobState::kSucceeded, {}, "", {}, "").value();
   }
   Job done(const std::string& digest, const std::string& owner = "ann") {
     return complete(add(digest, owner).id);
@@ -25,14 +25,14 @@ class Retention : public StoreTest {
   [[nodiscard]] std::int64_t purge_ms(const Job& job) { return jobs->get(job.id)->purge_ms; }
   void wait(std::int64_t ms) {
     now_ms += ms;
-    ASSERT_TRUE(jobs->purge());
+    ASSERT_TRUE(job_retention->purge());
   }
 };
 
 TEST_F(Retention, UnpinningRestartsRetention) {
   const Job pinned = done("1"), other = done("2");
   EXPECT_EQ(purge_ms(pinned), now_ms + kKeep_ms);
-  const Job after = jobs->pin(pinned.id, true).value();
+  const Job after = job_retention->pin(pinned.id, true).value();
   EXPECT_TRUE(after.pinned);
   EXPECT_GT(after.version, pinned.version);
   EXPECT_EQ(after.purge_ms, 0);
@@ -41,7 +41,7 @@ TEST_F(Retention, UnpinningRestartsRetention) {
   EXPECT_TRUE(std::filesystem::exists(layout.artifacts(pinned.id) / "film.png"));
   EXPECT_FALSE(is_there(other));
   EXPECT_FALSE(std::filesystem::exists(layout.artifacts(other.id)));
-  EXPECT_EQ(jobs->pin(pinned.id, false)->purge_ms, now_ms + kKeep_ms);
+  EXPECT_EQ(job_retention->pin(pinned.id, false)->purge_ms, now_ms + kKeep_ms);
   wait(kKeep_ms - 1);
   EXPECT_TRUE(is_there(pinned));
   wait(1);
@@ -50,7 +50,7 @@ TEST_F(Retention, UnpinningRestartsRetention) {
 
 TEST_F(Retention, JobPinnedBeforeItsEndIsKept) {
   const Job job = add("1");
-  ASSERT_TRUE(jobs->pin(job.id, true));
+  ASSERT_TRUE(job_retention->pin(job.id, true));
   complete(job.id);
   EXPECT_EQ(purge_ms(job), 0);
   wait(kKeep_ms);
@@ -84,7 +84,7 @@ TEST_F(Retention, JobIsKeptAsLongAsItsCalibration) {
 }
 
 TEST_F(Retention, DipsAreKeptLonger) {
-  job_options.keep_dips_ms = 5 * kKeep_ms;
+  retention_times.dips_ms = 5 * kKeep_ms;
   open();
   const Job dipped = dip(), other = done("1");
   EXPECT_EQ(purge_ms(dipped), now_ms + 5 * kKeep_ms);
@@ -96,7 +96,7 @@ TEST_F(Retention, DipsAreKeptLonger) {
 }
 
 TEST_F(Retention, ZeroKeepsForEverAndChangesApplyAtTheNextStart) {
-  job_options.keep_finished_ms = 0;
+  retention_times.finished_ms = 0;
   open();
   const Job job = done("1"), dipped = dip();
   EXPECT_EQ(purge_ms(job), 0);
@@ -104,7 +104,7 @@ TEST_F(Retention, ZeroKeepsForEverAndChangesApplyAtTheNextStart) {
   wait(100 * kKeep_ms);
   EXPECT_TRUE(is_there(job));
   const std::int64_t ended_ms = jobs->get(job.id)->end_ms;
-  job_options.keep_finished_ms = 2 * kKeep_ms;
+  retention_times.finished_ms = 2 * kKeep_ms;
   open();
   EXPECT_EQ(purge_ms(job), ended_ms + 2 * kKeep_ms);
   wait(0);
@@ -119,7 +119,7 @@ TEST_F(Retention, NothingIsDeletedDuringAPrint) {
   const Job print = jobs->create(made, {}).value();
   wait(kKeep_ms);
   EXPECT_TRUE(is_there(old));  // it may be the job that is being printed
-  ASSERT_TRUE(jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
+  ASSERT_TRUE(device_jobs->end(print.id, JobState::kSucceeded, {}, "", {}, ""));
   wait(0);
   EXPECT_FALSE(is_there(old));
   EXPECT_TRUE(is_there(print));
@@ -128,20 +128,20 @@ TEST_F(Retention, NothingIsDeletedDuringAPrint) {
 constexpr std::int64_t kYear_ms = 365LL * 24 * 3600 * 1000;
 
 TEST_F(Retention, ClockJumpAheadAndBackDeletesNothing) {
-  asset_options.keep_unused_ms = 1000;
+  keep_unused_ms = 1000;
   open();
   const Job before = done("1");
   const std::int64_t due_ms = purge_ms(before);
-  ASSERT_TRUE(jobs->purge());
+  ASSERT_TRUE(job_retention->purge());
   now_ms += 3 * kYear_ms;
   open();
-  ASSERT_TRUE(jobs->purge());
+  ASSERT_TRUE(job_retention->purge());
   EXPECT_TRUE(is_there(before));
   EXPECT_EQ(purge_ms(before), due_ms + 3 * kYear_ms);
   const Job meanwhile = done("2");
   now_ms -= 3 * kYear_ms;
   open();
-  ASSERT_TRUE(jobs->purge());
+  ASSERT_TRUE(job_retention->purge());
   EXPECT_EQ(purge_ms(before), due_ms);
   EXPECT_EQ(purge_ms(meanwhile), due_ms);
   wait(kKeep_ms);
@@ -150,25 +150,25 @@ TEST_F(Retention, ClockJumpAheadAndBackDeletesNothing) {
 }
 
 TEST_F(Retention, ClockJumpKeepsUnusedAssetsAndOpenUploads) {
-  asset_options.keep_unused_ms = 1000;
+  keep_unused_ms = 1000;
   open();
-  const auto started = assets->start({"", sha256("part"), 4, 0, "", 0}, {"ann", false}, {});
+  const auto started = uploads->start({"", sha256("part"), 4, 0, "", 0}, {"ann", false}, {});
   const std::string id = std::get<Upload>(started.value()).id;
   std::ofstream(layout.root / "mesh") << "mesh";
   ASSERT_TRUE(assets->adopt(layout.root / "mesh", {sha256("mesh"), 4, "", 0}));
   now_ms += 3 * kYear_ms;
   open();
-  EXPECT_TRUE(assets->upload(id, "ann"));
-  EXPECT_TRUE(assets->asset(sha256("mesh")));
+  EXPECT_TRUE(uploads->get(id, "ann"));
+  EXPECT_TRUE(select_asset(*database, sha256("mesh")));
   now_ms += 1000;
-  ASSERT_TRUE(assets->purge());
-  EXPECT_FALSE(assets->upload(id, "ann"));
-  EXPECT_FALSE(assets->asset(sha256("mesh")));
+  ASSERT_TRUE(asset_retention->purge());
+  EXPECT_FALSE(uploads->get(id, "ann"));
+  EXPECT_FALSE(select_asset(*database, sha256("mesh")));
 }
 
 TEST_F(Retention, StepsOfOneDayCount) {
   const Job job = done("1");
-  ASSERT_TRUE(jobs->purge());
+  ASSERT_TRUE(job_retention->purge());
   wait(24LL * 3600 * 1000);
   EXPECT_FALSE(is_there(job));
 }
@@ -223,7 +223,7 @@ TEST_F(Retention, JobsAreAcceptedBelowTheByteQuota) {
     EXPECT_EQ(refused.error().reason, "QUOTA_EXCEEDED");
     EXPECT_EQ(refused.error().metadata.at("quota"), "bytes");
   }
-  ASSERT_TRUE(jobs->pin(second.id, true));
+  ASSERT_TRUE(job_retention->pin(second.id, true));
   EXPECT_EQ(usage_of(*database, "ann")->pinned_bytes, 4);
   add("3", "bob");
   ASSERT_TRUE(jobs->remove(first.id));

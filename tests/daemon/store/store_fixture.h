@@ -8,8 +8,13 @@
 #include <set>
 #include <string>
 
-#include "daemon/store/asset_store.h"
+#include "daemon/store/assets/asset_retention.h"
+#include "daemon/store/assets/asset_rows.h"
+#include "daemon/store/assets/upload_writer.h"
 #include "daemon/store/database/schema.h"
+#include "daemon/store/device_jobs.h"
+#include "daemon/store/job_queue.h"
+#include "daemon/store/job_retention.h"
 #include "daemon/store/job_store.h"
 #include "sim/base/sha256.h"
 #include "tests/support/temporary_folder.h"
@@ -23,17 +28,34 @@ class StoreTest : public ::testing::Test {
 
   /// Opens the store as a daemon does at the start, as if the previous one had been killed.
   void open() {
-    assets.reset();
-    jobs.reset();
-    database.reset();
+    close();
     database = open_store(layout.database()).value();
     const auto clock = [this] { return now_ms; };
-    jobs = std::make_unique<JobStore>(*database, layout, job_options, clock);
-    assets = std::make_unique<AssetStore>(*database, layout, asset_options, clock);
+    changes = std::make_unique<JobChanges>(*database, retention_times, clock);
+    jobs = std::make_unique<JobStore>(*changes, layout, job_options);
+    queue = std::make_unique<JobQueue>(*changes);
+    device_jobs = std::make_unique<DeviceJobs>(*changes);
+    job_retention = std::make_unique<JobRetention>(*changes, layout);
+    assets = std::make_unique<AssetStore>(*database, layout, clock);
+    uploads = std::make_unique<Uploads>(*database, *assets, layout, upload_options, clock);
+    asset_retention = std::make_unique<AssetRetention>(*database, layout, keep_unused_ms, clock);
     EXPECT_TRUE(jobs->interrupt_all(Interruption::kLoss));
-    EXPECT_TRUE(jobs->sweep());
-    EXPECT_TRUE(assets->sweep());
-    EXPECT_TRUE(assets->purge());
+    EXPECT_TRUE(job_retention->sweep());
+    EXPECT_TRUE(asset_retention->sweep());
+    EXPECT_TRUE(asset_retention->purge());
+  }
+
+  /// Leaves the store as a killed daemon does.
+  void close() {
+    asset_retention.reset();
+    uploads.reset();
+    assets.reset();
+    job_retention.reset();
+    device_jobs.reset();
+    queue.reset();
+    jobs.reset();
+    changes.reset();
+    database.reset();
   }
 
   /// A job with this digest, owned by `owner`.
@@ -77,11 +99,19 @@ class StoreTest : public ::testing::Test {
   hydroprint::testing::TemporaryFolder folder;
   Layout layout{folder.path()};
   std::int64_t now_ms = 1'000'000;
-  JobStoreOptions job_options{5, 1000};
-  AssetStoreOptions asset_options{100, 3, 1000, 0};
+  JobStoreOptions job_options{5};
+  RetentionTimes retention_times{1000};
+  UploadOptions upload_options{100, 3, 1000, 0};
+  std::int64_t keep_unused_ms = 30LL * 24 * 3600 * 1000;
   std::unique_ptr<Database> database;
+  std::unique_ptr<JobChanges> changes;
   std::unique_ptr<JobStore> jobs;
+  std::unique_ptr<JobQueue> queue;
+  std::unique_ptr<DeviceJobs> device_jobs;
+  std::unique_ptr<JobRetention> job_retention;
   std::unique_ptr<AssetStore> assets;
+  std::unique_ptr<Uploads> uploads;
+  std::unique_ptr<AssetRetention> asset_retention;
 };
 
 }  // namespace hydroprint::daemon

@@ -1,6 +1,7 @@
+#include "daemon/auth/api_keys.h"
+
 #include <algorithm>
 
-#include "daemon/auth/accounts.h"
 #include "daemon/auth/secret.h"
 #include "sim/base/sha256.h"
 
@@ -19,34 +20,34 @@ bool has_control_characters(const std::string& text) {
 
 }  // namespace
 
-std::optional<Caller> Accounts::by_key(std::string_view key, bool is_use) {
+std::optional<Caller> ApiKeys::caller(std::string_view key, bool is_use) {
   if (!key.starts_with(kKeyPrefix)) return std::nullopt;
   key.remove_prefix(kKeyPrefix.size());
   const std::size_t between = key.find('_');
   if (between == std::string_view::npos || key.size() > 1000) return std::nullopt;
   const std::string hash = sha256(key.substr(between + 1));
-  const std::lock_guard lock(now_);
-  const auto found = keys_.find(std::string(key.substr(0, between)));
-  if (found == keys_.end() || !equal_in_constant_time(found->second.secret_hash, hash)) {
+  const std::lock_guard lock(rows_.memory);
+  const auto found = rows_.keys.find(std::string(key.substr(0, between)));
+  if (found == rows_.keys.end() || !equal_in_constant_time(found->second.secret_hash, hash)) {
     return std::nullopt;
   }
   ApiKey& held = found->second;
   const std::int64_t now_ms = clock_();
-  const User* const user = admitted(held.user);
+  const User* const user = rows_.admitted(held.user);
   if (user == nullptr || (held.expire_ms != 0 && held.expire_ms <= now_ms)) return std::nullopt;
   if (is_use) held.use_ms = now_ms;
   return Caller{user->name, std::min(user->role, held.role), "key " + held.id, "", true};
 }
 
-Result<std::pair<ApiKey, std::string>> Accounts::create_key(const NewKey& made) {
+Result<std::pair<ApiKey, std::string>> ApiKeys::create(const NewKey& made) {
   if (made.display_name.size() > kLongestKeyName || has_control_characters(made.display_name)) {
     return fail(Code::kInvalidArgument,
                 "display_name: must be at most 100 bytes without control characters",
                 "SPEC_INVALID");
   }
-  const std::lock_guard writing(writing_);
-  HP_RETURN_IF_ERROR(user(made.user));
-  if (keys(made.user, "", options_.most_keys).size() >= options_.most_keys) {
+  const std::lock_guard writing(rows_.writing);
+  HP_RETURN_IF_ERROR(users_.get(made.user));
+  if (list(made.user, "", most_).size() >= most_) {
     return fail(Code::kResourceExhausted,
                 "users/" + made.user + ": too many API keys; delete some first", "KEYS_FULL");
   }
@@ -60,40 +61,41 @@ Result<std::pair<ApiKey, std::string>> Accounts::create_key(const NewKey& made) 
                    now_ms,
                    made.ttl_ms == 0 ? 0 : now_ms + made.ttl_ms,
                    0};
-  HP_RETURN_IF_ERROR(database_.run(
+  HP_RETURN_IF_ERROR(rows_.database.run(
       "INSERT INTO api_keys(id, user, display_name, secret_hash, role, create_ms, expire_ms, "
       "use_ms) VALUES (?,?,?,?,?,?,?,0)",
       {key.id, key.user, key.display_name, key.secret_hash, static_cast<std::int64_t>(key.role),
        key.create_ms, key.expire_ms}));
-  const std::lock_guard lock(now_);
-  keys_[key.id] = key;
+  const std::lock_guard lock(rows_.memory);
+  rows_.keys[key.id] = key;
   return std::pair{key, std::string(kKeyPrefix) + key.id + "_" + secret};
 }
 
-std::vector<ApiKey> Accounts::keys(const std::string& user, const std::string& after,
-                                   std::size_t limit) const {
-  const std::lock_guard lock(now_);
+std::vector<ApiKey> ApiKeys::list(const std::string& user, const std::string& after,
+                                  std::size_t limit) const {
+  const std::lock_guard lock(rows_.memory);
   std::vector<ApiKey> out;
-  for (auto next = keys_.upper_bound(after); next != keys_.end() && out.size() < limit; ++next) {
+  for (auto next = rows_.keys.upper_bound(after); next != rows_.keys.end() && out.size() < limit;
+       ++next) {
     if (user.empty() || next->second.user == user) out.push_back(next->second);
   }
   return out;
 }
 
-Result<ApiKey> Accounts::key(const std::string& id) const {
-  const std::lock_guard lock(now_);
-  const auto found = keys_.find(id);
-  if (found == keys_.end()) {
+Result<ApiKey> ApiKeys::get(const std::string& id) const {
+  const std::lock_guard lock(rows_.memory);
+  const auto found = rows_.keys.find(id);
+  if (found == rows_.keys.end()) {
     return fail(Code::kNotFound, "apiKeys/" + id + ": there is no such API key", "KEY_NOT_FOUND");
   }
   return found->second;
 }
 
-Status Accounts::remove_key(const std::string& id) {
-  const std::lock_guard writing(writing_);
-  HP_RETURN_IF_ERROR(database_.run("DELETE FROM api_keys WHERE id=?", {id}));
-  const std::lock_guard lock(now_);
-  keys_.erase(id);
+Status ApiKeys::remove(const std::string& id) {
+  const std::lock_guard writing(rows_.writing);
+  HP_RETURN_IF_ERROR(rows_.database.run("DELETE FROM api_keys WHERE id=?", {id}));
+  const std::lock_guard lock(rows_.memory);
+  rows_.keys.erase(id);
   return {};
 }
 

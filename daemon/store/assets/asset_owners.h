@@ -25,9 +25,6 @@ struct AssetUser {
 [[nodiscard]] Status check_may_use(Database& database, const std::vector<InputFile>& inputs,
                                    const AssetUser& user);
 
-/// The error for a missing input file.
-[[nodiscard]] tl::unexpected<Error> asset_missing(const InputFile& input);
-
 /// Names of an asset's owners.
 [[nodiscard]] Result<std::vector<std::string>> owners_of(Database& database,
                                                          const std::string& sha256);

@@ -1,5 +1,6 @@
-#include "daemon/store/asset_owners.h"
+#include "daemon/store/assets/asset_owners.h"
 
+#include "daemon/store/asset.h"
 #include "daemon/store/job_rows.h"
 
 namespace hydroprint::daemon {
@@ -14,15 +15,6 @@ Result<bool> may_use(Database& database, const std::string& sha256, const AssetU
                      "job_inputs.sha256=?2 AND (jobs.owner=?1 OR jobs.shared=1) LIMIT 1",
                      {user.name, sha256}));
   return !found.empty();
-}
-
-tl::unexpected<Error> asset_missing(const InputFile& input) {
-  auto error =
-      fail(Code::kFailedPrecondition,
-           input.name + ": assets/" + input.sha256 + " is not on the daemon; upload it first",
-           "ASSET_MISSING");
-  error.value().metadata["asset"] = "assets/" + input.sha256;
-  return error;
 }
 
 Status check_may_use(Database& database, const std::vector<InputFile>& inputs,

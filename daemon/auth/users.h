@@ -1,0 +1,66 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "daemon/auth/account_rows.h"
+#include "daemon/auth/password.h"
+#include "daemon/platform/clock.h"
+
+namespace hydroprint::auth {
+
+/// Changes to a user.
+struct UserChange {
+  std::optional<Role> role;
+  std::optional<bool> disabled;
+};
+
+/// The users. Thread-safe.
+///
+/// Methods that name a user return kNotFound, USER_NOT_FOUND if there is none. Disk errors are as
+/// in Database::run().
+class Users {
+ public:
+  Users(AccountRows& rows, Passwords& passwords, daemon::Clock clock)
+      : rows_(rows), passwords_(passwords), clock_(std::move(clock)) {}
+
+  /// Whether there are any users.
+  [[nodiscard]] bool any() const;
+  [[nodiscard]] Result<User> get(const std::string& name) const;
+  /// Users whose names follow `after`, sorted by name.
+  [[nodiscard]] std::vector<User> list(const std::string& after, std::size_t limit) const;
+  /// @param password  empty: none
+  /// @param returns   whether this is the earlier user of that name, who gets back the data stored
+  /// under it
+  /// @return USER_EXISTS; SPEC_INVALID; LAST_ADMIN if there is no admin and the new user is not
+  /// one; kFailedPrecondition, USER_NAME_USED if a deleted user had the name and jobs, assets,
+  /// calibrations or the audit log still refer to it
+  [[nodiscard]] Result<User> create(const User& user, const std::string& password,
+                                    bool returns = false);
+  /// Changes a user. Errors: LAST_ADMIN.
+  [[nodiscard]] Result<User> update(const std::string& name, const UserChange& change);
+  /// Sets a password and ends all sessions of the user except the one with id `spared`.
+  /// @param password  empty: removes the password
+  [[nodiscard]] Result<User> set_password(const std::string& name, const std::string& password,
+                                          const std::string& spared);
+  /// Deletes a user with keys and sessions. Errors: LAST_ADMIN.
+  [[nodiscard]] Status remove(const std::string& name);
+
+ private:
+  [[nodiscard]] Status check_admin_without(const std::string& name, const User* instead) const;
+  [[nodiscard]] Status check_name_is_free(const std::string& name);
+  [[nodiscard]] Status write(const User& user);
+  [[nodiscard]] Result<User> changed(const std::string& name,
+                                     const std::function<void(User&)>& change);
+
+  AccountRows& rows_;
+  Passwords& passwords_;
+  daemon::Clock clock_;
+};
+
+/// Refuses (SPEC_INVALID, or ID_INVALID for `field` "name") an invalid user name.
+[[nodiscard]] Status check_user_name(const std::string& field, const std::string& name);
+
+}  // namespace hydroprint::auth

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "daemon/store/job.h"
+
+namespace hydroprint::daemon {
+
+/// A stored file with verified content.
+struct Asset {
+  std::string sha256;
+  std::int64_t size_bytes = 0;
+  std::string media_type;
+  std::int64_t create_ms = 0;
+  std::vector<std::string> owners = {};  ///< names
+};
+
+/// A file whose bytes are still being received.
+struct Upload {
+  std::string id;
+  std::string sha256;
+  std::int64_t size_bytes = 0;
+  std::int64_t received_bytes = 0;
+  std::string media_type;
+  std::int64_t expire_ms = 0;
+  std::string owner = {};
+};
+
+/// The result of an upload so far.
+using AssetOrUpload = std::variant<Asset, Upload>;
+
+/// The error (kFailedPrecondition, ASSET_MISSING) for a missing input file.
+[[nodiscard]] tl::unexpected<Error> asset_missing(const InputFile& input);
+
+}  // namespace hydroprint::daemon
