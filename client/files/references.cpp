@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "client/files/files.h"
+#include "sim/base/checked_json.h"
 
 namespace hydroprint::client {
 namespace {
@@ -188,17 +188,11 @@ std::string percent_decode(std::string_view text) {
 }
 
 void follow_gltf_json(std::string_view text, const std::string& model, Collector& collector) {
-  const auto json = nlohmann::json::parse(text, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) return;
+  const auto json = parse_json(text, {.bytes = kMaxJsonBytes}).value_or(nullptr);
   for (const char* list : {"buffers", "images"}) {
-    const auto found = json.find(list);
-    if (found == json.end() || !found->is_array()) continue;
-    for (const auto& entry : *found) {
-      if (!entry.is_object()) continue;
-      const auto uri = entry.find("uri");
-      if (uri == entry.end() || !uri->is_string()) continue;
-      const auto& name = uri->get_ref<const std::string&>();
-      if (!name.starts_with("data:")) collector.add(percent_decode(name), model);
+    for (const auto& entry : json_at(json, list)) {
+      const auto uri = json_string(entry, "uri");
+      if (uri && !uri->starts_with("data:")) collector.add(percent_decode(*uri), model);
     }
   }
 }

@@ -1,8 +1,7 @@
 #include "daemon/camera/camera_process.h"
 
-#include <poll.h>
+#include <fmt/format.h>
 #include <signal.h>
-#include <sys/wait.h>
 
 #include <utility>
 
@@ -27,7 +26,7 @@ Launch launch_of(const CameraConfig& camera, const std::filesystem::path& folder
   out.program = camera.program;
   out.inputs = folder / "in";
   out.work = folder / "work";
-  out.arguments = {"--live", "--json", "--patience-s=" + std::to_string(camera.patience_s)};
+  out.arguments = {"--live", "--json", fmt::format("--patience-s={}", camera.patience_s)};
   if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
   out.limits = {0, kDay_s, kLargestPicture};
   out.confined = false;  // needs the camera, and reads nothing else
@@ -54,9 +53,7 @@ Result<std::unique_ptr<CameraProcess>> CameraProcess::start(const CameraConfig& 
 CameraProcess::~CameraProcess() {
   if (process_.pid > 0 && !wait_status_) {
     signal_group(process_, SIGKILL);
-    pollfd ended{process_.handle.get(), POLLIN, 0};
-    ::poll(&ended, 1, static_cast<int>(std::chrono::milliseconds(kTimeToEnd).count()));
-    ::waitpid(process_.pid, nullptr, WNOHANG);
+    (void)wait_for_end(process_, kTimeToEnd);
   }
   discard(folder_);
 }
@@ -90,9 +87,8 @@ bool CameraProcess::has_ended(Time now) {
   if (wait_status_) return true;
   silent_ = silent_ || (!kill_at_ && now >= heard_ + patience_);
   if (silent_ || (kill_at_ && now >= *kill_at_)) signal_group(process_, SIGKILL);
-  int status = 0;
-  if (::waitpid(process_.pid, &status, WNOHANG) == 0) return false;
-  wait_status_ = status;
+  wait_status_ = wait_for_end(process_);
+  if (!wait_status_) return false;
   (void)drain(process_.answer, said_, kReadAtOnce);
   (void)drain(process_.errors, words_, kWordsHeld);
   return true;

@@ -1,6 +1,8 @@
 #include "daemon/workers/child_process.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/syscall.h>
@@ -132,8 +134,9 @@ Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox) {
   if (worker.pid == 0) become_worker(plan, what.limits, sandbox);
   if (worker.pid < 0) {
     return fail(Code::kInternal,
-                std::string("cannot start a worker: ") + std::strerror(errno) +
-                    "; the machine has too many processes or too little memory",
+                fmt::format("cannot start a worker: {}; the machine has too many processes or too "
+                            "little memory",
+                            std::strerror(errno)),
                 "WORKER_UNUSABLE");
   }
   ::setpgid(worker.pid, worker.pid);
@@ -147,6 +150,14 @@ Result<ChildProcess> launch(const Launch& what, const Sandbox& sandbox) {
 
 void signal_group(const ChildProcess& worker, int signal) {
   if (worker.pid > 0) ::kill(-worker.pid, signal);
+}
+
+std::optional<int> wait_for_end(const ChildProcess& worker, std::chrono::milliseconds patience) {
+  pollfd ended{worker.handle.get(), POLLIN, 0};
+  ::poll(&ended, 1, static_cast<int>(patience.count()));
+  int wait_status = 0;
+  const pid_t pid = ::waitpid(worker.pid, &wait_status, WNOHANG);
+  return pid == 0 ? std::nullopt : std::optional(wait_status);
 }
 
 int kill_and_wait(const ChildProcess& worker) {
@@ -172,7 +183,7 @@ bool drain(const UniqueFd& pipe, std::string& bytes, std::size_t most) {
 }
 
 std::int64_t resident_bytes(const ChildProcess& worker) {
-  std::ifstream file("/proc/" + std::to_string(worker.pid) + "/statm");
+  std::ifstream file(fmt::format("/proc/{}/statm", worker.pid));
   std::int64_t total = 0, resident = 0;
   file >> total >> resident;
   return file ? resident * ::sysconf(_SC_PAGESIZE) : 0;

@@ -2,7 +2,9 @@
 
 #include <sys/types.h>
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +48,11 @@ inline constexpr int kProgressFd = 3;
 
 /// Sends a signal to the worker and all its children.
 void signal_group(const ChildProcess& worker, int signal);
+
+/// Waits until the worker ends, at most for `patience`.
+/// @return the status from waitpid(); nullopt if it is still running
+[[nodiscard]] std::optional<int> wait_for_end(const ChildProcess& worker,
+                                              std::chrono::milliseconds patience = {});
 
 /// Kills the worker and all its children.
 /// @return the status from waitpid()

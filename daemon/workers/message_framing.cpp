@@ -1,29 +1,11 @@
 #include "daemon/workers/message_framing.h"
 
-#include <nlohmann/json.hpp>
+#include "sim/base/checked_json.h"
 
 namespace hydroprint::daemon {
 namespace {
 
-constexpr std::size_t kLongestHead = 256 << 10;
-constexpr int kDeepest = 16;
-
-/// Number of bytes that follow a head; nullopt if it is malformed. (Deeply nested text would
-/// exhaust the parser's stack.)
-std::optional<std::size_t> bytes_after(const std::string& head, std::size_t most) {
-  int depth = 0;
-  for (const char c : head) {
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
-    if (depth > kDeepest) return {};
-  }
-  const auto json = nlohmann::json::parse(head, nullptr, /*allow_exceptions=*/false);
-  if (!json.is_object()) return {};
-  const auto bytes = json.find("bytes");
-  if (bytes == json.end() || !bytes->is_number_unsigned()) return {};
-  const auto count = bytes->get<std::size_t>();
-  return count <= most ? std::optional(count) : std::nullopt;
-}
+constexpr JsonLimits kHeadLimits{256 << 10, 16};
 
 }  // namespace
 
@@ -31,12 +13,12 @@ Result<std::optional<FramedMessage>> cut_framed(std::string& read, std::size_t m
   const auto refusal = fail(Code::kInternal, "not a line of JSON with a number of bytes");
   const std::size_t end = read.find('\n');
   if (end == std::string::npos) {
-    if (read.size() > kLongestHead) return refusal;
+    if (read.size() > kHeadLimits.bytes) return refusal;
     return std::nullopt;
   }
   FramedMessage out{read.substr(0, end), {}};
-  const auto count = bytes_after(out.head, most);
-  if (!count) return refusal;
+  const auto count = json_unsigned(parse_json(out.head, kHeadLimits).value_or(nullptr), "bytes");
+  if (!count || *count > most) return refusal;
   if (read.size() - end - 1 < *count) return std::nullopt;
   out.bytes = read.substr(end + 1, *count);
   read.erase(0, end + 1 + *count);

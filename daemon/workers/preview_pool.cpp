@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "daemon/platform/log.h"
+#include "sim/base/checked_json.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -32,16 +32,14 @@ tl::unexpected<Error> shutting_down() {
 
 /// The worker's answer to the request with this id; nullopt for other answers.
 std::optional<Result<PreviewFrame>> answer_to(std::int64_t id, PreviewFrame frame) {
-  const auto head = nlohmann::json::parse(frame.head, nullptr, /*allow_exceptions=*/false);
-  const auto told = head.find("id");
-  if (told == head.end() || !told->is_number_integer() || *told != id) return {};
-  const auto error = head.find("error");
-  if (error == head.end()) return frame;
-  const std::string message =
-      error->is_object() && error->contains("message") && error->at("message").is_string()
-          ? error->at("message").get<std::string>()
-          : "the worker refused the request without a message";
-  return fail(Code::kInvalidArgument, message, "PREVIEW_REFUSED");
+  const auto head = parse_json(frame.head).value_or(nullptr);
+  if (json_unsigned(head, "id") != static_cast<std::uint64_t>(id)) return {};
+  const auto& error = json_at(head, "error");
+  if (error.is_null()) return frame;
+  return fail(
+      Code::kInvalidArgument,
+      json_string(error, "message").value_or("the worker refused the request without a message"),
+      "PREVIEW_REFUSED");
 }
 
 }  // namespace

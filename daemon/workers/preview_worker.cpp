@@ -1,7 +1,6 @@
 #include "daemon/workers/preview_worker.h"
 
-#include <poll.h>
-#include <sys/wait.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,7 +16,7 @@ namespace {
 constexpr std::size_t kMostBytes = 256 << 20;
 constexpr std::size_t kAtOnce = 4 << 20;
 constexpr std::size_t kWordsKept = 16 << 10;
-constexpr int kToEnd_ms = 500;
+constexpr std::chrono::milliseconds kTimeToEnd{500};
 
 Error unusable() {
   return {Code::kInternal,
@@ -42,7 +41,7 @@ Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
   std::unique_ptr<PreviewWorker> made(new PreviewWorker(ask.key, layout.preview(number)));
   Launch plan;
   plan.program = program;
-  plan.arguments = {"preview", "--threads=" + std::to_string(threads)};
+  plan.arguments = {"preview", fmt::format("--threads={}", threads)};
   plan.inputs = made->folder_ / "in";
   plan.work = made->folder_ / "work";
   plan.limits = limits;
@@ -57,7 +56,7 @@ Result<std::unique_ptr<PreviewWorker>> PreviewWorker::start(
 }
 
 void PreviewWorker::ask(std::int64_t id, const std::string& dip) {
-  const std::string line = "{\"id\":" + std::to_string(id) + (dip.empty() ? "" : ",") + dip + "}\n";
+  const std::string line = fmt::format("{{\"id\":{}{}{}}}\n", id, dip.empty() ? "" : ",", dip);
   // A few hundred bytes, which a pipe takes completely or not at all.
   ssize_t written = 0;
   do {
@@ -82,11 +81,9 @@ std::vector<PreviewFrame> PreviewWorker::read() {
 
 void PreviewWorker::judge_end() {
   // The process closes its pipes slightly before it ends.
-  pollfd ended{worker_.handle.get(), POLLIN, 0};
-  ::poll(&ended, 1, kToEnd_ms);
+  const auto ended = wait_for_end(worker_, kTimeToEnd);
   (void)drain(worker_.errors, words_, kWordsKept);
-  int wait_status = 0;
-  if (::waitpid(worker_.pid, &wait_status, WNOHANG) == 0) wait_status = kill_and_wait(worker_);
+  const int wait_status = ended ? *ended : kill_and_wait(worker_);
   worker_.pid = -1;
   const auto why = judge(wait_status, StoppedFor::kNothing, words_);
   failure_ = why ? why->error : unusable();

@@ -1,14 +1,14 @@
 #include "daemon/workers/worker_outcome.h"
 
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/wait.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
-#include <nlohmann/json.hpp>
 
 #include "hydroprint/v1/error_reason.pb.h"
+#include "sim/base/checked_json.h"
 
 namespace hydroprint::daemon {
 namespace {
@@ -90,8 +90,8 @@ JobFailure judge_exit(int status, const std::string& words) {
       return failure(Code::kCancelled, "WORKER_KILLED", "the worker was interrupted by a signal");
     default:
       return failure(Code::kInternal, "COMPUTATION_FAILED",
-                     "the worker ended with status " + std::to_string(status) +
-                         (words.empty() ? "" : ": " + words));
+                     fmt::format("the worker ended with status {}{}{}", status,
+                                 words.empty() ? "" : ": ", words));
   }
 }
 
@@ -100,26 +100,20 @@ JobFailure judge_signal(int signal) {
   if (signal == SIGXFSZ) return output_failure();
   if (signal == SIGKILL || signal == SIGTERM) {
     return failure(Code::kInternal, "WORKER_KILLED",
-                   "the worker was killed (signal " + std::to_string(signal) +
-                       ") by a user, or because memory ran out; try again");
+                   fmt::format("the worker was killed (signal {}) by a user, or because memory "
+                               "ran out; try again",
+                               signal));
   }
   return failure(Code::kInternal, "WORKER_KILLED",
-                 "the worker crashed (signal " + std::to_string(signal) + ", " +
-                     std::string(::strsignal(signal)) +
-                     "); please report it together with the model");
+                 fmt::format("the worker crashed (signal {}, {}); please report it together with "
+                             "the model",
+                             signal, ::strsignal(signal)));
 }
 
 // The reason code that a program printed for its failure; empty without one.
 std::string printed_reason(std::string_view answer) {
-  const std::string line = last_line(answer);
-  // Deeply nested text would exhaust the parser's stack.
-  if (std::count(line.begin(), line.end(), '{') > 3 || line.find('[') != std::string::npos) {
-    return {};
-  }
-  const auto object = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
-  const nlohmann::json::json_pointer place("/error/reason");
-  if (!object.is_object() || !object.contains(place) || !object.at(place).is_string()) return {};
-  return object.at(place).get<std::string>();
+  const auto object = parse_json(last_line(answer)).value_or(nullptr);
+  return json_string(json_at(object, "error"), "reason").value_or("");
 }
 
 // Limits of the machine and of the worker, which the program names by its own reason codes
@@ -145,14 +139,6 @@ JobFailure judge_failed_exit(int status, const std::string& words, std::string_v
       out.error.reason == "INPUT_REFUSED" || out.error.reason == "COMPUTATION_FAILED";
   if (is_general && is_known(reason)) out.error.reason = reason;
   return out;
-}
-
-std::optional<double> fraction(const nlohmann::json& object, const char* key) {
-  const auto found = object.find(key);
-  if (found == object.end() || !found->is_number()) return std::nullopt;
-  const double value = found->get<double>();
-  if (!std::isfinite(value)) return std::nullopt;
-  return std::clamp(value, 0.0, 1.0);
 }
 
 }  // namespace
@@ -186,26 +172,18 @@ std::optional<JobFailure> judge(int wait_status, StoppedFor stopped, std::string
 }
 
 std::optional<Progress> read_progress(std::string_view line, std::int64_t now_ms) {
-  // Deeply nested text would exhaust the parser's stack; a progress line is flat.
-  if (std::count(line.begin(), line.end(), '{') != 1 || line.find('[') != std::string_view::npos) {
-    return std::nullopt;
-  }
-  const auto object = nlohmann::json::parse(line, nullptr, /*allow_exceptions=*/false);
-  if (!object.is_object()) return std::nullopt;
-  const auto stage = object.find("stage");
-  const auto total = fraction(object, "total_fraction");
-  if (stage == object.end() || !stage->is_string() || !total) return std::nullopt;
+  const auto object = parse_json(line, {.depth = 1}).value_or(nullptr);
+  const auto stage = json_string(object, "stage");
+  const auto total = json_number(object, "total_fraction");
+  if (!stage || !total) return std::nullopt;
   Progress progress;
-  progress.fraction = *total;
-  progress.phase = shortened(printable(stage->get<std::string>()), kLongestPhase);
-  progress.phase_fraction = fraction(object, "fraction").value_or(0);
+  progress.fraction = std::clamp(*total, 0.0, 1.0);
+  progress.phase = shortened(printable(*stage), kLongestPhase);
+  progress.phase_fraction = std::clamp(json_number(object, "fraction").value_or(0), 0.0, 1.0);
   constexpr double kLongestEta_s = 30.0 * 24 * 3600;
-  const auto eta = object.find("eta_s");
-  if (eta != object.end() && eta->is_number()) {
-    const double eta_s = eta->get<double>();
-    if (eta_s >= 0 && eta_s <= kLongestEta_s) {
-      progress.eta_ms = now_ms + static_cast<std::int64_t>(eta_s * 1000);
-    }
+  const double eta_s = json_number(object, "eta_s").value_or(-1);
+  if (eta_s >= 0 && eta_s <= kLongestEta_s) {
+    progress.eta_ms = now_ms + static_cast<std::int64_t>(eta_s * 1000);
   }
   return progress;
 }

@@ -1,6 +1,6 @@
 #include "daemon/workers/worker_pool.h"
 
-#include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/stat.h>
@@ -34,9 +34,8 @@ class ProgramDigest {
                   path_.string() + ": the worker program does not exist; check workers.program",
                   "WORKER_UNUSABLE");
     }
-    const std::string stamp = std::to_string(info.st_ino) + " " + std::to_string(info.st_size) +
-                              " " + std::to_string(info.st_mtim.tv_sec) + "." +
-                              std::to_string(info.st_mtim.tv_nsec);
+    const std::string stamp = fmt::format("{} {} {}.{}", info.st_ino, info.st_size,
+                                          info.st_mtim.tv_sec, info.st_mtim.tv_nsec);
     if (stamp != stamp_) {
       HP_ASSIGN_OR_RETURN(digest_, sha256_of_file(path_));
       stamp_ = stamp;
@@ -293,9 +292,9 @@ Launch WorkerPool::Impl::plan(const Job& job) const {
   launch.work = layout.run_work(job.id);
   launch.arguments = {job.made.work.verb};
   for (std::string& option : options_of(job)) launch.arguments.push_back(std::move(option));
-  launch.arguments.push_back("--threads=" + std::to_string(threads));
+  launch.arguments.push_back(fmt::format("--threads={}", threads));
   launch.arguments.push_back("--out=" + layout.run_out(job.id).string());
-  launch.arguments.push_back("--progress-fd=" + std::to_string(kProgressFd));
+  launch.arguments.push_back(fmt::format("--progress-fd={}", kProgressFd));
   launch.arguments.emplace_back("--json");
   launch.limits = {options.memory_bytes,
                    options.time_limit_s * std::max(threads, options.cores) + 10,

@@ -1,11 +1,6 @@
 #include "daemon/workers/worker_run.h"
 
 #include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <array>
-#include <cerrno>
 
 #include "daemon/jobs/registry.h"
 #include "daemon/platform/log.h"
@@ -134,9 +129,8 @@ void WorkerRun::watch_limits() {
 
 // Returns true once the worker has ended; kills its children.
 bool WorkerRun::reap() {
-  int status = 0;
-  const pid_t ended = ::waitpid(worker_.pid, &status, WNOHANG);
-  if (ended == 0 || (ended < 0 && errno == EINTR)) return false;
+  const auto status = wait_for_end(worker_);
+  if (!status) return false;
   signal_group(worker_, SIGKILL);
   read_words();
   wait_status_ = status;

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
-#include <mutex>
 #include <string>
-#include <thread>
+
+#include "sim/base/process/periodic_thread.h"
 
 namespace hydroprint::printer {
 namespace {
@@ -26,44 +25,19 @@ class Deadline {
   using Clock = std::chrono::steady_clock;
 
   Deadline(int socket, milliseconds after, const std::function<bool()>& gives_up)
-      : thread_([this, socket, end = Clock::now() + after, &gives_up] {
-          watch(end, gives_up);
-          if (given_up_ || has_passed_) ::shutdown(socket, SHUT_RDWR);
+      : thread_(kLookEvery, [this, socket, end = Clock::now() + after, &gives_up] {
+          has_passed_ = Clock::now() >= end;
+          given_up_ = given_up_ || (!has_passed_ && gives_up && gives_up());
+          if (has_passed_ || given_up_) ::shutdown(socket, SHUT_RDWR);
         }) {}
-  ~Deadline() {
-    {
-      const std::lock_guard lock(mutex_);
-      is_over_ = true;
-    }
-    wake_.notify_one();
-    thread_.join();
-  }
-  Deadline(const Deadline&) = delete;
-  Deadline& operator=(const Deadline&) = delete;
 
   [[nodiscard]] bool has_passed() const { return has_passed_; }
   [[nodiscard]] bool given_up() const { return given_up_; }
 
  private:
-  void watch(Clock::time_point end, const std::function<bool()>& gives_up) {
-    std::unique_lock lock(mutex_);
-    while (Clock::now() < end) {
-      const auto look = gives_up ? std::min(end, Clock::now() + kLookEvery) : end;
-      if (wake_.wait_until(lock, look, [this] { return is_over_; })) return;
-      if (gives_up && gives_up()) {
-        given_up_ = true;
-        return;
-      }
-    }
-    has_passed_ = true;
-  }
-
   static constexpr milliseconds kLookEvery{100};
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  bool is_over_ = false;
   std::atomic<bool> has_passed_ = false, given_up_ = false;
-  std::thread thread_;  // last member: it uses the others
+  PeriodicThread thread_;  // last member: it uses the others
 };
 
 /// Callback of CUPS, called when the time for one wait is up: whether to continue waiting.

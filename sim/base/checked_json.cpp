@@ -37,12 +37,6 @@ bool is_deeper(std::string_view text, int most) {
   return false;
 }
 
-const json* member(const json& object, const char* key) {
-  if (!object.is_object()) return nullptr;
-  const auto found = object.find(key);
-  return found == object.end() ? nullptr : &*found;
-}
-
 }  // namespace
 
 Result<json> parse_json(std::string_view text, JsonLimits limits) {
@@ -72,24 +66,26 @@ Result<json> read_json_file(const std::filesystem::path& path) {
   return read;
 }
 
+const json& json_at(const json& object, const char* key) {
+  static const json null;
+  const auto found = object.find(key);  // end() unless it is an object
+  return found == object.end() ? null : *found;
+}
+
 std::optional<double> json_number(const json& object, const char* key) {
-  const json* const value = member(object, key);
-  if (value == nullptr || !value->is_number()) return std::nullopt;
-  const auto number = value->get<double>();
-  return std::isfinite(number) ? std::optional(number) : std::nullopt;
+  const json& value = json_at(object, key);
+  if (!value.is_number() || !std::isfinite(value.get<double>())) return std::nullopt;
+  return value.get<double>();
 }
 
 std::optional<std::string> json_string(const json& object, const char* key) {
-  const json* const value = member(object, key);
-  return value != nullptr && value->is_string() ? std::optional(value->get<std::string>())
-                                                : std::nullopt;
+  const json& value = json_at(object, key);
+  return value.is_string() ? std::optional(value.get<std::string>()) : std::nullopt;
 }
 
 std::optional<std::uint64_t> json_unsigned(const json& object, const char* key) {
-  const json* const value = member(object, key);
-  return value != nullptr && value->is_number_unsigned()
-             ? std::optional(value->get<std::uint64_t>())
-             : std::nullopt;
+  const json& value = json_at(object, key);
+  return value.is_number_unsigned() ? std::optional(value.get<std::uint64_t>()) : std::nullopt;
 }
 
 }  // namespace hydroprint

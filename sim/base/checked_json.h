@@ -27,8 +27,11 @@ struct JsonLimits {
 /// Same as parse_json(), for a file; errors name it. Also fails as read_text_file() does.
 [[nodiscard]] Result<nlohmann::json> read_json_file(const std::filesystem::path& path);
 
-/// The finite number, string or unsigned integer at `key`; nullopt if `object` is not an object,
-/// lacks the key or has a value of another type there.
+/// The value at `key`; null if `object` is not an object or lacks the key.
+[[nodiscard]] const nlohmann::json& json_at(const nlohmann::json& object, const char* key);
+
+/// The finite number, string or unsigned integer at `key`; nullopt if there is a value of another
+/// type or none.
 [[nodiscard]] std::optional<double> json_number(const nlohmann::json& object, const char* key);
 [[nodiscard]] std::optional<std::string> json_string(const nlohmann::json& object, const char* key);
 [[nodiscard]] std::optional<std::uint64_t> json_unsigned(const nlohmann::json& object,

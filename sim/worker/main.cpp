@@ -1,6 +1,7 @@
 // hydroprint-worker: runs one computation per process. registry.h lists its verbs.
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <malloc.h>
 #include <unistd.h>
 
@@ -61,7 +62,8 @@ Result<Finished> run(const CommandLine& command, Termination& termination, int s
     return command.task->run(command.run, termination, stderr_fd);
   } catch (const std::bad_alloc&) {
     return fail(Code::kInternal,
-                subject + ": out of memory. Use a smaller model, a lower --dpi or more memory",
+                fmt::format("{}: out of memory. Use {} or more memory", subject,
+                            command.task->memory_tip()),
                 "OUT_OF_MEMORY");
   } catch (const std::exception& error) {
     return fail(Code::kInternal, subject + ": " + error.what() + ". Please report this");

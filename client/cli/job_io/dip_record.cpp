@@ -1,28 +1,24 @@
 #include "client/cli/job_io/dip_record.h"
 
-#include <fstream>
-#include <nlohmann/json.hpp>
-
 #include "client/cli/terminal/console.h"
+#include "sim/base/checked_json.h"
 
 namespace hydroprint::cli {
 namespace {
 
 // Returns for example ", 20.00 mm deep"; empty if the report lacks the number.
-std::string told(const nlohmann::json& report, const char* pointer, const std::string& before,
+std::string told(const nlohmann::json& report, const char* key, const std::string& before,
                  const std::string& after, double scale = 1) {
-  const nlohmann::json::json_pointer path(pointer);
-  if (!report.contains(path) || !report.at(path).is_number()) return "";
-  return before + format_fixed(scale * report.at(path).get<double>()) + after;
+  const auto number = json_number(report, key);
+  return number ? before + format_fixed(scale * *number) + after : "";
 }
 
 nlohmann::json read_report(const std::vector<Downloaded>& files) {
   for (const Downloaded& file : files) {
-    if (client::file_name(file.artifact) != "report.json") continue;
-    auto report = nlohmann::json::parse(std::ifstream(file.path), nullptr, false);
-    if (report.is_object()) return report;
+    if (client::file_name(file.artifact) == "report.json")
+      return read_json_file(file.path).value_or(nullptr);
   }
-  return nlohmann::json::object();
+  return nullptr;
 }
 
 }  // namespace
@@ -36,11 +32,12 @@ Result<std::vector<Downloaded>> fetch_record(client::Connection& daemon, const s
 
 std::string dip_summary(const v1::Job& job, const std::vector<Downloaded>& files) {
   const nlohmann::json report = read_report(files);
-  return job.name() + ": dipped" + told(report, "/depth_reached_mm", " ", " mm deep") +
-         told(report, "/descent/speed_mm_per_s", " at ", " mm/s") +
-         told(report, "/descent/largest_deviation_share", ", constant within ", " %", 100) +
-         told(report, "/descent/largest_deviation_mm", " and ", " mm") +
-         told(report, "/descent/deviation_uncertainty_mm", " (uncertainty ", " mm)");
+  const nlohmann::json& descent = json_at(report, "descent");
+  return job.name() + ": dipped" + told(report, "depth_reached_mm", " ", " mm deep") +
+         told(descent, "speed_mm_per_s", " at ", " mm/s") +
+         told(descent, "largest_deviation_share", ", constant within ", " %", 100) +
+         told(descent, "largest_deviation_mm", " and ", " mm") +
+         told(descent, "deviation_uncertainty_mm", " (uncertainty ", " mm)");
 }
 
 }  // namespace hydroprint::cli

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
@@ -16,6 +15,7 @@
 #include "client/loop/control.h"
 #include "client/rig.h"
 #include "sim/base/artifact_file.h"
+#include "sim/base/checked_json.h"
 #include "sim/sample/sample.h"
 
 namespace hydroprint::cli {
@@ -46,9 +46,8 @@ void LoopRounds::say(const std::string& what) const {
 
 Result<double> LoopRounds::gripper_mm() const {
   HP_ASSIGN_OR_RETURN(const std::string sight, loop::talk(options_.control, "sight"));
-  const auto json = nlohmann::json::parse(sight, nullptr, false);
-  if (json.is_object() && json.contains("gripper_height_mm"))
-    return json["gripper_height_mm"].get<double>();
+  const auto seen = parse_json(sight).value_or(nullptr);
+  if (const auto height_mm = json_number(seen, "gripper_height_mm")) return *height_mm;
   return fail(
       Code::kInvalidArgument,
       options_.control + ": this virtual rig has no camera; add a [camera] to its --scene file");

@@ -55,15 +55,14 @@ Result<std::unique_ptr<VirtualRig>> VirtualRig::start(const Options& options) {
                           rig->serve_control(descriptor);
                         }));
   }
-  out->clock_ = std::thread([rig = out.get()] { rig->run_clock(); });
+  out->clock_.emplace(kTick, [rig = out.get(), start = Clock::now()] { rig->tick(start); });
   return out;
 }
 
 VirtualRig::~VirtualRig() {
   if (control_) ::unlink(options_.control.c_str());
   control_.reset();
-  ends_ = true;
-  if (clock_.joinable()) clock_.join();
+  clock_.reset();
   unplug();
 }
 
@@ -171,26 +170,21 @@ void VirtualRig::serve_control(int descriptor) {
   }
 }
 
-void VirtualRig::run_clock() {
-  const auto start = Clock::now();
-  auto& actions = options_.actions;
-  while (!ends_) {
-    std::this_thread::sleep_for(kTick);
-    plant_.tick();
-    const auto now = Clock::now();
-    bool boots = false;
-    {
-      const std::scoped_lock lock(plugs_);
-      boots = boots_at_ && now >= *boots_at_;
-      if (boots) boots_at_.reset();
-    }
-    if (boots) boot();
-    const auto is_due = [&](const TimedAction& timed) { return now >= start + timed.at; };
-    for (const TimedAction& timed : actions) {
-      if (is_due(timed)) (void)perform(timed.action);
-    }
-    std::erase_if(actions, is_due);
+void VirtualRig::tick(Clock::time_point start) {
+  plant_.tick();
+  const auto now = Clock::now();
+  bool boots = false;
+  {
+    const std::scoped_lock lock(plugs_);
+    boots = boots_at_ && now >= *boots_at_;
+    if (boots) boots_at_.reset();
   }
+  if (boots) boot();
+  const auto is_due = [&](const TimedAction& timed) { return now >= start + timed.at; };
+  for (const TimedAction& timed : options_.actions) {
+    if (is_due(timed)) (void)perform(timed.action);
+  }
+  std::erase_if(options_.actions, is_due);
 }
 
 }  // namespace hydroprint::simulated_drive

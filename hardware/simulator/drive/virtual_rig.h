@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -8,7 +7,6 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "hardware/drive/transaction.h"
@@ -18,6 +16,7 @@
 #include "hardware/simulator/drive/scene.h"
 #include "hardware/simulator/drive/serial_server.h"
 #include "hardware/simulator/drive/socket_server.h"
+#include "sim/base/process/periodic_thread.h"
 
 namespace hydroprint::simulated_drive {
 
@@ -62,7 +61,7 @@ class VirtualRig {
   void unplug();
   void boot();
   void serve_control(int descriptor);
-  void run_clock();
+  void tick(std::chrono::steady_clock::time_point start);
 
   Options options_;
   Plant plant_;
@@ -72,8 +71,7 @@ class VirtualRig {
   std::unique_ptr<SocketServer> tcp_;
   std::unique_ptr<SerialServer> serial_;
   std::optional<std::chrono::steady_clock::time_point> boots_at_;
-  std::atomic<bool> ends_ = false;
-  std::thread clock_;
+  std::optional<PeriodicThread> clock_;
   std::unique_ptr<SocketServer> control_;
 };
 

@@ -1,11 +1,14 @@
 #include "hardware/simulator/scene/codec.h"
 
-#include <nlohmann/json.hpp>
+#include "sim/base/checked_json.h"
 
 namespace hydroprint::simulated_scene {
 namespace {
 
 using nlohmann::json;
+
+// A scene may have millions of triangles.
+constexpr JsonLimits kLimits{std::size_t{1} << 30};
 
 json array_of(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
@@ -71,7 +74,7 @@ State state_of(const std::string_view (&words)[N], const json& from) {
 template <class Value, class Read>
 Result<Value> guarded(std::string_view text, const Read& read) {
   try {
-    return read(json::parse(text));
+    return read(parse_json(text, kLimits).value_or(nullptr));
   } catch (const json::exception&) {
     return fail(Code::kDataLoss,
                 "the virtual rig's scene cannot be decoded. Use a rig and a driver of the same "

@@ -29,14 +29,13 @@ Result<std::string_view> json_text(std::string_view bytes, const std::filesystem
 
 /// A non-negative integer member; `otherwise` if there is none.
 std::uint64_t number(const json& object, const char* key, std::uint64_t otherwise) {
-  const auto at = object.find(key);
-  return at != object.end() && at->is_number_unsigned() ? at->get<std::uint64_t>() : otherwise;
+  return json_unsigned(object, key).value_or(otherwise);
 }
 
 const json& array_of(const json& root, const char* key) {
   static const json none = json::array();
-  const auto at = root.find(key);
-  return at != root.end() && at->is_array() ? *at : none;
+  const json& found = json_at(root, key);
+  return found.is_array() ? found : none;
 }
 
 Status check_images(const json& root, const std::filesystem::path& path) {

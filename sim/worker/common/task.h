@@ -32,6 +32,8 @@ class Task {
 
   /// The main input, for error messages: a file name, or the verb's name if it reads no file.
   [[nodiscard]] virtual std::string subject() const = 0;
+  /// Advice if memory runs out: "Use ... or more memory".
+  [[nodiscard]] virtual std::string memory_tip() const { return "a smaller model"; }
 
   /// Runs to the end. Reports progress to `progress_fd` of the options and, if it is a terminal, to
   /// `stderr_fd`. On failure no files remain.

@@ -154,6 +154,7 @@ class Calibrate final : public ArtifactTask {
       : ArtifactTask("calibrate"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return options_.frames.string(); }
+  [[nodiscard]] std::string memory_tip() const override { return "fewer frames, a smaller model"; }
   [[nodiscard]] std::vector<Stage> stages() const override {
     return {{"inputs", 1},  {"reading", 5},   {"fusing", 5},    {"normals", 5}, {"markers", 20},
             {"object", 15}, {"aligning", 30}, {"pictures", 15}, {"writing", 4}};

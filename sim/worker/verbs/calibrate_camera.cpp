@@ -51,6 +51,7 @@ class CalibrateCamera final : public ArtifactTask {
       : ArtifactTask("calibrate-camera"), views_(std::move(views)) {}
 
   [[nodiscard]] std::string subject() const override { return views_.front().string(); }
+  [[nodiscard]] std::string memory_tip() const override { return "fewer frames"; }
   [[nodiscard]] std::vector<Stage> stages() const override {
     return {{"inputs", 1}, {"reading", 20}, {"boards", 60}, {"adjusting", 18}, {"writing", 1}};
   }

@@ -113,6 +113,7 @@ class Fuse final : public ArtifactTask {
   explicit Fuse(FuseOptions options) : ArtifactTask("fuse"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return options_.frames.string(); }
+  [[nodiscard]] std::string memory_tip() const override { return "a larger --voxel-mm"; }
   [[nodiscard]] std::vector<Stage> stages() const override {
     return {{"inputs", 1},  {"reading", 8}, {"following", 45}, {"fusing", 30},
             {"markers", 4}, {"surface", 4}, {"pictures", 6},   {"writing", 2}};

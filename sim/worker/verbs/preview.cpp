@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "hydroprint/v1/spec.pb.h"
+#include "sim/base/checked_json.h"
 #include "sim/base/pose_file.h"
 #include "sim/film/outline.h"
 #include "sim/mesh/read/read_model.h"
@@ -122,18 +123,17 @@ Status take(Request& request, const std::string& key, const nlohmann::json& valu
 /// @param request  its id is set even if the rest is refused
 Status read_request(const std::string& line, const pipeline::DipOptions& otherwise,
                     Request& request) {
-  const auto json = nlohmann::json::parse(line, nullptr, false);
+  const auto json = parse_json(line).value_or(nullptr);
   if (!json.is_object()) {
     return fail(Code::kInvalidArgument, "not a JSON object. Write each request as one on one line");
   }
   request.dip = otherwise;
-  const auto id = json.find("id");
-  if (id == json.end() || !id->is_number_unsigned() ||
-      id->get<std::uint64_t>() > std::uint64_t{1} << 53) {
+  const auto id = json_unsigned(json, "id");
+  if (!id || *id > std::uint64_t{1} << 53) {
     return fail(Code::kInvalidArgument,
                 "id: missing, or not a whole number. Give each request one");
   }
-  request.id = id->get<std::int64_t>();
+  request.id = static_cast<std::int64_t>(*id);
   for (const auto& [key, value] : json.items()) HP_RETURN_IF_ERROR(take(request, key, value));
   return {};
 }

@@ -180,6 +180,7 @@ class PrintImage final : public ArtifactTask {
       : ArtifactTask("print-image"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return options_.film_image.string(); }
+  [[nodiscard]] std::string memory_tip() const override { return "a smaller film image"; }
   [[nodiscard]] std::vector<Stage> stages() const override {
     return {{"inputs", 2}, {"reading", 20}, {"colours", 18}, {"writing", 60}};
   }

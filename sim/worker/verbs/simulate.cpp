@@ -55,6 +55,7 @@ class Simulate final : public ArtifactTask {
   [[nodiscard]] std::string subject() const override {
     return options_.flow.dip.object.mesh.string();
   }
+  [[nodiscard]] std::string memory_tip() const override { return "a smaller model, a lower --dpi"; }
   [[nodiscard]] std::vector<Stage> stages() const override {
     return simulate_stages(options_.flow);
   }

@@ -72,6 +72,7 @@ class Validate final : public ArtifactTask {
       : ArtifactTask("validate"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return "validate"; }
+  [[nodiscard]] std::string memory_tip() const override { return "--quick"; }
   /// The selected experiments, then writing.
   [[nodiscard]] std::vector<Stage> stages() const override;
 

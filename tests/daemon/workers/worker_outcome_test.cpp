@@ -33,6 +33,8 @@ TEST(Outcome, PrintedReasonIsUsedIfKnown) {
                             "\n"),
             "MIRRORED");
   EXPECT_EQ(told(exited(4), R"({"error":{"reason":"CAMERA_GONE"}})"), "CAMERA_GONE");
+  EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MIRRORED","message":"frames[1]"}})"),
+            "MIRRORED");
   EXPECT_EQ(told(exited(3), R"({"error":{"reason":"MADE_UP"}})"), "INPUT_REFUSED");
   EXPECT_EQ(told(exited(3), R"({"error":"reason"})"), "INPUT_REFUSED");
   EXPECT_EQ(told(exited(3), std::string(100000, '{')), "INPUT_REFUSED");

@@ -45,6 +45,9 @@ TEST(CheckedJson, FieldsAreReadOnlyIfTheirTypeFits) {
   EXPECT_EQ(json_string(object, "missing"), std::nullopt);
   EXPECT_EQ(json_string(nlohmann::json::array(), "word"), std::nullopt);
   EXPECT_EQ(json_number({{"x", std::nan("")}}, "x"), std::nullopt);
+  EXPECT_EQ(json_at(object, "n"), 3);
+  EXPECT_TRUE(json_at(object, "missing").is_null());
+  EXPECT_TRUE(json_at(json_at(object, "missing"), "deeper").is_null());
 }
 
 }  // namespace

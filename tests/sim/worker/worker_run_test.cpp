@@ -114,7 +114,7 @@ TEST_F(LongRun, KilledLeavesNoFolderOfThatName) {
   EXPECT_FALSE(fs::exists(out()));
 }
 
-TEST_F(Worker, OutOfMemoryIsAnOrdinaryError) {
+TEST_F(Worker, OutOfMemoryIsAnOrdinaryErrorWithAdviceForTheVerb) {
   if (!kAddressSpaceIsOurs) GTEST_SKIP() << "address space cannot be limited";
   folder.write("big.obj", sphere_obj(60, 700));
   ProcessOptions options;
@@ -124,8 +124,14 @@ TEST_F(Worker, OutOfMemoryIsAnOrdinaryError) {
       testing::run(simulate({"--mesh", path("big.obj"), "--film", "A4"}, false), options);
   EXPECT_EQ(ended.status, 4) << "signal " << ended.signal << " " << ended.err;
   EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
-  EXPECT_NE(ended.err.find("out of memory"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("out of memory. Use a smaller model, a lower --dpi or more memory"),
+            std::string::npos)
+      << ended.err;
   EXPECT_EQ(names_in(folder.path()), before);
+  const Ended preview = testing::run({"preview", "--mesh", path("big.obj")}, options);
+  EXPECT_NE(preview.err.find("out of memory. Use a smaller model or more memory"),
+            std::string::npos)
+      << preview.err;
 }
 
 }  // namespace
