@@ -1,6 +1,8 @@
 // Serves one connection, from its first request to its end.
 #include "daemon/http/connection.h"
 
+#include <chrono>
+
 #include "daemon/http/error_response.h"
 #include "daemon/http/router.h"
 
@@ -65,8 +67,10 @@ Task<bool> serve_one(ServerContext& server, const std::shared_ptr<Socket>& socke
     co_await say_last(*socket, std::move(response), server.options.limits.write_time);
     co_return false;
   }
+  const auto start = std::chrono::steady_clock::now();
   const std::string route = co_await answer(server, exchange);
   server.metrics.count_request(route, exchange.head().method, exchange.status());
+  server.metrics.observe_duration(route, std::chrono::steady_clock::now() - start);
   co_return co_await exchange.end_request();
 }
 

@@ -1,5 +1,9 @@
 #include "daemon/metrics/health.h"
 
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/registry.h>
+#include <prometheus/text_serializer.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +18,7 @@
 namespace hydroprint::daemon {
 namespace {
 
+using prometheus::Registry;
 using v1::Rig;
 
 constexpr std::array kOpenStates{JobState::kQueued, JobState::kWaitingForOperator,
@@ -37,58 +42,71 @@ double memory_of_children() {
   return bytes;
 }
 
-void describe_queue(const ServiceContext& backend, PrometheusText& out) {
-  out.begin("hydroprint_jobs", "gauge", "Unfinished jobs by state.");
+prometheus::Family<prometheus::Gauge>& add_gauges(const char* name, const char* help,
+                                                  Registry& out) {
+  return prometheus::BuildGauge().Name(name).Help(help).Register(out);
+}
+
+void add_gauge(const char* name, const char* help, double value, Registry& out) {
+  add_gauges(name, help, out).Add({}).Set(value);
+}
+
+void add_counter(const char* name, const char* help, std::uint64_t value, Registry& out) {
+  prometheus::BuildCounter().Name(name).Help(help).Register(out).Add({}).Increment(
+      static_cast<double>(value));
+}
+
+void describe_queue(const ServiceContext& backend, Registry& out) {
+  auto& jobs = add_gauges("hydroprint_jobs", "Unfinished jobs by state.", out);
   double queued = 0;
   for (const JobState state : kOpenStates) {
     const auto ids = backend.jobs.ids_in_state(state);
     if (!ids) continue;
     const auto count = static_cast<double>(ids->size());
     if (state == JobState::kQueued) queued = count;
-    out.sample(count, {{"state", name_of(state)}});
+    jobs.Add({{"state", name_of(state)}}).Set(count);
   }
-  out.single("hydroprint_queue_depth", "gauge", "Jobs waiting for a worker.", queued);
+  add_gauge("hydroprint_queue_depth", "Jobs waiting for a worker.", queued, out);
   const auto pause = backend.queue.pause();
   if (pause) {
-    out.single("hydroprint_queue_paused", "gauge", "1 while the queue is paused.",
-               pause->paused ? 1 : 0);
+    add_gauge("hydroprint_queue_paused", "1 while the queue is paused.", pause->paused ? 1 : 0,
+              out);
   }
-  out.single("hydroprint_worker_slots", "gauge", "Maximum number of concurrent workers.",
-             backend.pool.slots());
+  add_gauge("hydroprint_worker_slots", "Maximum number of concurrent workers.",
+            backend.pool.slots(), out);
 }
 
-void describe_rig(const Rig& rig, PrometheusText& out) {
-  out.begin("hydroprint_rig_state", "gauge", "1 for the rig's current state, 0 for others.");
+void describe_rig(const Rig& rig, Registry& out) {
+  auto& states =
+      add_gauges("hydroprint_rig_state", "1 for the rig's current state, 0 for others.", out);
   for (int state = Rig::State_MIN; state <= Rig::State_MAX; ++state) {
     if (state == Rig::STATE_UNSPECIFIED || !Rig::State_IsValid(state)) continue;
-    out.sample(rig.state() == state ? 1 : 0,
-               {{"state", Rig::State_Name(static_cast<Rig::State>(state))}});
+    states.Add({{"state", Rig::State_Name(static_cast<Rig::State>(state))}})
+        .Set(rig.state() == state ? 1 : 0);
   }
   if (rig.has_position_mm()) {
-    out.single("hydroprint_rig_position_mm", "gauge", "Last known position of the axis.",
-               rig.position_mm());
+    add_gauge("hydroprint_rig_position_mm", "Last known position of the axis.", rig.position_mm(),
+              out);
   }
   const v1::LinkQuality& link = rig.link_quality();
-  const auto count = [&](const char* name, const char* help, std::uint64_t value) {
-    out.single(name, "counter", help, static_cast<double>(value));
-  };
-  count("hydroprint_drive_polls_total", "Polls of the drive.", link.polls());
-  count("hydroprint_drive_missed_polls_total", "Polls without a valid answer.",
-        link.missed_polls());
-  count("hydroprint_drive_skipped_polls_total", "Poll periods that were skipped.",
-        link.skipped_polls());
-  count("hydroprint_drive_connects_total", "Connections made to the drive.", link.connects());
-  out.single("hydroprint_drive_poll_lateness_max_seconds", "gauge", "Largest delay of a poll.",
-             link.largest_lateness_s());
-  out.single("hydroprint_drive_poll_lateness_rms_seconds", "gauge",
-             "Root mean square delay of polls.", link.rms_lateness_s());
+  add_counter("hydroprint_drive_polls_total", "Polls of the drive.", link.polls(), out);
+  add_counter("hydroprint_drive_missed_polls_total", "Polls without a valid answer.",
+              link.missed_polls(), out);
+  add_counter("hydroprint_drive_skipped_polls_total", "Poll periods that were skipped.",
+              link.skipped_polls(), out);
+  add_counter("hydroprint_drive_connects_total", "Connections made to the drive.", link.connects(),
+              out);
+  add_gauge("hydroprint_drive_poll_lateness_max_seconds", "Largest delay of a poll.",
+            link.largest_lateness_s(), out);
+  add_gauge("hydroprint_drive_poll_lateness_rms_seconds", "Root mean square delay of polls.",
+            link.rms_lateness_s(), out);
 }
 
-void describe_process(PrometheusText& out) {
+void describe_process(Registry& out) {
   if (const double bytes = memory_of("self"); bytes > 0) {
-    out.single("process_resident_memory_bytes", "gauge", "Resident memory of the daemon.", bytes);
-    out.single("hydroprint_children_resident_memory_bytes", "gauge",
-               "Resident memory of workers and other child processes.", memory_of_children());
+    add_gauge("process_resident_memory_bytes", "Resident memory of the daemon.", bytes, out);
+    add_gauge("hydroprint_children_resident_memory_bytes",
+              "Resident memory of workers and other child processes.", memory_of_children(), out);
   }
 }
 
@@ -114,22 +132,25 @@ HealthReport health_report(const ServiceContext& backend) {
 
 std::string metrics_text(const ServiceContext& backend, const JobMetrics& meter,
                          const CertificateReloader* certificate) {
-  PrometheusText out;
+  Registry out;  // used once, so that metrics with unknown values are absent
   describe_queue(backend, out);
-  meter.describe(out);
   describe_rig(rig_message(backend.gateway), out);
   if (const std::int64_t taken_ms =
           std::max(backend.captures.latest_ms(), backend.live.latest_ms());
       taken_ms != 0) {
-    out.single("hydroprint_camera_frame_age_seconds", "gauge",
-               "Age of the camera's latest frame that was saved or shown.",
-               static_cast<double>(system_clock_ms() - taken_ms) / 1000);
+    add_gauge("hydroprint_camera_frame_age_seconds",
+              "Age of the camera's latest frame that was saved or shown.",
+              static_cast<double>(system_clock_ms() - taken_ms) / 1000, out);
   }
-  out.single("hydroprint_rejected_logins_total", "counter", "Rejected sign-in attempts.",
-             static_cast<double>(backend.accounts.sessions().failed_attempts()));
-  if (certificate != nullptr) certificate->describe(out);
+  add_counter("hydroprint_rejected_logins_total", "Rejected sign-in attempts.",
+              backend.accounts.sessions().failed_attempts(), out);
+  if (certificate != nullptr) {
+    add_gauge("hydroprint_tls_certificate_expiry_timestamp_seconds",
+              "Expiry of the TLS certificate, Unix time in seconds.",
+              static_cast<double>(certificate->current()->expire_s()), out);
+  }
   describe_process(out);
-  return out.text();
+  return prometheus::TextSerializer().Serialize(out.Collect()) + meter.text();
 }
 
 }  // namespace hydroprint::daemon

@@ -1,20 +1,21 @@
 #pragma once
 
+#include <prometheus/registry.h>
+
 #include <atomic>
 #include <cstdint>
 #include <map>
-#include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
-#include <utility>
 
-#include "daemon/platform/prometheus_text.h"
 #include "daemon/store/job_store.h"
 
 namespace hydroprint::daemon {
 
-/// Measures how long jobs stay in each stage and how they end, from the daemon's start on. Follows
-/// job events in its own thread, since PROGRESS events are deleted when a job ends.
+/// Measures how long jobs wait, run and stay in each stage, and how they end, from the daemon's
+/// start on. Follows job events in its own thread, since PROGRESS events are deleted when a job
+/// ends.
 class JobMetrics {
  public:
   /// @param jobs  must outlive this object
@@ -23,29 +24,32 @@ class JobMetrics {
   JobMetrics(const JobMetrics&) = delete;
   JobMetrics& operator=(const JobMetrics&) = delete;
 
-  void describe(PrometheusText& out) const;
+  /// The metrics in Prometheus format. Thread-safe.
+  [[nodiscard]] std::string text() const;
 
  private:
-  struct Seen {
+  struct OpenJob {
     std::string kind, stage;
-    std::int64_t since_ms = 0;
+    std::int64_t since_ms = 0;  ///< when the stage began
     bool computed = true;
-  };
-  struct Spent {
-    double sum_s = 0;
-    std::uint64_t count = 0;
+    std::optional<std::int64_t> start_ms = {};
   };
 
-  void run();
+  void run(std::int64_t seq);
   void take(const JobEvent& event);
-  [[nodiscard]] Seen seen_of(const JobEvent& event);
-  void spend(const Seen& seen, std::int64_t until_ms);
+  [[nodiscard]] OpenJob& open_job(const JobEvent& event);
+  void start(OpenJob& job, std::int64_t time_ms);
+  void finish(const OpenJob& job, const JobEvent& event);
+  void observe_stage(const OpenJob& job, std::int64_t end_ms);
 
   JobStore& jobs_;
-  mutable std::mutex mutex_;
-  std::map<std::int64_t, Seen> open_;
-  std::map<std::pair<std::string, std::string>, Spent> spent_;          // by kind and stage
-  std::map<std::pair<std::string, std::string>, std::uint64_t> ended_;  // by kind and outcome
+  prometheus::Registry registry_;
+  prometheus::Family<prometheus::Summary>& stages_;
+  prometheus::Family<prometheus::Counter>& finished_;
+  prometheus::Family<prometheus::Histogram>& queue_waits_;
+  prometheus::Family<prometheus::Histogram>& durations_;
+  std::map<std::int64_t, OpenJob> open_;  // from here on used only by the thread
+  int stage_count_ = 0;
   std::atomic<bool> end_{false};
   std::thread thread_;
 };

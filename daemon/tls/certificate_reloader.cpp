@@ -56,12 +56,6 @@ std::shared_ptr<const tls::Identity> CertificateReloader::current() const {
   return current_;
 }
 
-void CertificateReloader::describe(PrometheusText& out) const {
-  out.single("hydroprint_tls_certificate_expiry_timestamp_seconds", "gauge",
-             "Expiry of the TLS certificate, Unix time in seconds.",
-             static_cast<double>(current()->expire_s()));
-}
-
 CertificateReloader::Stamps CertificateReloader::stamps() const {
   const auto stamp = [](const std::filesystem::path& file) -> Stamp {
     struct stat info {};

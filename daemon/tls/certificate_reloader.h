@@ -9,7 +9,6 @@
 #include <string>
 
 #include "daemon/platform/clock.h"
-#include "daemon/platform/prometheus_text.h"
 #include "daemon/tls/identity.h"
 #include "sim/base/process/periodic_thread.h"
 #include "sim/base/result.h"
@@ -28,8 +27,6 @@ class CertificateReloader {
 
   /// The current pair. Thread-safe.
   [[nodiscard]] std::shared_ptr<const tls::Identity> current() const;
-  /// Writes the expiry time as a metric.
-  void describe(PrometheusText& out) const;
 
  private:
   /// Identifies a version of a file; nullopt if the file does not exist.

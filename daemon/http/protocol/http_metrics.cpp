@@ -1,5 +1,10 @@
 #include "daemon/http/protocol/http_metrics.h"
 
+#include <prometheus/counter.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/text_serializer.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -13,38 +18,50 @@ bool is_usual(const std::string& method) {
   return std::find(kUsual.begin(), kUsual.end(), method) != kUsual.end();
 }
 
+prometheus::Histogram::BucketBoundaries duration_buckets_s() {
+  return {0.001, 0.0025, 0.005, 0.01, 0.025, 0.05, 0.1, 0.25, 0.5, 1, 2.5, 5, 10, 60};
+}
+
 }  // namespace
 
+HttpMetrics::HttpMetrics()
+    : open_connections_(prometheus::BuildGauge()
+                            .Name("hydroprint_http_connections")
+                            .Help("Open connections.")
+                            .Register(registry_)
+                            .Add({})),
+      refused_connections_(prometheus::BuildCounter()
+                               .Name("hydroprint_http_connections_refused_total")
+                               .Help("Connections refused because too many were open.")
+                               .Register(registry_)
+                               .Add({})),
+      requests_(prometheus::BuildCounter()
+                    .Name("hydroprint_http_requests_total")
+                    .Help("Requests answered.")
+                    .Register(registry_)),
+      durations_(prometheus::BuildHistogram()
+                     .Name("hydroprint_http_request_duration_seconds")
+                     .Help("Time from a request's header to the end of its response.")
+                     .Register(registry_)) {}
+
 void HttpMetrics::count_request(const std::string& route, const std::string& method, int status) {
-  const std::lock_guard lock(mutex_);
-  ++requests_[{route, is_usual(method) ? method : "other", status}];
+  requests_
+      .Add({{"route", route},
+            {"method", is_usual(method) ? method : "other"},
+            {"code", std::to_string(status)}})
+      .Increment();
 }
 
-void HttpMetrics::count_refused_connection() {
-  const std::lock_guard lock(mutex_);
-  ++refused_connections_;
+void HttpMetrics::observe_duration(const std::string& route,
+                                   std::chrono::duration<double> duration) {
+  durations_.Add({{"route", route}}, duration_buckets_s()).Observe(duration.count());
 }
+
+void HttpMetrics::count_refused_connection() { refused_connections_.Increment(); }
 
 std::string HttpMetrics::text(int open_connections) const {
-  const std::lock_guard lock(mutex_);
-  std::string text =
-      "# HELP hydroprint_http_connections Open connections.\n"
-      "# TYPE hydroprint_http_connections gauge\n"
-      "hydroprint_http_connections " +
-      std::to_string(open_connections) +
-      "\n# HELP hydroprint_http_connections_refused_total Connections refused because too many "
-      "were open.\n"
-      "# TYPE hydroprint_http_connections_refused_total counter\n"
-      "hydroprint_http_connections_refused_total " +
-      std::to_string(refused_connections_) +
-      "\n# HELP hydroprint_http_requests_total Requests answered.\n"
-      "# TYPE hydroprint_http_requests_total counter\n";
-  for (const auto& [key, count] : requests_) {
-    const auto& [route, method, status] = key;
-    text += "hydroprint_http_requests_total{route=\"" + route + "\",method=\"" + method +
-            "\",code=\"" + std::to_string(status) + "\"} " + std::to_string(count) + "\n";
-  }
-  return text;
+  open_connections_.Set(open_connections);
+  return prometheus::TextSerializer().Serialize(registry_.Collect());
 }
 
 }  // namespace hydroprint::http

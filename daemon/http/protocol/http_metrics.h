@@ -1,27 +1,32 @@
 #pragma once
 
-#include <cstdint>
-#include <map>
-#include <mutex>
+#include <prometheus/registry.h>
+
+#include <chrono>
 #include <string>
-#include <tuple>
 
 namespace hydroprint::http {
 
 /// The server's own metrics. Thread-safe.
 class HttpMetrics {
  public:
+  HttpMetrics();
+
   /// @param route  from a fixed set, never a client's text: "JobService/GetJob", "file"
   /// @param method  an unusual one counts as "other"
   void count_request(const std::string& route, const std::string& method, int status);
+  /// @param duration  from the request's header to the end of the response
+  void observe_duration(const std::string& route, std::chrono::duration<double> duration);
   void count_refused_connection();
   /// The metrics in Prometheus format.
   [[nodiscard]] std::string text(int open_connections) const;
 
  private:
-  mutable std::mutex mutex_;
-  std::map<std::tuple<std::string, std::string, int>, std::uint64_t> requests_;
-  std::uint64_t refused_connections_ = 0;
+  prometheus::Registry registry_;
+  prometheus::Gauge& open_connections_;
+  prometheus::Counter& refused_connections_;
+  prometheus::Family<prometheus::Counter>& requests_;
+  prometheus::Family<prometheus::Histogram>& durations_;
 };
 
 }  // namespace hydroprint::http

@@ -171,8 +171,11 @@ TEST_F(HttpTest, MetricsCoverJobsRigAndServer) {
   EXPECT_TRUE(has("hydroprint_rejected_logins_total 0\n"));
   EXPECT_TRUE(has("hydroprint_http_connections 1\n"));
   EXPECT_TRUE(
-      has("hydroprint_http_requests_total{route=\"JobService/GetJob\",method=\"GET\",code=\"404\"} "
+      has("hydroprint_http_requests_total{code=\"404\",method=\"GET\",route=\"JobService/GetJob\"} "
           "1\n"));
+  EXPECT_TRUE(
+      has("hydroprint_http_request_duration_seconds_count{route=\"JobService/GetJob\"} 1\n"));
+  EXPECT_TRUE(has("hydroprint_job_queue_wait_seconds_count{kind=\"simulate\"} 1\n"));
   EXPECT_EQ(get("/metrics").field("content-type"), "text/plain; version=0.0.4; charset=utf-8");
 }
 
