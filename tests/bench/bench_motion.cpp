@@ -88,7 +88,7 @@ class Bench {
 
   std::string mode_;
   TemporaryFolder folder_;
-  VirtualRigProcess drive_;
+  VirtualRig drive_;
   DaemonProcess daemon_{folder_.path(), options()};
   RigClient client_{daemon_.address()};
   const double acceleration_ = acceleration();

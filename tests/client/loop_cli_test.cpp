@@ -50,16 +50,15 @@ class LoopCli : public ::testing::Test {
   }
   [[nodiscard]] std::filesystem::path out() const { return folder.path() / "the loop"; }
 
-  VirtualRigProcess rig{"[water]\nat_mm = " + std::to_string(kWater_mm) +
-                        ".0\n[camera]\nseed = " + std::to_string(kCamera) + "\n"};
+  VirtualRig rig{{.scene = "[water]\nat_mm = " + std::to_string(kWater_mm) +
+                           ".0\n[camera]\nseed = " + std::to_string(kCamera) + "\n"}};
   TemporaryFolder folder;
   std::unique_ptr<DaemonProcess> daemon;
   std::string lens;
 };
 
 TEST_F(LoopCli, RunsTheWholeLoopForOnePose) {
-  const std::string control = rig.camera().substr(rig.camera().find(':') + 1);
-  const auto ended = loop({"--object", "board", "--control", control});
+  const auto ended = loop({"--object", "board", "--control", rig.control()});
   ASSERT_EQ(ended.status, 0) << ended.err;
   EXPECT_NE(ended.out.find("169 cross-points land within"), std::string::npos) << ended.out;
   const json report = json::parse(std::ifstream(out() / "report.json"));

@@ -5,7 +5,7 @@ namespace {
 
 using Arguments = std::vector<std::string>;
 
-DaemonProcess::Options with(const VirtualRigProcess& rig) {
+DaemonProcess::Options with(const VirtualRig& rig) {
   DaemonProcess::Options options = DaemonProcess::fake();
   options.extra = rig.section();
   return options;

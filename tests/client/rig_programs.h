@@ -41,7 +41,7 @@ class RigPrograms {
   }
 
   TemporaryFolder folder;
-  VirtualRigProcess rig;
+  VirtualRig rig;
   DaemonProcess daemon;
 };
 

@@ -6,21 +6,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
-#include <iterator>
+#include "tests/support/content.h"
 
 namespace hydroprint::testing {
 namespace {
-
-double seconds_now() {
-  const auto now = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double>(now).count();
-}
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// Opens a file as a given descriptor. Runs in the child, where only a few calls are safe.
 void open_as(int number, const char* path) {
@@ -38,7 +27,7 @@ Process::Process(std::vector<std::string> arguments, const ProcessOptions& optio
   argv.push_back(nullptr);
   const std::string out = folder_.path() / "out";
   const std::string err = folder_.path() / "err";
-  start_s_ = seconds_now();
+  start_ = Clock::now();
   pid_ = ::fork();
   if (pid_ != 0) return;
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // the program is killed when the test dies
@@ -72,6 +61,8 @@ bool Process::running() {
   return !wait_status_;
 }
 
+std::string Process::out() const { return content(folder_.path() / "out"); }
+
 Ended Process::wait() {
   int status = 0;
   if (!wait_status_) {
@@ -81,9 +72,9 @@ Ended Process::wait() {
   Ended ended;
   if (WIFEXITED(*wait_status_)) ended.status = WEXITSTATUS(*wait_status_);
   if (WIFSIGNALED(*wait_status_)) ended.signal = WTERMSIG(*wait_status_);
-  ended.out = content(folder_.path() / "out");
+  ended.out = out();
   ended.err = content(folder_.path() / "err");
-  ended.seconds = seconds_now() - start_s_;
+  ended.seconds = seconds_since(start_);
   return ended;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tests/support/temporary_folder.h"
+#include "tests/support/timing.h"
 
 namespace hydroprint::testing {
 
@@ -40,13 +41,15 @@ class Process {
 
   void signal(int number) const;
   [[nodiscard]] bool running();
+  /// Its output so far.
+  [[nodiscard]] std::string out() const;
   /// Waits until it has ended.
   Ended wait();
 
  private:
   TemporaryFolder folder_;
   pid_t pid_ = -1;
-  double start_s_ = 0;
+  Clock::time_point start_;
   std::optional<int> wait_status_;
 };
 

@@ -15,8 +15,11 @@ class CameraTest : public ::testing::Test {
 
   void start_rig(const std::string& object = "",
                  const std::vector<std::pair<std::string, std::string>>& files = {}) {
-    rig = std::make_unique<VirtualRigProcess>(
-        object + "[water]\nat_mm = " + std::to_string(water_mm) + "\n[camera]\nseed = 7\n", files);
+    VirtualRigOptions options;
+    options.scene =
+        object + "[water]\nat_mm = " + std::to_string(water_mm) + "\n[camera]\nseed = 7\n";
+    options.files = files;
+    rig = std::make_unique<VirtualRig>(options);
   }
   void start_daemon(DaemonProcess::Options options, int patience_s) {
     options.extra =
@@ -95,7 +98,7 @@ class CameraTest : public ::testing::Test {
 
   double water_mm = 90;  ///< axis position with the gripper at the water
   TemporaryFolder folder;
-  std::unique_ptr<VirtualRigProcess> rig;
+  std::unique_ptr<VirtualRig> rig;
   std::unique_ptr<DaemonProcess> daemon;
   std::unique_ptr<RigClient> ann;
   std::unique_ptr<v1::CalibrationService::Stub> calibrations;

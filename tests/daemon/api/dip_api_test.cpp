@@ -482,7 +482,7 @@ TEST_F(DipApi, PausedQueueDoesNotAffectADip) {
 TEST(DipOfASimulation, UsesDepthSpeedAndFilmOfItsReport) {
   if (!real_worker_is_built()) GTEST_SKIP() << kNeedsRealWorker;
   const TemporaryFolder folder;
-  VirtualRigProcess rig;
+  VirtualRig rig;
   DaemonProcess::Options options;
   options.extra = rig.section();
   const DaemonProcess daemon(folder.path(), options);
@@ -535,7 +535,7 @@ TEST(DipOfASimulation, UsesDepthSpeedAndFilmOfItsReport) {
 
 TEST(DipOnARealDrive, AlwaysNeedsAnOperator) {
   const TemporaryFolder folder;
-  VirtualRigProcess rig;  // does not report the data in the daemon's profile
+  VirtualRig rig;  // does not report the data in the daemon's profile
   auto options = DaemonProcess::fake();
   std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
   const std::string is_virtual = "virtual = true";

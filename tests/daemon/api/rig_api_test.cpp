@@ -12,13 +12,8 @@ namespace hydroprint::tests {
 namespace {
 
 using std::chrono::milliseconds;
-using SteadyClock = std::chrono::steady_clock;
 
 constexpr const char* kRigHealth = "hydroprint.v1.RigService";
-
-double seconds_since(SteadyClock::time_point time) {
-  return std::chrono::duration<double>(SteadyClock::now() - time).count();
-}
 
 TEST(NoRig, ApiIsServedAndReportsTheMissingRig) {
   const TemporaryFolder folder;
@@ -370,7 +365,7 @@ TEST_F(RigApi, WatchShowsEachStateAtTheRequestedRate) {
   std::vector<v1::Rig::State> seen;
   std::atomic<bool> watched{false}, armed{false};
   std::thread watching([&] {
-    const auto begun = SteadyClock::now();
+    const auto begun = Clock::now();
     int messages = 0;
     for (v1::Rig now; reader->Read(&now); ++messages) {
       if (seen.empty() || seen.back() != now.state()) seen.push_back(now.state());
@@ -416,7 +411,7 @@ TEST_F(RigApi, WatchesAndUploadsDoNotBlockAStop) {
     return ann.rigs->GetRig(ann.context().get(), {}, &reply).error_code() ==
            grpc::RESOURCE_EXHAUSTED;
   })) << "otherwise the test proves nothing";
-  const auto asked = SteadyClock::now();
+  const auto asked = Clock::now();
   EXPECT_TRUE(ann.stop().ok());
   EXPECT_LT(seconds_since(asked), 0.2);
   for (const auto& context : contexts) context->TryCancel();

@@ -1,111 +1,18 @@
 #include "tests/daemon/api/rig_support.h"
 
 #include <grpcpp/generic/generic_stub.h>
-#include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
-#include <array>
-#include <cmath>
-#include <cstring>
-#include <fstream>
 #include <stdexcept>
-#include <thread>
 
 namespace hydroprint::tests {
 namespace {
-
-using std::chrono::milliseconds;
-using SteadyClock = std::chrono::steady_clock;
-
-const std::string kRig = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
-const std::string kProfile = HYDROPRINT_PROFILES "/virtual.toml";
 
 void check(const grpc::Status& status, const std::string& call) {
   if (status.ok()) return;
   throw std::runtime_error(call + ": " + reason_of(status) + ": " + status.error_message());
 }
 
-std::vector<std::string> arguments(const TemporaryFolder& folder, const std::string& more,
-                                   const std::vector<std::pair<std::string, std::string>>& files) {
-  for (const auto& [name, content] : files) folder.write(name, content);
-  const auto scene = folder.write("scene.toml", "[axis]\nstart_mm = 1.0\n" + more);
-  return {kRig,      "--profile", kProfile,
-          "--scene", scene,       "--tcp",
-          "0",       "--control", folder.path() / "control",
-          "--json"};
-}
-
-testing::ProcessOptions to_file(const std::filesystem::path& out) {
-  testing::ProcessOptions options;
-  options.files = {{STDOUT_FILENO, out}};
-  return options;
-}
-
 }  // namespace
-
-bool wait_until(const std::function<bool()>& until, double seconds) {
-  const auto end = SteadyClock::now() + std::chrono::duration<double>(seconds);
-  while (!until()) {
-    if (SteadyClock::now() > end) return false;
-    std::this_thread::sleep_for(milliseconds(5));
-  }
-  return true;
-}
-
-VirtualRigProcess::VirtualRigProcess(const std::string& scene,
-                                     const std::vector<std::pair<std::string, std::string>>& files)
-    : process_(arguments(folder_, scene, files), to_file(folder_.path() / "out")) {
-  const auto out = folder_.path() / "out";
-  if (!wait_until([&] { return content(out).ends_with("\n"); })) {
-    throw std::runtime_error("hydroprint-virtual-rig did not get ready");
-  }
-  endpoint_ = nlohmann::json::parse(content(out)).at("tcp");
-}
-
-std::string VirtualRigProcess::act(const std::string& line) {
-  const int out = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  const std::string path = folder_.path() / "control";
-  std::memcpy(address.sun_path, path.c_str(), path.size());
-  std::string reply;
-  const std::string text = line + "\n";
-  if (::connect(out, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
-      ::send(out, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size())) {
-    ::shutdown(out, SHUT_WR);
-    std::array<char, 512> chunk{};
-    for (ssize_t got = 0; (got = ::read(out, chunk.data(), chunk.size())) > 0;) {
-      reply.append(chunk.data(), static_cast<std::size_t>(got));
-    }
-  }
-  ::close(out);
-  if (reply.empty() || reply.starts_with("error")) {
-    throw std::runtime_error(line + ": " + reply);
-  }
-  return reply;
-}
-
-nlohmann::json VirtualRigProcess::truth() { return nlohmann::json::parse(act("state")); }
-
-double VirtualRigProcess::speed_mm_per_s() {
-  return std::abs(truth().at("velocity_mm_per_s").get<double>());
-}
-
-bool VirtualRigProcess::gets_to(double wanted, double seconds) {
-  return wait_until([&] { return std::abs(speed_mm_per_s() - wanted) < 0.01; }, seconds);
-}
-
-double VirtualRigProcess::rested_s() {
-  if (!wait_until([&] { return speed_mm_per_s() == 0; })) {
-    throw std::runtime_error("the axis goes on");
-  }
-  return truth().at("rested_s");
-}
-
-std::string VirtualRigProcess::section() const {
-  return "[rig]\ndrive = \"" + endpoint_ + "\"\nprofile = \"" + kProfile + "\"\n";
-}
 
 RigClient::RigClient(const std::string& address, const std::string& owner)
     : Client(address, owner),

@@ -2,57 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "hydroprint/v1/lease_service.grpc.pb.h"
 #include "hydroprint/v1/rig_service.grpc.pb.h"
 #include "tests/daemon/api/support.h"
-#include "tests/support/process.h"
+#include "tests/support/virtual_rig.h"
 
 namespace hydroprint::tests {
 
-/// Polls every few ms; false if `until` did not become true in time.
-[[nodiscard]] bool wait_until(const std::function<bool()>& until, double seconds = 10);
-
-/// hydroprint-virtual-rig on a free loopback port, close to its home position.
-class VirtualRigProcess {
- public:
-  /// @param scene  further lines of its scene file
-  /// @param files  names and contents of files that the scene uses
-  explicit VirtualRigProcess(const std::string& scene = "",
-                             const std::vector<std::pair<std::string, std::string>>& files = {});
-
-  /// Sends a control line and returns the answer.
-  std::string act(const std::string& line);
-  /// The true state of the drive, whatever it reports.
-  nlohmann::json truth();
-  [[nodiscard]] double position_mm() { return truth().at("position_mm"); }
-  [[nodiscard]] double speed_mm_per_s();
-  /// Whether it moves that fast, or is at rest.
-  [[nodiscard]] bool gets_to(double speed_mm_per_s, double seconds = 10);
-  /// Time of the drive's own clock, which does not depend on when a test reads it.
-  [[nodiscard]] double now_s() { return truth().at("time_s"); }
-  /// Waits for standstill and returns its time on that clock. Throws if the drive keeps moving.
-  [[nodiscard]] double rested_s();
-
-  /// Lines of a daemon's configuration that refer to it.
-  [[nodiscard]] std::string section() const;
-  /// OpenNI2's name of the camera.
-  [[nodiscard]] std::string camera() const {
-    return "hydroprint:" + (folder_.path() / "control").string();
-  }
-  void signal(int number) const { process_.signal(number); }
-
- private:
-  TemporaryFolder folder_;
-  std::string endpoint_;
-  testing::Process process_;
-};
+using testing::VirtualRig;
+using testing::VirtualRigOptions;
 
 /// A client that can command the rig. Calls that are expected to succeed throw on failure.
 class RigClient : public Client {
@@ -108,14 +70,14 @@ class RigClient : public Client {
 /// A daemon and its rig.
 class RigTest : public ::testing::Test {
  protected:
-  static DaemonProcess::Options options(const VirtualRigProcess& rig) {
+  static DaemonProcess::Options options(const VirtualRig& rig) {
     auto options = DaemonProcess::fake();
     options.extra = rig.section();
     return options;
   }
 
   TemporaryFolder folder;
-  VirtualRigProcess rig;
+  VirtualRig rig;
   DaemonProcess daemon{folder.path(), options(rig)};
   RigClient ann{daemon.address(), "ann"};
 };

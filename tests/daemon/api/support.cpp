@@ -21,7 +21,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-using SteadyClock = std::chrono::steady_clock;
 
 const std::string kDaemon = std::string(HYDROPRINT_BIN_DIR) + "/hydroprintd";
 constexpr seconds kPatience{120};  // a real computation may take a minute on a busy machine
@@ -60,11 +59,6 @@ int wait_for_exit(pid_t pid) {
 }
 
 }  // namespace
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 bool proc_is_mounted() { return std::filesystem::exists("/proc/self/task"); }
 
@@ -133,12 +127,12 @@ void DaemonProcess::start() {
                    {"--config", config().string(), "--state-dir", state().string(), "--grpc",
                     options_.host + ":0", "--http", options_.host + ":0"});
   pid_ = spawn_daemon(arguments, out, folder_ / "err");
-  const auto deadline = SteadyClock::now() + kPatience;
+  const auto deadline = Clock::now() + kPatience;
   const auto named = [](const std::string& words, const std::string& name) {
     const std::size_t from = words.find(" " + name + "=") + name.size() + 2;
     return words.substr(from, words.find(' ', from) - from);
   };
-  while (SteadyClock::now() < deadline) {
+  while (Clock::now() < deadline) {
     const std::string words = content(out);
     if (words.find(" ready ") != std::string::npos && words.ends_with('\n')) {
       address_ = named(words, "grpc");
@@ -250,11 +244,11 @@ v1::Job Client::cancel(const std::string& name) {
 }
 
 v1::Job Client::wait(const std::string& name, const std::function<bool(const v1::Job&)>& until) {
-  const auto deadline = SteadyClock::now() + kPatience;
+  const auto deadline = Clock::now() + kPatience;
   for (;;) {
     const v1::Job now = job(name);
     if (until(now)) return now;
-    if (SteadyClock::now() > deadline) {
+    if (Clock::now() > deadline) {
       throw std::runtime_error("waited too long: " + now.ShortDebugString());
     }
     std::this_thread::sleep_for(milliseconds(20));

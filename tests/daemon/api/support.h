@@ -17,14 +17,17 @@
 #include "hydroprint/v1/job_service.grpc.pb.h"
 #include "hydroprint/v1/people_service.grpc.pb.h"
 #include "hydroprint/v1/queue_service.grpc.pb.h"
+#include "tests/support/content.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/timing.h"
 
 namespace hydroprint::tests {
 
-/// Content of a file; empty if it does not exist.
-[[nodiscard]] std::string content(const std::filesystem::path& path);
-
-using hydroprint::testing::TemporaryFolder;
+using testing::Clock;
+using testing::content;
+using testing::seconds_since;
+using testing::TemporaryFolder;
+using testing::wait_until;
 
 /// Whether /proc is mounted, which is needed to inspect other processes; bare chroots lack it.
 [[nodiscard]] bool proc_is_mounted();

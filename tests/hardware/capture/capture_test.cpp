@@ -4,26 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
-#include <sstream>
 #include <thread>
 
 #include "hardware/simulator/camera/renderer.h"
 #include "hardware/simulator/drive/scene.h"
 #include "sim/image/io/grey16.h"
 #include "sim/image/io/image_file.h"
-#include "tests/support/control_line.h"
-#include "tests/support/process.h"
+#include "tests/support/content.h"
+#include "tests/support/virtual_rig.h"
 
 namespace hydroprint::capture {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::content;
 using namespace std::string_literals;
 
 /// The program and its first arguments. Leak detection of AddressSanitizer is off: OpenNI2 does not
@@ -34,7 +32,6 @@ const std::vector<std::string> kCapture = {"/usr/bin/env", "ASAN_OPTIONS=detect_
 #else
 const std::vector<std::string> kCapture = {HYDROPRINT_BIN_DIR "/hydroprint-capture"};
 #endif
-const std::string kRig = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
 
 /// Timeout, in s, for operations that are slow on a busy machine but do not hang.
 constexpr const char* kLong = "400";
@@ -46,31 +43,14 @@ mesh = "wedge.obj"
 seed = 3
 clock = "frames"
 )";
-
-std::string bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream out;
-  out << file.rdbuf();
-  return out.str();
-}
+constexpr const char* kWedge =
+    "v -30 -30 -40\nv 30 -30 -40\nv 0 40 -40\nv 0 0 0\n"
+    "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
 
 /// A virtual rig and captures from its camera.
 class Capture : public ::testing::Test {
  protected:
-  explicit Capture(const char* scene = kScene) {
-    folder_.write("wedge.obj",
-                  "v -30 -30 -40\nv 30 -30 -40\nv 0 40 -40\nv 0 0 0\n"
-                  "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
-    scene_ = folder_.write("scene.toml", scene);
-    rig_.emplace(std::vector<std::string>{kRig, "--profile", HYDROPRINT_PROFILES "/virtual.toml",
-                                          "--tcp", "0", "--scene", scene_.string(), "--control",
-                                          control().string()});
-    EXPECT_NE(testing::talk(control(), "state\n"), "");
-  }
-
   [[nodiscard]] fs::path path(const char* name) const { return folder_.path() / name; }
-  [[nodiscard]] fs::path control() const { return path("control"); }
-  [[nodiscard]] std::string uri() const { return "hydroprint:" + control().string(); }
 
   static testing::Ended capture(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), kCapture.begin(), kCapture.end());
@@ -80,7 +60,7 @@ class Capture : public ::testing::Test {
   /// Captures from the rig into `out`.
   testing::Ended capture_live(const std::vector<std::string>& more,
                               const std::string& patience_s = kLong) {
-    std::vector<std::string> all = {"--device", uri(),          "--out",   path("out").string(),
+    std::vector<std::string> all = {"--device", rig_.camera(),  "--out",   path("out").string(),
                                     "--json",   "--patience-s", patience_s};
     all.insert(all.end(), more.begin(), more.end());
     return capture(all);
@@ -91,14 +71,15 @@ class Capture : public ::testing::Test {
     testing::ProcessOptions options;
     options.files = {{3, path("progress")}};
     std::vector<std::string> all = kCapture;
-    for (const std::string& word : {"--device"s, uri(), "--out"s, path("out").string(), "--record"s,
-                                    path("long.oni").string(), "--seconds"s, "60"s, "--patience-s"s,
-                                    patience_s, "--json"s, "--progress-fd"s, "3"s}) {
+    for (const std::string& word :
+         {"--device"s, rig_.camera(), "--out"s, path("out").string(), "--record"s,
+          path("long.oni").string(), "--seconds"s, "60"s, "--patience-s"s, patience_s, "--json"s,
+          "--progress-fd"s, "3"s}) {
       all.push_back(word);
     }
     auto out = std::make_unique<testing::Process>(all, options);
     while (out->running()) {
-      const std::string told = bytes_of(path("progress"));
+      const std::string told = content(path("progress"));
       if (std::count(told.begin(), told.end(), '\n') > 1) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
@@ -121,24 +102,23 @@ class Capture : public ::testing::Test {
   }
 
   testing::TemporaryFolder folder_;
-  fs::path scene_;
-  std::optional<testing::Process> rig_;
+  testing::VirtualRig rig_{{.start_mm = 50, .scene = kScene, .files = {{"wedge.obj", kWedge}}}};
 };
 
 /// The PNG of one entry of frames.json.
 std::string png_of(const fs::path& folder, const nlohmann::json& frame) {
-  return bytes_of(folder / frame.at("file").get<std::string>());
+  return content(folder / frame.at("file").get<std::string>());
 }
 
 nlohmann::json frames_of(const fs::path& folder) {
-  return nlohmann::json::parse(bytes_of(folder / "frames.json"));
+  return nlohmann::json::parse(content(folder / "frames.json"));
 }
 
 TEST_F(Capture, LiveAndRecordedFramesMatchTheSceneBitForBit) {
   const auto recording = path("take.oni");
   const auto live = capture_live({"--seconds", "0.1", "--record", recording.string()});
   ASSERT_EQ(live.status, 0) << live.err;
-  const auto scene = simulated_drive::read_scene(scene_);
+  const auto scene = simulated_drive::read_scene(rig_.folder() / "scene.toml");
   const auto scenery = simulated_drive::scenery_of(*scene);
   ASSERT_TRUE(scenery);
   const auto renderer =
@@ -190,31 +170,31 @@ TEST_F(Capture, MissingCameraIsNamedWithARemedy) {
   expect_failure(
       capture({"--device", "hydroprint:/nowhere", "--out", path("out").string(), "--json"}), 3,
       "CAMERA_NOT_FOUND");
-  testing::talk(control(), "camera gone\n");
+  rig_.act("camera gone");
   expect_failure(capture_live({}), 3, "CAMERA_NOT_FOUND");
 }
 
 TEST_F(Capture, UnpluggedCameraFailsAndWorksAgainAfterReplugging) {
   const auto capture = long_capture();
-  testing::talk(control(), "camera gone\n");
+  rig_.act("camera gone");
   expect_failure(capture->wait(), 4, "CAMERA_GONE");
-  testing::talk(control(), "camera well\n");
+  rig_.act("camera well");
   const auto again = capture_live({"--seconds", "0.05"});
   EXPECT_EQ(again.status, 0) << again.err;
 }
 
 TEST_F(Capture, CameraIsGoneWhenItsRigDies) {
   const auto capture = long_capture();
-  rig_->signal(SIGKILL);
+  rig_.signal(SIGKILL);
   expect_failure(capture->wait(), 4, "CAMERA_GONE");
 }
 
 TEST_F(Capture, FrozenAndBlackCamerasAreDetected) {
   for (const auto& [line, reason] :
-       {std::pair{"camera frozen\n", "CAMERA_FROZEN"}, {"camera black\n", "CAMERA_BLACK"}}) {
-    testing::talk(control(), "camera well\n");
+       {std::pair{"camera frozen", "CAMERA_FROZEN"}, {"camera black", "CAMERA_BLACK"}}) {
+    rig_.act("camera well");
     const auto capture = long_capture();
-    testing::talk(control(), line);
+    rig_.act(line);
     expect_failure(capture->wait(), 4, reason);
     fs::remove(path("progress"));
   }
@@ -222,13 +202,13 @@ TEST_F(Capture, FrozenAndBlackCamerasAreDetected) {
 
 TEST_F(Capture, SilentCameraTimesOut) {
   const auto capture = long_capture("1");
-  rig_->signal(SIGSTOP);
+  rig_.signal(SIGSTOP);
   expect_failure(capture->wait(), 4, "CAMERA_STALLED");
-  rig_->signal(SIGCONT);
+  rig_.signal(SIGCONT);
 }
 
 TEST_F(Capture, HangingDriverTimesOut) {
-  testing::talk(control(), "camera hung\n");
+  rig_.act("camera hung");
   expect_failure(capture_live({}, "1"), 4, "CAMERA_STALLED");
 }
 
@@ -244,15 +224,15 @@ TEST_F(Capture, InvalidOrTruncatedRecordingsAreRefused) {
   ASSERT_EQ(taken.status, 0) << taken.err;
   fs::remove_all(path("out"));
   // The second half of the file is zeros written by OpenNI2; truncating them loses no data.
-  std::string whole = bytes_of(recording);
+  std::string whole = content(recording);
   whole.resize(whole.find_last_not_of('\0') + 1);
   std::vector<std::string> files = {"", "junk", std::string(100000, 'x'), whole.substr(0, 100)};
   for (int i = 1; i < 8; ++i) files.push_back(whole.substr(0, whole.size() * i / 8));
-  for (const std::string& content : files) {
-    const auto file = folder_.write("bad.oni", content);
+  for (const std::string& bytes : files) {
+    const auto file = folder_.write("bad.oni", bytes);
     const auto ended =
         capture({"--recording", file.string(), "--out", path("out").string(), "--json"});
-    EXPECT_EQ(ended.signal, 0) << content.size();
+    EXPECT_EQ(ended.signal, 0) << bytes.size();
     expect_failure(ended, 3, "RECORDING_INVALID");
   }
   expect_failure(
@@ -284,18 +264,18 @@ TEST_F(Capture, LivePicturesShowNearAndFarUntilASignal) {
   testing::ProcessOptions options;
   options.files = {{1, path("live")}};
   std::vector<std::string> all = kCapture;
-  for (const std::string& word : {"--live"s, "--device"s, uri(), "--every-s"s, "0.2"s,
+  for (const std::string& word : {"--live"s, "--device"s, rig_.camera(), "--every-s"s, "0.2"s,
                                   "--patience-s"s, std::string(kLong), "--json"s}) {
     all.push_back(word);
   }
   testing::Process live(all, options);
-  while (live.running() && told_by(bytes_of(path("live"))).pictures.size() < 2) {
+  while (live.running() && told_by(content(path("live"))).pictures.size() < 2) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
   live.signal(SIGTERM);
   const auto ended = live.wait();
   EXPECT_EQ(ended.status, 130) << ended.err;
-  const Told told = told_by(bytes_of(path("live")));
+  const Told told = told_by(content(path("live")));
   EXPECT_TRUE(nlohmann::json::parse(told.rest).contains("error")) << told.rest;
   ASSERT_GE(told.pictures.size(), 2U);
   const auto& [head, png] = told.pictures.back();
@@ -319,8 +299,9 @@ TEST_F(Capture, LivePicturesShowNearAndFarUntilASignal) {
 }
 
 TEST_F(Capture, LiveModeReportsALostCamera) {
-  testing::talk(control(), "camera black\n");
-  const auto ended = capture({"--live", "--device", uri(), "--patience-s", kLong, "--json"});
+  rig_.act("camera black");
+  const auto ended =
+      capture({"--live", "--device", rig_.camera(), "--patience-s", kLong, "--json"});
   EXPECT_EQ(ended.status, 4) << ended.err;
   EXPECT_EQ(nlohmann::json::parse(told_by(ended.out).rest)["error"]["reason"], "CAMERA_BLACK");
 }

@@ -10,7 +10,6 @@
 namespace hydroprint::rig {
 namespace {
 
-using simulated_drive::Clock;
 using Outcome = MotionReport::Outcome;
 
 class Fault : public simulated_drive::OnBothWires {};
@@ -41,7 +40,7 @@ TEST_P(Fault, ALostLinkStopsTheAxisWithinItsStoppingDistance) {
   const std::uint64_t motion = rig.start_move(100, 10);
   const double lost_mm = rig.drive().position_mm();
   rig.drive().act("unplug");
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  ASSERT_TRUE(wait_until([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
   EXPECT_LE(rig.drive().position_mm() - lost_mm,
             stopping_distance_mm(rig->config(), rig->profile(), 10));
   ASSERT_TRUE(rig.becomes(State::kOffline));
@@ -49,7 +48,7 @@ TEST_P(Fault, ALostLinkStopsTheAxisWithinItsStoppingDistance) {
   EXPECT_EQ(rig.report(motion).cause, Cause::kLinkLost);
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "RIG_OFFLINE");
   const std::uint64_t ticks = rig->snapshot().jitter.ticks;
-  EXPECT_TRUE(wait_for([&] { return rig->snapshot().jitter.ticks > ticks + 10; }))
+  EXPECT_TRUE(wait_until([&] { return rig->snapshot().jitter.ticks > ticks + 10; }))
       << "it keeps polling";
   rig.drive().act("replug");
   expect_the_long_way_back(rig);
@@ -61,7 +60,7 @@ TEST_P(Fault, ASilentDriveInMotionIsAFaultOnceItRespondsAgain) {
   const std::uint64_t motion = rig.start_move(100, 10);
   const double begun_s = rig.drive().now_s();
   rig.drive().act("silent");
-  ASSERT_TRUE(wait_for([&] { return !in_motion(rig.state()); }));
+  ASSERT_TRUE(wait_until([&] { return !in_motion(rig.state()); }));
   EXPECT_LT(rig.drive().now_s() - begun_s, 1);
   EXPECT_LT(rig.drive().rested_s() - begun_s, stopping_time_s(rig->config(), rig->profile()));
   rig.drive().act("clear");
@@ -74,9 +73,9 @@ TEST_P(Fault, OneInvalidReplyDoesNotEndADip) {
   rig.make_ready();
   const Answer dip = rig->dip({{12, 10, 0}}).get();
   ASSERT_TRUE(dip);
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() > 9.9; }));
+  ASSERT_TRUE(wait_until([&] { return rig.drive().speed_mm_per_s() > 9.9; }));
   rig.drive().act("fault busy 1");
-  ASSERT_TRUE(wait_for([&] { return rig->snapshot().missed_polls > 0; }));
+  ASSERT_TRUE(wait_until([&] { return rig->snapshot().missed_polls > 0; }));
   EXPECT_EQ(rig.finish(*dip).outcome, Outcome::kDone);
 }
 
@@ -85,7 +84,7 @@ TEST_P(Fault, ThreeInvalidRepliesStopTheAxis) {
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
   rig.drive().act("fault busy all");
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  ASSERT_TRUE(wait_until([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
   EXPECT_EQ(rig.report(motion).cause, Cause::kLinkLost);
   rig.drive().act("clear");
   expect_the_long_way_back(rig);
@@ -109,7 +108,7 @@ TEST_P(Fault, APowerCycleAtRestRequiresResetArmingAndHoming) {
   WiredRig rig(GetParam());
   rig.make_ready();
   rig.drive().act("reboot 300ms");
-  ASSERT_TRUE(wait_for([&] { return rig.state() != State::kIdle; }));
+  ASSERT_TRUE(wait_until([&] { return rig.state() != State::kIdle; }));
   expect_the_long_way_back(rig);
 }
 
@@ -118,7 +117,7 @@ TEST_P(Fault, APowerCycleInMotionStopsTheAxisForGood) {
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
   rig.drive().act("reboot 100ms");
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  ASSERT_TRUE(wait_until([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
   const double rest_mm = rig.drive().position_mm();
   EXPECT_EQ(rig.finish(motion).outcome, Outcome::kFailed);
   ASSERT_TRUE(rig.becomes(State::kFault));
@@ -138,7 +137,7 @@ TEST_P(Fault, TheStopButtonLatchesUntilReleasedResetArmedAndHomed) {
   EXPECT_EQ(refusal(rig->move_to(20, 5)), "STATE_FORBIDS");
   const double rest_mm = rig.drive().position_mm();
   rig.drive().act("release stop");
-  ASSERT_TRUE(wait_for([&] { return !rig->snapshot().bits.button; }));
+  ASSERT_TRUE(wait_until([&] { return !rig->snapshot().bits.button; }));
   EXPECT_EQ(rig.state(), State::kEstopped) << "releasing does not reset";
   ASSERT_EQ(refusal(rig->reset()), "");
   EXPECT_EQ(rig.state(), State::kDisarmed);
@@ -154,7 +153,7 @@ TEST_P(Fault, ALimitSwitchStopsTheAxis) {
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
   rig.drive().act("press positive-end");
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  ASSERT_TRUE(wait_until([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
   EXPECT_EQ(rig.finish(motion).cause, Cause::kLimit);
   rig.drive().act("release positive-end");
   expect_the_long_way_back(rig);
@@ -165,7 +164,7 @@ TEST_P(Fault, AStalledAxisIsStopped) {
   rig.make_ready();
   const std::uint64_t motion = rig.start_move(100, 10);
   rig.drive().act("press stall");
-  ASSERT_TRUE(wait_for([&] { return !in_motion(rig.state()); }, 2));
+  ASSERT_TRUE(wait_until([&] { return !in_motion(rig.state()); }, 2));
   rig.drive().act("release stall");
   const MotionReport report = rig.finish(motion);
   EXPECT_EQ(report.outcome, Outcome::kFailed);
@@ -179,8 +178,8 @@ TEST_P(Fault, AFrozenPositionIsAFollowingError) {
   const std::uint64_t motion = rig.start_move(100, 10);
   rig.drive().act("press freeze");
   const double frozen_mm = rig.drive().position_mm();
-  ASSERT_TRUE(wait_for([&] { return !in_motion(rig.state()); }, 2));
-  ASSERT_TRUE(wait_for([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
+  ASSERT_TRUE(wait_until([&] { return !in_motion(rig.state()); }, 2));
+  ASSERT_TRUE(wait_until([&] { return rig.drive().speed_mm_per_s() == 0; }, 2));
   const double band_mm = following_band_mm(rig->config(), 10);
   EXPECT_LE(rig.drive().position_mm() - frozen_mm, band_mm + 1.5);
   rig.drive().act("release freeze");
@@ -194,7 +193,7 @@ TEST_P(Fault, ALateReplyIsNeverTakenForAnotherOne) {
   for (int i = 0; i < 3; ++i) {
     const std::uint64_t missed = rig->snapshot().missed_polls;
     rig.drive().act("fault late 200ms 1");
-    ASSERT_TRUE(wait_for([&] { return rig->snapshot().missed_polls > missed; }));
+    ASSERT_TRUE(wait_until([&] { return rig->snapshot().missed_polls > missed; }));
     std::this_thread::sleep_for(std::chrono::milliseconds(300));  // the reply has arrived by now
   }
   // The axis was at rest all the time, so all samples must show that.
@@ -205,12 +204,12 @@ TEST_P(Fault, ALateReplyIsNeverTakenForAnotherOne) {
 }
 
 TEST_P(Fault, AnUnexpectedDriveIsNeitherArmedNorCommanded) {
-  WiredDrive drive(GetParam());
+  BenchRig drive(GetParam(), {.start_mm = 1});
   drive::DriveProfile other = drive.profile();
   other.identity.back().value = static_cast<std::uint16_t>(other.identity.back().value + 0x0100);
   const auto controller = Controller::make({}, other, drive.endpoint());
   ASSERT_TRUE(controller);
-  ASSERT_TRUE(wait_for([&] { return (*controller)->trouble().has_value(); }));
+  ASSERT_TRUE(wait_until([&] { return (*controller)->trouble().has_value(); }));
   EXPECT_EQ((*controller)->trouble()->reason, "DRIVE_CONFIG_UNSAFE");
   EXPECT_EQ((*controller)->snapshot().condition.state, State::kOffline);
   EXPECT_EQ(refusal((*controller)->arm()), "DRIVE_CONFIG_UNSAFE");
@@ -218,12 +217,10 @@ TEST_P(Fault, AnUnexpectedDriveIsNeitherArmedNorCommanded) {
 }
 
 TEST_P(Fault, AWatchdogThatIsOffTooSlowOrDoesNotStopPreventsArming) {
-  simulated_drive::BenchOptions off, slow, idle;
-  off.watchdog_s = 0;
-  slow.watchdog_s = 5;
-  idle.watchdog_action = 0;
-  for (const auto& unsafe : {off, slow, idle}) {
-    WiredRig rig(GetParam(), unsafe);
+  using Arguments = std::vector<std::string>;
+  for (const Arguments& unsafe :
+       {Arguments{"--watchdog-s", "0"}, {"--watchdog-s", "5"}, {"--watchdog-action", "0"}}) {
+    WiredRig rig(GetParam(), {.arguments = unsafe});
     ASSERT_TRUE(rig.becomes(State::kDisarmed));
     EXPECT_EQ(refusal(rig->arm()), "DRIVE_CONFIG_UNSAFE");
     EXPECT_EQ(rig->trouble().value_or(Error{}).reason, "DRIVE_CONFIG_UNSAFE");
@@ -232,17 +229,17 @@ TEST_P(Fault, AWatchdogThatIsOffTooSlowOrDoesNotStopPreventsArming) {
 }
 
 TEST(FaultOfOne, AnAbsentDriveIsFoundLater) {
-  WiredDrive drive("tcp");
+  BenchRig drive("tcp", {.start_mm = 1});
   drive.act("unplug");
   const auto controller = Controller::make({}, drive.profile(), drive.endpoint());
   ASSERT_TRUE(controller) << "the controller runs nevertheless";
-  ASSERT_TRUE(wait_for([&] { return (*controller)->trouble().has_value(); }));
+  ASSERT_TRUE(wait_until([&] { return (*controller)->trouble().has_value(); }));
   const auto asked = Clock::now();
   EXPECT_EQ(refusal((*controller)->arm()), "RIG_OFFLINE");
   EXPECT_LT(seconds_since(asked), 1);
   drive.act("replug");
   EXPECT_TRUE(
-      wait_for([&] { return (*controller)->snapshot().condition.state == State::kDisarmed; }));
+      wait_until([&] { return (*controller)->snapshot().condition.state == State::kDisarmed; }));
   EXPECT_FALSE((*controller)->trouble());
 }
 

@@ -10,29 +10,26 @@
 #include "sim/base/input_file.h"
 #include "tests/hardware/rig/wired_rig.h"
 #include "tests/support/campaign.h"
-#include "tests/support/process.h"
 
 namespace hydroprint::rig {
 namespace {
-
-using simulated_drive::Clock;
 
 constexpr double kSpeed_mm_per_s = 10;
 
 class LostOwner : public simulated_drive::OnBothWires {};
 HP_ON_BOTH_WIRES(LostOwner);
 
-testing::Process own(WiredDrive& drive) {
-  return testing::Process({std::string(HYDROPRINT_BIN_DIR) + "/rig_owner", drive.endpoint().text(),
+testing::Process own(BenchRig& drive) {
+  return testing::Process({std::string(HYDROPRINT_BIN_DIR) + "/rig_owner", drive.address(),
                            HYDROPRINT_PROFILES "/virtual.toml"});
 }
 
-bool is_dipping(WiredDrive& drive) {
+bool is_dipping(BenchRig& drive) {
   return drive.speed_mm_per_s() > 0.99 * kSpeed_mm_per_s && drive.position_mm() > 2;
 }
 
 /// The drive stops within its own watchdog's time and distance, counted from now.
-void expect_to_stop_by_itself(WiredDrive& drive) {
+void expect_to_stop_by_itself(BenchRig& drive) {
   const drive::DriveProfile& profile = drive.profile();
   const double watchdog_s = profile.watchdog->largest_time_s;
   const double brake_s = kSpeed_mm_per_s / profile.stopping_deceleration_mm_per_s2;
@@ -45,12 +42,12 @@ void expect_to_stop_by_itself(WiredDrive& drive) {
 }
 
 /// A new owner starts no motion and requires reset, arming and homing.
-void expect_a_cold_start(WiredDrive& drive) {
+void expect_a_cold_start(BenchRig& drive) {
   const double rest_mm = drive.position_mm();
   const auto next = Controller::make({}, drive.profile(), drive.endpoint());
   ASSERT_TRUE(next);
   const auto condition = [&] { return (*next)->snapshot().condition; };
-  ASSERT_TRUE(wait_for([&] { return condition().link == Link::kSafe; }))
+  ASSERT_TRUE(wait_until([&] { return condition().link == Link::kSafe; }))
       << (*next)->trouble().value_or(Error{}).message;
   // FAULT after the drive's own alarm; DISARMED if the owner had stopped the drive before.
   const std::string refused = refusal((*next)->move_to(20, 5));
@@ -65,9 +62,9 @@ TEST_P(LostOwner, TheDriveStopsByItselfWhenTheOwnerIsKilled) {
   std::mt19937 random(testing::campaign_seed(1));
   std::uniform_int_distribution<int> moment_ms(0, 400);
   for (int i = 0; i < testing::campaign_rounds(4); ++i) {
-    WiredDrive drive(GetParam());
+    BenchRig drive(GetParam(), {.start_mm = 1});
     testing::Process owner = own(drive);
-    ASSERT_TRUE(wait_for([&] { return is_dipping(drive); }, 20));
+    ASSERT_TRUE(wait_until([&] { return is_dipping(drive); }, 20));
     std::this_thread::sleep_for(std::chrono::milliseconds(moment_ms(random)));
     owner.signal(SIGKILL);
     expect_to_stop_by_itself(drive);
@@ -77,9 +74,9 @@ TEST_P(LostOwner, TheDriveStopsByItselfWhenTheOwnerIsKilled) {
 }
 
 TEST_P(LostOwner, TheDriveStopsByItselfWhenTheOwnerHangs) {
-  WiredDrive drive(GetParam());
+  BenchRig drive(GetParam(), {.start_mm = 1});
   testing::Process owner = own(drive);
-  ASSERT_TRUE(wait_for([&] { return is_dipping(drive); }, 20));
+  ASSERT_TRUE(wait_until([&] { return is_dipping(drive); }, 20));
   owner.signal(SIGSTOP);
   expect_to_stop_by_itself(drive);
   const double rest_mm = drive.position_mm();
@@ -96,24 +93,23 @@ TEST_P(LostOwner, TheDriveStopsByItselfWhenTheOwnerHangs) {
 TEST(StopChannel, StopsADriveThatIsNoLongerPolled) {
   // The drive's own watchdog is slow here, so the effect must be that of the stop_channel.
   const testing::TemporaryFolder folder;
-  simulated_drive::BenchOptions options;
+  testing::VirtualRigOptions options{.start_mm = 3};
   std::string profile = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
   const std::string good = "largest_time_s = 0.25";
   ASSERT_NE(profile.find(good), std::string::npos);
-  options.start_mm = 3;
   options.profile = folder.write(
       "slow.toml", profile.replace(profile.find(good), good.size(), "largest_time_s = 5.0"));
-  WiredDrive drive("tcp", options);
+  BenchRig drive("tcp", options);
   drive.make_ready();
   drive::Drive& owned = drive.drive();
   ASSERT_TRUE(owned.home());
-  ASSERT_TRUE(wait_for([&] { return drive.mode() == "hold"; }));
+  ASSERT_TRUE(wait_until([&] { return drive.mode() == "hold"; }));
   ASSERT_TRUE(owned.poll());
   StopChannel stop_channel(owned);
   ASSERT_TRUE(owned.move_to(100, kSpeed_mm_per_s));
   const double clean_s = drive.now_s();
   stop_channel.watch(true, Clock::now());
-  ASSERT_TRUE(wait_for([&] { return drive.speed_mm_per_s() > 9.9; }));
+  ASSERT_TRUE(wait_until([&] { return drive.speed_mm_per_s() > 9.9; }));
   const double rested_s = drive.rested_s();
   EXPECT_GT(rested_s - clean_s, kStale_s);
   EXPECT_LT(rested_s - clean_s, kStale_s + 0.2);

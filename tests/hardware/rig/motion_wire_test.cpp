@@ -9,7 +9,6 @@
 namespace hydroprint::rig {
 namespace {
 
-using simulated_drive::Clock;
 using Outcome = MotionReport::Outcome;
 
 class Wired : public simulated_drive::OnBothWires {};
@@ -155,24 +154,24 @@ TEST_P(Wired, AMoveOrderedBeforeAStopDoesNotStartAfterIt) {
     (void)answer.get();
     ASSERT_TRUE(rig.becomes(State::kIdle));
     const std::uint64_t looks = rig->snapshot().jitter.ticks + 2;
-    ASSERT_TRUE(wait_for([&] { return rig->snapshot().jitter.ticks > looks; }));
+    ASSERT_TRUE(wait_until([&] { return rig->snapshot().jitter.ticks > looks; }));
     EXPECT_EQ(rig.state(), State::kIdle);
     EXPECT_EQ(rig.drive().mode(), "hold");
   }
 }
 
 TEST_P(Wired, DestroyingTheControllerInMotionLeavesTheDriveAtRestWithoutTorque) {
-  WiredDrive drive(GetParam(), starting_at(50));
+  BenchRig drive(GetParam());
   auto controller = Controller::make({}, drive.profile(), drive.endpoint());
   ASSERT_TRUE(controller);
   ASSERT_TRUE(
-      wait_for([&] { return (*controller)->snapshot().condition.state == State::kDisarmed; }));
+      wait_until([&] { return (*controller)->snapshot().condition.state == State::kDisarmed; }));
   ASSERT_EQ(refusal((*controller)->arm()), "");
   ASSERT_EQ(refusal((*controller)->home()), "");
-  ASSERT_TRUE(wait_for([&] { return drive.speed_mm_per_s() > 0; }));
+  ASSERT_TRUE(wait_until([&] { return drive.speed_mm_per_s() > 0; }));
   controller->reset();
   EXPECT_EQ(drive.speed_mm_per_s(), 0);
-  EXPECT_TRUE(wait_for([&] { return drive.mode() == "off"; }));
+  EXPECT_TRUE(wait_until([&] { return drive.mode() == "off"; }));
 }
 
 }  // namespace

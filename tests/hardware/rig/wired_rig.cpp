@@ -2,49 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <stdexcept>
-#include <thread>
+#include "tests/support/value_of.h"
 
 namespace hydroprint::rig {
-using simulated_drive::Clock;
 
-simulated_drive::BenchOptions starting_at(double start_mm) {
-  simulated_drive::BenchOptions options;
-  options.start_mm = start_mm;
-  return options;
-}
-
-double WiredDrive::speed_mm_per_s() { return std::abs(truth("velocity_mm_per_s")); }
-
-double WiredDrive::rested_s() {
-  if (!wait_for([&] { return speed_mm_per_s() == 0; }))
-    throw std::runtime_error("the axis keeps moving");
-  return truth("rested_s");
-}
-
-double seconds_since(Clock::time_point time) {
-  return std::chrono::duration<double>(Clock::now() - time).count();
-}
-
-bool wait_for(const std::function<bool()>& until, double seconds) {
-  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  while (!until()) {
-    if (Clock::now() > end) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(3));
-  }
-  return true;
-}
-
-WiredRig::WiredRig(const std::string& wire, const simulated_drive::BenchOptions& options)
+WiredRig::WiredRig(const std::string& wire, const testing::VirtualRigOptions& options)
     : drive_(wire, options) {
-  auto controller = Controller::make({}, drive_.profile(), drive_.endpoint());
-  if (!controller) throw std::runtime_error(controller.error().message);
-  controller_ = std::move(*controller);
+  controller_ = testing::value_of(Controller::make({}, drive_.profile(), drive_.endpoint()));
 }
 
 bool WiredRig::becomes(State wanted, double seconds) const {
-  return wait_for([&] { return state() == wanted; }, seconds);
+  return wait_until([&] { return state() == wanted; }, seconds);
 }
 
 void WiredRig::make_ready() {
@@ -59,7 +27,7 @@ void WiredRig::make_ready() {
 std::uint64_t WiredRig::start_move(double target_mm, double speed_mm_per_s) {
   const Answer answer = controller_->move_to(target_mm, speed_mm_per_s).get();
   EXPECT_TRUE(answer) << answer.error().message;
-  EXPECT_TRUE(wait_for([&] { return drive_.speed_mm_per_s() > 0.99 * speed_mm_per_s; }));
+  EXPECT_TRUE(wait_until([&] { return drive_.speed_mm_per_s() > 0.99 * speed_mm_per_s; }));
   return answer.value_or(0);
 }
 
@@ -70,7 +38,7 @@ MotionReport WiredRig::report(std::uint64_t motion) const {
 }
 
 MotionReport WiredRig::finish(std::uint64_t motion, double seconds) const {
-  EXPECT_TRUE(wait_for([&] { return report(motion).at_rest; }, seconds));
+  EXPECT_TRUE(wait_until([&] { return report(motion).at_rest; }, seconds));
   return report(motion);
 }
 

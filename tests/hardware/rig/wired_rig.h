@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -9,40 +8,18 @@
 
 namespace hydroprint::rig {
 
-/// Default options, but with the carriage at this position at the start.
-[[nodiscard]] simulated_drive::BenchOptions starting_at(double start_mm);
+using simulated_drive::BenchRig;
+using testing::Clock;
+using testing::seconds_since;
+using testing::wait_until;
 
-/// A virtual drive on a real wire, "tcp" or "rtu", with a short distance to home. Its own client is
-/// not connected.
-class WiredDrive : public simulated_drive::BenchRig {
- public:
-  explicit WiredDrive(const std::string& wire,
-                      const simulated_drive::BenchOptions& options = starting_at(1))
-      : BenchRig(wire, options) {}
-
-  /// True position and speed, whatever the drive reports.
-  [[nodiscard]] double position_mm() { return truth("position_mm"); }
-  [[nodiscard]] double speed_mm_per_s();
-  /// Time by the drive's own clock, which does not depend on delays of the test.
-  [[nodiscard]] double now_s() { return truth("time_s"); }
-  /// Waits until the axis is at rest and returns the time of standstill by that clock. Throws if it
-  /// keeps moving.
-  [[nodiscard]] double rested_s();
-};
-
-/// Polls every few ms; false if `until` did not become true in time.
-[[nodiscard]] bool wait_for(const std::function<bool()>& until, double seconds = 5);
-
-/// Seconds since `time`.
-[[nodiscard]] double seconds_since(simulated_drive::Clock::time_point time);
-
-/// A controller and its drive.
+/// A controller and its drive, on a real wire, "tcp" or "rtu". The drive's own client is not
+/// connected.
 class WiredRig {
  public:
-  explicit WiredRig(const std::string& wire,
-                    const simulated_drive::BenchOptions& options = starting_at(1));
+  explicit WiredRig(const std::string& wire, const testing::VirtualRigOptions& options = {});
 
-  WiredDrive& drive() { return drive_; }
+  BenchRig& drive() { return drive_; }
   Controller* operator->() { return controller_.get(); }
 
   [[nodiscard]] State state() const { return controller_->snapshot().condition.state; }
@@ -57,7 +34,7 @@ class WiredRig {
   [[nodiscard]] MotionReport finish(std::uint64_t motion, double seconds = 30) const;
 
  private:
-  WiredDrive drive_;
+  BenchRig drive_;
   std::unique_ptr<Controller> controller_;
 };
 

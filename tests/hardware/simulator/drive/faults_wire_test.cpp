@@ -78,12 +78,12 @@ TEST_P(MachineFault, SilentDriveIsOfflineAndStopsByItself) {
 TEST_P(MachineFault, NothingIsSentAgainAfterALostReply) {
   BenchRig bench(GetParam());
   bench.make_ready();
-  const double requests = bench.truth("requests");
+  const int requests = bench.truth().at("requests");
   bench.act("fault drop");
   const Status moved = bench.drive().move_to(1, 10);
   ASSERT_FALSE(moved);
   EXPECT_EQ(moved.error().metadata.count("timeout"), 1U);
-  EXPECT_EQ(bench.truth("requests"), requests + 1);
+  EXPECT_EQ(bench.truth().at("requests"), requests + 1);
 }
 
 TEST_P(MachineFault, UnpluggingIsReportedAtOnceAndTheLinkRecovers) {
@@ -109,7 +109,7 @@ TEST_P(MachineFault, UnpluggingIsReportedAtOnceAndTheLinkRecovers) {
 }
 
 TEST_P(MachineFault, RebootClearsHomeAndEnable) {
-  BenchRig bench(GetParam(), {1.0});
+  BenchRig bench(GetParam(), {.start_mm = 1});
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().home());
   bench.poll_until([](const auto& state) { return state.homed && !state.moving; });

@@ -60,13 +60,13 @@ TEST_P(Motion, SpeedIsConstantBetweenTheRamps) {
 
 TEST_P(Motion, HomesFromBothSidesOfTheSwitch) {
   for (const double start_mm : {3.0, -0.5}) {
-    BenchRig bench(GetParam(), {start_mm});
+    BenchRig bench(GetParam(), {.start_mm = start_mm});
     bench.make_ready();
     EXPECT_FALSE(bench.drive().poll()->homed);
     HP_ASSERT_OK(bench.drive().home());
     const auto state = bench.poll_until([](const auto& s) { return s.homed && !s.moving; });
     EXPECT_NEAR(state.position_mm, 0, kCount_mm);
-    EXPECT_NEAR(bench.truth("position_mm"), 0, 1e-9) << "the switch's edge";
+    EXPECT_NEAR(bench.position_mm(), 0, 1e-9) << "the switch's edge";
   }
 }
 
@@ -77,12 +77,12 @@ TEST_P(Motion, StopBrakesWithinItsDistanceAndKeepsTheDriveEnabled) {
   bench.poll_until([](const auto& state) { return state.position_mm > 2; });
   double x_mm = 0;
   const double sent_s = seconds_of([&] {
-    x_mm = bench.truth("position_mm");
+    x_mm = bench.position_mm();
     HP_ASSERT_OK(bench.drive().stop());
   });
   const auto state = bench.poll_until([](const auto& s) { return !s.moving; });
   EXPECT_TRUE(state.enabled);
-  EXPECT_LE(bench.truth("position_mm") - x_mm, 10 * (sent_s + 0.002) + 10.0 * 10 / (2 * 200));
+  EXPECT_LE(bench.position_mm() - x_mm, 10 * (sent_s + 0.002) + 10.0 * 10 / (2 * 200));
 }
 
 TEST_P(Motion, JogContinuesWhileCommandedAndThenEndsByItself) {
@@ -106,14 +106,14 @@ TEST_P(Motion, SilenceOfTheClientStopsTheAxisWithinWatchdogTimeAndStoppingDistan
   bench.make_ready();
   HP_ASSERT_OK(bench.drive().move_to(100, 10));
   bench.poll_until([](const auto& state) { return state.position_mm > 1; });
-  const double x_mm = bench.truth("position_mm");
+  const double x_mm = bench.position_mm();
   bench.drive().disconnect();
-  const double watchdog_s = bench.truth("watchdog_s");
+  const double watchdog_s = bench.truth().at("watchdog_s");
   std::this_thread::sleep_for(std::chrono::duration<double>(watchdog_s + 10.0 / 200 + 0.01));
   EXPECT_EQ(bench.mode(), "off");
-  EXPECT_EQ(bench.truth("alarm_code"), kWatchdog);
+  EXPECT_EQ(bench.truth().at("alarm_code"), kWatchdog);
   const double allowed_mm = drive::stopping_distance_mm(bench.profile(), 10, watchdog_s);
-  EXPECT_LE(bench.truth("position_mm") - x_mm, allowed_mm + 10 * 0.002);
+  EXPECT_LE(bench.position_mm() - x_mm, allowed_mm + 10 * 0.002);
   // After reconnecting, the alarm is reported and explained, and a reset starts no motion.
   HP_ASSERT_OK(bench.drive().connect());
   const auto state = bench.drive().poll();
@@ -129,7 +129,7 @@ TEST_P(Motion, SilenceOfTheClientStopsTheAxisWithinWatchdogTimeAndStoppingDistan
 TEST_P(Motion, ImpossibleMotionsAreRefusedBeforeAnythingIsSent) {
   BenchRig bench(GetParam());
   bench.make_ready();
-  const double requests = bench.truth("requests");
+  const double requests = bench.truth().at("requests");
   for (const double speed : {0.0, -1.0, 20.1, 1e-5, std::nan("")}) {
     const Status moved = bench.drive().move_to(1, speed);
     ASSERT_FALSE(moved);
@@ -138,7 +138,7 @@ TEST_P(Motion, ImpossibleMotionsAreRefusedBeforeAnythingIsSent) {
   EXPECT_FALSE(bench.drive().move_to(1e9, 5));
   EXPECT_FALSE(bench.drive().move_to(NAN, 5));
   EXPECT_FALSE(bench.drive().jog(0));
-  EXPECT_EQ(bench.truth("requests"), requests);
+  EXPECT_EQ(bench.truth().at("requests"), requests);
   HP_ASSERT_OK(bench.drive().move_to(1, 5));
 }
 

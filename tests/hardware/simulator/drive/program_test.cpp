@@ -1,13 +1,8 @@
 // hydroprint-virtual-rig as its users run it.
-#include <signal.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "tests/hardware/simulator/drive/bench_rig.h"
-#include "tests/support/control_line.h"
-#include "tests/support/process.h"
 
 namespace hydroprint::simulated_drive {
 namespace {
@@ -16,12 +11,9 @@ const std::string kProgram = HYDROPRINT_BIN_DIR "/hydroprint-virtual-rig";
 const std::string kProfile = HYDROPRINT_PROFILES "/virtual.toml";
 
 TEST(Program, PrintsItsAddressesAcceptsActionsAndExitsCleanly) {
-  const testing::TemporaryFolder folder;
-  const auto control = folder.path() / "control";
-  const auto line = folder.path() / "drive";
-  testing::Process rig({kProgram, "--profile", kProfile, "--tcp", "0", "--rtu", line.string(),
-                        "--control", control.string(), "--json"});
-  const std::string reply = testing::talk(control, "press stop\nstate\ndance\n");
+  testing::VirtualRig rig({.wire = "rtu", .arguments = {"--tcp", "0"}});
+  const auto line = rig.folder() / "drive";
+  const std::string reply = rig.act("press stop\nstate\ndance");
   EXPECT_EQ(reply.substr(0, 3), "ok\n");
   const auto state = nlohmann::json::parse(reply.substr(3, reply.find('\n', 3) - 3));
   EXPECT_TRUE(state.at("stop_button").get<bool>());
@@ -34,25 +26,19 @@ TEST(Program, PrintsItsAddressesAcceptsActionsAndExitsCleanly) {
   HP_ASSERT_OK(drive.connect());
   EXPECT_TRUE(drive.poll()->stop_input);
 
-  rig.signal(SIGTERM);
-  const auto ended = rig.wait();
+  const auto ended = rig.stop();
   EXPECT_EQ(ended.status, 0) << ended.err;
   const auto where = nlohmann::json::parse(ended.out);
   EXPECT_EQ(where.at("tcp").get<std::string>().substr(0, 14), "tcp:127.0.0.1:");
   EXPECT_EQ(where.at("rtu"), "rtu:" + line.string() + "?baud=115200&parity=E&stop=1");
-  EXPECT_FALSE(std::filesystem::exists(control));
+  EXPECT_FALSE(std::filesystem::exists(rig.control()));
   EXPECT_FALSE(std::filesystem::is_symlink(line));
 }
 
 TEST(Program, FaultsOfTheCommandLineTakeEffect) {
-  const testing::TemporaryFolder folder;
-  const auto control = folder.path() / "control";
-  testing::Process rig({kProgram, "--profile", kProfile, "--tcp", "0", "--control",
-                        control.string(), "--fault", "press=stop,stall@100ms"});
-  (void)testing::talk(control, "state\n");
-  const auto state = [&] { return nlohmann::json::parse(testing::talk(control, "state\n")); };
-  while (!state().at("stalled").get<bool>()) std::this_thread::sleep_for(milliseconds(50));
-  EXPECT_TRUE(state().at("stop_button").get<bool>());
+  const testing::VirtualRig rig({.arguments = {"--fault", "press=stop,stall@100ms"}});
+  EXPECT_TRUE(testing::wait_until([&] { return rig.truth().at("stalled").get<bool>(); }));
+  EXPECT_TRUE(rig.truth().at("stop_button").get<bool>());
 }
 
 TEST(Program, ErrorsAreOneLineWithTheContractsExitStatus) {

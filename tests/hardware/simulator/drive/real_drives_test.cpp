@@ -20,10 +20,8 @@ class RealDrive : public ::testing::TestWithParam<const char*> {
   static std::string path() { return std::string(HYDROPRINT_PROFILES "/") + GetParam() + ".toml"; }
 
   /// The profile as shipped, or with a watchdog that its drive lacks, so that it can move.
-  [[nodiscard]] BenchOptions options(bool with_watchdog) const {
-    BenchOptions out;
-    out.start_mm = 2;
-    out.profile = path();
+  [[nodiscard]] testing::VirtualRigOptions options(bool with_watchdog) const {
+    testing::VirtualRigOptions out{.start_mm = 2, .profile = path()};
     if (!with_watchdog || drive::read_drive_profile(path())->watchdog) return out;
     const std::string text = *read_text_file(path(), 1 << 20) + kInventedWatchdog;
     out.profile = folder_.write("drive.toml", text).string();

@@ -17,9 +17,7 @@ double arithmetic_s(double baud, double gap_s) { return (8 + 23) * 11 / baud + 2
 /// Minimum over many polls, since the machine only adds delays. Ends when a poll is as fast as the
 /// wire allows, or after 5 s.
 double measured_s(int baud, double expected_s) {
-  BenchOptions options;
-  options.baud = baud;
-  BenchRig bench("rtu", options);
+  BenchRig bench("rtu", {.arguments = {"--baud", std::to_string(baud)}});
   EXPECT_TRUE(bench.drive().connect());
   const Clock::time_point begun = Clock::now();
   double least_s = 1;

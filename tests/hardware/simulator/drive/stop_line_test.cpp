@@ -14,9 +14,9 @@ HP_ON_BOTH_WIRES(Stop);
 /// Duration of a stop while another thread waits for a reply that never arrives.
 double stop_while_stuck_s(BenchRig& bench, drive::StopLine& stop) {
   bench.act("fault drop");
-  const double requests = bench.truth("requests");
+  const int requests = bench.truth().at("requests");
   std::thread stuck([&] { EXPECT_FALSE(bench.drive().poll()); });
-  while (bench.truth("requests") == requests) std::this_thread::sleep_for(milliseconds(1));
+  while (bench.truth().at("requests") == requests) std::this_thread::sleep_for(milliseconds(1));
   const double out_s = seconds_of([&] { EXPECT_TRUE(stop.stop(milliseconds(1000))); });
   stuck.join();
   return out_s;
@@ -80,7 +80,7 @@ TEST(StopTcp, ItsConnectionDoesNotFeedTheWatchdog) {
   HP_ASSERT_OK(stop.connect());
   HP_ASSERT_OK(bench.drive().move_to(100, 10));
   std::this_thread::sleep_for(milliseconds(400));
-  EXPECT_EQ(bench.truth("alarm_code"), kWatchdog);
+  EXPECT_EQ(bench.truth().at("alarm_code"), kWatchdog);
 }
 
 }  // namespace

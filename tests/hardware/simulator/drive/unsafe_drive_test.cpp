@@ -29,9 +29,7 @@ Error held_against(BenchRig& bench) {
 }
 
 TEST_P(UnsafeDrive, WatchdogThatDoesNotStopIsUnsafe) {
-  BenchOptions options;
-  options.watchdog_action = 0;
-  BenchRig bench(GetParam(), options);
+  BenchRig bench(GetParam(), {.arguments = {"--watchdog-action", "0"}});
   const Error error = held_against(bench);
   EXPECT_EQ(error.reason, "DRIVE_CONFIG_UNSAFE");
   EXPECT_EQ(error.code, Code::kFailedPrecondition);
@@ -40,25 +38,19 @@ TEST_P(UnsafeDrive, WatchdogThatDoesNotStopIsUnsafe) {
 }
 
 TEST_P(UnsafeDrive, WatchdogThatIsOffIsUnsafe) {
-  BenchOptions options;
-  options.watchdog_s = 0;
-  BenchRig bench(GetParam(), options);
+  BenchRig bench(GetParam(), {.arguments = {"--watchdog-s", "0"}});
   EXPECT_NE(held_against(bench).message.find("is off"), std::string::npos);
 }
 
 TEST_P(UnsafeDrive, WatchdogThatWaitsTooLongIsUnsafe) {
-  BenchOptions options;
-  options.watchdog_s = 0.3;
-  BenchRig bench(GetParam(), options);
+  BenchRig bench(GetParam(), {.arguments = {"--watchdog-s", "0.3"}});
   const Error error = held_against(bench);
   EXPECT_NE(error.message.find("waits 0.3 s. Set it to at most 0.25 s"), std::string::npos)
       << error.message;
 }
 
 TEST_P(UnsafeDrive, GoodSettingsAreSafe) {
-  BenchOptions options;
-  options.watchdog_s = 0.2;
-  BenchRig bench(GetParam(), options);
+  BenchRig bench(GetParam(), {.arguments = {"--watchdog-s", "0.2"}});
   const auto found = bench.drive().connect();
   HP_ASSERT_OK(found);
   EXPECT_FALSE(found->unsafe);
@@ -82,9 +74,7 @@ TEST_P(UnsafeDrive, AnotherDriveIsRefusedAndDisconnected) {
   std::string text = *read_text_file(HYDROPRINT_PROFILES "/virtual.toml", 1 << 20);
   const std::string maker = "value = 0x4850";
   text.replace(text.find(maker), maker.size(), "value = 0x4851");
-  BenchOptions options;
-  options.profile = folder.write("other.toml", text).string();
-  BenchRig bench(GetParam(), options);
+  BenchRig bench(GetParam(), {.profile = folder.write("other.toml", text).string()});
   const auto ours = drive::read_drive_profile(HYDROPRINT_PROFILES "/virtual.toml");
   HP_ASSERT_OK(ours);
   drive::Drive drive(*ours, bench.drive().link());

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <thread>
+
+namespace hydroprint::testing {
+
+using Clock = std::chrono::steady_clock;
+
+/// Seconds since `time`.
+[[nodiscard]] inline double seconds_since(Clock::time_point time) {
+  return std::chrono::duration<double>(Clock::now() - time).count();
+}
+
+/// Duration of a call in seconds.
+template <class Call>
+double seconds_of(const Call& call) {
+  const auto start = Clock::now();
+  call();
+  return seconds_since(start);
+}
+
+/// Polls every few ms; false if `until` did not become true in time.
+[[nodiscard]] inline bool wait_until(const std::function<bool()>& until, double seconds = 10) {
+  const auto start = Clock::now();
+  while (!until()) {
+    if (seconds_since(start) > seconds) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(3));
+  }
+  return true;
+}
+
+}  // namespace hydroprint::testing
