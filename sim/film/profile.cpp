@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string>
 #include <string_view>
 
+#include "sim/base/number_text.h"
 #include "sim/base/toml_reader.h"
 
 namespace hydroprint::film {
@@ -54,12 +54,6 @@ std::string known_keys() {
 std::string place(const std::filesystem::path& path, const toml::source_region& region,
                   std::string_view key) {
   return fmt::format("{}: line {}: {}", path.string(), region.begin.line, key);
-}
-
-/// The shortest text that reads back as the same number.
-std::string number_text(double value) {
-  std::array<char, 32> buffer{};
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
 }
 
 Result<double> read_number(const std::string& where, const toml::node& node, const Range& range) {
@@ -130,10 +124,10 @@ Result<Profile> read_profile(const std::filesystem::path& path) {
 std::string profile_toml(const Profile& profile) {
   std::string out;
   for (const Key& key : kKeys) {
-    out += fmt::format("{} = {}\n", key.name, number_text(profile.*key.member));
+    out += fmt::format("{} = {}\n", key.name, shortest_text(profile.*key.member));
   }
-  out += fmt::format("{} = [{}, {}]\n", kSwelling, number_text(profile.swelling.x()),
-                     number_text(profile.swelling.y()));
+  out += fmt::format("{} = [{}, {}]\n", kSwelling, shortest_text(profile.swelling.x()),
+                     shortest_text(profile.swelling.y()));
   if (!profile.ink_icc_profile.empty()) {
     std::ostringstream quoted;
     quoted << toml::value<std::string>(std::filesystem::absolute(profile.ink_icc_profile).string());

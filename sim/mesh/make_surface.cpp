@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/base/number_text.h"
 #include "sim/mesh/edges.h"
 #include "sim/mesh/normals.h"
 #include "sim/mesh/orient.h"
@@ -74,7 +75,7 @@ void warn_about_size(const Model& model, Surface& surface) {
   const double largest_mm = box.sizes().maxCoeff();
   if (largest_mm >= kSmallMm && largest_mm <= kLargeMm) return;
   warn(surface, model, "small_or_large_object",
-       fmt::format("the largest side is {:.4g} mm: if the file is in {}", largest_mm,
+       fmt::format("the largest side is {} mm: if the file is in {}", three_digits(largest_mm),
                    largest_mm < kSmallMm ? "metres or inches, give --scale 1000 or --scale 25.4"
                                          : "micrometres or thousandths, give --scale 0.001"));
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "sim/base/percent.h"
+#include "sim/base/number_text.h"
 
 namespace hydroprint::mesh {
 namespace {
