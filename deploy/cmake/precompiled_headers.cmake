@@ -19,15 +19,16 @@ function(hydroprint_precompiled_variant name optimization)
   cmake_parse_arguments(arg "" "" "HEADERS;LIBS" ${ARGN})
   file(CONFIGURE OUTPUT precompiled.cpp CONTENT "")
   add_library(precompiled_${name} OBJECT EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/precompiled.cpp)
-  target_link_libraries(precompiled_${name} PRIVATE hydroprint_options tl::expected ${arg_LIBS})
+  target_link_libraries(precompiled_${name} PRIVATE hydroprint_options fmt::fmt tl::expected ${arg_LIBS})
   target_compile_options(precompiled_${name} PRIVATE ${optimization})
   target_precompile_headers(precompiled_${name} PRIVATE
     <algorithm> <array> <chrono> <cmath> <filesystem> <fstream> <functional> <iostream> <map> <memory> <numbers>
-    <optional> <random> <span> <sstream> <string> <string_view> <thread> <utility> <vector> <tl/expected.hpp>
-    ${arg_HEADERS})
+    <optional> <random> <span> <sstream> <string> <string_view> <thread> <utility> <vector> <fmt/format.h>
+    <tl/expected.hpp> ${arg_HEADERS})
 endfunction()
 
 find_package(Eigen3 CONFIG REQUIRED)
+find_package(fmt CONFIG REQUIRED)
 find_package(tl-expected CONFIG REQUIRED)
 if(HYDROPRINT_TESTS)
   find_package(GTest REQUIRED)
