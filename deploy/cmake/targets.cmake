@@ -50,6 +50,8 @@ macro(hydroprint_target_properties name variant)
   endif()
   if(arg_PRECOMPILED AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
     target_precompile_headers(${name} REUSE_FROM ${precompiled}${variant})
+    # GCC refuses a precompiled header that was compiled with definitions that the target does not have.
+    target_link_libraries(${name} PRIVATE fmt::fmt)
   endif()
   if(arg_GROUPED AND HYDROPRINT_GROUP_FILES)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON)
