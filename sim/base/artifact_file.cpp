@@ -1,6 +1,7 @@
 #include "sim/base/artifact_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -32,8 +33,8 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, int erro
       return fail(Code::kPermissionDenied,
                   start + "not writable. Choose a folder that you may write to");
     default:
-      return fail(Code::kInternal, start + "writing failed (" + std::strerror(error) +
-                                       "). Check the disk and the path");
+      return fail(Code::kInternal, fmt::format("{}writing failed ({}). Check the disk and the path",
+                                               start, std::strerror(error)));
   }
 }
 
@@ -52,7 +53,7 @@ int write_all(int file, std::span<const unsigned char> bytes) {
 }  // namespace
 
 Status write_artifact(const std::filesystem::path& path, std::span<const unsigned char> bytes) {
-  const std::string temporary = path.string() + ".part-" + std::to_string(::getpid());
+  const std::string temporary = fmt::format("{}.part-{}", path.string(), ::getpid());
   const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) return system_failure(path, errno);
   int error = write_all(file, bytes);

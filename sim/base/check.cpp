@@ -1,13 +1,15 @@
 #include "sim/base/check.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <string>
 
 namespace hydroprint {
 
 void throw_invariant_error(const char* file, int line, const char* condition) {
-  throw InvariantError(std::filesystem::path(file).filename().string() + ":" +
-                       std::to_string(line) + ": check failed: " + condition);
+  throw InvariantError(fmt::format(
+      "{}:{}: check failed: {}", std::filesystem::path(file).filename().string(), line, condition));
 }
 
 }  // namespace hydroprint

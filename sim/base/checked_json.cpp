@@ -1,5 +1,7 @@
 #include "sim/base/checked_json.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +16,7 @@ std::string place(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, std::min(byte, text.size()));
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-  return "line " + std::to_string(line) + ", column " + std::to_string(before.size() - line_start);
+  return fmt::format("line {}, column {}", line, before.size() - line_start);
 }
 
 /// Whether the text, if it is JSON, nests objects and arrays more than `most` levels deep. Brackets
@@ -48,11 +50,11 @@ const json* member(const json& object, const char* key) {
 Result<json> parse_json(std::string_view text, JsonLimits limits) {
   if (text.size() > limits.bytes) {
     return fail(Code::kInvalidArgument,
-                "longer than " + std::to_string(limits.bytes) + " bytes. Shorten it");
+                fmt::format("longer than {} bytes. Shorten it", limits.bytes));
   }
   if (is_deeper(text, limits.depth)) {
-    return fail(Code::kInvalidArgument, "nested deeper than " + std::to_string(limits.depth) +
-                                            " levels. Remove some levels");
+    return fail(Code::kInvalidArgument,
+                fmt::format("nested deeper than {} levels. Remove some levels", limits.depth));
   }
   try {
     return json::parse(text);

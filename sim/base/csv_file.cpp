@@ -1,5 +1,7 @@
 #include "sim/base/csv_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -40,7 +42,7 @@ std::string header_objection(const std::vector<std::string_view>& cells,
   if (cells == wanted) return {};
   for (const std::string_view name : wanted) {
     const bool is_there = std::find(cells.begin(), cells.end(), name) != cells.end();
-    if (!is_there) return "not the header: no column " + std::string(name);
+    if (!is_there) return fmt::format("not the header: no column {}", name);
   }
   return "not the header";
 }
@@ -48,9 +50,8 @@ std::string header_objection(const std::vector<std::string_view>& cells,
 /// Appends a row's numbers. @return the fault in the row; empty if there is none
 std::string add_row(const std::vector<std::string_view>& cells,
                     const std::vector<std::string_view>& names, std::vector<double>& values) {
-  const std::string wanted = std::to_string(names.size());
   if (cells.size() != names.size()) {
-    return "not " + wanted + " finite numbers but " + std::to_string(cells.size()) + " cells";
+    return fmt::format("not {} finite numbers but {} cells", names.size(), cells.size());
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const char* end = cells[i].data() + cells[i].size();
@@ -58,8 +59,8 @@ std::string add_row(const std::vector<std::string_view>& cells,
     const auto parsed = std::from_chars(cells[i].data(), end, value);
     if (parsed.ec != std::errc() || parsed.ptr != end || !std::isfinite(value)) {
       constexpr std::size_t kShown = 40;
-      return "not " + wanted + " finite numbers: " + std::string(names[i]) + " is '" +
-             std::string(cells[i].substr(0, kShown)) + "'";
+      return fmt::format("not {} finite numbers: {} is '{}'", names.size(), names[i],
+                         cells[i].substr(0, kShown));
     }
     values.push_back(value);
   }
@@ -69,7 +70,7 @@ std::string add_row(const std::vector<std::string_view>& cells,
 }  // namespace
 
 std::string CsvTable::place(std::size_t row) const {
-  return path.string() + ": line " + std::to_string(row + 2);  // the header is line 1
+  return fmt::format("{}: line {}", path.string(), row + 2);  // the header is line 1
 }
 
 Result<CsvTable> read_csv(const std::filesystem::path& path, std::string_view header,
@@ -79,8 +80,8 @@ Result<CsvTable> read_csv(const std::filesystem::path& path, std::string_view he
   std::string_view text = content;
   std::size_t line_number = 1;
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
-    return fail(Code::kInvalidArgument, path.string() + ": line " + std::to_string(line_number) +
-                                            ": " + what + ". " + remedy);
+    return fail(Code::kInvalidArgument,
+                fmt::format("{}: line {}: {}. {}", path.string(), line_number, what, remedy));
   };
   const std::string write = "Write " + std::string(header);
   if (const std::string what = header_objection(cells_of(take(text, '\n')), names); !what.empty()) {
@@ -91,7 +92,7 @@ Result<CsvTable> read_csv(const std::filesystem::path& path, std::string_view he
     ++line_number;
     const std::string_view line = take(text, '\n');
     if (table.rows() == most_rows) {
-      return refuse("too many rows", "Use at most " + std::to_string(most_rows));
+      return refuse("too many rows", fmt::format("Use at most {}", most_rows));
     }
     if (const std::string what = add_row(cells_of(line), names, table.values); !what.empty()) {
       return refuse(what, write);

@@ -1,5 +1,7 @@
 #include "sim/base/input_file.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <system_error>
 
@@ -35,8 +37,8 @@ Result<std::string> read_text_file(const std::filesystem::path& path, std::size_
     return fail(Code::kDataLoss, path.string() + ": reading failed. Check the disk");
   }
   if (text.size() > max_bytes) {
-    return fail(Code::kOutOfRange, path.string() + ": larger than " + std::to_string(max_bytes) +
-                                       " bytes. Is it the right file?");
+    return fail(Code::kOutOfRange, fmt::format("{}: larger than {} bytes. Is it the right file?",
+                                               path.string(), max_bytes));
   }
   return text;
 }

@@ -1,5 +1,7 @@
 #include "sim/base/pose_file.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "sim/base/checked_json.h"
@@ -14,12 +16,12 @@ template <int size>
 Result<Eigen::Vector<double, size>> read_vector(const std::string& where,
                                                 const nlohmann::json& json) {
   const std::string wanted =
-      ": not a list of " + std::to_string(size) + " numbers. Correct the list";
-  if (!json.is_array() || json.size() != size) return fail(Code::kInvalidArgument, where + wanted);
+      fmt::format("{}: not a list of {} numbers. Correct the list", where, size);
+  if (!json.is_array() || json.size() != size) return fail(Code::kInvalidArgument, wanted);
   Eigen::Vector<double, size> out;
   for (int i = 0; i < size; ++i) {
     const auto& number = json[static_cast<std::size_t>(i)];
-    if (!number.is_number()) return fail(Code::kInvalidArgument, where + wanted);
+    if (!number.is_number()) return fail(Code::kInvalidArgument, wanted);
     out[i] = number.get<double>();
   }
   return out;

@@ -1,10 +1,11 @@
 #include "sim/base/toml_reader.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "sim/base/input_file.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr std::size_t kMaxBytes = std::size_t{1} << 20;
 
 std::string place(const std::filesystem::path& path, const toml::source_region& region) {
-  return path.string() + ": line " + std::to_string(region.begin.line) + ": ";
+  return fmt::format("{}: line {}: ", path.string(), region.begin.line);
 }
 
 std::string quoted_list(const std::vector<std::string_view>& words) {
@@ -28,10 +29,8 @@ std::string quoted_list(const std::vector<std::string_view>& words) {
 }
 
 template <class T>
-std::string range_text(const char* kind, T least, T most) {
-  std::ostringstream out;
-  out << "Give " << kind << " from " << least << " to " << most;
-  return out.str();
+std::string range_text(std::string_view kind, T least, T most) {
+  return fmt::format("Give {} from {} to {}", kind, least, most);
 }
 
 }  // namespace
@@ -154,7 +153,7 @@ TomlReader TomlReader::table(std::string_view key) {
   const toml::node* node = find(key, true);
   const toml::table* table = node == nullptr ? nullptr : node->as_table();
   if (node != nullptr && table == nullptr) {
-    refuse(key, "is not a table. Write [" + full(key) + "] or " + std::string(key) + " = {...}");
+    refuse(key, fmt::format("is not a table. Write [{}] or {} = {{...}}", full(key), key));
   }
   return {shared_, table == nullptr ? &shared_->none : table, full(key)};
 }
@@ -166,7 +165,7 @@ std::vector<const toml::node*> TomlReader::array(std::string_view key) {
   if (const toml::array* array = node->as_array()) {
     for (const toml::node& entry : *array) out.push_back(&entry);
   } else {
-    refuse(key, "is not an array. Write " + std::string(key) + " = [...]");
+    refuse(key, fmt::format("is not an array. Write {} = [...]", key));
   }
   return out;
 }
@@ -199,9 +198,9 @@ void TomlReader::vector(std::string_view key, const toml::node& list, double lea
     is_right = out[i] >= least && out[i] <= most;
   }
   if (is_right) return;
-  const std::string wanted = "list of " + std::to_string(out.size()) + " numbers";
-  refuse(key, "is not a " + wanted + " in range. " +
-                  range_text(("a " + wanted + ", each").c_str(), least, most));
+  const std::string wanted = fmt::format("a list of {} numbers", out.size());
+  refuse(key,
+         fmt::format("is not {} in range. {}", wanted, range_text(wanted + ", each", least, most)));
 }
 
 Status TomlReader::finish() const {

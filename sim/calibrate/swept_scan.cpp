@@ -1,5 +1,7 @@
 #include "sim/calibrate/swept_scan.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <string>
 #include <utility>
@@ -51,10 +53,11 @@ Result<registration::FilmFrame> film_frame_of(const scan::Sweep& sweep, const Sw
 
 Warnings lost_frames(const scan::Path& path) {
   if (path.lost() == 0) return {};
-  return {{"frames_lost",
-           std::to_string(path.lost()) + " of " + std::to_string(path.X_WC.size()) +
-               " frames could not be registered and are left out: sweep more slowly",
-           "frames"}};
+  return {
+      {"frames_lost",
+       fmt::format("{} of {} frames could not be registered and are left out: sweep more slowly",
+                   path.lost(), path.X_WC.size()),
+       "frames"}};
 }
 
 void append(Warnings& to, const Warnings& more) { to.insert(to.end(), more.begin(), more.end()); }

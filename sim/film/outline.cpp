@@ -1,5 +1,7 @@
 #include "sim/film/outline.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -45,12 +47,6 @@ std::optional<double> number(std::string_view text) {
   return value;
 }
 
-std::string shown(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
-
 tl::unexpected<Error> not_understood(const std::string& text) {
   return fail(Code::kInvalidArgument,
               "film '" + text +
@@ -61,8 +57,9 @@ tl::unexpected<Error> not_understood(const std::string& text) {
 Status check_size(const std::string& what, const Vector2d& size_mm) {
   for (const double side_mm : {size_mm.x(), size_mm.y()}) {
     if (!(side_mm >= kMinSize_mm && side_mm <= kMaxSize_mm)) {
-      return fail(Code::kOutOfRange, what + ": " + shown(size_mm.x()) + " x " + shown(size_mm.y()) +
-                                         " mm is out of range. Use sides from 10 to 2000 mm");
+      return fail(Code::kOutOfRange,
+                  fmt::format("{}: {} x {} mm is out of range. Use sides from {} to {} mm", what,
+                              size_mm.x(), size_mm.y(), kMinSize_mm, kMaxSize_mm));
     }
   }
   return {};
@@ -152,15 +149,16 @@ Result<std::vector<Vector2d>> read_corners(const std::string& file) {
                 file + ": not a list of corners. Write [[x, y], [x, y], ...] in mm");
   }
   if (json.size() > kMaxCorners) {
-    return fail(Code::kOutOfRange, file + ": " + std::to_string(json.size()) +
-                                       " corners. Use at most " + std::to_string(kMaxCorners));
+    return fail(Code::kOutOfRange,
+                fmt::format("{}: {} corners. Use at most {}", file, json.size(), kMaxCorners));
   }
   std::vector<Vector2d> corners;
   for (const auto& corner : json) {
     if (!corner.is_array() || corner.size() != 2 || !corner[0].is_number() ||
         !corner[1].is_number()) {
-      return fail(Code::kInvalidArgument, file + ": corner " + std::to_string(corners.size() + 1) +
-                                              ": not a pair of numbers. Write [x, y] in mm");
+      return fail(Code::kInvalidArgument,
+                  fmt::format("{}: corner {}: not a pair of numbers. Write [x, y] in mm", file,
+                              corners.size() + 1));
     }
     corners.emplace_back(corner[0].get<double>(), corner[1].get<double>());
   }
@@ -175,7 +173,7 @@ Result<Outline> read_polygon(const std::string& name, const std::string& file) {
   HP_ASSIGN_OR_RETURN(out.polygon, read_corners(file));
   if (out.polygon.size() < 3) {
     return fail(Code::kInvalidArgument,
-                file + ": " + std::to_string(out.polygon.size()) + " corners. Give at least three");
+                fmt::format("{}: {} corners. Give at least three", file, out.polygon.size()));
   }
   out.min_mm = out.max_mm = out.polygon[0];
   for (const Vector2d& corner : out.polygon) {
@@ -186,16 +184,16 @@ Result<Outline> read_polygon(const std::string& name, const std::string& file) {
   for (std::size_t i = 0; i < out.polygon.size(); ++i) {
     const std::size_t next = (i + 1) % out.polygon.size();
     if ((out.polygon[i] - out.polygon[next]).norm() <= kOnEdge_mm) {
-      return fail(Code::kInvalidArgument, file + ": corners " + std::to_string(i + 1) + " and " +
-                                              std::to_string(next + 1) +
-                                              " are the same. Remove one of them");
+      return fail(Code::kInvalidArgument,
+                  fmt::format("{}: corners {} and {} are the same. Remove one of them", file, i + 1,
+                              next + 1));
     }
   }
   if (const auto edges = crossing(out.polygon)) {
     return fail(Code::kInvalidArgument,
-                file + ": the edges after corners " + std::to_string(edges->first + 1) + " and " +
-                    std::to_string(edges->second + 1) +
-                    " meet. Give a polygon that does not cross or touch itself");
+                fmt::format("{}: the edges after corners {} and {} meet. Give a polygon that does "
+                            "not cross or touch itself",
+                            file, edges->first + 1, edges->second + 1));
   }
   if (area_mm2(out.polygon) < 0) std::reverse(out.polygon.begin(), out.polygon.end());
   return out;

@@ -1,12 +1,14 @@
 #include "sim/film/profile.h"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string>
 #include <string_view>
 
+#include "sim/base/number_text.h"
 #include "sim/base/toml_reader.h"
 
 namespace hydroprint::film {
@@ -51,23 +53,15 @@ std::string known_keys() {
 /// The place of an error: file, line and key.
 std::string place(const std::filesystem::path& path, const toml::source_region& region,
                   std::string_view key) {
-  return path.string() + ": line " + std::to_string(region.begin.line) + ": " + std::string(key);
-}
-
-/// The shortest text that reads back as the same number.
-std::string number_text(double value) {
-  std::array<char, 32> buffer{};
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};
+  return fmt::format("{}: line {}: {}", path.string(), region.begin.line, key);
 }
 
 Result<double> read_number(const std::string& where, const toml::node& node, const Range& range) {
-  std::ostringstream remedy;
-  remedy << ". Give a number from " << range.least << " to " << range.most;
-  if (!node.is_number())
-    return fail(Code::kInvalidArgument, where + " is not a number" + remedy.str());
+  const std::string remedy = fmt::format("Give a number from {} to {}", range.least, range.most);
+  if (!node.is_number()) return fail(Code::kInvalidArgument, where + " is not a number. " + remedy);
   const double value = node.value<double>().value_or(NAN);
   if (!(value >= range.least && value <= range.most)) {
-    return fail(Code::kOutOfRange, where + " is out of range" + remedy.str());
+    return fail(Code::kOutOfRange, where + " is out of range. " + remedy);
   }
   return value;
 }
@@ -130,14 +124,14 @@ Result<Profile> read_profile(const std::filesystem::path& path) {
 std::string profile_toml(const Profile& profile) {
   std::string out;
   for (const Key& key : kKeys) {
-    out.append(key.name).append(" = ").append(number_text(profile.*key.member)).append("\n");
+    out += fmt::format("{} = {}\n", key.name, shortest_text(profile.*key.member));
   }
-  out.append(kSwelling).append(" = [").append(number_text(profile.swelling.x())).append(", ");
-  out.append(number_text(profile.swelling.y())).append("]\n");
+  out += fmt::format("{} = [{}, {}]\n", kSwelling, shortest_text(profile.swelling.x()),
+                     shortest_text(profile.swelling.y()));
   if (!profile.ink_icc_profile.empty()) {
     std::ostringstream quoted;
     quoted << toml::value<std::string>(std::filesystem::absolute(profile.ink_icc_profile).string());
-    out.append(kInkIccProfile).append(" = ").append(quoted.str()).append("\n");
+    out += fmt::format("{} = {}\n", kInkIccProfile, quoted.str());
   }
   return out;
 }

@@ -1,5 +1,7 @@
 #include "sim/ink/ink_field.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,9 +48,9 @@ double rounded_in(double t) { return t >= 0 ? std::min(t, kMostInk) : 0; }
 
 tl::unexpected<Error> not_ink(const InkGrid& grid, std::size_t cell, double t) {
   const auto columns = static_cast<std::size_t>(grid.columns);
-  return fail(Code::kInvalidArgument, "ink: cell (" + std::to_string(cell % columns) + ", " +
-                                          std::to_string(cell / columns) + ") holds " +
-                                          std::to_string(t) + ". Give amounts from 0 to 4");
+  return fail(Code::kInvalidArgument,
+              fmt::format("ink: cell ({}, {}) holds {}. Give amounts from 0 to 4", cell % columns,
+                          cell / columns, t));
 }
 
 }  // namespace
@@ -71,8 +73,8 @@ InkGrid ink_grid(const film::Outline& outline, double cell_mm) {
 Result<InkField> InkField::from_means(const InkGrid& grid, const std::vector<double>& means) {
   if (means.size() != grid.count()) {
     return fail(Code::kInvalidArgument,
-                "ink: " + std::to_string(means.size()) + " amounts for a grid of " +
-                    std::to_string(grid.count()) + " cells. Give one per cell");
+                fmt::format("ink: {} amounts for a grid of {} cells. Give one per cell",
+                            means.size(), grid.count()));
   }
   for (std::size_t cell = 0; cell < means.size(); ++cell) {
     if (!is_ink(means[cell])) return not_ink(grid, cell, means[cell]);

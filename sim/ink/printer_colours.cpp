@@ -1,5 +1,6 @@
 #include "sim/ink/printer_colours.h"
 
+#include <fmt/format.h>
 #include <lcms2.h>
 #include <lcms2_plugin.h>
 
@@ -37,10 +38,10 @@ Status check_whole(const std::string& bytes, const std::string& name) {
     for (int i = 0; i < 4; ++i) announced = announced << 8 | static_cast<unsigned char>(bytes[i]);
   }
   if (bytes.size() < kHeader_bytes || bytes.size() < announced) {
-    return fail(Code::kDataLoss, name + ": truncated, or not an ICC profile. Its " +
-                                     std::to_string(bytes.size()) + " bytes should be at least " +
-                                     std::to_string(std::max(announced, kHeader_bytes)) +
-                                     ". Get the file again");
+    return fail(Code::kDataLoss,
+                fmt::format("{}: truncated, or not an ICC profile. Its {} bytes should be at least "
+                            "{}. Get the file again",
+                            name, bytes.size(), std::max(announced, kHeader_bytes)));
   }
   return {};
 }

@@ -1,11 +1,13 @@
 #include "sim/mesh/make_surface.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
-#include <sstream>
 #include <string>
 #include <utility>
 
+#include "sim/base/number_text.h"
 #include "sim/mesh/edges.h"
 #include "sim/mesh/normals.h"
 #include "sim/mesh/orient.h"
@@ -72,26 +74,26 @@ void warn_about_size(const Model& model, Surface& surface) {
     for (int k = 0; k < 3; ++k) box.extend(surface.points[static_cast<std::size_t>(t[k])]);
   const double largest_mm = box.sizes().maxCoeff();
   if (largest_mm >= kSmallMm && largest_mm <= kLargeMm) return;
-  std::ostringstream text;
-  text << "the largest side is " << largest_mm << " mm: if the file is in "
-       << (largest_mm < kSmallMm ? "metres or inches, give --scale 1000 or --scale 25.4"
-                                 : "micrometres or thousandths, give --scale 0.001");
-  warn(surface, model, "small_or_large_object", text.str());
+  warn(surface, model, "small_or_large_object",
+       fmt::format("the largest side is {} mm: if the file is in {}", three_digits(largest_mm),
+                   largest_mm < kSmallMm ? "metres or inches, give --scale 1000 or --scale 25.4"
+                                         : "micrometres or thousandths, give --scale 0.001"));
 }
 
 void warn_about_orientation(const Model& model, const Orientation& found, Surface& surface) {
   if (found.inconsistent > 0 || found.one_sided > 0)
     warn(surface, model, "inconsistent_orientation",
-         std::to_string(found.inconsistent) + " faces were turned over to agree with their " +
-             "neighbours, " + std::to_string(found.one_sided) + " edges disagree either way");
+         fmt::format("{} faces were turned over to agree with their neighbours, {} edges disagree "
+                     "either way",
+                     found.inconsistent, found.one_sided));
   if (found.inside_out > 0)
     warn(surface, model, "inside_out",
-         std::to_string(found.inside_out) + " of " + std::to_string(found.shells) +
-             " shells faced inward and were turned over");
+         fmt::format("{} of {} shells faced inward and were turned over", found.inside_out,
+                     found.shells));
   if (found.shells > 1)
     warn(surface, model, "many_shells",
-         std::to_string(found.shells) + " separate shells (" + std::to_string(found.cavities) +
-             " of them cavities inside another): their union is used");
+         fmt::format("{} separate shells ({} of them cavities inside another): their union is used",
+                     found.shells, found.cavities));
 }
 
 /// @return true if every edge has two faces, one each way
@@ -112,12 +114,12 @@ bool check_edges(const Model& model, const Edges& edges, const Patchwork& work, 
   }
   if (open > 0)
     warn(surface, model, "mesh_open",
-         std::to_string(open) + " boundary edges: the openings are treated as closed by straight " +
-             "lines at each waterline");
+         fmt::format("{} boundary edges: the openings are treated as closed by straight lines at "
+                     "each waterline",
+                     open));
   if (crowded > 0)
-    warn(
-        surface, model, "mesh_non_manifold",
-        std::to_string(crowded) + " edges have more than two faces: the outermost surface is used");
+    warn(surface, model, "mesh_non_manifold",
+         fmt::format("{} edges have more than two faces: the outermost surface is used", crowded));
   return open + crowded + opposed == 0;
 }
 
@@ -136,8 +138,8 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
     return fail(Code::kInvalidArgument, name + ": no face has an area; export the model again");
   if (kept.size() < model.triangles.size())
     warn(surface, model, "zero_area_faces",
-         std::to_string(model.triangles.size() - kept.size()) +
-             " faces whose corners coincide or lie on a line were dropped");
+         fmt::format("{} faces whose corners coincide or lie on a line were dropped",
+                     model.triangles.size() - kept.size()));
   Patchwork work = start(model, std::move(weld), kept);
   HP_RETURN_IF_ERROR(check_cancelled(context));
 
@@ -153,9 +155,10 @@ Result<Surface> make_surface(const Model& model, double max_edge_mm, const Conte
   const auto before = work.triangles.size();
   auto subdivided = subdivide(std::move(work), max_edge_mm, kMaxSubdividedTriangles, context);
   if (!subdivided && subdivided.error().code == Code::kResourceExhausted)
-    return fail(Code::kResourceExhausted,
-                name + ": subdividing its faces to edges of " + std::to_string(max_edge_mm) +
-                    " mm takes " + subdivided.error().message + "; give a smaller --scale");
+    return fail(
+        Code::kResourceExhausted,
+        fmt::format("{}: subdividing its faces to edges of {} mm takes {}; give a smaller --scale",
+                    name, max_edge_mm, subdivided.error().message));
   if (!subdivided) return tl::unexpected(std::move(subdivided).error());
   work = std::move(*subdivided);
   if (work.triangles.size() != before) edges = Edges(work.triangles, work.weld);

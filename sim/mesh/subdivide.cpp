@@ -1,5 +1,7 @@
 #include "sim/mesh/subdivide.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <unordered_map>
 
@@ -131,8 +133,7 @@ Result<Patchwork> subdivide(Patchwork input, double max_edge_mm, std::size_t max
     const std::size_t count = pass.plan();
     if (count == work.triangles.size()) return work;
     if (count > max_triangles)
-      return fail(Code::kResourceExhausted,
-                  "more than " + std::to_string(max_triangles) + " triangles");
+      return fail(Code::kResourceExhausted, fmt::format("more than {} triangles", max_triangles));
     pass.run(count);
   }
 }

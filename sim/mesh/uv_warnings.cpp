@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <sstream>
+
+#include "sim/base/number_text.h"
 
 namespace hydroprint::mesh {
 namespace {
@@ -85,13 +86,6 @@ double mirrored_share(const Model& model) {
     total += std::abs(area);
   }
   return total > 0 ? mirrored / total : 0;
-}
-
-std::string percent(double share) {
-  std::ostringstream text;
-  text.precision(3);
-  text << 100 * share << " %";
-  return text.str();
 }
 
 }  // namespace

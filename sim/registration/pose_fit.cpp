@@ -1,9 +1,10 @@
 #include "sim/registration/pose_fit.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -150,10 +151,12 @@ class Fitter {
     HP_ASSIGN_OR_RETURN(out.pairs,
                         pair_up(shape_, points_, pose, pairing_at(reach), reach, context_));
     if (out.pairs.size() < kFewestPairs)
-      return fail(Code::kFailedPrecondition,
-                  "only " + std::to_string(out.pairs.size()) +
-                      " scan points lie near the surface. Check that it is in the camera's view",
-                  "TOO_FEW_POINTS");
+      return fail(
+          Code::kFailedPrecondition,
+          fmt::format(
+              "only {} scan points lie near the surface. Check that it is in the camera's view",
+              out.pairs.size()),
+          "TOO_FEW_POINTS");
     out.judged = judged(out.pairs, gate);
     out.centre = pose * shape_.centroid();
     out.normals = normal_equations(out.pairs, out.judged.weights, out.centre, length_mm_);
@@ -225,10 +228,8 @@ class Fitter {
 };
 
 std::string text(const Eigen::Vector3d& v, int digits) {
-  char buffer[96];
-  std::snprintf(buffer, sizeof buffer, "(%.*f, %.*f, %.*f)", digits, v.x() + 0.0, digits,
-                v.y() + 0.0, digits, v.z() + 0.0);
-  return buffer;
+  return fmt::format("({1:.{0}f}, {2:.{0}f}, {3:.{0}f})", digits, v.x() + 0.0, v.y() + 0.0,
+                     v.z() + 0.0);
 }
 
 }  // namespace

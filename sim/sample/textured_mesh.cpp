@@ -1,21 +1,11 @@
 #include "sim/sample/textured_mesh.h"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <charconv>
 #include <utility>
 
 namespace hydroprint::sample {
-namespace {
-
-/// Appends a number in fixed notation, independent of the locale.
-void append_number(std::string& text, double value, int digits) {
-  std::array<char, 32> buffer{};
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                          std::chars_format::fixed, digits);
-  text.append(1, ' ').append(buffer.data(), end);
-}
-
-}  // namespace
 
 int TexturedMesh::add_vertex(const Eigen::Vector3d& position_mm) {
   vertices_.push_back(position_mm);
@@ -46,24 +36,13 @@ mesh::Model TexturedMesh::to_model() const {
 }
 
 std::string TexturedMesh::to_obj(const std::string& name) const {
-  std::string text = "# Hydroprint sample, in mm\nmtllib ";
-  text.append(name).append(".mtl\nusemtl ").append(name).append("\n");
-  for (const auto& v : vertices_) {
-    text += 'v';
-    for (int k = 0; k < 3; ++k) append_number(text, v[k], 6);
-    text += '\n';
-  }
-  for (const auto& uv : uvs_) {
-    text += "vt";
-    for (int k = 0; k < 2; ++k) append_number(text, uv[k], 7);
-    text += '\n';
-  }
+  std::string text = fmt::format("# Hydroprint sample, in mm\nmtllib {0}.mtl\nusemtl {0}\n", name);
+  for (const auto& v : vertices_)
+    text += fmt::format("v {:.6f} {:.6f} {:.6f}\n", v.x(), v.y(), v.z());
+  for (const auto& uv : uvs_) text += fmt::format("vt {:.7f} {:.7f}\n", uv.x(), uv.y());
   for (const auto& face : faces_) {
     text += 'f';
-    for (const auto& corner : face) {
-      text.append(1, ' ').append(std::to_string(corner.vertex + 1));
-      text.append(1, '/').append(std::to_string(corner.uv + 1));
-    }
+    for (const auto& corner : face) text += fmt::format(" {}/{}", corner.vertex + 1, corner.uv + 1);
     text += '\n';
   }
   return text;

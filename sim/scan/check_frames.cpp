@@ -1,5 +1,7 @@
 #include "sim/scan/check_frames.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <limits>
@@ -17,17 +19,18 @@ Status check_frames(std::span<const DepthFrame> frames) {
     if (frame.width_px <= 0 || frame.width_px != first.width_px ||
         frame.height_px != first.height_px ||
         frame.depth_mm.size() != frame.index(0, frame.height_px))
-      return fail(Code::kInvalidArgument, "depth frame " + std::to_string(i) +
-                                              " differs in size. Record again with one setting");
+      return fail(Code::kInvalidArgument,
+                  fmt::format("depth frame {} differs in size. Record again with one setting", i));
   }
   const auto is_nothing = [](float depth_mm) { return depth_mm == 0; };
   if (std::all_of(first.depth_mm.begin(), first.depth_mm.end(), is_nothing)) return {};  // black
   const auto same = [&](const DepthFrame& frame) { return frame.depth_mm == first.depth_mm; };
   if (frames.size() > 1 && std::all_of(frames.begin() + 1, frames.end(), same))
-    return fail(Code::kFailedPrecondition,
-                "all " + std::to_string(frames.size()) +
-                    " depth frames are identical, so the camera is frozen. Reconnect it",
-                "CAMERA_FROZEN");
+    return fail(
+        Code::kFailedPrecondition,
+        fmt::format("all {} depth frames are identical, so the camera is frozen. Reconnect it",
+                    frames.size()),
+        "CAMERA_FROZEN");
   return {};
 }
 

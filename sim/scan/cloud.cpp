@@ -1,5 +1,7 @@
 #include "sim/scan/cloud.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <string>
@@ -100,10 +102,9 @@ Result<Cloud> make_cloud(const FusedFrame& fused, const Camera& camera, const De
   const Lens& lens = camera.lens;
   if (mean.width_px != lens.width_px || mean.height_px != lens.height_px)
     return fail(Code::kInvalidArgument,
-                "the lens model is for " + std::to_string(lens.width_px) + " x " +
-                    std::to_string(lens.height_px) + " pixels, the frames have " +
-                    std::to_string(mean.width_px) + " x " + std::to_string(mean.height_px) +
-                    ". Calibrate the camera in this mode");
+                fmt::format("the lens model is for {} x {} pixels, the frames have {} x {}. "
+                            "Calibrate the camera in this mode",
+                            lens.width_px, lens.height_px, mean.width_px, mean.height_px));
   HP_RETURN_IF_ERROR(camera.pattern.check_for(mean.width_px, mean.height_px, noise));
   const PointGrid grid = points_of(mean, camera, noise);
   std::vector<std::vector<ScanPoint>> rows(static_cast<std::size_t>(grid.height_px));

@@ -1,5 +1,7 @@
 #include "sim/scan/fixed_pattern.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 namespace hydroprint::scan {
@@ -20,13 +22,13 @@ Status FixedPattern::check_for(int image_width_px, int image_height_px,
       (width_px == image_width_px && height_px == image_height_px && patch_px == noise.patch_px))
     return {};
   const auto named = [](int width, int height, int patch) {
-    return std::to_string(width) + " x " + std::to_string(height) + " pixels in squares of " +
-           std::to_string(patch);
+    return fmt::format("{} x {} pixels in squares of {}", width, height, patch);
   };
   return fail(Code::kInvalidArgument,
-              "the camera's fixed pattern is for " + named(width_px, height_px, patch_px) +
-                  ", the frames have " + named(image_width_px, image_height_px, noise.patch_px) +
-                  ". Calibrate the camera in this mode");
+              fmt::format("the camera's fixed pattern is for {}, the frames have {}. Calibrate the "
+                          "camera in this mode",
+                          named(width_px, height_px, patch_px),
+                          named(image_width_px, image_height_px, noise.patch_px)));
 }
 
 void FixedPattern::set_shared(const Eigen::MatrixXd& derivatives) {

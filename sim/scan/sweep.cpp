@@ -1,9 +1,10 @@
 #include "sim/scan/sweep.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <optional>
 #include <string>
@@ -110,10 +111,9 @@ Pose foreseen(const std::vector<Pose>& X_WC, std::span<const double> times_s) {
 }
 
 Error told(Error error, const SweepTask& task, std::size_t frame) {
-  std::array<char, 80> where{};
-  std::snprintf(where.data(), where.size(), "depth frame %zu of %zu (at %.1f s): ", frame + 1,
-                task.frames.size(), task.times_s[frame] - task.times_s[0]);
-  error.message.insert(0, where.data());
+  error.message =
+      fmt::format("depth frame {} of {} (at {:.1f} s): {}", frame + 1, task.frames.size(),
+                  task.times_s[frame] - task.times_s[0], error.message);
   return error;
 }
 

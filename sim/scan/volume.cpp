@@ -1,5 +1,7 @@
 #include "sim/scan/volume.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -159,8 +161,9 @@ Status Volume::mark_surface(const DepthFrame& frame, const Optics& optics, const
         mark(X_WC * (z * optics.rays[i]));
       if (blocks_.size() > options_.most_blocks)
         return fail(Code::kResourceExhausted,
-                    "the scan is larger than " + std::to_string(options_.most_blocks) +
-                        " blocks of voxels. Keep the camera on the rig, or use larger voxels");
+                    fmt::format("the scan is larger than {} blocks of voxels. Keep the camera on "
+                                "the rig, or use larger voxels",
+                                options_.most_blocks));
     }
   }
   return {};

@@ -1,5 +1,7 @@
 #include "sim/sheet/sheet_step.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
@@ -213,9 +215,9 @@ Result<std::vector<Vector2d>> Step::solve() {
     }
     velocities = std::move(next);
   }
-  return fail(Code::kInternal, "velocity: a step of " + std::to_string(step_s_) +
-                                   " s of the viscous sheet with inertia does not converge. "
-                                   "Compute without inertia");
+  return fail(Code::kInternal, fmt::format("velocity: a step of {:.3g} s of the viscous sheet with "
+                                           "inertia does not converge. Compute without inertia",
+                                           step_s_));
 }
 
 }  // namespace

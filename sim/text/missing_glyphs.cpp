@@ -1,8 +1,8 @@
 #include "sim/text/missing_glyphs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
 #include "sim/base/check.h"
 #include "sim/text/utf8.h"
@@ -22,10 +22,8 @@ bool is_invisible(char32_t c) {
 /// "'漢' (U+6F22)"
 std::string name_of(char32_t c) {
   if (c == kReplacement) return "malformed UTF-8 or control characters";
-  std::array<char, 16> number{};
-  std::snprintf(number.data(), number.size(), "U+%04X", static_cast<unsigned>(c));
-  if (is_invisible(c)) return number.data();
-  return "'" + encode_utf8({&c, 1}) + "' (" + number.data() + ")";
+  const std::string number = fmt::format("U+{:04X}", static_cast<unsigned>(c));
+  return is_invisible(c) ? number : fmt::format("'{}' ({})", encode_utf8({&c, 1}), number);
 }
 
 }  // namespace
@@ -38,11 +36,12 @@ Warning missing_glyphs_warning(const std::vector<char32_t>& characters, const st
     names += name_of(characters[i]);
   }
   if (characters.size() > kMostNames) {
-    names += " and " + std::to_string(characters.size() - kMostNames) + " more";
+    names += fmt::format(" and {} more", characters.size() - kMostNames);
   }
   return {"text_glyph_missing",
-          "the font cannot draw " + names +
-              "; the replacement character (U+FFFD) is drawn instead. Use other characters",
+          fmt::format("the font cannot draw {}; the replacement character (U+FFFD) is drawn "
+                      "instead. Use other characters",
+                      names),
           where};
 }
 

@@ -6,6 +6,7 @@
 #include <CGAL/Delaunay_mesher_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -223,9 +224,9 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
     while (mesher.step_by_step_refine_mesh()) {
       if (triangulation.number_of_vertices() > most) {
         return fail(Code::kInternal,
-                    "film mesh at immersion " + std::to_string(line.immersion_mm) +
-                        " mm: needs more than " + std::to_string(most) +
-                        " vertices. Smooth the model, or dip another part of it",
+                    fmt::format("film mesh at immersion {:.2f} mm: needs more than {} vertices. "
+                                "Smooth the model, or dip another part of it",
+                                line.immersion_mm, most),
                     kMeshUnbounded);
       }
     }
@@ -233,8 +234,8 @@ Result<FilmMesh> mesh_film(const film::Outline& outline, const waterline::Waterl
     mesh.elimination_order = elimination_order(mesh);
     return mesh;
   } catch (const std::exception& error) {
-    return fail(Code::kInternal, "film mesh at immersion " + std::to_string(line.immersion_mm) +
-                                     " mm: " + error.what());
+    return fail(Code::kInternal, fmt::format("film mesh at immersion {:.2f} mm: {}",
+                                             line.immersion_mm, error.what()));
   }
 }
 

@@ -1,5 +1,6 @@
 #include "sim/base/process/progress_sinks.h"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -19,8 +20,8 @@ double rounded(double value, double per_unit) { return std::round(value * per_un
 
 std::string time_left(double eta_s) {
   const long seconds = std::lround(eta_s);
-  if (seconds < 100) return std::to_string(seconds) + " s left";
-  return std::to_string((seconds + 30) / 60) + " min left";
+  if (seconds < 100) return fmt::format("{} s left", seconds);
+  return fmt::format("{} min left", (seconds + 30) / 60);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "sim/mesh/read/file.h"
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <fstream>
 #include <system_error>
@@ -42,11 +44,16 @@ tl::unexpected<Error> bad_input(const std::filesystem::path& path, std::string_v
   return fail(Code::kInvalidArgument, std::move(message));
 }
 
+tl::unexpected<Error> damaged(const std::filesystem::path& path, std::string_view place,
+                              std::string_view what) {
+  return bad_input(path, place, fmt::format("{}; the file is damaged: export it again", what));
+}
+
 Status check_face_count(std::size_t faces, const std::filesystem::path& path) {
   if (faces == 0) return bad_input(path, "", "there are no faces; export a mesh");
   if (faces > kMaxFaces)
     return bad_input(path, "",
-                     "has more than " + std::to_string(kMaxFaces) + " faces; simplify the model");
+                     fmt::format("has more than {} faces; simplify the model", kMaxFaces));
   return {};
 }
 

@@ -16,10 +16,11 @@ namespace hydroprint::mesh {
 [[nodiscard]] tl::unexpected<Error> bad_input(const std::filesystem::path& path,
                                               std::string_view place, std::string_view what);
 
+/// Same as bad_input(), with the remedy to export the file again.
+[[nodiscard]] tl::unexpected<Error> damaged(const std::filesystem::path& path,
+                                            std::string_view place, std::string_view what);
+
 /// Refuses zero faces and more than kMaxFaces (read_model.h), before memory is allocated for them.
 [[nodiscard]] Status check_face_count(std::size_t faces, const std::filesystem::path& path);
-
-/// Remedy for damaged files, used by all readers.
-inline constexpr std::string_view kExportAgain = "; the file is damaged: export it again";
 
 }  // namespace hydroprint::mesh

@@ -1,5 +1,7 @@
 #include "sim/mesh/read/gltf_check.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -18,12 +20,10 @@ constexpr int kMaxDepth = 64;
 Result<std::string_view> json_text(std::string_view bytes, const std::filesystem::path& path) {
   if (!bytes.starts_with("glTF")) return bytes;
   std::array<std::uint32_t, 4> words{};  // version, length, JSON length, JSON magic
-  if (bytes.size() < 20)
-    return bad_input(path, "header", "is cut short" + std::string(kExportAgain));
+  if (bytes.size() < 20) return damaged(path, "header", "is cut short");
   std::memcpy(words.data(), bytes.data() + 4, sizeof words);
   if (words[1] > bytes.size() || words[2] > bytes.size() - 20)
-    return bad_input(path, "header",
-                     "announces more bytes than the file has" + std::string(kExportAgain));
+    return damaged(path, "header", "announces more bytes than the file has");
   return bytes.substr(20, words[2]);
 }
 
@@ -47,8 +47,7 @@ Status check_images(const json& root, const std::filesystem::path& path) {
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (!images[i].is_object() || !images[i].contains("bufferView")) continue;
     const auto bad = [&] {
-      return bad_input(path, "image " + std::to_string(i),
-                       "lies outside its buffer" + std::string(kExportAgain));
+      return damaged(path, fmt::format("image {}", i), "lies outside its buffer");
     };
     const auto v = number(images[i], "bufferView", kNone);
     if (v >= views.size() || !views[v].is_object()) return bad();
@@ -80,8 +79,7 @@ Status check_gltf(std::string_view bytes, const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(const std::string_view text, json_text(bytes, path));
   const auto root = parse_json(text, {text.size(), kMaxDepth});
   if (!root) return bad_input(path, "", "its JSON: " + root.error().message);
-  if (!root->is_object())
-    return bad_input(path, "", "is not valid glTF JSON" + std::string(kExportAgain));
+  if (!root->is_object()) return damaged(path, "", "is not valid glTF JSON");
   HP_RETURN_IF_ERROR(check_extensions(*root, path));
   return check_images(*root, path);
 }

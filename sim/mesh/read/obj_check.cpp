@@ -1,5 +1,7 @@
 #include "sim/mesh/read/obj_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -47,8 +49,12 @@ class ObjChecker {
   }
 
   [[nodiscard]] tl::unexpected<Error> bad(std::size_t line, std::string_view what) const {
-    return bad_input(path_, "line " + std::to_string(line), what);
+    return bad_input(path_, place(line), what);
   }
+  [[nodiscard]] tl::unexpected<Error> broken(std::size_t line, std::string_view what) const {
+    return damaged(path_, place(line), what);
+  }
+  static std::string place(std::size_t line) { return fmt::format("line {}", line); }
 
   Status check(std::string_view line) {
     if (line.find('\0') != line.npos)
@@ -66,8 +72,7 @@ class ObjChecker {
     std::size_t count = 0;
     for (auto word = next_word(line); !word.empty() && word[0] != '#'; word = next_word(line)) {
       const auto number = parse_number(word);
-      if (!number)
-        return bad(line_, quoted(word) + " is not a finite number" + std::string(kExportAgain));
+      if (!number) return broken(line_, quoted(word) + " is not a finite number");
       if (count < values.size()) values[count] = *number;
       ++count;
     }
@@ -77,8 +82,7 @@ class ObjChecker {
   Status check_vertex(std::string_view line) {
     std::array<double, 8> values{};
     HP_ASSIGN_OR_RETURN(const std::size_t count, numbers(line, values));
-    if (count < 3)
-      return bad(line_, "a vertex needs three coordinates" + std::string(kExportAgain));
+    if (count < 3) return broken(line_, "a vertex needs three coordinates");
     ++facts_.vertices;
     if (count == 6 || count == 7)
       facts_.vertex_colours.push_back(
@@ -89,7 +93,7 @@ class ObjChecker {
   Status check_texture_coordinate(std::string_view line) {
     std::array<double, 8> values{};
     HP_ASSIGN_OR_RETURN(const std::size_t count, numbers(line, values));
-    if (count < 1) return bad(line_, "a texture coordinate is empty" + std::string(kExportAgain));
+    if (count < 1) return broken(line_, "a texture coordinate is empty");
     ++facts_.texture_coordinates;
     return {};
   }
@@ -100,8 +104,7 @@ class ObjChecker {
       HP_RETURN_IF_ERROR(check_corner(word));
       ++corners;
     }
-    if (corners < 3)
-      return bad(line_, "a face has fewer than three corners" + std::string(kExportAgain));
+    if (corners < 3) return broken(line_, "a face has fewer than three corners");
     facts_.triangles += corners - 2;
     return {};
   }
@@ -133,9 +136,8 @@ class ObjChecker {
 
   [[nodiscard]] tl::unexpected<Error> out_of_range(std::size_t line, std::string_view word,
                                                    std::size_t count, std::string_view what) const {
-    std::string text = "a face uses ";
-    text.append(what).append(" ").append(quoted(word)).append(", but there are ");
-    return bad(line, text.append(std::to_string(count)).append(kExportAgain));
+    return broken(line,
+                  fmt::format("a face uses {} {}, but there are {}", what, quoted(word), count));
   }
 
   std::string_view rest_;

@@ -1,5 +1,7 @@
 #include "sim/mesh/read/ply_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -63,13 +65,11 @@ class PlyChecker {
   enum class Format { kAscii, kLittle, kBig };
 
   [[nodiscard]] tl::unexpected<Error> bad_header(std::string_view what) const {
-    return bad_input(path_, "header line " + std::to_string(line_),
-                     std::string(what) + std::string(kExportAgain));
+    return damaged(path_, fmt::format("header line {}", line_), what);
   }
   [[nodiscard]] tl::unexpected<Error> bad_item(const Element& element, std::uint64_t item,
                                                std::string_view what) const {
-    return bad_input(path_, element.name + " " + std::to_string(item),
-                     std::string(what) + std::string(kExportAgain));
+    return damaged(path_, fmt::format("{} {}", element.name, item), what);
   }
 
   std::string_view next_line() {
@@ -184,9 +184,9 @@ class PlyChecker {
       least += format_ == Format::kAscii ? 2 : p.count ? p.count->bytes : p.type.bytes;
     least = std::max<std::uint64_t>(least, 1);
     if (element.count <= (rest_.size() + 1) / least) return {};
-    return bad_input(path_, "header",
-                     "announces " + std::to_string(element.count) + " elements \"" + element.name +
-                         "\", more than the file has room for" + std::string(kExportAgain));
+    return damaged(path_, "header",
+                   fmt::format("announces {} elements \"{}\", more than the file has room for",
+                               element.count, element.name));
   }
 
   Status walk(const Element& element, const Context& context) {
@@ -215,7 +215,7 @@ class PlyChecker {
                         "is cut short or contains a value that is not a finite number");
       if (property.is_corners && !(*value >= 0 && *value < static_cast<double>(facts_.vertices)))
         return bad_item(element, item,
-                        "uses a vertex out of range; there are " + std::to_string(facts_.vertices));
+                        fmt::format("uses a vertex out of range; there are {}", facts_.vertices));
     }
     return {};
   }

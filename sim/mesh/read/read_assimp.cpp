@@ -1,5 +1,6 @@
 #include <assimp/BaseImporter.h>
 #include <assimp/scene.h>
+#include <fmt/format.h>
 
 #include <assimp/Importer.hpp>
 #include <exception>
@@ -41,7 +42,7 @@ Status append(const aiMesh& mesh, const std::filesystem::path& path, Model& mode
     polygon.clear();
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
       if (face.mIndices[k] >= mesh.mNumVertices)
-        return bad_input(path, "face " + std::to_string(f), "uses a vertex out of range");
+        return bad_input(path, fmt::format("face {}", f), "uses a vertex out of range");
       polygon.push_back(shift + static_cast<int>(face.mIndices[k]));
     }
     if (polygon.size() < 3) continue;
@@ -95,7 +96,7 @@ Result<Model> read_ply(std::string bytes, const std::filesystem::path& path,
   HP_RETURN_IF_ERROR(check_face_count(facts.faces, path));
   HP_ASSIGN_OR_RETURN(Model model, import(bytes, path, "ply"));
   if (model.vertices.size() != facts.vertices)
-    return bad_input(path, "", "the vertices could not all be read" + std::string(kExportAgain));
+    return damaged(path, "", "the vertices could not all be read");
   if (facts.has_face_uvs) {
     model.corner_uvs.clear();
     model.warnings.push_back({"face_uvs_ignored",

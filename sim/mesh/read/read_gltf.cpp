@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <tiny_gltf.h>
 
 #include <Eigen/Geometry>
@@ -87,22 +88,24 @@ class GltfImporter {
            "some parts have no texture coordinates: they take the colour of the texture's "
            "lower left corner");
     if (skinned_ > 0)
-      warn("skin_ignored", std::to_string(skinned_) +
-                               " parts are deformed by a skeleton, which is not supported: they "
-                               "are used in their modelled shape, at their node's position");
+      warn("skin_ignored",
+           fmt::format("{} parts are deformed by a skeleton, which is not supported: they are used "
+                       "in their modelled shape, at their node's position",
+                       skinned_));
     if (morphing_ > 0)
-      warn("morph_ignored", std::to_string(morphing_) +
-                                " parts have morph targets, which are not supported: their base "
-                                "shape is used");
+      warn("morph_ignored",
+           fmt::format(
+               "{} parts have morph targets, which are not supported: their base shape is used",
+               morphing_));
     if (skipped_ > 0)
-      warn("not_a_surface", std::to_string(skipped_) + " sets of points or lines were left out");
+      warn("not_a_surface", fmt::format("{} sets of points or lines were left out", skipped_));
     if (model_.materials.empty()) model_.triangle_material.clear();
     return std::move(model_);
   }
 
  private:
   [[nodiscard]] tl::unexpected<Error> bad(const std::string& place, std::string_view what) const {
-    return bad_input(model_.path, place, std::string(what) + std::string(kExportAgain));
+    return damaged(model_.path, place, what);
   }
 
   void warn(std::string code, std::string message) {
@@ -125,7 +128,7 @@ class GltfImporter {
   }
 
   Status visit(int index, const Eigen::Affine3d& parent, int depth) {
-    const std::string place = "node " + std::to_string(index);
+    const std::string place = fmt::format("node {}", index);
     const auto* node = entry(source_.nodes, index);
     if (node == nullptr) return bad(place, "does not exist");
     if (depth > kMaxDepth || ++visited_ > kMaxNodes) return bad(place, "contains itself");
@@ -140,11 +143,10 @@ class GltfImporter {
 
   Status add_mesh(int index, const Eigen::Affine3d& transform) {
     const auto* mesh = entry(source_.meshes, index);
-    if (mesh == nullptr) return bad("mesh " + std::to_string(index), "does not exist");
+    if (mesh == nullptr) return bad(fmt::format("mesh {}", index), "does not exist");
     for (std::size_t i = 0; i < mesh->primitives.size(); ++i)
-      HP_RETURN_IF_ERROR(
-          add_primitive(mesh->primitives[i], transform,
-                        "mesh " + std::to_string(index) + " primitive " + std::to_string(i)));
+      HP_RETURN_IF_ERROR(add_primitive(mesh->primitives[i], transform,
+                                       fmt::format("mesh {} primitive {}", index, i)));
     return {};
   }
 
@@ -165,7 +167,7 @@ class GltfImporter {
     HP_ASSIGN_OR_RETURN(const auto uvs, read_uvs(primitive, place));
     for (auto c : corners) {
       if (c.minCoeff() < 0 || c.maxCoeff() >= count)
-        return bad(place, "uses a vertex out of range; there are " + std::to_string(count));
+        return bad(place, fmt::format("uses a vertex out of range; there are {}", count));
       if (mirrored) std::swap(c[1], c[2]);
       std::array<Eigen::Vector2f, 3> corner_uvs;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -236,8 +238,7 @@ class GltfImporter {
     for (std::size_t i = 0; i < accessor->size(); ++i) {
       const auto p = accessor->values(i);
       const Eigen::Vector3d v = transform * Eigen::Vector3d(p[0], p[1], p[2]);
-      if (!v.allFinite())
-        return bad(place, "vertex " + std::to_string(i) + " is not a finite number");
+      if (!v.allFinite()) return bad(place, fmt::format("vertex {} is not a finite number", i));
       model_.vertices.push_back(v);
       const auto c =
           colours && i < colours->size() ? colours->values(i) : std::array<double, 4>{1, 1, 1, 1};
@@ -252,7 +253,7 @@ class GltfImporter {
     const auto* material = entry(source_.materials, primitive.material);
     const int set =
         material == nullptr ? 0 : material->pbrMetallicRoughness.baseColorTexture.texCoord;
-    const std::string name = "TEXCOORD_" + std::to_string(set);
+    const std::string name = fmt::format("TEXCOORD_{}", set);
     if (!primitive.attributes.contains(name)) return result;
     const auto accessor = attribute(primitive, name);
     if (!accessor || accessor->components() != 2)
@@ -262,7 +263,7 @@ class GltfImporter {
       const auto values = accessor->values(i);
       const Eigen::Vector2d uv = transform * Eigen::Vector2d(values[0], values[1]);
       if (!uv.allFinite())
-        return bad(place, "texture coordinate " + std::to_string(i) + " is not a finite number");
+        return bad(place, fmt::format("texture coordinate {} is not a finite number", i));
       result.emplace_back(static_cast<float>(uv.x()), static_cast<float>(1 - uv.y()));  // v up
     }
     return result;
@@ -321,7 +322,7 @@ class GltfImporter {
       material.wrap_v = wrap_of(sampler->wrapT);
     }
     if (!image->image.empty()) {
-      material.texture = model_.path.string() + "#" + std::to_string(texture.source);
+      material.texture = fmt::format("{}#{}", model_.path.string(), texture.source);
       material.texture_bytes = image->image;
     } else if (!image->uri.empty()) {
       material.texture = resolve_texture(model_.path.parent_path(), unescape(image->uri));
@@ -400,7 +401,7 @@ Result<Model> read_gltf(std::string bytes, const std::filesystem::path& path,
                                         folder.string())
           : loader.LoadASCIIFromString(&source, &error, &warning, bytes.data(), size,
                                        folder.string());
-  if (!loaded) return bad_input(path, "", error.substr(0, 200) + std::string(kExportAgain));
+  if (!loaded) return damaged(path, "", error.substr(0, 200));
   return GltfImporter(source, path).run();
 } catch (const std::bad_alloc&) {
   throw;  // not a fault of the file

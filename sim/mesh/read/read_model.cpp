@@ -1,5 +1,7 @@
 #include "sim/mesh/read/read_model.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -35,17 +37,16 @@ Status scale_vertices(Model& model, double scale) {
     auto& v = model.vertices[i];
     v *= scale;
     if (!v.allFinite())
-      return bad_input(model.path, "vertex " + std::to_string(i),
-                       "a coordinate is not a finite number" + std::string(kExportAgain));
+      return damaged(model.path, fmt::format("vertex {}", i),
+                     "a coordinate is not a finite number");
     if (v.cwiseAbs().maxCoeff() > kMaxCoordinateMm)
-      return bad_input(model.path, "vertex " + std::to_string(i),
+      return bad_input(model.path, fmt::format("vertex {}", i),
                        "lies more than 1 km from the origin; give a smaller --scale");
   }
   for (const auto& uvs : model.corner_uvs)
     for (const auto& uv : uvs)
       if (!uv.allFinite())
-        return bad_input(model.path, "",
-                         "a texture coordinate is not a finite number" + std::string(kExportAgain));
+        return damaged(model.path, "", "a texture coordinate is not a finite number");
   return {};
 }
 
@@ -53,9 +54,8 @@ Status check_indices(const Model& model) {
   const int count = static_cast<int>(model.vertices.size());
   for (std::size_t t = 0; t < model.triangles.size(); ++t)
     if (model.triangles[t].minCoeff() < 0 || model.triangles[t].maxCoeff() >= count)
-      return bad_input(model.path, "triangle " + std::to_string(t),
-                       "uses a vertex out of range; there are " + std::to_string(count) +
-                           std::string(kExportAgain));
+      return damaged(model.path, fmt::format("triangle {}", t),
+                     fmt::format("uses a vertex out of range; there are {}", count));
   return {};
 }
 
@@ -80,15 +80,13 @@ Status drop_degenerate(Model& model) {
     dropped += kept[i] ? 0 : 1;
   }
   if (dropped == kept.size())
-    return bad_input(model.path, "",
-                     "none of its " + std::to_string(dropped) + " faces has an area" +
-                         std::string(kExportAgain));
+    return damaged(model.path, "", fmt::format("none of its {} faces has an area", dropped));
   if (dropped == 0) return {};
   keep(model.triangles, kept);
   keep(model.corner_uvs, kept);
   keep(model.triangle_material, kept);
   model.warnings.push_back({"zero_area_faces",
-                            std::to_string(dropped) + " faces without area were dropped",
+                            fmt::format("{} faces without area were dropped", dropped),
                             model.path.string()});
   return {};
 }

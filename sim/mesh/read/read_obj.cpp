@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
 #include <exception>
@@ -97,7 +98,7 @@ class ObjImporter {
     std::istream stream(&buffer);
     if (!tinyobj::LoadObjWithCallback(stream, callback, this) ||
         model_.vertices.size() != facts_.vertices || uvs_.size() != facts_.texture_coordinates)
-      return bad_input(model_.path, "", "could not be read whole" + std::string(kExportAgain));
+      return damaged(model_.path, "", "could not be read whole");
     add_faces();
     finish();
     return std::move(model_);
@@ -231,9 +232,9 @@ class ObjImporter {
     if (without_uvs_ == model_.triangles.size())
       model_.corner_uvs.clear();
     else if (without_uvs_ > 0)
-      warn("faces_without_uv", std::to_string(without_uvs_) +
-                                   " faces have no texture coordinates: " +
-                                   "they take the colour of the texture's lower left corner");
+      warn("faces_without_uv", fmt::format("{} faces have no texture coordinates: they take the "
+                                           "colour of the texture's lower left corner",
+                                           without_uvs_));
     if (model_.materials.empty())
       model_.triangle_material.clear();
     else

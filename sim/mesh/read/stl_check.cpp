@@ -1,5 +1,7 @@
 #include "sim/mesh/read/stl_check.h"
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -25,21 +27,17 @@ T read_at(std::string_view bytes, std::size_t at) {
 }
 
 Result<std::size_t> check_binary(std::string_view bytes, const std::filesystem::path& path) {
-  if (bytes.size() < kHeaderBytes)
-    return bad_input(path, "header", "the file is too short" + std::string(kExportAgain));
+  if (bytes.size() < kHeaderBytes) return damaged(path, "header", "the file is too short");
   const std::uint64_t facets = read_at<std::uint32_t>(bytes, 80);
   const std::uint64_t room = (bytes.size() - kHeaderBytes) / kFacetBytes;
   if (facets == 0) return bad_input(path, "header", "there are no facets; export a mesh");
   if (bytes.size() != kHeaderBytes + kFacetBytes * facets)
-    return bad_input(path, "header",
-                     "announces " + std::to_string(facets) +
-                         " facets, but the file has bytes for " + std::to_string(room) +
-                         std::string(kExportAgain));
+    return damaged(path, "header",
+                   fmt::format("announces {} facets, but the file has bytes for {}", facets, room));
   for (std::uint64_t f = 0; f < facets; ++f)
     for (std::size_t k = 3; k < 12; ++k)
       if (!std::isfinite(read_at<float>(bytes, kHeaderBytes + kFacetBytes * f + 4 * k)))
-        return bad_input(path, "facet " + std::to_string(f),
-                         "a coordinate is not a finite number" + std::string(kExportAgain));
+        return damaged(path, fmt::format("facet {}", f), "a coordinate is not a finite number");
   return facets;
 }
 
@@ -71,8 +69,7 @@ class AsciiChecker {
 
  private:
   [[nodiscard]] tl::unexpected<Error> bad(std::string_view what) const {
-    return bad_input(path_, "line " + std::to_string(line_),
-                     std::string(what) + std::string(kExportAgain));
+    return damaged(path_, fmt::format("line {}", line_), what);
   }
 
   std::string_view next_line() {

@@ -1,5 +1,7 @@
 #include "sim/registration/camera/board_views.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -130,8 +132,10 @@ Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud, const Shap
 
 std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens) {
   if (views.size() < kFewestViews)
-    return "the board was found in " + std::to_string(views.size()) +
-           " views. Record at least five, with the whole board in view and clear of the background";
+    return fmt::format(
+        "the board was found in {} views. Record at least five, with the whole board in view and "
+        "clear of the background",
+        views.size());
   std::set<int> cells;
   double tilt = 0, nearest = 1e9, farthest = 0;
   for (const BoardView& a : views) {

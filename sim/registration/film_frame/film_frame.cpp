@@ -1,8 +1,9 @@
 #include "sim/registration/film_frame/film_frame.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "sim/registration/film_frame/agreement.h"
@@ -19,12 +20,6 @@ constexpr double kSight_mm = 8;
 constexpr double kHiddenShare = 0.5;
 constexpr double kMoved_mm = 40;  ///< a marker found this near to a place belongs there
 constexpr double kWeak_mm = 5;
-
-std::string in_mm(double value) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.1f mm", value);
-  return buffer;
-}
 
 /// The pyramids that are used, at their places in the layout, as one body in the film frame.
 Shape body_of(const MarkerLayout& layout, const Matching& matching) {
@@ -68,7 +63,7 @@ std::string reason(const Marker& marker, const MarkerLayout& layout,
       continue;
     const double off = (found[i].place_C() - X_CM.translation()).norm();
     if (off < kMoved_mm)
-      return "it stands " + in_mm(off) + " from its place. Move it back to its mark";
+      return fmt::format("it stands {:.1f} mm from its place. Move it back to its mark", off);
   }
   const Shape shape(pyramid(layout.width_mm, layout.height_mm));
   const Sight sight = look_at(visible(shape, X_CM, kSightSamples), depth, lens, kSight_mm);
@@ -116,9 +111,10 @@ tl::unexpected<Error> too_few(const std::string& what) {
 tl::unexpected<Error> no_match(const std::vector<FoundMarker>& found, const MarkerLayout& layout,
                                const Pose& nominal_CF) {
   if (found.size() >= kFewestMarkers)
-    return too_few(std::to_string(found.size()) +
-                   " markers are seen, but their distances differ from the configuration. "
-                   "Move them back to their marks");
+    return too_few(
+        fmt::format("{} markers are seen, but their distances differ from the configuration. Move "
+                    "them back to their marks",
+                    found.size()));
   std::vector<bool> is_seen(layout.markers.size());
   for (const FoundMarker& f : found) {
     const auto distance = [&](const Marker& marker) {
@@ -129,7 +125,7 @@ tl::unexpected<Error> no_match(const std::vector<FoundMarker>& found, const Mark
         [&](const Marker& a, const Marker& b) { return distance(a) < distance(b); });
     is_seen[static_cast<std::size_t>(nearest - layout.markers.begin())] = true;
   }
-  std::string text = "only " + std::to_string(found.size()) + " of at least three markers are seen";
+  std::string text = fmt::format("only {} of at least three markers are seen", found.size());
   for (std::size_t a = 0; a < is_seen.size(); ++a)
     if (!is_seen[a])
       text += "; \"" + layout.markers[a].name + "\" may be hidden, knocked over, dirty or missing";

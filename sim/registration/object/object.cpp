@@ -1,12 +1,14 @@
 #include "sim/registration/object/object.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <span>
 #include <unordered_map>
 #include <utility>
 
+#include "sim/base/number_text.h"
 #include "sim/registration/object/units.h"
 #include "sim/registration/pairs.h"
 #include "sim/registration/segments.h"
@@ -169,17 +171,11 @@ class Finder {
   const Context& context_;
 };
 
-std::string percent(double share) {
-  return std::to_string(static_cast<int>(std::lround(100 * share))) + " %";
-}
-
 std::string how_wrong(const Candidate& c) {
-  char buffer[160];
-  std::snprintf(buffer, sizeof buffer,
-                "at best %.0f %% of the scan lies on the mesh, with a misfit of %.1f mm (rms), and "
-                "the camera sees through %.0f %% of the mesh",
-                100 * c.on_share, c.misfit_mm, 100 * c.sight.through);
-  return buffer;
+  return fmt::format(
+      "at best {} of the scan lies on the mesh, with a misfit of {:.1f} mm (rms), and the camera "
+      "sees through {} of the mesh",
+      percent(c.on_share), c.misfit_mm, percent(c.sight.through));
 }
 
 /// Transforms the pose into the film frame. Adds the uncertainty of that frame and of the camera.

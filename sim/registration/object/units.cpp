@@ -1,10 +1,13 @@
 #include "sim/registration/object/units.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
+
+#include "sim/base/number_text.h"
 
 namespace hydroprint::registration {
 namespace {
@@ -37,19 +40,6 @@ double across(const std::vector<Eigen::Vector3d>& points) {
   return far;
 }
 
-std::string sizes(double mesh_mm, double scan_mm) {
-  char buffer[120];
-  std::snprintf(buffer, sizeof buffer, "the mesh is %.3g mm across, the object in view %.3g mm",
-                mesh_mm, scan_mm);
-  return buffer;
-}
-
-std::string number(double x) {
-  char buffer[32];
-  std::snprintf(buffer, sizeof buffer, "%.6g", x);
-  return buffer;
-}
-
 }  // namespace
 
 Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points) {
@@ -75,16 +65,17 @@ Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points) {
       too_large = large;
     }
   }
-  const std::string what = sizes(mesh_mm, scan_mm);
+  const std::string what = fmt::format("the mesh is {} mm across, the object in view {} mm",
+                                       three_digits(mesh_mm), three_digits(scan_mm));
   if (best == nullptr)
     return fail(Code::kFailedPrecondition,
                 what + ". Give the mesh of the object in the gripper, all of it",
                 "NOT_THIS_OBJECT");
-  const std::string remedy = too_large ? ". Its lengths were read as " + std::string(best->name) +
-                                             ". Give a scale " + number(best->mm) + " times smaller"
-                                       : ". Its file seems to be in " + std::string(best->name) +
-                                             ". Give a scale " + number(best->mm) + " times larger";
-  return fail(Code::kFailedPrecondition, what + remedy, "WRONG_UNITS");
+  return fail(Code::kFailedPrecondition,
+              fmt::format("{}. {} {}. Give a scale {} times {}", what,
+                          too_large ? "Its lengths were read as" : "Its file seems to be in",
+                          best->name, best->mm, too_large ? "smaller" : "larger"),
+              "WRONG_UNITS");
 }
 
 }  // namespace hydroprint::registration

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+namespace hydroprint {
+
+/// A number for people: three digits, or all digits before the point: "0.123", "12.3", "1234".
+[[nodiscard]] std::string three_digits(double value);
+
+/// A share for people: "12.3 %".
+[[nodiscard]] std::string percent(double share);
+
+/// The shortest text that reads back as the same number, for files: "0.1", "1e+05".
+[[nodiscard]] std::string shortest_text(double value);
+
+}  // namespace hydroprint
