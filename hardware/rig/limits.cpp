@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+#include <utility>
 
 namespace hydroprint::rig {
 namespace {
@@ -18,15 +18,11 @@ double watchdog_s(const drive::DriveProfile& profile) {
 }
 
 Status refuse(const std::string& axis, const char* unit, double value, Range range) {
-  Error error{Code::kOutOfRange,
-              fmt::format("{}: {:g} {} is outside {:g} to {:g} {}; choose a value in this range",
-                          axis, value, unit, range.low_mm, range.high_mm, unit),
-              "LIMIT_EXCEEDED",
-              {{"axis", axis},
-               {"min", fmt::format("{:g}", range.low_mm)},
-               {"max", fmt::format("{:g}", range.high_mm)},
-               {"value", fmt::format("{:g}", value)}}};
-  return tl::unexpected(std::move(error));
+  return limit_exceeded(
+      axis,
+      fmt::format("{}: {:g} {} is outside {:g} to {:g} {}; choose a value in this range", axis,
+                  value, unit, range.low_mm, range.high_mm, unit),
+      value, range);
 }
 
 }  // namespace
@@ -45,6 +41,17 @@ double stopping_time_s(const RigConfig& config, const drive::DriveProfile& profi
 
 Range soft_limits(const RigConfig& config) {
   return {config.end_low_mm + config.keep_out_mm, config.end_high_mm - config.keep_out_mm};
+}
+
+tl::unexpected<Error> limit_exceeded(const std::string& axis, std::string message, double value,
+                                     Range range) {
+  return tl::unexpected(Error{Code::kOutOfRange,
+                              std::move(message),
+                              "LIMIT_EXCEEDED",
+                              {{"axis", axis},
+                               {"min", fmt::format("{:g}", range.low_mm)},
+                               {"max", fmt::format("{:g}", range.high_mm)},
+                               {"value", fmt::format("{:g}", value)}}});
 }
 
 Status check_target(const RigConfig& config, double target_mm) {
