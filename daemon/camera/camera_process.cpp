@@ -1,5 +1,6 @@
 #include "daemon/camera/camera_process.h"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
 #include <sys/wait.h>
@@ -27,7 +28,7 @@ Launch launch_of(const CameraConfig& camera, const std::filesystem::path& folder
   out.program = camera.program;
   out.inputs = folder / "in";
   out.work = folder / "work";
-  out.arguments = {"--live", "--json", "--patience-s=" + std::to_string(camera.patience_s)};
+  out.arguments = {"--live", "--json", fmt::format("--patience-s={}", camera.patience_s)};
   if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
   out.limits = {0, kDay_s, kLargestPicture};
   out.confined = false;  // needs the camera, and reads nothing else

@@ -1,9 +1,9 @@
 #include "daemon/camera/capture_executor.h"
 
+#include <fmt/format.h>
 #include <poll.h>
 
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "daemon/platform/durable_file.h"
@@ -20,21 +20,15 @@ constexpr int kMargin_s = 60;
 constexpr std::int64_t kLargestFile = 64 << 20;
 constexpr double kDefaultSeconds = 2;
 
-std::string seconds_text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 Launch plan(const CameraConfig& camera, const Layout& layout, std::int64_t job, double seconds) {
   Launch out;
   out.program = camera.program;
   out.inputs = layout.run_inputs(job);
   out.work = layout.run_work(job);
-  out.arguments = {"--seconds=" + seconds_text(seconds),
-                   "--patience-s=" + std::to_string(camera.patience_s),
+  out.arguments = {fmt::format("--seconds={:g}", seconds),
+                   fmt::format("--patience-s={}", camera.patience_s),
                    "--out=" + layout.run_out(job).string(),
-                   "--progress-fd=" + std::to_string(kProgressFd), "--json"};
+                   fmt::format("--progress-fd={}", kProgressFd), "--json"};
   if (camera.device != "any") out.arguments.push_back("--device=" + camera.device);
   out.limits = {0, static_cast<std::int64_t>(10 * (seconds + kMargin_s)), kLargestFile};
   out.confined = false;  // needs the camera, and reads nothing else

@@ -1,11 +1,13 @@
 #include "daemon/jobs/spec_fields.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace hydroprint::daemon {
 
 tl::unexpected<Error> taken_from(const std::string& field, const std::string& source) {
-  return invalid_field(field, "is taken from " + source + "; leave one of the two out");
+  return invalid_field(field, fmt::format("is taken from {}; leave one of the two out", source));
 }
 
 Status check_frames(const std::string& kind, const InputFiles& frames, int most_views) {
@@ -16,7 +18,7 @@ Status check_frames(const std::string& kind, const InputFiles& frames, int most_
                          "hydroprint-capture writes");
   }
   if (views <= most_views) return {};
-  return invalid_field(kind + ".frames", "have more views than " + std::to_string(most_views));
+  return invalid_field(kind + ".frames", fmt::format("have more views than {}", most_views));
 }
 
 int count_views(const InputFiles& frames) {
