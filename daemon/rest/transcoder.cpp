@@ -60,9 +60,7 @@ Status read_body(std::string_view body, const Route& route, pb::Message& request
     std::erase_if(rest, [](char c) { return is_blank({&c, 1}); });
     if (rest == "{}") return {};
     return fail(Code::kInvalidArgument,
-                "request body: must be empty; put the parameters "
-                "in the query",
-                "JSON_INVALID");
+                "request body: must be empty; put the parameters in the query", "JSON_INVALID");
   }
   if (route.body == Body::kField) {
     return read_json(body, *request.GetReflection()->MutableMessage(&request, route.body_field));
