@@ -1,6 +1,7 @@
 #include "client/artifacts.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -16,9 +17,10 @@ namespace {
 using ArtifactStub = v1::ArtifactService::Stub;
 
 tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int error_number) {
-  return fail(error_number == ENOSPC ? Code::kResourceExhausted : Code::kPermissionDenied,
-              path.string() + ": cannot be written (" + std::strerror(error_number) +
-                  "); choose another folder with --out or make room");
+  return fail(
+      error_number == ENOSPC ? Code::kResourceExhausted : Code::kPermissionDenied,
+      fmt::format("{}: cannot be written ({}); choose another folder with --out or make room",
+                  path.string(), std::strerror(error_number)));
 }
 
 // Appends bytes to the hidden file that holds an incomplete download.
@@ -105,9 +107,9 @@ class Downloader {
   Status take(const v1::DownloadArtifactResponse& piece) {
     const auto size = static_cast<std::int64_t>(piece.data().size());
     if (piece.offset() != done_ || done_ + size > artifact_.size_bytes())
-      return fail(Code::kDataLoss, artifact_.name() + ": byte " + std::to_string(piece.offset()) +
-                                       " arrived, but byte " + std::to_string(done_) +
-                                       " was expected; download it again");
+      return fail(Code::kDataLoss,
+                  fmt::format("{}: byte {} arrived, but byte {} was expected; download it again",
+                              artifact_.name(), piece.offset(), done_));
     HP_RETURN_IF_ERROR(file_.append(piece.data()));
     done_ += size;
     if (progress_) progress_(done_, artifact_.size_bytes());

@@ -1,5 +1,6 @@
 #include "daemon/daemon.h"
 
+#include <fmt/format.h>
 #include <sched.h>
 
 #include <algorithm>
@@ -138,9 +139,9 @@ Status Daemon::open_certificate(const Config& config) {
   if (is_within_fence(config.server_tls_key, config.workers_program)) {
     log(LogLevel::kWarning, "key_within_fence",
         {{"message",
-          config.server_tls_key +
-              ": workers, which read untrusted files, can read the TLS key there; move "
-              "it below /var/lib/hydroprint, or to another folder that they cannot read"}});
+          fmt::format("{}: workers, which read untrusted files, can read the TLS key there; move "
+                      "it below /var/lib/hydroprint, or to another folder that they cannot read",
+                      config.server_tls_key)}});
   }
   return {};
 }
@@ -151,13 +152,13 @@ tls::CurrentIdentity Daemon::identity() const {
 }
 
 std::string Daemon::page_address() const {
-  if (!certificate_) return "http://" + http_endpoint_.text() + "/";
+  if (!certificate_) return fmt::format("http://{}/", http_endpoint_.text());
   for (const std::string& name : certificate_->current()->names()) {
     const bool is_for_all = name != "localhost" || http_endpoint_.is_loopback();
     if (name.starts_with('*') || !is_for_all) continue;
-    return "https://" + name + ":" + std::to_string(http_endpoint_.port) + "/";
+    return fmt::format("https://{}:{}/", name, http_endpoint_.port);
   }
-  return "https://" + http_endpoint_.text() + "/";
+  return fmt::format("https://{}/", http_endpoint_.text());
 }
 
 std::string Daemon::sign_in_link() const {
@@ -170,9 +171,10 @@ Status Daemon::make_first_admin(const std::string& name) {
   if (!found) {
     HP_RETURN_IF_ERROR(accounts_->users().create({name, auth::Role::kAdmin, false, "", 0}, ""));
   } else if (found->role != auth::Role::kAdmin || found->disabled) {
-    return fail(Code::kFailedPrecondition,
-                "--first-admin: " + name + " exists but is not an admin; name another user",
-                "STATE_FORBIDS");
+    return fail(
+        Code::kFailedPrecondition,
+        fmt::format("--first-admin: {} exists but is not an admin; name another user", name),
+        "STATE_FORBIDS");
   }
   HP_ASSIGN_OR_RETURN(const auto link, accounts_->sessions().make_link(name));
   auth::AuditEntry entry;

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/resource.h>
@@ -146,7 +147,7 @@ int run(const Config& config, const std::string& first_admin) {
        {"state_dir", (*daemon)->layout().root.string()}});
   std::cout << "hydroprintd ready grpc=" << grpc << " http=" << http
             << " state_dir=" << (*daemon)->layout().root.string() << std::endl;
-  notify_ready("serving gRPC at " + grpc + ", " + (*daemon)->page_address());
+  notify_ready(fmt::format("serving gRPC at {}, {}", grpc, (*daemon)->page_address()));
   {
     const WatchdogFeeder feeder([&daemon] { return (*daemon)->control_rounds(); });
     serve_until_signal(**daemon, signals);

@@ -1,5 +1,7 @@
 #include "client/connection/connection.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "client/connection/rpc.h"
@@ -34,10 +36,10 @@ Status check_secrets_may_go(const ConnectionOptions& options) {
   if (address.is_loopback()) return {};
   return fail(
       Code::kFailedPrecondition,
-      options.server +
-          " is another machine, and without TLS a password or key could be read on the way; "
-          "use --server https://" +
-          options.server + ", or forward a port of this machine with ssh -L");
+      fmt::format(
+          "{0} is another machine, and without TLS a password or key could be read on the way; "
+          "use --server https://{0}, or forward a port of this machine with ssh -L",
+          options.server));
 }
 
 Connection::Impl::Impl(ConnectionOptions connection_options)

@@ -1,5 +1,6 @@
 #include "client/connection/rpc.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/any.pb.h>
 
 #include <array>
@@ -68,7 +69,7 @@ void take_wrong_fields(const google::rpc::Status& details, Error& error) {
     std::string& lines = error.metadata[kWrongFields];
     for (const auto& violation : request.field_violations()) {
       lines += (lines.empty() ? "" : "\n") +
-               one_line(violation.field() + ": " + violation.description());
+               one_line(fmt::format("{}: {}", violation.field(), violation.description()));
     }
   }
 }
@@ -104,9 +105,9 @@ Error to_error(const Connection& connection, const grpc::Status& status) {
     }
     // If nothing listens, gRPC's own message adds nothing useful and varies between versions.
     const bool usual = error.message.find("failed to connect") != std::string::npos;
-    error.message = options.server + ": no hydroprintd answers there" +
-                    (usual ? "" : " (" + error.message + ")") +
-                    "; start it, or correct the address (--server host:port)";
+    error.message = fmt::format(
+        "{}: no hydroprintd answers there{}; start it, or correct the address (--server host:port)",
+        options.server, usual ? "" : fmt::format(" ({})", error.message));
   }
   return error;
 }

@@ -1,5 +1,7 @@
 #include "client/connection/server_address.h"
 
+#include <fmt/format.h>
+
 #include <charconv>
 
 namespace hydroprint::client {
@@ -16,7 +18,7 @@ bool is_port(std::string_view text, int& port) {
 
 std::string ServerAddress::text() const {
   const bool is_v6 = host.find(':') != std::string::npos;
-  return (is_v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+  return is_v6 ? fmt::format("[{}]:{}", host, port) : fmt::format("{}:{}", host, port);
 }
 
 bool ServerAddress::is_loopback() const {
@@ -25,10 +27,11 @@ bool ServerAddress::is_loopback() const {
 }
 
 Result<ServerAddress> parse_server(std::string_view text) {
-  const auto refused = fail(Code::kInvalidArgument,
-                            "'" + std::string(text) +
-                                "' is not host:port, as in 127.0.0.1:50051, or "
-                                "https://host:port for TLS, as in https://rig.example.org:50051");
+  const auto refused =
+      fail(Code::kInvalidArgument,
+           fmt::format("'{}' is not host:port, as in 127.0.0.1:50051, or "
+                       "https://host:port for TLS, as in https://rig.example.org:50051",
+                       text));
   ServerAddress address;
   address.is_tls = text.starts_with(kTls);
   if (address.is_tls) text.remove_prefix(kTls.size());

@@ -1,6 +1,7 @@
 #include "client/connection/tls_probe.h"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <netdb.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
@@ -89,18 +90,21 @@ std::string words_for(long verdict, const X509& certificate, const ServerAddress
     case X509_V_OK:
       return {};
     case X509_V_ERR_CERT_HAS_EXPIRED:
-      return "its TLS certificate expired on " + expiry_of(certificate) +
-             "; ask its operator to renew it";
+      return fmt::format("its TLS certificate expired on {}; ask its operator to renew it",
+                         expiry_of(certificate));
     case X509_V_ERR_CERT_NOT_YET_VALID:
       return "its TLS certificate is not valid yet; check the clocks of both machines";
     case X509_V_ERR_HOSTNAME_MISMATCH:
     case X509_V_ERR_IP_ADDRESS_MISMATCH:
-      return "its TLS certificate is not for the name " + address.host +
-             "; use a name in the certificate for --server, or get a certificate for this name";
+      return fmt::format(
+          "its TLS certificate is not for the name {}; use a name in the certificate for --server, "
+          "or get a certificate for this name",
+          address.host);
     default:
-      return "its TLS certificate is not signed by a trusted authority (" +
-             std::string(X509_verify_cert_error_string(verdict)) +
-             "); give that authority's certificate with --ca FILE (HYDROPRINT_CA)";
+      return fmt::format(
+          "its TLS certificate is not signed by a trusted authority ({}); give that authority's "
+          "certificate with --ca FILE (HYDROPRINT_CA)",
+          X509_verify_cert_error_string(verdict));
   }
 }
 
@@ -165,12 +169,15 @@ std::string tls_trouble(const ConnectionOptions& options) {
   ERR_clear_error();
   if (!options.is_tls) {
     if (spoken != Spoken::kByTls) return {};
-    return "the server requires TLS; use --server https://" + options.server +
-           ", with --ca FILE for a private authority";
+    return fmt::format(
+        "the server requires TLS; use --server https://{}, with --ca FILE for a private authority",
+        options.server);
   }
   if (spoken == Spoken::kOtherwise) {
-    return "the server does not speak TLS; check the address, or use --server " + options.server +
-           " without https:// and without --ca";
+    return fmt::format(
+        "the server does not speak TLS; check the address, or use --server {} without https:// and "
+        "without --ca",
+        options.server);
   }
   const Owned<X509> certificate(SSL_get1_peer_certificate(ssl.get()));
   return certificate ? words_for(SSL_get_verify_result(ssl.get()), *certificate, *address) : "";

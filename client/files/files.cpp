@@ -1,5 +1,7 @@
 #include "client/files/files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -13,8 +15,8 @@ constexpr std::streamsize kPieceBytes = std::streamsize{64} << 10;
 
 tl::unexpected<Error> cannot_read(const std::filesystem::path& path, int error_number) {
   const Code code = error_number == EACCES ? Code::kPermissionDenied : Code::kNotFound;
-  return fail(code, path.string() + ": cannot be read (" + std::strerror(error_number) +
-                        "); check the name and the permissions");
+  return fail(code, fmt::format("{}: cannot be read ({}); check the name and the permissions",
+                                path.string(), std::strerror(error_number)));
 }
 
 }  // namespace
@@ -52,8 +54,8 @@ Result<std::string> read_text(const std::filesystem::path& path, std::int64_t ma
     return std::ssize(text) <= max_bytes;
   }));
   if (std::ssize(text) > max_bytes)
-    return fail(Code::kInvalidArgument, path.string() + ": longer than " +
-                                            std::to_string(max_bytes) + " bytes; check the name");
+    return fail(Code::kInvalidArgument,
+                fmt::format("{}: longer than {} bytes; check the name", path.string(), max_bytes));
   return text;
 }
 

@@ -1,5 +1,7 @@
 #include "client/files/references.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -80,8 +82,8 @@ class Collector {
     const auto found = resolve(name, from);
     if (!seen_.insert(found.value_or(std::string(name))).second) return;
     if (!found)
-      result_.notes.push_back(from + " refers to '" + std::string(name) +
-                              "', which is not in its folder; it is not sent");
+      result_.notes.push_back(
+          fmt::format("{} refers to '{}', which is not in its folder; it is not sent", from, name));
     else if (*found != model_name_)
       result_.files.push_back({*found, path_of(*found)});
   }

@@ -1,5 +1,6 @@
 #include "client/loop/control.h"
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/un.h>
@@ -47,9 +48,9 @@ Result<std::string> talk(const std::filesystem::path& control, const std::string
     ::close(line);
   }
   if (reply.empty()) {
-    return fail(Code::kUnavailable, control.string() +
-                                        ": no virtual rig answers there; give the path that "
-                                        "hydroprint-virtual-rig has as --control");
+    return fail(Code::kUnavailable, fmt::format("{}: no virtual rig answers there; give the path "
+                                                "that hydroprint-virtual-rig has as --control",
+                                                control.string()));
   }
   if (!reply.starts_with("error: ")) return reply;
   return fail(Code::kInvalidArgument, "virtual rig: " + reply.substr(7));

@@ -1,5 +1,7 @@
 #include "client/loop/draws.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -52,7 +54,8 @@ double lowest_mm(const Body& body, const Pose& X_AO) {
 Result<Body> make_body(const std::string& name) {
   Body out{name, Eigen::Matrix3d::Identity(), name == "sphere80", {}};
   if (name != "board" && name != "sphere80") {
-    return fail(Code::kInvalidArgument, "unknown sample '" + name + "'; give board or sphere80");
+    return fail(Code::kInvalidArgument,
+                fmt::format("unknown sample '{}'; give board or sphere80", name));
   }
   if (name == "board") {
     // Turned so that the camera, at the near side, sees two upright faces. From the upper face

@@ -1,9 +1,10 @@
 #include "client/loop/report.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace hydroprint::loop {
 namespace {
@@ -65,49 +66,40 @@ Json round_json(const Round& round) {
   return out;
 }
 
-std::string text(double value, int digits = 2) {
-  std::ostringstream out;
-  out.precision(digits);
-  out << std::fixed << value;
-  return out.str();
+/// Share of the squared error, in whole percent.
+std::string share_text(const std::vector<Round>& rounds, const Stage& stage) {
+  const double percent = 100 * share(rounds, stage.before, stage.errors);
+  return fmt::format("{:.0f} %", std::round(percent) + 0.0);  // no -0
 }
 
-std::string percent(double share) {
-  return text(std::round(100 * share) + 0.0, 0) + " %";
-}  // no -0
-
-std::string row(const std::vector<std::string>& cells, const char* tag = "td") {
-  std::string out = "<tr>";
-  for (const std::string& cell : cells)
-    out += std::string("<") + tag + ">" + cell + "</" + tag + ">";
-  return out + "</tr>\n";
+std::string head_row(std::initializer_list<const char*> cells) {
+  return fmt::format("<tr><th>{}</th></tr>\n", fmt::join(cells, "</th><th>"));
 }
 
 std::string stage_table(const std::vector<Round>& rounds) {
-  std::string out =
-      "<table>\n" +
-      row({"", "", "95th percentile, mm", "largest, mm", "share of the squared error"}, "th");
+  std::string out = "<table>\n" + head_row({"", "", "95th percentile, mm", "largest, mm",
+                                            "share of the squared error"});
   for (const Stage& stage : kStages) {
     const auto mm = lengths_mm(pooled(rounds, stage.errors));
-    out += row({stage.name, stage.text, text(quantile(mm, 0.95)), text(quantile(mm, 1)),
-                percent(share(rounds, stage.before, stage.errors))});
+    out += fmt::format("<tr><td>{}</td><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{}</td></tr>\n",
+                       stage.name, stage.text, quantile(mm, 0.95), quantile(mm, 1),
+                       share_text(rounds, stage));
   }
   return out + "</table>\n";
 }
 
 std::string round_table(const std::vector<Round>& rounds) {
-  std::string out = "<table>\n" + row({"pose", "orientation error, deg", "position error, mm",
-                                       "first-contact error, mm", "stated (95 %), mm", "numerics",
-                                       "calibration", "motion", "placement"},
-                                      "th");
+  std::string out = "<table>\n" + head_row({"pose", "orientation error, deg", "position error, mm",
+                                            "first-contact error, mm", "stated (95 %), mm",
+                                            "numerics", "calibration", "motion", "placement"});
   for (std::size_t i = 0; i < rounds.size(); ++i) {
     const Round& round = rounds[i];
-    std::vector<std::string> cells{std::to_string(i + 1), text(round.turn_off_deg),
-                                   text(round.shift_off_mm), text(round.contact_off_mm),
-                                   text(round.stated_p95_mm)};
+    out += fmt::format(
+        "<tr><td>{}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td><td>{:.2f}</td>", i + 1,
+        round.turn_off_deg, round.shift_off_mm, round.contact_off_mm, round.stated_p95_mm);
     for (const Stage& stage : kStages)
-      cells.push_back(text(quantile(lengths_mm(round.*stage.errors), 0.95)));
-    out += row(cells);
+      out += fmt::format("<td>{:.2f}</td>", quantile(lengths_mm(round.*stage.errors), 0.95));
+    out += "</tr>\n";
   }
   return out + "</table>\n";
 }
@@ -116,8 +108,8 @@ std::string pictures(const std::vector<Round>& rounds) {
   std::string out;
   for (const Round& round : rounds) {
     for (const std::string& picture : round.pictures)
-      out += "<figure><img src=\"" + picture + "\" alt=\"" + picture + "\"/><figcaption>" +
-             picture + "</figcaption></figure>\n";
+      out += fmt::format(
+          "<figure><img src=\"{0}\" alt=\"{0}\"/><figcaption>{0}</figcaption></figure>\n", picture);
   }
   return out;
 }
@@ -129,7 +121,7 @@ constexpr const char* kHead =
     "</style></head><body>\n";
 
 std::string poses_of(const Report& report) {
-  return std::to_string(report.rounds.size()) + (report.rounds.size() == 1 ? " pose" : " poses");
+  return fmt::format("{} {}", report.rounds.size(), report.rounds.size() == 1 ? "pose" : "poses");
 }
 
 }  // namespace
@@ -156,29 +148,31 @@ std::string report_json(const Report& report) {
 
 std::string report_html(const Report& report) {
   const CrossErrors all = all_of(report);
-  return kHead + ("<h1>The whole loop, in silico: " + report.object) + "</h1>\n<p>" +
-         poses_of(report) + ", seed " + std::to_string(report.seed) + ", camera " + report.camera +
-         ": calibrated with the camera, simulated, laid out for printing and dipped on the virtual "
-         "rig. A computation then dips that film image at the true pose with the actual motion. "
-         "95 % of the " +
-         std::to_string(all.size()) + " cross-points land within <b>" + text(reached_mm(report)) +
-         " mm</b> of their intended places (limit: " + text(report.bound_mm) + " mm); " +
-         std::to_string(lost(all)) + " land nowhere.</p>\n<p>" + kLimits +
-         "</p>\n<h2>Sources of error</h2>\n" + stage_table(report.rounds) +
-         "<h2>Errors by pose</h2>\n<p>95th percentiles, mm.</p>\n" + round_table(report.rounds) +
-         "<h2>Pictures</h2>\n" + pictures(report.rounds) + "</body></html>\n";
+  return fmt::format(
+      "{}<h1>The whole loop, in silico: {}</h1>\n"
+      "<p>{}, seed {}, camera {}: calibrated with the camera, simulated, laid out for printing and "
+      "dipped on the virtual rig. A computation then dips that film image at the true pose with "
+      "the actual motion. 95 % of the {} cross-points land within <b>{:.2f} mm</b> of their "
+      "intended places (limit: {:.2f} mm); {} land nowhere.</p>\n"
+      "<p>{}</p>\n"
+      "<h2>Sources of error</h2>\n{}"
+      "<h2>Errors by pose</h2>\n<p>95th percentiles, mm.</p>\n{}"
+      "<h2>Pictures</h2>\n{}</body></html>\n",
+      kHead, report.object, poses_of(report), report.seed, report.camera, all.size(),
+      reached_mm(report), report.bound_mm, lost(all), kLimits, stage_table(report.rounds),
+      round_table(report.rounds), pictures(report.rounds));
 }
 
 std::string report_text(const Report& report) {
   const CrossErrors all = all_of(report);
-  std::string out = poses_of(report) + " of the " + report.object + ": 95 % of " +
-                    std::to_string(all.size()) + " cross-points land within " +
-                    text(reached_mm(report)) + " mm (limit: " + text(report.bound_mm) + " mm), " +
-                    std::to_string(lost(all)) + " land nowhere; shares of the squared error:";
+  std::vector<std::string> shares;
   for (const Stage& stage : kStages)
-    out += std::string(&stage == kStages.begin() ? " " : ", ") + stage.name + " " +
-           percent(share(report.rounds, stage.before, stage.errors));
-  return out + "\n";
+    shares.push_back(fmt::format("{} {}", stage.name, share_text(report.rounds, stage)));
+  return fmt::format(
+      "{} of the {}: 95 % of {} cross-points land within {:.2f} mm (limit: {:.2f} mm), {} land "
+      "nowhere; shares of the squared error: {}\n",
+      poses_of(report), report.object, all.size(), reached_mm(report), report.bound_mm, lost(all),
+      fmt::join(shares, ", "));
 }
 
 }  // namespace hydroprint::loop

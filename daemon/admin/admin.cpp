@@ -8,8 +8,8 @@
 
 #include "daemon/admin/backup.h"
 #include "daemon/admin/offline_accounts.h"
-#include "daemon/admin/progress_meter.h"
 #include "daemon/admin/restore.h"
+#include "sim/base/number_text.h"
 #include "sim/base/one_line.h"
 
 namespace hydroprint::admin {
@@ -22,7 +22,7 @@ struct Options {
 
 void tell(const Contents& contents) {
   std::cout << contents.jobs << " jobs and " << contents.files << " files, "
-            << bytes_text(contents.bytes) << std::endl;
+            << format_bytes(contents.bytes) << std::endl;
 }
 
 Status run_backup(const Options& options) {

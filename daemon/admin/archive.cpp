@@ -3,6 +3,7 @@
 #include <archive.h>
 #include <archive_entry.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -26,8 +27,9 @@ using Entry = std::unique_ptr<archive_entry, CloseEntry>;
 tl::unexpected<Error> writing_failed(const std::filesystem::path& path, archive* out) {
   if (archive_errno(out) != ENOSPC && archive_errno(out) != EDQUOT) {
     const char* const words = archive_error_string(out);
-    return fail(Code::kInternal, path.string() + ": cannot be written: " +
-                                     one_line(words == nullptr ? "no reason given" : words));
+    return fail(Code::kInternal,
+                fmt::format("{}: cannot be written: {}", path.string(),
+                            one_line(words == nullptr ? "no reason given" : words)));
   }
   errno = archive_errno(out);
   return daemon::system_failure(path, "cannot be written");
@@ -135,8 +137,9 @@ struct ArchiveReader::Impl {
   }
   [[nodiscard]] tl::unexpected<Error> failed() const {
     const char* const words = archive_error_string(in);
-    return fail(Code::kInvalidArgument, path.string() + ": not a complete hydroprint archive: " +
-                                            one_line(words == nullptr ? "no reason given" : words));
+    return fail(Code::kInvalidArgument,
+                fmt::format("{}: not a complete hydroprint archive: {}", path.string(),
+                            one_line(words == nullptr ? "no reason given" : words)));
   }
 
   std::filesystem::path path;
@@ -154,7 +157,8 @@ Result<std::unique_ptr<ArchiveReader>> ArchiveReader::open(const std::filesystem
   if (!impl->file.valid()) {
     const int reason = errno;
     return fail(reason == ENOENT ? Code::kNotFound : Code::kPermissionDenied,
-                path.string() + ": cannot be read: " + std::generic_category().message(reason));
+                fmt::format("{}: cannot be read: {}", path.string(),
+                            std::generic_category().message(reason)));
   }
   impl->in = archive_read_new();
   if (impl->in == nullptr) return fail(Code::kResourceExhausted, "out of memory");

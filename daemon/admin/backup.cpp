@@ -1,6 +1,7 @@
 #include "daemon/admin/backup.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
@@ -124,16 +125,16 @@ Result<std::vector<NamedFile>> named_files(daemon::Database& database) {
   HP_RETURN_IF_ERROR(
       database.each("SELECT sha256, size FROM assets ORDER BY sha256", {}, [&](const DbRow& row) {
         const std::string hash = row.text(0);
-        files.push_back({"assets/" + hash.substr(0, 2) + "/" +
-                             hash.substr(std::min<std::size_t>(2, hash.size())),
+        files.push_back({fmt::format("assets/{}/{}", hash.substr(0, 2),
+                                     hash.substr(std::min<std::size_t>(2, hash.size()))),
                          row.integer(1), hash, 0});
       }));
-  HP_RETURN_IF_ERROR(database.each(
-      "SELECT job, name, size, sha256 FROM artifacts ORDER BY job, name", {},
-      [&](const DbRow& row) {
-        files.push_back({"artifacts/" + std::to_string(row.integer(0)) + "/" + row.text(1),
-                         row.integer(2), row.text(3), row.integer(0)});
-      }));
+  HP_RETURN_IF_ERROR(
+      database.each("SELECT job, name, size, sha256 FROM artifacts ORDER BY job, name", {},
+                    [&](const DbRow& row) {
+                      files.push_back({fmt::format("artifacts/{}/{}", row.integer(0), row.text(1)),
+                                       row.integer(2), row.text(3), row.integer(0)});
+                    }));
   return files;
 }
 

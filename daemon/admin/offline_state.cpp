@@ -1,5 +1,6 @@
 #include "daemon/admin/offline_state.h"
 
+#include <fmt/format.h>
 #include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -30,12 +31,10 @@ Status check_is_mine(const std::filesystem::path& folder) {
   struct stat info {};
   if (::stat(folder.c_str(), &info) != 0) return daemon::system_failure(folder, "cannot be read");
   if (info.st_uid == ::geteuid()) return {};
-  const std::string owner = user_name(info.st_uid);
   return fail(Code::kPermissionDenied,
-              folder.string() + ": belongs to " + owner +
-                  ", whose daemon must be able to use all files in it; run "
-                  "this as that user (sudo -u " +
-                  owner + " ...)");
+              fmt::format("{0}: belongs to {1}, whose daemon must be able to use all files in it; "
+                          "run this as that user (sudo -u {1} ...)",
+                          folder.string(), user_name(info.st_uid)));
 }
 
 Result<State> open_state(const std::filesystem::path& root) {
@@ -72,7 +71,7 @@ Status note(daemon::Database& database, const std::string& what, const std::stri
   entry.what = "hydroprint admin " + what;
   entry.object = object;
   entry.outcome = "OK";
-  entry.detail = "by " + operator_name() + " on the daemon's machine";
+  entry.detail = fmt::format("by {} on the daemon's machine", operator_name());
   audit.note(std::move(entry));
   auth::AuditFilter none;
   none.limit = 1;

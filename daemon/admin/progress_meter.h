@@ -6,9 +6,6 @@
 
 namespace hydroprint::admin {
 
-/// A size for people: "1.4 GB".
-[[nodiscard]] std::string bytes_text(std::int64_t bytes);
-
 /// Shows progress and the remaining time on stderr: one line that is updated on a terminal,
 /// otherwise a line every ten seconds.
 class ProgressMeter {

@@ -1,6 +1,7 @@
 #include "daemon/admin/restore.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -61,7 +62,8 @@ class Unpacked {
 
  private:
   tl::unexpected<Error> refused(const std::string& what) const {
-    return fail(Code::kInvalidArgument, file_.string() + ": " + what + "; nothing was restored");
+    return fail(Code::kInvalidArgument,
+                fmt::format("{}: {}; nothing was restored", file_.string(), what));
   }
 
   Status unpack() {
@@ -74,8 +76,8 @@ class Unpacked {
       HP_ASSIGN_OR_RETURN(const auto entry, in->next());
       if (!entry) return {};
       if (!entry->is_file || !is_name_of_ours(entry->name) || hashes_.contains(entry->name)) {
-        return refused("holds \"" + one_line(entry->name).substr(0, 100) +
-                       "\", which is not part of a backup");
+        return refused(
+            fmt::format("holds \"{:.100}\", which is not part of a backup", one_line(entry->name)));
       }
       HP_RETURN_IF_ERROR(unpack_one(*in, *entry, meter));
     }
@@ -137,7 +139,7 @@ class Unpacked {
     for (const NamedFile& file : files) {
       const auto found = hashes_.find(file.name);
       if (found == hashes_.end() || found->second != file.sha256) {
-        return refused("damaged: " + one_line(file.name) + " does not match its hash");
+        return refused(fmt::format("damaged: {} does not match its hash", one_line(file.name)));
       }
       named.insert(file.name);
       ++contents.files;

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -74,10 +75,11 @@ class ArtifactService final : public v1::ArtifactService::Service {
     HP_RETURN_IF_ERROR(check_sight(context, name.first));
     HP_ASSIGN_OR_RETURN(const auto artifact, backend_.jobs.artifact(name.first, name.second));
     if (request.offset() < 0 || request.offset() > artifact.size_bytes) {
-      auto error = fail(Code::kOutOfRange,
-                        "offset: beyond the " + std::to_string(artifact.size_bytes) +
-                            " bytes of the artifact; start at or before its end",
-                        "OFFSET_MISMATCH");
+      auto error = fail(
+          Code::kOutOfRange,
+          fmt::format("offset: beyond the {} bytes of the artifact; start at or before its end",
+                      artifact.size_bytes),
+          "OFFSET_MISMATCH");
       error.value().metadata["expected_offset"] = std::to_string(artifact.size_bytes);
       return error;
     }

@@ -1,12 +1,12 @@
 #include "daemon/api/audit_interceptor.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
 #include <algorithm>
 #include <map>
 #include <mutex>
-#include <sstream>
 
 #include "daemon/platform/clock.h"
 #include "daemon/rpc/caller_metadata.h"
@@ -58,11 +58,8 @@ std::string object_of(const Message& message) {
 std::string plain_text(const Message& message, const FieldDescriptor& field) {
   const auto& reflection = *message.GetReflection();
   switch (field.cpp_type()) {
-    case FieldDescriptor::CPPTYPE_DOUBLE: {
-      std::ostringstream out;
-      out << reflection.GetDouble(message, &field);
-      return out.str();
-    }
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return fmt::format("{:g}", reflection.GetDouble(message, &field));
     case FieldDescriptor::CPPTYPE_BOOL:
       return reflection.GetBool(message, &field) ? "true" : "false";
     case FieldDescriptor::CPPTYPE_ENUM:
@@ -80,7 +77,7 @@ std::string detail_of(const Message& message) {
   for (const FieldDescriptor* const field : set) {
     if (field->is_repeated()) continue;
     const std::string text = plain_text(message, *field);
-    if (!text.empty()) out += (out.empty() ? "" : ", ") + field->name() + " " + text;
+    if (!text.empty()) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", field->name(), text);
   }
   return out;
 }

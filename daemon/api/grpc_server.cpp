@@ -1,5 +1,6 @@
 #include "daemon/api/grpc_server.h"
 
+#include <fmt/format.h>
 #include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/grpcpp.h>
@@ -121,9 +122,9 @@ Status Server::Impl::listen(const Endpoint& wanted, tls::CurrentIdentity identit
   server = builder.BuildAndStart();
   if (!server || port == 0) {
     return fail(Code::kUnavailable,
-                "cannot listen at " + wanted.text() +
-                    ": the address is in use, perhaps by another hydroprintd; stop that, or set "
-                    "another port with --grpc");
+                fmt::format("cannot listen at {}: the address is in use, perhaps by another "
+                            "hydroprintd; stop that, or set another port with --grpc",
+                            wanted.text()));
   }
   endpoint = {wanted.host, port};
   return {};

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "daemon/api/job_watch.h"
 #include "daemon/api/services.h"
 #include "daemon/auth/visibility.h"
@@ -188,10 +190,11 @@ class JobService final : public v1::JobService::Service {
   static Status check_may_retry(const Job& job, const JobKind& kind) {
     std::string why = kind.why_no_retry();
     if (!is_finished(job.state)) {
-      why = std::string(name_of(job.state)) + "; wait for its end or cancel it";
+      why = fmt::format("{}; wait for its end or cancel it", name_of(job.state));
     }
     if (why.empty()) return {};
-    return fail(Code::kFailedPrecondition, job_name(job.id) + " is " + why, "STATE_FORBIDS");
+    return fail(Code::kFailedPrecondition, fmt::format("{} is {}", job_name(job.id), why),
+                "STATE_FORBIDS");
   }
 
   Status list(const grpc::ServerContext& context, const v1::ListJobsRequest& request,

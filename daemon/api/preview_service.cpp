@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -80,8 +82,9 @@ class PreviewService final : public v1::PreviewService::Service {
       add_dip(std::move(shown.dip), reply);
     } catch (const Json::exception& error) {
       return fail(Code::kInternal,
-                  std::string("the worker's preview cannot be read: ") + error.what() +
-                      "; check that workers.program is hydroprint-worker",
+                  fmt::format("the worker's preview cannot be read: {}; check that workers.program "
+                              "is hydroprint-worker",
+                              error.what()),
                   "WORKER_UNUSABLE");
     }
     return {};

@@ -1,5 +1,7 @@
 #include "daemon/config/bind_policy.h"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,22 +28,20 @@ Status check_exposure(const Config& config) {
   const bool has_key = !config.server_tls_key.empty();
   if (has_certificate != has_key) {
     return fail(Code::kInvalidArgument,
-                std::string(has_key ? "server.tls_key (--tls-key)"
-                                    : "server.tls_certificate "
-                                      "(--tls-certificate)") +
-                    " is given without the other; TLS needs both server.tls_certificate "
-                    "(--tls-certificate) and server.tls_key (--tls-key)",
+                fmt::format("{} is given without the other; TLS needs both server.tls_certificate "
+                            "(--tls-certificate) and server.tls_key (--tls-key)",
+                            has_key ? "server.tls_key (--tls-key)"
+                                    : "server.tls_certificate (--tls-certificate)"),
                 "CONFIG_INVALID");
   }
   const auto door = exposed_door(config);
   if (!door || has_certificate) return {};
-  return fail(
-      Code::kInvalidArgument,
-      *door +
-          " is beyond loopback, which requires TLS; name a certificate and its "
-          "key with --tls-certificate FILE --tls-key FILE (deploy/README.md explains how to "
-          "get them), or use 127.0.0.1 or [::1]",
-      "CONFIG_INVALID");
+  return fail(Code::kInvalidArgument,
+              *door +
+                  " is beyond loopback, which requires TLS; name a certificate and its key with "
+                  "--tls-certificate FILE --tls-key FILE (deploy/README.md explains how to "
+                  "get them), or use 127.0.0.1 or [::1]",
+              "CONFIG_INVALID");
 }
 
 Status check_admin(const Config& config, auth::Accounts& accounts) {

@@ -1,6 +1,7 @@
 #include "daemon/config/config.h"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -44,7 +45,7 @@ struct Key {
   std::string_view section, name;
   std::variant<Text, Flag, Number, Real, Length> kind;
 
-  [[nodiscard]] std::string full() const { return std::string(section) + "." + std::string(name); }
+  [[nodiscard]] std::string full() const { return fmt::format("{}.{}", section, name); }
 };
 
 std::vector<Key> make_keys() {
@@ -108,22 +109,21 @@ const std::vector<Key>& keys() {
 }
 
 std::string remedy(const Number& number) {
-  return "a whole number of " + std::string(number.unit) + " from " + std::to_string(number.min) +
-         " to " + std::to_string(number.max) + ", without quotes or unit";
+  return fmt::format("a whole number of {} from {} to {}, without quotes or unit", number.unit,
+                     number.min, number.max);
 }
 std::string number_remedy(double min, double max) {
-  std::ostringstream out;
-  out << "a number from " << min << " to " << max << ", without quotes or unit";
-  return out.str();
+  return fmt::format("a number from {:g} to {:g}, without quotes or unit", min, max);
 }
 std::string remedy(const Real& real) { return number_remedy(real.min, real.max); }
 std::string remedy(const Length& length) { return number_remedy(length.min, length.max); }
 std::string remedy(const Flag&) { return "true or false"; }
 std::string remedy(const Text& text) {
   if (text.allowed.empty()) return "text in quotes";
-  std::string out = "one of";
-  for (const std::string_view word : text.allowed) out += " \"" + std::string(word) + '"';
-  return out;
+  return fmt::format("one of \"{}\"", fmt::join(text.allowed, "\" \""));
+}
+std::string remedy(const Key& key) {
+  return std::visit([](const auto& kind) { return remedy(kind); }, key.kind);
 }
 
 bool accept(const Number& kind, const toml::node& node, Config& config) {
@@ -167,7 +167,7 @@ bool accept(const Text& kind, const toml::node& node, Config& config) {
 // An error with its place in the file: "name:line: ...".
 tl::unexpected<Error> refuse(const std::string& name, const toml::source_region& where,
                              const std::string& what) {
-  return fail(Code::kInvalidArgument, name + ":" + std::to_string(where.begin.line) + ": " + what,
+  return fail(Code::kInvalidArgument, fmt::format("{}:{}: {}", name, where.begin.line, what),
               "CONFIG_INVALID");
 }
 
@@ -186,8 +186,7 @@ std::string suggestion(std::string_view section, std::string_view name) {
     length = common_prefix(key.name, name);
   }
   if (best != nullptr) {
-    return "did you mean \"" + best->full() + "\", " +
-           std::visit([](const auto& kind) { return remedy(kind); }, best->kind) + "?";
+    return fmt::format("did you mean \"{}\", {}?", best->full(), remedy(*best));
   }
   return "see deploy/hydroprintd.toml.example for all keys";
 }
@@ -203,15 +202,14 @@ Status read_section(const std::string& name, std::string_view section, const tom
     });
     if (key == keys().end()) {
       return refuse(name, toml_key.source(),
-                    "unknown key \"" + std::string(section) + "." + std::string(key_name) + "\"; " +
-                        suggestion(section, key_name));
+                    fmt::format("unknown key \"{}.{}\"; {}", section, key_name,
+                                suggestion(section, key_name)));
     }
     const bool good =
         std::visit([&](const auto& kind) { return accept(kind, node, config); }, key->kind);
     if (!good) {
       return refuse(name, toml_key.source(),
-                    key->full() + " must be " +
-                        std::visit([](const auto& kind) { return remedy(kind); }, key->kind));
+                    fmt::format("{} must be {}", key->full(), remedy(*key)));
     }
   }
   return {};
@@ -222,7 +220,7 @@ Status check_values(const Config& config, const std::string& name, const toml::t
        {std::pair("grpc", config.server_grpc), std::pair("http", config.server_http)}) {
     if (const auto endpoint = parse_endpoint(address); !endpoint) {
       return refuse(name, root["server"][key].node()->source(),
-                    "server." + std::string(key) + ": " + endpoint.error().message);
+                    fmt::format("server.{}: {}", key, endpoint.error().message));
     }
   }
   if (const auto printer = read_printer_setup(config); !printer) {
@@ -260,16 +258,16 @@ Result<Config> parse_config(std::string_view text, const std::string& name) {
       if (!known || table == nullptr) {
         return refuse(
             name, section.source(),
-            "unknown section \"" + std::string(section.str()) +
-                "\"; the sections are [server], [store], [assets], [queue], [workers], [rig], "
-                "[printer], [camera], [people], [log]");
+            fmt::format("unknown section \"{}\"; the sections are [server], [store], "
+                        "[assets], [queue], [workers], [rig], [printer], [camera], [people], [log]",
+                        section.str()));
       }
       HP_RETURN_IF_ERROR(read_section(name, section.str(), *table, config));
     }
     HP_RETURN_IF_ERROR(check_values(config, name, root));
     return config;
   } catch (const toml::parse_error& error) {
-    return refuse(name, error.source(), "not valid TOML: " + std::string(error.description()));
+    return refuse(name, error.source(), fmt::format("not valid TOML: {}", error.description()));
   }
 }
 
@@ -278,16 +276,16 @@ Result<Config> read_config(const std::filesystem::path& path) {
   std::ostringstream text;
   if (file) text << file.rdbuf();
   if (!file || std::filesystem::is_directory(path)) {
-    return fail(Code::kNotFound, path.string() +
-                                     ": cannot be read; pass --config an existing "
-                                     "TOML file, or leave it out");
+    return fail(
+        Code::kNotFound,
+        path.string() + ": cannot be read; pass --config an existing TOML file, or leave it out");
   }
   return parse_config(text.str(), path.string());
 }
 
 std::string Endpoint::text() const {
   const bool v6 = host.find(':') != std::string::npos;
-  return (v6 ? "[" + host + "]" : host) + ":" + std::to_string(port);
+  return v6 ? fmt::format("[{}]:{}", host, port) : fmt::format("{}:{}", host, port);
 }
 
 bool Endpoint::is_loopback() const {
@@ -298,7 +296,7 @@ bool Endpoint::is_loopback() const {
 
 Result<Endpoint> parse_endpoint(std::string_view text) {
   const auto refused = [&](const std::string& why) {
-    return fail(Code::kInvalidArgument, "\"" + std::string(text) + "\" " + why, "CONFIG_INVALID");
+    return fail(Code::kInvalidArgument, fmt::format("\"{}\" {}", text, why), "CONFIG_INVALID");
   };
   const std::size_t colon = text.rfind(':');
   if (colon == std::string_view::npos) {
@@ -321,8 +319,7 @@ Result<Endpoint> parse_endpoint(std::string_view text) {
   if (inet_pton(AF_INET, host.c_str(), &v4) != 1 && inet_pton(AF_INET6, host.c_str(), &v6) != 1) {
     return refused(
         "is not an address; write 127.0.0.1 or [::1] for loopback, 0.0.0.0 or [::] for all "
-        "addresses "
-        "of this machine, or one of them");
+        "addresses of this machine, or one of them");
   }
   endpoint.host = host;
   return endpoint;

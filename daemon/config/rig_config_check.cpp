@@ -1,5 +1,7 @@
 #include "daemon/config/rig_config_check.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace hydroprint::daemon {
@@ -17,8 +19,9 @@ Result<std::optional<ControllerConfig>> read_controller_config(const Config& con
   setup.endpoint = std::move(*endpoint);
   if (config.rig_profile.empty()) {
     return fail(Code::kInvalidArgument,
-                "rig.profile is empty; name the profile of the drive at " + config.rig_drive +
-                    ", a file like hardware/profiles/virtual.toml",
+                fmt::format("rig.profile is empty; name the profile of the drive at {}, a file "
+                            "like hardware/profiles/virtual.toml",
+                            config.rig_drive),
                 "CONFIG_INVALID");
   }
   HP_ASSIGN_OR_RETURN(setup.profile, drive::read_drive_profile(config.rig_profile));

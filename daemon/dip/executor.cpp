@@ -1,5 +1,7 @@
 #include "daemon/dip/executor.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <utility>
 
@@ -92,11 +94,11 @@ Result<Job> DipExecutor::confirm(std::int64_t id, dip::Step step, const std::str
   v1::DipStatus reached;
   reached.ParseFromString(job.dip_status);
   if (static_cast<int>(step) < reached.step()) return job;  // confirmed before
-  return tl::unexpected(
-      Error{Code::kFailedPrecondition,
-            job_name(id) + " is " + name_of(job.state) + "; it does not wait for a confirmation",
-            "STATE_FORBIDS",
-            {{"state", name_of(job.state)}}});
+  return tl::unexpected(Error{Code::kFailedPrecondition,
+                              fmt::format("{} is {}; it does not wait for a confirmation",
+                                          job_name(id), name_of(job.state)),
+                              "STATE_FORBIDS",
+                              {{"state", name_of(job.state)}}});
 }
 
 Result<Job> DipExecutor::cancel(std::int64_t id) {

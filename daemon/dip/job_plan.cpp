@@ -1,9 +1,10 @@
 #include "daemon/dip/job_plan.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <sstream>
 
 #include "daemon/jobs/calibration_binding.h"
 #include "daemon/jobs/referenced_job.h"
@@ -16,12 +17,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kReport = "report.json";
-
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 /// Takes numbers from a report and keeps the first error.
 class ReportReader {
@@ -36,9 +31,9 @@ class ReportReader {
     }
     if (status_) {
       status_ = fail(Code::kFailedPrecondition,
-                     "the simulation's " + std::string(kReport) + ": " + pointer +
-                         " is not a number from " + text(least) + " to " + text(most) +
-                         "; simulate again, or set all of its values in the dip's spec",
+                     fmt::format("the simulation's {}: {} is not a number from {:g} to {:g}; "
+                                 "simulate again, or set all of its values in the dip's spec",
+                                 kReport, pointer, least, most),
                      "STATE_FORBIDS");
     }
     return 0;
@@ -126,8 +121,9 @@ Result<dip::Plan> plan_of(const v1::DipSpec& spec, JobStore& jobs, const Layout&
     fill_from(simulated, plan);
     if (spec.has_depth_mm() && spec.depth_mm() > simulated.depth_mm) {
       plan.warnings.push_back({"deeper_than_simulated",
-                               "the dip is deeper than the simulated " + text(simulated.depth_mm) +
-                                   " mm; the film beyond that depth was not computed",
+                               fmt::format("the dip is deeper than the simulated {:g} mm; the film "
+                                           "beyond that depth was not computed",
+                                           simulated.depth_mm),
                                spec.simulate_job()});
     }
   }
@@ -151,15 +147,17 @@ Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs, CalibrationSto
   HP_RETURN_IF_ERROR(check_objection(calibration, why, spec.allow_stale_calibration()));
   plan.calibration = calibration.name();
   if (!why.words.empty()) {
-    plan.warnings.push_back({"calibration_stale",
-                             calibration.name() + " is no longer valid: " + why.words,
-                             calibration.name()});
+    plan.warnings.push_back(
+        {"calibration_stale",
+         fmt::format("{} is no longer valid: {}", calibration.name(), why.words),
+         calibration.name()});
   }
   if (!spec.simulate_job().empty() && simulated.calibration().empty()) {
-    plan.warnings.push_back({"pose_not_simulated",
-                             spec.simulate_job() + " was not computed for the pose of " +
-                                 calibration.name() + "; the print may not fit",
-                             spec.simulate_job()});
+    plan.warnings.push_back(
+        {"pose_not_simulated",
+         fmt::format("{} was not computed for the pose of {}; the print may not fit",
+                     spec.simulate_job(), calibration.name()),
+         spec.simulate_job()});
   }
   if (!knows_contact(calibration)) return {};
   plan.contact_mm = calibration.contact_mm();

@@ -1,9 +1,11 @@
 #include "daemon/dip/plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "daemon/dip/text.h"
 #include "hardware/rig/limits.h"
 #include "hardware/rig/motion_profile.h"
 
@@ -13,14 +15,8 @@ namespace {
 // Weight of an operator's step in the progress.
 constexpr double kOperator_s = 15;
 
-tl::unexpected<Error> out_of_reach(const std::string& message, double value_mm, rig::Range range) {
-  return tl::unexpected(Error{Code::kOutOfRange,
-                              message,
-                              "LIMIT_EXCEEDED",
-                              {{"axis", "position"},
-                               {"min", text(range.low_mm)},
-                               {"max", text(range.high_mm)},
-                               {"value", text(value_mm)}}});
+tl::unexpected<Error> out_of_reach(std::string message, double value_mm, rig::Range range) {
+  return rig::limit_exceeded("position", std::move(message), value_mm, range);
 }
 
 /// Distance for acceleration, so that the speed is constant when the object meets the water.
@@ -48,8 +44,8 @@ Status check(const Plan& plan, const rig::RigConfig& config) {
   const double most_mm = range.high_mm - range.low_mm - kLeastClearance_mm;
   if (plan.depth_mm <= most_mm) return {};
   return out_of_reach(
-      text("a depth of ", plan.depth_mm, " mm is more than this rig can reach; dip at most ",
-           most_mm, " mm deep"),
+      fmt::format("a depth of {:g} mm is more than this rig can reach; dip at most {:g} mm deep",
+                  plan.depth_mm, most_mm),
       plan.depth_mm, {0, most_mm});
 }
 
@@ -59,20 +55,22 @@ Result<Ways> ways_from(const Plan& plan, double contact_mm, double loaded_mm,
   Ways ways;
   ways.bottom_mm = contact_mm + plan.depth_mm;
   if (!(ways.bottom_mm <= range.high_mm)) {
-    return out_of_reach(
-        text("from first contact at ", contact_mm, " mm a depth of ", plan.depth_mm, " mm ends at ",
-             ways.bottom_mm, " mm, beyond the limit of ", range.high_mm,
-             " mm; mount the object lower in the gripper, or dip less deep"),
-        ways.bottom_mm, range);
+    return out_of_reach(fmt::format("from first contact at {:g} mm a depth of {:g} mm ends at {:g} "
+                                    "mm, beyond the limit of {:g} mm; mount the object lower in "
+                                    "the gripper, or dip less deep",
+                                    contact_mm, plan.depth_mm, ways.bottom_mm, range.high_mm),
+                        ways.bottom_mm, range);
   }
   ways.clear_mm = std::max(contact_mm - plan.clearance_mm, range.low_mm);
   const double needed_mm = run_up_mm(plan, profile);
   if (!(contact_mm - ways.clear_mm >= needed_mm)) {
-    return out_of_reach(text("first contact at ", contact_mm, " mm leaves less than ", needed_mm,
-                             " mm above the water before the limit of ", range.low_mm,
-                             " mm; mount the object higher in the gripper, so that the axis is "
-                             "lower at first contact"),
-                        contact_mm, {range.low_mm + needed_mm, range.high_mm});
+    return out_of_reach(
+        fmt::format(
+            "first contact at {:g} mm leaves less than {:g} mm above the water before the limit of "
+            "{:g} mm; mount the object higher in the gripper, so that the axis is lower at first "
+            "contact",
+            contact_mm, needed_mm, range.low_mm),
+        contact_mm, {range.low_mm + needed_mm, range.high_mm});
   }
   ways.up_mm = std::max(std::min(loaded_mm, ways.clear_mm), range.low_mm);
   return ways;

@@ -1,5 +1,7 @@
 #include "daemon/dip/session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <utility>
@@ -107,12 +109,12 @@ Status DipSession::check_confirm(Step step) const {
   HP_RETURN_IF_ERROR(around_.gateway.check_at_rest());
   const bool takes_measured = step == Step::kFindContact && facts_.plan.contact_mm;
   if (!takes_measured || around_.places.place().homings == facts_.plan.homings) return {};
-  return tl::unexpected(
-      Error{Code::kFailedPrecondition,
-            "the rig has been homed since " + facts_.plan.calibration +
-                " was made, so first contact is unknown; cancel this dip and calibrate again",
-            "CALIBRATION_STALE",
-            {{"calibration", facts_.plan.calibration}, {"why", "HOMED"}}});
+  return tl::unexpected(Error{Code::kFailedPrecondition,
+                              fmt::format("the rig has been homed since {} was made, so first "
+                                          "contact is unknown; cancel this dip and calibrate again",
+                                          facts_.plan.calibration),
+                              "CALIBRATION_STALE",
+                              {{"calibration", facts_.plan.calibration}, {"why", "HOMED"}}});
 }
 
 Status DipSession::confirm(Step step, const std::string& holder) {
@@ -133,9 +135,8 @@ Status DipSession::feed(Event event) {
   const dip::Outcome outcome = dip::proceed(stand_, event, facts_.plan.clocks);
   if (outcome.refused) {
     return tl::unexpected(Error{Code::kFailedPrecondition,
-                                facts_.job + " is at " + std::string(name(stand_.step)) +
-                                    ", not waiting for " + std::string(name(event.step)) +
-                                    "; see its dip_status",
+                                fmt::format("{} is at {}, not waiting for {}; see its dip_status",
+                                            facts_.job, name(stand_.step), name(event.step)),
                                 "STATE_FORBIDS",
                                 {{"step", std::string(name(stand_.step))}}});
   }
@@ -370,14 +371,13 @@ std::string DipSession::end_words() const {
     case Ending::kSucceeded:
       return dip::afterwards();
     case Ending::kCancelled:
-      return "ended on request in " + std::string(name(stand_.step)) + ": " +
-             dip::advice(stand_.step);
+      return fmt::format("ended on request in {}: {}", name(stand_.step), dip::advice(stand_.step));
     case Ending::kInterrupted:
-      return "the daemon was shut down in " + std::string(name(stand_.step)) + ": " +
-             dip::advice(stand_.step);
+      return fmt::format("the daemon was shut down in {}: {}", name(stand_.step),
+                         dip::advice(stand_.step));
     default:
-      return (failure_ ? failure_->message : "the rig failed") + "; in " +
-             std::string(name(stand_.step)) + ": " + dip::advice(stand_.step);
+      return fmt::format("{}; in {}: {}", failure_ ? failure_->message : "the rig failed",
+                         name(stand_.step), dip::advice(stand_.step));
   }
 }
 
@@ -428,7 +428,7 @@ Status end_lost_dips(DeviceJobs& jobs, const Layout& layout) {
     const auto step = static_cast<Step>(
         std::clamp<int>(status.step(), static_cast<int>(Step::kPrintFilm), dip::kSteps));
     const std::string words =
-        "the daemon was restarted in " + std::string(name(step)) + ": " + dip::advice(step);
+        fmt::format("the daemon was restarted in {}: {}", name(step), dip::advice(step));
     status.set_instruction(dip::advice(step));
     status.clear_step_end_time();
     std::vector<Artifact> record;

@@ -1,6 +1,8 @@
 // Sends the bytes of an artifact as fast as the client reads them.
 #include "daemon/http/download.h"
 
+#include <fmt/format.h>
+
 #include "daemon/http/credentials.h"
 #include "daemon/http/error_response.h"
 #include "daemon/http/protocol/async_value.h"
@@ -42,24 +44,24 @@ Wanted wanted(const Head& head, const v1::Artifact& artifact, bool is_inline) {
   }
   const bool is_same = head.fields.find("If-Range").value_or(tag) == tag;
   const std::string_view range = is_same ? head.fields.find("Range").value_or("") : "";
-  out.range = byte_range(range, artifact.size_bytes());
-  const std::string size = std::to_string(artifact.size_bytes());
+  const auto size = artifact.size_bytes();
+  out.range = byte_range(range, size);
   if (out.range.kind == ByteRange::Kind::kNone) {
-    out.response =
-        refusal({Code::kOutOfRange,
-                 "the artifact has " + size + " bytes; the requested range is beyond its end",
-                 "RANGE_UNSATISFIABLE",
-                 {}},
-                416);
-    out.response.fields.set("Content-Range", "bytes */" + size);
+    out.response = refusal(
+        {Code::kOutOfRange,
+         fmt::format("the artifact has {} bytes; the requested range is beyond its end", size),
+         "RANGE_UNSATISFIABLE",
+         {}},
+        416);
+    out.response.fields.set("Content-Range", fmt::format("bytes */{}", size));
     return out;
   }
   fields.set("Content-Type", artifact.media_type());
   fields.set("Content-Disposition", content_disposition(is_shown, file));
   if (out.range.kind == ByteRange::Kind::kPart) {
     out.response.status = 206;
-    fields.set("Content-Range", "bytes " + std::to_string(out.range.begin) + '-' +
-                                    std::to_string(out.range.end - 1) + '/' + size);
+    fields.set("Content-Range",
+               fmt::format("bytes {}-{}/{}", out.range.begin, out.range.end - 1, size));
   }
   return out;
 }

@@ -1,6 +1,8 @@
 // Selects the handler for each request.
 #include "daemon/http/router.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "daemon/http/error_response.h"
@@ -75,14 +77,13 @@ std::optional<Response> refused(const ServerContext& server, const Head& head, b
                     {}});
   }
   if (hosts == 1 && !is_ours(server.options, *head.fields.find("Host"))) {
-    return refusal(
-        {Code::kPermissionDenied,
-         "unknown host name \"" + rest::plain(*head.fields.find("Host")) +
-             "\"; use a name in the server's certificate, or 127.0.0.1 on its own machine, or "
-             "add it to server.host_names",
-         "HOST_UNKNOWN",
-         {}},
-        421);
+    return refusal({Code::kPermissionDenied,
+                    fmt::format("unknown host name \"{}\"; use a name in the server's certificate, "
+                                "or 127.0.0.1 on its own machine, or add it to server.host_names",
+                                rest::plain(*head.fields.find("Host"))),
+                    "HOST_UNKNOWN",
+                    {}},
+                   421);
   }
   if (!is_safe(head.method) && comes_from_elsewhere(head, is_secure)) {
     return refusal(

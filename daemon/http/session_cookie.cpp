@@ -2,6 +2,8 @@
 // it.
 #include "daemon/http/session_cookie.h"
 
+#include <fmt/format.h>
+
 #include "daemon/auth/secret.h"
 #include "daemon/http/credentials.h"
 #include "hydroprint/v1/people_service.pb.h"
@@ -14,8 +16,8 @@ constexpr std::string_view kSignOut = "/hydroprint.v1.PeopleService/SignOut";
 using rest::kCsrfHeader;
 
 std::string cookie_text(std::string_view token, bool is_secure, std::string_view more) {
-  return std::string(kSessionCookie) + "=" + std::string(token) +
-         "; Path=/; HttpOnly; SameSite=Strict" + (is_secure ? "; Secure" : "") + std::string(more);
+  return fmt::format("{}={}; Path=/; HttpOnly; SameSite=Strict{}{}", kSessionCookie, token,
+                     is_secure ? "; Secure" : "", more);
 }
 
 }  // namespace
@@ -28,8 +30,9 @@ Status check_csrf(const Head& head) {
   const std::string wanted = auth::csrf_token(*session);
   if (auth::equal_in_constant_time(head.fields.find(kCsrfHeader).value_or(""), wanted)) return {};
   return fail(Code::kPermissionDenied,
-              "requests that change something with a session need the header " +
-                  std::string(kCsrfHeader) + ", which /v1/session returns; reload the page",
+              fmt::format("requests that change something with a session need the header {}, which "
+                          "/v1/session returns; reload the page",
+                          kCsrfHeader),
               "CSRF_TOKEN_MISSING");
 }
 

@@ -1,7 +1,8 @@
 #include "daemon/jobs/calibration_binding.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <sstream>
 
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/to_proto.h"
@@ -15,16 +16,10 @@ constexpr const char* kActive = "calibrations/active";
 // The axis comes to rest within a tenth of a millimetre of its target.
 constexpr double kSamePlace_mm = 0.3;
 
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 tl::unexpected<Error> missing(const std::string& name, const std::string& field) {
   return tl::unexpected(
       Error{Code::kFailedPrecondition,
-            field + ": " + name + " does not exist; calibrate, or name another one",
+            fmt::format("{}: {} does not exist; calibrate, or name another one", field, name),
             "CALIBRATION_MISSING",
             {{"calibration", name}}});
 }
@@ -32,7 +27,7 @@ tl::unexpected<Error> missing(const std::string& name, const std::string& field)
 std::string words_of(Staleness why, const v1::Calibration& calibration) {
   switch (why) {
     case v1::Calibration::MOVED:
-      return "the axis has moved since (it was at " + text(calibration.axis_mm()) + " mm)";
+      return fmt::format("the axis has moved since (it was at {:g} mm)", calibration.axis_mm());
     case v1::Calibration::HOMED:
       return "the rig has been homed since, or lost its position";
     default:
@@ -108,7 +103,8 @@ Objection objection(const v1::Calibration& calibration, const v1::InputFile& mes
     out.add(words_of(stale, calibration), v1::Calibration::Staleness_Name(stale));
   }
   if (!mesh.asset().empty() && mesh.asset() != calibration.mesh().asset()) {
-    out.add("it belongs to another object (" + calibration.mesh().name() + ")", "OTHER_OBJECT");
+    out.add(fmt::format("it belongs to another object ({})", calibration.mesh().name()),
+            "OTHER_OBJECT");
   }
   return out;
 }
@@ -116,11 +112,12 @@ Objection objection(const v1::Calibration& calibration, const v1::InputFile& mes
 Status check_objection(const v1::Calibration& calibration, const Objection& objection,
                        bool is_allowed) {
   if (objection.words.empty() || is_allowed) return {};
-  return tl::unexpected(Error{Code::kFailedPrecondition,
-                              calibration.name() + " is no longer valid: " + objection.words +
-                                  "; calibrate again, or set allow_stale_calibration",
-                              "CALIBRATION_STALE",
-                              {{"calibration", calibration.name()}, {"why", objection.names}}});
+  return tl::unexpected(Error{
+      Code::kFailedPrecondition,
+      fmt::format("{} is no longer valid: {}; calibrate again, or set allow_stale_calibration",
+                  calibration.name(), objection.words),
+      "CALIBRATION_STALE",
+      {{"calibration", calibration.name()}, {"why", objection.names}}});
 }
 
 bool knows_contact(const v1::Calibration& calibration) {

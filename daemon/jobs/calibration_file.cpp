@@ -1,5 +1,7 @@
 #include "daemon/jobs/calibration_file.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -30,7 +32,7 @@ class Reader {
   void numbers(const std::string& pointer, std::size_t count,
                google::protobuf::RepeatedField<double>& out, double most = kFarthest_mm) {
     for (std::size_t i = 0; i < count; ++i) {
-      out.Add(number(pointer + "/" + std::to_string(i), most));
+      out.Add(number(fmt::format("{}/{}", pointer, i), most));
     }
   }
   /// Reads a text, truncated if too long, without unprintable characters.
@@ -72,8 +74,9 @@ class Reader {
   void refuse(const std::string& pointer) {
     if (!status_) return;
     status_ = fail(Code::kInternal,
-                   "the worker's calibration has no usable " + pointer +
-                       "; check that workers.program is hydroprint-worker",
+                   fmt::format("the worker's calibration has no usable {}; check that "
+                               "workers.program is hydroprint-worker",
+                               pointer),
                    "WORKER_UNUSABLE");
   }
 
@@ -108,7 +111,7 @@ Status read_calibration(const std::string& text, v1::Calibration& out) {
   from.numbers("/pose/rotation_wxyz", 4, *out.mutable_pose()->mutable_rotation_wxyz(), 1.001);
   from.numbers("/pose/translation_mm", 3, *out.mutable_pose()->mutable_translation_mm());
   for (int row = 0; row < 6; ++row) {
-    from.numbers("/uncertainty/covariance_turn_rad_shift_mm/" + std::to_string(row), 6,
+    from.numbers(fmt::format("/uncertainty/covariance_turn_rad_shift_mm/{}", row), 6,
                  *out.mutable_covariance(), 1e12);
   }
   from.numbers("/uncertainty/about_mm", 3, *out.mutable_centre_mm());
@@ -116,11 +119,11 @@ Status read_calibration(const std::string& text, v1::Calibration& out) {
   out.set_error_p95_mm(from.number("/uncertainty/error_p95_mm"));
   out.set_error_max_mm(from.number("/uncertainty/error_max_mm"));
   for (std::size_t i = 0; i < from.size("/from_nominal_pose"); ++i) {
-    out.add_from_nominal_pose(from.text("/from_nominal_pose/" + std::to_string(i)));
+    out.add_from_nominal_pose(from.text(fmt::format("/from_nominal_pose/{}", i)));
   }
   const std::string markers = "/film_frame/markers";
   for (std::size_t i = 0; i < from.size(markers); ++i) {
-    read_marker(from, markers + "/" + std::to_string(i), *out.add_markers());
+    read_marker(from, fmt::format("{}/{}", markers, i), *out.add_markers());
   }
   read_water(from, out);
   return from.status();

@@ -1,5 +1,6 @@
 #include "daemon/jobs/job_request.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
 #include <memory>
@@ -39,7 +40,8 @@ Result<std::string> json_of(const Message& spec) {
   const auto status = google::protobuf::util::MessageToJsonString(spec, &json);
   if (status.ok()) return json;
   return fail(Code::kInvalidArgument,
-              spec.GetTypeName() + ": cannot be written as JSON: " + std::string(status.message()),
+              fmt::format("{}: cannot be written as JSON: {}", spec.GetTypeName(),
+                          std::string(status.message())),
               "SPEC_INVALID");
 }
 

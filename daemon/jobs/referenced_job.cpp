@@ -1,5 +1,7 @@
 #include "daemon/jobs/referenced_job.h"
 
+#include <fmt/format.h>
+
 #include "daemon/platform/resource_names.h"
 #include "hydroprint/v1/job.pb.h"
 #include "sim/base/input_file.h"
@@ -16,13 +18,15 @@ Result<Job> earlier_job(const std::string& name, const std::string& kind, const 
   HP_ASSIGN_OR_RETURN(const std::int64_t id, parse_job_name(name));
   HP_ASSIGN_OR_RETURN(Job job, jobs.get(id));
   if (job.made.work.verb != kind) {
-    return invalid_field(field, "names a " + job.made.work.verb + " job; name a " + kind + " job");
+    return invalid_field(field,
+                         fmt::format("names a {} job; name a {} job", job.made.work.verb, kind));
   }
   if (job.state == JobState::kSucceeded) return job;
-  return tl::unexpected(Error{Code::kFailedPrecondition,
-                              name + " is " + name_of(job.state) + "; name a job that SUCCEEDED",
-                              "STATE_FORBIDS",
-                              {{"state", name_of(job.state)}}});
+  return tl::unexpected(
+      Error{Code::kFailedPrecondition,
+            fmt::format("{} is {}; name a job that SUCCEEDED", name, name_of(job.state)),
+            "STATE_FORBIDS",
+            {{"state", name_of(job.state)}}});
 }
 
 Result<EarlierSimulation> earlier_simulation(const std::string& name, const std::string& field,

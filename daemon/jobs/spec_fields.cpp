@@ -1,5 +1,7 @@
 #include "daemon/jobs/spec_fields.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace hydroprint::daemon {
@@ -12,7 +14,7 @@ Status check_frames(const std::string& kind, const InputFiles& frames, int most_
                          "hydroprint-capture writes");
   }
   if (views <= most_views) return {};
-  return invalid_field(kind + ".frames", "have more views than " + std::to_string(most_views));
+  return invalid_field(kind + ".frames", fmt::format("have more views than {}", most_views));
 }
 
 int count_views(const InputFiles& frames) {

@@ -1,5 +1,7 @@
 #include "daemon/jobs/spec_files.h"
 
+#include <fmt/format.h>
+
 #include <functional>
 #include <set>
 
@@ -65,7 +67,8 @@ Result<std::vector<InputFile>> input_files(const Message& spec, const std::strin
   if (const std::string name = ambiguous_name(out); !name.empty()) {
     return fail(
         Code::kInvalidArgument,
-        path + ": the name \"" + name + "\" is used for two files; give each file its own name",
+        fmt::format("{}: the name \"{}\" is used for two files; give each file its own name", path,
+                    name),
         "NAME_INVALID");
   }
   return out;

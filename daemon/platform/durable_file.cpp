@@ -1,6 +1,7 @@
 #include "daemon/platform/durable_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
 #include <unistd.h>
@@ -27,14 +28,14 @@ void UniqueFd::reset() {
 
 tl::unexpected<Error> system_failure(const std::filesystem::path& path, std::string_view what) {
   const int error = errno;
-  const std::string text = path.string() + ": " + std::string(what) + ": ";
+  const std::string text = fmt::format("{}: {}: ", path.string(), what);
   if (error == ENOSPC || error == EDQUOT) {
     return fail(Code::kResourceExhausted, text + "the disk is full; make room and try again",
                 "DISK_FULL");
   }
   return fail(Code::kInternal,
-              text + std::generic_category().message(error) +
-                  "; check the state folder's disk and permissions",
+              fmt::format("{}{}; check the state folder's disk and permissions", text,
+                          std::generic_category().message(error)),
               "STORE_FAILED");
 }
 
@@ -123,9 +124,9 @@ Status check_free_space(const std::filesystem::path& path, std::int64_t bytes) {
   const auto free = static_cast<std::int64_t>(disk.f_bavail * disk.f_frsize);
   if (free >= bytes) return {};
   return fail(Code::kResourceExhausted,
-              "the daemon's disk is nearly full (" + std::to_string(free >> 20) + " MiB free, " +
-                  std::to_string(bytes >> 20) +
-                  " MiB needed); delete jobs or assets, or free disk space",
+              fmt::format("the daemon's disk is nearly full ({} MiB free, {} MiB needed); delete "
+                          "jobs or assets, or free disk space",
+                          free >> 20, bytes >> 20),
               "DISK_FULL");
 }
 

@@ -1,5 +1,6 @@
 #include "daemon/platform/log.h"
 
+#include <fmt/format.h>
 #include <spdlog/sinks/basic_file_sink.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -70,16 +71,17 @@ Status start_logging(LogLevel level, const std::filesystem::path& file) {
     spdlog::set_default_logger(std::move(logger));
     return {};
   } catch (const spdlog::spdlog_ex&) {
-    return fail(Code::kPermissionDenied,
-                "log.file: cannot open \"" + file.string() +
-                    "\" for writing; name a file in a folder that exists "
-                    "and is writable for the daemon, or leave log.file empty");
+    return fail(
+        Code::kPermissionDenied,
+        fmt::format("log.file: cannot open \"{}\" for writing; name a file in a folder that exists "
+                    "and is writable for the daemon, or leave log.file empty",
+                    file.string()));
   }
 }
 
 void log(LogLevel level, std::string_view event, std::initializer_list<LogField> fields) {
-  std::string line = "event=" + std::string(event);
-  for (const LogField& field : fields) line += ' ' + field.key + '=' + field.value;
+  std::string line = fmt::format("event={}", event);
+  for (const LogField& field : fields) line += fmt::format(" {}={}", field.key, field.value);
   spdlog::log(spdlog_level(level), "{}", line);
 }
 

@@ -1,5 +1,7 @@
 #include "daemon/platform/resource_names.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <random>
@@ -14,11 +16,12 @@ bool is_hex(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
 std::string shown(std::string_view text) {
   std::string out(text.substr(0, 80));
   std::replace_if(out.begin(), out.end(), is_control, '?');
-  return "\"" + out + (text.size() > 80 ? "...\"" : "\"");
+  return fmt::format("\"{}{}\"", out, text.size() > 80 ? "..." : "");
 }
 
 tl::unexpected<Error> bad_id(std::string_view name, const std::string& pattern) {
-  return fail(Code::kInvalidArgument, shown(name) + " is not of the form " + pattern, "ID_INVALID");
+  return fail(Code::kInvalidArgument, fmt::format("{} is not of the form {}", shown(name), pattern),
+              "ID_INVALID");
 }
 
 bool is_plain_part(std::string_view part) {
@@ -30,16 +33,14 @@ bool is_plain_part(std::string_view part) {
 }  // namespace
 
 tl::unexpected<Error> invalid_field(std::string_view field, std::string_view problem) {
-  auto error = fail(Code::kInvalidArgument, std::string(field) + ": " + std::string(problem),
-                    "SPEC_INVALID");
+  auto error = fail(Code::kInvalidArgument, fmt::format("{}: {}", field, problem), "SPEC_INVALID");
   error.value().metadata["field"] = field;
   return error;
 }
 
 Status check_text(std::string_view field, std::string_view text, std::size_t max_bytes) {
   if (text.size() > max_bytes) {
-    return invalid_field(field,
-                         "is longer than " + std::to_string(max_bytes) + " bytes; shorten it");
+    return invalid_field(field, fmt::format("is longer than {} bytes; shorten it", max_bytes));
   }
   if (std::any_of(text.begin(), text.end(), is_control)) {
     return invalid_field(field, "has control characters; leave them out");
@@ -57,8 +58,9 @@ Status check_file_name(std::string_view field, std::string_view name) {
   if (plain) return {};
   auto error =
       fail(Code::kInvalidArgument,
-           std::string(field) + ": " + shown(name) +
-               " is not a plain file name; use one like \"spot.obj\" or \"textures/a.png\"",
+           fmt::format(
+               "{}: {} is not a plain file name; use one like \"spot.obj\" or \"textures/a.png\"",
+               field, shown(name)),
            "NAME_INVALID");
   error.value().metadata["field"] = field;
   return error;
@@ -106,9 +108,9 @@ Result<std::pair<std::int64_t, std::string>> parse_artifact_name(std::string_vie
   return std::pair(job, std::string(file));
 }
 
-std::string calibration_name(std::int64_t id) { return "calibrations/" + std::to_string(id); }
+std::string calibration_name(std::int64_t id) { return fmt::format("calibrations/{}", id); }
 
-std::string job_name(std::int64_t id) { return "jobs/" + std::to_string(id); }
+std::string job_name(std::int64_t id) { return fmt::format("jobs/{}", id); }
 
 std::int64_t parse_number(std::string_view text) {
   std::int64_t number = 0;

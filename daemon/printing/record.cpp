@@ -1,9 +1,10 @@
 #include "daemon/printing/record.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace hydroprint::daemon {
 namespace {
@@ -12,18 +13,6 @@ using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kSamePaper_mm = 0.5;
 constexpr double kSameMargin_mm = 0.05;
-
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
-std::string number_text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
 
 OrderedJson news_json(const std::vector<PrinterNews>& news) {
   OrderedJson out = OrderedJson::array();
@@ -81,18 +70,19 @@ Warnings warnings_of(const PrintPlan& plan, const printer::Attributes& printer) 
   Warnings out;
   if (!printer.papers.empty() && !has_paper(printer, plan.paper_mm)) {
     out.push_back({"paper_not_listed",
-                   "the printer does not list paper of " + number_text(plan.paper_mm.x()) + " x " +
-                       number_text(plan.paper_mm.y()) +
-                       " mm; set it up there, and measure the rulers on the printed page",
+                   fmt::format("the printer does not list paper of {:g} x {:g} mm; set it up "
+                               "there, and measure the rulers on the printed page",
+                               plan.paper_mm.x(), plan.paper_mm.y()),
                    "printer"});
   }
   const double margin_mm = printer.margins_mm.maxCoeff();
   if (margin_mm > plan.margin_mm + kSameMargin_mm) {
     out.push_back(
         {"printer_margin",
-         "the printer cannot print up to " + number_text(margin_mm) +
-             " mm at the paper's edges, but print-image assumed " + number_text(plan.margin_mm) +
-             " mm; the difference is not printed. Run print-image with --printer-margin-mm",
+         fmt::format(
+             "the printer cannot print up to {:g} mm at the paper's edges, but print-image assumed "
+             "{:g} mm; the difference is not printed. Run print-image with --printer-margin-mm",
+             margin_mm, plan.margin_mm),
          plan.print_image_job});
   }
   return out;
@@ -103,9 +93,8 @@ Warnings warnings_of(const std::vector<std::string>& ignored) {
   for (const std::string& name : ignored) {
     const bool is_scale = name == "print-scaling";
     out.push_back({is_scale ? "scale_not_heeded" : "not_heeded",
-                   "the printer ignores " + name +
-                       (is_scale ? ": it may not print at exact scale" : "") +
-                       "; measure the rulers on the printed page",
+                   fmt::format("the printer ignores {}{}; measure the rulers on the printed page",
+                               name, is_scale ? ": it may not print at exact scale" : ""),
                    "printer"});
   }
   return out;
@@ -116,15 +105,16 @@ Status check_takes_pdf(const printer::Attributes& printer, const std::string& ad
   if (!formats.empty() &&
       std::find(formats.begin(), formats.end(), "application/pdf") == formats.end()) {
     return fail(Code::kInvalidArgument,
-                "printer " + address + ": does not accept PDF (only " + joined(formats) +
-                    "). Download print.pdf and print it from a machine with a driver for it",
+                fmt::format("printer {}: does not accept PDF (only {}). Download print.pdf and "
+                            "print it from a machine with a driver for it",
+                            address, fmt::join(formats, ", ")),
                 "FORMAT_NOT_SUPPORTED");
   }
   if (!printer.accepts_jobs) {
-    const std::string why = joined(printer.state_reasons);
+    const auto& why = printer.state_reasons;
     return fail(Code::kFailedPrecondition,
-                "printer " + address + ": does not accept jobs" +
-                    (why.empty() ? "" : " (" + why + ")") + ". Check its display",
+                fmt::format("printer {}: does not accept jobs{}. Check its display", address,
+                            why.empty() ? "" : fmt::format(" ({})", fmt::join(why, ", "))),
                 "PRINTER_REFUSED");
   }
   return {};
@@ -133,8 +123,8 @@ Status check_takes_pdf(const printer::Attributes& printer, const std::string& ad
 std::string words_of(const printer::JobReport& report) {
   std::vector<std::string> all = report.reasons;
   all.insert(all.end(), report.printer_reasons.begin(), report.printer_reasons.end());
-  const std::string why = joined(all);
-  return printer::job_state_name(report.state) + (why.empty() ? "" : ": " + why);
+  return fmt::format("{}{}{}", printer::job_state_name(report.state), all.empty() ? "" : ": ",
+                     fmt::join(all, ", "));
 }
 
 }  // namespace hydroprint::daemon

@@ -1,6 +1,7 @@
 #include "daemon/printing/session.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
@@ -65,7 +66,7 @@ Status PrintSession::print() {
 
 Result<printer::Submitted> PrintSession::send() {
   tell("SENDING", kSending,
-       "sending " + facts_.plan.print_image_job + " to " + facts_.printer.name);
+       fmt::format("sending {} to {}", facts_.plan.print_image_job, facts_.printer.name));
   HP_ASSIGN_OR_RETURN(const std::string pdf, read_text_file(facts_.plan.pdf, kLargestPdf));
   printer::PrintJob what;
   what.document = {reinterpret_cast<const unsigned char*>(pdf.data()), pdf.size()};
@@ -88,7 +89,7 @@ void PrintSession::note(const printer::JobReport& report) {
   facts_.news.push_back({passed.count(), report});
   const double pages = std::min(1.0, static_cast<double>(report.pages_done) / facts_.plan.pages);
   tell(phase_of(report.state), kSent + (1 - kSent) * pages,
-       "printer's job " + std::to_string(report.id) + ": " + words_of(report));
+       fmt::format("printer's job {}: {}", report.id, words_of(report)));
 }
 
 void PrintSession::tell(std::string_view phase, double fraction, const std::string& message) {

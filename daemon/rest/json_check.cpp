@@ -1,5 +1,6 @@
 #include "daemon/rest/json_check.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
@@ -121,8 +122,8 @@ class Checker : public nlohmann::json_sax<json> {
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;
     return {Code::kInvalidArgument,
-            "request body, line " + std::to_string(line) + ", column " + std::to_string(column) +
-                ": not valid JSON: " + plain(what),
+            fmt::format("request body, line {}, column {}: not valid JSON: {}", line, column,
+                        plain(what)),
             "JSON_INVALID",
             {}};
   }
@@ -133,7 +134,7 @@ class Checker : public nlohmann::json_sax<json> {
     std::string text;
     for (const Level& level : levels_) {
       if (level.is_list) {
-        text += "[" + std::to_string(level.count) + "]";
+        text += fmt::format("[{}]", level.count);
       } else {
         text += (text.empty() ? "" : ".") + level.name;
       }
@@ -150,7 +151,7 @@ class Checker : public nlohmann::json_sax<json> {
 
   bool begin(Level level) {
     if (levels_.size() == kMostLevels) {
-      return refuse("is nested more than " + std::to_string(kMostLevels) + " levels deep");
+      return refuse(fmt::format("is nested more than {} levels deep", kMostLevels));
     }
     levels_.push_back(std::move(level));
     return true;

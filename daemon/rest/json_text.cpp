@@ -1,5 +1,6 @@
 #include "daemon/rest/json_text.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 #include <google/protobuf/util/json_util.h>
@@ -37,7 +38,7 @@ Status check_inside(const pb::Message& message, const std::string& before) {
     }
     const int count = message.GetReflection()->FieldSize(message, field);
     for (int i = 0; i < count; ++i) {
-      HP_RETURN_IF_ERROR(check_value(message, *field, i, place + "[" + std::to_string(i) + "]"));
+      HP_RETURN_IF_ERROR(check_value(message, *field, i, fmt::format("{}[{}]", place, i)));
     }
   }
   return {};
@@ -67,7 +68,7 @@ Status check_value(const pb::Message& message, const pb::FieldDescriptor& field,
                              : look.GetRepeatedEnumValue(message, &field, index);
       if (field.enum_type()->FindValueByNumber(number) != nullptr) return {};
       return refuse_value(place,
-                          field.enum_type()->name() + " has no value " + std::to_string(number));
+                          fmt::format("{} has no value {}", field.enum_type()->name(), number));
     }
     default:
       return {};

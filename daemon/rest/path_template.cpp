@@ -1,5 +1,7 @@
 #include "daemon/rest/path_template.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -38,8 +40,8 @@ class Parser {
 
  private:
   [[nodiscard]] tl::unexpected<Error> refuse(const std::string& what) const {
-    return fail(Code::kInvalidArgument, "path template \"" + std::string(text_) + "\", byte " +
-                                            std::to_string(at_) + ": " + what);
+    return fail(Code::kInvalidArgument,
+                fmt::format("path template \"{}\", byte {}: {}", text_, at_, what));
   }
 
   bool take(char c) {

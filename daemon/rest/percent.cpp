@@ -1,5 +1,7 @@
 #include "daemon/rest/percent.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 
@@ -7,8 +9,8 @@ namespace hydroprint::rest {
 namespace {
 
 tl::unexpected<Error> refuse(std::string_view text, std::size_t at, const std::string& what) {
-  return fail(Code::kInvalidArgument,
-              "\"" + plain(text) + "\", byte " + std::to_string(at) + ": " + what, "URL_INVALID");
+  return fail(Code::kInvalidArgument, fmt::format("\"{}\", byte {}: {}", plain(text), at, what),
+              "URL_INVALID");
 }
 
 int hex_digit(char c) {

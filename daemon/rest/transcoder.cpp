@@ -1,5 +1,6 @@
 #include "daemon/rest/transcoder.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
@@ -59,9 +60,7 @@ Status read_body(std::string_view body, const Route& route, pb::Message& request
     std::erase_if(rest, [](char c) { return is_blank({&c, 1}); });
     if (rest == "{}") return {};
     return fail(Code::kInvalidArgument,
-                "request body: must be empty; put the parameters "
-                "in the query",
-                "JSON_INVALID");
+                "request body: must be empty; put the parameters in the query", "JSON_INVALID");
   }
   if (route.body == Body::kField) {
     return read_json(body, *request.GetReflection()->MutableMessage(&request, route.body_field));
@@ -91,13 +90,11 @@ tl::unexpected<Error> no_route(std::string_view http_method, std::string_view pa
     return fail(Code::kNotFound, plain(path) + ": not found; see /openapi.json for all paths",
                 "ROUTE_NOT_FOUND");
   }
-  std::string allowed;
-  for (const std::string& name : methods_of(matches)) {
-    allowed += (allowed.empty() ? "" : ", ") + name;
-  }
-  auto error = fail(Code::kUnimplemented,
-                    plain(path) + ": " + plain(http_method) + " is not allowed; use " + allowed,
-                    "METHOD_NOT_ALLOWED");
+  const std::string allowed = fmt::format("{}", fmt::join(methods_of(matches), ", "));
+  auto error =
+      fail(Code::kUnimplemented,
+           fmt::format("{}: {} is not allowed; use {}", plain(path), plain(http_method), allowed),
+           "METHOD_NOT_ALLOWED");
   error.value().metadata["allow"] = allowed;
   return error;
 }
@@ -221,7 +218,8 @@ Result<Call> Transcoder::resume(Call call, std::string_view last_event_id) const
       !last_event_id.empty() && std::all_of(last_event_id.begin(), last_event_id.end(),
                                             [](char c) { return c >= '0' && c <= '9'; });
   if (!is_number) {
-    return bad_parameter("Last-Event-ID", "\"" + plain(last_event_id) + "\" is not an event id");
+    return bad_parameter("Last-Event-ID",
+                         fmt::format("\"{}\" is not an event id", plain(last_event_id)));
   }
   const auto* after_seq = number_called(*called->input_type(), "after_seq");
   HP_RETURN_IF_ERROR(set_from_text(*request, {after_seq}, std::string(last_event_id)));

@@ -1,5 +1,6 @@
 #include "daemon/rest/values.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 
@@ -136,17 +137,17 @@ Status set_from_text(pb::Message& message, const FieldPath& path, const std::str
   const std::string name = path_text(path);
   if (last.is_map() || (last.message_type() != nullptr && !is_written_as_value(last))) {
     return bad_parameter(
-        name, "is a " + std::string(last.is_map() ? "map" : "message") + " and cannot be in a URL");
+        name, fmt::format("is a {} and cannot be in a URL", last.is_map() ? "map" : "message"));
   }
   pb::Message* inside = &message;
   for (const pb::FieldDescriptor* field : path) {
     if (const auto* other = rival(*inside, *field)) {
-      return bad_parameter(name, "excludes " + other->name() + ", which is also given");
+      return bad_parameter(name, fmt::format("excludes {}, which is also given", other->name()));
     }
     if (field != &last) inside = inside->GetReflection()->MutableMessage(inside, field);
   }
   if (put_text(*inside, last, text)) return {};
-  return bad_parameter(name, "\"" + plain(text) + "\" is not " + expected(last));
+  return bad_parameter(name, fmt::format("\"{}\" is not {}", plain(text), expected(last)));
 }
 
 }  // namespace hydroprint::rest

@@ -1,5 +1,7 @@
 #include "daemon/rig/lease_manager.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "daemon/platform/resource_names.h"
@@ -16,11 +18,13 @@ void describe(const Lease& lease, Error& error) {
 }
 
 tl::unexpected<Error> is_held(const Lease& lease) {
-  Error error{Code::kAborted,
-              lease.holder + " holds the rig's lease until " + time_text(lease.expire_ms) + " (" +
-                  lease.purpose + "); ask them to release it, or break the lease",
-              "LEASE_HELD",
-              {}};
+  Error error{
+      Code::kAborted,
+      fmt::format(
+          "{} holds the rig's lease until {} ({}); ask them to release it, or break the lease",
+          lease.holder, time_text(lease.expire_ms), lease.purpose),
+      "LEASE_HELD",
+      {}};
   describe(lease, error);
   return tl::unexpected(std::move(error));
 }
@@ -31,8 +35,8 @@ tl::unexpected<Error> is_required(const std::optional<Lease>& held) {
               "LEASE_REQUIRED",
               {}};
   if (held) {
-    error.message += ": " + held->holder + " holds it until " + time_text(held->expire_ms) + " (" +
-                     held->purpose + ")";
+    error.message += fmt::format(": {} holds it until {} ({})", held->holder,
+                                 time_text(held->expire_ms), held->purpose);
     describe(*held, error);
   }
   return tl::unexpected(std::move(error));

@@ -1,5 +1,7 @@
 #include "daemon/rig/rig_gateway.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <utility>
 
@@ -33,12 +35,13 @@ Status RigGateway::check_free() const {
   if (controller_ == nullptr) return no_rig();
   if (!claimed_) return {};
   const std::string name = job_name(dip_);
-  return tl::unexpected(
-      Error{Code::kFailedPrecondition,
-            "the dip " + name +
-                " has exclusive use of the rig until it ends; stop the rig or cancel the dip",
-            "STATE_FORBIDS",
-            {{"dip", name}}});
+  return tl::unexpected(Error{
+      Code::kFailedPrecondition,
+      fmt::format(
+          "the dip {} has exclusive use of the rig until it ends; stop the rig or cancel the dip",
+          name),
+      "STATE_FORBIDS",
+      {{"dip", name}}});
 }
 
 Result<std::future<rig::Answer>> RigGateway::order(const std::string& lease_id,

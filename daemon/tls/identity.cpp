@@ -1,6 +1,7 @@
 #include "daemon/tls/identity.h"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
 #include <openssl/ssl.h>
@@ -38,7 +39,7 @@ tl::unexpected<Error> refused(const std::filesystem::path& file, const std::stri
 std::string openssl_words() {
   const unsigned long error = ERR_peek_last_error();
   const char* const reason = error == 0 ? nullptr : ERR_reason_error_string(error);
-  return reason == nullptr ? "" : " (" + std::string(reason) + ")";
+  return reason == nullptr ? "" : fmt::format(" ({})", reason);
 }
 
 Result<std::string> read_file(const std::filesystem::path& file, const std::string& what,
@@ -50,8 +51,9 @@ Result<std::string> read_file(const std::filesystem::path& file, const std::stri
   }
   std::ifstream in(file, std::ios::binary);
   if (!is_there || !in) {
-    return refused(file, "the TLS " + what + " cannot be read: " + std::strerror(errno) +
-                             "; name a PEM file that this user can read");
+    return refused(
+        file, fmt::format("the TLS {} cannot be read: {}; name a PEM file that this user can read",
+                          what, std::strerror(errno)));
   }
   if (is_secret && (info.st_mode & 07) != 0) {
     return refused(
@@ -92,7 +94,7 @@ std::string address_text(const ASN1_OCTET_STRING& bytes) {
   if (inet_ntop(family, ASN1_STRING_get0_data(&bytes), text.data(), text.size()) == nullptr) {
     return {};
   }
-  return family == AF_INET ? text.data() : "[" + std::string(text.data()) + "]";
+  return family == AF_INET ? text.data() : fmt::format("[{}]", text.data());
 }
 
 std::string text_of(const GENERAL_NAME& name) {
@@ -160,13 +162,15 @@ Result<std::shared_ptr<const Identity>> Identity::read(
   const Owned<EVP_PKEY> key(
       PEM_read_bio_PrivateKey(reader_of(made->key_pem_).get(), nullptr, no_passphrase, nullptr));
   if (!key) {
-    return refused(key_file, "has no key in PEM format without a passphrase" + openssl_words() +
-                                 "; convert it with: openssl pkey -in OLD -out NEW");
+    return refused(key_file, fmt::format("has no key in PEM format without a passphrase{}; convert "
+                                         "it with: openssl pkey -in OLD -out NEW",
+                                         openssl_words()));
   }
   if (X509_check_private_key(chain.front().get(), key.get()) != 1) {
     return refused(key_file,
-                   "is not the key of the first certificate in " + certificate_file.string() +
-                       "; name a matching pair, with the server's certificate first in the file");
+                   fmt::format("is not the key of the first certificate in {}; name a matching "
+                               "pair, with the server's certificate first in the file",
+                               certificate_file.string()));
   }
   ERR_clear_error();
   made->context_ = server_context();
@@ -177,8 +181,10 @@ Result<std::shared_ptr<const Identity>> Identity::read(
     is_good = SSL_CTX_add1_chain_cert(context, chain[i].get()) == 1;
   }
   if (!is_good) {
-    return refused(certificate_file, "cannot be used for TLS" + openssl_words() +
-                                         "; create a new one, with a key of 2048 bits or more");
+    return refused(
+        certificate_file,
+        fmt::format("cannot be used for TLS{}; create a new one, with a key of 2048 bits or more",
+                    openssl_words()));
   }
   made->names_ = names_of(*chain.front());
   made->expire_s_ = unix_time(X509_get0_notAfter(chain.front().get()));

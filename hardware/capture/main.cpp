@@ -1,6 +1,7 @@
 // hydroprint-capture captures frames of a depth camera in its own process, so that a driver that
 // hangs or crashes does no other harm.
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -44,8 +45,8 @@ class Recording {
   explicit Recording(std::filesystem::path path) : path_(std::move(path)) {
     if (path_.empty()) return;
     path_ = std::filesystem::absolute(path_);
-    partial_ = path_.parent_path() /
-               (".part-" + std::to_string(::getpid()) + "-" + path_.filename().string());
+    partial_ =
+        path_.parent_path() / fmt::format(".part-{}-{}", ::getpid(), path_.filename().string());
   }
   ~Recording() { abandon(); }
   Recording(const Recording&) = delete;
@@ -166,8 +167,8 @@ void sum_up(const Summary& summary, bool json) {
       {"out", summary.dir.string()}, {"frames", summary.frames}, {"lost_frames", summary.lost}};
   const std::string text =
       json ? object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)
-           : summary.dir.string() + ": " + std::to_string(summary.frames) + " frames, " +
-                 std::to_string(summary.lost) + " lost";
+           : fmt::format("{}: {} frames, {} lost", summary.dir.string(), summary.frames,
+                         summary.lost);
   std::puts(text.c_str());
 }
 

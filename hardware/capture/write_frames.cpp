@@ -1,5 +1,7 @@
 #include "hardware/capture/write_frames.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -8,23 +10,13 @@
 #include "sim/image/io/grey16.h"
 
 namespace hydroprint::capture {
-namespace {
-
-std::string file_name(std::size_t number) {
-  std::string digits = std::to_string(number);
-  digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
-  return "frame-" + digits + ".png";
-}
-
-}  // namespace
-
 Status write_frames(const std::filesystem::path& folder, const depth_camera::SourceInfo& source,
                     const Taken& taken, const Context& context) {
   auto frames = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < taken.frames.size(); ++i) {
     HP_RETURN_IF_ERROR(check_cancelled(context));
     const depth_camera::DepthFrame& frame = taken.frames[i];
-    const std::string file = file_name(i + 1);
+    const std::string file = fmt::format("frame-{:04}.png", i + 1);
     HP_RETURN_IF_ERROR(
         image::write_png(folder / file, {frame.width, frame.height, frame.depth_mm}));
     frames.push_back({{"file", file}, {"time_s", frame.time_s}, {"index", frame.index}});

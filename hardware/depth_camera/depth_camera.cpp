@@ -1,6 +1,7 @@
 #include "hardware/depth_camera/depth_camera.h"
 
 #include <OpenNI.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -41,7 +42,8 @@ Status initialise() {
 
 tl::unexpected<Error> unusable(const std::string& uri, const std::string& what) {
   return fail(Code::kFailedPrecondition,
-              uri + ": " + what + details() + ". Use a depth camera with 640 x 480 pixels at 30 Hz",
+              fmt::format("{}: {}{}. Use a depth camera with 640 x 480 pixels at 30 Hz", uri, what,
+                          details()),
               "CAMERA_UNUSABLE");
 }
 
@@ -110,7 +112,7 @@ Status OpenNiCamera::open(const std::string& uri) {
   }
   const openni::DeviceInfo& info = device_.getDeviceInfo();
   info_.uri = info.getUri();
-  info_.name = std::string(info.getVendor()) + " " + info.getName();
+  info_.name = fmt::format("{} {}", info.getVendor(), info.getName());
   return {};
 }
 
@@ -148,9 +150,10 @@ Status OpenNiCamera::start_device() {
 
 Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
   const auto refuse = [&](const std::string& what) {
-    return fail(Code::kDataLoss,
-                path.string() + ": " + what + details() + ". Use an OpenNI2 recording (.oni)",
-                "RECORDING_INVALID");
+    return fail(
+        Code::kDataLoss,
+        fmt::format("{}: {}{}. Use an OpenNI2 recording (.oni)", path.string(), what, details()),
+        "RECORDING_INVALID");
   };
   HP_RETURN_IF_ERROR(initialise());
   if (device_.open(path.c_str()) != openni::STATUS_OK || !device_.isFile()) {
@@ -182,8 +185,8 @@ Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
 tl::unexpected<Error> OpenNiCamera::no_frame() const {
   if (info_.frames) {
     return fail(Code::kDataLoss,
-                info_.uri + ": ends after " + std::to_string(told_) + " of " +
-                    std::to_string(*info_.frames) + " frames. Record it again",
+                fmt::format("{}: ends after {} of {} frames. Record it again", info_.uri, told_,
+                            *info_.frames),
                 "RECORDING_INVALID");
   }
   return fail(Code::kUnavailable,
@@ -240,8 +243,8 @@ Status OpenNiCamera::record(const std::filesystem::path& path) {
                       recorder_.start() == openni::STATUS_OK;
   if (starts) return {};
   recorder_.destroy();
-  return fail(Code::kPermissionDenied,
-              path.string() + ": cannot be written" + details() + ". Choose another file");
+  return fail(Code::kPermissionDenied, fmt::format("{}: cannot be written{}. Choose another file",
+                                                   path.string(), details()));
 }
 
 }  // namespace

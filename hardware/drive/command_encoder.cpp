@@ -1,6 +1,6 @@
 #include "hardware/drive/command_encoder.h"
 
-#include <sstream>
+#include <fmt/format.h>
 
 #include "hardware/drive/word_codec.h"
 
@@ -14,11 +14,11 @@ bool takes_speed(Command which) {
 
 Status check_speed(const DriveProfile& profile, double speed_mm_per_s) {
   if (speed_mm_per_s > 0 && speed_mm_per_s <= profile.max_speed_mm_per_s) return {};
-  std::ostringstream message;
-  message << "a speed of " << speed_mm_per_s
-          << " mm/s is out of range. Use a speed above 0 and up to " << profile.max_speed_mm_per_s
-          << " mm/s";
-  return fail(Code::kOutOfRange, message.str(), "LIMIT_EXCEEDED");
+  return fail(
+      Code::kOutOfRange,
+      fmt::format("a speed of {:g} mm/s is out of range. Use a speed above 0 and up to {:g} mm/s",
+                  speed_mm_per_s, profile.max_speed_mm_per_s),
+      "LIMIT_EXCEEDED");
 }
 
 Result<std::vector<std::uint16_t>> words_for(const DriveProfile& profile, const Value& value,

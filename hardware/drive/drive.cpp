@@ -1,9 +1,9 @@
 #include "hardware/drive/drive.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 #include <utility>
 
 #include "hardware/drive/command_encoder.h"
@@ -15,20 +15,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string hex(unsigned value) {
-  std::ostringstream out;
-  out << "0x" << std::hex << std::setw(4) << std::setfill('0') << value;
-  return out.str();
-}
-
 Error unsafe(const std::string& what) {
   return {Code::kFailedPrecondition, what, "DRIVE_CONFIG_UNSAFE", {}};
-}
-
-std::string seconds(double value_s) {
-  std::ostringstream out;
-  out << value_s << " s";
-  return out.str();
 }
 
 /// Whether the drive responded despite the error, so that its state is still known.
@@ -38,13 +26,12 @@ bool is_answer(const Error& error) {
 }
 
 std::optional<Error> judge_time(const DriveProfile& profile, double time_s) {
-  const std::string remedy = ". Set it to at most " + seconds(profile.watchdog->largest_time_s) +
-                             " in register " + hex(profile.watchdog->time.address);
-  if (time_s == 0)
-    return unsafe("the communication watchdog of " + profile.name + " is off" + remedy);
-  if (time_s <= profile.watchdog->largest_time_s) return std::nullopt;
-  return unsafe("the communication watchdog of " + profile.name + " waits " + seconds(time_s) +
-                remedy);
+  const Watchdog& watchdog = *profile.watchdog;
+  if (time_s != 0 && time_s <= watchdog.largest_time_s) return std::nullopt;
+  return unsafe(fmt::format(
+      "the communication watchdog of {} {}. Set it to at most {:g} s in register {:#06x}",
+      profile.name, time_s == 0 ? "is off" : fmt::format("waits {:g} s", time_s),
+      watchdog.largest_time_s, watchdog.time.address));
 }
 
 }  // namespace
@@ -91,10 +78,12 @@ Status Drive::check_identity() {
     const auto words = read(mark.space, mark.address, 1);
     if (!words && words.error().reason != "DRIVE_REFUSED") return tl::unexpected(words.error());
     if (words && ((*words)[0] & mark.mask) == mark.value) continue;
-    const std::string found = words ? "holds " + hex((*words)[0]) : "does not exist";
-    return tl::unexpected(unsafe("register " + hex(mark.address) + " (" + mark.meaning + ") " +
-                                 found + ", not " + hex(mark.value) + ": the drive is not a " +
-                                 profile_.name + ". Use the profile of the connected drive"));
+    return tl::unexpected(unsafe(fmt::format(
+        "register {:#06x} ({}) {}, not {:#06x}: the drive is not a {}. Use the profile of the "
+        "connected drive",
+        mark.address, mark.meaning,
+        words ? fmt::format("holds {:#06x}", (*words)[0]) : "does not exist", mark.value,
+        profile_.name)));
   }
   return {};
 }
@@ -116,10 +105,10 @@ Result<Inspection> Drive::inspect_watchdog() {
   HP_ASSIGN_OR_RETURN(const auto action, read(watchdog.action->space, watchdog.action->address, 1));
   const auto& stopping = watchdog.stopping;
   if (!out.unsafe && std::find(stopping.begin(), stopping.end(), action[0]) == stopping.end()) {
-    out.unsafe = unsafe("the communication watchdog of " + profile_.name +
-                        " does not stop the axis: its action, register " +
-                        hex(watchdog.action->address) + ", is " + std::to_string(action[0]) +
-                        ". Set an action that stops, see the drive's manual");
+    out.unsafe = unsafe(fmt::format(
+        "the communication watchdog of {} does not stop the axis: its action, register {:#06x}, is "
+        "{}. Set an action that stops, see the drive's manual",
+        profile_.name, watchdog.action->address, action[0]));
   }
   return out;
 }
@@ -141,9 +130,9 @@ Result<DriveState> Drive::poll() {
       known_ = false;
       link_->distrust();
       return fail(Code::kDataLoss,
-                  "a reply of " + profile_.name + " lacks its mark (" + block.mark.meaning +
-                      ", register " + hex(block.mark.address) +
-                      ") and belongs to another request. Poll again",
+                  fmt::format("a reply of {} lacks its mark ({}, register {:#06x}) and belongs to "
+                              "another request. Poll again",
+                              profile_.name, block.mark.meaning, block.mark.address),
                   "REPLY_INVALID");
     }
     if (holds(block, profile_.position)) {

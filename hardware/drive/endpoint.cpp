@@ -1,6 +1,7 @@
 #include "hardware/drive/endpoint.h"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -13,9 +14,9 @@ constexpr std::array<int, 8> kBauds = {1200, 4800, 9600, 19200, 38400, 57600, 11
 
 tl::unexpected<Error> refuse(std::string_view text, const std::string& what) {
   return fail(Code::kInvalidArgument,
-              "drive at \"" + std::string(text) + "\": " + what +
-                  ". Use tcp:192.168.1.20:502 or "
-                  "rtu:/dev/serial/by-id/NAME?baud=115200&parity=E&stop=1",
+              fmt::format("drive at \"{}\": {}. Use tcp:192.168.1.20:502 or "
+                          "rtu:/dev/serial/by-id/NAME?baud=115200&parity=E&stop=1",
+                          text, what),
               "CONFIG_INVALID");
 }
 
@@ -66,7 +67,7 @@ Result<Endpoint> parse_rtu(std::string_view all, std::string_view rest) {
     const std::size_t equals = std::min(option.find('='), option.size());
     if (equals == option.size() ||
         !set_option(option.substr(0, equals), option.substr(equals + 1), out)) {
-      return refuse(all, "has the invalid option \"" + std::string(option) + "\"");
+      return refuse(all, fmt::format("has the invalid option \"{}\"", option));
     }
     options.remove_prefix(std::min(end + 1, options.size()));
   }
@@ -76,9 +77,8 @@ Result<Endpoint> parse_rtu(std::string_view all, std::string_view rest) {
 }  // namespace
 
 std::string Endpoint::text() const {
-  if (!serial) return "tcp:" + host + ":" + std::to_string(port);
-  return "rtu:" + device + "?baud=" + std::to_string(baud) + "&parity=" + parity +
-         "&stop=" + std::to_string(stop_bits);
+  if (!serial) return fmt::format("tcp:{}:{}", host, port);
+  return fmt::format("rtu:{}?baud={}&parity={}&stop={}", device, baud, parity, stop_bits);
 }
 
 Result<Endpoint> parse_endpoint(std::string_view text) {

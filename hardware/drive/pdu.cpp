@@ -1,5 +1,7 @@
 #include "hardware/drive/pdu.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <string>
 
@@ -40,16 +42,14 @@ std::string_view exception_text(int exception) {
 
 tl::unexpected<Error> refused(const Request& request, int exception) {
   const bool busy = exception == 5 || exception == 6;
-  const std::string number = std::to_string(exception);
-  Error error{busy ? Code::kAborted : Code::kFailedPrecondition,
-              "the drive refuses the request for register " + std::to_string(request.address) +
-                  " with exception " + number,
-              busy ? "DRIVE_BUSY" : "DRIVE_REFUSED",
-              {{"exception", number}}};
-  if (const std::string_view text = exception_text(exception); !text.empty()) {
-    error.message.append(" (").append(text).append(")");
-  }
-  error.message += busy ? ". Try again" : ". Check the drive's state and its profile";
+  const std::string_view text = exception_text(exception);
+  Error error{
+      busy ? Code::kAborted : Code::kFailedPrecondition,
+      fmt::format("the drive refuses the request for register {} with exception {}{}. {}",
+                  request.address, exception, text.empty() ? "" : fmt::format(" ({})", text),
+                  busy ? "Try again" : "Check the drive's state and its profile"),
+      busy ? "DRIVE_BUSY" : "DRIVE_REFUSED",
+      {{"exception", std::to_string(exception)}}};
   return tl::unexpected(std::move(error));
 }
 

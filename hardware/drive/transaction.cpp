@@ -1,5 +1,7 @@
 #include "hardware/drive/transaction.h"
 
+#include <fmt/format.h>
+
 #include <condition_variable>
 #include <mutex>
 #include <thread>
@@ -136,7 +138,7 @@ std::uint64_t Link::Line::connections() const {
 }
 
 tl::unexpected<Error> Link::Line::explain(Connection::End end, const std::string& cause) const {
-  const std::string where = "drive at " + endpoint_.text() + ": ";
+  const std::string where = fmt::format("drive at {}: ", endpoint_.text());
   switch (end) {
     case Connection::End::kTimeout: {
       Error error{Code::kUnavailable,
@@ -147,12 +149,14 @@ tl::unexpected<Error> Link::Line::explain(Connection::End end, const std::string
     }
     case Connection::End::kDamaged:
       return fail(Code::kDataLoss,
-                  where + "damaged reply (" + cause +
-                      "). If this persists, check cable, termination, baud rate and unit id",
+                  fmt::format("{}damaged reply ({}). If this persists, check cable, termination, "
+                              "baud rate and unit id",
+                              where, cause),
                   "REPLY_INVALID");
     default:
       return fail(Code::kUnavailable,
-                  where + "connection lost (" + cause + "). Check cable and power", "RIG_OFFLINE");
+                  fmt::format("{}connection lost ({}). Check cable and power", where, cause),
+                  "RIG_OFFLINE");
   }
 }
 
@@ -160,7 +164,7 @@ Result<std::vector<std::uint16_t>> Link::Line::transact(const Request& request, 
   const Turn turn(*this, urgency);
   if (!connection_) {
     return fail(Code::kUnavailable,
-                "drive at " + endpoint_.text() + ": not connected. Connect to it first",
+                fmt::format("drive at {}: not connected. Connect to it first", endpoint_.text()),
                 "RIG_OFFLINE");
   }
   const Clock::time_point quiet_until = quiet_until_;

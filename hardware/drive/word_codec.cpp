@@ -1,8 +1,9 @@
 #include "hardware/drive/word_codec.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace hydroprint::drive {
 namespace {
@@ -23,9 +24,9 @@ double largest_raw(const Format& format) {
 Result<std::vector<std::uint16_t>> encode(const Format& format, double value) {
   const double raw = std::round(format.inverse ? format.per_unit / value : value * format.per_unit);
   if (!(raw >= least_raw(format) && raw <= largest_raw(format)) || (raw == 0 && value != 0)) {
-    std::ostringstream message;
-    message << "the drive's registers cannot hold " << value << ". Use another value";
-    return fail(Code::kOutOfRange, message.str(), "LIMIT_EXCEEDED");
+    return fail(Code::kOutOfRange,
+                fmt::format("the drive's registers cannot hold {:g}. Use another value", value),
+                "LIMIT_EXCEEDED");
   }
   const auto bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(raw));
   const auto low = static_cast<std::uint16_t>(bits & 0xffffU);

@@ -1,6 +1,7 @@
 #include "hardware/printer/address.h"
 
 #include <cups/cups.h>
+#include <fmt/format.h>
 
 #include <array>
 
@@ -16,9 +17,10 @@ Result<Address> parse_address(const std::string& uri) {
   const std::string kind = scheme.data();
   if (status < HTTP_URI_STATUS_OK || (kind != "ipp" && kind != "ipps") || host[0] == '\0' ||
       resource[0] != '/') {
-    return fail(Code::kInvalidArgument, "printer '" + uri +
-                                            "': not the address of an IPP printer. Use "
-                                            "ipp://HOST[:PORT]/ipp/print, or ipps:// for TLS");
+    return fail(Code::kInvalidArgument,
+                fmt::format("printer '{}': not the address of an IPP printer. Use "
+                            "ipp://HOST[:PORT]/ipp/print, or ipps:// for TLS",
+                            uri));
   }
   return Address{host.data(), port, resource.data(), kind == "ipps", uri};
 }

@@ -1,5 +1,6 @@
 #include "hardware/printer/exchange.h"
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -72,8 +73,10 @@ class Connection {
     while (status == HTTP_STATUS_CONTINUE) status = httpUpdate(http_.get());
     if (status == HTTP_STATUS_ERROR) return broken(deadline, is_sent);
     if (status != HTTP_STATUS_OK) {
-      return failure(kNoIpp, "responds \"" + std::string(httpStatus(status)) +
-                                 "\". Check the address's path, as in ipp://HOST/ipp/print");
+      return failure(
+          kNoIpp,
+          fmt::format("responds \"{}\". Check the address's path, as in ipp://HOST/ipp/print",
+                      httpStatus(status)));
     }
     ipp_state_t state = IPP_STATE_IDLE;
     while (state != IPP_STATE_DATA && state != IPP_STATE_ERROR) {

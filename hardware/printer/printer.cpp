@@ -2,6 +2,7 @@
 
 #include <cups/cups.h>
 #include <cups/pwg.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -70,12 +71,6 @@ std::vector<std::string> reasons(ipp_t* reply, const char* name) {
   return out;
 }
 
-std::string joined(const std::vector<std::string>& words) {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : ", ") + word;
-  return out;
-}
-
 /// The smallest supported value. Printers that can print to the edge list 0 among others.
 double least_mm(ipp_t* reply, const char* name) {
   ipp_attribute_t* attribute = ippFindAttribute(reply, name, IPP_TAG_INTEGER);
@@ -118,10 +113,10 @@ bool is_about_format(ipp_t* reply) {
 
 tl::unexpected<Error> refused(const Address& address, const std::string& what, ipp_t* reply) {
   const ipp_status_t status = ippGetStatusCode(reply);
-  std::string why = ippErrorString(status);
   const std::string message = text(reply, "status-message");
-  if (!message.empty()) why += ": " + message;
-  const std::string start = "printer " + address.uri + ": refuses " + what + " (" + why + "). ";
+  const std::string start =
+      fmt::format("printer {}: refuses {} ({}{}{}). ", address.uri, what, ippErrorString(status),
+                  message.empty() ? "" : ": ", message);
   if (is_about_format(reply)) {
     return fail(Code::kInvalidArgument, start + "Use one of the formats that it lists",
                 "FORMAT_NOT_SUPPORTED");
@@ -164,12 +159,13 @@ ExchangeTiming question(const Timing& timing) {
 Result<JobReport> outcome(const Address& address, const JobReport& report) {
   if (report.state == JobState::kCompleted) return report;
   const bool canceled = report.state == JobState::kCanceled;
-  const std::string why = joined(report.reasons);
-  return fail(Code::kAborted,
-              "printer " + address.uri + ": job " + std::to_string(report.id) + " was " +
-                  (canceled ? "cancelled" : "aborted") + (why.empty() ? "" : " (" + why + ")") +
-                  ". Check the printer's display, then print again",
-              canceled ? "PRINT_CANCELED" : "PRINT_ABORTED");
+  const std::string why =
+      report.reasons.empty() ? "" : fmt::format(" ({})", fmt::join(report.reasons, ", "));
+  return fail(
+      Code::kAborted,
+      fmt::format("printer {}: job {} was {}{}. Check the printer's display, then print again",
+                  address.uri, report.id, canceled ? "cancelled" : "aborted", why),
+      canceled ? "PRINT_CANCELED" : "PRINT_ABORTED");
 }
 
 }  // namespace
@@ -265,11 +261,11 @@ Result<JobReport> Printer::job(int id) const {
   HP_ASSIGN_OR_RETURN(const Ipp reply,
                       exchange(address_, question(timing_), gives_up_, request.get()));
   if (!is_ok(reply.get())) {
-    return refused(address_, "to report job " + std::to_string(id), reply.get());
+    return refused(address_, fmt::format("to report job {}", id), reply.get());
   }
   const auto state = number(reply.get(), "job-state", IPP_TAG_ENUM);
   if (!state)
-    return refused(address_, "to report the state of job " + std::to_string(id), reply.get());
+    return refused(address_, fmt::format("to report the state of job {}", id), reply.get());
   return JobReport{id,
                    job_state(*state),
                    reasons(reply.get(), "job-state-reasons"),
@@ -292,7 +288,7 @@ Status Printer::cancel(int id) const {
   HP_ASSIGN_OR_RETURN(const Ipp reply,
                       exchange(address_, question(timing_), gives_up_, request.get()));
   if (!is_ok(reply.get())) {
-    return refused(address_, "to cancel job " + std::to_string(id), reply.get());
+    return refused(address_, fmt::format("to cancel job {}", id), reply.get());
   }
   return {};
 }
@@ -307,7 +303,7 @@ Result<JobReport> Printer::follow(int id, const std::function<void(const JobRepo
     auto report = job(id);
     if (!report && report.error().code != Code::kUnavailable) return report;
     if (!report && Clock::now() - heard >= timing_.patience) {
-      report.error().message += ". Job " + std::to_string(id) + " may or may not have been printed";
+      report.error().message += fmt::format(". Job {} may or may not have been printed", id);
       report.error().reason = kLost;
       return report;
     }
@@ -324,8 +320,8 @@ Result<JobReport> Printer::follow(int id, const std::function<void(const JobRepo
     }
     if (Clock::now() >= end) {
       return fail(Code::kUnavailable,
-                  "printer " + address_.uri + ": job " + std::to_string(id) + " is still " +
-                      job_state_name(last.state) + ". Check the printer's display",
+                  fmt::format("printer {}: job {} is still {}. Check the printer's display",
+                              address_.uri, id, job_state_name(last.state)),
                   "PRINT_UNFINISHED");
     }
     std::this_thread::sleep_for(timing_.poll);

@@ -1,7 +1,8 @@
 #include "hardware/rig/config.h"
 
+#include <fmt/format.h>
+
 #include <array>
-#include <sstream>
 
 #include "hardware/rig/limits.h"
 
@@ -21,12 +22,8 @@ constexpr std::array<RigConfigKey, 10> kKeys = {{
     {"home_timeout_s", &RigConfig::home_timeout_s, 1, 600},
 }};
 
-template <class... Parts>
-tl::unexpected<Error> refuse(const Parts&... parts) {
-  std::ostringstream text;
-  text << "rig.";
-  (text << ... << parts);
-  return fail(Code::kInvalidArgument, text.str(), "CONFIG_INVALID");
+tl::unexpected<Error> refuse(const std::string& fault) {
+  return fail(Code::kInvalidArgument, "rig." + fault, "CONFIG_INVALID");
 }
 
 }  // namespace
@@ -37,23 +34,26 @@ Status check(const RigConfig& config, const drive::DriveProfile& profile) {
   for (const RigConfigKey& key : kKeys) {
     const double value = config.*key.member;
     if (value >= key.least && value <= key.most) continue;  // false for NaN
-    return refuse(key.name, " is ", value, "; it must be from ", key.least, " to ", key.most);
+    return refuse(fmt::format("{} is {:g}; it must be from {:g} to {:g}", key.name, value,
+                              key.least, key.most));
   }
   if (config.max_speed_mm_per_s > profile.max_speed_mm_per_s) {
-    return refuse("max_speed_mm_per_s is ", config.max_speed_mm_per_s, "; it must be at most ",
-                  profile.max_speed_mm_per_s, ", the limit of the drive \"", profile.name, "\"");
+    return refuse(fmt::format(
+        "max_speed_mm_per_s is {:g}; it must be at most {:g}, the limit of the drive \"{}\"",
+        config.max_speed_mm_per_s, profile.max_speed_mm_per_s, profile.name));
   }
   const double needed_mm = stopping_distance_mm(config, profile, config.max_speed_mm_per_s);
   if (!(config.keep_out_mm >= needed_mm)) {
-    return refuse("keep_out_mm is ", config.keep_out_mm, "; it must be at least ", needed_mm,
-                  ", the stopping distance at ", config.max_speed_mm_per_s,
-                  " mm/s after a lost link; increase it, or lower max_speed_mm_per_s");
+    return refuse(fmt::format(
+        "keep_out_mm is {:g}; it must be at least {:g}, the stopping distance at {:g} mm/s "
+        "after a lost link; increase it, or lower max_speed_mm_per_s",
+        config.keep_out_mm, needed_mm, config.max_speed_mm_per_s));
   }
   const Range range = soft_limits(config);
   if (!(range.low_mm < range.high_mm)) {
-    return refuse("end_high_mm is ", config.end_high_mm, "; it must be more than ",
-                  config.end_low_mm + 2 * config.keep_out_mm,
-                  ": end_low_mm plus the keep-out at both ends");
+    return refuse(fmt::format(
+        "end_high_mm is {:g}; it must be more than {:g}: end_low_mm plus the keep-out at both ends",
+        config.end_high_mm, config.end_low_mm + 2 * config.keep_out_mm));
   }
   return {};
 }

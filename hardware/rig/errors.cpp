@@ -1,5 +1,7 @@
 #include "hardware/rig/errors.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 #include "hardware/rig/state_names.h"
@@ -74,6 +76,10 @@ Answer answer(Refusal refusal, State state) {
           "the stop button was pressed; release it, then reset, arm and home"};
 }
 
+std::string remedy(const Words& why) {
+  return fmt::format("{}; {}, then reset, arm and home", why.what, why.remedy);
+}
+
 }  // namespace
 
 Error refused(Refusal refusal, const Condition& condition) {
@@ -83,17 +89,14 @@ Error refused(Refusal refusal, const Condition& condition) {
   if (condition.cause == Cause::kNone) return out;
   out.metadata["cause"] = name(condition.cause);
   if (refusal != Refusal::kFaulted) return out;
-  const Words why = words(condition.cause);
-  out.message += std::string(": ") + why.what + "; " + why.remedy + ", then reset, arm and home";
+  out.message += ": " + remedy(words(condition.cause));
   return out;
 }
 
 Error failed(Cause cause) {
   const Words why = words(cause);
-  return {Code::kFailedPrecondition,
-          std::string(why.what) + "; " + why.remedy + ", then reset, arm and home",
-          why.reason,
-          {{"cause", std::string(name(cause))}}};
+  return {
+      Code::kFailedPrecondition, remedy(why), why.reason, {{"cause", std::string(name(cause))}}};
 }
 
 }  // namespace hydroprint::rig

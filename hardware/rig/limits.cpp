@@ -1,9 +1,10 @@
 #include "hardware/rig/limits.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <string>
+#include <utility>
 
 namespace hydroprint::rig {
 namespace {
@@ -11,27 +12,17 @@ namespace {
 // Poll periods between two checks of a jog.
 constexpr double kJogLooks = 3;
 
-std::string text(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 /// The longest accepted watchdog time; a drive without a watchdog is never armed.
 double watchdog_s(const drive::DriveProfile& profile) {
   return profile.watchdog ? profile.watchdog->largest_time_s : 0;
 }
 
 Status refuse(const std::string& axis, const char* unit, double value, Range range) {
-  Error error{Code::kOutOfRange,
-              axis + ": " + text(value) + unit + " is outside " + text(range.low_mm) + " to " +
-                  text(range.high_mm) + unit + "; choose a value in this range",
-              "LIMIT_EXCEEDED",
-              {{"axis", axis},
-               {"min", text(range.low_mm)},
-               {"max", text(range.high_mm)},
-               {"value", text(value)}}};
-  return tl::unexpected(std::move(error));
+  return limit_exceeded(
+      axis,
+      fmt::format("{}: {:g} {} is outside {:g} to {:g} {}; choose a value in this range", axis,
+                  value, unit, range.low_mm, range.high_mm, unit),
+      value, range);
 }
 
 }  // namespace
@@ -52,15 +43,26 @@ Range soft_limits(const RigConfig& config) {
   return {config.end_low_mm + config.keep_out_mm, config.end_high_mm - config.keep_out_mm};
 }
 
+tl::unexpected<Error> limit_exceeded(const std::string& axis, std::string message, double value,
+                                     Range range) {
+  return tl::unexpected(Error{Code::kOutOfRange,
+                              std::move(message),
+                              "LIMIT_EXCEEDED",
+                              {{"axis", axis},
+                               {"min", fmt::format("{:g}", range.low_mm)},
+                               {"max", fmt::format("{:g}", range.high_mm)},
+                               {"value", fmt::format("{:g}", value)}}});
+}
+
 Status check_target(const RigConfig& config, double target_mm) {
   const Range range = soft_limits(config);
   if (target_mm >= range.low_mm && target_mm <= range.high_mm) return {};
-  return refuse("position", " mm", target_mm, range);
+  return refuse("position", "mm", target_mm, range);
 }
 
 Status check_speed(const RigConfig& config, double speed_mm_per_s) {
   if (speed_mm_per_s > 0 && speed_mm_per_s <= config.max_speed_mm_per_s) return {};
-  return refuse("speed", " mm/s", speed_mm_per_s, {0, config.max_speed_mm_per_s});
+  return refuse("speed", "mm/s", speed_mm_per_s, {0, config.max_speed_mm_per_s});
 }
 
 bool outside_limits(const RigConfig& config, double position_mm, double start_mm) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "hardware/drive/profile.h"
 #include "hardware/rig/config.h"
 #include "sim/base/result.h"
@@ -25,8 +27,12 @@ struct Range {
 /// Allowed range of the axis: between the ends, less the keep-out at both.
 [[nodiscard]] Range soft_limits(const RigConfig& config);
 
-/// Refuse a target outside the soft limits, or a speed not in (0, max_speed].
 /// @return kOutOfRange, reason "LIMIT_EXCEEDED"; metadata axis, min, max, value (mm, mm/s)
+[[nodiscard]] tl::unexpected<Error> limit_exceeded(const std::string& axis, std::string message,
+                                                   double value, Range range);
+
+/// Refuse a target outside the soft limits, or a speed not in (0, max_speed], with
+/// limit_exceeded().
 [[nodiscard]] Status check_target(const RigConfig& config, double target_mm);
 [[nodiscard]] Status check_speed(const RigConfig& config, double speed_mm_per_s);
 

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -39,9 +40,11 @@ Status become(const std::vector<std::string>& arguments) {
   for (std::string& word : words) raw.push_back(word.data());
   raw.push_back(nullptr);
   ::execvp(raw.front(), raw.data());
-  return fail(Code::kFailedPrecondition,
-              words.front() + ": cannot be started: " + std::generic_category().message(errno) +
-                  "; run this on the machine where hydroprintd is installed");
+  return fail(
+      Code::kFailedPrecondition,
+      fmt::format(
+          "{}: cannot be started: {}; run this on the machine where hydroprintd is installed",
+          words.front(), std::generic_category().message(errno)));
 }
 
 std::vector<std::string> arguments_of(const std::string& verb, const AdminOptions& options) {

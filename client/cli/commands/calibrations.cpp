@@ -1,4 +1,5 @@
-#include <iomanip>
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
 #include <string>
@@ -24,20 +25,17 @@ struct EnterOptions {
 };
 
 std::string holds(const v1::Calibration& calibration) {
-  std::string out;
-  for (const std::string& why : staleness_of(calibration)) out += (out.empty() ? "" : ",") + why;
-  return out.empty() ? "yes" : out;
+  const std::vector<std::string> why = staleness_of(calibration);
+  return why.empty() ? "yes" : fmt::format("{}", fmt::join(why, ","));
 }
 
 void print_table(const v1::ListCalibrationsResponse& list) {
-  std::cout << std::left << std::setw(18) << "CALIBRATION" << std::setw(8) << "KIND" << std::setw(8)
-            << "ACTIVE" << std::setw(14) << "VALID" << std::setw(21) << "CREATED"
-            << "NAME\n";
+  constexpr const char* kRow = "{:<18}{:<8}{:<8}{:<14}{:<21}{}\n";
+  std::cout << fmt::format(kRow, "CALIBRATION", "KIND", "ACTIVE", "VALID", "CREATED", "NAME");
   for (const v1::Calibration& one : list.calibrations()) {
-    std::cout << std::setw(18) << one.name() << std::setw(8) << client::name_of(one.kind())
-              << std::setw(8) << (one.active() ? "yes" : "") << std::setw(14) << holds(one)
-              << std::setw(21) << format_time(client::time_of(one.create_time()))
-              << printable(one.display_name()) << "\n";
+    std::cout << fmt::format(
+        kRow, one.name(), client::name_of(one.kind()), one.active() ? "yes" : "", holds(one),
+        format_time(client::time_of(one.create_time())), printable(one.display_name()));
   }
 }
 

@@ -1,6 +1,6 @@
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -32,15 +32,13 @@ std::vector<std::string> state_names() {
 }
 
 void print_table(const v1::ListJobsResponse& list) {
-  std::cout << std::left << std::setw(12) << "JOB" << std::setw(22) << "STATE" << std::setw(6)
-            << "DONE" << std::setw(21) << "CREATED" << std::setw(14) << "OWNER"
-            << "NAME\n";
+  constexpr const char* kRow = "{:<12}{:<22}{:<6}{:<21}{:<14}{}\n";
+  std::cout << fmt::format(kRow, "JOB", "STATE", "DONE", "CREATED", "OWNER", "NAME");
   for (const v1::Job& job : list.jobs()) {
-    const auto done = std::to_string(std::lround(100 * job.progress_fraction())) + "%";
-    std::cout << std::setw(12) << job.name() << std::setw(22) << client::name_of(job.state())
-              << std::setw(6) << done << std::setw(21)
-              << format_time(client::time_of(job.create_time())) << std::setw(14)
-              << printable(job.owner()) << printable(job.display_name()) << "\n";
+    std::cout << fmt::format(kRow, job.name(), client::name_of(job.state()),
+                             fmt::format("{:.0f}%", 100 * job.progress_fraction()),
+                             format_time(client::time_of(job.create_time())),
+                             printable(job.owner()), printable(job.display_name()));
   }
 }
 

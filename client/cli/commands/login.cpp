@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
@@ -51,9 +52,9 @@ Status show_identity(const Program& program, const v1::WhoAmIResponse& me) {
   return {};
 }
 
-// "1.2 GB of 20 GB"
-std::string of_allowed(const std::string& used, const std::string& allowed, bool is_limited) {
-  return is_limited ? used + " of " + allowed : used;
+// " of 20.0 GB"; empty if there is no limit.
+std::string of_allowed(const std::string& allowed, bool is_limited) {
+  return is_limited ? " of " + allowed : "";
 }
 
 // Prints the caller's identity, then usage and quota.
@@ -67,12 +68,11 @@ Status show_all(Program& program) {
     return {};
   }
   HP_RETURN_IF_ERROR(show_identity(program, me));
-  std::cout << "queued: "
-            << of_allowed(std::to_string(usage.queued_jobs()),
-                          std::to_string(usage.max_queued_jobs()), usage.max_queued_jobs() > 0)
-            << " jobs\nstored: "
-            << of_allowed(format_bytes(usage.stored_bytes()),
-                          format_bytes(usage.max_stored_bytes()), usage.max_stored_bytes() > 0);
+  std::cout << fmt::format(
+      "queued: {}{} jobs\nstored: {}{}", usage.queued_jobs(),
+      of_allowed(fmt::to_string(usage.max_queued_jobs()), usage.max_queued_jobs() > 0),
+      format_bytes(usage.stored_bytes()),
+      of_allowed(format_bytes(usage.max_stored_bytes()), usage.max_stored_bytes() > 0));
   if (usage.pinned_bytes() > 0)
     std::cout << ", " << format_bytes(usage.pinned_bytes()) << " pinned";
   std::cout << std::endl;
@@ -112,7 +112,7 @@ Status log_in(Program& program, const LoginOptions& options) {
   HP_ASSIGN_OR_RETURN(const v1::WhoAmIResponse me, client::who_am_i(connection));
   if (!me.accounts()) {
     return fail(Code::kFailedPrecondition,
-                "there are no users at " + program.server() + " yet; no login is needed");
+                fmt::format("there are no users at {} yet; no login is needed", program.server()));
   }
   HP_RETURN_IF_ERROR(keep_key(program.server(), key));
   return show_identity(program, me);
@@ -124,14 +124,17 @@ Status log_out(const Program& program) {
   HP_ASSIGN_OR_RETURN(const std::string key, kept_key(program.server()));
   if (key.empty()) {
     return fail(Code::kFailedPrecondition,
-                "not logged in at " + program.server() + " on this machine");
+                fmt::format("not logged in at {} on this machine", program.server()));
   }
   HP_RETURN_IF_ERROR(keep_key(program.server(), ""));
   client::Connection connection(program.options_as(key, ""));
   const Status ended = client::delete_api_key(connection, name_of_key(key));
   if (!ended && ended.error().code != Code::kUnauthenticated) {
-    return fail(ended.error().code, "the stored key was deleted, but it is still valid: " +
-                                        ended.error().message + "; delete it: hydroprint keys");
+    return fail(
+        ended.error().code,
+        fmt::format(
+            "the stored key was deleted, but it is still valid: {}; delete it: hydroprint keys",
+            ended.error().message));
   }
   if (program.json()) print({{"loggedOut", program.server()}});
   if (!program.json()) std::cout << "logged out of " << program.server() << std::endl;

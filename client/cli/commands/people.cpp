@@ -1,6 +1,7 @@
 #include "client/people.h"
 
-#include <iomanip>
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -56,14 +57,13 @@ Status list_people(Program& program) {
     print(list);
     return {};
   }
-  std::cout << std::left << std::setw(24) << "USER" << std::setw(10) << "ROLE" << std::setw(21)
-            << "CREATED"
-            << "PASSWORD\n";
+  constexpr const char* kRow = "{:<24}{:<10}{:<21}{}{}\n";
+  std::cout << fmt::format(kRow, "USER", "ROLE", "CREATED", "PASSWORD", "");
   for (const v1::User& user : list.users()) {
-    std::cout << std::setw(24) << bare(user.name()) << std::setw(10) << client::name_of(user.role())
-              << std::setw(21) << format_time(client::time_of(user.create_time()))
-              << (user.has_password() ? "yes" : "none") << (user.disabled() ? ", disabled" : "")
-              << "\n";
+    std::cout << fmt::format(kRow, bare(user.name()), client::name_of(user.role()),
+                             format_time(client::time_of(user.create_time())),
+                             user.has_password() ? "yes" : "none",
+                             user.disabled() ? ", disabled" : "");
   }
   return {};
 }
@@ -148,15 +148,13 @@ Status list_all_keys(Program& program) {
     print(list);
     return {};
   }
-  std::cout << std::left << std::setw(18) << "KEY" << std::setw(16) << "USER" << std::setw(10)
-            << "ROLE" << std::setw(21) << "LAST USED" << std::setw(21) << "ENDS"
-            << "NAME\n";
+  constexpr const char* kRow = "{:<18}{:<16}{:<10}{:<21}{:<21}{}\n";
+  std::cout << fmt::format(kRow, "KEY", "USER", "ROLE", "LAST USED", "ENDS", "NAME");
   for (const v1::ApiKey& key : list.api_keys()) {
-    std::cout << std::setw(18) << bare(key.name()) << std::setw(16) << bare(key.user())
-              << std::setw(10) << client::name_of(key.role()) << std::setw(21)
-              << format_time(client::time_of(key.use_time())) << std::setw(21)
-              << format_time(client::time_of(key.expire_time())) << printable(key.display_name())
-              << "\n";
+    std::cout << fmt::format(kRow, bare(key.name()), bare(key.user()), client::name_of(key.role()),
+                             format_time(client::time_of(key.use_time())),
+                             format_time(client::time_of(key.expire_time())),
+                             printable(key.display_name()));
   }
   return {};
 }
@@ -190,14 +188,13 @@ Status list_all_sessions(Program& program) {
     print(list);
     return {};
   }
-  std::cout << std::left << std::setw(18) << "SESSION" << std::setw(16) << "USER" << std::setw(21)
-            << "LAST USED" << std::setw(21) << "ENDS"
-            << "FROM\n";
+  constexpr const char* kRow = "{:<18}{:<16}{:<21}{:<21}{}\n";
+  std::cout << fmt::format(kRow, "SESSION", "USER", "LAST USED", "ENDS", "FROM");
   for (const v1::Session& session : list.sessions()) {
-    std::cout << std::setw(18) << bare(session.name()) << std::setw(16) << bare(session.user())
-              << std::setw(21) << format_time(client::time_of(session.use_time())) << std::setw(21)
-              << format_time(client::time_of(session.expire_time())) << printable(session.peer())
-              << "\n";
+    std::cout << fmt::format(kRow, bare(session.name()), bare(session.user()),
+                             format_time(client::time_of(session.use_time())),
+                             format_time(client::time_of(session.expire_time())),
+                             printable(session.peer()));
   }
   return {};
 }
@@ -215,11 +212,11 @@ Status show_audit(Program& program, const AuditOptions& options) {
     return {};
   }
   for (const v1::AuditEntry& entry : list.entries()) {
-    std::cout << format_time(client::time_of(entry.time())) << "  " << std::left << std::setw(16)
-              << (entry.who().empty() ? "-" : printable(entry.who())) << std::setw(32)
-              << printable(entry.what()) << std::setw(18) << printable(entry.object())
-              << entry.outcome() << (entry.detail().empty() ? "" : "  " + printable(entry.detail()))
-              << "\n";
+    std::cout << fmt::format("{}  {:<16}{:<32}{:<18}{}{}{}\n",
+                             format_time(client::time_of(entry.time())),
+                             entry.who().empty() ? "-" : printable(entry.who()),
+                             printable(entry.what()), printable(entry.object()), entry.outcome(),
+                             entry.detail().empty() ? "" : "  ", printable(entry.detail()));
   }
   return {};
 }

@@ -1,5 +1,7 @@
 #include "sim/sample/sample.h"
 
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
 #include <string>
@@ -39,9 +41,7 @@ void add_sample(CLI::App& app, Program& program) {
   std::string footer = "Kinds:\n";
   for (const sample::SampleKind& kind : sample::kinds()) {
     names.push_back(kind.name);
-    footer += "  " + kind.name +
-              std::string(kind.name.size() < 10 ? 10 - kind.name.size() : 1, ' ') +
-              kind.description + "\n";
+    footer += fmt::format("  {:<9} {}\n", kind.name, kind.description);
   }
   command->add_option("kind", options->kind, "The sample")
       ->type_name("KIND")

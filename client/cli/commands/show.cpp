@@ -1,4 +1,5 @@
-#include <iomanip>
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
 #include <string>
@@ -29,8 +30,8 @@ Status show(Program& program, const std::string& name) {
   if (job.has_error()) tree["error"]["code"] = error_code_name(job);
   print_tree(tree);
   for (const v1::Artifact& artifact : list.artifacts())
-    std::cout << std::setw(20) << "artifact" << client::file_name(artifact) << "  "
-              << format_bytes(artifact.size_bytes()) << "\n";
+    std::cout << fmt::format("{:<20}{}  {}\n", "artifact", client::file_name(artifact),
+                             format_bytes(artifact.size_bytes()));
   return {};
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <iostream>
 
 #include "client/cli/commands/commands.h"
@@ -27,8 +29,9 @@ Status status(Program& program) {
   HP_ASSIGN_OR_RETURN(const v1::Queue queue, client::get_queue(program.daemon()));
   show(program, health, queue);
   if (health != "SERVING")
-    return fail(Code::kUnavailable, program.server() + ": hydroprintd reports " + health +
-                                        "; see its log for the reason");
+    return fail(Code::kUnavailable,
+                fmt::format("{}: hydroprintd reports {}; see its log for the reason",
+                            program.server(), health));
   return {};
 }
 

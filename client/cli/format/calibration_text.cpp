@@ -1,5 +1,7 @@
 #include "client/cli/format/calibration_text.h"
 
+#include <fmt/format.h>
+
 #include "client/cli/terminal/console.h"
 #include "client/name_of.h"
 
@@ -12,23 +14,23 @@ std::string markers_text(const v1::Calibration& c) {
   for (const v1::Calibration::Marker& marker : c.markers()) {
     used += marker.used() ? 1 : 0;
     if (!marker.used())
-      left_out += "  marker " + printable(marker.name()) +
-                  " left out: " + printable(marker.why_not()) + "\n";
+      left_out += fmt::format("  marker {} left out: {}\n", printable(marker.name()),
+                              printable(marker.why_not()));
   }
   if (c.markers().empty()) return "";
-  return "  " + std::to_string(used) + " of " + std::to_string(c.markers_size()) + " markers\n" +
-         left_out;
+  return fmt::format("  {} of {} markers\n{}", used, c.markers_size(), left_out);
 }
 
 std::string object_text(const v1::Calibration& c) {
   std::string out;
   if (c.has_error_p95_mm())
-    out += "  surface position error: " + format_fixed(c.error_p95_mm()) +
-           " mm for 95 % of the surface, at most " + format_fixed(c.error_max_mm()) + " mm\n";
+    out += fmt::format(
+        "  surface position error: {:.2f} mm for 95 % of the surface, at most {:.2f} mm\n",
+        c.error_p95_mm(), c.error_max_mm());
   out += markers_text(c);
   for (const std::string& what : c.from_nominal_pose())
-    out += "  from the nominal pose: " + printable(what) + "\n";
-  if (c.has_contact_mm()) out += "  first contact at " + format_fixed(c.contact_mm()) + " mm\n";
+    out += fmt::format("  from the nominal pose: {}\n", printable(what));
+  if (c.has_contact_mm()) out += fmt::format("  first contact at {:.2f} mm\n", c.contact_mm());
   if (c.job().empty()) out += "  entered by hand\n";
   return out;
 }
@@ -43,14 +45,14 @@ std::vector<std::string> staleness_of(const v1::Calibration& calibration) {
 }
 
 std::string text_of(const v1::Calibration& c) {
-  std::string out =
-      c.name() + (c.active() ? " (active)" : "") + ": " + printable(c.display_name()) + "\n";
+  std::string out = fmt::format("{}{}: {}\n", c.name(), c.active() ? " (active)" : "",
+                                printable(c.display_name()));
   if (c.kind() == v1::Calibration::OBJECT)
     out += object_text(c);
   else
-    out += "  a camera, from " + std::to_string(c.views()) + " views; residual of the board " +
-           format_fixed(c.rms_mm()) + " mm rms\n";
-  for (const std::string& why : staleness_of(c)) out += "  no longer valid: " + why + "\n";
+    out += fmt::format("  a camera, from {} views; residual of the board {:.2f} mm rms\n",
+                       c.views(), c.rms_mm());
+  for (const std::string& why : staleness_of(c)) out += fmt::format("  no longer valid: {}\n", why);
   return out;
 }
 

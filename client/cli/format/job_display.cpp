@@ -1,5 +1,7 @@
 #include "client/cli/format/job_display.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -10,13 +12,13 @@
 namespace hydroprint::cli {
 namespace {
 
-int percent(double fraction) { return static_cast<int>(100 * fraction); }
+int whole_percent(double fraction) { return static_cast<int>(100 * fraction); }
 
 // Returns ", 0:12 left", or an empty string.
 std::string time_left(const std::optional<client::Time>& end) {
   if (!end) return "";
   using namespace std::chrono;
-  return ", " + format_duration(ceil<seconds>(*end - system_clock::now())) + " left";
+  return fmt::format(", {} left", format_duration(ceil<seconds>(*end - system_clock::now())));
 }
 
 }  // namespace
@@ -61,17 +63,17 @@ void JobDisplay::take_dip(const v1::DipStatus& status) {
   for (const std::string& warning : new_warnings(dip_.value_or(v1::DipStatus()), status))
     say(job_ + ": warning: " + warning);
   if (!dip_ || dip_->step() != status.step())
-    say(job_ + ": " + client::name_of(status.step()) + ": " + status.instruction());
+    say(fmt::format("{}: {}: {}", job_, client::name_of(status.step()), status.instruction()));
   dip_ = status;
 }
 
 void JobDisplay::show() {
   if (line_.is_terminal()) return line_.show(job_, progress_fraction_, text());
   if (dip_) return;  // the steps were shown already
-  const int tenth = percent(progress_fraction_) / 10;
-  const std::string key = client::name_of(state_) + "/" + phase_ + "/" + std::to_string(tenth);
+  const int tenth = whole_percent(progress_fraction_) / 10;
+  const std::string key = fmt::format("{}/{}/{}", client::name_of(state_), phase_, tenth);
   if (std::exchange(last_key_, key) == key) return;
-  say(job_ + ": " + std::to_string(percent(progress_fraction_)) + "%  " + text());
+  say(fmt::format("{}: {}%  {}", job_, whole_percent(progress_fraction_), text()));
 }
 
 std::string JobDisplay::text() const {

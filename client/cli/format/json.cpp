@@ -1,8 +1,8 @@
 #include "client/cli/format/json.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
 
-#include <iomanip>
 #include <iostream>
 
 #include "client/cli/terminal/console.h"
@@ -56,7 +56,7 @@ Json tree_of(const pb::Message& message) {
 void print_tree(const Json& json, const std::string& indent) {
   for (const auto& [key, value] : json.items()) {
     if (is_empty(value)) continue;
-    std::cout << indent << std::left << std::setw(19) << key << " ";
+    std::cout << fmt::format("{}{:<19} ", indent, key);
     if (value.is_object()) {
       std::cout << "\n";
       print_tree(value, indent + "  ");

@@ -1,5 +1,7 @@
 #include "client/cli/format/rig_display.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "client/name_of.h"
@@ -15,42 +17,42 @@ std::string trouble(const v1::Rig& rig) {
   if (!rig.trouble().empty()) return "  " + printable(rig.trouble());
   std::string text = rig.cause().empty() ? "" : "  " + rig.cause();
   if (rig.alarm_code() != 0)
-    text += "  alarm " + std::to_string(rig.alarm_code()) + " " + rig.alarm_text();
+    text += fmt::format("  alarm {} {}", rig.alarm_code(), rig.alarm_text());
   return text;
 }
 
 std::string place(const v1::Rig& rig) {
   if (!rig.has_position_mm()) return "";
-  std::string text = "  " + format_fixed(rig.position_mm()) + " mm";
-  if (rig.has_velocity_mm_per_s()) text += "  " + format_fixed(rig.velocity_mm_per_s()) + " mm/s";
+  std::string text = fmt::format("  {:.2f} mm", rig.position_mm());
+  if (rig.has_velocity_mm_per_s()) text += fmt::format("  {:.2f} mm/s", rig.velocity_mm_per_s());
   return text;
 }
 
 std::string motion_line(const v1::Motion& motion) {
-  std::string text = client::name_of(motion.kind()) + " " + client::name_of(motion.outcome()) +
-                     ", from " + format_fixed(motion.begin_mm()) + " to " +
-                     format_fixed(motion.end_mm()) + " mm";
-  return motion.cause().empty() ? text : text + ": " + motion.cause();
+  return fmt::format("{} {}, from {:.2f} to {:.2f} mm{}{}", client::name_of(motion.kind()),
+                     client::name_of(motion.outcome()), motion.begin_mm(), motion.end_mm(),
+                     motion.cause().empty() ? "" : ": ", motion.cause());
 }
 
 std::string axis_line(const v1::Axis& axis) {
-  return axis.drive() + (axis.is_virtual() ? " (virtual rig)" : "") + ", from " +
-         format_fixed(axis.min_mm()) + " to " + format_fixed(axis.max_mm()) + " mm at up to " +
-         format_fixed(axis.max_speed_mm_per_s()) + " mm/s; stopping distance at most " +
-         format_fixed(axis.stopping_distance_mm()) + " mm";
+  return fmt::format(
+      "{}{}, from {:.2f} to {:.2f} mm at up to {:.2f} mm/s; stopping distance at most {:.2f} mm",
+      axis.drive(), axis.is_virtual() ? " (virtual rig)" : "", axis.min_mm(), axis.max_mm(),
+      axis.max_speed_mm_per_s(), axis.stopping_distance_mm());
 }
 
 std::string link_line(const v1::LinkQuality& link) {
-  return std::to_string(link.polls()) + " polls, " + std::to_string(link.missed_polls()) +
-         " without a response; connected " + std::to_string(link.connects()) + " times";
+  return fmt::format("{} polls, {} without a response; connected {} times", link.polls(),
+                     link.missed_polls(), link.connects());
 }
 
 }  // namespace
 
 std::string lease_line(const v1::Lease* lease) {
   if (lease == nullptr) return "nobody holds the lease";
-  return printable(lease->holder() + " holds the lease for '" + lease->purpose() + "' until ") +
-         format_time(client::time_of(lease->expire_time()));
+  return printable(fmt::format("{} holds the lease for '{}' until {}", lease->holder(),
+                               lease->purpose(),
+                               format_time(client::time_of(lease->expire_time()))));
 }
 
 std::string rig_line(const v1::Rig& rig) {
@@ -61,14 +63,15 @@ std::string rig_line(const v1::Rig& rig) {
 }
 
 std::string rig_lines(const v1::Rig& rig) {
-  std::string text = client::name_of(rig.state()) + place(rig) + (rig.homed() ? "  homed" : "") +
-                     (rig.stop_button() ? "  stop button" : "") + "\n";
+  std::string text =
+      fmt::format("{}{}{}{}\n", client::name_of(rig.state()), place(rig),
+                  rig.homed() ? "  homed" : "", rig.stop_button() ? "  stop button" : "");
   if (const std::string wrong = trouble(rig); !wrong.empty()) text += wrong.substr(2) + "\n";
   text += lease_line(rig.has_lease() ? &rig.lease() : nullptr) + "\n";
-  if (!rig.dip().empty()) text += "dip:    " + rig.dip() + "\n";
-  if (rig.has_motion()) text += "motion: " + motion_line(rig.motion()) + "\n";
-  if (rig.has_axis()) text += "drive:  " + axis_line(rig.axis()) + "\n";
-  return text + "link:   " + link_line(rig.link_quality()) + "\n";
+  if (!rig.dip().empty()) text += fmt::format("dip:    {}\n", rig.dip());
+  if (rig.has_motion()) text += fmt::format("motion: {}\n", motion_line(rig.motion()));
+  if (rig.has_axis()) text += fmt::format("drive:  {}\n", axis_line(rig.axis()));
+  return text + fmt::format("link:   {}\n", link_line(rig.link_quality()));
 }
 
 void RigDisplay::update(const v1::Rig& rig) {

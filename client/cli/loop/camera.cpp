@@ -1,5 +1,7 @@
 #include "client/cli/loop/camera.h"
 
+#include <fmt/format.h>
+
 #include <iostream>
 
 #include "client/calibration.h"
@@ -29,7 +31,7 @@ class HeldBoard {
   Status hold(const Pose& X_CB) const {
     HP_RETURN_IF_ERROR(image::write_artifact(pose_, loop::pose_json(X_CB)));
     HP_RETURN_IF_ERROR(
-        loop::talk(control_, "show " + loop::quoted(pose_) + " " + loop::quoted(mesh_)));
+        loop::talk(control_, fmt::format("show {} {}", loop::quoted(pose_), loop::quoted(mesh_))));
     return {};
   }
 
@@ -60,7 +62,7 @@ Result<std::string> calibrate_loop_camera(Program& program, const std::string& c
     const HeldBoard board(control, folder);
     HP_RETURN_IF_ERROR(board.make());
     for (int i = 0; i < kViews; ++i) {
-      say("view " + std::to_string(i + 1) + " of " + std::to_string(kViews));
+      say(fmt::format("view {} of {}", i + 1, kViews));
       HP_RETURN_IF_ERROR(board.hold(loop::held_board(seed, i)));
       HP_ASSIGN_OR_RETURN(const v1::Job capture, capture_quietly(program, kSeconds));
       job.mutable_calibrate_camera()->add_capture_jobs(capture.name());

@@ -1,5 +1,7 @@
 #include "client/cli/loop/rounds.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <fstream>
 #include <iostream>
@@ -57,8 +59,8 @@ Status LoopRounds::hang(const Pose& X_GO) const {
   const fs::path held = file("held.json");
   HP_RETURN_IF_ERROR(image::write_artifact(held, loop::pose_json(X_GO)));
   const fs::path mesh = file("sample") / (body_.name + ".obj");
-  HP_RETURN_IF_ERROR(
-      loop::talk(options_.control, "hang " + loop::quoted(held) + " " + loop::quoted(mesh)));
+  HP_RETURN_IF_ERROR(loop::talk(options_.control,
+                                fmt::format("hang {} {}", loop::quoted(held), loop::quoted(mesh))));
   return {};
 }
 
@@ -164,7 +166,7 @@ Result<std::string> LoopRounds::fetch(const std::string& job, const std::string&
   HP_ASSIGN_OR_RETURN(const auto files,
                       download_all(program_.daemon(), job, {artifact}, file("download")));
   const std::string name =
-      "pose" + std::to_string(number_) + "-" + as + fs::path(artifact).extension().string();
+      fmt::format("pose{}-{}{}", number_, as, fs::path(artifact).extension().string());
   std::error_code error;
   fs::rename(files.front().path, file(name), error);
   if (error)
@@ -208,7 +210,7 @@ Result<v1::InputFile> LoopRounds::driven(const std::string& dip, loop::Round& ou
     const Eigen::Vector2d aside_mm = depth_mm * out.truth.slope;
     rows << time_s << ',' << aside_mm.x() << ',' << aside_mm.y() << ',' << -depth_mm << '\n';
   }
-  const fs::path path = file("pose" + std::to_string(number_) + "-motion.csv");
+  const fs::path path = file(fmt::format("pose{}-motion.csv", number_));
   HP_RETURN_IF_ERROR(image::write_artifact(path, rows.str()));
   return inputs_.add(path);
 }

@@ -1,6 +1,7 @@
 #include "client/cli/program/credentials.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <toml++/toml.h>
 #include <unistd.h>
@@ -20,8 +21,9 @@ std::filesystem::path folder_in(const char* name) {
 
 Status cannot_keep_key(const std::filesystem::path& file) {
   return fail(Code::kPermissionDenied,
-              file.string() + ": the key cannot be stored there: " + std::strerror(errno) +
-                  "; set XDG_CONFIG_HOME to a folder that you can write to");
+              fmt::format("{}: the key cannot be stored there: {}; set XDG_CONFIG_HOME to a folder "
+                          "that you can write to",
+                          file.string(), std::strerror(errno)));
 }
 
 Result<toml::table> read_credentials() {
@@ -36,9 +38,9 @@ Result<toml::table> read_credentials() {
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& error) {
-    return fail(Code::kInvalidArgument, file.string() + ": is not valid TOML (" +
-                                            std::string(error.description()) +
-                                            "); correct or delete it");
+    return fail(Code::kInvalidArgument,
+                fmt::format("{}: is not valid TOML ({}); correct or delete it", file.string(),
+                            error.description()));
   }
 }
 
@@ -46,7 +48,7 @@ Status write_credentials(const toml::table& table) {
   const auto file = credentials_file();
   std::error_code ignored;  // writing the file reports the error
   std::filesystem::create_directories(file.parent_path(), ignored);
-  const auto part = file.string() + "." + std::to_string(::getpid());
+  const auto part = fmt::format("{}.{}", file.string(), ::getpid());
   ::unlink(part.c_str());
   const int descriptor = ::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor < 0) return cannot_keep_key(file);

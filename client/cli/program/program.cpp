@@ -1,5 +1,6 @@
 #include "client/cli/program/program.h"
 
+#include <fmt/format.h>
 #include <pwd.h>
 #include <unistd.h>
 
@@ -34,9 +35,9 @@ Result<std::string> read_authorities(const std::string& file) {
   std::string pem{std::istreambuf_iterator<char>(in), {}};
   if (in && pem.find("-----BEGIN CERTIFICATE-----") != std::string::npos) return pem;
   return fail(Code::kInvalidArgument,
-              "--ca (HYDROPRINT_CA) " + file +
-                  ": no readable certificate; give a PEM file with the certificate of the "
-                  "authority that signed the daemon's certificate");
+              fmt::format("--ca (HYDROPRINT_CA) {}: no readable certificate; give a PEM file with "
+                          "the certificate of the authority that signed the daemon's certificate",
+                          file));
 }
 
 std::string check_owner(const std::string& text) {

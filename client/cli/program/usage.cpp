@@ -1,5 +1,7 @@
 #include "client/cli/program/usage.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -65,8 +67,8 @@ std::string unknown_word(const CLI::App& app, const std::vector<std::string>& wo
   const std::string word =
       is_flag ? words.front().substr(0, words.front().find('=')) : words.front();
   const std::string similar = nearest(word, known);
-  return std::string("unknown ") + (is_flag ? "flag" : "command") + " '" + word + "'" +
-         (similar.empty() ? "" : "; did you mean '" + similar + "'?");
+  return fmt::format("unknown {} '{}'{}", is_flag ? "flag" : "command", word,
+                     similar.empty() ? "" : fmt::format("; did you mean '{}'?", similar));
 }
 
 }  // namespace
@@ -85,7 +87,7 @@ std::string usage_error(const CLI::App* app, const CLI::Error& error) {
   std::string what = unknown_word(*app, words);
   if (what.empty()) what = error.what();
   const char* const link = what.ends_with("?") ? " See " : "; see ";
-  return "hydroprint: " + printable(what) + link + full_name(*app) + " --help\n";
+  return fmt::format("hydroprint: {}{}{} --help\n", printable(what), link, full_name(*app));
 }
 
 }  // namespace hydroprint::cli

@@ -1,5 +1,6 @@
 #include "client/cli/rig_session/dip_guide.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <mutex>
@@ -164,7 +165,8 @@ class Guide {
     if (!step_end) return line_.show(name, job.progress_fraction(), text);
     const auto left = *step_end - now;
     const double whole_s = to_seconds(*step_end - begun_);
-    text = format_duration(std::chrono::ceil<std::chrono::seconds>(left)) + " left  " + text;
+    text = fmt::format("{} left  {}",
+                       format_duration(std::chrono::ceil<std::chrono::seconds>(left)), text);
     line_.show(name, whole_s > 0 ? 1 - to_seconds(left) / whole_s : 1, text);
   }
 
@@ -176,7 +178,7 @@ class Guide {
 
   std::string place() const {
     if (!rig_.has_position_mm()) return client::name_of(rig_.state());
-    return "at " + format_fixed(rig_.position_mm()) + " mm";
+    return fmt::format("at {:.2f} mm", rig_.position_mm());
   }
 
   void take_keys(const std::vector<Key>& keys) {

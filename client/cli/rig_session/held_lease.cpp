@@ -1,5 +1,6 @@
 #include "client/cli/rig_session/held_lease.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
@@ -30,8 +31,9 @@ std::string who_has_it(const Error& error) {
   const std::string holder = at(error.metadata, "holder");
   if (holder.empty()) return "";
   const std::string purpose = at(error.metadata, "purpose");
-  return holder + " holds it" + (purpose.empty() ? "" : " for '" + purpose + "'") + " until " +
-         at(error.metadata, "expire_time");
+  return fmt::format("{} holds it{} until {}", holder,
+                     purpose.empty() ? "" : fmt::format(" for '{}'", purpose),
+                     at(error.metadata, "expire_time"));
 }
 
 std::map<std::string, std::string> metadata_of(const v1::Lease& lease) {
@@ -121,14 +123,18 @@ void add_lease_flag(CLI::App& command, std::string& purpose) {
 Error in_our_words(Error error) {
   const std::string who = who_has_it(error);
   if (error.reason == "LEASE_HELD")
-    error.message = "the rig's lease is taken" + (who.empty() ? "" : ": " + who) +
-                    "; ask the holder, or take it with 'hydroprint rig lease break --reason ...'";
+    error.message = fmt::format(
+        "the rig's lease is taken{}{}; ask the holder, or take it with 'hydroprint rig lease break "
+        "--reason ...'",
+        who.empty() ? "" : ": ", who);
   if (error.reason == "LEASE_REQUIRED")
-    error.message = "commanding the rig needs its lease, which you do not hold" +
-                    (who.empty() ? "; acquire it: 'hydroprint rig lease acquire --purpose ...'"
-                                 : ": " + who +
-                                       "; ask the holder, or take it with 'hydroprint rig lease "
-                                       "break --reason ...'");
+    error.message = fmt::format(
+        "commanding the rig needs its lease, which you do not hold{}",
+        who.empty()
+            ? "; acquire it: 'hydroprint rig lease acquire --purpose ...'"
+            : fmt::format(
+                  ": {}; ask the holder, or take it with 'hydroprint rig lease break --reason ...'",
+                  who));
   return error;
 }
 

@@ -1,5 +1,7 @@
 #include "client/cli/rig_session/jogger.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -66,8 +68,8 @@ Result<std::optional<v1::Rig>> Jogger::let_go() {
 
 std::string Jogger::text() const {
   if (!refusal_.empty()) return refusal_;
-  const char* what = direction_ > 0 ? "down at " : direction_ < 0 ? "up at " : "jog at ";
-  return what + format_fixed(speed_mm_per_s_) + " mm/s";
+  const char* what = direction_ > 0 ? "down" : direction_ < 0 ? "up" : "jog";
+  return fmt::format("{} at {:.2f} mm/s", what, speed_mm_per_s_);
 }
 
 }  // namespace hydroprint::cli

@@ -1,6 +1,7 @@
 #include "client/cli/rig_session/lease_file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -28,8 +29,9 @@ std::filesystem::path folder() {
 
 Status cannot_keep(const std::filesystem::path& file) {
   return fail(Code::kPermissionDenied,
-              file.string() + ": the lease cannot be stored there: " + std::strerror(errno) +
-                  "; set XDG_RUNTIME_DIR to a folder that you can write to");
+              fmt::format("{}: the lease cannot be stored there: {}; set XDG_RUNTIME_DIR to a "
+                          "folder that you can write to",
+                          file.string(), std::strerror(errno)));
 }
 
 bool write_new(const std::filesystem::path& file, const std::string& text) {
@@ -55,7 +57,7 @@ Status keep_lease(const std::string& server, const std::string& lease_id) {
   std::error_code ignored;  // writing the file reports the error
   std::filesystem::create_directories(file.parent_path(), ignored);
   ::chmod(file.parent_path().c_str(), 0700);
-  const auto part = file.string() + "." + std::to_string(::getpid());
+  const auto part = fmt::format("{}.{}", file.string(), ::getpid());
   if (!write_new(part, lease_id + "\n") || ::rename(part.c_str(), file.c_str()) != 0)
     return cannot_keep(file);
   return {};

@@ -1,5 +1,6 @@
 #include "client/cli/rig_session/motion.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -25,7 +26,7 @@ bool moves(const v1::Rig& rig) {
 }
 
 std::string position(const v1::Rig& rig) {
-  return rig.has_position_mm() ? "at " + format_fixed(rig.position_mm()) + " mm"
+  return rig.has_position_mm() ? fmt::format("at {:.2f} mm", rig.position_mm())
                                : "at an unknown position";
 }
 
@@ -46,8 +47,8 @@ Status judge(const v1::Rig& rig, std::uint64_t number) {
   if (motion.outcome() == v1::Motion::STOPPED)
     return fail(Code::kAborted, "the axis was stopped " + position(rig));
   return fail(Code::kInternal,
-              "the motion failed " + position(rig) + ": " +
-                  (rig.trouble().empty() ? motion.cause() : rig.trouble()),
+              fmt::format("the motion failed {}: {}", position(rig),
+                          rig.trouble().empty() ? motion.cause() : rig.trouble()),
               motion.cause());
 }
 

@@ -1,21 +1,16 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "sim/base/number_text.h"
 
 namespace hydroprint::cli {
 
 /// Removes control characters, so that no name can move a terminal's cursor.
 [[nodiscard]] std::string printable(std::string_view text);
-
-/// "0:07", "12:30", "1:02:03".
-[[nodiscard]] std::string format_duration(std::chrono::seconds time);
-
-/// "312 B", "4.2 MB".
-[[nodiscard]] std::string format_bytes(std::int64_t bytes);
 
 /// Local time, "2026-03-01 14:05:09"; "-" for nullopt.
 [[nodiscard]] std::string format_time(

@@ -1,5 +1,7 @@
 #include "daemon/http/protocol/exchange.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -114,10 +116,11 @@ Task<Result<std::string>> Exchange::read_body_piece() {
 Task<Result<std::string>> Exchange::read_body() {
   std::string body;
   const auto refused = [&] {
-    auto error = fail(Code::kOutOfRange,
-                      "the request body is longer than " + std::to_string(limits_.body_bytes) +
-                          " bytes; upload files with POST /v1/uploads",
-                      "BODY_TOO_LARGE");
+    auto error = fail(
+        Code::kOutOfRange,
+        fmt::format("the request body is longer than {} bytes; upload files with POST /v1/uploads",
+                    limits_.body_bytes),
+        "BODY_TOO_LARGE");
     error.value().metadata["max_bytes"] = std::to_string(limits_.body_bytes);
     return error;
   };

@@ -1,5 +1,7 @@
 #include "daemon/http/protocol/response.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <ctime>
 
@@ -69,8 +71,7 @@ bool may_be_remembered(const Head& request) {
 }  // namespace
 
 std::string head_text(const Response& response, const Head& request, const Framing& framing) {
-  std::string text =
-      "HTTP/1.1 " + std::to_string(response.status) + ' ' + phrase_of(response.status) + "\r\n";
+  std::string text = fmt::format("HTTP/1.1 {} {}\r\n", response.status, phrase_of(response.status));
   line(text, "Date", date_now());
   for (const HeaderField& field : response.fields.all()) line(text, field.name, field.value);
   line(text, "X-Content-Type-Options", "nosniff");

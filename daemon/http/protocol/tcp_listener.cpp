@@ -1,5 +1,7 @@
 #include "daemon/http/protocol/tcp_listener.h"
 
+#include <fmt/format.h>
+
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -37,8 +39,8 @@ using StrandTimer =
 
 std::string text_of(const tcp::endpoint& endpoint) {
   const std::string host = endpoint.address().to_string();
-  return (endpoint.address().is_v6() ? "[" + host + "]" : host) + ":" +
-         std::to_string(endpoint.port());
+  return endpoint.address().is_v6() ? fmt::format("[{}]:{}", host, endpoint.port())
+                                    : fmt::format("{}:{}", host, endpoint.port());
 }
 
 // A transport is not used after the socket is closed, since its descriptor may then belong to
@@ -252,7 +254,8 @@ struct TcpListener::Impl {
               "set another port with --http"
             : error.message() + "; set another address with --http";
     return fail(Code::kUnavailable,
-                "cannot listen at " + text_of({endpoint.address(), endpoint.port()}) + ": " + why);
+                fmt::format("cannot listen at {}: {}",
+                            text_of({endpoint.address(), endpoint.port()}), why));
   }
 
   void take(StrandSocket socket) {

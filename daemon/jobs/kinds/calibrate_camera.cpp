@@ -1,4 +1,6 @@
 // Computes the camera's lens from views of the calibration board.
+#include <fmt/format.h>
+
 #include "daemon/jobs/adopted_files.h"
 #include "daemon/jobs/calibration_file.h"
 #include "daemon/jobs/kind.h"
@@ -23,7 +25,7 @@ class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
     const auto& spec = static_cast<const v1::CalibrateCameraSpec&>(shown);
     const int views =
         spec.capture_jobs().empty() ? count_views(spec.frames()) : spec.capture_jobs_size();
-    return "of " + std::to_string(views) + (views == 1 ? " view" : " views");
+    return fmt::format("of {} {}", views, views == 1 ? "view" : "views");
   }
 
   [[nodiscard]] Result<std::optional<NewCalibration>> calibration(
@@ -53,7 +55,7 @@ class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
     int view = 0;
     for (const std::string& capture : shown.capture_jobs()) {
       HP_RETURN_IF_ERROR(adopt_frames(capture, "calibrate_camera.capture_jobs",
-                                      "view" + std::to_string(++view), sources,
+                                      fmt::format("view{}", ++view), sources,
                                       *resolved.mutable_frames()));
     }
     resolved.clear_capture_jobs();

@@ -1,4 +1,6 @@
 // Guides the operator through the immersion on the rig.
+#include <fmt/format.h>
+
 #include "daemon/jobs/calibration_binding.h"
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/referenced_job.h"
@@ -38,9 +40,11 @@ class DipKind final : public KindOf<v1::DipSpec> {
                         needed_calibration(name, "dip.calibration", sources.calibrations));
     shown.set_calibration(calibration_name(found.id));
     if (!simulated.empty() && simulated != shown.calibration()) {
-      return invalid_field("dip.calibration", "is not the one that " + shown.simulate_job() +
-                                                  " was computed with (" + simulated +
-                                                  "); leave it out, or simulate again");
+      return invalid_field(
+          "dip.calibration",
+          fmt::format(
+              "is not the one that {} was computed with ({}); leave it out, or simulate again",
+              shown.simulate_job(), simulated));
     }
     resolved = shown;
     return {};

@@ -1,5 +1,6 @@
 #include "daemon/rest/openapi/openapi.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
 #include <algorithm>
@@ -46,8 +47,8 @@ std::string comment_at(const Route& route, std::size_t at) {
   for (std::size_t i = 0; i < route.path.variables.size(); ++i) {
     const Variable& variable = route.path.variables[i];
     if (at >= variable.begin && at < variable.end) {
-      return "Part of `" + path_text(route.path_fields[i]) +
-             "`: " + rules::comment_on(route.path_fields[i].back()->full_name());
+      return fmt::format("Part of `{}`: {}", path_text(route.path_fields[i]),
+                         rules::comment_on(route.path_fields[i].back()->full_name()));
     }
   }
   return {};

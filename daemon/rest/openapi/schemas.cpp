@@ -1,5 +1,6 @@
 #include "daemon/rest/openapi/schemas.h"
 
+#include <fmt/format.h>
 #include <google/protobuf/descriptor.h>
 
 #include <cmath>
@@ -178,7 +179,8 @@ std::string oneofs_of(const pb::Descriptor& message) {
     for (int k = 0; k < oneof.field_count(); ++k) {
       names += (k == 0 ? "`" : ", `") + oneof.field(k)->json_name() + "`";
     }
-    text += "\n\nAt most one of " + names + " is set. " + rules::comment_on(oneof.full_name());
+    text += fmt::format("\n\nAt most one of {} is set. {}", names,
+                        rules::comment_on(oneof.full_name()));
   }
   return text;
 }
@@ -188,8 +190,8 @@ std::string oneofs_of(const pb::Descriptor& message) {
 std::string description_of(const pb::FieldDescriptor& field) {
   std::string text = rules::comment_on(field.full_name());
   if (is_oneof_member(field)) {
-    text += (text.empty() ? "" : "\n") + std::string("At most one of `") +
-            field.real_containing_oneof()->name() + "` is set.";
+    text += fmt::format("{}At most one of `{}` is set.", text.empty() ? "" : "\n",
+                        field.real_containing_oneof()->name());
   }
   return text;
 }
@@ -228,7 +230,8 @@ Json Schemas::reference(const pb::EnumDescriptor& names) {
   for (int i = 0; i < names.value_count(); ++i) {
     const std::string& value = names.value(i)->name();
     values.push_back(value);
-    description += "\n- `" + value + "`: " + rules::comment_on(names.full_name() + "." + value);
+    description +=
+        fmt::format("\n- `{}`: {}", value, rules::comment_on(names.full_name() + "." + value));
   }
   all_[name] = {{"type", "string"}, {"enum", values}, {"description", description}};
   return reference_to(name);

@@ -1,5 +1,7 @@
 #include "hardware/simulator/drive/camera_control.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "hardware/simulator/scene/codec.h"
@@ -37,9 +39,9 @@ Result<std::size_t> CameraControl::index_of(const std::string& marker) const {
     names += (names.empty() ? "" : ", ") + scene_.markers[i].name;
     if (scene_.markers[i].name == marker) return i;
   }
-  return fail(Code::kInvalidArgument, "there is no marker \"" + marker.substr(0, 40) +
-                                          "\". Use one of " +
-                                          (names.empty() ? "the markers in --scene" : names));
+  return fail(Code::kInvalidArgument,
+              fmt::format("there is no marker \"{:.40}\". Use one of {}", marker,
+                          names.empty() ? "the markers in --scene" : names));
 }
 
 Status CameraControl::set(const std::string& marker, simulated_scene::MarkerState state) {

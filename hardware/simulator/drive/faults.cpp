@@ -1,5 +1,7 @@
 #include "hardware/simulator/drive/faults.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -93,8 +95,7 @@ std::optional<milliseconds> read_duration(std::string_view text) {
 
 tl::unexpected<Error> refuse(std::string_view line) {
   return fail(Code::kInvalidArgument,
-              "\"" + std::string(line.substr(0, 80)) +
-                  "\" is not a known action. Use: " + std::string(action_help()));
+              fmt::format("\"{:.80}\" is not a known action. Use: {}", line, action_help()));
 }
 
 /// Parses COUNT at words[at], if present.

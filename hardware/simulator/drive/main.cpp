@@ -1,5 +1,6 @@
 // hydroprint-virtual-rig simulates the drive of a rig and can fail on request.
 
+#include <fmt/format.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -61,10 +62,9 @@ Result<Options> options_of(const Arguments& arguments, const CLI::App& app) {
   if (arguments.rtu.empty() || app.count("--tcp") > 0) out.tcp_port = arguments.tcp;
   if (!arguments.rtu.empty()) {
     const auto path = std::filesystem::absolute(arguments.rtu).string();
-    HP_ASSIGN_OR_RETURN(
-        out.line, drive::parse_endpoint("rtu:" + path + "?baud=" + std::to_string(arguments.baud) +
-                                        "&parity=" + arguments.parity +
-                                        "&stop=" + std::to_string(arguments.stop_bits)));
+    HP_ASSIGN_OR_RETURN(out.line, drive::parse_endpoint(fmt::format(
+                                      "rtu:{}?baud={}&parity={}&stop={}", path, arguments.baud,
+                                      arguments.parity, arguments.stop_bits)));
   }
   out.control = arguments.control;
   if (app.count("--watchdog-s") > 0) out.watchdog_s = arguments.watchdog_s;
@@ -76,7 +76,7 @@ Result<Options> options_of(const Arguments& arguments, const CLI::App& app) {
 
 void tell_where(const Options& options, int port, bool as_json) {
   nlohmann::ordered_json where;
-  if (options.tcp_port) where["tcp"] = "tcp:127.0.0.1:" + std::to_string(port);
+  if (options.tcp_port) where["tcp"] = fmt::format("tcp:127.0.0.1:{}", port);
   if (options.line) where["rtu"] = options.line->text();
   if (!options.control.empty()) where["control"] = options.control.string();
   if (as_json) {

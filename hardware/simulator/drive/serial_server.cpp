@@ -1,6 +1,7 @@
 #include "hardware/simulator/drive/serial_server.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <modbus/modbus.h>
 #include <termios.h>
 #include <unistd.h>
@@ -24,9 +25,9 @@ constexpr std::size_t kCrc = 2;
 constexpr std::size_t kName = 128;
 
 tl::unexpected<Error> refuse(const std::string& what) {
-  return fail(
-      Code::kFailedPrecondition,
-      what + " (" + std::strerror(errno) + "). Use another path, or stop the program that uses it");
+  return fail(Code::kFailedPrecondition,
+              fmt::format("{} ({}). Use another path, or stop the program that uses it", what,
+                          std::strerror(errno)));
 }
 
 void make_raw(int terminal) {

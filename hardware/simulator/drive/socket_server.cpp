@@ -1,6 +1,7 @@
 #include "hardware/simulator/drive/socket_server.h"
 
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
@@ -20,8 +21,9 @@ constexpr int kLook_ms = 20;
 
 tl::unexpected<Error> refuse(const std::string& place, int error) {
   return fail(Code::kFailedPrecondition,
-              place + ": cannot listen there (" + std::strerror(error) +
-                  "). Use another address, or stop the program that uses it");
+              fmt::format("{}: cannot listen there ({}). Use another address, or stop the program "
+                          "that uses it",
+                          place, std::strerror(error)));
 }
 
 template <class Address>
@@ -46,7 +48,7 @@ Result<std::unique_ptr<SocketServer>> SocketServer::tcp(int port, Serve serve) {
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   HP_ASSIGN_OR_RETURN(const int socket,
-                      listen_at(AF_INET, address, "127.0.0.1:" + std::to_string(port)));
+                      listen_at(AF_INET, address, fmt::format("127.0.0.1:{}", port)));
   std::unique_ptr<SocketServer> out(new SocketServer(socket, std::move(serve)));
   socklen_t size = sizeof address;
   ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);

@@ -1,5 +1,6 @@
 #include "hardware/simulator/openni_driver/rig_line.h"
 
+#include <fmt/format.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/un.h>
@@ -22,7 +23,7 @@ tl::unexpected<Error> gone() {
 
 tl::unexpected<Error> nobody_at(const std::string& path) {
   return fail(Code::kUnavailable,
-              "no virtual rig listens at " + path + ". Start one with --control " + path);
+              fmt::format("no virtual rig listens at {0}. Start one with --control {0}", path));
 }
 
 }  // namespace
