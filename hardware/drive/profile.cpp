@@ -244,14 +244,6 @@ std::chrono::milliseconds read_duration(TomlReader& table, std::string_view key)
 
 }  // namespace
 
-std::string_view status_bit_name(StatusBit bit) {
-  return kBitNames.at(static_cast<std::size_t>(bit));
-}
-
-std::string_view command_name(Command command) {
-  return kCommandNames.at(static_cast<std::size_t>(command));
-}
-
 Result<DriveProfile> read_drive_profile(const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(TomlReader top, TomlReader::open(path));
   DriveProfile profile;

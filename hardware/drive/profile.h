@@ -66,9 +66,6 @@ enum class StatusBit {
 };
 inline constexpr std::size_t kStatusBits = 8;
 
-/// Name in the profile file: "enabled", "positive_end".
-[[nodiscard]] std::string_view status_bit_name(StatusBit bit);
-
 /// Location of a status bit.
 struct BitPlace {
   Space space = Space::kHolding;
@@ -89,9 +86,6 @@ enum class Command {
   kResetFault,
 };
 inline constexpr std::size_t kCommands = 8;
-
-/// Name in the profile file: "enable", "jog_positive".
-[[nodiscard]] std::string_view command_name(Command command);
 
 /// A component of a write: a word, or a quantity with as many words as its format has.
 enum class Quantity { kWord, kPosition, kSpeed, kNegativeSpeed, kAcceleration, kDeceleration };

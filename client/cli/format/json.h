@@ -15,14 +15,6 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const google::protobuf::Message& message);
 [[nodiscard]] Json to_json(const Error& error);
 
-/// Converts messages to a JSON array.
-template <class Messages>
-[[nodiscard]] Json array_json(const Messages& messages) {
-  Json array = Json::array();
-  for (const auto& message : messages) array.push_back(to_json(message));
-  return array;
-}
-
 /// Converts a message for print_tree(): with the field names of the .proto files.
 [[nodiscard]] Json tree_of(const google::protobuf::Message& message);
 

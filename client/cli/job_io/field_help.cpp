@@ -30,8 +30,4 @@ CLI::Validator field_range(const std::string& field) {
   return CLI::Range(rules.min(), rules.max());
 }
 
-CLI::Validator field_choices(const std::string& field) {
-  return CLI::IsMember(rules::choices(descriptor_of(field)));
-}
-
 }  // namespace hydroprint::cli

@@ -15,7 +15,4 @@ namespace hydroprint::cli {
 /// Accepts numbers in the field's range.
 [[nodiscard]] CLI::Validator field_range(const std::string& field);
 
-/// Accepts the field's choices.
-[[nodiscard]] CLI::Validator field_choices(const std::string& field);
-
 }  // namespace hydroprint::cli

@@ -39,17 +39,6 @@ Eigen::Vector3f Brush::at(double x, double y) const {
   return (colour_ + colour_per_sample_ * offset.cast<float>()).cwiseMax(0.0F).cwiseMin(1.0F);
 }
 
-Eigen::Vector2i Paint::texture_size_px() const {
-  Eigen::Vector2i size = Eigen::Vector2i::Zero();
-  for (const Texture& texture : textures_) {
-    if (texture.width() * static_cast<double>(texture.height()) >
-        size.x() * static_cast<double>(size.y())) {
-      size = {texture.width(), texture.height()};
-    }
-  }
-  return size;
-}
-
 Brush Paint::brush(int model_triangle, const Corners& at,
                    const std::array<Eigen::Vector3d, 3>& barycentric) const {
   const Ink& ink = inks_[ink_of_triangle_[model_triangle]];

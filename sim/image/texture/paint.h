@@ -46,8 +46,6 @@ class Paint {
  public:
   /// False if the model states no colours; then the film stays white everywhere.
   [[nodiscard]] bool has_colour() const { return has_colour_; }
-  /// Size of the largest texture; zero if there is none.
-  [[nodiscard]] Eigen::Vector2i texture_size_px() const;
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 
   /// @param model_triangle  into Model::triangles
