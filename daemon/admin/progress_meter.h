@@ -6,11 +6,11 @@
 
 namespace hydroprint::admin {
 
-/// A size for people: "1.4 GB".
+/// Formats a size for display: "1.4 GB".
 [[nodiscard]] std::string bytes_text(std::int64_t bytes);
 
-/// Shows progress and the remaining time on stderr: one line that is updated on a terminal,
-/// otherwise a line every ten seconds.
+/// Shows progress and the remaining time on stderr: on a terminal, a line that is updated in place;
+/// elsewhere, a new line every ten seconds.
 class ProgressMeter {
  public:
   /// @param what  name of the operation: "backup"

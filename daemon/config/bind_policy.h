@@ -6,15 +6,15 @@
 
 namespace hydroprint::daemon {
 
-/// Whether clients on other machines can reach one of the ports.
+/// Returns whether clients on other machines can reach one of the ports.
 [[nodiscard]] bool is_exposed(const Config& config);
 
-/// Refuses (kInvalidArgument, CONFIG_INVALID) an address beyond loopback without TLS, and a
+/// Returns kInvalidArgument, CONFIG_INVALID for an address beyond loopback without TLS, and for a
 /// certificate without its key or the reverse. The message names the missing key.
 [[nodiscard]] Status check_exposure(const Config& config);
 
-/// Refuses (kFailedPrecondition, SIGN_IN_NEEDED) an address beyond loopback while no admin can sign
-/// in. Remote callers need a user, and nobody could create one.
+/// Returns kFailedPrecondition, SIGN_IN_NEEDED for an address beyond loopback while no admin can
+/// sign in. Remote callers need a user, and no one could create one.
 [[nodiscard]] Status check_admin(const Config& config, const auth::Accounts& accounts);
 
 }  // namespace hydroprint::daemon

@@ -5,7 +5,7 @@
 
 namespace hydroprint::dip {
 
-/// Concatenates the parts, with numbers in their default format.
+/// Concatenates the parts as text, with numbers in their default format.
 template <class... Parts>
 std::string text(const Parts&... parts) {
   std::ostringstream out;

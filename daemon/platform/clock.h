@@ -5,7 +5,7 @@
 
 namespace hydroprint::daemon {
 
-/// Returns the Unix time in ms; tests pass their own.
+/// Returns the Unix time in ms. Tests provide their own.
 using Clock = std::function<std::int64_t()>;
 
 /// The machine's clock.

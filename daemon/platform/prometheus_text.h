@@ -12,7 +12,7 @@ class PrometheusText {
  public:
   using Labels = std::initializer_list<std::pair<std::string_view, std::string_view>>;
 
-  /// Begins a metric; its samples follow.
+  /// Begins a metric; its samples must follow.
   /// @param type  "gauge", "counter" or "summary"
   void begin(const std::string& name, std::string_view type, std::string_view help);
   /// @param suffix  appended to the name: "_sum"

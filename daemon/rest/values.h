@@ -21,7 +21,7 @@ namespace hydroprint::rest {
 [[nodiscard]] Status set_from_text(google::protobuf::Message& message, const FieldPath& path,
                                    const std::string& text);
 
-/// The error for a wrong field in path or query: kInvalidArgument, PARAMETER_INVALID.
+/// Returns the error for a wrong field in path or query: kInvalidArgument, PARAMETER_INVALID.
 [[nodiscard]] tl::unexpected<Error> bad_parameter(const std::string& field,
                                                   const std::string& what);
 

@@ -7,10 +7,10 @@
 
 namespace hydroprint::daemon {
 
-/// The error ASSET_TOO_LARGE, with metadata `max_bytes`.
+/// Returns the error ASSET_TOO_LARGE, with metadata `max_bytes`.
 [[nodiscard]] tl::unexpected<Error> asset_too_large(Code code, std::int64_t max_bytes);
 
-/// Size of a file; 0 if it does not exist.
+/// Returns the size of a file; 0 if it does not exist.
 [[nodiscard]] std::int64_t size_on_disk(const std::filesystem::path& path);
 
 }  // namespace hydroprint::daemon

@@ -38,7 +38,7 @@ struct Upload {
   std::string owner = {};
 };
 
-/// The result of an upload so far.
+/// The state of an upload: the asset once it is complete, otherwise the upload.
 using AssetOrUpload = std::variant<Asset, Upload>;
 
 /// Limits of the store.
@@ -51,7 +51,7 @@ struct AssetStoreOptions {
   Quota quota = {};                                       ///< for each owner
 };
 
-/// Stores assets and uploads. An asset exists once its row does; the row is written after the bytes
+/// Stores assets and uploads. An asset exists once its row exists, which is written after the bytes
 /// are hashed and synced under their final name. Several owners may have uploaded the same asset
 /// (asset_owners.h). Thread-safe.
 class AssetStore {
@@ -65,34 +65,34 @@ class AssetStore {
   /// REQUEST_ID_REUSED
   [[nodiscard]] Result<AssetOrUpload> start(const Upload& wanted, const AssetUser& user,
                                             const RequestKey& request);
-  /// An upload of this owner; kNotFound, UPLOAD_NOT_FOUND if there is none.
+  /// Returns an upload of this owner; kNotFound, UPLOAD_NOT_FOUND if there is none.
   [[nodiscard]] Result<Upload> upload(const std::string& id, const std::string& owner);
-  /// The asset of any owner. kNotFound, ASSET_NOT_FOUND.
+  /// Returns an asset, whoever owns it. Errors: kNotFound, ASSET_NOT_FOUND.
   [[nodiscard]] Result<Asset> asset(const std::string& sha256);
-  /// The asset, with the owners that the user may know. Also ASSET_NOT_FOUND if the user may not
-  /// use it.
+  /// Returns the asset, with the owners that the user may know. Also returns ASSET_NOT_FOUND if the
+  /// user may not use it.
   [[nodiscard]] Result<Asset> asset_for(const std::string& sha256, const AssetUser& user);
-  /// Refuses (kFailedPrecondition, ASSET_MISSING) inputs that the user may not use.
+  /// Returns kFailedPrecondition, ASSET_MISSING for inputs that the user may not use.
   [[nodiscard]] Status check_use(const std::vector<InputFile>& inputs, const AssetUser& user);
   /// Adds a complete, synced file with that hash as an asset without an owner, unless the asset
-  /// exists. The file remains but becomes read-only.
+  /// exists. The file stays where it is but becomes read-only.
   /// @return kResourceExhausted, DISK_FULL
   [[nodiscard]] Result<Asset> adopt(const std::filesystem::path& file, const Asset& as);
-  /// Assets with hashes after `after`, sorted by hash, with their owners. Lists those of one owner,
-  /// or all if `owner` is empty.
+  /// Returns the assets with hashes after `after`, sorted by hash, with their owners. Lists those
+  /// of one owner, or all if `owner` is empty.
   [[nodiscard]] Result<std::vector<Asset>> list(const std::string& after, int limit,
                                                 const std::string& owner);
-  /// Deletes an asset. An operator deletes it for everybody. Other users only stop owning it, which
-  /// is possible if none of their jobs uses it; it is deleted once it has no owner and no job uses
-  /// it.
+  /// Deletes an asset. An operator deletes it for all users. Other users only stop owning it, which
+  /// is possible if none of their jobs uses it; the asset is deleted once it has no owner and no
+  /// job uses it.
   /// @return kFailedPrecondition, STATE_FORBIDS if a job uses it (for an operator: an unfinished
-  /// job); ASSET_NOT_FOUND
+  ///         job); ASSET_NOT_FOUND
   [[nodiscard]] Status remove(const std::string& sha256, const AssetUser& user);
-  /// Current usage of an owner.
+  /// Returns the current usage of an owner.
   [[nodiscard]] Result<Usage> usage(const std::string& owner) { return usage_of(database_, owner); }
 
   /// Deletes expired uploads and their files. Also deletes, oldest first and with a log entry each,
-  /// assets that no job uses and that have not been requested for too long.
+  /// assets that are not used by a job and have not been requested for too long.
   [[nodiscard]] Status purge();
   /// Repairs the store after a crash: adopts verified uploads without a row, sets aside files
   /// without a row, and logs rows without a file. Call this before serving clients.
@@ -101,7 +101,7 @@ class AssetStore {
  private:
   [[nodiscard]] Status adopt_completed_uploads();
   [[nodiscard]] Status log_missing_files();
-  /// Whether its file exists with the right size.
+  /// Returns whether the asset's file exists with the right size.
   [[nodiscard]] bool has_file(const Asset& asset) const;
   friend class UploadWriter;
   [[nodiscard]] Status take(const Asset& asset, const std::string& owner);
@@ -123,7 +123,7 @@ class AssetStore {
 /// Writes the bytes of one call to an upload; at most one writer per upload at a time.
 class UploadWriter {
  public:
-  /// UPLOAD_NOT_FOUND; kAborted, UPLOAD_BUSY.
+  /// Errors: UPLOAD_NOT_FOUND; kAborted, UPLOAD_BUSY.
   [[nodiscard]] static Result<std::unique_ptr<UploadWriter>> open(AssetStore& store,
                                                                   const std::string& id,
                                                                   const std::string& owner);
@@ -131,8 +131,9 @@ class UploadWriter {
   UploadWriter(const UploadWriter&) = delete;
   UploadWriter& operator=(const UploadWriter&) = delete;
 
-  /// Appends bytes. kOutOfRange: OFFSET_MISMATCH (metadata expected_offset), ASSET_TOO_LARGE. After
-  /// kResourceExhausted, DISK_FULL the upload is deleted, so that it does not keep the disk full.
+  /// Appends bytes. Errors: kOutOfRange: OFFSET_MISMATCH (metadata expected_offset),
+  /// ASSET_TOO_LARGE. After kResourceExhausted, DISK_FULL the upload is deleted, so that it does
+  /// not keep the disk full.
   [[nodiscard]] Status append(std::int64_t offset, std::string_view bytes);
   /// Syncs the received bytes to disk. If the upload is complete, verifies it and creates the
   /// asset.
@@ -143,7 +144,7 @@ class UploadWriter {
  private:
   UploadWriter(AssetStore& store, Upload upload) : store_(store), upload_(std::move(upload)) {}
   [[nodiscard]] Result<AssetOrUpload> verify();
-  [[nodiscard]] Error give_up_if_full(Error error);  // or the quota is exceeded
+  [[nodiscard]] Error give_up_if_full(Error error);  // also if the quota is exceeded
 
   AssetStore& store_;
   Upload upload_;

@@ -27,7 +27,7 @@ struct Layout {
   [[nodiscard]] std::filesystem::path run_out(std::int64_t job) const {
     return run_work(job) / "out";
   }
-  /// The job's spec, separate from its inputs, whose names might collide.
+  /// The job's spec, in a different folder from its inputs, because their names might collide.
   [[nodiscard]] std::filesystem::path run_spec(std::int64_t job) const {
     return run_work(job) / "spec.json";
   }
@@ -39,7 +39,7 @@ struct Layout {
   [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {
     return runs() / ("preview-" + std::to_string(number));
   }
-  /// Folder into which a restore unpacks, and the mark of an unfinished restore.
+  /// Folder into which a restore unpacks, and the marker of an unfinished restore.
   [[nodiscard]] std::filesystem::path restoring() const { return root / "restoring"; }
   [[nodiscard]] std::filesystem::path unrestored() const { return root / "unrestored"; }
   /// Folder of the live camera process.

@@ -24,9 +24,9 @@ struct PoolOptions {
   std::int64_t file_bytes = 4LL << 30;
 };
 
-/// Takes queued jobs from the store, runs a confined worker process for each, and stores the
-/// results. One thread starts and monitors all workers. They are killed with that thread, so a
-/// killed daemon leaves none behind.
+/// Executes queued jobs from the store: runs a confined worker process for each, and stores the
+/// results. One thread starts and monitors all workers. They are killed when that thread ends, so
+/// no worker survives a killed daemon.
 class WorkerPool final : public JobExecutor {
  public:
   /// @return kFailedPrecondition if workers cannot be confined or the program does not exist
@@ -37,7 +37,7 @@ class WorkerPool final : public JobExecutor {
   ~WorkerPool() override;
 
   void start();
-  /// Refuses missing inputs (ASSET_MISSING); WORKER_UNUSABLE.
+  /// Errors: ASSET_MISSING for missing inputs; WORKER_UNUSABLE.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   /// Stores and queues a job.
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
@@ -45,10 +45,10 @@ class WorkerPool final : public JobExecutor {
   /// Ends the workers and waits a few seconds at most. Their jobs stay RUNNING or CANCELLING in the
   /// store: see JobStore::interrupt_all().
   void stop() override;
-  /// Makes the pool check the store at once (new job, cancellation).
+  /// Makes the pool check the store immediately (new job, cancellation).
   void wake();
 
-  /// Queued jobs in starting order if nothing changes; at most `limit`.
+  /// Returns the ids of queued jobs in the order in which they would start now; at most `limit`.
   [[nodiscard]] Result<std::vector<std::int64_t>> order(std::size_t limit) const;
   [[nodiscard]] int slots() const;
 

@@ -10,9 +10,9 @@
 
 namespace hydroprint::print {
 
-/// The font of a document's texts as its PDF holds it: a composite font (ISO 32000-1, 9.7) whose
-/// character codes (CIDs) number the characters that are drawn. So every character can be copied
-/// and searched for, even where several of them share a glyph.
+/// The font of a document as embedded in its PDF: a composite font (ISO 32000-1, 9.7) whose
+/// character codes (CIDs) number the characters that are drawn. Every character can therefore be
+/// copied and searched for, even where several share a glyph.
 struct EmbeddedFont {
   const text::Font* font = nullptr;
   std::map<char32_t, unsigned> cids;  ///< 1, 2, ... in the order of the characters

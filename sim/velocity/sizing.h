@@ -7,9 +7,9 @@
 
 namespace hydroprint::velocity {
 
-/// Target edge length at each place of the film, which is small at the waterline and grows with the
-/// distance from it. The distance is a chamfer transform on a grid, with an error of a few percent,
-/// which is accurate enough for mesh sizes.
+/// Target edge length at each point of the film: small at the waterline, and growing with the
+/// distance from it. The distance is a chamfer transform on a grid, whose error of a few percent is
+/// small enough for mesh sizes.
 class Sizing {
  public:
   struct Options {

@@ -11,11 +11,11 @@ namespace hydroprint::http {
 /// The server's own metrics. Thread-safe.
 class HttpMetrics {
  public:
-  /// @param route  from a fixed set, never a client's text: "JobService/GetJob", "file"
-  /// @param method  an unusual one counts as "other"
+  /// @param route   from a fixed set, never text from a client: "JobService/GetJob", "file"
+  /// @param method  unknown methods count as "other"
   void count_request(const std::string& route, const std::string& method, int status);
   void count_refused_connection();
-  /// The metrics in Prometheus format.
+  /// Returns the metrics in Prometheus format.
   [[nodiscard]] std::string text(int open_connections) const;
 
  private:

@@ -15,7 +15,7 @@ struct Limits {
   std::chrono::milliseconds body_time{30'000};   ///< between two pieces of a body
   std::chrono::milliseconds write_time{30'000};  ///< to send 64 KiB
   std::chrono::milliseconds call_time{30'000};   ///< for a response of the services
-  std::chrono::milliseconds ping_time{15'000};   ///< between two signs of life in a stream
+  std::chrono::milliseconds ping_time{15'000};   ///< between two keep-alive messages in a stream
   int connections = 2000;
 };
 

@@ -14,7 +14,7 @@ struct OtherParameter {
   std::string description;
 };
 
-/// One possible answer of a route.
+/// One possible response of a route.
 struct OtherAnswer {
   int status = 200;
   std::string description;
@@ -38,7 +38,7 @@ struct OtherRoute {
   bool is_open = false;  ///< needs no authentication
 };
 
-/// All such routes, sorted by path.
+/// Returns all such routes, sorted by path.
 [[nodiscard]] const std::vector<OtherRoute>& other_routes();
 
 }  // namespace hydroprint::rest

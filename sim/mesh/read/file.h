@@ -8,18 +8,18 @@
 
 namespace hydroprint::mesh {
 
-/// The whole content of a regular file. Errors: kNotFound if it is missing; kInvalidArgument if it
-/// is empty, not a regular file, or larger than 4 GiB.
+/// Returns the whole content of a regular file. Errors: kNotFound if it is missing;
+/// kInvalidArgument if it is empty, not a regular file, or larger than 4 GiB.
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 
-/// kInvalidArgument with the message "FILE: PLACE: WHAT" on one line.
+/// Returns kInvalidArgument with the message "FILE: PLACE: WHAT" on one line.
 [[nodiscard]] tl::unexpected<Error> bad_input(const std::filesystem::path& path,
                                               std::string_view place, std::string_view what);
 
-/// Refuses zero faces and more than kMaxFaces (read_model.h), before memory is allocated for them.
+/// Rejects zero faces and more than kMaxFaces (read_model.h), before memory is allocated for them.
 [[nodiscard]] Status check_face_count(std::size_t faces, const std::filesystem::path& path);
 
-/// Remedy for damaged files, used by all readers.
+/// The remedy for damaged files in the messages of all readers.
 inline constexpr std::string_view kExportAgain = "; the file is damaged: export it again";
 
 }  // namespace hydroprint::mesh

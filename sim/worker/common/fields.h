@@ -10,20 +10,20 @@ class Message;
 
 namespace hydroprint::worker {
 
-/// An error about a field of the spec. Its metadata holds the field's name ("dpi") and its message
-/// only the problem; name_field() combines the two.
+/// Returns an error about a field of the spec. Its metadata contains the name of the field ("dpi"),
+/// its message only the problem; name_field() combines them.
 [[nodiscard]] tl::unexpected<Error> fail_field(Code code, const std::string& field,
                                                std::string problem);
 
-/// Adds the field to the error's message as the user wrote it: "--ink-passes: ..." for flags,
+/// Prefixes the error's message with the field as the user wrote it: "--ink-passes: ..." for flags,
 /// "ink_passes: ..." for a spec. Errors without a field are returned unchanged.
 [[nodiscard]] Error name_field(Error error, bool as_flag);
 
-/// "--ink-passes" for "ink_passes".
+/// Returns "--ink-passes" for "ink_passes".
 [[nodiscard]] std::string flag_of(const std::string& field);
 
-/// Checks the numbers and choices of a spec. Fails with fail_field() for the first one that is out
-/// of range (kOutOfRange; kInvalidArgument for whole numbers) or unknown (kInvalidArgument).
+/// Checks the numbers and choices of a spec. Returns fail_field() for the first one that is out of
+/// range (kOutOfRange; kInvalidArgument for whole numbers) or unknown (kInvalidArgument).
 [[nodiscard]] Status check_fields(const google::protobuf::Message& spec);
 
 }  // namespace hydroprint::worker

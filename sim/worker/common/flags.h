@@ -17,17 +17,17 @@ class Message;
 
 namespace hydroprint::worker {
 
-/// Details of a flag in the help text. Empty texts are derived from the field's type.
+/// Details of a flag for the help text. Empty texts are derived from the field's type.
 struct FlagHelp {
   std::string default_value = {};
   std::string type = {};
 };
 
-/// The flags of a verb. Each fills the spec's field of the same name: `--ink-passes` fills
-/// `ink_passes`.
+/// The flags of a verb. Each flag fills in the spec's field of the same name: `--ink-passes` fills
+/// in `ink_passes`.
 class Flags {
  public:
-  /// Both must live while the command line is parsed.
+  /// Both must stay valid while the command line is parsed.
   Flags(CLI::App& app, google::protobuf::Message& spec) : app_(app), spec_(spec) {}
 
   /// Adds a flag for a number, choice, text, switch, list of names or file.
@@ -39,13 +39,13 @@ class Flags {
   void add_pose();
   /// Adds `--depth-mm D|full`.
   void add_depth();
-  /// Adds a flag for at most `most` folders; 0: any number. The spec gets the path of `file` in
+  /// Adds a flag for at most `most` folders; 0: any number. The spec receives the path of `file` in
   /// each folder.
   void require_folders(const std::string& field, const std::string& file,
                        const std::string& description, int most);
 
-  /// After parsing: fills in the pose from the file of `--pose`, if the flag was given. Fails as
-  /// read_pose_file() does.
+  /// Called after parsing: reads the pose from the file of `--pose`, if the flag was given. Returns
+  /// the errors of read_pose_file().
   [[nodiscard]] Status read_pose();
   [[nodiscard]] const std::filesystem::path& pose_file() const { return pose_file_; }
 
@@ -61,7 +61,7 @@ class Flags {
   std::filesystem::path pose_file_;
 };
 
-/// A default value for FlagHelp: "300", "0.5".
+/// Formats a default value for FlagHelp: "300", "0.5".
 [[nodiscard]] std::string default_text(double value);
 
 }  // namespace hydroprint::worker

@@ -8,10 +8,10 @@
 // Page options that print-image and template share. For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
-/// Flags for the paper and the text on it.
+/// Adds flags for the paper and the text on it.
 void add_page_flags(Flags& flags);
 
-/// Sets the paper size. Fails as print::parse_paper() does.
+/// Sets the paper size. Returns the errors of print::parse_paper().
 [[nodiscard]] Status set_paper(print::PageSettings& page, const std::string& paper);
 
 template <class Spec>
@@ -24,7 +24,7 @@ Result<print::PageSettings> page_settings(const Spec& spec) {
   return out;
 }
 
-/// The page's part of the parameters in report.json.
+/// Returns the page's part of the parameters in report.json.
 [[nodiscard]] Json page_parameters_json(const print::PageSettings& page,
                                         const film::Outline& outline, int threads);
 

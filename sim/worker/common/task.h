@@ -30,11 +30,12 @@ class Task {
   Task(const Task&) = delete;
   Task& operator=(const Task&) = delete;
 
-  /// The main input, for error messages: a file name, or the verb's name if it reads no file.
+  /// Returns the main input for error messages: a file name, or the verb's name if it reads no
+  /// file.
   [[nodiscard]] virtual std::string subject() const = 0;
 
-  /// Runs to the end. Reports progress to `progress_fd` of the options and, if it is a terminal, to
-  /// `stderr_fd`. On failure no files remain.
+  /// Runs the task to its end. Reports progress to `progress_fd` of the options and, if it is a
+  /// terminal, to `stderr_fd`. On failure no files remain.
   [[nodiscard]] virtual Result<Finished> run(const RunOptions& options, Termination& termination,
                                              int stderr_fd) = 0;
 };
