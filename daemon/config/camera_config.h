@@ -10,8 +10,8 @@ namespace hydroprint::daemon {
 
 /// Configuration of the depth camera above the vat.
 struct CameraConfig {
-  std::string
-      device;  ///< name of the camera in OpenNI2; "any": the first one found; empty: no camera
+  /// Name of the camera in OpenNI2; "any": the first one found; empty: no camera.
+  std::string device;
   std::filesystem::path program;  ///< hydroprint-capture
   int patience_s = 5;             ///< timeout for a camera that does not respond
   std::filesystem::path layout;   ///< TOML file with the markers and the camera; empty: none

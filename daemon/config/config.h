@@ -34,8 +34,8 @@ struct Config {
   std::int64_t queue_max_jobs_per_owner = 200;   ///< queue.max_jobs_per_owner; 0: no limit
   std::string workers_program;                   ///< workers.program; empty: next to hydroprintd
   std::int64_t workers_count = 0;                ///< workers.count; 0: number of cores
-  std::int64_t workers_threads =
-      0;  ///< workers.threads per worker; 0: the cores divided by workers
+  /// workers.threads per worker; 0: the cores divided by workers.
+  std::int64_t workers_threads = 0;
   std::int64_t workers_memory_mib = 4096;    ///< workers.memory_mib per worker; 0: no limit
   std::int64_t workers_time_limit_s = 3600;  ///< workers.time_limit_s per job
   std::int64_t workers_file_mib = 4096;      ///< workers.file_mib, per file that a worker writes

@@ -24,11 +24,11 @@ struct Plan {
   double activator_ml_per_m2 = 16;
   Clocks clocks;
   std::optional<double> water_temperature_c;
-  std::string calibration;           ///< "calibrations/3"; empty: none
-  std::optional<double> contact_mm;  ///< position of first contact from the calibration; nullopt:
-                                     ///< the operator finds it
-  std::int64_t homings = 0;          ///< homing count of the rig at the calibration
-  Warnings warnings;                 ///< reasons to expect a poor print
+  std::string calibration;  ///< "calibrations/3"; empty: none
+  /// Position of first contact from the calibration; nullopt: the operator finds it.
+  std::optional<double> contact_mm;
+  std::int64_t homings = 0;  ///< homing count of the rig at the calibration
+  Warnings warnings;         ///< reasons to expect a poor print
 
   /// Returns the amount of activator for the film.
   [[nodiscard]] double activator_ml() const { return film_area_mm2 * 1e-6 * activator_ml_per_m2; }

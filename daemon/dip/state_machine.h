@@ -63,12 +63,12 @@ struct Stand {
 
 struct Event {
   enum class Kind : std::uint8_t {
-    kTick,        ///< time passes
-    kConfirm,     ///< the operator has completed `step`
-    kAtDepth,     ///< the descent has arrived
-    kRising,      ///< the retraction has begun
-    kMotionDone,  ///< the motion is complete: the rise of kClear, or the whole dip from descent to
-                  ///< retraction
+    kTick,     ///< time passes
+    kConfirm,  ///< the operator has completed `step`
+    kAtDepth,  ///< the descent has arrived
+    kRising,   ///< the retraction has begun
+    /// The motion is complete: the rise of kClear, or the whole dip from descent to retraction.
+    kMotionDone,
     kMotionStopped,  ///< the motion was stopped on request
     kMotionFailed,   ///< the motion failed
     kPlaceLost,      ///< at rest, the rig lost its reference or its torque

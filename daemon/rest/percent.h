@@ -13,11 +13,11 @@ enum class Keep {
   kSlash,    ///< "%2F" and "%2f" stay encoded
 };
 
-/// Percent-decodes part of a URL. Refuses (kInvalidArgument, URL_INVALID, with the place in
-/// `text`):
+/// Percent-decodes part of a URL. Returns kInvalidArgument, URL_INVALID, with the place in
+/// `text`, for:
 /// - "%" without two hex digits;
 /// - characters that a URL cannot have;
-/// - decoded text that holds NUL or is not valid UTF-8 (overlong forms and surrogates are not
+/// - decoded text that contains NUL or is not valid UTF-8 (overlong forms and surrogates are not
 ///   valid).
 [[nodiscard]] Result<std::string> decode(std::string_view text, Keep keep = Keep::kNothing);
 

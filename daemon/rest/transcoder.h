@@ -38,7 +38,7 @@ class Transcoder {
   /// ignored.
   /// @param target  path and query as in the request line, undecoded: "/v1/jobs?pageSize=2"
   /// @param body  JSON as sent; empty is the same as {}
-  /// Refuses:
+  /// Errors:
   /// - kNotFound, ROUTE_NOT_FOUND;
   /// - kUnimplemented, METHOD_NOT_ALLOWED: methods_at() lists the allowed methods; HEAD needs a
   ///   route of its own;

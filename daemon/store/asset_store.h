@@ -67,7 +67,7 @@ class AssetStore {
                                             const RequestKey& request);
   /// Returns an upload of this owner; kNotFound, UPLOAD_NOT_FOUND if there is none.
   [[nodiscard]] Result<Upload> upload(const std::string& id, const std::string& owner);
-  /// Returns an asset, whoever owns it. Errors: kNotFound, ASSET_NOT_FOUND.
+  /// Returns the asset of any owner. Errors: kNotFound, ASSET_NOT_FOUND.
   [[nodiscard]] Result<Asset> asset(const std::string& sha256);
   /// Returns the asset, with the owners that the user may know. Also returns ASSET_NOT_FOUND if the
   /// user may not use it.

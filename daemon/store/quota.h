@@ -16,8 +16,8 @@ struct Quota {
 /// Resources that one owner uses.
 struct Usage {
   std::int64_t queued_jobs = 0;
-  std::int64_t stored_bytes =
-      0;  ///< assets, open uploads (with their announced size) and artifacts
+  /// Assets, open uploads (with their announced size) and artifacts.
+  std::int64_t stored_bytes = 0;
   std::int64_t pinned_bytes = 0;  ///< the part of stored_bytes that belongs to pinned jobs
 };
 

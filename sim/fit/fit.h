@@ -25,8 +25,8 @@ struct Options {
 /// The result for a measured point. Positions on the film are those of the printed image, in F, mm.
 struct PointResult {
   Point point;
-  Eigen::Vector2d
-      before_mm;  ///< the film point that lands there with the starting profile; NaN: none
+  /// The film point that lands there with the starting profile; NaN: none.
+  Eigen::Vector2d before_mm;
   Eigen::Vector2d after_mm;  ///< with the fitted profile
   std::string left_out;      ///< why the point is not used; empty: it is used
   bool is_outlier = false;   ///< its residual lies beyond 4 robust standard deviations
@@ -41,8 +41,8 @@ struct Outcome {
   Eigen::MatrixXd correlation;  ///< of the estimates, in their order
   std::vector<Undetermined> undetermined;
   std::vector<PointResult> points;
-  double rms_before_mm = 0,
-         rms_after_mm = 0;       ///< of the distances, on the film, of the points used
+  /// Of the distances, on the film, of the points used.
+  double rms_before_mm = 0, rms_after_mm = 0;
   double residual_sigma_mm = 0;  ///< standard deviation of one coordinate
   double discretisation_mm = 0;  ///< rms change of the prediction with finer meshes and steps
   int degrees_of_freedom = 0;

@@ -12,9 +12,9 @@ namespace hydroprint::fit {
 /// A point of a surface.
 struct Spot {
   int triangle = 0;
-  Eigen::Vector3d barycentric =
-      Eigen::Vector3d::UnitX();  ///< in the corners 0, 1, 2 of the triangle
-  double distance_mm = 0;        ///< from the requested point
+  /// In the corners 0, 1, 2 of the triangle.
+  Eigen::Vector3d barycentric = Eigen::Vector3d::UnitX();
+  double distance_mm = 0;  ///< from the requested point
 };
 
 /// Returns the nearest point of the surface for each point (O, mm). If several triangles share it,

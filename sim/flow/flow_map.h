@@ -12,8 +12,8 @@ namespace hydroprint::flow {
 
 struct MapOptions {
   double dip_speed_mm_per_s = 5;
-  Eigen::Vector2d swelling = {1,
-                              1};  ///< printed (x, y) floats at (s_x x, s_y y), see film::Profile
+  /// Printed (x, y) floats at (s_x x, s_y y), see film::Profile.
+  Eigen::Vector2d swelling = {1, 1};
   /// Tiles are divided until the map is linear on each of them to within this tolerance, measured
   /// on the film. The tolerance doubles with each division, so that scatter of the traced points is
   /// not mistaken for a jump.

@@ -70,10 +70,10 @@ struct DipFigures {
   int film_triangles_max = 0;
   double coverage = 0;       ///< fraction of the object's surface that the film reaches
   double clamped_share = 0;  ///< fraction of the surface where theta exceeds 170 degrees
-  double wrinkled_share =
-      0;  ///< fraction of the surface where the film is compressed below wrinkle_stretch
-  double torn_share =
-      0;  ///< fraction of the surface where the film is stretched beyond tear_stretch
+  /// Fraction of the surface where the film is compressed below wrinkle_stretch.
+  double wrinkled_share = 0;
+  /// Fraction of the surface where the film is stretched beyond tear_stretch.
+  double torn_share = 0;
   /// Displacement of the sheet by further sweeps, where it tears or folds; see sheet::SheetFlow.
   double unsettled_mm = 0;
   std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first

@@ -24,10 +24,10 @@ struct Pixels {
 /// One sheet of paper with its part of the film image. Coordinates are in the page's frame
 /// (Stroke).
 struct Sheet {
-  Eigen::Vector2d size_mm =
-      Eigen::Vector2d::Zero();  ///< in the orientation in which the printer feeds it
-  int column = 0, row = 0;      ///< position among the sheets; row 0 at the top
-  Pixels window;                ///< of the film image as printed (mirrored if requested)
+  /// In the orientation in which the printer feeds it.
+  Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
+  int column = 0, row = 0;  ///< position among the sheets; row 0 at the top
+  Pixels window;            ///< of the film image as printed (mirrored if requested)
   Pixels printable;  ///< the part of the window that the printer can print; the rest stays white
   Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< lower left corner of the window
   std::vector<Eigen::Vector2d> film_mm;              ///< the film's edge on this sheet

@@ -49,9 +49,9 @@ struct Page {
 /// Pages that are printed together, and the colour space of their images.
 struct Document {
   std::string title;
-  std::string icc_profile;  ///< profile of the printer for which the images are made; empty: sRGB
-                            ///< or plain CMYK
-  bool cmyk = false;        ///< images have four channels, strokes use black ink only
+  /// Profile of the printer for which the images are made; empty: sRGB or plain CMYK.
+  std::string icc_profile;
+  bool cmyk = false;  ///< images have four channels, strokes use black ink only
   std::vector<Page> pages;
 };
 

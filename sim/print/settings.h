@@ -10,8 +10,8 @@ namespace hydroprint::print {
 
 /// The paper for a film image, and the layout of the image on it.
 struct PageSettings {
-  Eigen::Vector2d paper_mm = {
-      210, 297};  ///< as it lies in the tray; the image is rotated if it fits better
+  /// As it lies in the tray; the image is rotated if it fits better.
+  Eigen::Vector2d paper_mm = {210, 297};
   /// Width, in mm, of the margin on every edge of the paper in which the printer cannot print.
   double printer_margin_mm = 0;
   /// Overlap of neighbouring sheets if the film needs several, mm.

@@ -45,8 +45,8 @@ struct Normals {
   Matrix6 information = Matrix6::Zero();  ///< sum of weight times direction squared
   Matrix6 scatter = Matrix6::Zero();      ///< covariance of `pull` due to noise
   Vector6 pull = Vector6::Zero();         ///< right-hand side
-  CameraGain
-      camera;  ///< derivative of `pull` with respect to the camera's unknowns; set by add_camera()
+  /// Derivative of `pull` with respect to the camera's unknowns; set by add_camera().
+  CameraGain camera;
 };
 
 /// Derivative of the surface's position along the pair's normal with respect to its motion about

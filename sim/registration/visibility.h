@@ -14,8 +14,8 @@ struct Sight {
   std::size_t expected = 0;  ///< samples that the surface itself does not hide
   double on = 0;             ///< fraction of samples with a depth on the surface
   double before = 0;         ///< fraction where the camera sees something nearer
-  double through =
-      0;  ///< fraction where the camera sees something farther: there is no surface there
+  /// Fraction where the camera sees something farther: there is no surface there.
+  double through = 0;
   double without_depth = 0;  ///< fraction without a depth
   double out_of_view = 0;    ///< fraction outside the image
 };

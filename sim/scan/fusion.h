@@ -14,8 +14,8 @@ namespace hydroprint::scan {
 /// Several frames of a stationary camera, combined into one.
 struct FusedFrame {
   DepthFrame mean;  ///< 0 where fewer than half of the frames had a depth
-  std::vector<float>
-      sigma_mm;  ///< standard error of the mean, from the noise that differs between frames
+  /// Standard error of the mean, from the noise that differs between frames.
+  std::vector<float> sigma_mm;
   std::vector<std::uint16_t> frames;  ///< number of frames in the mean
 };
 

@@ -14,8 +14,8 @@ namespace hydroprint::scan {
 struct Path {
   std::vector<Pose> X_WC;       ///< for each frame
   std::vector<bool> is_placed;  ///< false: not registered; the pose is that of the previous frame
-  double rms_mm =
-      0;  ///< rms distance, along rays, of smoothed frames from the volume built before them
+  /// Rms distance, along rays, of smoothed frames from the volume built before them.
+  double rms_mm = 0;
 
   [[nodiscard]] std::size_t lost() const {
     return static_cast<std::size_t>(std::count(is_placed.begin(), is_placed.end(), false));

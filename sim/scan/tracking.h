@@ -11,8 +11,8 @@ struct Tracked {
   Pose X_WC = Pose::Identity();
   double matched_share = 0;  ///< fraction of the frame's points that were matched
   double rms_mm = 0;         ///< rms distance of the matched points, along their rays
-  double sigma_mm =
-      0;  ///< standard error of the pose in its worst direction, measured at the scene
+  /// Standard error of the pose in its worst direction, measured at the scene.
+  double sigma_mm = 0;
 };
 
 /// Returns points for tracking a frame, in the camera frame. Each is the mean of a block of pixels

@@ -18,8 +18,8 @@ struct Elasticity {
 /// in the mesh is its rest shape.
 struct MembraneEnergy {
   double energy_mj = 0;  ///< N mm
-  ElementVector
-      gradient;  ///< with respect to the displacements, N; the elastic force is its negative
+  /// With respect to the displacements, N; the elastic force is its negative.
+  ElementVector gradient;
   ElementMatrix hessian;  ///< N/mm; zero for Hessian::kNone
   /// Smallest det F at the quadrature points. It is zero or negative if the film is turned inside
   /// out, which the energy does not prevent.

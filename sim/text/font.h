@@ -41,8 +41,8 @@ struct Coverage {
 struct FontMetrics {
   std::string name;  ///< PostScript name: "DejaVuSans"
   double ascent = 0, descent = 0, capital_height = 0;
-  Eigen::Vector2d low = Eigen::Vector2d::Zero(),
-                  high = Eigen::Vector2d::Zero();  ///< bounding box of all glyphs
+  /// Bounding box of all glyphs.
+  Eigen::Vector2d low = Eigen::Vector2d::Zero(), high = Eigen::Vector2d::Zero();
 };
 
 /// A TrueType font. Glyphs are placed one after the other by their advances; right-to-left and

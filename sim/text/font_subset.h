@@ -13,8 +13,8 @@ namespace hydroprint::text {
 /// A font that contains a few glyphs of another font.
 struct FontSubset {
   std::string file;  ///< TrueType, without instructions for hinting
-  std::map<std::uint32_t, std::uint32_t>
-      glyphs;  ///< index of each glyph, by its index in the original font
+  /// Index of each glyph, by its index in the original font.
+  std::map<std::uint32_t, std::uint32_t> glyphs;
 };
 
 /// Reduces a font to the given glyphs and their components. The same glyphs yield the same bytes.

@@ -23,10 +23,10 @@ struct Response {
 
 /// How the end of a response's body is marked.
 struct Framing {
-  std::optional<std::uint64_t>
-      length;  ///< nullopt: chunked, or until the connection closes for HTTP/1.0
+  /// Nullopt: chunked, or until the connection closes for HTTP/1.0.
+  std::optional<std::uint64_t> length;
   bool keeps_alive = true;
-  bool is_secure = false;  ///< over TLS: instructs browsers to use only TLS from then on
+  bool is_secure = false;  ///< over TLS: instructs browsers to use only TLS afterwards
 };
 
 /// Returns the status line and header fields, including the security headers common to all

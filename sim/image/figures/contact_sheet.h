@@ -34,8 +34,8 @@ struct Range {
 struct Scale {
   std::string label;
   Range range;
-  std::function<Eigen::Vector3f(double)>
-      coded;            ///< sRGB-coded colour for a position in the range, [0, 1]
+  /// SRGB-coded colour for a position in the range, [0, 1].
+  std::function<Eigen::Vector3f(double)> coded;
   std::string hatched;  ///< label of hatch(); empty: not used
 };
 

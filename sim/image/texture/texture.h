@@ -35,9 +35,9 @@ class Texture {
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector2d& uv, const Footprint& footprint,
                                        const Chart& chart) const;
 
-  /// A fast path for samples of an affine patch. It applies to samples that are no larger than a
-  /// texel, lie among four texels of their chart, and are not at the edge of the texture: the
-  /// common case. The texture must outlive it, and must not be moved.
+  /// A fast path for samples of an affine patch. It applies to the common case: samples of at most a
+  /// texel in size that lie among four texels of their chart, away from the edge of the texture.
+  /// The texture must outlive it, and must not be moved.
   class Shortcut {
    public:
     /// Creates a shortcut that never applies.
@@ -52,8 +52,8 @@ class Texture {
     friend class Texture;
     const Texels* image_ = nullptr;
     std::uint16_t chart_ = 0;
-    Eigen::Vector2d origin_ =
-        Eigen::Vector2d::Zero();  ///< in texels; (0, 0) is the centre of a texel
+    /// In texels; (0, 0) is the centre of a texel.
+    Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
     Eigen::Matrix2d per_sample_ = Eigen::Matrix2d::Zero();
   };
   /// @param uv  of the patch's origin

@@ -11,10 +11,10 @@ namespace hydroprint::registration {
 struct MarkerReport {
   std::string name;
   bool used = false;
-  double rms_mm =
-      0;  ///< rms distance of the marker's points from its surface, in the fit of all markers
-  double residual_mm =
-      0;  ///< distance of the marker, fitted alone, from its place in the fit of all markers
+  /// Rms distance of the marker's points from its surface, in the fit of all markers.
+  double rms_mm = 0;
+  /// Distance of the marker, fitted alone, from its place in the fit of all markers.
+  double residual_mm = 0;
   std::string why_not;  ///< why it is not used: hidden, displaced or of another shape
 };
 

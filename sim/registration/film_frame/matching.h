@@ -8,8 +8,8 @@ namespace hydroprint::registration {
 
 /// An assignment of detected markers to markers of the layout.
 struct Matching {
-  std::vector<int>
-      found;  ///< for each marker of the layout, the index of the detected marker; -1: none
+  /// For each marker of the layout, the index of the detected marker; -1: none.
+  std::vector<int> found;
   Pose X_CF = Pose::Identity();
   double rms_mm = 0;   ///< of the markers' positions in the camera frame
   bool agrees = true;  ///< false: the relative positions of the markers do not match the layout

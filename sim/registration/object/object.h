@@ -14,8 +14,8 @@ namespace hydroprint::registration {
 /// Pose of the object and its uncertainty.
 struct ObjectPose {
   Pose X_FO = Pose::Identity();
-  Eigen::Vector3d centre_mm =
-      Eigen::Vector3d::Zero();  ///< film frame; origin of the covariance's twist
+  /// Film frame; origin of the covariance's twist.
+  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
   /// Covariance of the twist (film frame) between X_FO and the true pose. It includes noise in the
   /// depths of object and markers, the camera's uncertainty and, along weak directions, the nominal
   /// pose's uncertainty.

@@ -20,8 +20,8 @@ struct Surroundings {
 
 /// The points of a scan that may belong to the object.
 struct ObjectPoints {
-  std::vector<scan::ScanPoint>
-      all;                  ///< without isolated specks; the largest connected piece comes first
+  /// Without isolated specks; the largest connected piece comes first.
+  std::vector<scan::ScanPoint> all;
   std::size_t largest = 0;  ///< number of points in that piece
 };
 
