@@ -77,7 +77,7 @@ struct Endpoint {
   std::string host;  ///< an IP address, never a host name: "127.0.0.1", "::1", "0.0.0.0"
   int port = 0;      ///< 0: any free port
 
-  /// "127.0.0.1:50051" or "[::1]:50051".
+  /// Returns "127.0.0.1:50051" or "[::1]:50051".
   [[nodiscard]] std::string text() const;
   /// Returns whether only this machine can reach it.
   [[nodiscard]] bool is_loopback() const;

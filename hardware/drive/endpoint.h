@@ -17,12 +17,12 @@ struct Endpoint {
   char parity = 'E';  ///< 'N', 'E' or 'O'
   int stop_bits = 1;
 
-  /// Formats the endpoint as parse_endpoint expects it.
+  /// Formats the endpoint for parse_endpoint().
   [[nodiscard]] std::string text() const;
 };
 
-/// Parses "tcp:192.168.1.20:502" or "rtu:/dev/serial/by-id/X?baud=115200&parity=E&stop=1".
-/// Otherwise returns kInvalidArgument with the fault and the expected format.
+/// Parses "tcp:192.168.1.20:502" or "rtu:/dev/serial/by-id/X?baud=115200&parity=E&stop=1". Returns
+/// kInvalidArgument with the fault and the expected format for other text.
 [[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
 
 }  // namespace hydroprint::drive

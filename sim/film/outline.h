@@ -32,7 +32,7 @@ struct Outline {
 /// formats.
 [[nodiscard]] std::optional<std::filesystem::path> polygon_file(const std::string& text);
 
-/// True if the point lies inside the outline or on it.
+/// Returns true if the point lies inside the outline or on it.
 [[nodiscard]] bool contains(const Outline& outline, const Eigen::Vector2d& point_mm);
 
 }  // namespace hydroprint::film

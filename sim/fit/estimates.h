@@ -44,7 +44,7 @@ struct Undetermined {
                                                  const Linearised& at, double floor_mm,
                                                  const Eigen::VectorXd& discretisation);
 
-/// The correlation matrix of a covariance matrix.
+/// Returns the correlation matrix for a covariance matrix.
 [[nodiscard]] Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance);
 
 /// Degrees of freedom that remain after fitting the parameters; at least 1.

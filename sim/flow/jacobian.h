@@ -19,7 +19,7 @@ struct Stretch {
 /// stretched without limit.
 [[nodiscard]] Stretch stretch_of(const Gradient& gradient);
 
-/// The gradient on one triangle, constant there.
+/// Returns the gradient on one triangle, where it is constant.
 /// @return zero if the surface triangle has no area
 [[nodiscard]] Gradient gradient_of(const std::array<Eigen::Vector2d, 3>& film_mm,
                                    const std::array<Eigen::Vector3d, 3>& surface_mm);

@@ -19,7 +19,7 @@ class PrinterColours {
   /// damaged profiles; kOutOfRange for more than 64 MiB.
   [[nodiscard]] static Result<PrinterColours> open(const std::filesystem::path& icc_profile);
 
-  /// 4: C M Y K; 3: R G B.
+  /// Returns 4 for C M Y K and 3 for R G B.
   [[nodiscard]] int channels() const;
   /// May be called from any thread.
   /// @param out  count times channels() values, at most 65535

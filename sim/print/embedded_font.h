@@ -22,7 +22,7 @@ struct EmbeddedFont {
   std::string cid_to_gid;             ///< its glyphs by CID, two bytes each
   std::string to_unicode;             ///< a CMap: characters by CID
 
-  /// A line of text as a hexadecimal string of CIDs.
+  /// Encodes a line of text as a hexadecimal string of CIDs.
   [[nodiscard]] std::string encoded(const std::string& text) const;
 };
 

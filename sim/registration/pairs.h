@@ -49,8 +49,8 @@ struct Normals {
   CameraGain camera;
 };
 
-/// Derivative of the surface's position along the pair's normal with respect to its motion about
-/// `centre`.
+/// Returns the derivative of the surface's position along the pair's normal with respect to its
+/// motion about `centre`.
 [[nodiscard]] Vector6 direction(const Pair& pair, const Eigen::Vector3d& centre, double length_mm);
 
 /// Computes the normal equations of the pairs.

@@ -14,7 +14,8 @@ struct DepthNoise {
   double constant_share = 0.5;  ///< fraction of the variance that is the same in every frame
   int patch_px = 4;  ///< side of a patch: the pixels in this square share the constant part
 
-  /// Standard deviation of one pixel in one frame, including constant and changing noise.
+  /// Returns the standard deviation of one pixel in one frame, including constant and changing
+  /// noise.
   [[nodiscard]] double sigma_mm(double depth_mm) const {
     const double away_m = (depth_mm - least_at_mm) / 1000;
     return least_mm + growth_mm_per_m2 * away_m * away_m;

@@ -18,11 +18,12 @@ struct Goal {
   double deceleration_mm_per_s2 = 1;  ///< while the speed decreases
 };
 
-/// Whether the goal is reached. Afterwards only x changes, at constant velocity.
+/// Returns whether the goal is reached. Afterwards only x changes, at constant velocity.
 [[nodiscard]] bool is_reached(const Kinematics& now, const Goal& goal);
 
-/// Advances the time-optimal trajectory within the limits by `dt_s`. It consists of pieces of
-/// constant acceleration, each integrated exactly, so the result does not depend on the time steps.
+/// Advances the time-optimal trajectory within the limits by `dt_s`. The trajectory consists of
+/// pieces of constant acceleration, each integrated exactly, so the result does not depend on the
+/// time steps.
 [[nodiscard]] Kinematics advance(Kinematics now, const Goal& goal, double dt_s);
 
 }  // namespace hydroprint::simulated_drive

@@ -12,7 +12,7 @@ class QuietStderr {
   QuietStderr(const QuietStderr&) = delete;
   QuietStderr& operator=(const QuietStderr&) = delete;
 
-  /// The process's original stderr.
+  /// Returns the descriptor of the process's original stderr.
   [[nodiscard]] int own() const { return own_; }
   /// Restores the original stderr.
   void restore() const;

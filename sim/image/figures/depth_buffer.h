@@ -69,7 +69,7 @@ class SeenObject {
     return static_cast<std::size_t>(y) * width_ + x;
   }
   [[nodiscard]] std::array<Eigen::Vector3d, 3> corners_of(std::size_t triangle) const;
-  /// Normals at the corners of a triangle, in the view frame, one per column.
+  /// Returns the normals at the corners of a triangle, in the view frame, one per column.
   [[nodiscard]] Eigen::Matrix3d normals_of(std::size_t triangle) const;
   /// Index of the visible triangle of the surface at each sample; -1: none.
   std::vector<int> place_surface();

@@ -14,7 +14,7 @@ namespace hydroprint::image {
 void draw_text(RgbImage& image, const text::Font& font, double left_px, double baseline_px,
                double size_px, std::string_view text, const Rgb8& colour);
 
-/// Width of a text drawn by draw_text().
+/// Returns the width of a text drawn by draw_text().
 [[nodiscard]] double text_width_px(const text::Font& font, double size_px, std::string_view text);
 
 }  // namespace hydroprint::image

@@ -6,8 +6,8 @@
 
 namespace hydroprint::image {
 
-/// The sRGB transfer function (IEC 61966-2-1) and its inverse. Both map [0, 1] to [0, 1] and clamp
-/// values outside (NaN becomes 0).
+/// Apply the sRGB transfer function (IEC 61966-2-1) and its inverse. Both map [0, 1] to [0, 1] and
+/// clamp values outside (NaN becomes 0).
 [[nodiscard]] float linear_from_srgb(float coded);
 [[nodiscard]] float srgb_from_linear(float linear);
 [[nodiscard]] Eigen::Vector3f linear_from_srgb(const Eigen::Vector3f& coded);

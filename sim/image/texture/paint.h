@@ -46,7 +46,7 @@ class Paint {
  public:
   /// False if the model defines no colours; the film then stays white everywhere.
   [[nodiscard]] bool has_colour() const { return has_colour_; }
-  /// Size of the largest texture; zero if there is none.
+  /// Returns the size of the largest texture; zero if there is none.
   [[nodiscard]] Eigen::Vector2i texture_size_px() const;
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 

@@ -48,7 +48,7 @@ Result<DipOptions> dip_options(const Spec& spec, const InputFolder& inputs) {
 
 [[nodiscard]] Json profile_json(const film::Profile& profile);
 
-/// {p50, p95, max}
+/// Returns {p50, p95, max}.
 [[nodiscard]] Json stretch_json(const pipeline::DipFigures& figures);
 
 }  // namespace hydroprint::worker

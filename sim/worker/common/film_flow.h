@@ -30,8 +30,8 @@ struct FlowOptions {
   std::filesystem::path ink_image;  ///< empty: no ink image
   bool map_only = false;            ///< `--artifacts map`
 
-  /// Number of passes that account for the image's own ink; 0 with an ink image, which replaces
-  /// them.
+  /// Returns the number of passes that account for the image's own ink; 0 with an ink image, which
+  /// replaces them.
   [[nodiscard]] int passes() const { return ink_image.empty() ? ink_passes : 0; }
   [[nodiscard]] bool is_sheet() const { return film_model == pipeline::FilmModel::kSheet; }
 };

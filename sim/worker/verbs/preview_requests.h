@@ -27,7 +27,7 @@ class PreviewRequests {
   /// Waits for a line and returns the latest one; nullopt at the end of the input or when `ended`
   /// returns true.
   [[nodiscard]] std::optional<Next> next(const std::function<bool()>& ended);
-  /// True if a newer line has arrived.
+  /// Returns true if a newer line has arrived.
   [[nodiscard]] bool has_newer() const;
 
  private:
