@@ -21,7 +21,7 @@ tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int error_
                   "); choose another folder with --out or make room");
 }
 
-// Appends bytes to the hidden file that holds an incomplete download.
+// Appends bytes to the hidden file for an incomplete download.
 class PartFile {
  public:
   explicit PartFile(std::filesystem::path path)
@@ -64,7 +64,7 @@ class PartFile {
   int descriptor_;
 };
 
-// Fetches one artifact into a part file and reconnects when a call breaks.
+// Downloads one artifact to a part file, and reconnects when a call breaks.
 class Downloader {
  public:
   Downloader(Connection& connection, const v1::Artifact& artifact, PartFile& file,

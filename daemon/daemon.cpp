@@ -92,7 +92,7 @@ Status Daemon::open_store(const Config& config) {
                         config.assets_keep_unused_days * 24 * kHourMs, quota_of(config)},
       system_clock_ms);
   calibrations_ = std::make_unique<CalibrationStore>(*database_, system_clock_ms);
-  HP_RETURN_IF_ERROR(jobs_->sweep());  // first, since it may free space that the next step needs
+  HP_RETURN_IF_ERROR(jobs_->sweep());  // first, because it may free space that the next step needs
   HP_RETURN_IF_ERROR(end_lost_dips(*jobs_, layout_));
   HP_RETURN_IF_ERROR(jobs_->interrupt_all(Interruption::kLoss));
   HP_RETURN_IF_ERROR(assets_->sweep());
@@ -107,7 +107,7 @@ Status Daemon::open_people(const Config& config) {
   options.session_most_ms = config.people_session_days * 24 * kHourMs;
   HP_ASSIGN_OR_RETURN(accounts_, auth::Accounts::open(*database_, options, system_clock_ms));
   audit_ = std::make_unique<auth::AuditLog>(*database_, system_clock_ms);
-  // Access without a user must not be possible from other machines by mistake.
+  // Access without a user must not become possible from other machines by mistake.
   const bool is_open = config.people_accounts == "loopback-open" && !is_exposed(config);
   access_ = std::make_unique<Authenticator>(*accounts_, is_open);
   outside_ = std::make_unique<auth::ExternalChanges>(*database_, *accounts_);
@@ -176,7 +176,7 @@ Status Daemon::make_first_admin(const std::string& name) {
   return {};
 }
 
-// The drive may be absent at the start; the controller keeps trying to connect.
+// The drive may be absent at startup; the controller keeps trying to connect.
 Status Daemon::open_rig(const Config& config) {
   HP_ASSIGN_OR_RETURN(auto setup, read_controller_config(config));
   if (setup) {

@@ -102,7 +102,7 @@ Error to_error(const Connection& connection, const grpc::Status& status) {
     if (const std::string trouble = tls_trouble(options); !trouble.empty()) {
       return {Code::kFailedPrecondition, options.server + ": " + trouble, {}};
     }
-    // If nothing listens, gRPC's own message adds nothing useful and varies between versions.
+    // If no server listens, gRPC's own message adds nothing useful and varies between versions.
     const bool usual = error.message.find("failed to connect") != std::string::npos;
     error.message = options.server + ": no hydroprintd answers there" +
                     (usual ? "" : " (" + error.message + ")") +

@@ -104,8 +104,8 @@ std::string words_for(long verdict, const X509& certificate, const ServerAddress
   }
 }
 
-// OpenSSL writes to sockets without MSG_NOSIGNAL, so SIGPIPE would end the program when the peer is
-// gone.
+// Blocks SIGPIPE: OpenSSL writes to sockets without MSG_NOSIGNAL, so the signal would end the
+// program when the peer is gone.
 class WithoutSigpipe {
  public:
   WithoutSigpipe() {
@@ -128,7 +128,7 @@ class WithoutSigpipe {
 
 enum class Spoken { kByTls, kOtherwise, kNotKnown };
 
-// Performs the TLS handshake; the certificate is not judged here.
+// Performs the TLS handshake without verifying the certificate.
 Spoken shake_hands(SSL& ssl, const ServerAddress& address, int socket) {
   X509_VERIFY_PARAM* const asked = SSL_get0_param(&ssl);
   X509_VERIFY_PARAM_set_flags(asked, X509_V_FLAG_PARTIAL_CHAIN);

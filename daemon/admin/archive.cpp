@@ -22,7 +22,7 @@ struct CloseEntry {
 };
 using Entry = std::unique_ptr<archive_entry, CloseEntry>;
 
-// errno is needed to distinguish a full disk from other errors.
+// errno distinguishes a full disk from other errors.
 tl::unexpected<Error> writing_failed(const std::filesystem::path& path, archive* out) {
   if (archive_errno(out) != ENOSPC && archive_errno(out) != EDQUOT) {
     const char* const words = archive_error_string(out);
@@ -158,7 +158,8 @@ Result<std::unique_ptr<ArchiveReader>> ArchiveReader::open(const std::filesystem
   }
   impl->in = archive_read_new();
   if (impl->in == nullptr) return fail(Code::kResourceExhausted, "out of memory");
-  // Only uncompressed tar: nothing that expands when read, and no parser for other formats.
+  // Supports only uncompressed tar, so that nothing expands when read and no other parsers are
+  // exposed.
   if (archive_read_support_format_tar(impl->in) != ARCHIVE_OK ||
       archive_read_open_fd(impl->in, impl->file.get(), kPiece) != ARCHIVE_OK) {
     return impl->failed();

@@ -110,7 +110,7 @@ class EventWatch {
   Status send_rig() {
     if (!topics_.rig) return {};
     const auto since = EventClock::now() - rig_sent_;
-    // A wait may end slightly early; without this tolerance the rate would halve.
+    // A wait may end slightly early; without this tolerance the rate would be halved.
     if (since < kRigPeriod - kRigPeriod / 10) return {};
     const auto rig = shared_.rig.get();
     if (since < kRigQuietest && looks_same(*rig, rig_)) return {};

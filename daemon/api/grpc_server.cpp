@@ -43,8 +43,8 @@ constexpr NamedService kServices[] = {
     {"hydroprint.v1.EventService", make_event_service},
     {kRigService, make_rig_service}};
 
-// gRPC logs to the daemon's log. Failed handshakes are the client's problem and could fill the log,
-// so they are debug messages.
+// Writes gRPC's log messages to the daemon's log. Failed handshakes are caused by clients and could
+// fill the log, so they are debug messages.
 void log_of_grpc(gpr_log_func_args* entry) {
   const bool is_ours = entry->severity == GPR_LOG_SEVERITY_ERROR &&
                        std::string_view(entry->file).find("ssl_") == std::string_view::npos;
@@ -71,7 +71,7 @@ struct Server::Impl {
   std::vector<std::unique_ptr<grpc::Service>> services;
   std::unique_ptr<grpc::Server> within;  // the services; listens on no port
   std::unique_ptr<CallForwarder> forwarder;
-  // gRPC calls into them for as long as the endpoint exists.
+  // gRPC calls the credentials as long as the endpoint exists.
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
   std::unique_ptr<grpc::Server> server;  // the endpoint
   Endpoint endpoint;

@@ -85,8 +85,8 @@ Result<std::unique_ptr<Accounts>> Accounts::open(daemon::Database& database,
   return accounts;
 }
 
-// Identifying callers does not wait for this. The times at which keys and sessions were last used
-// are newer in memory than in the rows.
+// Callers are identified without waiting for this. The times at which keys and sessions were last
+// used are newer in memory than in the rows.
 Status Accounts::reload() {
   const std::lock_guard writing(writing_);
   std::map<std::string, User> users;
@@ -182,7 +182,8 @@ std::vector<User> Accounts::users(const std::string& after, std::size_t limit) c
   return out;
 }
 
-// Checks as if `instead` replaced the user of that name; null: as if the user were deleted.
+// Checks that an admin would remain if `instead` replaced the user of that name; null: if the user
+// were deleted.
 Status Accounts::check_admin_without(const std::string& name, const User* instead) const {
   const std::lock_guard lock(now_);
   if (instead != nullptr && is_active_admin(*instead)) return {};
@@ -207,8 +208,8 @@ Status Accounts::write(const User& user) {
   return {};
 }
 
-// A new user gets the data stored under their name. Before there were users, names were claimed
-// freely; only the names of deleted users may belong to somebody else.
+// A new user gets access to the data stored under their name. Names that were used before there
+// were users could be chosen freely, so only the names of deleted users are protected.
 Status Accounts::check_name_is_free(const std::string& name) {
   bool is_borne = false;
   HP_RETURN_IF_ERROR(database_.each(

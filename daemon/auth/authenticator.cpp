@@ -50,7 +50,7 @@ Result<auth::Caller> Authenticator::caller(const auth::Credentials& credentials,
   }
   std::optional<auth::Caller> caller;
   if (!credentials.authorization.empty()) {
-    // An invalid key is refused even with a valid session.
+    // An invalid key is an error even if there is a valid session.
     if (credentials.authorization.starts_with(kBearer)) {
       const auto key = std::string_view(credentials.authorization).substr(kBearer.size());
       caller = accounts_.by_key(key, is_use);

@@ -82,8 +82,8 @@ Result<std::pair<std::string, std::int64_t>> Accounts::make_link(const std::stri
   return std::pair{token, expire_ms};
 }
 
-// The row is deleted first, so of two callers with the same link only one finds it. Tokens cannot
-// be guessed, so attempts are not limited; each costs only one lookup.
+// The row is deleted first, so only one of two callers with the same link finds it. Tokens cannot
+// be guessed and each attempt costs only one lookup, so attempts are not limited.
 Result<SignedIn> Accounts::sign_in_by_link(const std::string& token, const std::string& peer) {
   const std::string hash = sha256(token.substr(0, kLongestToken));
   const std::lock_guard writing(writing_);

@@ -7,7 +7,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// The key, option and address of an exposed port, if any: "server.http (--http) 0.0.0.0:8443".
+// Returns key, option and address of an exposed port, if any: "server.http (--http) 0.0.0.0:8443".
 std::optional<std::string> exposed_door(const Config& config) {
   for (const auto& [name, address] : {std::pair("server.grpc (--grpc) ", config.server_grpc),
                                       std::pair("server.http (--http) ", config.server_http)}) {

@@ -23,7 +23,7 @@ std::string text(double value) {
   return out.str();
 }
 
-/// Takes numbers from a report and keeps the first error.
+/// Reads numbers from a report and keeps the first error.
 class ReportReader {
  public:
   explicit ReportReader(const Json& report) : report_(report) {}
@@ -55,7 +55,7 @@ class ReportReader {
   Status status_;
 };
 
-/// Area of the film; for a polygon, of its bounding box.
+/// Returns the area of the film; for a polygon, the area of its bounding box.
 double film_area_mm2(ReportReader& reader) {
   double area_mm2 = reader.is_round() ? std::numbers::pi / 4 : 1;
   for (const char* axis : {"0", "1"}) {

@@ -23,7 +23,8 @@ tl::unexpected<Error> out_of_reach(const std::string& message, double value_mm, 
                                {"value", text(value_mm)}}});
 }
 
-/// Distance for acceleration, so that the speed is constant when the object meets the water.
+/// Returns the distance needed for acceleration, so that the speed is constant when the object
+/// meets the water.
 double run_up_mm(const Plan& plan, const drive::DriveProfile& profile) {
   const double ramp_mm =
       plan.speed_mm_per_s * plan.speed_mm_per_s / (2 * profile.acceleration_mm_per_s2);

@@ -30,7 +30,8 @@ Status each_file(const Message& spec, const FileVisitor& visit) {
   return {};
 }
 
-// A name that occurs twice, or is also the folder of another file; empty if there is none.
+// Returns a name that occurs twice, or that is also the folder of another file; empty if there is
+// none.
 std::string ambiguous_name(const std::vector<InputFile>& inputs) {
   std::set<std::string> names;
   for (const InputFile& file : inputs) {

@@ -12,7 +12,7 @@
 namespace hydroprint::rest {
 namespace {
 
-// Whether the fields are the same, or one contains the other.
+// Returns whether the fields are equal, or one contains the other.
 bool are_one(const FieldPath& a, const FieldPath& b) {
   return std::equal(a.begin(), a.begin() + static_cast<long>(std::min(a.size(), b.size())),
                     b.begin());

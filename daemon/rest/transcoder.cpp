@@ -120,7 +120,7 @@ struct Transcoder::Impl {
     return found;
   }
 
-  // The route for a request.
+  // Returns the route for a request.
   [[nodiscard]] Result<Match> match_of(std::string_view http_method, std::string_view path) const {
     HP_ASSIGN_OR_RETURN(std::vector<Match> found, matches(path));
     for (Match& match : found) {

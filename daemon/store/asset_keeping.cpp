@@ -49,8 +49,8 @@ Status AssetStore::purge_unused() {
   return {};
 }
 
-// Handles a crash during complete(): a verified file has its final name but no row. If several
-// uploads have the same hash, the owner is unknown, and they are sent again.
+// Repairs the result of a crash during complete(): a verified file has its final name but no row.
+// If several uploads have the same hash, the owner is unknown, and they must be sent again.
 Status AssetStore::adopt_completed_uploads() {
   std::vector<Upload> open;
   HP_RETURN_IF_ERROR(database_.each(
@@ -75,7 +75,8 @@ Status AssetStore::adopt_completed_uploads() {
   return {};
 }
 
-// Keeps the rows: the folder may be absent only temporarily, and a new upload restores the asset.
+// Keeps the rows, because the folder may be missing only temporarily, and a new upload restores the
+// asset.
 Status AssetStore::log_missing_files() {
   int missing = 0;
   HP_RETURN_IF_ERROR(database_.each("SELECT sha256, size FROM assets", {}, [&](const DbRow& row) {

@@ -17,8 +17,8 @@ tl::unexpected<Error> asset_not_found(const std::string& sha256) {
               "ASSET_NOT_FOUND");
 }
 
-// The owner of a job that uses an asset must stay its owner; otherwise the bytes would count for no
-// owner.
+// Checks that no job of the owner uses the asset. Otherwise its bytes would not count towards any
+// owner's quota.
 Status check_is_not_used_by(Database& database, const std::string& sha256,
                             const std::string& owner) {
   HP_ASSIGN_OR_RETURN(
@@ -55,8 +55,8 @@ AssetStore::AssetStore(Database& database, const Layout& layout, const AssetStor
                        Clock clock)
     : database_(database), layout_(layout), options_(options), clock_(std::move(clock)) {}
 
-// Only permitted users learn that bytes are stored or being uploaded. Other users upload them,
-// which proves that they have them.
+// Only users with access learn that bytes are stored or being uploaded. Other users upload them
+// again, which proves that they have them.
 Result<AssetOrUpload> AssetStore::start(const Upload& wanted, const AssetUser& user,
                                         const RequestKey& request) {
   if (wanted.size_bytes > options_.max_bytes) {
@@ -169,7 +169,7 @@ Result<std::vector<Asset>> AssetStore::list(const std::string& after, int limit,
   return assets;
 }
 
-// Deletes the row of an asset without an owner that no job uses.
+// Deletes the row of an asset that has no owner and is not used by a job.
 Status AssetStore::delete_unused(const std::string& sha256) {
   return database_.run(
       "DELETE FROM assets WHERE sha256=?1 AND NOT EXISTS (SELECT 1 FROM asset_owners WHERE "
@@ -206,8 +206,8 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
   return {};
 }
 
-// Deletes an asset's file if it has no row, in one transaction, so that nobody can create the same
-// asset meanwhile. The next start deletes a file that remains after a failure.
+// Deletes an asset's file if it has no row, in one transaction, so that the same asset cannot be
+// created meanwhile. If this fails, the next start deletes the file.
 void AssetStore::discard_unowned(const std::string& sha256) {
   (void)database_.transaction([&]() -> Status {
     const auto owner = asset(sha256);
@@ -239,7 +239,7 @@ Result<Asset> AssetStore::complete(const Upload& upload) {
   return asset_for(upload.sha256, {upload.owner, false});
 }
 
-// Deletes the files first, since deleting the row may need their space.
+// Deletes the files first, because deleting the row may need their space.
 void AssetStore::give_up(const Upload& upload) {
   discard(layout_.upload(upload.id));
   discard_unowned(upload.sha256);

@@ -1,5 +1,5 @@
-// Functions of the job store for jobs that are not computed. These are never queued, and only one
-// of each kind is open at a time.
+// Functions of the job store for jobs that are not computed. These jobs are never queued, and only
+// one of each kind is open at a time.
 #include "daemon/platform/resource_names.h"
 #include "daemon/store/idempotency.h"
 #include "daemon/store/job_rows.h"

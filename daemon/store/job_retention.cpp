@@ -31,7 +31,7 @@ void log_jump(std::int64_t jump_ms) {
 
 }  // namespace
 
-// Sets the deletion time of the finished jobs that `where` (with one value) selects.
+// Sets the deletion time of the finished jobs selected by `where` (with one value).
 Status JobStore::set_purge_time(const std::string& where, std::int64_t value) {
   const std::int64_t keep = options_.keep_finished_ms, keep_dips = options_.keep_dips_ms;
   const bool for_ever = keep == 0 || keep_dips == 0;

@@ -98,7 +98,7 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
        now,
        now}));
   const std::int64_t id = database_.last_id();
-  // Later jobs rank behind earlier ones; moving permutes ranks.
+  // Later jobs rank after earlier ones; moving permutes ranks.
   HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET rank=id WHERE id=?", {id}));
   for (const InputFile& input : made.work.inputs) {
     HP_RETURN_IF_ERROR(
@@ -160,7 +160,8 @@ Result<bool> JobStore::adopt_cached(const Job& job) {
   return true;
 }
 
-// Deletes the artifacts folder of a job without stored artifacts, after a failed adoption.
+// Deletes the artifacts folder of a job without stored artifacts, after reusing artifacts has
+// failed.
 void JobStore::discard_unowned(std::int64_t id) {
   (void)database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const auto owner,
@@ -276,8 +277,8 @@ Result<Job> JobStore::cancel(std::int64_t id) {
     }
   };
   auto marked = changed(id, mark);
-  // This job may have filled the disk. The first attempt has emptied the database's log, so try
-  // again.
+  // This job may have filled the disk. The first attempt has emptied the database's log, so a
+  // second attempt may succeed.
   if (!marked && marked.error().reason == "DISK_FULL") marked = changed(id, mark);
   return marked;
 }
@@ -436,7 +437,7 @@ Result<std::vector<JobEvent>> JobStore::events(std::int64_t id, std::int64_t aft
 }
 
 Result<std::int64_t> JobStore::last_seq() {
-  // The newest number, even if its event was deleted.
+  // The newest number is returned even if its event was deleted.
   HP_ASSIGN_OR_RETURN(
       const auto newest,
       select_numbers(database_, "SELECT seq FROM sqlite_sequence WHERE name='events'", {}));

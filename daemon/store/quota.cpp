@@ -17,7 +17,7 @@ tl::unexpected<Error> over_quota(const char* quota, std::int64_t used, std::int6
 
 tl::unexpected<Error> too_many_bytes(const std::string& owner, const Usage& usage,
                                      std::int64_t allowed, std::int64_t more_bytes) {
-  // Rounded up, so that it never seems that there is space left.
+  // Rounds up, so that the text never suggests free space that does not exist.
   const auto up = [](std::int64_t bytes) {
     return std::to_string((bytes + kMebibyte - 1) / kMebibyte);
   };

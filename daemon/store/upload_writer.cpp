@@ -17,7 +17,7 @@ Result<std::unique_ptr<UploadWriter>> UploadWriter::open(AssetStore& store, cons
                   "UPLOAD_BUSY");
     }
   }
-  // From here on, the writer's destructor releases the upload.
+  // After this line, the writer's destructor releases the upload.
   std::unique_ptr<UploadWriter> writer(new UploadWriter(store, Upload{id, "", 0, 0, "", 0}));
   HP_ASSIGN_OR_RETURN(writer->upload_, store.upload(id, owner));
   HP_ASSIGN_OR_RETURN(writer->file_, open_file(store.layout_.upload(id), O_WRONLY | O_CREAT));

@@ -8,8 +8,8 @@ namespace {
 constexpr std::size_t kLongestHead = 256 << 10;
 constexpr int kDeepest = 16;
 
-/// Number of bytes that follow a head; nullopt if it is malformed. (Deeply nested text would
-/// exhaust the parser's stack.)
+/// Returns the number of bytes that follow a head; nullopt if it is malformed. (Deeply nested text
+/// would exhaust the parser's stack.)
 std::optional<std::size_t> bytes_after(const std::string& head, std::size_t most) {
   int depth = 0;
   for (const char c : head) {

@@ -30,7 +30,7 @@ tl::unexpected<Error> shutting_down() {
               "SHUTTING_DOWN");
 }
 
-/// The worker's answer to the request with this id; nullopt for other answers.
+/// Returns the worker's response to the request with this id; nullopt for other responses.
 std::optional<Result<PreviewFrame>> answer_to(std::int64_t id, PreviewFrame frame) {
   const auto head = nlohmann::json::parse(frame.head, nullptr, /*allow_exceptions=*/false);
   const auto told = head.find("id");
@@ -101,7 +101,7 @@ Result<Previewed> PreviewPool::compute(const std::string& owner, const PreviewRe
   return std::move(*call->result);
 }
 
-/// Assigns a slot to the owner, which ends the owner's previous call.
+/// Assigns a slot to the owner and ends the owner's previous call.
 Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string& owner,
                                                               const PreviewRequest& ask) {
   if (stopping_) return shutting_down();
@@ -121,7 +121,7 @@ Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string&
   return slot->call;
 }
 
-/// If all slots are taken, frees the least recently used one without a waiting call.
+/// If all slots are in use, frees the least recently used slot without a waiting call.
 bool PreviewPool::make_room() {
   if (slots_.size() < kMostSeats) return true;
   auto oldest = slots_.end();
@@ -179,7 +179,7 @@ void PreviewPool::serve(Slot& slot, SteadyTime now) {
   }
 }
 
-/// Sends the call to the slot's worker, or starts a new one for another mesh.
+/// Sends the call to the slot's worker, or starts a new worker if the mesh is different.
 void PreviewPool::begin(Slot& slot) {
   Call& call = *slot.call;
   call.sent = true;

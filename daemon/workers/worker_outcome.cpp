@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kLongestMessage = 1000;
 constexpr std::size_t kLongestPhase = 64;
 
-// Keeps printable ASCII and well-formed UTF-8; replaces all other bytes by '?'.
+// Keeps printable ASCII and well-formed UTF-8; replaces all other bytes with '?'.
 std::string printable(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -109,7 +109,7 @@ JobFailure judge_signal(int signal) {
                      "); please report it together with the model");
 }
 
-// The reason code that a program printed for its failure; empty without one.
+// Returns the reason code that a program printed for its failure; empty if there is none.
 std::string printed_reason(std::string_view answer) {
   const std::string line = last_line(answer);
   // Deeply nested text would exhaust the parser's stack.
@@ -122,8 +122,8 @@ std::string printed_reason(std::string_view answer) {
   return object.at(place).get<std::string>();
 }
 
-// Limits of the machine and of the worker, which the program names by its own reason codes
-// (sim/base, sim/worker); nullopt for other reasons.
+// Translates limits of the machine and of the worker, for which the program has its own reason
+// codes (sim/base, sim/worker); nullopt for other reasons.
 std::optional<JobFailure> limit_failure(const std::string& reason) {
   if (reason == "OUT_OF_MEMORY") return memory_failure();
   if (reason == "DISK_FULL") return disk_failure();
@@ -136,7 +136,7 @@ bool is_known(const std::string& reason) {
   return v1::ErrorReason_Parse(reason, &parsed);
 }
 
-// A program that ended by itself with a status other than 0.
+// Returns the failure of a program that ended by itself with a nonzero status.
 JobFailure judge_failed_exit(int status, const std::string& words, std::string_view answer) {
   const std::string reason = printed_reason(answer);
   if (auto failure = limit_failure(reason)) return *std::move(failure);
@@ -186,7 +186,7 @@ std::optional<JobFailure> judge(int wait_status, StoppedFor stopped, std::string
 }
 
 std::optional<Progress> read_progress(std::string_view line, std::int64_t now_ms) {
-  // Deeply nested text would exhaust the parser's stack; a progress line is flat.
+  // Deeply nested text would exhaust the parser's stack; a progress line is not nested.
   if (std::count(line.begin(), line.end(), '{') != 1 || line.find('[') != std::string_view::npos) {
     return std::nullopt;
   }

@@ -17,7 +17,7 @@ std::string text(double value) {
   return out.str();
 }
 
-/// The longest accepted watchdog time; a drive without a watchdog is never armed.
+/// Returns the longest accepted watchdog time; a drive without a watchdog is never armed.
 double watchdog_s(const drive::DriveProfile& profile) {
   return profile.watchdog ? profile.watchdog->largest_time_s : 0;
 }

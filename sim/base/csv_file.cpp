@@ -34,7 +34,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   return cells;
 }
 
-/// The fault in a header; empty if there is none.
+/// Returns the fault in a header; empty if there is none.
 std::string header_objection(const std::vector<std::string_view>& cells,
                              const std::vector<std::string_view>& wanted) {
   if (cells == wanted) return {};

@@ -109,7 +109,7 @@ bool on_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   return (p - a - share * along).norm() <= kOnEdge_mm;
 }
 
-/// True if the closed segments ab and cd have a point in common.
+/// Returns true if the closed segments ab and cd have a point in common.
 bool meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
   const double c_side = cross(b - a, c - a);
   const double d_side = cross(b - a, d - a);

@@ -48,13 +48,13 @@ std::string known_keys() {
   return out;
 }
 
-/// The place of an error: file, line and key.
+/// Returns the place of an error: file, line and key.
 std::string place(const std::filesystem::path& path, const toml::source_region& region,
                   std::string_view key) {
   return path.string() + ": line " + std::to_string(region.begin.line) + ": " + std::string(key);
 }
 
-/// The shortest text that reads back as the same number.
+/// Returns the shortest text that reads back as the same number.
 std::string number_text(double value) {
   std::array<char, 32> buffer{};
   return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr};

@@ -49,8 +49,8 @@ struct Edge {
   std::array<SurfacePerFilm, 2> side = {SurfacePerFilm::Zero(), SurfacePerFilm::Zero()};
   int sides = 0;
 
-  /// The distance on the surface that corresponds to `off_mm` on the film; the larger of both
-  /// sides.
+  /// Returns the distance on the surface that corresponds to `off_mm` on the film; the larger of
+  /// both sides.
   [[nodiscard]] double off_on_surface_mm(const Vector2d& off_mm) const {
     double most = 0;
     for (int i = 0; i < sides; ++i) most = std::max(most, (side[i] * off_mm).norm());

@@ -33,7 +33,7 @@ struct Axis {
     if (!(u >= begin())) return -1;
     return u >= end() ? cells + 1 : static_cast<int>(u);
   }
-  /// The end of strip i and start of strip i + 1.
+  /// Returns the end of strip i and start of strip i + 1.
   [[nodiscard]] double end_of(int i) const { return clamp(i + 1); }
 };
 

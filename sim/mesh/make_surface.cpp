@@ -22,7 +22,7 @@ void warn(Surface& surface, const Model& model, std::string code, std::string me
   surface.warnings.push_back({std::move(code), std::move(message), model.path.string()});
 }
 
-/// The triangles that still have an area after coincident points are welded.
+/// Returns the triangles that still have an area after coincident points are welded.
 std::vector<int> proper_triangles(const Model& model, const std::vector<int>& weld,
                                   double tolerance) {
   std::vector<int> kept;

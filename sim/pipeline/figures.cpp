@@ -56,7 +56,7 @@ std::string percent(double share) {
   return std::to_string(static_cast<int>(std::lround(1000 * share)) / 10.0).substr(0, 4) + " %";
 }
 
-/// A number with two digits after the point.
+/// Returns a number with two digits after the point.
 std::string fixed(double value) {
   std::array<char, 32> text{};
   const int length = std::snprintf(text.data(), text.size(), "%.2f", value);

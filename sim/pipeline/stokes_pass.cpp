@@ -15,7 +15,7 @@
 namespace hydroprint::pipeline {
 namespace {
 
-/// The floating film: swollen, together with its clamped edge.
+/// Returns the floating film: swollen, together with its clamped edge.
 film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   for (Eigen::Vector2d& p : outline.polygon) p = p.cwiseProduct(swelling);
   outline.min_mm = outline.min_mm.cwiseProduct(swelling);

@@ -81,7 +81,7 @@ Status check_limit(double ink_limit) {
                                      " is out of range. Use C + M + Y + K above 0 and at most 4");
 }
 
-/// The conversion for the settings; sets the number of channels.
+/// Returns the conversion for the settings; sets the number of channels.
 Result<Convert> converter(const ColourSettings& settings, PrinterColoured& out) {
   if (!settings.icc_profile.empty()) {
     HP_ASSIGN_OR_RETURN(const auto colours, ink::PrinterColours::open(settings.icc_profile));

@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 constexpr double kCell_mm = 0.5;
 constexpr double kRounding_mm = 1e-9;
 
-/// The points at which a polygon's edges cross a height, from left to right.
+/// Returns the points at which a polygon's edges cross a height, from left to right.
 std::vector<double> crossings(const std::vector<Vector2d>& polygon, double y) {
   std::vector<double> out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

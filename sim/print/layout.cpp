@@ -26,8 +26,8 @@ struct Cut {
   int first = 0, end = 0;
 };
 
-/// The smallest number of equal windows of at most `most_px` that cover `size_px` with at least
-/// this overlap; empty if there would be too many.
+/// Returns the smallest number of equal windows of at most `most_px` that cover `size_px` with at
+/// least this overlap; empty if there would be too many.
 std::vector<Cut> cuts(int size_px, int most_px, int overlap_px) {
   HP_CHECK(size_px > 0);
   HP_CHECK(overlap_px >= 0);
@@ -126,7 +126,7 @@ class ToPage {
 
 Box box_between(const Vector2d& a, const Vector2d& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
 
-/// The film's outline on the sheet; its window if the film is on several sheets.
+/// Returns the film's outline on the sheet; its window if the film is on several sheets.
 std::vector<Vector2d> film_on(const Sheet& sheet, const film::Outline& outline,
                               const ToPage& to_page, bool is_part, double pitch_mm) {
   if (is_part) {

@@ -59,7 +59,7 @@ class Marker {
     note(name, all);
   }
 
-  /// The place of a mark that may be anywhere; nullopt if there is no room.
+  /// Returns the place of a mark that may be anywhere; nullopt if there is no room.
   [[nodiscard]] std::optional<Box> find_room(const Vector2d& size_mm, const Vector2d& near_mm) {
     settle();
     return space_.find(size_mm, near_mm);
@@ -179,7 +179,7 @@ void add_ruler(Marker& marker, const Box& printable, bool upright) {
   marker.note(upright ? "upright ruler" : "ruler", false);
 }
 
-/// The job name and the details on one line of at most that width.
+/// Returns the job name and the details on one line of at most that width.
 std::string text_line(const MarkPlan& plan, const text::Font& font, double width) {
   if (plan.job_name.empty()) return font.shortened(plan.details, width);
   const std::string rest = plan.details.empty() ? "" : "  " + plan.details;

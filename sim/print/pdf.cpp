@@ -43,7 +43,7 @@ QPDFObjectHandle name(const std::string& text) { return QPDFObjectHandle::newNam
 
 QPDFObjectHandle integer(long long value) { return QPDFObjectHandle::newInteger(value); }
 
-/// An image with its rows compressed by compress_rows().
+/// Returns an image with its rows compressed by compress_rows().
 Result<QPDFObjectHandle> image_object(QPDF& pdf, const image::PrinterImage& image,
                                       const Context& context) {
   HP_ASSIGN_OR_RETURN(const auto rows, image::compress_rows(image.samples.data(), image.width,

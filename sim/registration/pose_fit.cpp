@@ -166,7 +166,7 @@ class Fitter {
   }
   [[nodiscard]] Vector6 unscaled(const Vector6& step) const { return scale().cwiseProduct(step); }
 
-  /// The Gauss-Newton step, and along weak directions the step to the nominal pose.
+  /// Returns the Gauss-Newton step, and along weak directions the step to the nominal pose.
   [[nodiscard]] Vector6 step_of(const Look& look, const Split& parts, const Pose& pose) const {
     const Vector6 to_nominal = twist_between(pose, nominal_, look.centre).cwiseQuotient(scale());
     const Vector6 step = parts.inverse() * look.normals.pull + parts.onto_weak() * to_nominal;

@@ -20,8 +20,8 @@ constexpr double kRimMm = 50;   // outer radius at the rim
 constexpr double kFilletMm = 3;
 constexpr int kAround = 180;
 
-/// The outline from the middle of the bottom outward, up, over the rim, and down inside to the
-/// middle again.
+/// Returns the outline from the middle of the bottom outward, up, over the rim, and down inside to
+/// the middle again.
 Outline make_outline() {
   Outline out(1);
   add_line(out, kFootMm - kFilletMm, 0, 22);

@@ -24,7 +24,7 @@ constexpr double kRoundMm = 2 * pi * kRadiusMm;
 /// Parts of the outline, from the middle of the bottom outward, up, over the rim and down inside.
 enum Part : std::size_t { kBottom, kOuter, kInner, kFloor, kHandle };
 
-/// The parts of the outline. Each begins with the last point of the previous one.
+/// Returns the parts of the outline. Each begins with the last point of the previous one.
 std::vector<Outline> make_parts() {
   std::vector<Outline> parts(1, Outline(1));
   const auto next = [&] {
@@ -160,8 +160,8 @@ class MugMaker {
 
   // --- the handle ---
 
-  /// The rim of a hole: from the middle of its outer side (upper side of the upper hole, lower side
-  /// of the lower hole) towards +y and around.
+  /// Returns the rim of a hole: from the middle of its outer side (upper side of the upper hole,
+  /// lower side of the lower hole) towards +y and around.
   [[nodiscard]] std::vector<int> hole_rim(int first_row, bool is_upper) const {
     std::vector<int> rim;
     const auto add = [&](int i, int row) {

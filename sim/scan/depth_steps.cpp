@@ -80,7 +80,7 @@ Steps closest(const std::vector<double>& depths) {
   return best;
 }
 
-/// The mean of the steps that are rounded to a depth; the depth itself if there are none.
+/// Returns the mean of the steps that are rounded to a depth; the depth itself if there are none.
 double before_rounding(const Steps& steps, std::size_t whole_mm) {
   const auto depth = static_cast<double>(whole_mm);
   const double first = std::ceil(steps.scale_mm / (depth + kHalf) - steps.shift);

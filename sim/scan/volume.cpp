@@ -42,7 +42,7 @@ double reported_at(const DepthFrame& frame, const Lens& lens, const Vector3d& p_
   return frame.depth_mm[frame.index(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()))];
 }
 
-/// True if the distance changes by more than `most` along an edge of the cube.
+/// Returns true if the distance changes by more than `most` along an edge of the cube.
 bool leaps(const std::array<double, 8>& distances, double most) {
   for (std::size_t c = 0; c < 8; ++c)
     for (const std::size_t bit : {1U, 2U, 4U})

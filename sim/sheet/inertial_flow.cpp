@@ -24,7 +24,7 @@ Velocities scaled(Velocities velocities, double by) {
   return velocities;
 }
 
-/// The velocity, in mm/s, that the film at the nodes of waterline `k` had at the previous
+/// Returns the velocity, in mm/s, that the film at the nodes of waterline `k` had at the previous
 /// waterline. Where there was no film nearby, the current velocity is used.
 Velocities velocity_before(const flow::DipField& dip, std::size_t k, double speed_mm_per_s) {
   HP_CHECK(k < dip.fields.size());

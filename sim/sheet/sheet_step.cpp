@@ -81,7 +81,7 @@ ElementVector Step::gather(const Velocities& velocities, std::size_t triangle) c
   return out;
 }
 
-/// One triangle's part of the objective as a function of its velocities: the integral of
+/// Returns one triangle's part of the objective as a function of its velocities: the integral of
 /// rho h |u - u_before|^2 / 2 + dt k |u|^2 / 2 + W(dt u). Its gradient is dt times the balance of
 /// forces.
 MembraneEnergy Step::element(std::size_t triangle, const Velocities& velocities, Strain strain,

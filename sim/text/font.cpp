@@ -44,7 +44,8 @@ struct Font::Impl {
   }
   [[nodiscard]] double em() const { return face->units_per_EM; }
 
-  /// An outline in the font's units; what cannot be loaded is empty. The mutex must be held.
+  /// Returns an outline in the font's units; what cannot be loaded is empty. The mutex must be
+  /// held.
   [[nodiscard]] FT_Outline* outline(std::uint32_t glyph) {
     if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING) != 0) return nullptr;
     return face->glyph->format == FT_GLYPH_FORMAT_OUTLINE ? &face->glyph->outline : nullptr;

@@ -29,7 +29,7 @@ bool is_sphere_cross(const Vector3d& p) {
   return is_whole(theta_deg(p) / 15) && is_whole(std::atan2(p.y(), p.x()) / (15 * kDegree));
 }
 
-/// A table of the errors at the cross-points and at all points, with a row for each region.
+/// Returns a table of the errors at the cross-points and at all points, with a row for each region.
 Table error_table(const std::string& caption, const mesh::Surface& surface,
                   const std::vector<double>& errors, const Region& is_cross,
                   const std::vector<std::pair<NamedRegion, std::string>>& regions) {

@@ -55,7 +55,7 @@ Pose drawn(const Pose& X_FO, Dice& dice) {
   return film.inverse() * held;
 }
 
-/// The film's grid points, row by row from the bottom.
+/// Returns the film's grid points, row by row from the bottom.
 std::vector<Vector2d> grid() {
   std::vector<Vector2d> points;
   for (int j = -kAlong; j <= kAlong; ++j) {

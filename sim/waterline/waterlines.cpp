@@ -90,7 +90,7 @@ Status check_first_contact(const Body& body, const film::Outline& outline, const
 
 using Curves = std::vector<std::vector<Eigen::Vector2d>>;
 
-/// The curves around regions that are neither film nor solid: holes without film.
+/// Returns the curves around regions that are neither film nor solid: holes without film.
 Curves dry_curves(const Waterline& line) {
   Curves curves;
   for (std::size_t l = 0; l < line.section.size(); ++l) {

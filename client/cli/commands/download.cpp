@@ -43,7 +43,7 @@ class ScratchFolder {
   std::string path_ = std::filesystem::temp_directory_path() / "hydroprint-XXXXXX";
 };
 
-// The bytes are checked before the first one is printed.
+// All bytes are checked before the first one is printed.
 Status print_artifact(Program& program, const std::string& job, const DownloadOptions& options) {
   if (options.artifacts.size() != 1)
     return fail(Code::kInvalidArgument, "--out - prints one artifact; give its name");

@@ -118,8 +118,8 @@ Status log_in(Program& program, const LoginOptions& options) {
   return show_identity(program, me);
 }
 
-// Deletes the stored key first, so that the logout is effective here even if the daemon does not
-// respond.
+// Deletes the stored key first, so that the logout takes effect on this machine even if the daemon
+// does not respond.
 Status log_out(const Program& program) {
   HP_ASSIGN_OR_RETURN(const std::string key, kept_key(program.server()));
   if (key.empty()) {

@@ -138,7 +138,7 @@ void add_job_argument(CLI::App& command, std::string& job) {
 
 int exit_code(const Error& error) {
   if (error.code == Code::kUnavailable) return kUnreachable;
-  // Damaged at the daemon or in transit: the user's input is not at fault.
+  // The data was damaged at the daemon or in transit, so this is not an input error.
   if (error.code == Code::kDataLoss) return static_cast<int>(ExitStatus::kFailed);
   return static_cast<int>(exit_status(error));
 }

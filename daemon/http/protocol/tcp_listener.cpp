@@ -41,8 +41,8 @@ std::string text_of(const tcp::endpoint& endpoint) {
          std::to_string(endpoint.port());
 }
 
-// A transport is not used after the socket is closed, since its descriptor may then belong to
-// another connection.
+// A transport must not be used after the socket is closed, because its descriptor may then belong
+// to another connection.
 class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSocket> {
  public:
   TcpSocket(StrandSocket socket, const std::shared_ptr<const tls::Identity>& identity)
@@ -241,7 +241,7 @@ struct TcpListener::Impl {
     const tcp::endpoint endpoint(asio::ip::make_address(host, error),
                                  static_cast<unsigned short>(port));
     if (!error) acceptor.open(endpoint.protocol(), error);
-    // Allows a port that was in use a moment ago; a port with a listener is still refused.
+    // Allows a port that was in use a moment ago, but not one on which another program listens.
     if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
     if (!error) acceptor.bind(endpoint, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);

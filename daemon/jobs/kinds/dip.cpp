@@ -1,4 +1,4 @@
-// Guides the operator through the immersion on the rig.
+// Guides the operator through a dip on the rig.
 #include "daemon/jobs/calibration_binding.h"
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/referenced_job.h"
@@ -22,7 +22,7 @@ class DipKind final : public KindOf<v1::DipSpec> {
   }
 
  private:
-  /// A dip without a calibration uses that of its simulation.
+  /// A dip without a calibration uses the calibration of its simulation.
   [[nodiscard]] Status resolve_spec(v1::DipSpec& shown, v1::DipSpec& resolved,
                                     const JobSources& sources) const override {
     std::string simulated;

@@ -26,7 +26,7 @@ Eigen::Vector3f diverging(double t) {
                  : Eigen::Vector3f(white + off * (red - white));
 }
 
-/// A range that is symmetric about zero.
+/// Returns a range that is symmetric about zero.
 Range range_of(std::span<const double> off_mm) {
   std::vector<double> sorted;
   for (const double x : off_mm) sorted.push_back(std::abs(x));

@@ -15,8 +15,8 @@ namespace {
 constexpr int kSupersample = 2;
 constexpr float kOutlineShade = 0.35F;
 
-/// A view from a direction given by azimuth (0: from -y, counter-clockwise seen from above) and
-/// elevation.
+/// Returns a view from a direction given by azimuth (0: from -y, counter-clockwise seen from above)
+/// and elevation.
 View view_from(std::string name, double azimuth_deg, double elevation_deg) {
   const double azimuth = azimuth_deg * M_PI / 180, elevation = elevation_deg * M_PI / 180;
   const Eigen::Vector3d right(std::cos(azimuth), std::sin(azimuth), 0);

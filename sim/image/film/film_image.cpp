@@ -42,9 +42,9 @@ const std::array<Eigen::Vector2d, kAllSamples + 1>& mean_offsets() {
 /// How far beyond a tile's edge its colours are used, as a share of its size.
 constexpr double kBeyondEdge = 0.5;
 
-/// The point at which a pixel's colour is looked up, once for all its samples. It is the pixel's
-/// middle, so that tiles that share the pixel agree, unless the middle lies far outside a tiny
-/// tile.
+/// Returns the point at which a pixel's colour is looked up, once for all its samples. It is the
+/// pixel's middle, so that tiles that share the pixel agree, unless the middle lies far outside a
+/// tiny tile.
 /// @param covered  the mean position of the samples that the tile covers
 Eigen::Vector2d look_up_at(const BarycentricMap& map, const Eigen::Vector2d& middle,
                            const Eigen::Vector2d& covered) {

@@ -53,7 +53,7 @@ Layout layout_of(const ImageSpec& spec) {
   return layout;
 }
 
-/// One texel from values in [0, 1], sRGB-coded unless the file holds floats.
+/// Returns one texel from values in [0, 1], sRGB-coded unless the file holds floats.
 Texel to_texel(std::array<float, 3> colour, float alpha, const Layout& layout, bool& had_alpha) {
   const float opacity = alpha > 0 ? std::min(alpha, 1.0F) : 0;
   had_alpha = had_alpha || opacity < 1;

@@ -162,7 +162,7 @@ Bytes resolution(double dpi) {
   return out;
 }
 
-/// The zlib stream of the compressed bands: header, bands, checksum of all.
+/// Returns the zlib stream of the compressed bands: header, bands, checksum of all.
 Bytes join(const std::vector<Band>& bands) {
   Bytes out = {0x78, 0x01};
   uLong adler = 1;

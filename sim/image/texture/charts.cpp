@@ -215,7 +215,7 @@ void dilate(Texels& image) {
   }
 }
 
-/// Whether [low, high] lies in one unit interval that starts at an integer, up to rounding.
+/// Returns whether [low, high] lies in one unit interval that starts at an integer, up to rounding.
 bool is_in_one_tile(double low, double high, double& tile) {
   constexpr double kRounding = 1e-4;
   tile = std::floor(0.5 * (low + high));

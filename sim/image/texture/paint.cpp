@@ -137,7 +137,7 @@ class PaintLoader {
     return {};
   }
 
-  /// The ink for triangles whose material states no colour.
+  /// Returns the ink for triangles whose material states no colour.
   Ink fallback() {
     if (model_.vertex_colours.empty()) return {};
     if (paint_.vertex_colours_.empty()) {

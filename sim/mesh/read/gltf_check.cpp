@@ -27,7 +27,7 @@ Result<std::string_view> json_text(std::string_view bytes, const std::filesystem
   return bytes.substr(20, words[2]);
 }
 
-/// A non-negative integer member; `otherwise` if there is none.
+/// Returns a non-negative integer member; `otherwise` if there is none.
 std::uint64_t number(const json& object, const char* key, std::uint64_t otherwise) {
   const auto at = object.find(key);
   return at != object.end() && at->is_number_unsigned() ? at->get<std::uint64_t>() : otherwise;

@@ -220,7 +220,7 @@ class PlyChecker {
     return {};
   }
 
-  /// The next number; nullopt if it is missing or not finite.
+  /// Returns the next number; nullopt if it is missing or not finite.
   std::optional<double> next(const Type& type) {
     if (format_ == Format::kAscii) return parse_number(next_word(item_));
     if (rest_.size() < type.bytes) return std::nullopt;

@@ -109,7 +109,8 @@ class GltfImporter {
     model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
   }
 
-  /// The root nodes: of the default scene, else of the first, else every node that is not a child.
+  /// Returns the root nodes: of the default scene, else of the first, else every node that is not a
+  /// child.
   [[nodiscard]] std::vector<int> roots() const {
     const auto* scene = entry(source_.scenes, std::max(source_.defaultScene, 0));
     if (scene != nullptr) return scene->nodes;

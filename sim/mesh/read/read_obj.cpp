@@ -155,7 +155,7 @@ class ObjImporter {
     transforms_.push_back(transform_);
   }
 
-  /// The material as defined in the files; one without colour if it is not defined.
+  /// Returns the material as defined in the files; one without colour if it is not defined.
   Material find(const std::string& name) {
     Material material;
     material.name = name;

@@ -45,7 +45,7 @@ double across(const scan::Cloud& cloud, const std::vector<int>& piece) {
   return most;
 }
 
-/// The pose in which the board faces the camera upright.
+/// Returns the pose in which the board faces the camera upright.
 Pose facing() {
   Pose out = Pose::Identity();
   out.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();

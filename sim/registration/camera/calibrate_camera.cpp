@@ -156,8 +156,9 @@ class Adjuster {
     return out;
   }
 
-  /// The normal equations, with each patch's constant noise eliminated. That noise is one more
-  /// unknown for each patch, the same in every view, with mean 0 and a known standard deviation.
+  /// Returns the normal equations, with each patch's constant noise eliminated. That noise is one
+  /// more unknown for each patch, the same in every view, with mean 0 and a known standard
+  /// deviation.
   [[nodiscard]] System build() const {
     System out(views_.size());
     out.matrix.topLeftCorner<kLens, kLens>().setIdentity();  // the prior

@@ -14,7 +14,7 @@ constexpr double kPitch_mm = 66, kPyramid_mm = 44, kTall_mm = 25;
 constexpr int kColumns = 2, kRows = 3;
 constexpr double kSlope_rad = std::numbers::pi / 6;
 
-/// A rectangle in z = 0 whose normal points up.
+/// Returns a rectangle in z = 0 whose normal points up.
 mesh::Surface rectangle(double x0, double y0, double x1, double y1) {
   mesh::Surface out;
   out.points = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}};
@@ -46,7 +46,7 @@ mesh::Surface row_of(int row, int columns) {
   return joined(std::move(out), rectangle(left, y0, kWidth_mm, y1));
 }
 
-/// A flat plate, with the ridge along y.
+/// Returns a flat plate, with the ridge along y.
 mesh::Surface plate(bool is_whole) {
   mesh::Surface out;
   double below = -kHeight_mm / 2;

@@ -26,7 +26,8 @@ std::string in_mm(double value) {
   return buffer;
 }
 
-/// The pyramids that are used, at their places in the layout, as one body in the film frame.
+/// Returns the pyramids that are used, at their places in the layout, as one body in the film
+/// frame.
 Shape body_of(const MarkerLayout& layout, const Matching& matching) {
   mesh::Surface all;
   for (std::size_t a = 0; a < layout.markers.size(); ++a) {

@@ -95,7 +95,7 @@ Eigen::Vector3d tip_of(const Search& s, std::vector<int> piece) {
   return sum / static_cast<double>(tenth) + s.layout.height_mm / 6 * s.level.normal;
 }
 
-/// The points around a marker at the given pose, without those of its base.
+/// Returns the points around a marker at the given pose, without those of its base.
 std::vector<scan::ScanPoint> around(const Search& s, const Pose& X_CM) {
   std::vector<scan::ScanPoint> out;
   const Pose X_MC = X_CM.inverse();
@@ -144,7 +144,7 @@ std::optional<FoundMarker> fitted_from(const Search& s, Pose X_CM, const Context
   return out;
 }
 
-/// The best fit from three starting turns within a quarter, after which the shape repeats.
+/// Returns the best fit from three starting turns within a quarter, after which the shape repeats.
 std::optional<FoundMarker> fitted(const Search& s, const Eigen::Vector3d& tip,
                                   const Context& context) {
   std::optional<FoundMarker> best;

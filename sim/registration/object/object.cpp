@@ -109,7 +109,7 @@ class Finder {
                 "NOT_THIS_OBJECT");
   }
 
-  /// The largest connected piece of points off the mesh, as a share of the scan.
+  /// Returns the largest connected piece of points off the mesh, as a share of the scan.
   [[nodiscard]] double other_share(const Candidate& candidate, const scan::Cloud& cloud) const {
     std::vector<bool> off(cloud.points.size());
     const Pose X_BC = candidate.fit.X_CB.inverse();

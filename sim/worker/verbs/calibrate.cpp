@@ -68,7 +68,7 @@ Result<CalibrateOptions> read_options(const v1::CalibrateSpec& spec, const Input
   return out;
 }
 
-/// The object coloured by registration error.
+/// Returns the object coloured by registration error.
 Result<image::RgbImage> error_picture(const mesh::Surface& surface, const Pose& X_FO,
                                       const std::vector<double>& error_mm, const Context& context) {
   std::vector<flow::MappedTriangle> whole(surface.triangles.size());

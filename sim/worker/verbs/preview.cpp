@@ -88,7 +88,7 @@ Status answer_model(const mesh::Model& model) {
                 bytes);
 }
 
-/// A number within bounds.
+/// Returns a number within bounds.
 Result<double> read_number(const nlohmann::json& value, const std::string& key, double least,
                            double most) {
   const double number =
