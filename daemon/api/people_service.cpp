@@ -20,7 +20,8 @@ constexpr std::chrono::milliseconds kSignInWritten{2000};  // timeout for writin
 // Returns the id after the collection's name: "ann" for "users/ann".
 Result<std::string> name_in(const std::string& collection, const std::string& name) {
   if (!name.starts_with(collection + "/")) {
-    return fail(Code::kInvalidArgument, "name: must be like " + collection + "/NAME", "ID_INVALID");
+    return fail(Code::kInvalidArgument, "name: must have the form " + collection + "/NAME",
+                "ID_INVALID");
   }
   std::string id = name.substr(collection.size() + 1);
   HP_RETURN_IF_ERROR(auth::check_user_name("name", id));
@@ -331,8 +332,7 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("apiKeys", request.name()));
     const auto key = backend_.accounts.key(id);
     if (!key || is_hidden(caller, key->user)) {
-      return fail(Code::kNotFound, request.name() + ": there is no such API key of yours",
-                  "KEY_NOT_FOUND");
+      return fail(Code::kNotFound, request.name() + ": you have no such API key", "KEY_NOT_FOUND");
     }
     return backend_.accounts.remove_key(id);
   }

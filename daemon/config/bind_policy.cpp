@@ -26,11 +26,10 @@ Status check_exposure(const Config& config) {
   const bool has_key = !config.server_tls_key.empty();
   if (has_certificate != has_key) {
     return fail(Code::kInvalidArgument,
-                std::string(has_key ? "server.tls_key (--tls-key)"
-                                    : "server.tls_certificate "
-                                      "(--tls-certificate)") +
-                    " is given without the other; TLS needs both server.tls_certificate "
-                    "(--tls-certificate) and server.tls_key (--tls-key)",
+                has_key ? "server.tls_key (--tls-key) is set, but server.tls_certificate "
+                          "(--tls-certificate) is not; TLS needs both"
+                        : "server.tls_certificate (--tls-certificate) is set, but server.tls_key "
+                          "(--tls-key) is not; TLS needs both",
                 "CONFIG_INVALID");
   }
   const auto door = exposed_door(config);

@@ -195,8 +195,8 @@ Status AssetStore::remove(const std::string& sha256, const AssetUser& user) {
                        {sha256}));
     if (!jobs.empty()) {
       return fail(Code::kFailedPrecondition,
-                  "assets/" + sha256 + " is needed by " + job_name(jobs.front()) +
-                      "; cancel that or wait for its end",
+                  "assets/" + sha256 + " is used by " + job_name(jobs.front()) +
+                      "; cancel the job or wait until it ends",
                   "STATE_FORBIDS");
     }
     return database_.run("DELETE FROM assets WHERE sha256=?", {sha256});

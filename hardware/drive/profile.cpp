@@ -234,7 +234,8 @@ void read_motion(TomlReader table, DriveProfile& profile) {
   profile.jog_refresh_s = table.number("jog_refresh_s", 0.01, 0.25);
   profile.jog_dead_man_s = table.number("jog_dead_man_s", 0, 0.5);
   if (profile.jog_dead_man_s > 0 && profile.jog_dead_man_s < profile.jog_refresh_s) {
-    table.refuse("jog_dead_man_s", "is shorter than jog_refresh_s. Refresh more often than that");
+    table.refuse("jog_dead_man_s",
+                 "is shorter than jog_refresh_s. Set jog_refresh_s to jog_dead_man_s or less");
   }
 }
 

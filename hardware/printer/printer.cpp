@@ -123,7 +123,7 @@ tl::unexpected<Error> refused(const Address& address, const std::string& what, i
   if (!message.empty()) why += ": " + message;
   const std::string start = "printer " + address.uri + ": refuses " + what + " (" + why + "). ";
   if (is_about_format(reply)) {
-    return fail(Code::kInvalidArgument, start + "Use one of the formats that it lists",
+    return fail(Code::kInvalidArgument, start + "Use a format that the printer supports",
                 "FORMAT_NOT_SUPPORTED");
   }
   if (status == IPP_STATUS_ERROR_NOT_FOUND) {

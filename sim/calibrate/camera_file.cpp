@@ -78,7 +78,7 @@ Result<registration::CameraCalibration> read_camera(const std::filesystem::path&
     }
   } catch (const nlohmann::json::exception&) {
     return fail(Code::kInvalidArgument,
-                path.string() + ": not a camera's calibration. Make one with calibrate-camera");
+                path.string() + ": not a camera calibration. Create one with calibrate-camera");
   }
   if (!is_lens(out.lens) || !out.covariance.allFinite())
     return fail(Code::kInvalidArgument,

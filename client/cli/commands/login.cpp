@@ -144,7 +144,7 @@ void add_login(CLI::App& app, Program& program) {
   auto options = std::make_shared<LoginOptions>();
   CLI::App* login = app.add_subcommand(
       "login",
-      "Create an API key by password or sign-in link, or take an existing one, and store it");
+      "Create an API key with a password or sign-in link, or use an existing key, and store it");
   login->add_option("--user", options->user, "Your user name; default: asks for it")
       ->type_name("NAME");
   auto* key = login->add_flag("--api-key-stdin", options->key_from_stdin,

@@ -20,7 +20,7 @@ std::filesystem::path folder_in(const char* name) {
 
 Status cannot_keep_key(const std::filesystem::path& file) {
   return fail(Code::kPermissionDenied,
-              file.string() + ": the key cannot be stored there: " + std::strerror(errno) +
+              file.string() + ": cannot store the key: " + std::strerror(errno) +
                   "; set XDG_CONFIG_HOME to a folder that you can write to");
 }
 

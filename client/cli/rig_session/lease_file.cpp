@@ -28,7 +28,7 @@ std::filesystem::path folder() {
 
 Status cannot_keep(const std::filesystem::path& file) {
   return fail(Code::kPermissionDenied,
-              file.string() + ": the lease cannot be stored there: " + std::strerror(errno) +
+              file.string() + ": cannot store the lease: " + std::strerror(errno) +
                   "; set XDG_RUNTIME_DIR to a folder that you can write to");
 }
 

@@ -20,7 +20,7 @@ constexpr int kLook_ms = 20;
 
 tl::unexpected<Error> refuse(const std::string& place, int error) {
   return fail(Code::kFailedPrecondition,
-              place + ": cannot listen there (" + std::strerror(error) +
+              "cannot listen on " + place + " (" + std::strerror(error) +
                   "). Use another address, or stop the program that uses it");
 }
 

@@ -39,8 +39,9 @@ double across(const std::vector<Eigen::Vector3d>& points) {
 
 std::string sizes(double mesh_mm, double scan_mm) {
   char buffer[120];
-  std::snprintf(buffer, sizeof buffer, "the mesh is %.3g mm across, the object in view %.3g mm",
-                mesh_mm, scan_mm);
+  std::snprintf(buffer, sizeof buffer,
+                "the mesh is %.3g mm across, but the object in view is %.3g mm across", mesh_mm,
+                scan_mm);
   return buffer;
 }
 
@@ -78,8 +79,7 @@ Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points) {
   const std::string what = sizes(mesh_mm, scan_mm);
   if (best == nullptr)
     return fail(Code::kFailedPrecondition,
-                what + ". Give the mesh of the object in the gripper, all of it",
-                "NOT_THIS_OBJECT");
+                what + ". Use the complete mesh of the object in the gripper", "NOT_THIS_OBJECT");
   const std::string remedy = too_large ? ". Its lengths were read as " + std::string(best->name) +
                                              ". Give a scale " + number(best->mm) + " times smaller"
                                        : ". Its file seems to be in " + std::string(best->name) +
