@@ -82,10 +82,10 @@ class LiveCamera {
   mutable std::mutex mutex_;
   std::condition_variable news_;
   std::unique_ptr<CameraProcess> process_;
-  std::int64_t lent_to_ = 0;          // job id; 0: nobody
+  std::int64_t lent_to_ = 0;          // job id; 0: not lent
   Time wanted_until_, again_, came_;  // came_: time of the picture
   std::optional<LivePicture> picture_;
-  std::optional<Error> failure_;  // of the latest attempt, while somebody watches
+  std::optional<Error> failure_;  // of the latest attempt, while a client watches
   int waiting_ = 0;
   bool stopping_ = false;
   std::thread thread_;  // starts the process, which is killed when the thread ends

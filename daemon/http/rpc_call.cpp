@@ -83,7 +83,7 @@ Task<Result<std::string>> body_of(const ServerContext& server, Exchange& exchang
   co_return co_await exchange.read_body();
 }
 
-// Answers a request that the transcoder refused.
+// Answers a request that the transcoder rejected.
 Task<std::string> refuse_call(const ServerContext& server, Exchange& exchange, Error error) {
   Response response = refusal(error);
   if (error.reason == "METHOD_NOT_ALLOWED") {

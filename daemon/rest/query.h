@@ -11,7 +11,7 @@ class Message;
 
 namespace hydroprint::rest {
 
-/// Sets the fields that the query of a request gives ("pageSize=2&states=QUEUED&states=RUNNING"),
+/// Sets the fields in the query of a request ("pageSize=2&states=QUEUED&states=RUNNING"),
 /// under their names or JSON names. An extra "&" is allowed. Returns kInvalidArgument with
 /// URL_INVALID or PARAMETER_INVALID for:
 /// - a name without "=", or of an unknown field;

@@ -56,7 +56,7 @@ enum class Interruption { kShutdown, kLoss };
 /// Computed jobs: QUEUED -> RUNNING -> SUCCEEDED | FAILED; QUEUED -> CANCELLED; RUNNING ->
 /// CANCELLING -> CANCELLED; QUEUED -> SUCCEEDED from the cache. RUNNING -> INTERRUPTED -> QUEUED if
 /// the daemon shut down or was lost; the third loss leads to FAILED (DAEMON_LOST).
-/// Prints and captures: RUNNING at once -> SUCCEEDED | FAILED, -> CANCELLING -> CANCELLED, ->
+/// Prints and captures: RUNNING immediately -> SUCCEEDED | FAILED, -> CANCELLING -> CANCELLED, ->
 /// INTERRUPTED.
 /// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED, both -> CANCELLING -> CANCELLED,
 /// both -> INTERRUPTED.

@@ -10,7 +10,7 @@
 namespace hydroprint::calibrate {
 namespace {
 
-constexpr double kLeastFrames = 3;  ///< that must have seen a surface from 0.8 m
+constexpr double kLeastFrames = 3;  ///< number of frames that must have seen a surface from 0.8 m
 constexpr double kUsualDepth_mm = 800;
 constexpr double kLowest_mm = -40, kHighest_mm = 600;  ///< of a rig's contents, above the water
 

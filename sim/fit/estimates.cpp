@@ -26,9 +26,9 @@ struct Interval {
   bool is_one_sided;
 };
 
-/// Returns a confidence interval within the domain. For an estimate at a bound, it begins there and
-/// ends as a one-sided interval. That one starts at the unconstrained estimate, if this is in the
-/// domain.
+/// Returns a confidence interval within the domain. If the estimate is at a bound, the interval is
+/// one-sided and starts at the bound; its width is computed from the unconstrained estimate, if
+/// that is in the domain.
 Interval interval_of(double value, double unbounded, double error, double low, double high,
                      double degrees) {
   constexpr double kAt = 1e-9;

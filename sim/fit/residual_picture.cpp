@@ -46,7 +46,8 @@ struct Scale {
   }
 };
 
-/// 1, 2 or 5 times a power of ten: the largest factor that keeps nearly all arrows short.
+/// Returns 1, 2 or 5 times a power of ten: the largest factor for which nearly all arrows stay
+/// short.
 double enlargement(const Outcome& outcome, const Panel& panel, double px_per_mm) {
   std::vector<double> lengths;
   for (const PointResult& p : outcome.points) {

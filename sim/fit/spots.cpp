@@ -36,7 +36,7 @@ Tree tree_of(const mesh::Surface& surface) {
   return Tree(entries);
 }
 
-/// Barycentric coordinates of the triangle's point nearest to p.
+/// Returns the barycentric coordinates of the triangle's point nearest to p.
 Vector3d nearest_in(const std::array<Vector3d, 3>& corners, const Vector3d& p) {
   const Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
   const Vector3d normal = ab.cross(ac);

@@ -15,7 +15,7 @@
 namespace hydroprint::ink {
 namespace {
 
-/// An image by its rows (8-bit sRGB, row 0 on top); `row` may store the row in `buffer`.
+/// Access to an image by rows (8-bit sRGB, row 0 at the top); `row` may store the row in `buffer`.
 struct Rows {
   int width, height;
   std::function<const std::uint8_t*(int y, std::vector<std::uint8_t>& buffer)> row;

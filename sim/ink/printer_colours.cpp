@@ -12,7 +12,7 @@ namespace hydroprint::ink {
 namespace {
 
 /// Limit on the size of files and of the tables that they announce. Real profiles have about 1 MiB,
-/// but the library would allocate half a GiB if a damaged header says so.
+/// but the library would allocate half a GiB if a damaged header announces it.
 constexpr std::size_t kMost_bytes = std::size_t{64} << 20;
 constexpr std::size_t kHeader_bytes = 128;
 
@@ -47,7 +47,8 @@ Status check_whole(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
-/// A private context of the library, so that nothing is global, and the objects created in it.
+/// A private context of the library, so that there is no global state, and the objects created in
+/// it.
 class PrinterColours::LittleCms {
  public:
   LittleCms() {

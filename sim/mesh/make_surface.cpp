@@ -54,7 +54,7 @@ Patchwork start(const Model& model, std::vector<int> weld, const std::vector<int
   return work;
 }
 
-/// @return true if anything was turned over (which renumbers sides)
+/// @return true if any triangle was flipped (which renumbers sides)
 bool turn_over(Patchwork& work, const std::vector<bool>& flip) {
   bool any = false;
   for (std::size_t t = 0; t < flip.size(); ++t) {
@@ -94,7 +94,7 @@ void warn_about_orientation(const Model& model, const Orientation& found, Surfac
              " of them cavities inside another): their union is used");
 }
 
-/// @return true if every edge has two faces, one each way
+/// @return true if every edge has two faces with opposite directions
 bool check_edges(const Model& model, const Edges& edges, const Patchwork& work, Surface& surface) {
   std::size_t open = 0;
   std::size_t crowded = 0;

@@ -35,7 +35,7 @@ struct DipOptions {
   double dip_speed_mm_per_s = 5;
   FilmModel film_model = FilmModel::kSheet;
   /// True to model inertia as in Algorithm 1; false for the quasistatic sheet. Inertia is slower
-  /// and gives the same result.
+  /// and yields the same result.
   bool inertia = false;
   ink::InkField ink;         ///< printed on the film; used by the sheet only
   waterline::Motion motion;  ///< the measured horizontal path; empty: straight down

@@ -47,8 +47,7 @@ std::string to_unicode_cmap(const std::map<char32_t, unsigned>& cids) {
   return out + "endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend\n";
 }
 
-/// Returns the name of a subset: six capital letters that depend on its content, and the font's
-/// name.
+/// Returns the name of a subset: six capital letters derived from its content, and the font's name.
 std::string subset_name(const std::string& font_name, const std::string& file) {
   const std::string digest = sha256(file);
   std::string out;

@@ -17,7 +17,7 @@ using Strokes = std::vector<Stroke>;
 
 constexpr double kPen_mm = 0.25;
 constexpr double kClearance_mm = 1;  ///< from the film
-constexpr double kOff_mm = 2;        ///< from the film's edge to the start of a registration mark
+constexpr double kOff_mm = 2;        ///< distance of a registration mark from the film's edge
 constexpr double kMark_mm = 5;       ///< its length
 constexpr double kBleed_mm = 0.5;    ///< around the arrow
 
@@ -37,14 +37,14 @@ Box box_of(const Strokes& strokes) {
   return box;
 }
 
-/// Draws marks on a sheet while there is room.
+/// Draws marks on a sheet while there is space.
 class Marker {
  public:
   Marker(Sheet& sheet, const Box& printable) : sheet_(sheet), space_(printable) {
     space_.take(sheet.film_mm, kClearance_mm);
   }
 
-  /// Draws marks at fixed places; those without room are left out.
+  /// Draws marks at fixed positions; those without space are dropped.
   void draw_fixed(const std::string& name, const Strokes& strokes) {
     bool all = true;
     for (const Stroke& stroke : strokes) {
@@ -59,12 +59,12 @@ class Marker {
     note(name, all);
   }
 
-  /// Returns the place of a mark that may be anywhere; nullopt if there is no room.
+  /// Finds space for a mark that may be anywhere; nullopt if there is none.
   [[nodiscard]] std::optional<Box> find_room(const Vector2d& size_mm, const Vector2d& near_mm) {
     settle();
     return space_.find(size_mm, near_mm);
   }
-  /// Draws a mark into room that was found for it.
+  /// Draws a mark in the space that was found for it.
   void draw(const Box& room, Drawing mark) {
     append(sheet_.marks, sheet_.texts, std::move(mark));
     pending_.push_back(room);
@@ -76,7 +76,7 @@ class Marker {
   }
 
  private:
-  /// Marks at fixed places may touch each other; other marks keep a distance from all of them.
+  /// Marks at fixed positions may touch each other; other marks keep a distance from all of them.
   void settle() {
     for (const Box& box : pending_) {
       const Vector2d around = Vector2d::Constant(kClearance_mm);
@@ -92,8 +92,8 @@ class Marker {
 
 Vector2d middle_of(const Box& box) { return (box.low_mm + box.high_mm) / 2; }
 
-/// Marks outside a box: below and above it at the given x, and to its left and right at the given
-/// y, both relative to its middle.
+/// Returns marks outside a box: below and above it at the given x, and to its left and right at the
+/// given y. Both are relative to its middle.
 Strokes side_marks(const Box& box, const std::vector<double>& at_x,
                    const std::vector<double>& at_y) {
   Strokes out;
@@ -111,20 +111,20 @@ Strokes side_marks(const Box& box, const std::vector<double>& at_x,
   return out;
 }
 
-/// Marks at the middle of each side, where a sliding bar is, and at the bar's two ends.
+/// Returns marks at the middle of each side, where a sliding bar is, and at both ends of the bar.
 Strokes bar_marks(const Box& film, double bar_mm) {
   std::vector<double> along = {0};
   if (bar_mm > 0) along = {-bar_mm / 2, 0, bar_mm / 2};
   return side_marks(film, along, along);
 }
 
-/// Extends both edges beyond each corner of a box.
+/// Returns marks that extend both edges beyond each corner of a box.
 Strokes corner_marks(const Box& box) {
   const Vector2d half = box.size_mm() / 2;
   return side_marks(box, {-half.x(), half.x()}, {-half.y(), half.y()});
 }
 
-/// Marks at the edges of the neighbours' windows, along the sides of this window.
+/// Returns marks at the edges of the neighbours' windows, along the sides of this window.
 Strokes join_marks(const MarkPlan& plan) {
   const Vector2d middle = middle_of(plan.window);
   std::vector<double> at_x = plan.joins_x_mm, at_y = plan.joins_y_mm;

@@ -30,7 +30,7 @@ constexpr double kBold_mm = 0.6, kThin_mm = 0.15, kLine_mm = 0.25;
 
 Vector2d turned(const Vector2d& size_mm) { return {size_mm.y(), size_mm.x()}; }
 
-/// Returns the paper in the orientation in which the film fits.
+/// Returns the size of the paper in the orientation in which the film fits.
 Result<Vector2d> sheet_for(const film::Outline& outline, const PageSettings& settings) {
   for (const Vector2d& size_mm : {settings.paper_mm, turned(settings.paper_mm)}) {
     if ((size_mm - outline.size_mm()).minCoeff() >= -1e-6) return size_mm;
@@ -138,7 +138,7 @@ std::vector<std::string> lines_of(const Placement& placement, const PageSettings
   return out;
 }
 
-/// Places text where the object is not.
+/// Places text and the ruler in the free space around the object.
 class Legend {
  public:
   Legend(Page& page, const text::Font& font, const Box& printable,
@@ -167,7 +167,7 @@ class Legend {
     return false;
   }
 
-  /// Returns what was placed; nullopt if there was no room.
+  /// Returns the placed text; nullopt if there was no space.
   [[nodiscard]] std::optional<TextBlock> add_text(const std::vector<std::string>& lines) {
     const auto of_width = [&](double width) {
       std::vector<std::string> out;
@@ -190,7 +190,7 @@ class Legend {
   FreeSpace space_;
 };
 
-/// Returns the views of `simulate`'s pictures, for an object without colours.
+/// Draws the views of `simulate`'s pictures for an object without colours.
 Result<Page> orientation_page(const mesh::Surface& surface, const Pose& X_FO,
                               const Vector2d& size_mm, const film::Outline& outline,
                               double margin_mm, const Context& context) {

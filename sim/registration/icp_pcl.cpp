@@ -43,9 +43,10 @@ Pose to_pose(const Eigen::Matrix4f& matrix) {
   return pose;
 }
 
-/// Least squares of distances along the target's normals. If the pairs do not determine the whole
-/// motion, the shortest solution is used. PCL's own estimation inverts a matrix that is singular if
-/// all pairs lie on one flat face, as is common with boards; ICP would then never turn a board.
+/// Minimises the distances along the target's normals by least squares. If the pairs do not
+/// determine the whole motion, the shortest solution is used. PCL's own estimation inverts a matrix
+/// that is singular if all pairs lie on one flat face, as is common with boards; ICP would then
+/// never rotate a board.
 class Estimation : public pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point> {
  public:
   using Base = pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point>;

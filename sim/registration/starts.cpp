@@ -57,8 +57,8 @@ Eigen::Vector3d middle(const std::vector<SurfacePoint>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Returns the given orientation, with the camera-facing part of the body at the middle of the
-/// scan.
+/// Returns a pose with the given orientation, with the camera-facing part of the body at the middle
+/// of the scan.
 Pose placed(const Eigen::Matrix3d& turn, const std::vector<SurfacePoint>& body,
             const Eigen::Vector3d& middle_C) {
   std::vector<SurfacePoint> facing;

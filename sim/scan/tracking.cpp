@@ -26,7 +26,7 @@ constexpr std::size_t kChunk = 512;
 // Limits for accepting a pose.
 constexpr double kLeastShare = 0.5;  ///< of the points that are matched
 constexpr double kMostSigma_mm = 1;
-constexpr double kMostRmsSigmas = 0.8;  ///< of the matches; smoothed frames have 0.3 to 0.4
+constexpr double kMostRmsSigmas = 0.8;  ///< limit for the matches; smoothed frames have 0.3 to 0.4
 constexpr double kStillMoves_mm = 0.2;  ///< step of the last iteration
 
 /// Normal equations for a small motion (translation, turn times kLever_mm) of matched points.
@@ -90,7 +90,7 @@ Result<Equations> match(const Match& with, const Pose& X_WC, const Context& cont
   return all;
 }
 
-/// Standard error of the motion that the matches determine worst.
+/// Returns the standard error of the motion in the direction that the matches determine worst.
 double worst_sigma_mm(const Equations& equations) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(equations.A, Eigen::EigenvaluesOnly);
   const double least = eigen.eigenvalues()[0];

@@ -15,10 +15,11 @@ using Eigen::Vector3i;
 constexpr double kNear_mm = 250;
 constexpr double kFar_mm = 2500;
 constexpr double kWidestTangent = 0.8;  ///< beyond it a lens's polynomial is not valid
-constexpr double kSaturated = 0.95;  ///< share of the truncation above which distances are unusable
-/// Largest slope of distances on a real surface, 1 / cos(66 degrees). Past the edge of a surface,
-/// positive distances seen beyond it meet negative ones assumed behind it, with a steeper slope;
-/// that zero is not a surface.
+constexpr double kSaturated =
+    0.95;  ///< fraction of the truncation above which distances are unusable
+/// Largest slope of distances on a real surface, 1 / cos(66 degrees). Beyond the edge of a surface,
+/// positive distances of the space seen there meet negative ones assumed behind the surface, with a
+/// steeper slope. That zero crossing is not a surface.
 constexpr double kSteepest = 2.5;
 constexpr int kMarkEvery_px = 4;  ///< small enough not to skip a block
 
@@ -30,7 +31,7 @@ std::size_t in_block(const Vector3i& cell) {
   return static_cast<std::size_t>(((cell.z() & 7) << 6) | ((cell.y() & 7) << 3) | (cell.x() & 7));
 }
 
-/// Reported depth at the pixel that sees a point; 0 if the point is out of view.
+/// Returns the reported depth at the pixel that sees a point; 0 if the point is out of view.
 double reported_at(const DepthFrame& frame, const Lens& lens, const Vector3d& p_C) {
   if (p_C.z() < kNear_mm ||
       std::max(std::abs(p_C.x()), std::abs(p_C.y())) > kWidestTangent * p_C.z())
@@ -50,8 +51,8 @@ bool leaps(const std::array<double, 8>& distances, double most) {
   return false;
 }
 
-/// Weight in [0, 1] of a distance in units of the truncation. Far behind a surface it is lower,
-/// because the surface may be thin or end nearby.
+/// Returns the weight in [0, 1] of a distance in units of the truncation. It is lower far behind a
+/// surface, because the surface may be thin or end nearby.
 double trust(double distance) { return std::min(1.0, 2 * (1 + distance)); }
 
 }  // namespace
@@ -134,7 +135,7 @@ std::optional<Volume::Slope> Volume::slope(const Vector3d& p_W, double reach_mm)
   return out;
 }
 
-/// Marks the blocks along the surface that a frame shows; creates missing ones.
+/// Marks the blocks along the surface in a frame; creates missing ones.
 Status Volume::mark_surface(const DepthFrame& frame, const Optics& optics, const Pose& X_WC,
                             std::vector<char>& marked) {
   const auto mark = [&](const Vector3d& p_W) {
@@ -166,8 +167,8 @@ Status Volume::mark_surface(const DepthFrame& frame, const Optics& optics, const
   return {};
 }
 
-/// Marks the blocks in front of the surface that a frame shows. They are empty now, even if earlier
-/// frames had a surface there.
+/// Marks the blocks in front of the surface in a frame. They are empty now, even if earlier frames
+/// had a surface there.
 void Volume::mark_before_surface(const DepthFrame& frame, const Optics& optics, const Pose& X_CW,
                                  std::vector<char>& marked) const {
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -219,7 +220,8 @@ Status Volume::add(const DepthFrame& frame, const Optics& optics, const DepthNoi
   });
 }
 
-/// Distance along a ray of unit direction to the first surface that it meets from the front.
+/// Returns the distance along a ray of unit direction to the first surface that it hits from the
+/// front.
 std::optional<double> Volume::first_hit_mm(const Vector3d& from, const Vector3d& along) const {
   std::optional<std::pair<double, double>> before;  // way, and the positive distance there
   for (double way = kNear_mm; way < kFar_mm;) {

@@ -152,7 +152,7 @@ bool Sheet::State::factorize() {
   return has_factor;
 }
 
-/// Conjugate gradients from the previous solution, preconditioned by the factor of an earlier
+/// Runs conjugate gradients from the previous solution, preconditioned by the factor of an earlier
 /// matrix. Returns false if a new factorisation is cheaper.
 bool Sheet::State::iterate() {
   const auto whole = matrix.selfadjointView<Eigen::Lower>();

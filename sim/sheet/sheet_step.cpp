@@ -81,7 +81,7 @@ ElementVector Step::gather(const Velocities& velocities, std::size_t triangle) c
   return out;
 }
 
-/// Returns one triangle's part of the objective as a function of its velocities: the integral of
+/// Computes one triangle's part of the objective as a function of its velocities: the integral of
 /// rho h |u - u_before|^2 / 2 + dt k |u|^2 / 2 + W(dt u). Its gradient is dt times the balance of
 /// forces.
 MembraneEnergy Step::element(std::size_t triangle, const Velocities& velocities, Strain strain,
@@ -153,7 +153,7 @@ Quadratic Step::expand(const Velocities& velocities, Strain strain, Hessian kind
   return out;
 }
 
-/// Newton's direction, which is a descent direction.
+/// Computes Newton's direction, which is a descent direction.
 /// @param value  set to the objective at `velocities`
 /// @param slope  set to the objective's derivative along the direction
 Result<VectorXd> Step::direction(const Velocities& velocities, Strain strain, double& value,

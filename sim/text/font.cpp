@@ -44,14 +44,14 @@ struct Font::Impl {
   }
   [[nodiscard]] double em() const { return face->units_per_EM; }
 
-  /// Returns an outline in the font's units; what cannot be loaded is empty. The mutex must be
-  /// held.
+  /// Returns an outline in the font's units; empty if it cannot be loaded. The mutex must be
+  /// locked.
   [[nodiscard]] FT_Outline* outline(std::uint32_t glyph) {
     if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING) != 0) return nullptr;
     return face->glyph->format == FT_GLYPH_FORMAT_OUTLINE ? &face->glyph->outline : nullptr;
   }
 
-  /// Box round an outline and how far the glyph moves the pen, in the font's units.
+  /// Bounding box of an outline, and the glyph's advance, in the font's units.
   struct Extent {
     Vector2d low = Vector2d::Zero(), high = Vector2d::Zero();
     double advance = 0;

@@ -59,7 +59,7 @@ double worst(const mesh::Surface& surface, const std::vector<double>& errors,
       .max;
 }
 
-/// @param body  its name, and the region that the scale of errors fits
+/// @param body  its name, and the region whose errors determine the scale
 Status show(const ExperimentContext& setup, Experiment& out, const NamedRegion& body,
             const Plan& plan, const pipeline::Dip& truth, const std::vector<double>& errors,
             const Context& context) {

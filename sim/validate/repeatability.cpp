@@ -42,7 +42,8 @@ class Dice {
   std::mt19937_64 engine_{kSeed};
 };
 
-/// The object's pose relative to the film, with random errors of the gripper and of the film.
+/// Returns the object's pose relative to the film, with random errors of the gripper and of the
+/// film.
 Pose drawn(const Pose& X_FO, Dice& dice) {
   const Vector3d turn =
       kGripper_deg * kDegree * Vector3d(dice.normal(), dice.normal(), dice.normal());
@@ -73,7 +74,7 @@ double scatter(const std::vector<Vector3d>& places) {
   return std::sqrt(sum / static_cast<double>(places.size() - 1));
 }
 
-/// Bilinear interpolation of values at the grid points; NaN if one of the four values is missing.
+/// Interpolates values at the grid points bilinearly; NaN if one of the four values is missing.
 double between(const std::vector<double>& values, const Vector2d& film_mm) {
   constexpr int kColumns = 2 * kAcross + 1, kRows = 2 * kAlong + 1;
   const double x = film_mm.x() / kGrid_mm + kAcross, y = film_mm.y() / kGrid_mm + kAlong;

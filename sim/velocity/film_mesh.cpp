@@ -112,7 +112,7 @@ void mark_film(Triangulation& triangulation) {
   std::deque<Triangulation::Face_handle> border = {triangulation.infinite_face()};
   nesting[triangulation.infinite_face()] = 0;
   while (!border.empty()) {
-    // Flood one level; faces behind its constraints belong to the next.
+    // Floods one level; faces behind its constraints belong to the next.
     const auto start = border.front();
     border.pop_front();
     std::vector<Triangulation::Face_handle> open = {start};
@@ -145,8 +145,8 @@ bool lies_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d&
   return false;
 }
 
-/// Limit far above the number of vertices that the sizes imply. Where two waterlines touch, the
-/// mesher would divide their edges forever.
+/// Returns a limit far above the number of vertices that the sizes imply. Where two waterlines
+/// touch, the mesher would divide their edges forever.
 std::size_t most_vertices(const film::Outline& outline,
                           const std::vector<std::vector<Eigen::Vector2d>>& waterlines,
                           const Sizing::Options& size) {

@@ -11,7 +11,7 @@ namespace hydroprint::velocity {
 namespace {
 
 constexpr double kCell_mm = 2.0;
-constexpr int kMostSteps = 8;  ///< of a walk; the grid is faster for longer walks
+constexpr int kMostSteps = 8;  ///< maximum steps of a walk; for longer walks the grid is faster
 
 struct Box {
   Eigen::Vector2d low, high;

@@ -24,7 +24,7 @@ using google::protobuf::Message;
 
 constexpr std::size_t kMaxBytes = std::size_t{16} << 20;
 
-/// References that a daemon replaces with files and values before a worker starts.
+/// References that the daemon replaces with files and values before a worker starts.
 constexpr std::array<std::string_view, 6> kReferences = {
     "simulate_job", "capture_job",        "capture_jobs",
     "calibration",  "camera_calibration", "allow_stale_calibration"};

@@ -43,10 +43,10 @@ Status show_identity(const Program& program, const v1::WhoAmIResponse& me) {
   std::cout << printable(me.user()) << " is " << client::name_of(me.role()) << " at "
             << program.server() << " (by " << printable(me.via()) << ")" << std::endl;
   if (!me.accounts()) {
-    std::cout
-        << "There are no users yet: everybody on that machine is admin. Add the first user with "
-           "'hydroprint users add NAME --role ADMIN'."
-        << std::endl;
+    std::cout << "There are no users yet: every caller on that machine is an admin. Add the first "
+                 "user with "
+                 "'hydroprint users add NAME --role ADMIN'."
+              << std::endl;
   }
   return {};
 }

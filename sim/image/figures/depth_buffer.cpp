@@ -56,8 +56,8 @@ Corners flat(const std::array<Eigen::Vector3d, 3>& corners) {
   return {corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()};
 }
 
-/// Calls visit(x, y, towards) for every sample inside a triangle; `towards` is its position along
-/// the view.
+/// Calls visit(x, y, towards) for every sample inside a triangle; `towards` is the position of the
+/// sample along the view.
 /// @param corners  x and y in samples, z along the view
 template <class Visit>
 void for_each_place(const std::array<Eigen::Vector3d, 3>& corners, const Window& window,

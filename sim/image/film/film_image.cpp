@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kBlock_px = 64;
 constexpr int kSamples = 4;
-/// A rotated grid: no two samples in one row or column, so that edges near either axis are smooth.
+/// A rotated grid: no two samples are in one row or column, so edges near either axis are smooth.
 const std::array<Eigen::Vector2d, kSamples> kOffsets = {
     Eigen::Vector2d(-0.125, -0.375), Eigen::Vector2d(0.375, -0.125), Eigen::Vector2d(0.125, 0.375),
     Eigen::Vector2d(-0.375, 0.125)};
@@ -39,7 +39,7 @@ const std::array<Eigen::Vector2d, kAllSamples + 1>& mean_offsets() {
   return offsets;
 }
 
-/// How far beyond a tile's edge its colours are used, as a share of its size.
+/// Distance beyond a tile's edge up to which its colours are used, relative to its size.
 constexpr double kBeyondEdge = 0.5;
 
 /// Returns the point at which a pixel's colour is looked up, once for all its samples. It is the

@@ -31,7 +31,7 @@ tl::unexpected<Error> corrupt(const std::string& name, const std::string& why) {
               name + ": truncated or corrupt image (" + first_line(why) + "). Get the file again");
 }
 
-/// How the channels of a file form a texel.
+/// How the channels of a file are combined to a texel.
 struct Layout {
   int channels = 3;
   int alpha = -1;  ///< channel, -1: none
@@ -263,8 +263,8 @@ Result<std::vector<unsigned char>> encode_tiff(const std::string& name, const Pr
   spec.attribute("XResolution", static_cast<float>(dpi));
   spec.attribute("YResolution", static_cast<float>(dpi));
   spec.attribute("ResolutionUnit", "in");
-  // If it is missing, the library writes the current time. This is Exif's unknown time (2.3, tag
-  // 306).
+  // Without this attribute, the library writes the current time. This is Exif's unknown time (2.3,
+  // tag 306).
   spec.attribute("DateTime", "    :  :     :  :  ");
   if (image.channels == 4) {
     spec.channelnames = {"C", "M", "Y", "K"};
@@ -285,7 +285,8 @@ Result<std::vector<unsigned char>> encode_exr(const std::string& name, int width
   ImageSpec spec(width, height, static_cast<int>(channels.size()), TypeDesc::FLOAT);
   spec.channelnames = channels;
   spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // else the time of writing; equal images must give equal files
+  spec.attribute("DateTime",
+                 "");  // otherwise the time of writing; equal images must yield equal files
   return encode(name, "openexr", spec, TypeDesc::FLOAT, values.data());
 }
 

@@ -67,7 +67,7 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
     }
     const std::int64_t length = big_endian(head.data(), 4);
     const bool is_last = std::memcmp(head.data() + 4, "IEND", 4) == 0;
-    // A wrong checksum after the very last chunk does no harm.
+    // A wrong checksum after the last chunk does no harm.
     if (is_last) return {};
     if (at + 12 + length > bytes.size || !is_chunk_sound(bytes, at, length)) {
       return fail(Code::kDataLoss, at_byte(name, at) +
@@ -150,8 +150,8 @@ Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_siz
                                        std::to_string(kMaxImageArea_px / 1'000'000) +
                                        " million in all. Scale the image down");
   }
-  // Deflate compresses at most 1032 to 1, here at least one bit per pixel; the other formats less
-  // than 5000 to 1.
+  // Deflate compresses at most 1032 to 1, and here a pixel has at least one bit; the other formats
+  // compress less than 5000 to 1.
   const std::int64_t pixels_per_byte = format == Format::kPng ? 8 * 1032 : 8 * 5000;
   if (width * height / pixels_per_byte > file_size) {
     return fail(Code::kDataLoss, name + ", header: announces " + size + " in a file of " +

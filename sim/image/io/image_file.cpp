@@ -13,7 +13,7 @@
 namespace hydroprint::image {
 namespace {
 
-/// Loads the module, which lies beside the program, on first use.
+/// Loads the module, which is in the same folder as the program, on first use.
 Result<const ImageCodecs*> codecs() {
   static const auto symbol = module_symbol("hydroprint-image-codecs.so", "hydroprint_image_codecs");
   if (!symbol) return tl::unexpected(symbol.error());

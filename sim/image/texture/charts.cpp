@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kRings = 16;
 constexpr double kMaxCover = 64;
-/// Charts that share more than this part of their texels with others overlap on purpose; a smaller
-/// part is rounding along a common border.
+/// If a chart shares more than this fraction of its texels with other charts, they overlap on
+/// purpose; a smaller fraction is due to rounding along a common border.
 constexpr double kSharedPart = 0.02;
 
 class UnionFind {
@@ -51,7 +51,8 @@ std::uint64_t corner_hash(const UvTriangle& triangle, int corner) {
   return hash;
 }
 
-/// Per triangle, the number of its connected piece: 0, 1, ... in order of their first triangles.
+/// Returns for each triangle the number of its connected piece: 0, 1, ... in order of their first
+/// triangles.
 std::vector<int> connected_pieces(const std::vector<UvTriangle>& triangles, int& count) {
   std::vector<std::pair<std::uint64_t, int>> edges;
   edges.reserve(3 * triangles.size());
@@ -135,8 +136,8 @@ double cover(const std::vector<UvTriangle>& triangles) {
 
 std::uint16_t id_of(int piece) { return static_cast<std::uint16_t>(1 + piece % 65535); }
 
-/// Marks the texels of every piece and unites pieces that overlap.
-/// @return per id (1 ... 65535), the id of its united chart
+/// Marks the texels of every piece and merges pieces that overlap.
+/// @return for each id (1 ... 65535), the id of the merged chart
 std::vector<std::uint16_t> mark(const std::vector<UvTriangle>& triangles,
                                 const std::vector<int>& piece_of, int pieces,
                                 const Marker& marker) {
@@ -162,7 +163,7 @@ std::vector<std::uint16_t> mark(const std::vector<UvTriangle>& triangles,
       marker.for_each(triangles[t], [&](const Texel& texel) { same.unite(texel.chart, id); });
     }
     if (count.all > 0) continue;
-    // The triangle is too slim to contain a texel's centre: it gets the unmarked texels that it
+    // The triangle is too slim to contain a texel's centre, so it gets the unmarked texels that it
     // touches.
     const auto& uv = triangles[t].uv;
     for (const Eigen::Vector2d& point : {uv[0], uv[1], uv[2]}) {
@@ -192,7 +193,7 @@ void for_each_neighbour(const Texels& image, std::size_t at, Visit&& visit) {
   }
 }
 
-/// Grows all charts into the background, in step, by one ring of texels at a time.
+/// Extends all charts into the background, simultaneously, by one ring of texels at a time.
 void dilate(Texels& image) {
   std::vector<std::size_t> frontier;
   for (std::size_t i = 0; i < image.texels.size(); ++i) {

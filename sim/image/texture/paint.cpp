@@ -137,7 +137,7 @@ class PaintLoader {
     return {};
   }
 
-  /// Returns the ink for triangles whose material states no colour.
+  /// Returns the ink for triangles whose material defines no colour.
   Ink fallback() {
     if (model_.vertex_colours.empty()) return {};
     if (paint_.vertex_colours_.empty()) {
@@ -150,8 +150,8 @@ class PaintLoader {
   }
 
   Status gather_materials() {
-    // Ink 0 is the fallback, 1 + 2 m that of material m, and 2 + 2 m that of material m without
-    // coordinates.
+    // Ink 0 is the fallback, ink 1 + 2 m is that of material m, and ink 2 + 2 m that of material m
+    // without coordinates.
     const std::size_t materials = model_.materials.size();
     paint_.inks_.assign(1 + 2 * materials, fallback());
     std::vector<bool> is_ready(materials, false);
@@ -172,7 +172,7 @@ class PaintLoader {
     const mesh::Material& material = model_.materials[m];
     Ink& with_uvs = paint_.inks_[1 + 2 * m];
     Ink& without_uvs = paint_.inks_[2 + 2 * m];
-    // Exporters write plain white if the vertices carry the colour.
+    // Exporters write plain white if the colours are those of the vertices.
     const bool is_white = material.colour == Eigen::Vector3f::Ones();
     if (material.has_colour && !(is_white && !model_.vertex_colours.empty())) {
       without_uvs = {Ink::Kind::kColour, linear_from_srgb(material.colour), -1};
@@ -293,7 +293,7 @@ class PaintLoader {
   Paint paint_;
   std::vector<Pending> pending_;
   std::int64_t area_px_ = 0;
-  /// A texture and how it is used: path, content if embedded, wrap modes.
+  /// A texture and its use: path, content if embedded, wrap modes.
   using Key = std::tuple<std::filesystem::path, std::size_t, mesh::Wrap, mesh::Wrap>;
   std::map<Key, int> known_;
 };

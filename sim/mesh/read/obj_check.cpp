@@ -31,7 +31,7 @@ class ObjChecker {
   }
 
  private:
-  /// Largest index so far and its line; the element may be defined further down.
+  /// Largest index so far and its line. The element may be defined later in the file.
   struct Largest {
     std::int64_t index = 0;
     std::size_t line = 0;

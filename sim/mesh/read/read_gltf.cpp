@@ -109,8 +109,8 @@ class GltfImporter {
     model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
   }
 
-  /// Returns the root nodes: of the default scene, else of the first, else every node that is not a
-  /// child.
+  /// Returns the root nodes: those of the default scene, else of the first scene, else all nodes
+  /// that are not children.
   [[nodiscard]] std::vector<int> roots() const {
     const auto* scene = entry(source_.scenes, std::max(source_.defaultScene, 0));
     if (scene != nullptr) return scene->nodes;
@@ -341,8 +341,8 @@ class GltfImporter {
   std::size_t morphing_ = 0;
 };
 
-/// Limits the importer to buffers below the model's folder. It is compiled so that it does not open
-/// images; the texture loader opens the one that is needed.
+/// Restricts the importer to buffers below the model's folder. It is compiled without support for
+/// images; the texture loader opens the images that are needed.
 tinygltf::FsCallbacks file_access(std::filesystem::path& folder) {
   tinygltf::FsCallbacks callbacks{};
   callbacks.user_data = &folder;
@@ -385,7 +385,7 @@ Result<Model> read_gltf(std::string bytes, const std::filesystem::path& path,
   HP_RETURN_IF_ERROR(check_cancelled(context));
   const auto size = static_cast<unsigned int>(bytes.size());
   if (size != bytes.size()) return bad_input(path, "", "is too large; simplify the model");
-  bytes.append(64, '\0');  // the importer's check of the last chunk is eight bytes off
+  bytes.append(64, '\0');  // the importer's check of the last chunk is off by eight bytes
 
   std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   tinygltf::TinyGLTF loader;

@@ -27,7 +27,7 @@ constexpr double kLeastTilt_rad = 25 * std::numbers::pi / 180;
 constexpr double kLeastRange = 0.15;
 
 double across(const scan::Cloud& cloud, const std::vector<int>& piece) {
-  // The largest distance between the two extreme points along any of several directions.
+  // The distance between the two extreme points, maximised over several directions.
   double most = 0;
   constexpr int kDirections = 24;
   for (int i = 0; i < kDirections; ++i) {
@@ -62,8 +62,8 @@ std::vector<scan::ScanPoint> one_a_patch(const scan::Cloud& cloud, const std::ve
   return out;
 }
 
-/// The board's plates slope away from its ridge, so normals vary most across it. That determines
-/// the board's orientation up to half a turn.
+/// The board's plates slope away from its ridge, so normals vary most across the ridge. This
+/// determines the board's orientation up to half a turn.
 std::array<Pose, 2> by_its_bend(const std::vector<scan::ScanPoint>& points, const Shape& board) {
   // Weighted by area on the board, not in the image.
   double area = 0;

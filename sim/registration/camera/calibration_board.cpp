@@ -30,8 +30,8 @@ mesh::Surface rectangle(double x0, double y0, double x1, double y1) {
 
 double row_at(int row) { return kPitch_mm * (row - (kRows - 1) / 2.0); }
 
-/// Pyramids of one row with the plate between them. The plate is open below the pyramids, where it
-/// is not visible and must not be paired with scan points.
+/// Returns the pyramids of one row with the plate between them. The plate is open below the
+/// pyramids, because it is not visible there and must not be paired with scan points.
 mesh::Surface row_of(int row, int columns) {
   const double y = row_at(row), y0 = y - kPyramid_mm / 2, y1 = y + kPyramid_mm / 2;
   mesh::Surface out;

@@ -17,7 +17,7 @@ constexpr std::size_t kFewestMarkers = 3;
 constexpr std::size_t kSightSamples = 600;
 constexpr double kSight_mm = 8;
 constexpr double kHiddenShare = 0.5;
-constexpr double kMoved_mm = 40;  ///< a marker found this near to a place belongs there
+constexpr double kMoved_mm = 40;  ///< a marker found within this distance of a place belongs there
 constexpr double kWeak_mm = 5;
 
 std::string in_mm(double value) {
@@ -26,8 +26,7 @@ std::string in_mm(double value) {
   return buffer;
 }
 
-/// Returns the pyramids that are used, at their places in the layout, as one body in the film
-/// frame.
+/// Returns the used pyramids, at their places in the layout, as one body in the film frame.
 Shape body_of(const MarkerLayout& layout, const Matching& matching) {
   mesh::Surface all;
   for (std::size_t a = 0; a < layout.markers.size(); ++a) {

@@ -109,7 +109,7 @@ class Finder {
                 "NOT_THIS_OBJECT");
   }
 
-  /// Returns the largest connected piece of points off the mesh, as a share of the scan.
+  /// Returns the largest connected piece of points off the mesh, as a fraction of the scan.
   [[nodiscard]] double other_share(const Candidate& candidate, const scan::Cloud& cloud) const {
     std::vector<bool> off(cloud.points.size());
     const Pose X_BC = candidate.fit.X_CB.inverse();
@@ -147,8 +147,8 @@ class Finder {
     return out;
   }
 
-  /// Of the candidates about as good as the best, chooses the one turned least from the nominal
-  /// pose.
+  /// Of the candidates that are about as good as the best, returns the one with the smallest
+  /// rotation from the nominal pose.
   [[nodiscard]] const Candidate& choose(const std::vector<Candidate>& tried) const {
     double least = 1e9;
     for (const Candidate& c : tried) least = std::min(least, c.mismatch());

@@ -10,7 +10,8 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr std::size_t kSamples = 1000;
-constexpr double kLeast = 0.4, kMost = 1.25;  ///< size of a scan over that of its object
+constexpr double kLeast = 0.4,
+                 kMost = 1.25;  ///< limits for the size of a scan relative to its object
 
 struct Unit {
   double mm;
@@ -18,8 +19,8 @@ struct Unit {
 };
 constexpr std::array kUnits{Unit{1000, "metres"}, Unit{25.4, "inches"}, Unit{10, "centimetres"}};
 
-/// Approximate diameter: takes the point farthest from the middle, and returns the largest distance
-/// of another point from it.
+/// Returns the approximate diameter: the largest distance from the point that is farthest from the
+/// middle.
 double across(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   for (const auto& p : points) from += p / static_cast<double>(points.size());

@@ -19,8 +19,8 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
-/// Returns the names of a choice on the command line: "sheet" for MODEL_SHEET. The first value of
-/// each enum (MODEL_UNSPECIFIED) has no name there.
+/// Returns the names of an enum's values on the command line: "sheet" for MODEL_SHEET. The first
+/// value (MODEL_UNSPECIFIED) has no name there.
 std::vector<std::string> choices(const google::protobuf::EnumDescriptor& type) {
   const std::string& unspecified = type.value(0)->name();
   const std::size_t prefix = unspecified.size() - std::string("UNSPECIFIED").size();
