@@ -25,7 +25,7 @@ std::string_view take(std::string_view& text, char separator) {
   return trimmed(part);
 }
 
-/// Returns the cells of a line: one more than it has separators; none for an empty line.
+/// Returns the cells of a line: one more than it has separators; no cells for an empty line.
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   if (line.empty()) return cells;

@@ -12,8 +12,8 @@ namespace hydroprint::scan {
 namespace {
 
 constexpr double kDarkShare = 0.02;  ///< the image is black if fewer pixels have a depth
-constexpr double kUnsteadyShare =
-    0.05;  ///< fraction of pixels that may vary beyond the noise, at edges
+/// Fraction of pixels that may vary beyond the noise, at edges.
+constexpr double kUnsteadyShare = 0.05;
 constexpr double kUnsteadySigmas = 2.5;
 constexpr double kOutlierSigmas = 4;
 constexpr double kMadToSigma = 1.4826;

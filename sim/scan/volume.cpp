@@ -15,8 +15,8 @@ using Eigen::Vector3i;
 constexpr double kNear_mm = 250;
 constexpr double kFar_mm = 2500;
 constexpr double kWidestTangent = 0.8;  ///< beyond it a lens's polynomial is not valid
-constexpr double kSaturated =
-    0.95;  ///< fraction of the truncation above which distances are unusable
+/// Fraction of the truncation above which distances are unusable.
+constexpr double kSaturated = 0.95;
 /// Largest slope of distances on a real surface, 1 / cos(66 degrees). Beyond the edge of a surface,
 /// positive distances of the space seen there meet negative ones assumed behind the surface, with a
 /// steeper slope. That zero crossing is not a surface.

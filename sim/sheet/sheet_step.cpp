@@ -24,8 +24,8 @@ constexpr int kMostHalvings = 30;
 /// Largest change in the last full Newton step, relative to the largest velocity. The remaining
 /// relative error is about its square.
 constexpr double kTolerance = 1e-7;
-constexpr double kLeastDecrease =
-    1e-4;  ///< least decrease in the line search, relative to the slope
+/// Least decrease in the line search, relative to the slope.
+constexpr double kLeastDecrease = 1e-4;
 
 /// Second-order expansion of the objective in the velocities of the free nodes.
 struct Quadratic {

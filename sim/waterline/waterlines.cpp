@@ -11,8 +11,8 @@
 namespace hydroprint::waterline {
 namespace {
 
-constexpr double kEdgeMargin_mm =
-    0.05;  ///< points within this distance of the film's edge count as having reached it
+/// Points within this distance of the film's edge count as having reached it.
+constexpr double kEdgeMargin_mm = 0.05;
 constexpr double kLeastIsland_mm2 = 0.2;  ///< smaller contours may come and go unresolved
 constexpr std::size_t kMostWaterlines = 3000;
 

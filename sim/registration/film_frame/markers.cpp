@@ -31,8 +31,8 @@ constexpr double kMostSigmas = 1.8;
 constexpr double kLeastPaired = 0.75;
 constexpr double kSurelyPaired = 0.9;
 constexpr double kSame_mm = 20;
-constexpr double kAny_mm =
-    1e3;  ///< ensures that no direction is weak, because there is no nominal pose
+/// Ensures that no direction is weak, because there is no nominal pose.
+constexpr double kAny_mm = 1e3;
 
 /// Data that all candidates share.
 struct Search {

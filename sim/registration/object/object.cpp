@@ -27,8 +27,8 @@ constexpr double kLeastOn = 0.85;
 constexpr double kMostThrough = 0.12;
 constexpr double kMostMisfit_mm = 1;
 constexpr double kAsGood = 0.03;
-constexpr double kOtherShare =
-    0.08;  ///< share of the points in one piece that means a second object
+/// Share of the points in one piece that means a second object.
+constexpr double kOtherShare = 0.08;
 constexpr double kOtherJump_mm = 12;
 constexpr double kMostlySeen = 0.6;
 constexpr double kOutOfView = 0.15;

@@ -10,8 +10,8 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr std::size_t kSamples = 1000;
-constexpr double kLeast = 0.4,
-                 kMost = 1.25;  ///< limits for the size of a scan relative to its object
+/// Limits for the size of a scan relative to its object.
+constexpr double kLeast = 0.4, kMost = 1.25;
 
 struct Unit {
   double mm;
