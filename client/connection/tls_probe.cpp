@@ -100,7 +100,7 @@ std::string words_for(long verdict, const X509& certificate, const ServerAddress
     default:
       return "its TLS certificate is not signed by a trusted authority (" +
              std::string(X509_verify_cert_error_string(verdict)) +
-             "); give that authority's certificate with --ca FILE (HYDROPRINT_CA)";
+             "); specify that authority's certificate with --ca FILE (HYDROPRINT_CA)";
   }
 }
 

@@ -48,7 +48,7 @@ Result<std::string> talk(const std::filesystem::path& control, const std::string
   }
   if (reply.empty()) {
     return fail(Code::kUnavailable, control.string() +
-                                        ": no virtual rig answers there; give the path that "
+                                        ": no virtual rig responds there; use the path that "
                                         "hydroprint-virtual-rig has as --control");
   }
   if (!reply.starts_with("error: ")) return reply;

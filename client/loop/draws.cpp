@@ -15,7 +15,7 @@
 namespace hydroprint::loop {
 namespace {
 
-constexpr double kHeldTilt_deg = 30;  // of the paper's board
+constexpr double kHeldTilt_deg = 30;  // tilt of the paper's board
 
 /// Random numbers in [-1, 1) that are identical on every platform: the distributions of the
 /// standard library differ between implementations.
@@ -53,7 +53,7 @@ double lowest_mm(const Body& body, const Pose& X_AO) {
 Result<Body> make_body(const std::string& name) {
   Body out{name, Eigen::Matrix3d::Identity(), name == "sphere80", {}};
   if (name != "board" && name != "sphere80") {
-    return fail(Code::kInvalidArgument, "unknown sample '" + name + "'; give board or sphere80");
+    return fail(Code::kInvalidArgument, "unknown sample '" + name + "'; use board or sphere80");
   }
   if (name == "board") {
     // Rotates the board so that the camera, at the near side, sees two upright faces. From the

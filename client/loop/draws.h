@@ -19,7 +19,7 @@ struct Body {
   Eigen::Matrix3d nominal_turn;  ///< nominal orientation, F
   /// a sphere: a scan cannot measure its rotation, so that stays nominal
   bool is_round = false;
-  std::vector<Eigen::Vector3d> points;  ///< of its mesh, O
+  std::vector<Eigen::Vector3d> points;  ///< vertices of its mesh, O
 };
 
 /// Creates the object "board" (held at 30 degrees, as in section 7.1) or "sphere80". Errors:
@@ -32,13 +32,13 @@ struct Truth {
   Pose X_GO = Pose::Identity();   ///< pose of the object in the gripper (origin: its lower end)
   Eigen::Vector2d slope{0, 0};    ///< horizontal motion of the axis for each mm down
   Eigen::Vector2d film_mm{0, 0};  ///< displacement of the film
-  double printer_scale = 1;       ///< of the printed image
+  double printer_scale = 1;       ///< scale of the printed image
 };
 
-inline constexpr double kMostTilt_deg = 5;     ///< of the object
-inline constexpr double kMostShift_mm = 4;     ///< of the object, in each direction
-inline constexpr double kMostSlope_deg = 0.2;  ///< of the axis, from vertical
-inline constexpr double kMostFilm_mm = 0.3;    ///< of the film's placement
+inline constexpr double kMostTilt_deg = 5;     ///< maximum tilt of the object
+inline constexpr double kMostShift_mm = 4;     ///< maximum shift of the object in each direction
+inline constexpr double kMostSlope_deg = 0.2;  ///< maximum deviation of the axis from vertical
+inline constexpr double kMostFilm_mm = 0.3;    ///< maximum displacement of the film
 inline constexpr double kMostScale = 0.001;    ///< deviation of the printer's scale from 1
 
 /// Draws the truth with number `index` for a seed; deterministic.

@@ -152,7 +152,7 @@ class Unpacked {
   }
 
   std::filesystem::path file_, folder_;
-  std::map<std::string, std::string> hashes_;  // by name
+  std::map<std::string, std::string> hashes_;  // hash of each file, by name
 };
 
 // Returns whether the folder is empty, apart from the lock and the remains of an interrupted

@@ -58,7 +58,7 @@ struct Caller {
   std::string via;            ///< "session", "key 0a1b...", "loopback"
   std::string session;        ///< id of the session; empty if there is none
   bool is_user = true;        ///< false: there are no users, and callers on this machine are admins
-  Credentials credentials{};  ///< as received
+  Credentials credentials{};  ///< credentials as received
 };
 
 }  // namespace hydroprint::auth

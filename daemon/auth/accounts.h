@@ -170,8 +170,8 @@ class Accounts {
   std::recursive_mutex writing_;  // locked while rows change; never needed to identify a caller
   mutable std::mutex now_;        // protects the members below; locked only briefly
   std::map<std::string, User> users_;
-  std::map<std::string, ApiKey> keys_;                 // by id
-  std::unordered_map<std::string, Session> sessions_;  // by token hash
+  std::map<std::string, ApiKey> keys_;                 // keyed by id
+  std::unordered_map<std::string, Session> sessions_;  // keyed by token hash
 };
 
 /// Returns SPEC_INVALID for an invalid user name (ID_INVALID if `field` is "name").

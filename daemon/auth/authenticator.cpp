@@ -33,7 +33,7 @@ tl::unexpected<Error> sign_in_needed(const auth::Credentials& credentials) {
   return fail(Code::kUnauthenticated,
               has_some ? "the API key or session is no longer valid; sign in again, or "
                          "create another API key"
-                       : "sign-in required; sign in (hydroprint login), or give an API key",
+                       : "sign-in required; sign in (hydroprint login), or send an API key",
               "SIGN_IN_NEEDED");
 }
 

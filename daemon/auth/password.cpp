@@ -29,8 +29,8 @@ struct Passwords::Impl {
   PasswordCost cost;
   Permits permits{2};
   std::once_flag once;
-  std::string
-      nobodys;  // hash to compare with if a user has no password, so that the check takes as long
+  // Hash to compare with if a user has no password, so that the check takes as long.
+  std::string nobodys;
 };
 
 namespace {

@@ -55,7 +55,7 @@ class RoleCheck {
 
   const Authenticator* authenticator_;
   OnRefusal on_refusal_;
-  std::map<std::string, Rule, std::less<>> rules_;  // by method
+  std::map<std::string, Rule, std::less<>> rules_;  // keyed by method
 };
 
 }  // namespace hydroprint::daemon

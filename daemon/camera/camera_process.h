@@ -51,9 +51,9 @@ class CameraProcess {
   ChildProcess process_;
   Time heard_;
   std::optional<Time> kill_at_;  ///< set if it was asked to end
-  bool silent_ = false;          ///< it was killed because it was silent
+  bool silent_ = false;          ///< the process was killed because it sent nothing for too long
   bool talks_ = true;            ///< its pipe is open, and all messages were well-formed
-  std::string said_;             ///< not yet a complete picture
+  std::string said_;             ///< received bytes of an incomplete picture
   std::string words_;
   std::optional<int> wait_status_;
 };

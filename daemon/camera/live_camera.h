@@ -85,7 +85,7 @@ class LiveCamera {
   std::int64_t lent_to_ = 0;          // job id; 0: not lent
   Time wanted_until_, again_, came_;  // came_: time of the picture
   std::optional<LivePicture> picture_;
-  std::optional<Error> failure_;  // of the latest attempt, while a client watches
+  std::optional<Error> failure_;  // failure of the latest attempt, while a client watches
   int waiting_ = 0;
   bool stopping_ = false;
   std::thread thread_;  // starts the process, which is killed when the thread ends

@@ -40,7 +40,7 @@ inline constexpr double kLeastClearance_mm = 1;
 /// Positions of the axis for a dip; positive is down.
 struct Ways {
   double clear_mm = 0;   ///< above the water, where the descent begins
-  double bottom_mm = 0;  ///< at full depth
+  double bottom_mm = 0;  ///< position at full depth
   double up_mm = 0;      ///< end of the retraction: the loading position, or the clearance
 };
 
@@ -67,9 +67,9 @@ struct Ways {
 
 /// Progress of a dip, and its earliest end.
 struct Outlook {
-  double fraction = 0;       ///< of the whole dip, [0, 1]
-  double step_fraction = 0;  ///< of the step, [0, 1]
-  double remaining_s = 0;    ///< if the operator confirms without delay
+  double fraction = 0;       ///< progress of the whole dip, [0, 1]
+  double step_fraction = 0;  ///< progress of the step, [0, 1]
+  double remaining_s = 0;    ///< time left if the operator confirms without delay
 };
 [[nodiscard]] Outlook outlook(const Stand& stand, double time_s, const Plan& plan,
                               const std::optional<Ways>& ways, double acceleration_mm_per_s2);

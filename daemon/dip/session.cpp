@@ -30,7 +30,7 @@ constexpr milliseconds kFlushInterval{250};
 constexpr std::chrono::seconds kStoreAgainAfter{1};
 // Timeout for reaching standstill after the computed end of the motion.
 constexpr double kRestMargin_s = 1;
-constexpr std::size_t kMostSamples = 500'000;  // of the descent, for its speed
+constexpr std::size_t kMostSamples = 500'000;  // samples of the descent kept for its speed
 constexpr std::size_t kLargestRecord = 16 << 20;
 
 JobState job_state(const dip::Stand& stand) {

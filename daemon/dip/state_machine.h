@@ -65,7 +65,7 @@ struct Event {
   enum class Kind : std::uint8_t {
     kTick,     ///< time passes
     kConfirm,  ///< the operator has completed `step`
-    kAtDepth,  ///< the descent has arrived
+    kAtDepth,  ///< the descent has reached the depth
     kRising,   ///< the retraction has begun
     /// The motion is complete: the rise of kClear, or the whole dip from descent to retraction.
     kMotionDone,
@@ -79,7 +79,7 @@ struct Event {
   };
   Kind kind = Kind::kTick;
   double time_s = 0;
-  Step step = Step::kPrintFilm;  ///< for kConfirm
+  Step step = Step::kPrintFilm;  ///< the confirmed step, for kConfirm
   double position_mm = 0;        ///< axis position; for kTick and kConfirm
 };
 

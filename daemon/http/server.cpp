@@ -8,8 +8,8 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kStopPatience{2000};
-constexpr int kMostTurnedAway =
-    64;  // simultaneous replies; further connections are closed without one
+// Maximum of simultaneous replies; further connections are closed without a reply.
+constexpr int kMostTurnedAway = 64;
 
 }  // namespace
 

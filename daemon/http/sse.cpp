@@ -9,7 +9,7 @@
 namespace hydroprint::http {
 namespace {
 
-constexpr milliseconds kEndPatience{5000};  // for a cancelled call to end
+constexpr milliseconds kEndPatience{5000};  // time for a cancelled call to end
 
 Response event_stream() {
   Response response;

@@ -36,7 +36,7 @@ class StaticFiles {
   };
   [[nodiscard]] const File* find(std::string_view path) const;
 
-  std::map<std::string, File, std::less<>> files_;  // by path: "/assets/app-3f.js"
+  std::map<std::string, File, std::less<>> files_;  // keyed by path: "/assets/app-3f.js"
 };
 
 }  // namespace hydroprint::http

@@ -11,7 +11,7 @@
 namespace hydroprint::http {
 namespace {
 
-constexpr milliseconds kStorePatience{60'000};  // for a slow disk
+constexpr milliseconds kStorePatience{60'000};  // time allowed for a slow disk
 const std::string kUploadChunk = "/hydroprint.v1.AssetService/UploadChunk";
 const std::string kGetUpload = "/hydroprint.v1.AssetService/GetUpload";
 

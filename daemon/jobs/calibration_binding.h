@@ -29,8 +29,8 @@ namespace hydroprint::daemon {
 
 /// Why a calibration cannot be used for a mesh now; empty if it can.
 struct Objection {
-  std::string words;  ///< for display
-  std::string names;  ///< for programs: "MOVED,OTHER_OBJECT"
+  std::string words;  ///< text for display
+  std::string names;  ///< names for programs: "MOVED,OTHER_OBJECT"
   void add(const std::string& why, const std::string& name);
 };
 [[nodiscard]] Objection objection(const v1::Calibration& calibration, const v1::InputFile& mesh);

@@ -64,10 +64,10 @@ Result<std::vector<InputFile>> input_files(const Message& spec, const std::strin
   };
   HP_RETURN_IF_ERROR(each_file(spec, add));
   if (const std::string name = ambiguous_name(out); !name.empty()) {
-    return fail(
-        Code::kInvalidArgument,
-        path + ": the name \"" + name + "\" is used for two files; give each file its own name",
-        "NAME_INVALID");
+    return fail(Code::kInvalidArgument,
+                path + ": the name \"" + name +
+                    "\" is used for two files; use a different name for each file",
+                "NAME_INVALID");
   }
   return out;
 }

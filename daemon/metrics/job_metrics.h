@@ -44,8 +44,8 @@ class JobMetrics {
   JobStore& jobs_;
   mutable std::mutex mutex_;
   std::map<std::int64_t, Seen> open_;
-  std::map<std::pair<std::string, std::string>, Spent> spent_;          // by kind and stage
-  std::map<std::pair<std::string, std::string>, std::uint64_t> ended_;  // by kind and outcome
+  std::map<std::pair<std::string, std::string>, Spent> spent_;          // keyed by kind and stage
+  std::map<std::pair<std::string, std::string>, std::uint64_t> ended_;  // keyed by kind and outcome
   std::atomic<bool> end_{false};
   std::thread thread_;
 };

@@ -17,7 +17,7 @@ namespace hydroprint::daemon {
 struct PrintPlan {
   std::string print_image_job;  ///< "jobs/7"
   std::filesystem::path pdf;
-  std::string sha256;  ///< of the PDF
+  std::string sha256;  ///< hash of the PDF
   int pages = 1;
   Eigen::Vector2d paper_mm = {210, 297};  ///< the shorter side first, as in the tray
   double margin_mm = 0;                   ///< the printer's margin, as assumed by print-image

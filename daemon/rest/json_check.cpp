@@ -27,10 +27,10 @@ enum class ValueKind { kNull, kBool, kNumber, kString, kObject, kList };
 
 // An object or list that is still open.
 struct Level {
-  const pb::Descriptor* message =
-      nullptr;  // type that the object represents; null for a map or a list
-  const pb::FieldDescriptor* field =
-      nullptr;  // field of the next value, once its key has been read
+  // Type that the object represents; null for a map or a list.
+  const pb::Descriptor* message = nullptr;
+  // Field of the next value, once its key has been read.
+  const pb::FieldDescriptor* field = nullptr;
   bool is_list = false;
   std::size_t count = 0;            // number of list values so far
   std::string name = {};            // name of the object's next value
@@ -182,7 +182,7 @@ class Checker : public nlohmann::json_sax<json> {
     if (levels_.empty()) return kind == ValueKind::kObject || refuse("must be an object, { }");
     const Level& level = levels_.back();
     const pb::FieldDescriptor& field = *level.field;
-    const bool is_one = level.is_list || level.message == nullptr;  // of a list or map
+    const bool is_one = level.is_list || level.message == nullptr;  // one value of a list or map
     if (kind == ValueKind::kNull) return !is_one || refuse("must not be null");
     if (field.is_repeated() && !field.is_map() && !level.is_list) {
       return kind == ValueKind::kList || refuse("must be a list, [ ]");

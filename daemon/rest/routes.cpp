@@ -61,7 +61,7 @@ Status check_method(const pb::MethodDescriptor& method) {
   }
   std::set<const pb::Descriptor*> seen;
   if (holds_anything(*method.input_type(), seen)) {
-    return refuse(method, "the request holds Any, Struct, Value or ListValue");
+    return refuse(method, "the request contains Any, Struct, Value or ListValue");
   }
   return {};
 }

@@ -48,7 +48,7 @@ struct AssetStoreOptions {
   std::int64_t upload_expires_ms = 24LL * 3600 * 1000;
   std::int64_t min_free_bytes = 512LL << 20;
   std::int64_t keep_unused_ms = 30LL * 24 * 3600 * 1000;  ///< 0: for ever
-  Quota quota = {};                                       ///< for each owner
+  Quota quota = {};                                       ///< quota of each owner
 };
 
 /// Stores assets and uploads. An asset exists once its row exists, which is written after the bytes

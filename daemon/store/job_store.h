@@ -43,7 +43,7 @@ struct JobStoreOptions {
   std::int64_t max_queued = 1000;
   std::int64_t keep_finished_ms = 30LL * 24 * 3600 * 1000;  ///< 0: for ever
   std::int64_t keep_dips_ms = 365LL * 24 * 3600 * 1000;     ///< minimum for dips; 0: for ever
-  Quota quota = {};                                         ///< for each owner
+  Quota quota = {};                                         ///< quota of each owner
 };
 
 /// Why running jobs are interrupted: the daemon shut down, or it was lost (it was killed, or the

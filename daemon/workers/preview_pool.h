@@ -68,7 +68,7 @@ class PreviewPool {
   UniqueFd wake_;
   std::mutex mutex_;
   std::condition_variable answered_;
-  std::map<std::string, std::unique_ptr<Slot>> slots_;  // by owner
+  std::map<std::string, std::unique_ptr<Slot>> slots_;  // keyed by owner
   std::int64_t last_id_ = 0;
   bool stopping_ = false;
   std::thread thread_;  // starts all workers, which are killed when it ends

@@ -18,8 +18,8 @@ struct PoolOptions {
   std::filesystem::path program;
   int slots = 1;                  ///< maximum number of workers
   int cores = 1;                  ///< divided among workers if `threads` is 0
-  int threads = 0;                ///< per worker
-  std::int64_t memory_bytes = 0;  ///< per worker; 0: no limit
+  int threads = 0;                ///< number of threads per worker
+  std::int64_t memory_bytes = 0;  ///< limit per worker; 0: no limit
   std::int64_t time_limit_s = 3600;
   std::int64_t file_bytes = 4LL << 30;
 };

@@ -13,11 +13,11 @@ namespace hydroprint::depth_camera {
 
 /// Description of a camera or recording.
 struct SourceInfo {
-  std::string uri;     ///< of a recording: its path
+  std::string uri;     ///< for a recording, its path
   std::string name;    ///< maker and model
   std::string serial;  ///< empty: none (recordings store none)
   int width = 0, height = 0;
-  std::optional<int> frames;  ///< of a recording
+  std::optional<int> frames;  ///< number of frames; only for a recording
 };
 
 /// A depth camera, or a recording, through OpenNI2. A driver may hang or crash: use each camera in

@@ -21,7 +21,7 @@
 namespace hydroprint::drive {
 namespace {
 
-constexpr std::size_t kTcpHeader = 6;  // before the unit id
+constexpr std::size_t kTcpHeader = 6;  // bytes before the unit id
 constexpr std::size_t kCrc = 2;
 
 tl::unexpected<Error> offline(const Endpoint& endpoint, const std::string& what) {

@@ -15,7 +15,7 @@ namespace hydroprint::drive {
 
 /// The state of a drive at one point in time.
 struct DriveState {
-  double position_mm = 0;  ///< from the home switch; meaningless before homing
+  double position_mm = 0;  ///< relative to the home switch; meaningless before homing
   double velocity_mm_per_s = 0;
   std::optional<double> demand_mm;  ///< position of the drive's own trajectory, if reported
   bool enabled = false;

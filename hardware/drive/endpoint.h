@@ -10,9 +10,9 @@ namespace hydroprint::drive {
 /// The address of a drive.
 struct Endpoint {
   bool serial = false;
-  std::string host;  ///< of TCP: an IPv4 address (a name lookup could block)
+  std::string host;  ///< for TCP: an IPv4 address (a name lookup could block)
   int port = 502;
-  std::string device;  ///< of RTU: "/dev/serial/by-id/..."
+  std::string device;  ///< for RTU: "/dev/serial/by-id/..."
   int baud = 115200;
   char parity = 'E';  ///< 'N', 'E' or 'O'
   int stop_bits = 1;

@@ -115,7 +115,7 @@ struct Alarm {
 
 /// The drive's watchdog, which monitors the communication.
 struct Watchdog {
-  Field time;                                ///< in s
+  Field time;                                ///< the watchdog time in s
   double largest_time_s = 0;                 ///< longest permitted time; 0 is never permitted
   std::optional<Field> action;               ///< absent: this drive always stops
   std::vector<std::uint16_t> stopping = {};  ///< values of `action` that stop the axis
@@ -132,11 +132,11 @@ struct DriveProfile {
   bool single_writes_by_fc16 = false;  ///< single words are written with function 16, not 6
 
   double max_speed_mm_per_s = 0;
-  double acceleration_mm_per_s2 = 0;  ///< of moves, jogs and homing
+  double acceleration_mm_per_s2 = 0;  ///< acceleration of moves, jogs and homing
   /// Lowest deceleration of a stop command and of the watchdog.
   double stopping_deceleration_mm_per_s2 = 0;
 
-  std::chrono::milliseconds response_timeout{0};  ///< of one request
+  std::chrono::milliseconds response_timeout{0};  ///< timeout of one request
   std::chrono::milliseconds worst_delay{0};       ///< after this time a reply can no longer arrive
 
   std::vector<Mark> identity;
@@ -147,8 +147,9 @@ struct DriveProfile {
   std::array<std::optional<BitPlace>, kStatusBits> bits;
   std::map<int, Alarm> alarms;
 
-  Format position_format, speed_format, acceleration_format, deceleration_format;  ///< in writes
-  std::array<std::vector<Write>, kCommands> commands;  ///< in sending order
+  /// Formats in writes.
+  Format position_format, speed_format, acceleration_format, deceleration_format;
+  std::array<std::vector<Write>, kCommands> commands;  ///< writes of each command, in sending order
   double jog_refresh_s = 0;  ///< maximum interval between the commands of a jog
   /// Time after its last command at which a jog ends; 0: only the watchdog ends it.
   double jog_dead_man_s = 0;

@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kUser = "hydroprint";
-constexpr double kUnitsPerMm = 100;  // of PWG media sizes
+constexpr double kUnitsPerMm = 100;  // units of PWG media sizes
 
 Ipp request_of(ipp_op_t operation, const Address& address) {
   Ipp out(ippNewRequest(operation));  // includes charset and language

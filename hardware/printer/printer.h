@@ -15,12 +15,12 @@ namespace hydroprint::printer {
 /// Timeouts for a printer.
 struct Timing {
   std::chrono::milliseconds connect{5000};
-  std::chrono::milliseconds answer{15000};   ///< to one request
-  std::chrono::milliseconds upload{300000};  ///< for a document and the response to it
+  std::chrono::milliseconds answer{15000};   ///< timeout for a response to one request
+  std::chrono::milliseconds upload{300000};  ///< timeout for sending a document and its response
   std::chrono::milliseconds poll{1000};      ///< interval between polls of a job
   /// If a printer does not respond for this long during a job, it counts as lost.
   std::chrono::milliseconds patience{20000};
-  std::chrono::milliseconds job{3600000};  ///< from sending to its end
+  std::chrono::milliseconds job{3600000};  ///< timeout from sending a job to its end
 };
 
 /// A paper size supported by the printer.

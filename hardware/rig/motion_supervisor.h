@@ -38,7 +38,7 @@ class MotionSupervisor {
                    TimePoint start, double position_mm);
 
   struct Advice {
-    std::optional<Event::Kind> event;  ///< for the state machine
+    std::optional<Event::Kind> event;  ///< event for the state machine
     std::optional<Leg> next;           ///< if set, send this move now, then call begin_leg()
   };
   /// Processes a valid sample of the drive.

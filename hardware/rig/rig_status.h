@@ -18,13 +18,13 @@ struct MotionReport {
     kRunning,
     kDone,
     kStopped,  ///< on request, or because the jog was not requested again
-    kFailed,   ///< for `cause`
+    kFailed,   ///< failed; `cause` is the reason
   };
   std::uint64_t number = 0;
   Motion motion = Motion::kNone;
   Outcome outcome = Outcome::kRunning;
   Cause cause = Cause::kNone;
-  std::int32_t alarm_code = 0;  ///< the drive's, if the motion failed; 0: none
+  std::int32_t alarm_code = 0;  ///< alarm of the drive, if the motion failed; 0: none
   bool at_rest = false;         ///< standstill was observed after the end
   double begin_mm = 0;
   double end_mm = 0;  ///< last observed position
@@ -45,13 +45,13 @@ struct Jitter {
 /// The complete state of the rig at one point in time.
 struct Snapshot {
   Condition condition;
-  TimePoint time;         ///< of the last valid poll
+  TimePoint time;         ///< time of the last valid poll
   bool has_axis = false;  ///< the fields below are valid, since the drive last connected
   Bits bits;
   double position_mm = 0;
   double velocity_mm_per_s = 0;
   std::int32_t alarm_code = 0;                   ///< text in DriveProfile::alarms
-  double watchdog_s = 0;                         ///< of the drive, as read back
+  double watchdog_s = 0;                         ///< watchdog time of the drive, as read back
   std::uint64_t motion = 0;                      ///< number of the latest motion; 0: none yet
   std::uint64_t missed_polls = 0, connects = 0;  ///< since the start
   Jitter jitter;  ///< Jitter::ticks shows that the control loop is alive

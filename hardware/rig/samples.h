@@ -19,7 +19,7 @@ struct Sample {
   TimePoint time;            ///< time of the position
   double time_error_s = 0;   ///< uncertainty of `time`
   double position_mm = 0;
-  double velocity_mm_per_s = 0;  ///< as the drive reports
+  double velocity_mm_per_s = 0;  ///< as reported by the drive
   double expected_mm = 0;        ///< expected position; NaN if unknown
   std::uint64_t motion = 0;      ///< the motion in progress; 0: none
   std::int32_t leg = -1;         ///< leg of the motion, from 0; -1: none

@@ -9,7 +9,7 @@ namespace hydroprint::rig {
 /// The state of the rig; README.md draws the transitions.
 enum class State : std::uint8_t {
   kOffline,   ///< the drive does not respond: nothing is known
-  kDisarmed,  ///< the drive answers and holds no torque
+  kDisarmed,  ///< the drive responds and holds no torque
   kUnhomed,   ///< armed, but the position is unknown: only homing is allowed
   kIdle,      ///< armed, homed, at rest
   kMoving,    ///< homing, a move or a jog
@@ -24,7 +24,7 @@ enum class Motion : std::uint8_t { kNone, kHome, kMove, kJog, kDip };
 /// The fault that requires a reset.
 enum class Cause : std::uint8_t {
   kNone,
-  kLinkLost,          ///< while armed
+  kLinkLost,          ///< link lost while armed
   kAlarm,             ///< raised by the drive
   kDropped,           ///< the drive lost torque or home position: it was restarted
   kLimit,             ///< limit switch
@@ -48,7 +48,7 @@ enum class Pending : std::uint8_t { kNone, kArm, kReset };
 /// The complete state on which decisions about the next action are based.
 struct Condition {
   State state = State::kOffline;
-  Motion motion = Motion::kNone;  ///< in progress
+  Motion motion = Motion::kNone;  ///< the motion in progress
   Cause cause = Cause::kNone;     ///< kept until a reset, also in STOPPING and OFFLINE
   Link link = Link::kNone;
   Pending pending = Pending::kNone;
@@ -66,7 +66,7 @@ struct Bits {
   bool homed = false;    ///< the drive reports that its position is known
   bool alarm = false;
   bool button = false;  ///< stop input active
-  bool limit = false;   ///< on either limit switch
+  bool limit = false;   ///< either limit switch is active
 
   bool operator==(const Bits&) const = default;
 };
@@ -93,8 +93,8 @@ struct Event {
     kReset,
   };
   Kind kind = Kind::kSample;
-  Bits bits = {};     ///< for kSeen and kSample
-  bool safe = false;  ///< for kSeen
+  Bits bits = {};     ///< result of the poll, for kSeen and kSample
+  bool safe = false;  ///< only for kSeen
 };
 
 /// Actions for the control loop, in this order.

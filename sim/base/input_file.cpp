@@ -12,7 +12,7 @@ Result<std::ifstream> open_input_file(const std::filesystem::path& path) {
     return fail(Code::kNotFound, path.string() + ": no such file. Check the path");
   }
   if (!std::filesystem::is_regular_file(status)) {
-    return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Give a file");
+    return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Use a regular file");
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {

@@ -15,10 +15,10 @@ namespace hydroprint::calibrate {
 
 /// Input of calibrate().
 struct Task {
-  std::span<const scan::DepthFrame> frames;  ///< from a stationary camera
+  std::span<const scan::DepthFrame> frames;  ///< frames of a stationary camera
   registration::CameraCalibration camera;
   RigLayout layout;
-  mesh::Surface surface;  ///< of the object, frame O
+  mesh::Surface surface;  ///< surface of the object, frame O
   /// nullopt: model orientation, box centred on the film.
   std::optional<Pose> nominal_FO;
   std::optional<double> gripper_mm;          ///< height of the gripper's lower end above z = 0

@@ -13,7 +13,7 @@ namespace hydroprint::calibrate {
 /// Recorded frames, and the driver's description of the lens.
 struct Frames {
   std::vector<scan::DepthFrame> frames;
-  std::vector<double> times_s;  ///< of the frames; 0 if frames.json has none
+  std::vector<double> times_s;  ///< times of the frames; 0 if frames.json has none
   scan::Lens nominal_lens;
 };
 

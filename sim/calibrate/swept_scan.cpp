@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kLeastFrames = 3;  ///< number of frames that must have seen a surface from 0.8 m
 constexpr double kUsualDepth_mm = 800;
-constexpr double kLowest_mm = -40, kHighest_mm = 600;  ///< of a rig's contents, above the water
+/// Range of a rig's contents, above the water.
+constexpr double kLowest_mm = -40, kHighest_mm = 600;
 
 /// Returns the noise-free view of the camera at its first frame.
 scan::FusedFrame first_frame(const scan::PointGrid& seen, const scan::Lens& lens,

@@ -11,7 +11,7 @@ namespace hydroprint::calibrate {
 
 /// Input of fuse_swept().
 struct SweptTask {
-  std::span<const scan::DepthFrame> frames;  ///< from a camera swept by hand
+  std::span<const scan::DepthFrame> frames;  ///< frames of a camera swept by hand
   std::span<const double> times_s;
   registration::CameraCalibration camera;
   std::optional<RigLayout> layout;  ///< nullopt: no markers
@@ -22,7 +22,7 @@ struct SweptTask {
 /// first depth frame.
 struct SweptScan {
   scan::TriangleMesh mesh;
-  scan::Path path;                                    ///< in the mesh's frame
+  scan::Path path;                                    ///< path of the camera, in the mesh's frame
   std::optional<registration::FilmFrame> film_frame;  ///< as seen in the first depth frame
   Warnings warnings;
 };

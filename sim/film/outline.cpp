@@ -52,10 +52,11 @@ std::string shown(double value) {
 }
 
 tl::unexpected<Error> not_understood(const std::string& text) {
-  return fail(Code::kInvalidArgument,
-              "film '" + text +
-                  "': not understood. Give A4, A3, letter, WIDTHxHEIGHT, circle:RADIUS (mm) or "
-                  "polygon:FILE.json");
+  return fail(
+      Code::kInvalidArgument,
+      "film '" + text +
+          "' is not a known size or shape. Use A4, A3, letter, WIDTHxHEIGHT, circle:RADIUS (mm) or "
+          "polygon:FILE.json");
 }
 
 Status check_size(const std::string& what, const Vector2d& size_mm) {

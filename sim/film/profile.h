@@ -11,7 +11,7 @@ namespace hydroprint::film {
 /// Properties of a film and of its use (field notes 1 and 4), read from a TOML file. All keys are
 /// optional; unknown keys are errors. deploy/film_profile.toml.example describes each key.
 struct Profile {
-  double thickness_mm = 0.5;   ///< of the film without ink (paper section 7)
+  double thickness_mm = 0.5;   ///< thickness of the film without ink (paper section 7)
   double ink_ratio_mm = 0.05;  ///< thickness added per unit of ink amount t (section 4.3)
   /// The printer's ICC output profile (CMYK), which converts colours to ink; empty: naive CMYK. A
   /// relative path in the file is relative to the folder of the file.
@@ -31,8 +31,8 @@ struct Profile {
   double activator_wait_s = 20;
 };
 
-/// Reads and checks a profile. Refuses, naming file, line and remedy: unknown keys, wrong types,
-/// values out of range. The ICC profile itself is checked when it is used.
+/// Reads and checks a profile. Returns an error, with file, line and remedy, for unknown keys,
+/// wrong types and values out of range. The ICC profile itself is checked when it is used.
 [[nodiscard]] Result<Profile> read_profile(const std::filesystem::path& path);
 
 /// Returns the profile as TOML from which read_profile() restores exactly the same numbers. The

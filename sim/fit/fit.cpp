@@ -130,7 +130,7 @@ class Fitting {
     if (ink == free_.end() || dip_.ink.total_mm2() > 0) return;
     out_.undetermined.push_back(
         {"ink_ratio_mm",
-         "without ink nothing depends on it. Give the printed image (--ink-image)"});
+         "without ink nothing depends on it. Specify the printed image (--ink-image)"});
     free_.erase(ink);
   }
 
@@ -285,11 +285,11 @@ class Fitting {
   Predictor predictor_;
   std::vector<Parameter> free_;
   VectorXd u_;               ///< scaled values of free_
-  Linearised at_;            ///< at u_
+  Linearised at_;            ///< linearisation at u_
   VectorXd discretisation_;  ///< standard errors of u_ due to discretisation
   std::vector<Spot> spots_;
-  Warnings motion_warnings_;  ///< of the last prediction
-  double work_ = 0;           ///< in dips; a finer dip counts more
+  Warnings motion_warnings_;  ///< warnings of the last prediction
+  double work_ = 0;           ///< work done, in dips; a finer dip counts more
   Outcome out_;
 };
 

@@ -27,7 +27,7 @@ struct PointResult {
   Point point;
   /// The film point that lands there with the starting profile; NaN: none.
   Eigen::Vector2d before_mm;
-  Eigen::Vector2d after_mm;  ///< with the fitted profile
+  Eigen::Vector2d after_mm;  ///< the same with the fitted profile
   std::string left_out;      ///< why the point is not used; empty: it is used
   bool is_outlier = false;   ///< its residual lies beyond 4 robust standard deviations
 
@@ -36,9 +36,9 @@ struct PointResult {
 
 struct Outcome {
   film::Profile profile;         ///< the starting profile with the fitted parameters
-  Pose X_FO = Pose::Identity();  ///< as used: lowest point on the water, z = 0
+  Pose X_FO = Pose::Identity();  ///< pose as used: lowest point on the water, z = 0
   std::vector<Estimate> estimates;
-  Eigen::MatrixXd correlation;  ///< of the estimates, in their order
+  Eigen::MatrixXd correlation;  ///< correlations of the estimates, in their order
   std::vector<Undetermined> undetermined;
   std::vector<PointResult> points;
   /// Of the distances, on the film, of the points used.

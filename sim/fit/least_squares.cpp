@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 constexpr int kMostIterations = 12;
 constexpr int kMostTrials = 5;
 constexpr double kFirstDamping = 1e-3;
-constexpr double kSettledShare = 0.05;  ///< of the uncertainty
+constexpr double kSettledShare = 0.05;  ///< last step, as a fraction of the uncertainty
 constexpr double kMostStep = 1;
 
 /// Returns the mean squares of both, over the rows that are NaN in neither.

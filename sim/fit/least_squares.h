@@ -41,7 +41,7 @@ struct Linearised {
 
 struct Minimum {
   Eigen::VectorXd u;
-  Linearised at;       ///< at u
+  Linearised at;       ///< linearisation at u
   int iterations = 0;  ///< number of Jacobians computed
   bool settled = false;
 };

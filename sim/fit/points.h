@@ -10,8 +10,8 @@ namespace hydroprint::fit {
 
 /// A printed point and its measured position on the object.
 struct Point {
-  Eigen::Vector2d film_mm = Eigen::Vector2d::Zero();     ///< as printed, in F
-  Eigen::Vector3d surface_mm = Eigen::Vector3d::Zero();  ///< as measured, in O
+  Eigen::Vector2d film_mm = Eigen::Vector2d::Zero();     ///< position in the printed image, in F
+  Eigen::Vector3d surface_mm = Eigen::Vector3d::Zero();  ///< measured position, in O
 };
 
 inline constexpr std::size_t kMostPoints = 20'000;

@@ -14,7 +14,7 @@ struct Spot {
   int triangle = 0;
   /// In the corners 0, 1, 2 of the triangle.
   Eigen::Vector3d barycentric = Eigen::Vector3d::UnitX();
-  double distance_mm = 0;  ///< from the requested point
+  double distance_mm = 0;  ///< distance from the requested point
 };
 
 /// Returns the nearest point of the surface for each point (O, mm). If several triangles share it,

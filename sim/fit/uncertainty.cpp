@@ -24,7 +24,7 @@ constexpr double kLeastShare = 1e-3;
 /// Information in the residuals about the parameters, split into independent directions.
 struct Directions {
   MatrixXd known, unknown;  ///< orthonormal columns
-  VectorXd inverse_square;  ///< per known direction, of its singular value
+  VectorXd inverse_square;  ///< inverse squares of the singular values of the known directions
 };
 
 Directions directions_of(const MatrixXd& jacobian) {

@@ -10,7 +10,7 @@ namespace hydroprint::flow {
 
 /// A point of the surface at the moment the water reaches it.
 struct Landing {
-  Eigen::Vector2d point_mm = Eigen::Vector2d::Zero();  ///< on the water surface, in F
+  Eigen::Vector2d point_mm = Eigen::Vector2d::Zero();  ///< position on the water surface, in F
   double immersion_mm = 0;
   /// Film velocity per unit dip speed by eq. (1); at a crease, the mean of the two sides.
   Eigen::Vector2d pull = Eigen::Vector2d::Zero();

@@ -289,13 +289,13 @@ class Tiler {
   const DipField& dip_;
   const Landings& landings_;
   const MapOptions& options_;
-  double tolerance_mm_;  ///< at the present level of division
+  double tolerance_mm_;  ///< tolerance at the current level of division
   int level_ = 0;
   std::vector<Node> nodes_;
   std::vector<Tile> active_;
   std::vector<MappedTriangle> done_;
   EdgeTable<EdgeState> state_;
-  EdgeTable<int> middle_;  ///< of divided edges
+  EdgeTable<int> middle_;  ///< midpoints of divided edges
 };
 
 }  // namespace

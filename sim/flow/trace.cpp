@@ -33,7 +33,7 @@ constexpr std::size_t kChunk = 512;  ///< points followed together
 struct BackPath {
   Vector2d point_mm;  ///< NaN: lost
   double immersion_mm;
-  Vector2d velocity;                           ///< of the film at that point and immersion
+  Vector2d velocity;                           ///< velocity of the film at that point and immersion
   std::size_t after;                           ///< number of waterlines still before it
   Vector2d later_velocity = Vector2d::Zero();  ///< one step later in the dip
   double later_span_mm = 0;

@@ -77,7 +77,7 @@ class PrinterColours::LittleCms {
         (space != cmsSigCmykData && space != cmsSigRgbData)) {
       return fail(Code::kInvalidArgument, name +
                                               ": not the profile of a CMYK or RGB printer. "
-                                              "Give an ICC output profile whose colour space "
+                                              "Use an ICC output profile whose colour space "
                                               "is CMYK or RGB");
     }
     channels_ = space == cmsSigCmykData ? 4 : 3;
@@ -101,7 +101,7 @@ class PrinterColours::LittleCms {
     const std::string why = said_.substr(0, said_.find('\n'));
     return fail(Code::kDataLoss, name + ": damaged ICC profile" +
                                      (why.empty() ? "" : " (" + why + ")") +
-                                     ". Get the file again");
+                                     ". Download or export the file again");
   }
 
   std::string said_;

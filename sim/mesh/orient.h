@@ -10,7 +10,7 @@ namespace hydroprint::mesh {
 
 /// The triangles to flip so that all face outward, and the defects that were found.
 struct Orientation {
-  std::vector<bool> flip;        ///< per triangle
+  std::vector<bool> flip;        ///< whether to flip, for each triangle
   std::size_t inconsistent = 0;  ///< triangles flipped to agree with most of their neighbours
   std::size_t one_sided = 0;     ///< edges whose faces cannot agree (Moebius strips)
   std::size_t inside_out = 0;    ///< shells flipped because their volume was negative

@@ -66,7 +66,7 @@ struct DipFigures {
   /// Immersions of the waterlines that were not solved because two of their curves nearly touch.
   std::vector<double> passed_over_mm;
   std::vector<InkPass> ink_passes;
-  int film_vertices_max = 0;  ///< of the largest film mesh
+  int film_vertices_max = 0;  ///< number of vertices of the largest film mesh
   int film_triangles_max = 0;
   double coverage = 0;       ///< fraction of the object's surface that the film reaches
   double clamped_share = 0;  ///< fraction of the surface where theta exceeds 170 degrees
@@ -77,13 +77,14 @@ struct DipFigures {
   /// Displacement of the sheet by further sweeps, where it tears or folds; see sheet::SheetFlow.
   double unsettled_mm = 0;
   std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first
-  double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;  ///< where theta is not clamped
+  /// Statistics where theta is not clamped.
+  double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
 };
 
 /// The result of a dip: the surface used in the computation and the film's landing on it.
 struct Dip {
   mesh::Surface surface;
-  Pose X_FO;  ///< as used: lowest point on the water, z = 0
+  Pose X_FO;  ///< pose as used: lowest point on the water, z = 0
   flow::FlowMap map;
   DipFigures figures;
   Warnings warnings;

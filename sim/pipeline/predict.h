@@ -19,14 +19,15 @@ struct PredictOptions {
   std::filesystem::path mesh;
   double scale = 1;                  ///< millimetres per model unit
   std::filesystem::path film_image;  ///< any image at the film's size
-  DipOptions dip;                    ///< with the measured pose and path
+  DipOptions dip;                    ///< options of the dip, with the measured pose and path
   int ink_passes = 1;  ///< 0: the film carries the ink of dip.ink, otherwise that of film_image
   bool images = true;  ///< false: computes only the film's landing, without images
 };
 
 /// The colours that land on the object.
 struct PredictedImages {
-  std::vector<Eigen::Vector3f> landed;      ///< per point of the surface; NaN: no film arrives
+  /// Colour of each point of the surface; NaN: no film arrives.
+  std::vector<Eigen::Vector3f> landed;
   std::optional<image::RgbaImage> texture;  ///< the same colours as a texture; nullopt: no UVs
   image::RgbImage picture;                  ///< picture of the object
 };
@@ -35,7 +36,7 @@ struct Prediction {
   mesh::Model model;
   Dip dip;
   std::optional<PredictedImages> images;
-  Warnings warnings;  ///< from all stages
+  Warnings warnings;  ///< warnings of all stages
 };
 
 /// Runs the steps of section 4 from a film image to the colours on the object: film image, model,

@@ -27,7 +27,7 @@ Status check_materials(const mesh::Model& model) {
   for (const Warning& warning : model.warnings) {
     if (warning.code != "material_file_missing" && warning.code != "material_missing") continue;
     return fail(Code::kNotFound, warning.where + ": " + warning.message +
-                                     ". Put it beside the model or give a texture");
+                                     ". Put it into the folder of the model, or specify a texture");
   }
   return {};
 }

@@ -39,7 +39,7 @@ struct Simulation {
   mesh::Model model;
   Dip dip;
   std::optional<SimulatedImages> images;
-  Warnings warnings;  ///< from all stages
+  Warnings warnings;  ///< warnings of all stages
 };
 
 /// Runs all steps of section 4: model, paint, dip, film image, pictures. Returns the errors of its

@@ -17,7 +17,7 @@ namespace hydroprint::pipeline {
 /// Stokes flow (section 4.2).
 struct StokesPass {
   mesh::Surface surface;
-  Pose X_FO;             ///< as used: lowest point on the water, z = 0
+  Pose X_FO;             ///< pose as used: lowest point on the water, z = 0
   waterline::Body body;  ///< the surface placed over the film
   flow::DipField stokes;
   std::vector<double> passed_over_mm;  ///< see DipFigures

@@ -54,7 +54,7 @@ int total(const std::uint8_t* cmyk) { return cmyk[0] + cmyk[1] + cmyk[2] + cmyk[
 
 /// Effect of the ink limit on a row.
 struct Limited {
-  int most = 0;  ///< of 4 * 255, after the limit
+  int most = 0;  ///< largest sum of a pixel after the limit, out of 4 * 255
   std::size_t changed = 0;
 };
 

@@ -13,7 +13,7 @@ namespace hydroprint::print {
 /// A film image in the printer's colours, and figures on its ink.
 struct PrinterColoured {
   image::PrinterImage image;
-  std::string icc_profile;   ///< of the printer, as given; empty: none
+  std::string icc_profile;   ///< profile of the printer, unchanged; empty: none
   double most_ink = 0;       ///< CMYK: largest C + M + Y + K of any pixel, in [0, 4]
   double limited_share = 0;  ///< CMYK: fraction of the pixels that the ink limit changed
 };

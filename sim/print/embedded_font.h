@@ -26,8 +26,8 @@ struct EmbeddedFont {
   [[nodiscard]] std::string encoded(const std::string& text) const;
 };
 
-/// Prepares the font for the texts of all pages. The same characters give the same bytes. Fails as
-/// text::Font::standard() and text::make_subset() do.
+/// Prepares the font for the texts of all pages. The same characters yield the same bytes.
+/// Returns the errors of text::Font::standard() and text::make_subset().
 [[nodiscard]] Result<EmbeddedFont> embed_font(const std::vector<Page>& pages);
 
 }  // namespace hydroprint::print

@@ -27,12 +27,12 @@ struct Sheet {
   /// In the orientation in which the printer feeds it.
   Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
   int column = 0, row = 0;  ///< position among the sheets; row 0 at the top
-  Pixels window;            ///< of the film image as printed (mirrored if requested)
+  Pixels window;            ///< part of the printed film image (mirrored if requested)
   Pixels printable;  ///< the part of the window that the printer can print; the rest stays white
   Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< lower left corner of the window
   std::vector<Eigen::Vector2d> film_mm;              ///< the film's edge on this sheet
   std::vector<Stroke> marks;
-  std::vector<Text> texts;                  ///< of the marks
+  std::vector<Text> texts;                  ///< texts of the marks
   std::vector<std::string> drawn, dropped;  ///< names of marks
   bool is_text_shortened = false;
 };

@@ -16,9 +16,9 @@ using Eigen::Vector2d;
 using Strokes = std::vector<Stroke>;
 
 constexpr double kPen_mm = 0.25;
-constexpr double kClearance_mm = 1;  ///< from the film
+constexpr double kClearance_mm = 1;  ///< distance of marks from the film
 constexpr double kOff_mm = 2;        ///< distance of a registration mark from the film's edge
-constexpr double kMark_mm = 5;       ///< its length
+constexpr double kMark_mm = 5;       ///< length of a mark
 constexpr double kBleed_mm = 0.5;    ///< around the arrow
 
 Stroke line(const Vector2d& from_mm, const Vector2d& to_mm) {
@@ -146,7 +146,7 @@ Strokes on_this_sheet(Strokes marks, const Box& window) {
 
 /// An arrow to the film's +y, which is up, with a label beside it.
 constexpr double kArrow_mm = 12;
-constexpr double kArrowText_mm = 3.5;  ///< from the arrow to the word
+constexpr double kArrowText_mm = 3.5;  ///< distance from the arrow to its label
 const Vector2d kArrowFoot_mm(2.5, kBleed_mm);
 
 Drawing arrow(const Vector2d& low_mm) {

@@ -35,7 +35,7 @@ struct Drawing {
 struct PlacedImage {
   image::PrinterImage image;
   double pitch_mm = 1;
-  Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< its lower left corner
+  Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< position of its lower left corner
 };
 
 /// One side of one sheet of paper.

@@ -15,7 +15,7 @@ namespace hydroprint::print {
 /// A template to place under the gripper of a rig without a camera, and data about it.
 struct Placement {
   Document document;             ///< the template, then a page with pictures of the orientation
-  Pose X_FO = Pose::Identity();  ///< as used: lowest point on the water, z = 0
+  Pose X_FO = Pose::Identity();  ///< pose as used: lowest point on the water, z = 0
   /// Centre and extent of the first contact with the water: the box around the cross-section
   /// kFirstContact_mm above the lowest point, in F.
   Eigen::Vector2d contact_mm = Eigen::Vector2d::Zero(), contact_size_mm = Eigen::Vector2d::Zero();

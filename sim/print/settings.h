@@ -28,7 +28,7 @@ struct PageSettings {
 /// The colours of the output.
 struct ColourSettings {
   bool cmyk = false;  ///< without a profile: plain CMYK, as in ink::make_separation; else sRGB
-  std::filesystem::path icc_profile;  ///< of the printer; selects CMYK or RGB
+  std::filesystem::path icc_profile;  ///< profile of the printer; selects CMYK or RGB
   /// The largest C + M + Y + K of a pixel, above 0 and at most 4; CMYK only.
   double ink_limit = 4;
 };

@@ -15,7 +15,7 @@ struct Pair {
   const scan::ScanPoint* scan = nullptr;
   Eigen::Vector3d on_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double residual_mm = 0;        ///< of the point, outward
+  double residual_mm = 0;        ///< residual of the point, positive outward
   double changing_sigma_mm = 0;  ///< noise that differs between frames, along the normal
   double constant_sigma_mm = 0;  ///< noise that is the same in all frames, along the normal
   double usual_constant_mm = 0;  ///< constant_sigma_mm for a camera with an unknown pattern

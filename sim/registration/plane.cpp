@@ -20,7 +20,7 @@ constexpr double kLeastUpright = 0.766;  ///< cosine of 40 degrees
 constexpr int kRefinements = 5;
 constexpr double kLevel = 0.9;  ///< least cosine between the plane's normal and a level point's
 constexpr double kBin_mm = 3;
-constexpr double kLevelShare = 0.01;  ///< of all points
+constexpr double kLevelShare = 0.01;  ///< minimum size of a level area, as a fraction of all points
 constexpr std::size_t kMostLevels = 6;
 
 bool on(const Plane& plane, const scan::ScanPoint& p) {

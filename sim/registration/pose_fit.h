@@ -33,7 +33,7 @@ struct PoseFit {
   /// points. The noise, here and in rms_sigmas, is that of a camera with an unknown fixed pattern.
   std::size_t points = 0;
   double paired_share = 0;
-  double rms_mm = 0;      ///< of the distances of these points
+  double rms_mm = 0;      ///< rms distance of these points
   double rms_sigmas = 0;  ///< the same distances in units of their noise
 };
 

@@ -14,7 +14,8 @@ struct ScanPoint {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the camera
   double reported_mm = 0;  ///< depth without the fixed pattern, before scaling by the lens
-  double sigma_mm = 0;     ///< of the noise that differs between frames, along the optical axis
+  /// Standard deviation of the noise that differs between frames, along the optical axis.
+  double sigma_mm = 0;
   /// Of the constant noise that a patch shares, along the optical axis.
   double constant_sigma_mm = 0;
   double usual_constant_mm = 0;  ///< constant_sigma_mm for an unknown fixed pattern

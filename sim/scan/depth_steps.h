@@ -14,7 +14,7 @@ namespace hydroprint::scan {
 /// longer than 1 mm, the rounding can be undone exactly; where they are shorter, only on average.
 struct DepthSteps {
   double scale_mm = 0;  ///< focal length times baseline, divided by the disparity step
-  double shift = 0;     ///< in [0, 1)
+  double shift = 0;     ///< offset of the steps, in [0, 1)
   /// The depth before rounding, indexed by reported depth. If several steps are rounded to a
   /// reported depth, it is their mean; if none is, it is the reported depth.
   std::vector<float> before_mm;

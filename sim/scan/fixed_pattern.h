@@ -17,7 +17,7 @@ namespace hydroprint::scan {
 /// times a function of disparity: Herrera, Kannala and Heikkilä, Joint depth and color camera
 /// calibration with distortion correction, IEEE TPAMI 34, 2012.)
 struct FixedPattern {
-  int width_px = 0;  ///< of the image; 0: the pattern is unknown
+  int width_px = 0;  ///< width of the image; 0: the pattern is unknown
   int height_px = 0;
   int patch_px = 0;
   std::vector<float> offset = {};  ///< reported depth minus true depth
@@ -27,7 +27,7 @@ struct FixedPattern {
   /// standard deviation 1. The first nine unknowns are those of the lens (Camera::covariance). One
   /// row per unknown and one column per patch, in units of `step`.
   Eigen::Matrix<std::int8_t, Eigen::Dynamic, Eigen::Dynamic> shared = {};
-  Eigen::VectorXf step = {};  ///< for each unknown
+  Eigen::VectorXf step = {};  ///< unit of `shared` for each unknown
 
   [[nodiscard]] bool is_known() const { return width_px > 0; }
   [[nodiscard]] int across() const { return (width_px + patch_px - 1) / patch_px; }

@@ -21,7 +21,7 @@ constexpr std::size_t kFewFrames = 5;  ///< fewest frames for a standard deviati
 
 struct Pixel {
   double mean_mm = 0;
-  double sigma_mm = 0;  ///< of the mean
+  double sigma_mm = 0;  ///< standard error of the mean
   std::size_t frames = 0;
   bool unsteady = false;
 };

@@ -12,7 +12,7 @@ namespace hydroprint::scan {
 
 /// Poses of a camera swept by hand. Frame W is the camera's frame at the first depth frame.
 struct Path {
-  std::vector<Pose> X_WC;       ///< for each frame
+  std::vector<Pose> X_WC;       ///< camera pose for each frame
   std::vector<bool> is_placed;  ///< false: not registered; the pose is that of the previous frame
   /// Rms distance, along rays, of smoothed frames from the volume built before them.
   double rms_mm = 0;
@@ -32,7 +32,7 @@ struct Sweep {
 /// Input of fuse_sweep().
 struct SweepTask {
   std::span<const DepthFrame> frames;
-  std::span<const double> times_s;  ///< of the frames, increasing
+  std::span<const double> times_s;  ///< times of the frames, increasing
   Camera camera;
   DepthNoise noise;
   Volume::Options volume;

@@ -14,7 +14,7 @@ using Eigen::Vector3i;
 // The range of a depth camera, along rays.
 constexpr double kNear_mm = 250;
 constexpr double kFar_mm = 2500;
-constexpr double kWidestTangent = 0.8;  ///< beyond it a lens's polynomial is not valid
+constexpr double kWidestTangent = 0.8;  ///< a lens's polynomial is not valid beyond this
 /// Fraction of the truncation above which distances are unusable.
 constexpr double kSaturated = 0.95;
 /// Largest slope of distances on a real surface, 1 / cos(66 degrees). Beyond the edge of a surface,
@@ -100,8 +100,8 @@ const Volume::Voxel* Volume::voxel(const Vector3i& cell) const {
 }
 
 std::optional<double> Volume::distance_mm(const Vector3d& p_W) const {
-  const Vector3d at =
-      ((p_W - origin_mm_) / options_.voxel_mm).array() - 0.5;  // in voxels from their centres
+  // In voxels, relative to the centre of the first voxel.
+  const Vector3d at = ((p_W - origin_mm_) / options_.voxel_mm).array() - 0.5;
   const Vector3i low = at.array().floor().cast<int>();
   const Vector3d share = at - low.cast<double>();
   const bool is_inside = (low.x() & 7) != 7 && (low.y() & 7) != 7 && (low.z() & 7) != 7;
@@ -241,7 +241,7 @@ std::optional<double> Volume::first_hit_mm(const Vector3d& from, const Vector3d&
     } else if (before) {
       return before->first + (way - before->first) * before->second / (before->second - *distance);
     } else {
-      return std::nullopt;  // from behind
+      return std::nullopt;  // the surface is seen from behind
     }
   }
   return std::nullopt;

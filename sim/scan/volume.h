@@ -24,7 +24,7 @@ class Volume {
   struct Options {
     double voxel_mm = 3;
     double truncation_mm = 12;        ///< about eight standard deviations of depth at 0.8 m
-    std::size_t most_blocks = 60000;  ///< of 4 KiB each
+    std::size_t most_blocks = 60000;  ///< maximum number of blocks of 4 KiB
   };
 
   /// @param box_mm  bounds of the volume
@@ -63,7 +63,7 @@ class Volume {
  private:
   static constexpr int kSide = 8;
   struct Voxel {
-    float distance = 1;  ///< in units of the truncation
+    float distance = 1;  ///< distance in units of the truncation
     float weight = 0;    ///< 0: never seen
   };
   using Block = std::array<Voxel, kSide * kSide * kSide>;

@@ -13,10 +13,10 @@ namespace hydroprint::sheet {
 inline constexpr double kYoungsModulusStep_s = 0.02;
 
 struct InertialOptions {
-  velocity::Elasticity elasticity;  ///< for steps of kYoungsModulusStep_s
+  velocity::Elasticity elasticity;  ///< constants for steps of kYoungsModulusStep_s
   double density_kg_per_m3 = 0;
   double dip_speed_mm_per_s = 0;
-  double drag_per_mm = 0;  ///< see velocity::Sheet
+  double drag_per_mm = 0;  ///< see Sheet in sheet.h
   /// Maximum step of Algorithm 1, as a length of dip. The paper's step, 0.02 s at 5 mm/s, is 0.1
   /// mm. Shorter steps cost no more here. The viscosity does not depend on the step.
   double step_mm = 0.01;

@@ -8,7 +8,7 @@
 namespace hydroprint::sheet {
 
 struct SheetOptions {
-  double drag_per_mm = 0;  ///< see velocity::Sheet
+  double drag_per_mm = 0;  ///< see Sheet in sheet.h
   /// Sweeps end when the next sweep would move the film by less than this.
   double tolerance_mm = 0.003;
   int most_sweeps = 6;  ///< at least 2

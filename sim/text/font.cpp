@@ -75,7 +75,7 @@ struct Font::Impl {
   std::string bytes;
   FT_Library library = nullptr;
   FT_Face face = nullptr;
-  double x_height = 0;  ///< in the font's units
+  double x_height = 0;  ///< height of a lower-case x, in the font's units
   std::mutex mutex;     ///< a face has room for one glyph
 };
 

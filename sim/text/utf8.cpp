@@ -8,7 +8,7 @@ namespace {
 struct Sequence {
   int continuation_bytes = 0;
   char32_t first_bits = 0;
-  unsigned low = 0x80, high = 0xBF;  ///< of the second byte
+  unsigned low = 0x80, high = 0xBF;  ///< range of the second byte
   bool is_valid = true;
 };
 

@@ -17,7 +17,7 @@ struct Limit {
 /// A number measured by an experiment.
 struct Figure {
   std::string name;  ///< for programs: a to z, 0 to 9 and _, with its unit at the end
-  std::string text;  ///< for display
+  std::string text;  ///< name for display
   std::string unit;  ///< "mm", "%", ...; empty: no unit
   double value = 0;
   std::optional<Limit> limit;  ///< nullopt: no limit is known
@@ -44,7 +44,7 @@ struct Picture {
 /// The result of one experiment.
 struct Experiment {
   std::string name;               ///< name for --only
-  std::string title;              ///< for display
+  std::string title;              ///< title for display
   std::string paper;              ///< place in the paper: "section 7.1, Fig. 12"
   std::vector<std::string> text;  ///< paragraphs
   std::vector<Figure> figures;

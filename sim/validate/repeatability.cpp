@@ -123,7 +123,8 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
 
   const std::vector<Vector2d> points = grid();
   std::vector<std::vector<Vector3d>> landed(points.size());
-  std::vector<Vector3d> contacts;  // where the film's middle lands; independent of the flow
+  // Where the film's middle lands, which does not depend on the flow.
+  std::vector<Vector3d> contacts;
   Dice dice;
   for (int draw = 0; draw < draws; ++draw) {
     const Context next = steps.next();

@@ -29,7 +29,7 @@ using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 using Point = Kernel::Point_2;
 
-constexpr double kSquaredSine = 0.25;  ///< of the smallest angle, 30 degrees
+constexpr double kSquaredSine = 0.25;  ///< squared sine of the smallest angle, 30 degrees
 
 /// Triangles with shorter edges are not refined for their angles. Otherwise, gaps between
 /// waterlines that nearly touch would be filled with ever smaller triangles.

@@ -36,7 +36,7 @@ struct FilmMesh {
 /// paper's.
 struct MeshOptions {
   Sizing::Options size;
-  double spacing_mm = 2.0;     ///< of mesh vertices along the waterline
+  double spacing_mm = 2.0;     ///< distance of mesh vertices along the waterline
   double tolerance_mm = 0.01;  ///< largest distance of their chords from the waterline
   double least_mm = 0.1;       ///< smaller features of the waterline are smoothed
 };

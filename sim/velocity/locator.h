@@ -15,8 +15,9 @@ class Locator {
 
   struct Place {
     int triangle = -1;
-    Eigen::Vector3d barycentric;  ///< of corners 0, 1, 2; clamped into the triangle if outside
-    double outside_mm = 0;        ///< distance of the point from the film; 0: inside
+    /// Coordinates for corners 0, 1, 2; clamped into the triangle if the point is outside.
+    Eigen::Vector3d barycentric;
+    double outside_mm = 0;  ///< distance of the point from the film; 0: inside
   };
 
   /// Points farther than this from the film are not found, mm.
@@ -40,7 +41,7 @@ class Locator {
   [[nodiscard]] Place find_nearest(const Eigen::Vector2d& point_mm, int cell) const;
 
   std::vector<Corners> triangles_;
-  std::vector<Eigen::Matrix2d> edges_mm_;  ///< from corner 0 to the others
+  std::vector<Eigen::Matrix2d> edges_mm_;  ///< edges from corner 0 to the others
   Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();
   int columns_ = 0, rows_ = 0;
   /// For each cell, the triangles that overlap it, and the border triangles within kReach_mm of it.

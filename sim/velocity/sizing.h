@@ -29,7 +29,8 @@ class Sizing {
   Options options_;
   Eigen::Vector2d origin_mm_;
   int columns_ = 0, rows_ = 0;
-  std::vector<float> distance_mm_;  ///< for the cells and a margin of one cell around them
+  /// Distances for the cells and a margin of one cell around them.
+  std::vector<float> distance_mm_;
 };
 
 }  // namespace hydroprint::velocity

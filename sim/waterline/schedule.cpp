@@ -42,7 +42,7 @@ struct Bins {
   std::vector<double> wetted_mm2;  ///< wetted surface, weighted
   std::vector<double> length_mm;   ///< mean waterline length
   std::vector<double> smallness;   ///< mean smallness() over it, for the upward curvature
-  std::vector<char> has_crease;    ///< the waterline crosses creases
+  std::vector<char> has_crease;    ///< whether the waterline crosses creases
 };
 
 /// Returns the weight of surface at this angle. Near level faces the film hardly moves (u =

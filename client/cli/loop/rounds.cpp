@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kAbove_mm = 40;       ///< height above the water during the capture
-constexpr double kRoundDepth_mm = 90;  ///< of the sphere: slightly beyond its equator
+constexpr double kRoundDepth_mm = 90;  ///< depth for the sphere, slightly beyond its equator
 
 }  // namespace
 

@@ -35,7 +35,7 @@ Result<std::string> read_authorities(const std::string& file) {
   if (in && pem.find("-----BEGIN CERTIFICATE-----") != std::string::npos) return pem;
   return fail(Code::kInvalidArgument,
               "--ca (HYDROPRINT_CA) " + file +
-                  ": no readable certificate; give a PEM file with the certificate of the "
+                  ": no readable certificate; use a PEM file with the certificate of the "
                   "authority that signed the daemon's certificate");
 }
 

@@ -222,8 +222,8 @@ class Guide {
   std::optional<Jogger> jogger_;
   v1::Rig rig_;
   Clock::time_point looked_;
-  Clock::time_point
-      drawn_;  // when the live line was drawn; other lines and a new step are shown immediately
+  // When the live line was drawn; other lines and a new step are shown immediately.
+  Clock::time_point drawn_;
 };
 
 }  // namespace

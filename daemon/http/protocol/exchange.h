@@ -66,7 +66,7 @@ class Exchange {
   int status_ = 0;
   bool keeps_alive_ = true;
   bool is_chunking_ = false;
-  bool was_invited_ = false;  // by 100 Continue, or the client did not ask for it
+  bool was_invited_ = false;  // 100 Continue was sent, or the client did not ask for it
 };
 
 }  // namespace hydroprint::http

@@ -213,7 +213,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
 
   StrandSocket socket_;
   std::unique_ptr<Transport> transport_;
-  StrandTimer deadline_;  // for reading or writing
+  StrandTimer deadline_;  // timeout for reading or writing
   StrandTimer wake_timer_;
   std::string peer_;
   std::function<void()> gone_;
@@ -229,7 +229,7 @@ struct TcpListener::Impl {
   asio::executor_work_guard<asio::io_context::executor_type> work{context.get_executor()};
   asio::executor_work_guard<asio::io_context::executor_type> waiting_work{
       waiting_context.get_executor()};
-  Strand strand{context.get_executor()};  // the listener's
+  Strand strand{context.get_executor()};  // strand of the listener
   asio::basic_socket_acceptor<tcp, Strand> acceptor{strand};
   StrandTimer nap{strand};
   Accepted accepted;

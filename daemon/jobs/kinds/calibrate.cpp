@@ -94,7 +94,7 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
     if (sources.camera.layout.empty()) {
       return invalid_field(
           "calibrate.layout",
-          "is missing, and the daemon's configuration has no camera.layout; give one");
+          "is missing, and the daemon's configuration has no camera.layout; specify one");
     }
     HP_ASSIGN_OR_RETURN(const std::string text, read_layout_text(sources.camera));
     HP_ASSIGN_OR_RETURN(*spec.mutable_layout(), adopt_text(text, "rig/layout.toml", sources));

@@ -9,8 +9,8 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr const char* kFilmImage = "film.png";
-constexpr double kDefaultDpi =
-    300;  // as in the worker, for simulations whose spec has no resolution
+// The worker's default, for simulations whose spec has no resolution.
+constexpr double kDefaultDpi = 300;
 
 class PrintImageKind final : public KindOf<v1::PrintImageSpec> {
  private:

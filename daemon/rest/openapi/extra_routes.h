@@ -33,7 +33,7 @@ struct OtherRoute {
   std::string summary;
   std::string description;
   std::vector<OtherParameter> parameters;
-  std::string content_type;  ///< of the request's body; empty: no body
+  std::string content_type;  ///< type of the request's body; empty: no body
   std::vector<OtherAnswer> answers;
   bool is_open = false;  ///< needs no authentication
 };

@@ -81,7 +81,7 @@ bool add(RTCDevice device, RTCScene tree, const simulated_scene::Mesh& mesh) {
 struct Renderer::Rays {
   simulated_scene::Scenery scenery;
   Lens lens;
-  std::vector<Eigen::Vector2f> directions;  // of the pixels, z = 1
+  std::vector<Eigen::Vector2f> directions;  // directions of the pixels, z = 1
   Device device;
   Tree hanging;                   // G
   Tree all;                       // F

@@ -19,7 +19,8 @@ struct Machine {
   double hard_stops_beyond_mm = 8;  ///< the carriage stops there
   double max_speed_mm_per_s = 20;
   double acceleration_mm_per_s2 = 200;
-  double stopping_deceleration_mm_per_s2 = 200;  ///< of stop, watchdog, alarms and the brake
+  /// Deceleration of stop, watchdog, alarms and the brake.
+  double stopping_deceleration_mm_per_s2 = 200;
   double homing_speed_mm_per_s = 10;
   double back_off_speed_mm_per_s = 1;
   double largest_following_error_mm = 1;

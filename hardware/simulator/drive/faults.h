@@ -17,8 +17,8 @@ enum class ReplyFaultKind {
   kLate,           ///< arrives `delay` later
   kDrop,           ///< never arrives
   kTruncate,       ///< only half arrives
-  kWrongId,        ///< of another unit
-  kWrongFunction,  ///< of another function
+  kWrongId,        ///< reply of another unit
+  kWrongFunction,  ///< reply of another function
   kWrongCrc,       ///< RTU: checksum; TCP: transaction id
   kWrongLength,    ///< correctly framed, but a word short; for a write: confirms another value
   kBusy,           ///< exception 6; the request has no effect

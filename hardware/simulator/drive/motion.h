@@ -12,8 +12,8 @@ struct Kinematics {
 struct Goal {
   enum class Kind { kPosition, kVelocity };
   Kind kind = Kind::kVelocity;
-  double target_mm = 0;               ///< of kPosition, reached at rest
-  double speed_mm_per_s = 0;          ///< of kPosition above 0; of kVelocity with its sign
+  double target_mm = 0;               ///< target of kPosition, reached at rest
+  double speed_mm_per_s = 0;          ///< for kPosition, above 0; for kVelocity, with its sign
   double acceleration_mm_per_s2 = 1;  ///< while the speed increases
   double deceleration_mm_per_s2 = 1;  ///< while the speed decreases
 };

@@ -23,7 +23,7 @@ namespace hydroprint::simulated_drive {
 
 /// Options of a virtual rig.
 struct Options {
-  drive::DriveProfile profile;  ///< of the simulated drive
+  drive::DriveProfile profile;  ///< profile of the simulated drive
   Scene scene;
   std::optional<int> tcp_port;          ///< 0: any free port; nullopt: no TCP
   std::optional<drive::Endpoint> line;  ///< nullopt: no RTU

@@ -20,8 +20,8 @@ struct Stage {
 /// Progress of the work at one point in time.
 struct ProgressReport {
   std::string stage;
-  double fraction = 0;          ///< of the stage, [0, 1]
-  double total_fraction = 0;    ///< of the whole, [0, 1], never decreasing
+  double fraction = 0;          ///< progress of the stage, [0, 1]
+  double total_fraction = 0;    ///< progress of the whole work, [0, 1], never decreasing
   std::optional<double> eta_s;  ///< nullopt: too early to estimate
 };
 

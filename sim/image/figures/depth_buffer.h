@@ -118,7 +118,7 @@ class ViewDrawing {
  private:
   struct Sample {
     Eigen::Vector3f colour;
-    float towards;  ///< of the drawn surface
+    float towards;  ///< position of the drawn surface along the view
   };
   [[nodiscard]] bool is_outline(int x, int y) const;
   [[nodiscard]] Sample& at(int x, int y) {

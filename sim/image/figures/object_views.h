@@ -22,7 +22,7 @@ inline constexpr int kMargin_px = 40;
 struct ObjectViews {
   const mesh::Surface& surface;
   int columns = 2;
-  int width_px = 0, height_px = 0;  ///< of a view
+  int width_px = 0, height_px = 0;  ///< size of a view
   std::vector<std::string> names;
   std::vector<SeenObject> seen;
 };

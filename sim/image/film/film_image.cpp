@@ -135,7 +135,8 @@ class Block {
 
   void paint_row(int y, const BarycentricMap& map, const TimePlane& times, const Brush& brush) {
     const Spans& spans = rows_[y - window_.y0];
-    Span some{window_.x1, window_.x0}, all{window_.x0, window_.x1};  // of a pixel's samples
+    // Pixels of which some samples, and all samples, are covered.
+    Span some{window_.x1, window_.x0}, all{window_.x0, window_.x1};
     for (const Span& span : spans) {
       all = {std::max(all.begin, span.begin), std::min(all.end, span.end)};
       if (span.begin >= span.end) continue;

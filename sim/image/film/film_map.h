@@ -17,8 +17,8 @@ namespace hydroprint::image {
 /// is transferred.
 struct FilmMap {
   FilmGrid grid;
-  std::vector<Eigen::Vector3f> contact_mm;  ///< on the object, frame O
-  std::vector<float> time_s;                ///< of contact, since the start of the dip
+  std::vector<Eigen::Vector3f> contact_mm;  ///< contact point on the object, frame O
+  std::vector<float> time_s;                ///< time of contact, since the start of the dip
   std::vector<float> stretch;               ///< largest singular value there (section 6)
 };
 

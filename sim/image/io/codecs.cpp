@@ -27,8 +27,8 @@ using OIIO::Filesystem::IOProxy;
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 tl::unexpected<Error> corrupt(const std::string& name, const std::string& why) {
-  return fail(Code::kDataLoss,
-              name + ": truncated or corrupt image (" + first_line(why) + "). Get the file again");
+  return fail(Code::kDataLoss, name + ": truncated or corrupt image (" + first_line(why) +
+                                   "). Download or export the file again");
 }
 
 /// How the channels of a file are combined to a texel.
@@ -170,9 +170,8 @@ Result<Grey16Image> decode_grey16(IOProxy& proxy, const std::string& name) {
   HP_ASSIGN_OR_RETURN(const Opened opened, open(proxy, name));
   const ImageSpec& spec = opened.spec;
   if (spec.nchannels != 1 || spec.format != TypeDesc::UINT16 || spec.tile_width != 0) {
-    return fail(
-        Code::kInvalidArgument,
-        name + ": not a grey image of 16 bits. Give depths as hydroprint-capture writes them");
+    return fail(Code::kInvalidArgument,
+                name + ": not a 16-bit grey image. Use depth images written by hydroprint-capture");
   }
   Grey16Image out{spec.width, spec.height, {}};
   out.grey.resize(static_cast<std::size_t>(spec.width) * spec.height);

@@ -27,7 +27,7 @@ Status check_file(const std::filesystem::path& path) {
     return fail(Code::kNotFound, path.string() + ": no such file. Check the path");
   }
   if (!std::filesystem::is_regular_file(status)) {
-    return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Give an image file");
+    return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Use an image file");
   }
   return {};
 }

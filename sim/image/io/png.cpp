@@ -20,7 +20,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::size_t kBandBytes = std::size_t{1} << 20;  ///< not compressed
+constexpr std::size_t kBandBytes = std::size_t{1} << 20;  ///< size before compression
 constexpr double kMmPerInch = 25.4;
 
 /// Filters of the PNG specification (section 9.2): difference to the byte on the left, or above.
@@ -158,7 +158,7 @@ Bytes resolution(double dpi) {
   Bytes out;
   append_u32(out, per_metre);
   append_u32(out, per_metre);
-  out.push_back(1);  // the unit is the metre
+  out.push_back(1);  // unit: metre
   return out;
 }
 

@@ -205,7 +205,7 @@ class PaintLoader {
       if (error.code == Code::kNotFound) {
         error.message = name +
                         ": no such file. Put the texture there, correct the path in the "
-                        "material, or give --texture";
+                        "material, or use --texture";
       }
       return tl::unexpected(std::move(error));
     }

@@ -19,7 +19,7 @@ Result<std::string_view> json_text(std::string_view bytes, const std::filesystem
   if (!bytes.starts_with("glTF")) return bytes;
   std::array<std::uint32_t, 4> words{};  // version, length, JSON length, JSON magic
   if (bytes.size() < 20)
-    return bad_input(path, "header", "is cut short" + std::string(kExportAgain));
+    return bad_input(path, "header", "is truncated" + std::string(kExportAgain));
   std::memcpy(words.data(), bytes.data() + 4, sizeof words);
   if (words[1] > bytes.size() || words[2] > bytes.size() - 20)
     return bad_input(path, "header",

@@ -52,7 +52,7 @@ class ObjChecker {
 
   Status check(std::string_view line) {
     if (line.find('\0') != line.npos)
-      return bad(line_, "holds binary data; give a Wavefront OBJ file as text");
+      return bad(line_, "contains binary data; use a Wavefront OBJ file in text format");
     const auto keyword = next_word(line);
     if (keyword == "v") return check_vertex(line);
     if (keyword == "vt") return check_texture_coordinate(line);

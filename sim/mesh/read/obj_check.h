@@ -14,9 +14,10 @@ namespace hydroprint::mesh {
 struct ObjFacts {
   std::size_t vertices = 0;
   std::size_t texture_coordinates = 0;
-  std::size_t triangles = 0;                    ///< after polygons are split
-  std::vector<std::string> libraries;           ///< arguments of `mtllib`, one per line
-  std::vector<Eigen::Vector3f> vertex_colours;  ///< of `v x y z r g b`, for some or all vertices
+  std::size_t triangles = 0;           ///< after polygons are split
+  std::vector<std::string> libraries;  ///< arguments of `mtllib`, one per line
+  /// Colours of `v x y z r g b`, for some or all vertices.
+  std::vector<Eigen::Vector3f> vertex_colours;
 };
 
 /// Checks every line of an OBJ file strictly, because the importer reads malformed numbers as 0 and

@@ -17,7 +17,7 @@
 namespace hydroprint::mesh {
 namespace {
 
-constexpr int kMaxDepth = 256;              // of nodes
+constexpr int kMaxDepth = 256;              // maximum depth of nodes
 constexpr std::size_t kMaxNodes = 100'000;  // visited
 
 /// glTF's colours are linear light.

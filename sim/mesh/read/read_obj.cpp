@@ -269,7 +269,7 @@ class ObjImporter {
   std::map<std::string, int> used_;
   std::set<std::string> missing_;
   Transform transform_;
-  std::vector<Transform> transforms_;  ///< per material
+  std::vector<Transform> transforms_;  ///< texture transform of each material
   std::vector<Eigen::Vector2f> uvs_;
   std::vector<int> corners_;
   std::vector<int> corner_uvs_;  ///< -1: none

@@ -9,7 +9,7 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kWidth_mm = 140, kHeight_mm = 210;  ///< of one plate
+constexpr double kWidth_mm = 140, kHeight_mm = 210;  ///< size of one plate
 constexpr double kPitch_mm = 66, kPyramid_mm = 44, kTall_mm = 25;
 constexpr int kColumns = 2, kRows = 3;
 constexpr double kSlope_rad = std::numbers::pi / 6;

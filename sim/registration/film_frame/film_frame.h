@@ -20,8 +20,8 @@ struct MarkerReport {
 
 /// The film frame, found from the markers.
 struct FilmFrame {
-  PoseFit fit;                        ///< of F in the camera frame
-  std::vector<MarkerReport> markers;  ///< in the layout's order
+  PoseFit fit;                        ///< pose of F in the camera frame
+  std::vector<MarkerReport> markers;  ///< reports in the layout's order
   Warnings warnings;                  ///< `marker_left_out` for each unused marker
 
   [[nodiscard]] const Pose& X_CF() const { return fit.X_CB; }

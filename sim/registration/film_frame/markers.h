@@ -28,7 +28,7 @@ struct MarkerLayout {
 
 /// A pyramid in a scan.
 struct FoundMarker {
-  PoseFit fit;  ///< of M in the camera frame, up to multiples of 90 degrees about z
+  PoseFit fit;  ///< pose of M in the camera frame, up to multiples of 90 degrees about z
   std::vector<scan::ScanPoint> points;
 
   [[nodiscard]] Eigen::Vector3d place_C() const { return fit.X_CB.translation(); }

@@ -11,7 +11,7 @@ struct Matching {
   /// For each marker of the layout, the index of the detected marker; -1: none.
   std::vector<int> found;
   Pose X_CF = Pose::Identity();
-  double rms_mm = 0;   ///< of the markers' positions in the camera frame
+  double rms_mm = 0;   ///< rms error of the markers' positions in the camera frame
   bool agrees = true;  ///< false: the relative positions of the markers do not match the layout
 
   [[nodiscard]] int count() const;

@@ -105,7 +105,7 @@ class Finder {
   [[nodiscard]] static tl::unexpected<Error> not_this(const std::string& why) {
     return fail(Code::kFailedPrecondition,
                 "the object in view does not match the mesh: " + why +
-                    ". Give the mesh of the object in the gripper",
+                    ". Use the mesh of the object in the gripper",
                 "NOT_THIS_OBJECT");
   }
 

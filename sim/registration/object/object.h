@@ -20,7 +20,7 @@ struct ObjectPose {
   /// depths of object and markers, the camera's uncertainty and, along weak directions, the nominal
   /// pose's uncertainty.
   Matrix6 covariance = Matrix6::Zero();
-  PoseFit fit;                    ///< in the camera frame
+  PoseFit fit;                    ///< pose in the camera frame
   std::vector<std::string> weak;  ///< motions that the scan does not determine (describe())
   double misfit_mm = 0;           ///< rms distance from the mesh of means over 16 x 16 pixels
   double on_share = 0;            ///< fraction of the scan's points within 4 mm of the mesh

@@ -57,7 +57,7 @@ void set_depth(Message& spec, const FieldDescriptor& field, const std::string& t
   const auto parsed = std::from_chars(text.data(), end, depth_mm);
   if (parsed.ec != std::errc() || parsed.ptr != end) {
     throw CLI::ValidationError(flag_of(field.name()),
-                               "'" + text + "' is not a number. Give a depth in mm, or full");
+                               "'" + text + "' is not a number. Use a depth in mm, or full");
   }
   spec.GetReflection()->SetDouble(&spec, &field, depth_mm);
 }

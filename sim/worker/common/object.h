@@ -23,7 +23,7 @@ struct ObjectOptions {
   double scale = 1;                 ///< millimetres per model unit
   std::optional<Pose> X_FO;         ///< nullopt: as in the mesh file, centred on the film
   std::filesystem::path pose_file;  ///< file of X_FO; empty: not from a file
-  std::string film = "A4";          ///< for film::parse_outline()
+  std::string film = "A4";          ///< name for film::parse_outline()
 };
 
 void add_object_flags(Flags& flags);

@@ -18,7 +18,7 @@ struct RunOptions {
 
 /// The output of a successful run.
 struct Finished {
-  std::string summary;  ///< for stdout; JSON if RunOptions::json
+  std::string summary;  ///< text for stdout; JSON if RunOptions::json
   Warnings warnings;
 };
 

@@ -18,7 +18,7 @@ class Task;
 /// A verb of the program. Its options are a spec: a message that is filled in from the flags or
 /// read from a file (`--spec`).
 struct Verb {
-  std::string name;  ///< as on the command line
+  std::string name;  ///< name on the command line
   std::string summary;
   std::string examples;                            ///< end of the help text
   const google::protobuf::Message* spec_template;  ///< an empty spec
