@@ -193,14 +193,14 @@ Status Daemon::open_rig(const Config& config) {
   return {};
 }
 
-// The printer may be absent at the start.
+// The printer may be absent at startup.
 Status Daemon::open_printer(const Config& config) {
   HP_ASSIGN_OR_RETURN(auto setup, read_printer_setup(config));
   prints_ = std::make_unique<PrintExecutor>(std::move(setup), *jobs_, layout_);
   return {};
 }
 
-// The camera may be absent at the start.
+// The camera may be absent at startup.
 Status Daemon::open_camera(const Config& config) {
   HP_ASSIGN_OR_RETURN(camera_, read_camera_setup(config));
   HP_ASSIGN_OR_RETURN(live_, LiveCamera::make(camera_, layout_, system_clock_ms));

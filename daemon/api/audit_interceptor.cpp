@@ -29,7 +29,7 @@ constexpr std::chrono::milliseconds kWritten_ms{2000};
 constexpr std::size_t kLongestDetail = 300;
 constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // only computes
 
-// Turns "/hydroprint.v1.RigService/MoveTo" into "RigService.MoveTo".
+// Shortens "/hydroprint.v1.RigService/MoveTo" to "RigService.MoveTo".
 std::string short_name(const std::string& method) {
   const auto slash = method.rfind('/');
   const auto dot = method.rfind('.', slash);

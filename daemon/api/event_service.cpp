@@ -44,7 +44,7 @@ Result<Topics> topics_of(const v1::WatchEventsRequest& request) {
   return topics;
 }
 
-/// Values that all watches share.
+/// State shared by all watches.
 struct Shared {
   Cached<v1::Rig> rig;
   Cached<v1::Queue> queue;

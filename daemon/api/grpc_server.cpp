@@ -111,7 +111,7 @@ Status Server::Impl::listen(const Endpoint& wanted, tls::CurrentIdentity identit
   builder.SetOption(std::make_unique<NoPlugins>());  // the services provide them
   // Otherwise a second daemon would silently share the port.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  // Clients that say nothing are disconnected.
+  // Disconnects clients that send nothing after connecting.
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshake_ms);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdle_ms);
   if (identity) credentials = tls_credentials(std::move(identity));

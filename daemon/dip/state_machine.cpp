@@ -31,7 +31,7 @@ Outcome break_off(const Stand& stand, Ending ending, double time_s) {
   return out;
 }
 
-/// Moves on after the operator's confirmation.
+/// Continues after the operator's confirmation.
 Outcome go_on(Stand stand, const Event& event) {
   Outcome out = enter(stand, after(stand.step), event.time_s);
   switch (stand.step) {

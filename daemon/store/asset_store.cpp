@@ -95,7 +95,7 @@ Result<AssetOrUpload> AssetStore::start(const Upload& wanted, const AssetUser& u
   return AssetOrUpload(std::move(known));
 }
 
-// Makes the user an owner of the asset.
+// Adds the user to the owners of the asset.
 Status AssetStore::take(const Asset& asset, const std::string& owner) {
   const auto& owners = asset.owners;
   if (std::find(owners.begin(), owners.end(), owner) == owners.end()) {

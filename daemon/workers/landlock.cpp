@@ -62,7 +62,7 @@ Result<UniqueFd> make_fence(const std::filesystem::path& program,
   const landlock_ruleset_attr everything{kRead | kWrite | move_right()};
   const UniqueFd low(
       static_cast<int>(::syscall(SYS_landlock_create_ruleset, &everything, sizeof everything, 0)));
-  // Above the descriptors that a worker uses.
+  // Moves the descriptor above those that a worker uses.
   UniqueFd rules(::fcntl(low.get(), F_DUPFD_CLOEXEC, 10));
   bool good = rules.valid();
   for (const char* path : kSystem) good = good && allow(rules, path, kRead);

@@ -38,7 +38,7 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-// Cuts at a character boundary.
+// Truncates a text at a character boundary.
 std::string shortened(std::string text, std::size_t longest) {
   if (text.size() <= longest) return text;
   while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0) == 0x80) --longest;

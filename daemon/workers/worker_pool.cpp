@@ -266,7 +266,7 @@ std::vector<std::string> WorkerPool::Impl::options_of(const Job& job) const {
   return out;
 }
 
-// Retried with every step if the store fails.
+// If the store fails, this is retried with every step.
 void WorkerPool::Impl::give_up_unstarted() {
   std::erase_if(unstarted, [&](const auto& entry) {
     const auto ended = store.give_up(entry.first, entry.second);

@@ -29,7 +29,7 @@ std::uint16_t read_word(TomlReader& table, std::string_view key,
   return static_cast<std::uint16_t>(table.integer(key, 0, 0xffff, fallback));
 }
 
-/// @param per_unit  the key: "counts_per_mm"
+/// @param per_unit  name of the key: "counts_per_mm"
 Format read_format(TomlReader& table, std::string_view per_unit) {
   Format format;
   format.words = static_cast<int>(table.integer("words", 1, 2));

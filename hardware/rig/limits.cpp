@@ -8,7 +8,7 @@
 namespace hydroprint::rig {
 namespace {
 
-// Poll periods between two checks of a jog.
+// Number of poll periods between two checks of a jog.
 constexpr double kJogLooks = 3;
 
 std::string text(double value) {

@@ -14,7 +14,7 @@ namespace {
 using scan::Lens;
 using Json = nlohmann::ordered_json;
 
-/// In the order of Lens::parameters().
+/// Names of the parameters, in the order of Lens::parameters().
 constexpr std::array<const char*, Lens::kParameters> kNames = {
     "fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "depth_scale"};
 

@@ -23,7 +23,7 @@ struct Key {
   Range range;
 };
 
-// The keys that hold a single number.
+// The keys with a single number as value.
 constexpr std::array<Key, 11> kKeys = {{
     {"thickness_mm", &Profile::thickness_mm, {1e-3, 10}},
     {"ink_ratio_mm", &Profile::ink_ratio_mm, {0, 10}},

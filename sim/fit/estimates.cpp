@@ -47,7 +47,7 @@ double natural_error(Parameter parameter, double scaled, double error,
   if (parameter != Parameter::kDrag) {
     return natural_value(parameter, error, profile) - natural_value(parameter, 0, profile);
   }
-  // length = scaled^(-1/2), up to a factor.
+  // The length is scaled^(-1/2), up to a factor.
   const double length_mm = natural_value(parameter, scaled, profile);
   if (!std::isfinite(length_mm)) return std::numeric_limits<double>::quiet_NaN();
   return 0.5 * length_mm * error / scaled;

@@ -210,7 +210,7 @@ class Fitting {
     HP_ASSIGN_OR_RETURN(VectorXd there, fine_residuals(after));
     const Linearised usual = at_;
     at_.residuals = there;
-    // Only points known to both computations.
+    // Uses only points that are known in both computations.
     const Linearised difference = Linearised{there - usual.residuals, usual.jacobian}.of_known();
     discretisation_ = kErrorLeft * (gain(difference.jacobian) * difference.residuals).cwiseAbs();
     out_.discretisation_mm = std::sqrt(2 * mean_square(difference.residuals));

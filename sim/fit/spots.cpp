@@ -75,7 +75,7 @@ double box_distance(const std::array<Vector3d, 3>& corners, const Vector3d& p) {
 Spot nearest_spot(const mesh::Surface& surface, const Tree& tree, const Vector3d& p) {
   Spot best;
   best.distance_mm = std::numeric_limits<double>::infinity();
-  // Boxes come nearest first.
+  // Boxes are visited nearest first.
   const auto nearest = bg::index::nearest(corner_of(p), static_cast<unsigned>(tree.size()));
   for (auto entry = tree.qbegin(nearest); entry != tree.qend(); ++entry) {
     const int triangle = entry->second;

@@ -46,7 +46,7 @@ struct Edge {
   Landing middle = {};
   double film_per_surface = 0;
   Vector2d film_mm = Vector2d::Constant(kNaN);
-  /// For the tiles on its two sides.
+  /// One map for each of the tiles on its two sides.
   std::array<SurfacePerFilm, 2> side = {SurfacePerFilm::Zero(), SurfacePerFilm::Zero()};
   int sides = 0;
 

@@ -24,7 +24,7 @@ void* reallocate(cmsContext, void* memory, cmsUInt32Number bytes) {
 }
 void release(cmsContext, void* memory) { std::free(memory); }
 
-/// Keeps the library's first message.
+/// Stores the library's first message.
 void note_error(cmsContext context, cmsUInt32Number, const char* text) {
   auto* said = static_cast<std::string*>(cmsGetContextUserData(context));
   if (said != nullptr && said->empty()) *said = text;

@@ -36,7 +36,7 @@ void convert(const ink::PrinterColours& colours, const std::uint8_t* rgb, std::s
              std::uint8_t* out) {
   std::vector<std::uint16_t> wide(count * static_cast<std::size_t>(colours.channels()));
   colours.convert(rgb, count, wide.data());
-  // 65535 = 257 * 255
+  // Divides by 257, because 65535 = 257 * 255.
   std::transform(wide.begin(), wide.end(), out, [](std::uint16_t value) {
     return static_cast<std::uint8_t>((value + 128) / 257);
   });

@@ -151,7 +151,7 @@ std::vector<double> joins(const std::vector<Cut>& cuts, std::size_t own) {
   return out;
 }
 
-/// What follows the job name on a sheet.
+/// Returns the text that follows the job name on a sheet.
 std::string details(const PageSettings& settings, std::size_t number, std::size_t sheets) {
   std::string out;
   const auto add = [&out](const std::string& text) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMmPerInch = 25.4;
 
-/// "2480 x 3508"
+/// Returns "2480 x 3508".
 std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }

@@ -75,7 +75,7 @@ class Estimation : public pcl::registration::TransformationEstimationPointToPlan
     for (const auto& pair : pairs) sum += place(scan, pair.index_query);
     return sum / static_cast<double>(pairs.size());
   }
-  /// Turn (radians) about the centre, and shift.
+  /// Returns the rotation (radians) about the centre, and the translation.
   static std::pair<Eigen::Vector3d, Eigen::Vector3d> step(const Points& scan, const Points& target,
                                                           const pcl::Correspondences& pairs,
                                                           const Eigen::Vector3d& centre) {

@@ -63,7 +63,8 @@ Result<Plane> find_plane(const scan::Cloud& cloud, const Eigen::Vector3d& up_C) 
   Plane best;
   std::size_t most = 0;
   for (int trial = 0; trial < kTrials && looked.size() >= 3; ++trial) {
-    // Not std::uniform_int_distribution: its results differ between standard libraries.
+    // Does not use std::uniform_int_distribution, because its results differ between standard
+    // libraries.
     const auto any = [&] { return looked[random() % looked.size()]->point_mm; };
     const Eigen::Vector3d a = any(), b = any(), c = any();
     Eigen::Vector3d normal = (b - a).cross(c - a);

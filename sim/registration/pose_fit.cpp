@@ -52,12 +52,12 @@ struct Split {
   Vector6 sigma_mm;
   Eigen::Array<bool, 6, 1> weak;
 
-  /// Pseudo-inverse of the information, without the weak directions.
+  /// Returns the pseudo-inverse of the information, without the weak directions.
   [[nodiscard]] Matrix6 inverse() const {
     const Vector6 each = weak.select(0, information.array().inverse()).matrix();
     return directions * each.asDiagonal() * directions.transpose();
   }
-  /// Projection onto the weak directions.
+  /// Returns the projection onto the weak directions.
   [[nodiscard]] Matrix6 onto_weak() const {
     const Vector6 each = weak.cast<double>().matrix();
     return directions * each.asDiagonal() * directions.transpose();

@@ -39,7 +39,7 @@ std::vector<Eigen::Matrix3d> quarter_turns() {
   return out;
 }
 
-/// Orientations to start from, without the nominal one.
+/// Returns the initial orientations, without the nominal one.
 std::vector<Eigen::Matrix3d> turns(const Eigen::Matrix3d& nominal) {
   std::vector<Eigen::Matrix3d> out;
   for (int axis = 0; axis < 3; ++axis)

@@ -32,7 +32,7 @@ class Progress {
   /// Displacement of the film at each waterline in this sweep.
   std::vector<double> moved_mm;
 
-  /// The first waterline that has not settled.
+  /// Returns the first waterline that has not converged.
   [[nodiscard]] std::size_t first() const { return first_; }
   /// Returns the total displacement in this sweep at waterlines that had not converged.
   [[nodiscard]] double sum_mm() const { return sum(moved_mm, moved_mm.size()); }

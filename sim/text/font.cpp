@@ -1,4 +1,4 @@
-// The only file that knows FreeType.
+// The only file that uses FreeType.
 #include "sim/text/font.h"
 
 #include <ft2build.h>

@@ -1,4 +1,4 @@
-// The only file that knows HarfBuzz.
+// The only file that uses HarfBuzz.
 #include "sim/text/font_subset.h"
 
 #include <hb-subset.h>

@@ -51,7 +51,7 @@ Table error_table(const std::string& caption, const mesh::Surface& surface,
   return table;
 }
 
-/// Largest error at the cross-points of a region.
+/// Returns the largest error at the cross-points of a region.
 double worst(const mesh::Surface& surface, const std::vector<double>& errors,
              const Region& is_cross, const Region& region) {
   return summarise(values_where(surface, errors,

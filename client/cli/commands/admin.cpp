@@ -22,7 +22,7 @@ struct AdminOptions {
   bool replace = false;
 };
 
-// Looks beside this program, or else in PATH.
+// Returns the daemon's program: next to this program, otherwise from PATH.
 std::string daemon_program() {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);

@@ -51,7 +51,7 @@ Status show_identity(const Program& program, const v1::WhoAmIResponse& me) {
   return {};
 }
 
-// "1.2 GB of 20 GB"
+// Returns "1.2 GB of 20 GB".
 std::string of_allowed(const std::string& used, const std::string& allowed, bool is_limited) {
   return is_limited ? used + " of " + allowed : used;
 }

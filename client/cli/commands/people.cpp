@@ -32,7 +32,7 @@ std::string in_collection(const std::string& collection, const std::string& text
 
 std::string bare(const std::string& name) { return printable(name.substr(name.find('/') + 1)); }
 
-// Returns ROLE_UNSPECIFIED for no name.
+// Returns the role of a name; ROLE_UNSPECIFIED for an empty name.
 v1::Role role_of(const std::string& name) {
   v1::Role role = v1::ROLE_UNSPECIFIED;
   v1::Role_Parse(name, &role);

@@ -50,7 +50,7 @@ class WatchedJob {
     const std::lock_guard lock(mutex_);
     return job_;
   }
-  /// Returns the messages since the last call.
+  /// Returns the messages received since the last call.
   [[nodiscard]] std::vector<std::string> take_messages() {
     const std::lock_guard lock(mutex_);
     return std::exchange(messages_, {});

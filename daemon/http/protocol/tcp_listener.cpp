@@ -271,7 +271,7 @@ struct TcpListener::Impl {
                               take(std::move(socket));
                               return accept();
                             }
-                            // No descriptor is free until another connection ends.
+                            // Waits, because no descriptor is free until another connection ends.
                             nap.expires_after(kNapWithoutDescriptors);
                             nap.async_wait([this](error_code ended) {
                               if (!ended && acceptor.is_open()) accept();

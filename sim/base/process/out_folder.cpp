@@ -220,7 +220,7 @@ Status OutFolder::create() {
     }
     created_ = true;
     lock_ = open_locked(partial_);
-    // No locks on this file system.
+    // The file system does not support locks.
     if (lock_ < 0 && errno != EWOULDBLOCK && errno != ENOENT) break;
     if (lock_ < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

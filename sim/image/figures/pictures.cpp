@@ -31,7 +31,7 @@ constexpr std::array<Rgb8, 9> kScale = {{{68, 1, 84},
                                          {173, 220, 48},
                                          {253, 231, 37}}};
 
-/// sRGB-coded, [0, 1]
+/// Returns an sRGB-coded colour, [0, 1].
 Eigen::Vector3f scale_colour(double t) {
   const double at = std::clamp(t, 0.0, 1.0) * (kScale.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(at), kScale.size() - 2);

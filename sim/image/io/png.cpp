@@ -174,7 +174,7 @@ Bytes join(const std::vector<Band>& bands) {
   return out;
 }
 
-/// Appends the chunk that states the colour space.
+/// Appends the chunk that declares the colour space.
 Status append_colours(Bytes& out, const std::string& icc_profile) {
   if (icc_profile.empty()) {
     append_chunk(out, "sRGB", std::array<unsigned char, 1>{0});

@@ -36,7 +36,7 @@ class UnionFind {
 };
 
 std::uint64_t mix(std::uint64_t hash, double value) {
-  // Adding zero makes -0 and 0 one value.
+  // Adding zero maps -0 and 0 to the same value.
   std::uint64_t x = hash ^ (std::bit_cast<std::uint64_t>(value + 0.0) + 0x9E3779B97F4A7C15U +
                             (hash << 6) + (hash >> 2));
   x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9U;
@@ -60,7 +60,7 @@ std::vector<int> connected_pieces(const std::vector<UvTriangle>& triangles, int&
     std::array<std::uint64_t, 3> corners;
     for (int i = 0; i < 3; ++i) corners[i] = corner_hash(triangles[t], i);
     for (int i = 0; i < 3; ++i) {
-      // Symmetric in the edge's two ends.
+      // The sum is symmetric in the edge's two ends.
       edges.emplace_back(corners[i] + corners[(i + 1) % 3], static_cast<int>(t));
     }
   }

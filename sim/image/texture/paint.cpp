@@ -111,7 +111,7 @@ class PaintLoader {
     return !model_.corner_uvs.empty() && is_finite(model_.corner_uvs[triangle]);
   }
 
-  /// --texture FILE: colours all triangles that have coordinates.
+  /// Applies --texture FILE to all triangles that have coordinates.
   Status lay_texture(const std::filesystem::path& path) {
     const auto& uvs = model_.corner_uvs;
     if (std::none_of(uvs.begin(), uvs.end(), is_finite)) {

@@ -20,7 +20,7 @@ namespace {
 constexpr int kMaxDepth = 256;              // maximum depth of nodes
 constexpr std::size_t kMaxNodes = 100'000;  // visited
 
-/// glTF's colours are linear light.
+/// Converts to sRGB, because glTF's colours are linear light.
 float to_srgb(double linear) {
   const double c = std::clamp(linear, 0.0, 1.0);
   return static_cast<float>(c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
@@ -269,7 +269,7 @@ class GltfImporter {
     return result;
   }
 
-  /// KHR_texture_transform: scale, then rotate, then shift.
+  /// Returns the transform of KHR_texture_transform: scaling, then rotation, then translation.
   static Eigen::Affine2d texture_transform(const tinygltf::Material* material) {
     Eigen::Affine2d result = Eigen::Affine2d::Identity();
     if (material == nullptr) return result;

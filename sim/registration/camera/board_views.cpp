@@ -15,7 +15,7 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr double kJump_mm = 12;
-/// Of a piece, relative to the board's diagonal.
+/// Limits for the size of a cluster, relative to the board's diagonal.
 constexpr double kLeastSize = 0.8, kMostSize = 1.2;
 constexpr std::size_t kMostStarts = 6;
 constexpr double kLeastPaired = 0.6, kSurely = 0.85;  ///< share of points on the board over rms

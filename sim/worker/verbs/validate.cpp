@@ -79,7 +79,7 @@ class Validate final : public ArtifactTask {
       : ArtifactTask("validate"), options_(std::move(options)) {}
 
   [[nodiscard]] std::string subject() const override { return "validate"; }
-  /// The selected experiments, then writing.
+  /// Returns a stage for each selected experiment, then the stage `writing`.
   [[nodiscard]] std::vector<Stage> stages() const override;
 
  protected:
