@@ -23,7 +23,7 @@ tl::unexpected<Error> cannot_write(const std::filesystem::path& path, int error_
                   path.string(), std::strerror(error_number)));
 }
 
-// Appends bytes to the hidden file that holds an incomplete download.
+// Appends bytes to the hidden file for an incomplete download.
 class PartFile {
  public:
   explicit PartFile(std::filesystem::path path)
@@ -66,7 +66,7 @@ class PartFile {
   int descriptor_;
 };
 
-// Fetches one artifact into a part file and reconnects when a call breaks.
+// Downloads one artifact to a part file, and reconnects when a call breaks.
 class Downloader {
  public:
   Downloader(Connection& connection, const v1::Artifact& artifact, PartFile& file,

@@ -24,7 +24,7 @@ std::string media_type(const std::filesystem::path& path) {
   return "application/octet-stream";
 }
 
-// Sends one file and reconnects when a call breaks.
+// Uploads one file, and reconnects when a call breaks.
 class Uploader {
  public:
   Uploader(Connection& connection, const std::filesystem::path& path, const FileDigest& digest,
@@ -67,7 +67,8 @@ class Uploader {
     return std::optional<v1::Asset>();
   }
 
-  // After a lost connection: reads the resume offset, or returns the asset if the upload completed.
+  // Called after a lost connection: reads the resume offset, or returns the asset if the upload is
+  // complete.
   Result<std::optional<v1::Asset>> find_out() {
     v1::GetUploadRequest request;
     request.set_name(upload_);
@@ -81,7 +82,7 @@ class Uploader {
     return tl::unexpected(upload.error());
   }
 
-  // Makes one call; returns the asset if it completed the upload.
+  // Makes one call; returns the asset if the call completed the upload.
   Result<std::optional<v1::Asset>> send() {
     Call call(connection_);
     v1::UploadChunkResponse answer;

@@ -13,7 +13,7 @@ namespace hydroprint::client {
 /// The result of an upload.
 struct Uploaded {
   v1::Asset asset;
-  bool was_known = false;  ///< the daemon had the bytes already; none were sent
+  bool was_known = false;  ///< the daemon already had the bytes; none were sent
 };
 
 /// Uploads a file unless the daemon already has its bytes. After a lost connection, the upload
@@ -26,8 +26,8 @@ struct Uploaded {
 /// Lists the caller's assets, sorted by hash; for an operator, the assets of all users.
 [[nodiscard]] Result<v1::ListAssetsResponse> list_assets(Connection& connection);
 
-/// Removes the caller from an asset's owners; as an operator, deletes it unless an unfinished job
-/// needs it.
+/// Removes the caller from an asset's owners. For an operator, deletes the asset unless an
+/// unfinished job needs it.
 [[nodiscard]] Status delete_asset(Connection& connection, const std::string& name);
 
 }  // namespace hydroprint::client

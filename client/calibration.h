@@ -12,6 +12,7 @@ namespace hydroprint::client {
 [[nodiscard]] Result<v1::ListCalibrationsResponse> list_calibrations(Connection& connection,
                                                                      int limit);
 
+/// Returns a calibration.
 /// @param name  "calibrations/3", or "calibrations/active"
 [[nodiscard]] Result<v1::Calibration> get_calibration(Connection& connection,
                                                       const std::string& name);

@@ -7,10 +7,10 @@
 
 namespace hydroprint::client {
 
-/// Whether the operator has to confirm this step of a dip.
+/// Returns whether the operator has to confirm this step of a dip.
 [[nodiscard]] bool waits_for_operator(v1::DipStatus::Step step);
 
-/// Names of the steps that wait for the operator, in order.
+/// Returns the names of the steps that wait for the operator, in order.
 [[nodiscard]] std::vector<std::string> operator_steps();
 
 }  // namespace hydroprint::client

@@ -4,10 +4,11 @@
 
 namespace hydroprint::client {
 
-/// Whether the job's state can no longer change.
+/// Returns whether the job's state is final.
 [[nodiscard]] bool is_finished(const v1::Job& job);
 
-/// Whether every job in that state is finished. INTERRUPTED ends only dips, prints and captures.
+/// Returns whether every job in that state is finished. INTERRUPTED is final only for dips, prints
+/// and captures.
 [[nodiscard]] bool is_finished(v1::Job::State state);
 
 }  // namespace hydroprint::client

@@ -14,27 +14,27 @@ namespace hydroprint::client {
 
 /// Options of a new job.
 struct JobOptions {
-  std::string display_name;    ///< empty: the daemon picks a name
+  std::string display_name;    ///< empty: chosen by the daemon
   int priority = 0;            ///< 0 to 9; among one owner's jobs, higher runs first
-  bool validate_only = false;  ///< checks only; the returned job has no name
+  bool validate_only = false;  ///< only checks; the returned job has no name
 };
 
 /// Queues a job.
-/// @param job  its spec; the name and the priority come from `options`
-/// @return the daemon's errors, as JobService.CreateJob describes them
+/// @param job  its spec; display name and priority are taken from `options`
+/// @return errors: see JobService.CreateJob
 [[nodiscard]] Result<v1::Job> create_job(Connection& connection, v1::Job job,
                                          const JobOptions& options = {});
 
-/// Creates a dip, which is WAITING_FOR_OPERATOR at once. The request is sent once, since with
-/// `yes_to_all` it moves the axis. If the answer is lost (kUnavailable), call list_jobs before
-/// another attempt.
+/// Creates a dip, whose state is WAITING_FOR_OPERATOR immediately. The request is sent once,
+/// because with `yes_to_all` it moves the axis. If the response is lost (kUnavailable), call
+/// list_jobs before another attempt.
 /// @param lease_id  the caller's lease of the rig
 [[nodiscard]] Result<v1::Job> create_dip(Connection& connection, const v1::DipSpec& spec,
                                          const std::string& lease_id,
                                          const JobOptions& options = {});
 
-/// Confirms that the operator has done the current step. The request is sent once, as the rig may
-/// move next. If the answer is lost, call get_job.
+/// Confirms that the operator has completed the current step. The request is sent once, because the
+/// rig may move next. If the response is lost, call get_job.
 [[nodiscard]] Result<v1::Job> confirm_step(Connection& connection, const std::string& name,
                                            v1::DipStatus::Step step, const std::string& lease_id);
 
@@ -44,7 +44,7 @@ struct JobOptions {
                                            const std::string& print_image_job,
                                            const JobOptions& options = {});
 
-/// Records frames of the daemon's camera at once. Errors: CAMERA_MISSING, STATE_FORBIDS,
+/// Records frames of the daemon's camera immediately. Errors: CAMERA_MISSING, STATE_FORBIDS,
 /// MOTION_IN_PROGRESS.
 /// @param seconds  nullopt: the daemon's default
 [[nodiscard]] Result<v1::Job> create_capture(Connection& connection, std::optional<double> seconds,
@@ -78,10 +78,10 @@ struct JobFilter {
 [[nodiscard]] Result<v1::ListJobEventsResponse> list_job_events(Connection& connection,
                                                                 const std::string& name);
 
-/// Follows a job until it is finished and reports each message of the stream. A lost connection is
-/// resumed; the call fails after a minute without news from the daemon.
+/// Follows a job until it is finished and reports each message of the stream. Resumes after a lost
+/// connection; fails after a minute without a message from the daemon.
 /// @param lost  called once each time the connection is lost
-/// @return the finished job; kCancelled if the connection is asked to stop (the job continues)
+/// @return the finished job; kCancelled if the connection is stopped (the job continues)
 [[nodiscard]] Result<v1::Job> watch_job(
     Connection& connection, const std::string& name,
     const std::function<void(const v1::WatchJobResponse&)>& update,

@@ -8,7 +8,7 @@ namespace {
 
 using LeaseStub = v1::LeaseService::Stub;
 
-// All of these requests may be sent twice: acquiring carries a request_id.
+// All of these requests may be sent twice, because acquiring carries a request_id.
 template <class Request, class Response>
 Result<Response> ask(Connection& connection,
                      grpc::Status (LeaseStub::*method)(grpc::ClientContext*, const Request&,

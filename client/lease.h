@@ -9,24 +9,24 @@
 
 namespace hydroprint::client {
 
-/// Returns the public part of the lease; kNotFound (LEASE_NOT_FOUND) if nobody holds it.
+/// Returns the public part of the lease; kNotFound (LEASE_NOT_FOUND) if there is no holder.
 [[nodiscard]] Result<v1::Lease> get_lease(Connection& connection);
 
-/// Acquires the lease if nobody holds it.
+/// Acquires the lease if it is free.
 /// @param ttl  1 s to 8 h
-/// @return kAborted (LEASE_HELD; metadata holder, purpose, expire_time) while somebody holds it
+/// @return kAborted (LEASE_HELD; metadata holder, purpose, expire_time) if another client holds it
 [[nodiscard]] Result<v1::Lease> acquire_lease(Connection& connection, const std::string& purpose,
                                               std::chrono::seconds ttl);
 
-/// Extends the lease to `ttl` from now. @return kFailedPrecondition (LEASE_REQUIRED) if it is no
-/// longer ours
+/// Renews the lease: it then expires `ttl` from now.
+/// @return kFailedPrecondition (LEASE_REQUIRED) if the caller no longer holds it
 [[nodiscard]] Result<v1::Lease> renew_lease(Connection& connection, const std::string& lease_id,
                                             std::chrono::seconds ttl);
 
-/// Releases the lease; not an error if it is no longer ours. A jog ends.
+/// Releases the lease; not an error if the caller no longer holds it. Ends a jog.
 [[nodiscard]] Status release_lease(Connection& connection, const std::string& lease_id);
 
-/// Takes the lease away from its holder, with a reason that the daemon logs. A jog ends; a dip
+/// Ends the lease of another client, with a reason for the daemon's log. A jog ends; a dip
 /// continues.
 [[nodiscard]] Status break_lease(Connection& connection, const std::string& reason);
 

@@ -6,8 +6,8 @@
 
 namespace hydroprint::client {
 
-/// Returns the name of an enum value in the API, for example "QUEUED"; "UNKNOWN" if it is not set,
-/// or for values that this client does not know.
+/// Returns the name of an enum value in the API, for example "QUEUED"; "UNKNOWN" if it is unset or
+/// unknown to this client.
 template <class Enum>
 [[nodiscard]] std::string name_of(Enum value) {
   const auto* found = google::protobuf::GetEnumDescriptor<Enum>()->FindValueByNumber(value);

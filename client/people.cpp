@@ -9,7 +9,7 @@ using PeopleStub = v1::PeopleService::Stub;
 
 PeopleStub& people(Connection& connection) { return *connection.impl().people; }
 
-// client:: is required: protobuf has a call_once too, found through its message arguments.
+// The prefix client:: is required: argument-dependent lookup also finds protobuf's call_once.
 
 // Sends a request that holds only a name and expects an empty response.
 template <class Request>

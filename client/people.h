@@ -49,7 +49,7 @@ namespace hydroprint::client {
                                                        const std::string& who,
                                                        const std::string& what, int limit);
 
-/// Shows a job's artifacts and files to every user with read access, or hides them again.
+/// Makes a job's artifacts and files visible to all users with read access, or hides them again.
 [[nodiscard]] Result<v1::Job> share_job(Connection& connection, const std::string& name,
                                         bool shared);
 

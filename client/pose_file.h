@@ -7,7 +7,7 @@
 
 namespace hydroprint::client {
 
-/// Reads a `--pose` file by the same rules as the worker.
+/// Reads a `--pose` file with the same rules as the worker.
 [[nodiscard]] Result<v1::Pose> read_pose_file(const std::filesystem::path& path);
 
 }  // namespace hydroprint::client

@@ -15,8 +15,8 @@ namespace hydroprint::client {
 
 [[nodiscard]] Result<v1::Queue> resume_queue(Connection& connection);
 
-/// Moves a queued job in front of another one of the same owner; if `before` is empty, behind all
-/// of them.
+/// Moves a queued job in front of another one of the same owner, or to the end if `before` is
+/// empty.
 [[nodiscard]] Result<v1::Job> move_job(Connection& connection, const std::string& name,
                                        const std::string& before);
 

@@ -10,7 +10,7 @@ namespace {
 
 using RigStub = v1::RigService::Stub;
 
-// The next jog command follows in 100 ms, so one that hangs must not take effect late.
+// The next jog command follows in 100 ms, so a delayed one must not take effect late.
 constexpr std::chrono::milliseconds kJogAnswerLimit{250};
 
 template <class Request>

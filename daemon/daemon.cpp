@@ -117,7 +117,7 @@ Status Daemon::open_people(const Config& config) {
   options.sessions.most_ms = config.people_session_days * 24 * kHourMs;
   HP_ASSIGN_OR_RETURN(accounts_, auth::Accounts::open(*database_, options, system_clock_ms));
   audit_ = std::make_unique<auth::AuditLog>(*database_, system_clock_ms);
-  // Access without a user must not be possible from other machines by mistake.
+  // Access without a user must not become possible from other machines by mistake.
   const bool is_open = config.people_accounts == "loopback-open" && !is_exposed(config);
   access_ = std::make_unique<Authenticator>(*accounts_, is_open);
   outside_ = std::make_unique<auth::ExternalChanges>(*database_, *accounts_);
@@ -187,7 +187,7 @@ Status Daemon::make_first_admin(const std::string& name) {
   return {};
 }
 
-// The drive may be absent at the start; the controller keeps trying to connect.
+// The drive may be absent at startup; the controller keeps trying to connect.
 Status Daemon::open_rig(const Config& config) {
   HP_ASSIGN_OR_RETURN(auto setup, read_controller_config(config));
   if (setup) {
@@ -204,14 +204,14 @@ Status Daemon::open_rig(const Config& config) {
   return {};
 }
 
-// The printer may be absent at the start.
+// The printer may be absent at startup.
 Status Daemon::open_printer(const Config& config) {
   HP_ASSIGN_OR_RETURN(auto setup, read_printer_setup(config));
   prints_ = std::make_unique<PrintExecutor>(std::move(setup), *jobs_, *device_jobs_, layout_);
   return {};
 }
 
-// The camera may be absent at the start.
+// The camera may be absent at startup.
 Status Daemon::open_camera(const Config& config) {
   HP_ASSIGN_OR_RETURN(camera_, read_camera_setup(config));
   HP_ASSIGN_OR_RETURN(live_, LiveCamera::make(camera_, layout_, system_clock_ms));

@@ -40,10 +40,10 @@ class Daemon {
  public:
   /// Locks the state folder, repairs the store after a crash, starts listening and starts workers.
   /// Interrupted jobs are queued again.
-  /// @param first_admin  a user who gets a link to sign in once as admin, within 15 minutes;
-  /// created if there is no such user; empty: none
+  /// @param first_admin  a user for whom a link is created that signs them in once as admin, within
+  ///                     15 minutes. The user is created if necessary; empty: none
   /// @return for `first_admin`: ID_INVALID; kFailedPrecondition, STATE_FORBIDS if the user exists
-  /// and is not an admin
+  ///         and is not an admin
   [[nodiscard]] static Result<std::unique_ptr<Daemon>> start(const Config& config,
                                                              const std::string& first_admin);
   /// Calls stop() if needed.
@@ -55,17 +55,18 @@ class Daemon {
   [[nodiscard]] const Endpoint& http_endpoint() const { return http_endpoint_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
 
-  /// Sign-in link for the first admin; empty if none was requested.
+  /// Returns the sign-in link for the first admin; empty if none was requested.
   [[nodiscard]] std::string sign_in_link() const;
-  /// Address of the web pages, with a host name from the certificate:
+  /// Returns the address of the web pages, with a host name from the certificate:
   /// "https://rig.example.org:8443/".
   [[nodiscard]] std::string page_address() const;
-  /// Iterations of the loop that monitors the drive; nullopt if no drive is configured.
+  /// Returns the number of iterations of the loop that monitors the drive; nullopt if no drive is
+  /// configured.
   [[nodiscard]] std::optional<std::uint64_t> control_rounds() const;
 
-  /// Deletes expired data; call this regularly.
+  /// Deletes expired data. Must be called regularly.
   void clean_up();
-  /// Refuses new calls, ends the workers and queues their jobs for the next start. Takes a few
+  /// Rejects new calls, ends the workers and queues their jobs for the next start. Takes a few
   /// seconds at most.
   void stop();
 

@@ -57,7 +57,8 @@ std::string beside(const char* argv0, const char* program) {
   return self.parent_path() / program;
 }
 
-// Folder of the web client's files: as installed, otherwise in a build tree.
+// Returns the folder of the web client's files: the installed one, otherwise that of the build
+// tree.
 std::string web_dir(const char* argv0) {
   const std::filesystem::path bin = beside(argv0, "");
   const auto installed = (bin / "../../share/hydroprint/web").lexically_normal();
@@ -95,7 +96,7 @@ Result<Config> configure(const Options& options, const char* argv0) {
   return config;
 }
 
-// Blocks signals, which main receives with sigtimedwait(); threads inherit the mask.
+// Blocks the signals that main receives with sigtimedwait(); threads inherit the mask.
 sigset_t block_signals() {
   sigset_t set;
   sigemptyset(&set);
@@ -106,8 +107,8 @@ sigset_t block_signals() {
   return set;
 }
 
-// Raises the limit on descriptors to the maximum, since a server without free descriptors stops
-// answering.
+// Raises the limit on descriptors to the maximum, because a server without free descriptors stops
+// responding.
 void raise_descriptor_limit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;

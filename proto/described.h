@@ -4,8 +4,8 @@
 
 namespace hydroprint {
 
-/// A serialised google.protobuf.FileDescriptorSet of all .proto files of the API and their imports.
-/// It includes the comments, which generated code does not keep.
+/// Returns a serialised google.protobuf.FileDescriptorSet of all .proto files of the API and their
+/// imports, including the comments, which generated code does not contain.
 [[nodiscard]] std::string_view described_protos();
 
 }  // namespace hydroprint

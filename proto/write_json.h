@@ -12,7 +12,7 @@ namespace hydroprint {
 
 /// Writes a message as JSON on one line, for REST and for `hydroprint --json`: field names in
 /// camelCase, all fields without presence, enums by name, int64 as strings, times in RFC 3339.
-/// Refuses (kInternal) a message without a JSON form, such as an Any of unknown type.
+/// Returns kInternal for a message without a JSON form, such as an Any of unknown type.
 [[nodiscard]] Result<std::string> write_json(const google::protobuf::Message& message);
 
 }  // namespace hydroprint

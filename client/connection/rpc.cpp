@@ -103,7 +103,7 @@ Error to_error(const Connection& connection, const grpc::Status& status) {
     if (const std::string trouble = tls_trouble(options); !trouble.empty()) {
       return {Code::kFailedPrecondition, options.server + ": " + trouble, {}};
     }
-    // If nothing listens, gRPC's own message adds nothing useful and varies between versions.
+    // If no server listens, gRPC's own message adds nothing useful and varies between versions.
     const bool usual = error.message.find("failed to connect") != std::string::npos;
     error.message = fmt::format(
         "{}: no hydroprintd answers there{}; start it, or correct the address (--server host:port)",

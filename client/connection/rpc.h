@@ -1,6 +1,6 @@
 #pragma once
 
-// Private to this library: the mechanics of one call. Included by .cpp files only.
+// Internal: the mechanics of a call. Include in .cpp files only.
 
 #include <grpcpp/grpcpp.h>
 
@@ -49,7 +49,7 @@ struct Connection::Impl {
 class Call {
  public:
   explicit Call(Connection& connection);
-  /// Same, with a deadline `limit` from now.
+  /// Same as above, with a deadline `limit` from now.
   Call(Connection& connection, std::chrono::milliseconds limit);
 
   [[nodiscard]] grpc::ClientContext* context() { return &context_; }
@@ -59,9 +59,9 @@ class Call {
   std::stop_callback<std::function<void()>> on_stop_;
 };
 
-/// Time limit of a call that does not stream.
+/// Deadline of a call that does not stream.
 inline constexpr std::chrono::seconds kAnswerLimit{30};
-/// Time limit for connecting, for a call or stream that is not repeated.
+/// Deadline for connecting, for calls and streams that are not repeated.
 inline constexpr std::chrono::seconds kConnectLimit{1};
 /// Pause between attempts to resume a broken stream.
 inline constexpr std::chrono::milliseconds kTryAgainAfter{500};
@@ -73,16 +73,16 @@ inline constexpr int kPageSize = 1000;
 /// Converts a failed call's status to an error, with the reason from its google.rpc.ErrorInfo.
 [[nodiscard]] Error to_error(const Connection& connection, const grpc::Status& status);
 
-/// Runs `attempt` until it returns a status other than UNAVAILABLE; a few times, with growing
-/// pauses.
+/// Runs `attempt` up to a few times, with growing pauses, until it returns a status other than
+/// UNAVAILABLE.
 [[nodiscard]] grpc::Status with_retries(Connection& connection,
                                         const std::function<grpc::Status()>& attempt);
 
-/// Waits until there is a connection, or for `time`. Calls fail at once without a connection, and
-/// gRPC finishes connecting only while somebody waits.
+/// Waits until there is a connection, at most for `time`. Without a connection, calls fail
+/// immediately, and gRPC completes a connection only while a thread waits for it.
 void wait_for_connection(Connection& connection, std::chrono::milliseconds time);
 
-/// Waits for `time`, or until the connection is asked to stop.
+/// Waits for `time`, or until the connection is stopped.
 void pause(const Connection& connection, std::chrono::milliseconds time);
 
 /// Makes a call that is safe to repeat.
@@ -101,8 +101,8 @@ template <class Stub, class Request, class Response>
   return response;
 }
 
-/// Makes a call that is never repeated. A command to the rig must not be sent again before its
-/// result is known.
+/// Makes a call that is never repeated, because a command to the rig must not be sent again before
+/// its result is known.
 template <class Stub, class Request, class Response>
 [[nodiscard]] Result<Response> call_once(Connection& connection, Stub& stub,
                                          grpc::Status (Stub::*method)(grpc::ClientContext*,
@@ -117,8 +117,8 @@ template <class Stub, class Request, class Response>
   return response;
 }
 
-/// Requests pages until `limit` items are there or no page is left, and joins them. The token is
-/// that of the last page.
+/// Requests pages until there are `limit` items or no further page, and joins them. The page token
+/// is that of the last page.
 /// @param count  number of items in a response, for example &v1::ListJobsResponse::jobs_size
 template <class Stub, class Request, class Response>
 [[nodiscard]] Result<Response> all_pages(Connection& connection, Stub& stub,
@@ -137,7 +137,7 @@ template <class Stub, class Request, class Response>
   return all;
 }
 
-/// Creates a request that names a resource.
+/// Creates a request with the name of a resource.
 template <class Request>
 [[nodiscard]] Request named(const std::string& name) {
   Request request;

@@ -29,8 +29,8 @@ bool ServerAddress::is_loopback() const {
 Result<ServerAddress> parse_server(std::string_view text) {
   const auto refused =
       fail(Code::kInvalidArgument,
-           fmt::format("'{}' is not host:port, as in 127.0.0.1:50051, or "
-                       "https://host:port for TLS, as in https://rig.example.org:50051",
+           fmt::format("'{}' is not a server address. Use host:port (127.0.0.1:50051), or "
+                       "https://host:port for TLS (https://rig.example.org:50051)",
                        text));
   ServerAddress address;
   address.is_tls = text.starts_with(kTls);

@@ -13,9 +13,9 @@ struct ServerAddress {
   int port = 50051;
   bool is_tls = false;
 
-  /// "rig.example.org:50051", "[::1]:50051".
+  /// Returns "rig.example.org:50051" or "[::1]:50051".
   [[nodiscard]] std::string text() const;
-  /// Whether the host is this machine, by a name that cannot be redirected elsewhere.
+  /// Returns whether the host is this machine, by a name that cannot be redirected elsewhere.
   [[nodiscard]] bool is_loopback() const;
 };
 

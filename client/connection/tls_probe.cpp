@@ -102,14 +102,14 @@ std::string words_for(long verdict, const X509& certificate, const ServerAddress
           address.host);
     default:
       return fmt::format(
-          "its TLS certificate is not signed by a trusted authority ({}); give that authority's "
+          "its TLS certificate is not signed by a trusted authority ({}); specify that authority's "
           "certificate with --ca FILE (HYDROPRINT_CA)",
           X509_verify_cert_error_string(verdict));
   }
 }
 
-// OpenSSL writes to sockets without MSG_NOSIGNAL, so SIGPIPE would end the program when the peer is
-// gone.
+// Blocks SIGPIPE: OpenSSL writes to sockets without MSG_NOSIGNAL, so the signal would end the
+// program when the peer is gone.
 class WithoutSigpipe {
  public:
   WithoutSigpipe() {
@@ -132,7 +132,7 @@ class WithoutSigpipe {
 
 enum class Spoken { kByTls, kOtherwise, kNotKnown };
 
-// Performs the TLS handshake; the certificate is not judged here.
+// Performs the TLS handshake without verifying the certificate.
 Spoken shake_hands(SSL& ssl, const ServerAddress& address, int socket) {
   X509_VERIFY_PARAM* const asked = SSL_get0_param(&ssl);
   X509_VERIFY_PARAM_set_flags(asked, X509_V_FLAG_PARTIAL_CHAIN);

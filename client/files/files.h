@@ -15,13 +15,14 @@ namespace hydroprint::client {
 /// Called with the number of bytes done and the total.
 using ByteProgress = std::function<void(std::int64_t done_bytes, std::int64_t total_bytes)>;
 
-/// Reads a regular file from byte `offset` on, in pieces of at most 64 KiB, until the end or until
-/// `take` returns false.
-/// @return kNotFound, kPermissionDenied or kInvalidArgument (not a regular file) naming the file
+/// Reads a regular file, starting at byte `offset`, in pieces of at most 64 KiB until the end or
+/// until `take` returns false.
+/// @return kNotFound, kPermissionDenied or kInvalidArgument (not a regular file) with the file name
 [[nodiscard]] Status read_file(const std::filesystem::path& path, std::int64_t offset,
                                const std::function<bool(std::string_view bytes)>& take);
 
-/// Hashes a file; same errors as open_input_file(), and kCancelled when stopped.
+/// Computes the hash of a file. Returns the errors of open_input_file(), and kCancelled when
+/// stopped.
 [[nodiscard]] Result<FileDigest> digest_file(const std::filesystem::path& path,
                                              const std::stop_token& stop);
 

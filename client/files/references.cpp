@@ -62,8 +62,8 @@ class Collector {
     return folder_ / name;
   }
 
-  /// Returns the file beside `from` that a reader would open for `name`: the name with either kind
-  /// of slash, or only its last part. Never a file outside the model's folder.
+  /// Returns the file that a reader of `from` would open for `name`: the name with either kind of
+  /// slash, or only its last part. Never a file outside the model's folder.
   [[nodiscard]] std::optional<std::string> resolve(std::string_view name,
                                                    const std::string& from) const {
     const std::filesystem::path base = std::filesystem::path(from).parent_path();
@@ -77,7 +77,7 @@ class Collector {
     return std::nullopt;
   }
 
-  /// @param from  the file that mentions `name`, relative to the model's folder
+  /// @param from  the file that contains `name`, relative to the model's folder
   void add(std::string_view name, const std::string& from) {
     const auto found = resolve(name, from);
     if (!seen_.insert(found.value_or(std::string(name))).second) return;
@@ -103,8 +103,8 @@ class Collector {
   References result_;
 };
 
-// The options allowed between `map_Kd` and the file name, with the minimum and maximum number of
-// words after each.
+// Returns the text after the options that are allowed between `map_Kd` and the file name. The table
+// contains the minimum and maximum number of words after each option.
 std::string_view skip_map_options(std::string_view rest) {
   static const std::map<std::string_view, std::pair<int, int>> kWords{
       {"-blendu", {1, 1}}, {"-blendv", {1, 1}}, {"-boost", {1, 1}},   {"-mm", {2, 2}},
@@ -145,15 +145,15 @@ void follow_mtllib(std::string_view names, const std::string& model, Collector& 
     collector.add(name, model);
     if (const auto found = collector.resolve(name, model)) follow_mtl(*found, collector);
   };
-  // The line may be one name with spaces, or several names.
+  // The line may be one name that contains spaces, or several names.
   if (collector.resolve(unquote(names), model)) return follow(unquote(names));
   for (auto [name, rest] = word(names); !name.empty(); std::tie(name, rest) = word(rest))
     follow(name);
 }
 
 Status follow_obj(const std::filesystem::path& path, Collector& collector) {
-  // The file is read in pieces and split into lines: an OBJ may be large, but its relevant lines
-  // are short.
+  // The file is read in pieces and split into lines, because an OBJ may be large although its
+  // relevant lines are short.
   std::string line;
   const std::string model = path.filename().string();
   const auto take_line = [&] {
@@ -205,7 +205,7 @@ Status follow_gltf(const std::filesystem::path& path, Collector& collector) {
   return {};
 }
 
-// A GLB starts with "glTF", version, length; then comes its JSON chunk: length, "JSON", bytes.
+// A GLB starts with "glTF", version, length, followed by its JSON chunk: length, "JSON", bytes.
 Status follow_glb(const std::filesystem::path& path, Collector& collector) {
   constexpr std::size_t kJsonStart = 20;
   std::string head;

@@ -14,15 +14,15 @@ struct Reference {
   std::filesystem::path path;  ///< its path on this machine
 };
 
-/// The files that must be sent along with a model.
+/// The files that must be sent together with a model.
 struct References {
   std::vector<Reference> files;    ///< in order of first mention, without duplicates
-  std::vector<std::string> notes;  ///< for people: references that cannot be sent, with the reason
+  std::vector<std::string> notes;  ///< references that cannot be sent, with the reason
 };
 
-/// Follows the names in an OBJ (material libraries and their textures), a glTF or GLB (buffers and
-/// images), or the TextureFile comments of a PLY. Other formats have no references, and a broken
-/// model is left for the worker to report. Names that lead outside the model's folder are not
+/// Finds the files that a model refers to: material libraries and their textures (OBJ), buffers and
+/// images (glTF, GLB), TextureFile comments (PLY). Other formats have no references. Errors in the
+/// model are left for the worker to report. Names that lead outside the model's folder are not
 /// followed.
 /// @return errors of reading the model file itself
 [[nodiscard]] Result<References> find_references(const std::filesystem::path& model);

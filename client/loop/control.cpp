@@ -48,7 +48,7 @@ Result<std::string> talk(const std::filesystem::path& control, const std::string
     ::close(line);
   }
   if (reply.empty()) {
-    return fail(Code::kUnavailable, fmt::format("{}: no virtual rig answers there; give the path "
+    return fail(Code::kUnavailable, fmt::format("{}: no virtual rig responds there; use the path "
                                                 "that hydroprint-virtual-rig has as --control",
                                                 control.string()));
   }

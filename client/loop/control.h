@@ -7,12 +7,13 @@
 
 namespace hydroprint::loop {
 
-/// Sends one line to a virtual rig's control socket. @return its reply, one line; kUnavailable if
-/// the rig does not answer, kInvalidArgument if it refuses
+/// Sends one line to a virtual rig's control socket.
+/// @return its response, one line; kUnavailable if the rig does not respond, kInvalidArgument if it
+///         reports an error
 [[nodiscard]] Result<std::string> talk(const std::filesystem::path& control,
                                        const std::string& line);
 
-/// Quotes a path for the rig's control language, including spaces.
+/// Quotes a path, which may contain spaces, for the rig's control language.
 [[nodiscard]] std::string quoted(const std::filesystem::path& path);
 
 }  // namespace hydroprint::loop

@@ -17,10 +17,10 @@
 namespace hydroprint::loop {
 namespace {
 
-constexpr double kHeldTilt_deg = 30;  // of the paper's board
+constexpr double kHeldTilt_deg = 30;  // tilt of the paper's board
 
-/// Numbers in [-1, 1), identical on every platform: the distributions of the standard library
-/// differ between implementations.
+/// Random numbers in [-1, 1) that are identical on every platform: the distributions of the
+/// standard library differ between implementations.
 class Draws {
  public:
   Draws(std::uint32_t seed, int index, std::uint32_t purpose) {
@@ -33,7 +33,8 @@ class Draws {
   std::mt19937 random_;
 };
 
-/// Pose in the gripper: turned, box centred below the gripper, top at the gripper's lower end.
+/// Returns the pose in the gripper: rotated, with its box centred below the gripper and its top at
+/// the gripper's lower end.
 Pose hung(const Body& body, const Eigen::Matrix3d& turn) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : body.points) box.extend(turn * p);
@@ -55,11 +56,11 @@ Result<Body> make_body(const std::string& name) {
   Body out{name, Eigen::Matrix3d::Identity(), name == "sphere80", {}};
   if (name != "board" && name != "sphere80") {
     return fail(Code::kInvalidArgument,
-                fmt::format("unknown sample '{}'; give board or sphere80", name));
+                fmt::format("unknown sample '{}'; use board or sphere80", name));
   }
   if (name == "board") {
-    // Turned so that the camera, at the near side, sees two upright faces. From the upper face
-    // alone, the position of the board along that face cannot be measured.
+    // Rotates the board so that the camera, at the near side, sees two upright faces. From the
+    // upper face alone, the position of the board along that face cannot be measured.
     const Eigen::AngleAxisd tilt(-kHeldTilt_deg * kDegree, Eigen::Vector3d::UnitX());
     const Eigen::AngleAxisd about(std::numbers::pi / 4, Eigen::Vector3d::UnitZ());
     out.nominal_turn = (tilt * about).matrix();

@@ -19,49 +19,50 @@ struct Body {
   Eigen::Matrix3d nominal_turn;  ///< nominal orientation, F
   /// a sphere: a scan cannot measure its rotation, so that stays nominal
   bool is_round = false;
-  std::vector<Eigen::Vector3d> points;  ///< of its mesh, O
+  std::vector<Eigen::Vector3d> points;  ///< vertices of its mesh, O
 };
 
-/// "board" (held at 30 degrees, as in section 7.1) or "sphere80". Refuses others
-/// (kInvalidArgument).
+/// Creates the object "board" (held at 30 degrees, as in section 7.1) or "sphere80". Errors:
+/// kInvalidArgument for other names.
 [[nodiscard]] Result<Body> make_body(const std::string& name);
 
-/// Errors of a rig that its operator does not know, drawn uniformly within the bounds of a careful
-/// build.
+/// Errors of a rig that its operator does not know, drawn uniformly within the limits of a
+/// carefully built rig.
 struct Truth {
   Pose X_GO = Pose::Identity();   ///< pose of the object in the gripper (origin: its lower end)
-  Eigen::Vector2d slope{0, 0};    ///< of the motion axis: mm sideways for each mm down
+  Eigen::Vector2d slope{0, 0};    ///< horizontal motion of the axis for each mm down
   Eigen::Vector2d film_mm{0, 0};  ///< displacement of the film
-  double printer_scale = 1;       ///< of the printed image
+  double printer_scale = 1;       ///< scale of the printed image
 };
 
-inline constexpr double kMostTilt_deg = 5;     ///< of the object
-inline constexpr double kMostShift_mm = 4;     ///< of the object, each way
-inline constexpr double kMostSlope_deg = 0.2;  ///< of the axis, from vertical
-inline constexpr double kMostFilm_mm = 0.3;    ///< of the film's placement
+inline constexpr double kMostTilt_deg = 5;     ///< maximum tilt of the object
+inline constexpr double kMostShift_mm = 4;     ///< maximum shift of the object in each direction
+inline constexpr double kMostSlope_deg = 0.2;  ///< maximum deviation of the axis from vertical
+inline constexpr double kMostFilm_mm = 0.3;    ///< maximum displacement of the film
 inline constexpr double kMostScale = 0.001;    ///< deviation of the printer's scale from 1
 
-/// Draws truth number `index` of a seed; deterministic.
+/// Draws the truth with number `index` for a seed; deterministic.
 [[nodiscard]] Truth draw(const Body& body, std::uint32_t seed, int index);
 
-/// The assumed pose before calibration: upright, its box centred.
+/// Returns the assumed pose before calibration: upright, with its bounding box centred.
 [[nodiscard]] Pose nominal_pose(const Body& body);
 
-/// The object's pose (F) at first contact if it hangs as `truth` says. `gripper_mm` is the height
-/// of the gripper's lower end above the water before the axis came down.
+/// Returns the object's pose (F) at first contact if it is mounted as in `truth`. `gripper_mm` is
+/// the height of the gripper's lower end above the water before the axis was lowered.
 [[nodiscard]] Pose pose_at_contact(const Body& body, const Truth& truth, double gripper_mm);
 
-/// Height of the object's lowest point above the water, for that height of the gripper.
+/// Returns the height of the object's lowest point above the water, for that height of the gripper.
 [[nodiscard]] double height_mm(const Body& body, const Truth& truth, double gripper_mm);
 
-/// Pose X_CB of the calibration board for capture number `index`: towards each of the image's
-/// corners in turn, near and far, tilted each way, always fully in view.
+/// Returns the pose X_CB of the calibration board for capture number `index`. The poses are near
+/// each corner of the image in turn, near and far, tilted in each direction, and always fully in
+/// view.
 [[nodiscard]] Pose held_board(std::uint32_t seed, int index);
 
-/// The calibration board (registration::calibration_board()) as an OBJ file, mm.
+/// Returns the calibration board (registration::calibration_board()) as an OBJ file, mm.
 [[nodiscard]] std::string board_obj();
 
-/// The contents of a pose file.
+/// Returns the content of a pose file.
 [[nodiscard]] std::string pose_json(const Pose& pose);
 
 }  // namespace hydroprint::loop

@@ -13,17 +13,17 @@ struct Report {
   std::string object;  ///< name of the sample
   double bound_mm = 0;
   std::uint32_t seed = 0;
-  std::string camera;  ///< calibration of its lens, or a file
+  std::string camera;  ///< calibration of the lens, or a file
   std::vector<Round> rounds;
 };
 
-/// Contents of report.json.
+/// Returns the content of report.json.
 [[nodiscard]] std::string report_json(const Report& report);
 
-/// Contents of report.html: the same for people, with the rounds' pictures.
+/// Returns report.html, the report with the pictures of all rounds.
 [[nodiscard]] std::string report_html(const Report& report);
 
-/// The summary for the terminal.
+/// Returns the summary for the terminal.
 [[nodiscard]] std::string report_text(const Report& report);
 
 }  // namespace hydroprint::loop

@@ -18,7 +18,7 @@ constexpr int kColumns = static_cast<int>(2 * kHalfRange_mm / kCell_mm);
 constexpr std::size_t kMostPoints = 50'000'000;
 constexpr int kDoubles = 7;  // x, y, z, film_x, film_y, contact_time, stretch
 
-/// The worker's header, exact except for its version and counts (contract).
+/// The header that the worker writes; only its version and counts may vary.
 struct Header {
   std::size_t points = 0, triangles = 0;
   bool is_good = false;
@@ -65,7 +65,7 @@ void read_triangles(std::istream& file, std::size_t count, SurfaceMap& out) {
   }
 }
 
-/// Barycentric weights at p; nullopt if p lies outside or the triangle is degenerate.
+/// Returns the barycentric weights at p; nullopt if p lies outside or the triangle is degenerate.
 std::optional<Eigen::Vector3d> weights(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                        const Eigen::Vector2d& c, const Eigen::Vector2d& p) {
   constexpr double kOutside = -1e-9;

@@ -21,14 +21,14 @@ struct SurfaceMap {
 /// Reads a surface map; kInvalidArgument if the file is malformed.
 [[nodiscard]] Result<SurfaceMap> read_surface_map(const std::filesystem::path& path);
 
-/// Finds where on the object a point of the film lands: on the triangle that takes it first,
+/// Finds where a point of the film lands on the object: in the triangle with the earliest contact,
 /// interpolated between its corners.
 class FilmLocator {
  public:
   /// @param map  must outlive this object
   explicit FilmLocator(const SurfaceMap& map);
 
-  /// Returns nullopt if the point lands nowhere.
+  /// Returns the landing point; nullopt if the film point does not land.
   [[nodiscard]] std::optional<Eigen::Vector3d> at(const Eigen::Vector2d& film_mm) const;
 
  private:

@@ -3,7 +3,7 @@
 namespace hydroprint::admin {
 
 /// Implements `hydroprintd admin ...`, which `hydroprint admin` runs on the daemon's machine.
-/// @param argv  from "admin" on
+/// @param argv  arguments, starting with "admin"
 /// @return the exit status
 [[nodiscard]] int obey(int argc, char** argv);
 

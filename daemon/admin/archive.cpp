@@ -23,7 +23,7 @@ struct CloseEntry {
 };
 using Entry = std::unique_ptr<archive_entry, CloseEntry>;
 
-// errno is needed to distinguish a full disk from other errors.
+// errno distinguishes a full disk from other errors.
 tl::unexpected<Error> writing_failed(const std::filesystem::path& path, archive* out) {
   if (archive_errno(out) != ENOSPC && archive_errno(out) != EDQUOT) {
     const char* const words = archive_error_string(out);
@@ -82,7 +82,7 @@ Result<std::unique_ptr<ArchiveWriter>> ArchiveWriter::create(const std::filesyst
   HP_ASSIGN_OR_RETURN(impl->file, daemon::open_file(impl->part, O_WRONLY | O_CREAT | O_TRUNC));
   impl->out = archive_write_new();
   if (impl->out == nullptr) return fail(Code::kResourceExhausted, "out of memory");
-  // Store names as bytes, whatever the locale.
+  // Stores names as bytes, whatever the locale.
   if (archive_write_set_format_pax_restricted(impl->out) != ARCHIVE_OK ||
       archive_write_set_format_option(impl->out, "pax", "hdrcharset", "BINARY") != ARCHIVE_OK ||
       archive_write_add_filter_none(impl->out) != ARCHIVE_OK ||
@@ -162,7 +162,8 @@ Result<std::unique_ptr<ArchiveReader>> ArchiveReader::open(const std::filesystem
   }
   impl->in = archive_read_new();
   if (impl->in == nullptr) return fail(Code::kResourceExhausted, "out of memory");
-  // Only uncompressed tar: nothing that expands when read, and no parser for other formats.
+  // Supports only uncompressed tar, so that nothing expands when read and no other parsers are
+  // exposed.
   if (archive_read_support_format_tar(impl->in) != ARCHIVE_OK ||
       archive_read_open_fd(impl->in, impl->file.get(), kPiece) != ARCHIVE_OK) {
     return impl->failed();

@@ -13,10 +13,10 @@
 
 namespace hydroprint::admin {
 
-/// Writes a tar archive that only its user may read. An unfinished archive is deleted.
+/// Writes a tar archive with access for its user only. An unfinished archive is deleted.
 class ArchiveWriter {
  public:
-  /// Creates the file under a temporary name; finish() gives it its own name.
+  /// Creates the file under a temporary name; finish() renames it.
   /// @return kAlreadyExists if the file exists
   [[nodiscard]] static Result<std::unique_ptr<ArchiveWriter>> create(
       const std::filesystem::path& path);
@@ -26,7 +26,7 @@ class ArchiveWriter {
 
   /// Adds `size` bytes of a file and returns their SHA-256 in hex.
   /// @param taken  called with the number of bytes as they are written
-  /// @return kDataLoss if the file is shorter; the rest is then filled with zeros
+  /// @return kDataLoss if the file is shorter; the rest of the entry is then filled with zeros
   [[nodiscard]] Result<std::string> add(const std::string& name, const daemon::UniqueFd& file,
                                         std::int64_t size,
                                         const std::function<void(std::int64_t)>& taken);
@@ -47,8 +47,8 @@ struct ArchiveEntry {
   bool is_file = false;  ///< a regular file: not a folder, link or device
 };
 
-/// Reads an archive from beginning to end. A file that is not an archive or is cut off is
-/// kInvalidArgument.
+/// Reads an archive from beginning to end. Returns kInvalidArgument if the file is not an archive
+/// or is truncated.
 class ArchiveReader {
  public:
   [[nodiscard]] static Result<std::unique_ptr<ArchiveReader>> open(
@@ -57,7 +57,7 @@ class ArchiveReader {
   ArchiveReader(const ArchiveReader&) = delete;
   ArchiveReader& operator=(const ArchiveReader&) = delete;
 
-  /// nullopt at the end.
+  /// Returns the header of the next entry; nullopt at the end.
   [[nodiscard]] Result<std::optional<ArchiveEntry>> next();
   /// Reads the content of the current entry in pieces; stops at the first error.
   [[nodiscard]] Status read(const std::function<Status(std::string_view)>& piece);

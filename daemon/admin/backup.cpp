@@ -26,8 +26,8 @@ struct Snapshot {
   std::unique_ptr<daemon::Database> database;
 };
 
-// Removes rows that are valid only for the running daemon. A restored session could be one that has
-// ended since.
+// Removes rows that are valid only for the running daemon. Otherwise a session that has ended since
+// could be restored.
 Status leave_out_what_passes(daemon::Database& snapshot) {
   for (const char* const table : {"uploads", "sessions", "sign_in_links", "lease"}) {
     HP_RETURN_IF_ERROR(snapshot.run(std::string("DELETE FROM ") + table));
@@ -43,8 +43,8 @@ Result<bool> is_named(daemon::Database& database, const NamedFile& file) {
   return is_there;
 }
 
-// Removes an unreadable file from the snapshot, together with its job if that was deleted
-// meanwhile.
+// Removes a file that cannot be read from the snapshot, together with its job if the job has been
+// deleted meanwhile.
 Status forget(daemon::Database& snapshot, const NamedFile& file, bool is_deleted) {
   if (file.job == 0) return snapshot.run("DELETE FROM assets WHERE sha256=?", {file.sha256});
   if (is_deleted) return snapshot.run("DELETE FROM jobs WHERE id=?", {file.job});

@@ -12,7 +12,7 @@ namespace hydroprint::admin {
 [[nodiscard]] Status reset_password(State& state, const std::string& user,
                                     const std::string& password);
 
-/// Creates a link by which the user signs in once, within 15 minutes, and returns its token.
+/// Creates a link with which the user can sign in once, within 15 minutes, and returns its token.
 /// @return USER_NOT_FOUND; kFailedPrecondition for a barred user
 [[nodiscard]] Result<std::string> sign_in_link(State& state, const std::string& user);
 

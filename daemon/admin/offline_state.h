@@ -14,26 +14,27 @@ namespace hydroprint::admin {
 struct State {
   daemon::Layout layout;
   std::unique_ptr<daemon::Database> database;
-  /// Held while no daemon runs, so that none can start; not valid while a daemon runs.
+  /// Locked if no daemon is running, so that none can start; not valid while a daemon is running.
   daemon::UniqueFd lock;
 
   [[nodiscard]] bool daemon_runs() const { return !lock.valid(); }
 };
 
-/// Opens the store of a state folder without migrating it, since a daemon of another version may be
-/// running on it.
+/// Opens the store of a state folder without migrating it, because a daemon of another version may
+/// be using it.
 /// @param root  empty: the folder of this user's daemon
 /// @return kNotFound if there is none; kPermissionDenied if it belongs to another user;
-/// kFailedPrecondition as in open_store_as_it_is(), or RESTORE_UNFINISHED
+///         kFailedPrecondition as in open_store_as_it_is(), or RESTORE_UNFINISHED
 [[nodiscard]] Result<State> open_state(const std::filesystem::path& root);
 
-/// The absolute path of the folder; an empty `root` is the folder of the user's own daemon.
+/// Returns the absolute path of the folder; an empty `root` means the folder of the user's own
+/// daemon.
 [[nodiscard]] Result<std::filesystem::path> state_root(const std::filesystem::path& root);
 
-/// Refuses (kPermissionDenied) a folder that belongs to another user.
+/// Returns kPermissionDenied if a folder belongs to another user.
 [[nodiscard]] Status check_is_mine(const std::filesystem::path& folder);
 
-/// The name of the user who runs this process, or of the user who called sudo.
+/// Returns the name of the user who runs this process, or of the user who called sudo.
 [[nodiscard]] std::string operator_name();
 
 /// Adds a command to the audit log of the store.

@@ -30,7 +30,7 @@ const std::vector<std::string>& kept_names() {
   return all;
 }
 
-// Accepts only names that named_files() can return, so no path leads out of the folder.
+// Accepts only names that named_files() can return, so no path can lead out of the folder.
 bool is_name_of_ours(const std::string& name) {
   if (name == kDatabaseName || name == kManifestName) return true;
   if (name.starts_with("assets/")) {
@@ -154,10 +154,11 @@ class Unpacked {
   }
 
   std::filesystem::path file_, folder_;
-  std::map<std::string, std::string> hashes_;  // by name
+  std::map<std::string, std::string> hashes_;  // hash of each file, by name
 };
 
-// Whether the folder has no content, ignoring the lock and the remains of an interrupted restore.
+// Returns whether the folder is empty, apart from the lock and the remains of an interrupted
+// restore.
 bool is_empty(const daemon::Layout& layout) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(layout.root, error)) {
@@ -166,7 +167,7 @@ bool is_empty(const daemon::Layout& layout) {
   return !error;
 }
 
-// The only step that cannot be undone. No daemon starts while the mark exists.
+// This is the only step that cannot be undone. No daemon starts while the marker exists.
 Status replace(const daemon::Layout& layout) {
   const auto mark = layout.unrestored();
   {

@@ -6,16 +6,17 @@
 
 namespace hydroprint::admin {
 
-/// Restores a backup to a state folder. No daemon may use the folder; it is created if it does not
-/// exist. The whole archive is unpacked next to the present state and every file's hash is checked
-/// before anything is replaced. Unexpected entries (links, other names) are refused. A store of an
+/// Restores a backup to a state folder, which no daemon may be using; creates the folder if it does
+/// not exist. Unpacks the whole archive next to the current state and checks every file's hash
+/// before it replaces anything. Unexpected entries (links, other names) are errors. A store of an
 /// earlier version is migrated. Shows its progress on stderr.
+/// After an error the folder is unchanged. If the power fails during the last step, no daemon
+/// starts on the folder until the restore is repeated (RESTORE_UNFINISHED).
 /// @param root      empty: the folder of this user's daemon
 /// @param replaces  whether the content of the folder may be deleted
-/// @return kFailedPrecondition if a daemon runs there, the folder is not empty, or STORE_TOO_NEW;
-/// kInvalidArgument if the backup is not complete; kResourceExhausted, DISK_FULL. After an error
-/// the folder is unchanged. If the power fails in the last step, no daemon starts on it until the
-/// restore is repeated (RESTORE_UNFINISHED).
+/// @return kFailedPrecondition if a daemon is using the folder, the folder is not empty, or
+///         STORE_TOO_NEW; kInvalidArgument if the backup is not complete; kResourceExhausted,
+///         DISK_FULL
 [[nodiscard]] Result<Contents> restore(const std::filesystem::path& root,
                                        const std::filesystem::path& file, bool replaces);
 

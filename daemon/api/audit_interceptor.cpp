@@ -29,7 +29,7 @@ constexpr std::chrono::milliseconds kWritten_ms{2000};
 constexpr std::size_t kLongestDetail = 300;
 constexpr const char* kPreview = "hydroprint.v1.PreviewService.ComputePreview";  // only computes
 
-// Turns "/hydroprint.v1.RigService/MoveTo" into "RigService.MoveTo".
+// Shortens "/hydroprint.v1.RigService/MoveTo" to "RigService.MoveTo".
 std::string short_name(const std::string& method) {
   const auto slash = method.rfind('/');
   const auto dot = method.rfind('.', slash);
@@ -44,7 +44,7 @@ std::string text_field(const Message& message, const char* name) {
   return one_line(message.GetReflection()->GetString(message, field).substr(0, kLongestDetail));
 }
 
-// The object of a message: "jobs/7".
+// Returns the object of a message: "jobs/7".
 std::string object_of(const Message& message) {
   for (const char* const name : {"name", "parent"}) {
     if (std::string text = text_field(message, name); !text.empty()) return text;
@@ -69,7 +69,8 @@ std::string plain_text(const Message& message, const FieldDescriptor& field) {
   }
 }
 
-// Numbers, enums and reasons of a request. Other text is left out, since it may be secret.
+// Returns the numbers, enums and reasons in a request. Other text is omitted, because it may be
+// secret.
 std::string detail_of(const Message& message) {
   std::string out = text_field(message, "reason");
   std::vector<const FieldDescriptor*> set;
@@ -115,7 +116,7 @@ class Quiet {
   std::map<std::string, std::int64_t> told_;
 };
 
-// Calls that clients repeat for as long as something goes on.
+// Returns whether clients repeat the call as long as an action continues.
 bool is_frequent(const std::string& what) {
   return what == "RigService.Jog" || what == "LeaseService.RenewLease";
 }
@@ -126,8 +127,8 @@ class Recorder {
   explicit Recorder(auth::AuditLog& audit) : audit_(audit) {}
 
   void record(const auth::AuditEntry& entry) { static_cast<void>(note(entry)); }
-  /// Also waits until the entry is on disk, except for calls that stop the rig or keep it in
-  /// motion.
+  /// Records a call and waits until the entry is on disk, except for calls that stop the rig or
+  /// keep it in motion.
   void record_on_disk(const auth::AuditEntry& entry) {
     const std::uint64_t noted = note(entry);
     if (is_frequent(entry.what) || entry.what == "RigService.StopMotion") return;
@@ -177,7 +178,7 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
     entry_.object = object_of(*request);
     entry_.detail = detail_of(*request);
   }
-  // A created object gets its name only in the reply.
+  // The name of a created object is known only from the response.
   void see_reply(const Message* reply) {
     if (reply != nullptr && entry_.object.empty()) entry_.object = object_of(*reply);
   }
@@ -195,7 +196,7 @@ class AuditInterceptor final : public grpc::experimental::Interceptor {
   auth::AuditEntry entry_;
 };
 
-// Whether calls of a method are recorded: "/hydroprint.v1.RigService/MoveTo".
+// Returns whether calls of a method are recorded: "/hydroprint.v1.RigService/MoveTo".
 bool is_noted(std::string method) {
   if (method.empty()) return false;
   method.erase(0, 1);

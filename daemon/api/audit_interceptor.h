@@ -10,15 +10,14 @@
 namespace hydroprint::daemon {
 
 /// Records calls that change something (all except google.api.http GET): the caller, the object and
-/// the result. Leaves out unauthenticated calls, SignIn (which records itself), uploaded chunks and
+/// the result. Skips unauthenticated calls, SignIn (which records itself), uploaded chunks and
 /// previews. Frequent calls (Jog, RenewLease) are recorded at most once a minute.
-///
-/// A call is answered once its entry is on disk, or after two seconds. Calls that stop the rig or
+/// The response waits until the entry is on disk, at most two seconds. Calls that stop the rig or
 /// keep it in motion (StopMotion, Jog, RenewLease) never wait.
 [[nodiscard]] std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>
 make_audit_interceptor(auth::AuditLog& audit);
 
-/// Records calls that an endpoint refuses because of the caller's role, by the same rules. Does not
+/// Records calls that an endpoint rejects because of the caller's role, by the same rules. Does not
 /// wait. `audit` must outlive it.
 [[nodiscard]] OnRefusal make_refusal_recorder(auth::AuditLog& audit);
 

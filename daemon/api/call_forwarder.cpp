@@ -10,7 +10,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// The host in "ipv4:127.0.0.1:50051" or "ipv6:%5B::1%5D:50051".
+// Returns the host in "ipv4:127.0.0.1:50051" or "ipv6:%5B::1%5D:50051".
 std::string address_in(const std::string& peer) {
   if (!peer.starts_with("ipv4:") && !peer.starts_with("ipv6:")) return peer;
   std::string host = peer.substr(5, peer.rfind(':') - 5);
@@ -22,8 +22,8 @@ std::string address_in(const std::string& peer) {
   return host;
 }
 
-/// The credentials of a call from the network. The peer is the connection's address; other metadata
-/// that the services trust is not taken from the client.
+/// Returns the credentials of a call from the network. The peer is the address of the connection;
+/// other metadata that the services trust is never taken from the client.
 auth::Credentials presented_credentials(const grpc::ServerContextBase& context) {
   auth::Credentials credentials = credentials_of(context);
   credentials.peer = address_in(context.peer());
@@ -49,7 +49,7 @@ class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
     stub.PrepareBidiStreamingCall(&context_, method, {}, this);
     AddHold();  // writes start outside this reactor's own callbacks
     StartCall();
-    // A read is always pending, since gRPC loses an unread in-process response when the status
+    // A read is always pending, because gRPC loses an unread in-process response when the status
     // follows it.
     StartRead(&response);
   }
@@ -77,7 +77,7 @@ class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
   grpc::ByteBuffer request, response;
 
  private:
-  // Nothing may be started on a call once its hold is removed.
+  // No operation may be started on a call after its hold is removed.
   bool enter() {
     const std::lock_guard lock(mutex_);
     if (!is_closed_) ++inside_;
@@ -109,7 +109,8 @@ class ServiceSide final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc:
   int inside_ = 0;
 };
 
-/// One forwarded call. In each direction, a message is read once the previous one was accepted.
+/// One forwarded call. In each direction, a message is read once the previous one has been
+/// accepted.
 class ForwardedCall final : public grpc::ServerGenericBidiReactor {
  public:
   ForwardedCall(grpc::GenericStub& stub, const grpc::GenericCallbackServerContext& context,

@@ -10,9 +10,9 @@
 
 namespace hydroprint::daemon {
 
-/// The gRPC endpoint's only service. It admits each call by its headers, before it reads a message,
-/// and forwards admitted calls to the services within the process. gRPC's own health and reflection
-/// services need no sign-in.
+/// The only service of the gRPC endpoint. It authorizes each call by its headers before it reads a
+/// message, and forwards authorized calls to the services within the process. gRPC's own health and
+/// reflection services need no sign-in.
 class CallForwarder final : public grpc::CallbackGenericService {
  public:
   /// @param services  channel to the services

@@ -44,7 +44,7 @@ Result<Topics> topics_of(const v1::WatchEventsRequest& request) {
   return topics;
 }
 
-/// Values that all watches share.
+/// State shared by all watches.
 struct Shared {
   Cached<v1::Rig> rig;
   Cached<v1::Queue> queue;
@@ -110,7 +110,7 @@ class EventWatch {
   Status send_rig() {
     if (!topics_.rig) return {};
     const auto since = EventClock::now() - rig_sent_;
-    // A wait may end slightly early; without this tolerance the rate would halve.
+    // A wait may end slightly early; without this tolerance the rate would be halved.
     if (since < kRigPeriod - kRigPeriod / 10) return {};
     const auto rig = shared_.rig.get();
     if (since < kRigQuietest && looks_same(*rig, rig_)) return {};

@@ -44,8 +44,8 @@ constexpr NamedService kServices[] = {
     {"hydroprint.v1.EventService", make_event_service},
     {kRigService, make_rig_service}};
 
-// gRPC logs to the daemon's log. Failed handshakes are the client's problem and could fill the log,
-// so they are debug messages.
+// Writes gRPC's log messages to the daemon's log. Failed handshakes are caused by clients and could
+// fill the log, so they are debug messages.
 void log_of_grpc(gpr_log_func_args* entry) {
   const bool is_ours = entry->severity == GPR_LOG_SEVERITY_ERROR &&
                        std::string_view(entry->file).find("ssl_") == std::string_view::npos;
@@ -72,7 +72,7 @@ struct Server::Impl {
   std::vector<std::unique_ptr<grpc::Service>> services;
   std::unique_ptr<grpc::Server> within;  // the services; listens on no port
   std::unique_ptr<CallForwarder> forwarder;
-  // gRPC calls into them for as long as the endpoint exists.
+  // gRPC calls the credentials as long as the endpoint exists.
   std::shared_ptr<grpc::ServerCredentials> credentials = grpc::InsecureServerCredentials();
   std::unique_ptr<grpc::Server> server;  // the endpoint
   Endpoint endpoint;
@@ -112,7 +112,7 @@ Status Server::Impl::listen(const Endpoint& wanted, tls::CurrentIdentity identit
   builder.SetOption(std::make_unique<NoPlugins>());  // the services provide them
   // Otherwise a second daemon would silently share the port.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  // Clients that say nothing are disconnected.
+  // Disconnects clients that send nothing after connecting.
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kHandshake_ms);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kIdle_ms);
   if (identity) credentials = tls_credentials(std::move(identity));

@@ -16,7 +16,7 @@ class Channel;
 namespace hydroprint::daemon {
 
 /// Runs the services within the process, with health and optional reflection. Also runs the gRPC
-/// endpoint, which admits calls and forwards them to the services (call_forwarder.h).
+/// endpoint, which authorizes calls and forwards them to the services (call_forwarder.h).
 class Server {
  public:
   /// Starts listening and answering calls.
@@ -30,17 +30,17 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// Channel to the services for another endpoint, which must admit its own calls. May outlive this
-  /// object.
+  /// Returns a channel to the services for another endpoint, which must authorize its own calls.
+  /// May outlive this object.
   [[nodiscard]] std::shared_ptr<grpc::Channel> in_process() const;
-  /// The check that every endpoint makes before it calls the services.
+  /// Returns the check that every endpoint makes before it calls the services.
   [[nodiscard]] const RoleCheck& roles() const;
-  /// The address it listens on, with the actual port.
+  /// Returns the address it listens on, with the actual port.
   [[nodiscard]] const Endpoint& endpoint() const;
-  /// Health status of the RigService; false at first.
+  /// Sets the health status of the RigService; false at first.
   void set_rig_serving(bool serving);
-  /// Reports "not serving", refuses new calls and waits for running ones; after `patience` they are
-  /// cancelled.
+  /// Reports "not serving", rejects new calls and waits for running calls; cancels them after
+  /// `patience`.
   void stop(std::chrono::milliseconds patience);
 
  private:

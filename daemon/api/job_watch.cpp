@@ -29,7 +29,8 @@ Status watch_job(const ServiceContext& backend, std::int64_t id,
                  std::optional<std::int64_t> after_seq,
                  const std::function<bool(const WatchItem&)>& send,
                  const std::function<bool()>& gone) {
-  // Reads the number before the job: an event between the two is sent twice rather than lost.
+  // Reads the number before the job, so that an event between the two is sent twice rather than
+  // lost.
   HP_ASSIGN_OR_RETURN(std::int64_t seq, backend.jobs.last_seq());
   if (after_seq) {
     HP_RETURN_IF_ERROR(backend.jobs.events(id, *after_seq, 1));
@@ -39,7 +40,7 @@ Status watch_job(const ServiceContext& backend, std::int64_t id,
   if (!send({seq, first, {}})) return client_gone();
   for (;;) {
     const std::uint64_t rings = backend.jobs.notifier().count();
-    // Reads the state before the events: no event follows the end of a job.
+    // Reads the state before the events, so that no event is missed after the end of a job.
     HP_ASSIGN_OR_RETURN(const Job job, backend.jobs.get(id));
     HP_ASSIGN_OR_RETURN(const bool sent, send_events(backend, id, seq, send));
     if (sent) continue;

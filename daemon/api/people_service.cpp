@@ -17,10 +17,11 @@ using auth::Role;
 
 constexpr std::chrono::milliseconds kSignInWritten{2000};  // timeout for writing to the audit log
 
-// The id after the collection's name: "users/ann" gives "ann".
+// Returns the id after the collection's name: "ann" for "users/ann".
 Result<std::string> name_in(const std::string& collection, const std::string& name) {
   if (!name.starts_with(collection + "/")) {
-    return fail(Code::kInvalidArgument, "name: must be like " + collection + "/NAME", "ID_INVALID");
+    return fail(Code::kInvalidArgument, "name: must have the form " + collection + "/NAME",
+                "ID_INVALID");
   }
   std::string id = name.substr(collection.size() + 1);
   HP_RETURN_IF_ERROR(auth::check_user_name("name", id));
@@ -150,7 +151,7 @@ class PeopleService final : public v1::PeopleService::Service {
     return grpc::Status::OK;
   }
 
-  // Throttled attempts are not recorded, since anybody could fill the store with them.
+  // Throttled attempts are not recorded, because anyone could fill the store with them.
   void note_sign_in(const grpc::ServerContext& context, const v1::SignInRequest& request,
                     const Result<auth::SignedIn>& outcome) {
     if (!outcome && outcome.error().reason == "TOO_MANY_ATTEMPTS") return;
@@ -265,8 +266,9 @@ class PeopleService final : public v1::PeopleService::Service {
     return backend_.accounts.users().set_password(name, request.new_password(), caller.session);
   }
 
-  // Without an old password the caller must have a session, which a link started. A key may have a
-  // lower role than its user, who gets the full role by signing in with the password.
+  // Without an old password the caller must have a session that a link started. A key is not
+  // sufficient: it may have a lower role than its user, who gets the full role by signing in with
+  // the password.
   Status check_old_password(const Caller& caller, const auth::User& user,
                             const std::string& password, const grpc::ServerContext& context) {
     if (user.password.empty() && !caller.session.empty()) return {};
@@ -285,7 +287,8 @@ class PeopleService final : public v1::PeopleService::Service {
     return {};
   }
 
-  // The user whose keys or sessions a caller wants to list; only an admin may list all users'.
+  // Returns the user whose keys or sessions are to be listed. Only an admin may list those of other
+  // users.
   static Result<std::string> wanted(const Caller& caller, const std::string& user) {
     if (user.empty()) return caller.role == Role::kAdmin ? std::string() : caller.name;
     HP_ASSIGN_OR_RETURN(std::string name, name_in("users", user));
@@ -331,8 +334,7 @@ class PeopleService final : public v1::PeopleService::Service {
     HP_ASSIGN_OR_RETURN(const std::string id, name_in("apiKeys", request.name()));
     const auto key = backend_.accounts.keys().get(id);
     if (!key || is_hidden(caller, key->user)) {
-      return fail(Code::kNotFound, request.name() + ": there is no such API key of yours",
-                  "KEY_NOT_FOUND");
+      return fail(Code::kNotFound, request.name() + ": you have no such API key", "KEY_NOT_FOUND");
     }
     return backend_.accounts.keys().remove(id);
   }

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Throws nlohmann's exceptions if a key is missing.
+// Throws an exception of the JSON library if a key is missing.
 void add_warnings(const Json& head, v1::Preview& out) {
   for (const Json& told : head.at("warnings")) {
     v1::Preview::Warning& warning = *out.add_warnings();

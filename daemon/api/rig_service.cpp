@@ -19,14 +19,14 @@ namespace {
 using std::chrono::milliseconds;
 using SteadyClock = std::chrono::steady_clock;
 
-// Together with JobService's limit, far below the server's number of threads.
+// Together with JobService's limit, this is far below the server's number of threads.
 constexpr int kMostRigWatches = 32;
 constexpr double kDefaultRate_hz = 10;
 constexpr std::chrono::seconds kQuietest{2};
 constexpr milliseconds kWatchLook{100};
 constexpr double kDefaultSpeed_mm_per_s = 5;
 
-/// StopMotion has its own threads, which other calls cannot exhaust.
+/// StopMotion has its own threads, which other calls cannot occupy.
 class RigService final
     : public v1::RigService::WithCallbackMethod_StopMotion<v1::RigService::Service> {
  public:
@@ -120,7 +120,7 @@ class RigService final
     return grpc::Status::OK;
   }
 
-  /// Gives an order, waits until the drive has accepted it, and logs it.
+  /// Sends a command to the rig, waits until the drive has accepted it, and logs it.
   template <class Request>
   grpc::Status command(const grpc::ServerContext& context, const Request& request,
                        const char* event, const RigGateway::Order& order, v1::Rig* reply) {
@@ -135,7 +135,7 @@ class RigService final
     return answer(done, reply);
   }
 
-  /// Runs `action` unless a request with the same id was carried out before.
+  /// Runs `action` unless a request with the same id was executed before.
   template <class Request, class Action>
   grpc::Status once(const grpc::ServerContext& context, const Request& request, const char* method,
                     const Action& action, v1::Rig* reply) {
@@ -184,7 +184,7 @@ class RigService final
       HP_RETURN_IF_ERROR(backend_.access.check_still(caller));
       if (context.IsCancelled()) return fail(Code::kCancelled, "the client disconnected");
       const auto since = SteadyClock::now() - sent_at;
-      // A sleep may end slightly early; without this tolerance the rate would halve.
+      // A sleep may end slightly early; without this tolerance the rate would be halved.
       if (!first && since < period - kWatchLook / 10) continue;
       v1::Rig now = rig_message(backend_.gateway);
       if (!first && since < quietest && looks_same(now, sent)) continue;

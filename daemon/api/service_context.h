@@ -48,24 +48,24 @@ struct ServiceContext {
   Layout layout;
   std::int64_t min_free_bytes = 0;
   Quota quota;
-  /// True once the daemon starts to shut down: streams end, and new calls are refused.
+  /// True once the daemon starts to shut down: streams end, and new calls are rejected.
   const std::atomic<bool>& stopping;
 };
 
-/// The name of the caller (see Authenticator::caller), who owns created resources.
+/// Returns the name of the caller (see Authenticator::caller), who will own the created resources.
 [[nodiscard]] Result<std::string> owner_of(const grpc::ServerContextBase& context);
 
-/// Page size: the default for 0, at most 1000; a negative size is refused (SPEC_INVALID).
+/// Returns the page size: the default for 0, at most 1000; SPEC_INVALID if negative.
 [[nodiscard]] Result<int> page_size(std::int32_t asked, int otherwise);
 
-/// kUnavailable, SHUTTING_DOWN once the daemon shuts down.
+/// Returns kUnavailable, SHUTTING_DOWN once the daemon shuts down.
 [[nodiscard]] Status check_serving(const ServiceContext& backend);
 
-/// Converts UNAVAILABLE (also for a busy drive) to kAborted for calls that may move the rig, since
-/// clients retry UNAVAILABLE automatically.
+/// Converts UNAVAILABLE (also from a busy drive) to kAborted for calls that may move the rig,
+/// because clients retry UNAVAILABLE automatically.
 [[nodiscard]] Error never_again(Error error);
 
-/// The error kInvalidArgument, PAGE_TOKEN_INVALID.
+/// Returns the error kInvalidArgument, PAGE_TOKEN_INVALID.
 [[nodiscard]] tl::unexpected<Error> bad_page_token();
 
 /// Parses a numeric page token; 0 for an empty one.

@@ -8,7 +8,7 @@
 
 namespace hydroprint::daemon {
 
-/// The services of proto/hydroprint/v1, where each method is described. They check requests, call
+/// The services of proto/hydroprint/v1, where each method is documented. They check requests, call
 /// the stores and convert the results to messages.
 [[nodiscard]] std::unique_ptr<grpc::Service> make_job_service(const ServiceContext& backend);
 [[nodiscard]] std::unique_ptr<grpc::Service> make_queue_service(const ServiceContext& backend);

@@ -5,7 +5,7 @@
 
 namespace hydroprint::daemon {
 
-/// The present queue as an API message.
+/// Returns the current queue as an API message.
 [[nodiscard]] Result<v1::Queue> queue_message(const ServiceContext& backend);
 
 }  // namespace hydroprint::daemon

@@ -36,21 +36,21 @@ struct AuditFilter {
 };
 
 /// Keeps a record of all actions for a year. A thread writes entries to the store, usually within
-/// milliseconds; callers may wait for that. If the store hangs, up to 10000 entries wait in memory.
-/// Further entries are lost, and counted in an entry of their own. Thread-safe.
+/// milliseconds; callers may wait for it. If the store does not respond, up to 10000 entries wait
+/// in memory. Further entries are lost; an entry of its own records how many. Thread-safe.
 class AuditLog {
  public:
   AuditLog(daemon::Database& database, daemon::Clock clock);
-  /// Writes the waiting entries.
+  /// Writes the waiting entries, then stops.
   ~AuditLog();
   AuditLog(const AuditLog&) = delete;
   AuditLog& operator=(const AuditLog&) = delete;
 
   /// Records an entry without waiting.
-  /// @return its number, for wait_written(); 0 if memory is full
+  /// @return the entry's number, for wait_written(); 0 if memory is full
   std::uint64_t note(AuditEntry entry);
   /// Waits up to `limit` until an entry is on disk.
-  /// @return whether it is on disk; if not, it may be written later, or be lost and counted
+  /// @return whether it is on disk; if not, it may still be written later, or be lost and counted
   bool wait_written(std::uint64_t noted, std::chrono::milliseconds limit);
   /// Lists entries, newest first, including everything recorded before the call.
   [[nodiscard]] Result<std::vector<AuditEntry>> list(const AuditFilter& filter);
@@ -63,8 +63,8 @@ class AuditLog {
 
   daemon::Database& database_;
   daemon::Clock clock_;
-  std::mutex writing_;  // serialises writes, in order
-  std::mutex mutex_;    // protects the members below; held only briefly
+  std::mutex writing_;  // serialises writes and keeps their order
+  std::mutex mutex_;    // protects the members below; locked only briefly
   std::condition_variable some_;
   std::condition_variable settled_;
   std::vector<AuditEntry> waiting_;

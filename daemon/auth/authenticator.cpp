@@ -33,7 +33,7 @@ tl::unexpected<Error> sign_in_needed(const auth::Credentials& credentials) {
   return fail(Code::kUnauthenticated,
               has_some ? "the API key or session is no longer valid; sign in again, or "
                          "create another API key"
-                       : "sign-in required; sign in (hydroprint login), or give an API key",
+                       : "sign-in required; sign in (hydroprint login), or send an API key",
               "SIGN_IN_NEEDED");
 }
 
@@ -50,7 +50,7 @@ Result<auth::Caller> Authenticator::caller(const auth::Credentials& credentials,
   }
   std::optional<auth::Caller> caller;
   if (!credentials.authorization.empty()) {
-    // An invalid key is refused even with a valid session.
+    // An invalid key is an error even if there is a valid session.
     if (credentials.authorization.starts_with(kBearer)) {
       const auto key = std::string_view(credentials.authorization).substr(kBearer.size());
       caller = accounts_.keys().caller(key, is_use);

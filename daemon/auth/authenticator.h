@@ -8,21 +8,22 @@
 
 namespace hydroprint::daemon {
 
-/// Establishes the caller of a request from its credentials. Never waits. Thread-safe.
+/// Determines the caller of a request from its credentials. Never waits. Thread-safe.
 class Authenticator {
  public:
-  /// @param open_on_loopback  whether everyone on this machine is admin while there are no users
+  /// @param open_on_loopback  whether every caller on this machine is an admin while there are no
+  ///                          users
   Authenticator(auth::Accounts& accounts, bool open_on_loopback)
       : accounts_(accounts), open_on_loopback_(open_on_loopback) {}
 
-  /// The caller; marks the session or key as used.
-  /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for a malformed `hydroprint-owner`,
-  /// where that name is used
+  /// Returns the caller and marks the session or key as used.
+  /// @return kUnauthenticated, SIGN_IN_NEEDED; SPEC_INVALID for a malformed `hydroprint-owner`, if
+  ///         that name is used
   [[nodiscard]] Result<auth::Caller> caller(const auth::Credentials& credentials) const {
     return caller(credentials, true);
   }
-  /// Whether the credentials of a caller are still valid. Streams call this several times a second
-  /// and end if not. Does not mark the session as used.
+  /// Checks that the credentials of a caller are still valid. Streams call this several times a
+  /// second and end if they are not. Does not mark the session as used.
   /// @return kUnauthenticated, SIGN_IN_NEEDED
   [[nodiscard]] Status check_still(const auth::Caller& caller) const;
 
@@ -34,13 +35,14 @@ class Authenticator {
   bool open_on_loopback_;
 };
 
-/// Refuses (kPermissionDenied, ROLE_TOO_LOW) a caller with a lower role.
+/// Returns kPermissionDenied, ROLE_TOO_LOW for a caller with a lower role.
 [[nodiscard]] Status check_role(const auth::Caller& caller, auth::Role needed);
 
-/// Whether the address belongs to this machine. An empty address means a call within this process.
+/// Returns whether the address belongs to this machine. An empty address means a call within this
+/// process.
 [[nodiscard]] bool is_loopback(const std::string& address);
 
-/// The error (kUnauthenticated, SIGN_IN_NEEDED) for a request without a known caller.
+/// Returns the error (kUnauthenticated, SIGN_IN_NEEDED) for a request without a known caller.
 [[nodiscard]] tl::unexpected<Error> sign_in_needed(const auth::Credentials& credentials);
 
 }  // namespace hydroprint::daemon

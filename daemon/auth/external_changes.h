@@ -7,18 +7,18 @@
 
 namespace hydroprint::auth {
 
-// A daemon keeps users in memory. Another program that changes their rows leaves a note in the
-// store; the daemon checks for it a few times a second and confirms once it has read the rows.
+// The daemon keeps users in memory. A program that changes their rows sets a marker in the store.
+// The daemon polls for it several times a second, reloads the rows, and then confirms.
 
-/// Asks a running daemon to read users again. Call this after changing them.
-/// @return the word with which the daemon confirms
+/// Requests a running daemon to reload users. Call this after changing them.
+/// @return the token with which the daemon confirms
 [[nodiscard]] Result<std::string> tell_daemon(daemon::Database& database);
 
 /// Waits up to ten seconds for the confirmation.
-/// @return kUnavailable if there is none
+/// @return kUnavailable if it does not arrive
 [[nodiscard]] Status wait_for_daemon(daemon::Database& database, const std::string& word);
 
-/// The daemon's side, with its own thread.
+/// The daemon's side: polls for the marker on its own thread.
 class ExternalChanges {
  public:
   /// @param accounts  must outlive this object

@@ -60,8 +60,8 @@ void LoginThrottle::succeeded(const std::string& name, const std::string& peer) 
   const std::lock_guard lock(mutex_);
   --failed_;
   failures_.erase({name, peer});
-  // Undo only the count of begin() for the other pairs: one correct password does not excuse other
-  // failures.
+  // For the other pairs, undoes only the count of begin(): one correct password does not cancel
+  // other failures.
   for (const Pair& key : {Pair{name, ""}, Pair{"", peer}}) {
     const auto found = failures_.find(key);
     if (found != failures_.end() && !good_.contains({name, peer})) --found->second.count;

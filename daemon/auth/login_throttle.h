@@ -11,27 +11,27 @@
 namespace hydroprint::auth {
 
 /// Limits sign-in attempts. After a few failures each further attempt has to wait 1 s, 2 s, 4 s and
-/// so on. The longest wait is 1 min for a name and address together, 30 s for an address, and 10 s
-/// for a name from anywhere.
-///
-/// Nobody is locked out: if a name has signed in from an address before, only failures of that pair
-/// count for it. An hour without attempts resets everything. Kept in bounded memory. Thread-safe.
+/// so on. The longest wait is 1 min for a combination of name and address, 30 s for an address, and
+/// 10 s for a name from any address.
+/// No user is locked out: if a name has signed in from an address before, only failures of that
+/// combination count for it. An hour without attempts resets all counters. Uses bounded memory.
+/// Thread-safe.
 class LoginThrottle {
  public:
   explicit LoginThrottle(daemon::Clock clock) : clock_(std::move(clock)) {}
 
   /// Starts an attempt. Returns 0 if it may proceed; it then counts as failed until succeeded() is
-  /// called. Otherwise returns the time to wait in ms, and counts nothing.
+  /// called. Otherwise returns the time to wait in ms, and does not count the attempt.
   [[nodiscard]] std::int64_t begin(const std::string& name, const std::string& peer);
   void succeeded(const std::string& name, const std::string& peer);
   /// Counts a failed attempt without a name.
   void reject();
-  /// Number of failures since the daemon started.
+  /// Returns the number of failures since the daemon started.
   [[nodiscard]] std::int64_t failures() const;
 
  private:
   struct Limit {
-    int free = 0;              ///< failures without a wait
+    int free = 0;              ///< number of failures before waits begin
     std::int64_t most_ms = 0;  ///< longest wait
   };
   struct Failures {

@@ -29,7 +29,8 @@ struct Passwords::Impl {
   PasswordCost cost;
   Permits permits{2};
   std::once_flag once;
-  std::string nobodys;  // compared with if there is no password, so that it takes as long
+  // Hash to compare with if a user has no password, so that the check takes as long.
+  std::string nobodys;
 };
 
 namespace {
@@ -98,7 +99,7 @@ Result<bool> Passwords::check(const std::string& password, const std::string& ha
     impl_->nobodys = argon2id("nobody has this one", impl_->cost).value_or("");
   });
   const std::string& against = hashed.empty() ? impl_->nobodys : hashed;
-  // The function returns the same for a wrong password and for too little memory, which is rare.
+  // The function does not distinguish a wrong password from insufficient memory, which is rare.
   const bool equal =
       crypto_pwhash_str_verify(against.c_str(), password.data(), password.size()) == 0;
   return equal && !hashed.empty();

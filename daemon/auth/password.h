@@ -8,17 +8,17 @@
 
 namespace hydroprint::auth {
 
-/// The cost of one password check: argon2id's memory and passes.
+/// The cost of one password check: the memory and passes of argon2id.
 struct PasswordCost {
   std::int64_t memory_kib = 64 << 10;  ///< at least kLeastPasswordMemory_kib
   std::int64_t passes = 3;             ///< at least 1
 };
 inline constexpr std::int64_t kLeastPasswordMemory_kib = 8;
 
-/// Refuses (SPEC_INVALID) a password of less than 10 or more than 1000 bytes.
+/// Returns SPEC_INVALID for a password of less than 10 or more than 1000 bytes.
 [[nodiscard]] Status check_password_length(const std::string& password);
 
-/// Hashes and checks passwords, at most two at a time, since each needs memory. Thread-safe.
+/// Hashes and checks passwords, at most two at a time, because each needs much memory. Thread-safe.
 class Passwords {
  public:
   explicit Passwords(const PasswordCost& cost);
@@ -26,12 +26,12 @@ class Passwords {
   Passwords(const Passwords&) = delete;
   Passwords& operator=(const Passwords&) = delete;
 
-  /// The argon2id text of the password: parameters, salt and hash.
+  /// Hashes a password with argon2id; the result contains parameters, salt and hash.
   /// @return kResourceExhausted: TOO_MANY_ATTEMPTS if too many checks are waiting, OUT_OF_MEMORY
   [[nodiscard]] Result<std::string> hash(const std::string& password);
 
-  /// Whether the password matches. Without a password (`hashed` is empty) the result is false, and
-  /// takes as long. Errors as above.
+  /// Returns whether the password matches. If the user has no password (`hashed` is empty), the
+  /// result is false after the same time. Errors as above.
   [[nodiscard]] Result<bool> check(const std::string& password, const std::string& hashed);
 
  private:

@@ -18,29 +18,29 @@ namespace hydroprint::daemon {
 /// The role required to call a method; nullopt: no sign-in is needed.
 using Need = std::optional<auth::Role>;
 
-/// The role that a method states in its options (access.proto).
-/// @return kInternal if it states none, or both a role and `without_sign_in`
+/// Returns the role declared in a method's options (access.proto).
+/// @return kInternal if the method declares neither a role nor `without_sign_in`, or both
 [[nodiscard]] Result<Need> need_of(const google::protobuf::MethodDescriptor& method);
 
-/// Called for each refusal of a known caller. Must not wait.
+/// Called for each rejected request of a known caller. Must not wait.
 using OnRefusal =
     std::function<void(const auth::Caller& caller, std::string_view method, const Error& error)>;
 
-/// Admits requests by their headers. Roles are checked only here, by both endpoints, before they
-/// read a message or a body. Thread-safe.
+/// Authorizes requests by their headers. Both endpoints check roles only here, before they read a
+/// message or a body. Thread-safe.
 class RoleCheck {
  public:
   /// @param services  full names: "hydroprint.v1.JobService"
-  /// @return kInternal for a service that does not exist or a method that states no role
+  /// @return kInternal for a service that does not exist or a method without a declared role
   [[nodiscard]] static Result<RoleCheck> make(const Authenticator& authenticator,
                                               const std::vector<std::string>& services,
                                               OnRefusal on_refusal = {});
 
-  /// Establishes the caller and checks the role. nullopt: the method needs no sign-in and the
-  /// caller is unknown. A stop is never refused because of the name in `hydroprint-owner`.
+  /// Determines the caller and checks the role. Returns nullopt if the method needs no sign-in and
+  /// the caller is unknown. A stop is never rejected because of the name in `hydroprint-owner`.
   /// @param method  "/hydroprint.v1.JobService/GetJob"
   /// @return kUnauthenticated, SIGN_IN_NEEDED; kPermissionDenied, ROLE_TOO_LOW; kUnimplemented for
-  /// an unknown method; errors of Authenticator::caller()
+  ///         an unknown method; errors of Authenticator::caller()
   [[nodiscard]] Result<std::optional<auth::Caller>> admit(
       std::string_view method, const auth::Credentials& credentials) const;
 
@@ -55,7 +55,7 @@ class RoleCheck {
 
   const Authenticator* authenticator_;
   OnRefusal on_refusal_;
-  std::map<std::string, Rule, std::less<>> rules_;  // by method
+  std::map<std::string, Rule, std::less<>> rules_;  // keyed by method
 };
 
 }  // namespace hydroprint::daemon

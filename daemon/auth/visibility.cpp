@@ -31,7 +31,7 @@ tl::unexpected<Error> not_yours(const Caller& caller, const Job& job, const char
   return refused;
 }
 
-// Collects the input files that name an asset, in a message and the messages inside it.
+// Collects the input files that refer to an asset, in a message and its nested messages.
 void find_files(const Message& message, std::vector<InputFile>& found) {
   if (message.GetDescriptor() == v1::InputFile::descriptor()) {
     v1::InputFile file;
@@ -54,7 +54,7 @@ void find_files(const Message& message, std::vector<InputFile>& found) {
   }
 }
 
-// Removes all files from a message and the messages inside it.
+// Removes all files from a message and its nested messages.
 void clear_files(Message& message) {
   const auto& reflection = *message.GetReflection();
   std::vector<const Field*> fields;
@@ -73,8 +73,7 @@ void clear_files(Message& message) {
   }
 }
 
-// Collects the names of jobs ("jobs/7", and names below them) in a message and the messages inside
-// it.
+// Collects the names of jobs ("jobs/7", and names below them) in a message and its nested messages.
 void find_jobs(const Message& message, std::vector<std::string>& found) {
   const auto& reflection = *message.GetReflection();
   const auto keep = [&](const std::string& text) {
@@ -140,7 +139,7 @@ Status check_may_create(const Caller& caller, Role needed, const v1::Job& job, J
   find_jobs(*spec, names);
   for (const std::string& name : names) {
     const auto id = parse_job_name(name);
-    if (!id) continue;  // not a job; the field's own check reports it
+    if (!id) continue;  // not a job; the check of the field itself reports it
     HP_ASSIGN_OR_RETURN(const Job other, jobs.get(*id));
     HP_RETURN_IF_ERROR(check_may_see(caller, other));
   }

@@ -11,34 +11,34 @@
 
 namespace hydroprint::daemon {
 
-/// Whether a caller may see a job's artifacts and input files: its owner and operators, and
-/// everybody if the job is shared.
+/// Returns whether a caller may see a job's artifacts and input files. The owner and operators may;
+/// all users may if the job is shared.
 [[nodiscard]] bool may_see(const auth::Caller& caller, const Job& job);
 
-/// Refuses (kPermissionDenied, NOT_YOURS) a caller for whom may_see() is false.
+/// Returns kPermissionDenied, NOT_YOURS if may_see() is false for the caller.
 [[nodiscard]] Status check_may_see(const auth::Caller& caller, const Job& job);
 
-/// Refuses (kPermissionDenied, NOT_YOURS) a caller who is neither the owner of a job nor an
-/// operator. Only these may cancel, retry, share or delete it.
+/// Returns kPermissionDenied, NOT_YOURS unless the caller is the owner of a job or an operator.
+/// Only they may cancel, retry, share or delete it.
 [[nodiscard]] Status check_may_change(const auth::Caller& caller, const Job& job);
 
-/// The job as this caller may see it: without its files if may_see() is false.
+/// Returns the job as this caller may see it: without its files if may_see() is false.
 [[nodiscard]] v1::Job shown_to(const auth::Caller& caller, const Job& job);
 
 /// Removes a calibration's files if the caller may not see them; the rules are those of a job with
 /// the same owner.
 void hide_files(const auth::Caller& caller, v1::Calibration& calibration);
 
-/// Refuses a caller who lacks the role for the job (ROLE_TOO_LOW), a job that refers to one that
-/// the caller may not see (NOT_YOURS; JOB_NOT_FOUND), and files that the caller may not use
-/// (ASSET_MISSING).
+/// Checks that a caller may create a job. Returns ROLE_TOO_LOW for a missing role; NOT_YOURS or
+/// JOB_NOT_FOUND if the job refers to one that the caller may not see; ASSET_MISSING for files that
+/// the caller may not use.
 [[nodiscard]] Status check_may_create(const auth::Caller& caller, auth::Role needed,
                                       const v1::Job& job, JobStore& jobs, Database& database);
 
-/// The caller, as the asset store sees users.
+/// Converts a caller to a user of the asset store.
 [[nodiscard]] AssetUser asset_user(const auth::Caller& caller);
 
-/// Refuses (ASSET_MISSING) input files of a request that the caller may not use.
+/// Returns ASSET_MISSING if a request has input files that the caller may not use.
 [[nodiscard]] Status check_may_use_files(const auth::Caller& caller,
                                          const google::protobuf::Message& request,
                                          Database& database);

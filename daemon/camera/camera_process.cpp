@@ -16,7 +16,7 @@ constexpr std::size_t kLargestPicture = 4 << 20;
 constexpr std::size_t kReadAtOnce = 1 << 20;
 constexpr std::size_t kWordsHeld = 16 << 10;
 constexpr std::chrono::seconds kTimeToEnd{2};
-// Longer than the program's own timeout for the camera, whose message is more precise.
+// Longer than the program's own timeout for the camera, whose error message is more precise.
 constexpr std::chrono::seconds kMorePatience{10};
 constexpr std::int64_t kDay_s = 24LL * 3600;
 constexpr std::string_view kProgramPrefix = "hydroprint-capture: ";
@@ -70,7 +70,7 @@ std::vector<FramedMessage> CameraProcess::read(Time now) {
   if (said_.size() > before) heard_ = now;
   for (;;) {
     auto picture = cut_framed(said_, kLargestPicture);
-    // The last line gives the reason for the end instead of a picture.
+    // The last line contains the reason for the end instead of a picture.
     if (!picture) talks_ = false;
     if (!picture || !*picture) return pictures;
     pictures.push_back(std::move(**picture));

@@ -15,8 +15,8 @@
 
 namespace hydroprint::daemon {
 
-/// A process `hydroprint-capture --live`, which holds the camera while it runs. Use it only on the
-/// thread that started it; only the destructor blocks.
+/// A process `hydroprint-capture --live`, which occupies the camera while it runs. Use it only on
+/// the thread that started it; only the destructor blocks.
 class CameraProcess {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -25,20 +25,22 @@ class CameraProcess {
   [[nodiscard]] static Result<std::unique_ptr<CameraProcess>> start(const CameraConfig& camera,
                                                                     const Sandbox& sandbox,
                                                                     const Layout& layout);
-  /// Kills the process and waits 2 s at most, since it may hang in the kernel.
+  /// Kills the process and waits at most 2 s, because it may hang in the kernel.
   ~CameraProcess();
   CameraProcess(const CameraProcess&) = delete;
   CameraProcess& operator=(const CameraProcess&) = delete;
 
-  /// Descriptors that become readable when read() or has_ended() have news; negative ones never do.
+  /// Returns descriptors that become readable when read() or has_ended() should be called; negative
+  /// ones never do.
   [[nodiscard]] std::vector<int> descriptors() const;
-  /// The pictures received since the last call.
+  /// Returns the pictures received since the last call.
   [[nodiscard]] std::vector<FramedMessage> read(Time now);
   /// Asks the process to end; it is killed after 2 s.
   void ask_to_end(Time now);
-  /// Whether the process has ended and released the camera. Kills it if it was silent for too long.
+  /// Returns whether the process has ended and released the camera. Kills it if it was silent for
+  /// too long.
   [[nodiscard]] bool has_ended(Time now);
-  /// Why it ended, unless it was asked to.
+  /// Returns why it ended, unless it was asked to end.
   [[nodiscard]] std::optional<Error> failure() const;
 
  private:
@@ -49,9 +51,9 @@ class CameraProcess {
   ChildProcess process_;
   Time heard_;
   std::optional<Time> kill_at_;  ///< set if it was asked to end
-  bool silent_ = false;          ///< was killed because of its silence
+  bool silent_ = false;          ///< the process was killed because it sent nothing for too long
   bool talks_ = true;            ///< its pipe is open, and all messages were well-formed
-  std::string said_;             ///< not yet a complete picture
+  std::string said_;             ///< received bytes of an incomplete picture
   std::string words_;
   std::optional<int> wait_status_;
 };

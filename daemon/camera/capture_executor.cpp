@@ -87,7 +87,7 @@ Result<Job> CaptureExecutor::create(const JobRequest& request) {
   }
   cancelled_ = false;
   job_ = job.id;
-  // Lends the camera before this is answered, so that viewers see the job from now on.
+  // Lends the camera before the request is answered, so that viewers see the job immediately.
   thread_ =
       std::thread([this, job, seconds, camera = around_.live.lend(job.id)] { go(job, seconds); });
   return job;

@@ -30,8 +30,8 @@ struct CaptureSurroundings {
   Clock clock;
 };
 
-/// Takes depth frames, one capture at a time. Each is a process of hydroprint-capture, monitored by
-/// its own thread, so a hanging or crashing driver does no harm. Thread-safe.
+/// Captures depth frames, one capture at a time. Each is a process of hydroprint-capture with its
+/// own monitoring thread, so a driver that hangs or crashes does no harm. Thread-safe.
 class CaptureExecutor final : public JobExecutor {
  public:
   /// @param surroundings  must outlive this object
@@ -40,16 +40,16 @@ class CaptureExecutor final : public JobExecutor {
   /// Calls stop() if needed.
   ~CaptureExecutor() override;
 
-  /// kFailedPrecondition, CAMERA_MISSING if no camera is configured; kAborted, MOTION_IN_PROGRESS
-  /// while the axis moves.
+  /// Errors: kFailedPrecondition, CAMERA_MISSING if no camera is configured; kAborted,
+  /// MOTION_IN_PROGRESS while the axis moves.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
   [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
-  /// Ends a running capture within a few seconds; its job is left to JobStore::interrupt_all().
+  /// Ends a running capture within a few seconds; JobStore::interrupt_all() then ends its job.
   void stop() override;
 
-  /// End of the latest successful capture since the daemon started; Unix time in ms, 0 if there is
-  /// none.
+  /// Returns the end of the latest successful capture since the daemon started; Unix time in ms, 0
+  /// if there is none.
   [[nodiscard]] std::int64_t latest_ms() const { return latest_ms_; }
 
  private:

@@ -16,7 +16,7 @@ namespace {
 
 using LiveClock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kLooks{10};  // how long after a request somebody counts as watching
+constexpr std::chrono::seconds kLooks{10};  // how long after a request a client counts as watching
 constexpr std::chrono::seconds kFresh{3};
 constexpr std::chrono::seconds kLongestLook{5};
 constexpr std::chrono::seconds kReopenAfter{3};
@@ -116,7 +116,7 @@ Result<LivePicture> LiveCamera::look(const std::function<bool()>& gone) {
               "CAMERA_STALLED");
 }
 
-/// The answer that is available at once, if any.
+/// Returns the response that is available immediately, if any.
 std::optional<Result<LivePicture>> LiveCamera::known(Time now) const {
   if (stopping_) {
     return fail(Code::kUnavailable, "the daemon is shutting down; try again after it has restarted",

@@ -15,7 +15,7 @@
 
 namespace hydroprint::daemon {
 
-/// A depth picture, as CameraService shows it.
+/// A depth picture, as returned by CameraService.
 struct LivePicture {
   std::string png;
   int width = 0, height = 0;
@@ -25,12 +25,12 @@ struct LivePicture {
   std::int64_t time_ms = 0;  ///< time of arrival
 };
 
-/// Shows the camera's view. One process of hydroprint-capture runs while somebody watches, and
-/// shortly after. Jobs can borrow the camera. Thread-safe; a hanging camera blocks only its
+/// Shows the camera's view. A process of hydroprint-capture runs while a client watches, and
+/// shortly after. Jobs can borrow the camera. Thread-safe; a camera that hangs blocks only its
 /// viewers.
 class LiveCamera {
  public:
-  /// @return kFailedPrecondition if the machine cannot confine processes
+  /// @return kFailedPrecondition if this machine cannot confine processes
   [[nodiscard]] static Result<std::unique_ptr<LiveCamera>> make(CameraConfig camera, Layout layout,
                                                                 Clock clock);
   /// Calls stop() if needed.
@@ -38,22 +38,23 @@ class LiveCamera {
   LiveCamera(const LiveCamera&) = delete;
   LiveCamera& operator=(const LiveCamera&) = delete;
 
-  /// A picture of the last 3 s; waits for one for 5 s at most.
-  /// @param gone  whether the caller has disconnected; polled
+  /// Returns a picture of the last 3 s; waits up to 5 s for one.
+  /// @param gone  returns whether the caller has disconnected; polled
   /// @return errors as described in CameraService.GetDepthPicture; kCancelled; kUnavailable,
-  /// SHUTTING_DOWN
+  ///         SHUTTING_DOWN
   [[nodiscard]] Result<LivePicture> look(const std::function<bool()>& gone);
-  /// Time of the latest picture, Unix time in ms; 0 if there was none.
+  /// Returns the Unix time in ms of the latest picture; 0 if there was none.
   [[nodiscard]] std::int64_t latest_ms() const;
 
   struct GiveBack {
     void operator()(LiveCamera* camera) const { camera->take_back(); }
   };
-  /// A job has the camera as long as this object lives.
+  /// The job has exclusive use of the camera as long as this object lives.
   using Loan = std::unique_ptr<LiveCamera, GiveBack>;
-  /// Gives the camera to a job, one at a time. No pictures are shown meanwhile.
+  /// Lends the camera to a job, one at a time. No pictures are shown meanwhile.
   [[nodiscard]] Loan lend(std::int64_t job);
-  /// Waits up to 5 s until a lent camera is free. A camera that still hangs is reported by the job.
+  /// Waits up to 5 s until a lent camera is free. If the camera hangs for longer, the job reports
+  /// it.
   void wait_until_free();
 
   /// Ends the process; waiting calls return an error.
@@ -81,13 +82,13 @@ class LiveCamera {
   mutable std::mutex mutex_;
   std::condition_variable news_;
   std::unique_ptr<CameraProcess> process_;
-  std::int64_t lent_to_ = 0;          // job id; 0: nobody
+  std::int64_t lent_to_ = 0;          // job id; 0: not lent
   Time wanted_until_, again_, came_;  // came_: time of the picture
   std::optional<LivePicture> picture_;
-  std::optional<Error> failure_;  // of the latest attempt, while somebody watches
+  std::optional<Error> failure_;  // failure of the latest attempt, while a client watches
   int waiting_ = 0;
   bool stopping_ = false;
-  std::thread thread_;  // starts the process, which ends with it
+  std::thread thread_;  // starts the process, which is killed when the thread ends
 };
 
 }  // namespace hydroprint::daemon

@@ -9,7 +9,7 @@
 namespace hydroprint::daemon {
 namespace {
 
-// The key, option and address of an exposed port, if any: "server.http (--http) 0.0.0.0:8443".
+// Returns key, option and address of an exposed port, if any: "server.http (--http) 0.0.0.0:8443".
 std::optional<std::string> exposed_door(const Config& config) {
   for (const auto& [name, address] : {std::pair("server.grpc (--grpc) ", config.server_grpc),
                                       std::pair("server.http (--http) ", config.server_http)}) {
@@ -28,10 +28,10 @@ Status check_exposure(const Config& config) {
   const bool has_key = !config.server_tls_key.empty();
   if (has_certificate != has_key) {
     return fail(Code::kInvalidArgument,
-                fmt::format("{} is given without the other; TLS needs both server.tls_certificate "
-                            "(--tls-certificate) and server.tls_key (--tls-key)",
-                            has_key ? "server.tls_key (--tls-key)"
-                                    : "server.tls_certificate (--tls-certificate)"),
+                has_key ? "server.tls_key (--tls-key) is set, but server.tls_certificate "
+                          "(--tls-certificate) is not; TLS needs both"
+                        : "server.tls_certificate (--tls-certificate) is set, but server.tls_key "
+                          "(--tls-key) is not; TLS needs both",
                 "CONFIG_INVALID");
   }
   const auto door = exposed_door(config);

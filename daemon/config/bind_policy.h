@@ -6,10 +6,10 @@
 
 namespace hydroprint::daemon {
 
-/// Whether clients on other machines can reach one of the ports.
+/// Returns whether clients on other machines can reach one of the ports.
 [[nodiscard]] bool is_exposed(const Config& config);
 
-/// Refuses (kInvalidArgument, CONFIG_INVALID) an address beyond loopback without TLS, and a
+/// Returns kInvalidArgument, CONFIG_INVALID for an address beyond loopback without TLS, and for a
 /// certificate without its key or the reverse. The message names the missing key.
 [[nodiscard]] Status check_exposure(const Config& config);
 

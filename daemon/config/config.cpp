@@ -164,7 +164,7 @@ bool accept(const Text& kind, const toml::node& node, Config& config) {
   return true;
 }
 
-// An error with its place in the file: "name:line: ...".
+// Returns an error with its position in the file: "name:line: ...".
 tl::unexpected<Error> refuse(const std::string& name, const toml::source_region& where,
                              const std::string& what) {
   return fail(Code::kInvalidArgument, fmt::format("{}:{}: {}", name, where.begin.line, what),

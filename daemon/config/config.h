@@ -11,13 +11,13 @@
 
 namespace hydroprint::daemon {
 
-/// All settings with their defaults: one member per key of the TOML file. Comments give section and
-/// key; deploy/hydroprintd.toml.example explains each.
+/// All settings with their defaults: one member for each key of the TOML file. Comments state
+/// section and key; deploy/hydroprintd.toml.example explains each.
 struct Config {
   std::string server_grpc = "127.0.0.1:50051";   ///< server.grpc: address and port; port 0: any
   bool server_reflection = true;                 ///< server.reflection
-  std::string server_http = "127.0.0.1:8080";    ///< server.http: same, for HTTP
-  std::string server_host_names;                 ///< server.host_names, separated by blanks
+  std::string server_http = "127.0.0.1:8080";    ///< server.http: address and port for HTTP
+  std::string server_host_names;                 ///< server.host_names, separated by spaces
   std::string server_tls_certificate;            ///< server.tls_certificate: file; empty: no TLS
   std::string server_tls_key;                    ///< server.tls_key: file; empty: no TLS
   std::string server_web_dir;                    ///< server.web_dir; empty: as installed
@@ -34,8 +34,8 @@ struct Config {
   std::int64_t queue_max_jobs_per_owner = 200;   ///< queue.max_jobs_per_owner; 0: no limit
   std::string workers_program;                   ///< workers.program; empty: next to hydroprintd
   std::int64_t workers_count = 0;                ///< workers.count; 0: number of cores
-  std::int64_t workers_threads =
-      0;  ///< workers.threads per worker; 0: the cores divided by workers
+  /// workers.threads per worker; 0: the cores divided by workers.
+  std::int64_t workers_threads = 0;
   std::int64_t workers_memory_mib = 4096;    ///< workers.memory_mib per worker; 0: no limit
   std::int64_t workers_time_limit_s = 3600;  ///< workers.time_limit_s per job
   std::int64_t workers_file_mib = 4096;      ///< workers.file_mib, per file that a worker writes
@@ -61,15 +61,15 @@ struct Config {
   bool operator==(const Config&) const = default;
 };
 
-/// Names of all keys, "section.key", in the order of the example.
+/// Returns the names of all keys, "section.key", in the order of the example.
 [[nodiscard]] std::vector<std::string> config_keys();
 
-/// Reads and checks a TOML file; absent keys keep their defaults.
-/// @return kNotFound if there is no such file; kInvalidArgument for invalid TOML, an unknown key, a
-/// wrong type or a value out of range, as one line with file, line and remedy
+/// Reads and checks a TOML file; missing keys keep their defaults.
+/// @return kNotFound if there is no such file; kInvalidArgument, as one line with file, line and
+///         remedy, for invalid TOML, an unknown key, a wrong type or a value out of range
 [[nodiscard]] Result<Config> read_config(const std::filesystem::path& path);
 
-/// Same, for text that came from `name`.
+/// Same as read_config(), for text that was read from `name`.
 [[nodiscard]] Result<Config> parse_config(std::string_view text, const std::string& name);
 
 /// An address to listen on.
@@ -77,19 +77,19 @@ struct Endpoint {
   std::string host;  ///< an IP address, never a host name: "127.0.0.1", "::1", "0.0.0.0"
   int port = 0;      ///< 0: any free port
 
-  /// "127.0.0.1:50051" or "[::1]:50051".
+  /// Returns "127.0.0.1:50051" or "[::1]:50051".
   [[nodiscard]] std::string text() const;
-  /// Whether only this machine can reach it.
+  /// Returns whether only this machine can reach it.
   [[nodiscard]] bool is_loopback() const;
 };
 
 /// Parses "127.0.0.1:50051", "[::1]:50051", "localhost:50051", or an address beyond loopback, which
-/// bind_policy.h may refuse later.
+/// bind_policy.h checks.
 /// @return kInvalidArgument for anything else, such as a host name
 [[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
 
-/// The state folder when the configuration sets none: $XDG_STATE_HOME/hydroprint or
-/// ~/.local/state/hydroprint; kFailedPrecondition if neither variable is set.
+/// Returns the default state folder, $XDG_STATE_HOME/hydroprint or ~/.local/state/hydroprint;
+/// kFailedPrecondition if neither variable is set.
 [[nodiscard]] Result<std::filesystem::path> default_state_dir();
 
 }  // namespace hydroprint::daemon

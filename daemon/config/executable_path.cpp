@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Resolves links, since the program's files are next to the file itself and not next to a link.
+// Resolves links, because the program's files are next to the file itself and not next to a link.
 fs::path program_at(const fs::path& path) {
   std::error_code error;
   const fs::path file = fs::canonical(path, error);

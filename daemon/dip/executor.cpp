@@ -102,7 +102,7 @@ Result<Job> DipExecutor::confirm(std::int64_t id, dip::Step step, const std::str
 }
 
 Result<Job> DipExecutor::cancel(std::int64_t id) {
-  // Stops the axis before anything that may block.
+  // Stops the axis before any operation that may block.
   if (around_.gateway.dip() == id) around_.gateway.controller()->stop();
   const std::lock_guard lock(mutex_);
   if (run_ && run_->job() == id) run_->break_off(dip::Event::Kind::kCancel);

@@ -19,9 +19,10 @@ class DipExecutor final : public JobExecutor {
   /// Calls stop() if needed.
   ~DipExecutor() override;
 
-  /// Refuses a caller without the lease, and fails as plan_of() and go_by_calibration() do. Also
-  /// refuses if the rig cannot do it now: RIG_OFFLINE and other refusals of a move; LIMIT_EXCEEDED;
-  /// STATE_FORBIDS for Clocks::skip unless the drive is virtual.
+  /// Checks a dip. Returns an error for a caller without the lease, and the errors of plan_of() and
+  /// go_by_calibration(). Also returns an error if the rig cannot start a dip now: RIG_OFFLINE and
+  /// other refusals of a move; LIMIT_EXCEEDED; STATE_FORBIDS for Clocks::skip unless the drive is
+  /// virtual.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
   /// See DipSession::confirm. After the end of a dip, only completed steps can be confirmed again.
@@ -32,7 +33,7 @@ class DipExecutor final : public JobExecutor {
   void stop() override;
 
  private:
-  /// The plan of a request, and the holder of the lease.
+  /// The plan of a dip, and the holder of the lease.
   struct Order {
     dip::Plan plan;
     std::string holder;

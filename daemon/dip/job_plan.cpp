@@ -50,7 +50,7 @@ class ReportReader {
   Status status_;
 };
 
-/// Area of the film; for a polygon, of its bounding box.
+/// Returns the area of the film; for a polygon, the area of its bounding box.
 double film_area_mm2(ReportReader& reader) {
   double area_mm2 = reader.is_round() ? std::numbers::pi / 4 : 1;
   for (const char* axis : {"0", "1"}) {

@@ -11,7 +11,7 @@ class DipSpec;
 
 namespace hydroprint::daemon {
 
-/// Parameters of the dip that a simulation assumed, from its report.json.
+/// Parameters that a simulation assumed for the dip, from its report.json.
 struct SimulatedDip {
   double depth_mm = 0;
   double speed_mm_per_s = 0;
@@ -21,17 +21,18 @@ struct SimulatedDip {
   double activator_wait_s = 0;
 };
 
-/// Reads them from an untrusted report.
+/// Reads the parameters from an untrusted report.
 /// @return kFailedPrecondition, STATE_FORBIDS, naming the key that is missing or out of range
 [[nodiscard]] Result<SimulatedDip> read_simulated_dip(const std::string& report);
 
-/// Makes the plan of a checked spec; missing values come from its simulate job and the defaults.
+/// Creates the plan of a checked spec; missing values come from its simulate job and the defaults.
 /// @return JOB_NOT_FOUND; STATE_FORBIDS if that job did not succeed or has no usable report;
-/// SPEC_INVALID if it is not a simulate job
+///         SPEC_INVALID if it is not a simulate job
 [[nodiscard]] Result<dip::Plan> plan_of(const v1::DipSpec& spec, JobStore& jobs,
                                         const Layout& layout);
 
-/// Applies the calibration that a dip names, if any: it gives the position of first contact.
+/// Applies the calibration named in a dip's spec, if any, which determines the position of first
+/// contact.
 /// @return CALIBRATION_MISSING, CALIBRATION_STALE, errors of earlier_simulation()
 [[nodiscard]] Status go_by_calibration(const v1::DipSpec& spec, JobStore& jobs,
                                        CalibrationStore& calibrations, const RigPlace& now,

@@ -19,7 +19,8 @@ tl::unexpected<Error> out_of_reach(std::string message, double value_mm, rig::Ra
   return rig::limit_exceeded("position", std::move(message), value_mm, range);
 }
 
-/// Distance for acceleration, so that the speed is constant when the object meets the water.
+/// Returns the distance needed for acceleration, so that the speed is constant when the object
+/// meets the water.
 double run_up_mm(const Plan& plan, const drive::DriveProfile& profile) {
   const double ramp_mm =
       plan.speed_mm_per_s * plan.speed_mm_per_s / (2 * profile.acceleration_mm_per_s2);

@@ -25,49 +25,51 @@ struct Plan {
   Clocks clocks;
   std::optional<double> water_temperature_c;
   std::string calibration;  ///< "calibrations/3"; empty: none
-  std::optional<double>
-      contact_mm;  ///< position of first contact from the calibration; none: the operator finds it
+  /// Position of first contact from the calibration; nullopt: the operator finds it.
+  std::optional<double> contact_mm;
   std::int64_t homings = 0;  ///< homing count of the rig at the calibration
   Warnings warnings;         ///< reasons to expect a poor print
 
-  /// Amount of activator for the film.
+  /// Returns the amount of activator for the film.
   [[nodiscard]] double activator_ml() const { return film_area_mm2 * 1e-6 * activator_ml_per_m2; }
 };
 
 /// Minimum distance above first contact.
 inline constexpr double kLeastClearance_mm = 1;
 
-/// Positions of the axis; positive is down.
+/// Positions of the axis for a dip; positive is down.
 struct Ways {
   double clear_mm = 0;   ///< above the water, where the descent begins
-  double bottom_mm = 0;  ///< at full depth
+  double bottom_mm = 0;  ///< position at full depth
   double up_mm = 0;      ///< end of the retraction: the loading position, or the clearance
 };
 
-/// Checks that speeds and depth are within the rig's limits. kOutOfRange, LIMIT_EXCEEDED.
+/// Checks that the speeds and the depth are within the rig's limits. Errors: kOutOfRange,
+/// LIMIT_EXCEEDED.
 [[nodiscard]] Status check(const Plan& plan, const rig::RigConfig& config);
 
-/// The positions for a given first contact. The clearance is smaller if the soft limit is nearer.
+/// Computes the positions for a given first contact. The clearance is reduced if the soft limit is
+/// closer.
 /// @return kOutOfRange, LIMIT_EXCEEDED (metadata axis, min, max, value) if the depth, or the
-/// required distance above first contact, is out of reach
+///         required distance above first contact, is out of reach
 [[nodiscard]] Result<Ways> ways_from(const Plan& plan, double contact_mm, double loaded_mm,
                                      const rig::RigConfig& config,
                                      const drive::DriveProfile& profile);
 
-/// The motions of CLEAR, and of DESCEND, HOLD and RETRACT.
+/// Return the motion of step CLEAR, and the motions of steps DESCEND, HOLD and RETRACT.
 [[nodiscard]] rig::Leg rise(const Plan& plan, const Ways& ways);
 [[nodiscard]] std::vector<rig::Leg> legs(const Plan& plan, const Ways& ways);
 
-/// Planned duration of a step in s; 0 for steps that wait for the operator.
-/// @param ways  nullopt while first contact is unknown; the duration is then a guess
+/// Returns the planned duration of a step in s; 0 for steps that wait for the operator.
+/// @param ways  nullopt while first contact is unknown; the duration is then an estimate
 [[nodiscard]] double planned_s(Step step, const Plan& plan, const std::optional<Ways>& ways,
                                double acceleration_mm_per_s2);
 
-/// Progress of a dip, and the earliest time of its end.
+/// Progress of a dip, and its earliest end.
 struct Outlook {
-  double fraction = 0;       ///< of the whole dip, [0, 1]
-  double step_fraction = 0;  ///< of the step, [0, 1]
-  double remaining_s = 0;    ///< if the operator takes no time
+  double fraction = 0;       ///< progress of the whole dip, [0, 1]
+  double step_fraction = 0;  ///< progress of the step, [0, 1]
+  double remaining_s = 0;    ///< time left if the operator confirms without delay
 };
 [[nodiscard]] Outlook outlook(const Stand& stand, double time_s, const Plan& plan,
                               const std::optional<Ways>& ways, double acceleration_mm_per_s2);

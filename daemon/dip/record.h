@@ -12,7 +12,7 @@
 
 namespace hydroprint::dip {
 
-/// One step as it happened. Times are seconds since the dip was created.
+/// One completed or current step. Times are in seconds since the dip was created.
 struct StepRecord {
   Step step = Step::kPrintFilm;
   double begin_s = 0;
@@ -40,29 +40,29 @@ struct Facts {
   std::string message;
 };
 
-/// The report as a JSON object.
+/// Returns the report as a JSON object.
 [[nodiscard]] std::string report_json(const Facts& facts);
 
-/// The report of a dip after a restart of the daemon, with its outcome set. Returns the text
-/// unchanged if it is not a report.
+/// Returns the report of a dip after a restart of the daemon, with its outcome set. Returns the
+/// text unchanged if it is not a report.
 [[nodiscard]] std::string interrupted_report(const std::string& json, const std::string& message);
 
-/// How constant the speed of the descent was below first contact.
+/// Evaluates how constant the speed of the descent was below first contact.
 [[nodiscard]] rig::ConstantSpeed immersion_speed(std::span<const rig::Sample> samples,
                                                  std::uint64_t motion, double contact_mm);
 
-/// The position log, positions.csv. Samples are written as they arrive, so the file survives a
-/// crash.
+/// Writes the position log, positions.csv. Samples are written as they arrive, so the file survives
+/// a crash.
 class PositionLog {
  public:
   static constexpr const char* kName = "positions.csv";
 
-  /// @param begun  origin of the time axis: creation of the dip
+  /// @param begun  origin of the time axis: the creation of the dip
   PositionLog(const std::filesystem::path& folder, rig::TimePoint begun);
 
   /// Appends samples of a motion ("clear", "dip").
   void add(std::span<const rig::Sample> samples, std::string_view motion, double contact_mm);
-  /// Passes added samples to the system. kResourceExhausted, DISK_FULL if they cannot be written.
+  /// Writes buffered samples to the file. Errors: kResourceExhausted, DISK_FULL.
   [[nodiscard]] Status flush();
 
  private:
@@ -73,7 +73,8 @@ class PositionLog {
 
 inline constexpr const char* kReportName = "report.json";
 
-/// Writes report.json completely, or keeps the previous one. kResourceExhausted, DISK_FULL.
+/// Writes report.json atomically: an error leaves the previous one. Errors: kResourceExhausted,
+/// DISK_FULL.
 [[nodiscard]] Status write_report(const std::filesystem::path& folder, const std::string& json);
 
 }  // namespace hydroprint::dip

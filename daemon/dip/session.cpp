@@ -30,9 +30,9 @@ using std::chrono::milliseconds;
 constexpr milliseconds kProgressInterval{250};
 constexpr milliseconds kFlushInterval{250};
 constexpr std::chrono::seconds kStoreAgainAfter{1};
-// Timeout for standstill after the computed end of the motion.
+// Timeout for reaching standstill after the computed end of the motion.
 constexpr double kRestMargin_s = 1;
-constexpr std::size_t kMostSamples = 500'000;  // of the descent, for its speed
+constexpr std::size_t kMostSamples = 500'000;  // samples of the descent kept for its speed
 constexpr std::size_t kLargestRecord = 16 << 20;
 
 JobState job_state(const dip::Stand& stand) {
@@ -127,7 +127,7 @@ Status DipSession::confirm(Step step, const std::string& holder) {
 
 void DipSession::break_off(Event::Kind why) { (void)feed({why}); }
 
-/// Applies an event. If the rig refuses the action, the dip stays in its step.
+/// Applies an event. If the rig refuses the action, the step does not change.
 Status DipSession::feed(Event event) {
   if (event.time_s == 0) event.time_s = seconds_at(SteadyClock::now());
   const bool is_measured = stand_.step == Step::kFindContact && facts_.plan.contact_mm;
@@ -280,7 +280,7 @@ void DipSession::look_at_rest() {
   const rig::Condition condition = rig().snapshot().condition;
   if (condition.homed) return;  // every fault of the rig requires homing again
   const auto refusal = rig::step(condition, {rig::Event::Kind::kMove}).refusal;
-  // The axis may have moved. A cause is more helpful than "homing required".
+  // The axis may have moved. The cause is more helpful than "homing required".
   fail_for(condition.cause != rig::Cause::kNone ? rig::failed(condition.cause)
                                                 : rig::refused(*refusal, condition));
   (void)feed({Event::Kind::kPlaceLost});
@@ -360,7 +360,7 @@ void DipSession::write_record() {
   note_record(dip::write_report(around_.layout.dip(job_), dip::report_json(facts_)));
 }
 
-/// Logs a failed write of the record once; the dip continues.
+/// Logs only the first failed write of the record; the dip continues.
 void DipSession::note_record(const Status& written) {
   if (written || std::exchange(record_told_, true)) return;
   log_failure("record_not_written", job_, written);
@@ -381,7 +381,7 @@ std::string DipSession::end_words() const {
   }
 }
 
-/// If the record cannot be stored, the dip ends without it, since its outcome matters more.
+/// If the record cannot be stored, the dip ends without it, because its outcome is more important.
 std::vector<Artifact> DipSession::publish_record() {
   write_record();
   auto published = publish_artifacts(around_.layout.dip(job_), around_.layout.artifacts(job_));

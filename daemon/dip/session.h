@@ -29,11 +29,11 @@ struct DipSurroundings {
   Clock clock;
 };
 
-/// The initial dip status of a job, serialised.
+/// Returns the initial dip status of a job, serialised.
 [[nodiscard]] std::string first_dip_status(const dip::Plan& plan);
 
-/// One dip, from its creation to its end in the store. Asks dip::proceed for the next action, gives
-/// orders to the rig, updates the store and keeps the record. Not thread-safe.
+/// One dip, from its creation to its end in the store. Asks dip::proceed for the next action,
+/// commands the rig, updates the store and keeps the record. Not thread-safe.
 class DipSession {
  public:
   /// @param job  just created; the rig is configured, homed and at rest
@@ -42,16 +42,16 @@ class DipSession {
 
   [[nodiscard]] std::int64_t job() const { return job_; }
 
-  /// Confirms a step as the operator, who holds the lease. Waits until the rig has accepted the
-  /// next order.
+  /// Confirms a step for the operator, who holds the lease. Waits until the rig has accepted the
+  /// next command.
   /// @return STATE_FORBIDS, LIMIT_EXCEEDED, and refusals of the rig; after an error the dip stays
-  /// in its step
+  ///         in its step
   [[nodiscard]] Status confirm(dip::Step step, const std::string& holder);
-  /// Ends the dip as soon as the axis is at rest; reports no errors.
+  /// Ends the dip as soon as the axis is at rest. Errors are not reported.
   void break_off(dip::Event::Kind why);
 
-  /// Checks the rig and the clocks, and takes the next action. Returns true once the dip has ended
-  /// in the store; a failed write is retried.
+  /// Checks the rig and the clocks, and performs the next action. Returns true once the end of the
+  /// dip is stored; a failed write is retried.
   [[nodiscard]] bool step();
 
  private:
@@ -94,9 +94,9 @@ class DipSession {
   dip::Facts facts_;
   SteadyClock::time_point begun_;
   std::int64_t begun_ms_;
-  std::string confirmed_by_;  // of the step that is ending
+  std::string confirmed_by_;  // lease holder who confirmed the step that is ending
 
-  std::uint64_t motion_ = 0;  // running, or not yet at rest; 0: none
+  std::uint64_t motion_ = 0;  // in progress, or not yet at rest; 0: none
   std::uint64_t next_sample_ = 0;
   std::vector<rig::Sample> descent_;
   dip::PositionLog log_;
@@ -107,7 +107,7 @@ class DipSession {
   SteadyClock::time_point next_progress_, next_flush_, next_end_;
 };
 
-/// Ends dips that a crash of the daemon left open: publishes the record and sets the job to
+/// Ends dips that were open when the daemon crashed: publishes the record and sets the job to
 /// INTERRUPTED, with advice for the operator. Call this before serving clients.
 [[nodiscard]] Status end_lost_dips(DeviceJobs& jobs, const Layout& layout);
 

@@ -15,7 +15,7 @@ Outcome enter(Stand stand, Step step, double time_s) {
 
 Step after(Step step) { return static_cast<Step>(static_cast<int>(step) + 1); }
 
-/// Ends the dip. At rest it is over at once; in motion it has to stop first.
+/// Ends the dip: immediately if the axis is at rest; otherwise the motion has to stop first.
 Outcome end(Stand stand, Ending ending, double time_s, bool in_motion) {
   if (stand.ending != Ending::kNone) return stay(stand);
   stand.ending = ending;
@@ -31,7 +31,7 @@ Outcome break_off(const Stand& stand, Ending ending, double time_s) {
   return out;
 }
 
-/// Moves on after the operator's confirmation.
+/// Continues after the operator's confirmation.
 Outcome go_on(Stand stand, const Event& event) {
   Outcome out = enter(stand, after(stand.step), event.time_s);
   switch (stand.step) {

@@ -23,21 +23,22 @@ enum class Step : std::uint8_t {
 };
 inline constexpr int kSteps = 12;
 
-/// The step's name: "FIND_CONTACT".
+/// Returns the step's name: "FIND_CONTACT".
 [[nodiscard]] std::string_view name(Step step);
 
 /// The condition that ends a step.
 enum class Awaits : std::uint8_t { kOperator, kClock, kMotion };
 [[nodiscard]] Awaits awaits(Step step);
 
-/// True from the first motion on: the rig must keep its reference, and nobody else may move it.
+/// Returns true from the first motion on: the rig must keep its reference, and no other client may
+/// move it.
 [[nodiscard]] constexpr bool has_the_rig(Step step) { return step >= Step::kClear; }
 
 /// Durations of the clocks in s.
 struct Clocks {
   double soak_s = 60;
   double activator_wait_s = 20;
-  double activation_window_s = 60;  ///< how long the film is good after the wait
+  double activation_window_s = 60;  ///< how long the film stays activated after the waiting time
   bool skip = false;                ///< no confirmations and no clocks: for unattended runs
 };
 
@@ -49,7 +50,7 @@ enum class Ending : std::uint8_t { kNone, kSucceeded, kFailed, kCancelled, kInte
 struct Stand {
   Step step = Step::kPrintFilm;
   double since_s = 0;                ///< start of the step
-  Ending ending = Ending::kNone;     ///< decided; the axis may still be moving
+  Ending ending = Ending::kNone;     ///< final; the axis may still be moving
   double ending_s = 0;               ///< time of the decision
   bool over = false;                 ///< no further action follows
   bool late = false;                 ///< the film was activated too long ago
@@ -62,22 +63,23 @@ struct Stand {
 
 struct Event {
   enum class Kind : std::uint8_t {
-    kTick,           ///< time passes
-    kConfirm,        ///< the operator has completed `step`
-    kAtDepth,        ///< the descent has arrived
-    kRising,         ///< the retraction has begun
-    kMotionDone,     ///< the motion of this step is done (or of all steps since the descent)
+    kTick,     ///< time passes
+    kConfirm,  ///< the operator has completed `step`
+    kAtDepth,  ///< the descent has reached the depth
+    kRising,   ///< the retraction has begun
+    /// The motion is complete: the rise of kClear, or the whole dip from descent to retraction.
+    kMotionDone,
     kMotionStopped,  ///< the motion was stopped on request
     kMotionFailed,   ///< the motion failed
     kPlaceLost,      ///< at rest, the rig lost its reference or its torque
     kOrderRefused,   ///< the last action was refused
-    kAtRest,         ///< after the decision: at rest, or nothing more can be done
+    kAtRest,         ///< after the decision: the axis is at rest, or no further action is possible
     kCancel,
     kShutdown,  ///< the daemon shuts down
   };
   Kind kind = Kind::kTick;
   double time_s = 0;
-  Step step = Step::kPrintFilm;  ///< for kConfirm
+  Step step = Step::kPrintFilm;  ///< the confirmed step, for kConfirm
   double position_mm = 0;        ///< axis position; for kTick and kConfirm
 };
 
@@ -92,17 +94,18 @@ enum class Action : std::uint8_t {
 struct Outcome {
   Stand next;
   Action action = Action::kNone;
-  bool refused = false;  ///< for kConfirm: the dip waits for something else; `next` is unchanged
+  bool refused = false;  ///< for kConfirm: the dip cannot be confirmed now; `next` is unchanged
 };
 
-/// Computes the consequences of an event. Every event is valid in every state. Rules:
-/// - Steps follow one another in order; none is left out.
+/// Computes the next state and action after an event. Every event is valid in every state. Rules:
+/// - Steps follow one another in order; none is skipped.
 /// - A step that waits for the operator ends only by confirmation (or Clocks::skip). A clock ends
-///   when its time is over, a motion when it is done. Confirming an earlier step changes nothing.
+///   when its time is over, a motion when it is complete. Confirming an earlier step changes
+///   nothing.
 /// - Motion starts only after FIND_CONTACT and START_DIP are confirmed.
 /// - Once the ending is decided, the dip starts no motion and the ending does not change. The dip
 ///   is over when the axis is at rest.
-/// - A film past its window causes a warning, never a refusal.
+/// - A film past its activation window causes a warning, never an error.
 [[nodiscard]] Outcome proceed(const Stand& stand, const Event& event, const Clocks& clocks);
 
 }  // namespace hydroprint::dip

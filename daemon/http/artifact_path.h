@@ -6,10 +6,10 @@
 
 namespace hydroprint::http {
 
-/// The parts of "/v1/jobs/7/artifacts/film.png:download?inline=1".
+/// The parts of a download target, "/v1/jobs/7/artifacts/film.png:download?inline=1".
 struct ArtifactPath {
   std::string name;        ///< "jobs/7/artifacts/film.png"; decoded, not checked
-  bool is_inline = false;  ///< to be shown instead of saved
+  bool is_inline = false;  ///< to be displayed instead of saved
   bool is_good = true;     ///< false: a malformed escape, or a query other than inline=1
 };
 

@@ -12,8 +12,8 @@ namespace {
 constexpr milliseconds kLinger{1000};
 constexpr std::size_t kMostLingering_bytes = 1 << 20;
 
-// Reads what the client is still sending. Otherwise the kernel would reset the connection and
-// discard a response that the client has not read yet.
+// Reads and discards the rest of the client's data. Otherwise the kernel would reset the connection
+// and discard a response that the client has not yet read.
 Task<void> say_goodbye(Socket& socket) {
   socket.end_writing();
   std::string dropped(16 << 10, '\0');

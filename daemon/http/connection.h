@@ -7,10 +7,10 @@
 
 namespace hydroprint::http {
 
-/// Serves the requests of one connection in turn until either side closes it.
+/// Serves the requests of one connection one after the other until either side closes it.
 Detached serve(ServerContext& server, std::shared_ptr<Socket> socket);
 
-/// Replies that too many connections are open, and closes this one.
+/// Responds that too many connections are open, and closes this one.
 Detached turn_away(ServerContext& server, std::shared_ptr<Socket> socket);
 
 }  // namespace hydroprint::http

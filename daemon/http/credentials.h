@@ -14,17 +14,18 @@
 
 namespace hydroprint::http {
 
-/// How to handle a header field that is not printable ASCII, which gRPC cannot carry.
+/// Handling of header fields that are not printable ASCII, which gRPC cannot transport.
 enum class Unprintable {
   kRefuse,   ///< SPEC_INVALID
   kReplace,  ///< replaces each such byte with '?', so that a stop is never refused
 };
 
-/// The credentials in a request's head: Authorization, Hydroprint-Owner, and the session cookie.
+/// Returns the credentials in a request's head: Authorization, Hydroprint-Owner, and the session
+/// cookie.
 [[nodiscard]] Result<auth::Credentials> credentials_in(
     const Head& head, const std::string& peer, Unprintable unprintable = Unprintable::kRefuse);
 
-/// Establishes the caller of an API method from the request's head and checks the role, before the
+/// Determines the caller of an API method from the request's head and checks the role, before the
 /// body is read.
 /// @param method  "/hydroprint.v1.JobService/GetJob"
 /// @return metadata that identifies the caller to the services
@@ -32,7 +33,7 @@ enum class Unprintable {
                                                        Exchange& exchange,
                                                        const std::string& method);
 
-/// The value of a cookie; nullopt if it is not sent.
+/// Returns the value of a cookie; nullopt if it was not sent.
 [[nodiscard]] std::optional<std::string_view> cookie(const HeaderFields& fields,
                                                      std::string_view name);
 

@@ -66,7 +66,7 @@ Wanted wanted(const Head& head, const v1::Artifact& artifact, bool is_inline) {
   return out;
 }
 
-/// One download. The next piece is requested once the previous one was sent.
+/// One download. The next piece is requested after the previous one was sent.
 class Download {
  public:
   Download(ServerContext& server, Exchange& exchange, const InProcessChannel::Metadata& metadata)
@@ -124,7 +124,7 @@ class Download {
   std::unique_ptr<Stream> stream_;
 };
 
-// The answer to other methods; a browser must not take it for the file.
+// Returns the response to other methods, which a browser must not mistake for the file.
 Response only_get() {
   Response response = refusal(
       {Code::kUnimplemented, "an artifact can only be read; use GET", "METHOD_NOT_ALLOWED", {}},

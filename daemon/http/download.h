@@ -8,8 +8,8 @@
 
 namespace hydroprint::http {
 
-/// Answers a request for the bytes of an artifact, the whole file or a range.
-/// @return the name under which the request is counted
+/// Answers a request for an artifact, the whole file or a range of bytes.
+/// @return the route name for the metrics
 [[nodiscard]] Task<std::string> answer_download(ServerContext& server, Exchange& exchange,
                                                 ArtifactPath target);
 

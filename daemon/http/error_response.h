@@ -12,7 +12,7 @@ namespace hydroprint::http {
 /// @param status  the HTTP status; by default that of the error's code
 [[nodiscard]] Task<bool> refuse(Exchange& exchange, Error error, std::optional<int> status = {});
 
-/// The response to a failed call.
+/// Returns the response to a failed call.
 [[nodiscard]] Response refusal(const Reply& reply);
 
 }  // namespace hydroprint::http

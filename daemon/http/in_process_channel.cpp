@@ -76,7 +76,8 @@ class UnaryCall final : public Call {
   OneCall one_;
 };
 
-/// gRPC's side of a stream. It lives until gRPC reports its end, even if the stream was destroyed.
+/// gRPC's side of a stream. It lives until gRPC reports the end of the call, even if the stream was
+/// destroyed before.
 class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer> {
  public:
   explicit Reactor(std::shared_ptr<Calls> calls) : one_(std::move(calls)) {}
@@ -88,7 +89,7 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
     made->itself_ = made;
     fill(made->context_, metadata);
     stub.PrepareBidiStreamingCall(&made->context_, method, {}, made.get());
-    made->AddHold();  // until finish(), since reads and writes start outside gRPC's callbacks
+    made->AddHold();  // until finish(), because reads and writes start outside gRPC's callbacks
     made->StartCall();
     return made;
   }
@@ -122,7 +123,7 @@ class Reactor final : public grpc::ClientBidiReactor<grpc::ByteBuffer, grpc::Byt
       read_done_ = nullptr;
       was_reading = std::exchange(is_reading_, true);
     }
-    // Reads to the end, since gRPC does not report the status before.
+    // Reads to the end, because gRPC does not report the status before that.
     if (!was_reading) StartRead(&incoming_);
     RemoveHold();
   }

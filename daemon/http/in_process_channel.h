@@ -32,20 +32,21 @@ class Call {
 };
 
 /// A streaming call, with at most one read and one write at a time. Each callback is called once,
-/// on a gRPC thread that it must not block. Destroying the stream before finish() cancels the call.
+/// on a gRPC thread, which it must not block. Destroying the stream before finish() cancels the
+/// call.
 class Stream {
  public:
   virtual ~Stream() = default;
   /// Reads the next message; nullopt after the last.
   virtual void read(std::function<void(std::optional<std::string>)> done) = 0;
-  /// Writes a message. Calls back when the other side has accepted it, with false if the call has
-  /// ended.
+  /// Writes a message. The callback receives true when the other side has accepted it, and false if
+  /// the call has ended.
   virtual void write(std::string message, bool is_last, std::function<void(bool)> done) = 0;
   /// Half-closes the stream; not needed after the last message.
   virtual void end_writing() = 0;
   virtual void cancel() = 0;
-  /// Reads the final status; nothing may be read or written afterwards. Unread messages are read
-  /// and dropped, so call cancel() first if there may be many.
+  /// Reads the final status. No reads or writes may follow. Unread messages are read and dropped,
+  /// so call cancel() first if there may be many.
   virtual void finish(std::function<void(Reply)> done) = 0;
 };
 
@@ -61,7 +62,7 @@ class InProcessChannel {
   InProcessChannel(const InProcessChannel&) = delete;
   InProcessChannel& operator=(const InProcessChannel&) = delete;
 
-  /// Makes a unary call. The callback is called once, on a gRPC thread that it must not block.
+  /// Makes a unary call. The callback is called once, on a gRPC thread, which it must not block.
   /// @param method  "/hydroprint.v1.JobService/GetJob"
   std::shared_ptr<Call> unary(const std::string& method, const std::string& request,
                               const Metadata& metadata, std::chrono::milliseconds timeout,

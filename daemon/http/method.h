@@ -8,7 +8,7 @@
 
 namespace hydroprint::http {
 
-/// The method with this name, "/hydroprint.v1.JobService/GetJob"; null if there is none.
+/// Returns the method with this name, "/hydroprint.v1.JobService/GetJob"; null if there is none.
 [[nodiscard]] inline const google::protobuf::MethodDescriptor* method_called(
     std::string_view method) {
   std::string name(method.substr(std::min<std::size_t>(1, method.size())));

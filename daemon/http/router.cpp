@@ -24,7 +24,7 @@ bool is_port(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// "localhost:8080" -> "localhost"; "[::1]:8080" -> "[::1]"; empty if it is neither.
+// Removes the port: "localhost:8080" -> "localhost"; "[::1]:8080" -> "[::1]"; empty for other text.
 std::string_view without_port(std::string_view host) {
   const std::size_t begin = host.starts_with('[') ? host.find(']') : 0;
   if (begin == std::string_view::npos) return {};
@@ -33,8 +33,8 @@ std::string_view without_port(std::string_view host) {
   return is_port(host.substr(colon + 1)) ? host.substr(0, colon) : std::string_view();
 }
 
-// Prevents DNS rebinding: a foreign page whose name resolves to this address sends that name as
-// Host.
+// Prevents DNS rebinding, in which a foreign page resolves its own name to this address and sends
+// that name as Host.
 bool is_ours(const Options& options, std::string_view host) {
   const std::string_view name = without_port(host);
   const auto is = [&](std::string_view ours) { return same_name(name, ours); };
@@ -44,8 +44,8 @@ bool is_ours(const Options& options, std::string_view host) {
          (options.identity && tls::stands_for(*options.identity(), name));
 }
 
-// Detects form posts from foreign pages, whose browsers send Origin. An origin without TLS may be
-// forged by a third party on the network.
+// Detects form posts from foreign pages, for which browsers send Origin. A third party on the
+// network can forge an origin without TLS.
 bool comes_from_elsewhere(const Head& head, bool is_secure) {
   const auto origin = head.fields.find("Origin");
   if (!origin) return same_name(head.fields.find("Sec-Fetch-Site").value_or(""), "cross-site");
@@ -55,7 +55,8 @@ bool comes_from_elsewhere(const Head& head, bool is_secure) {
          !same_name(origin->substr(scheme + 3), head.fields.find("Host").value_or(""));
 }
 
-// A stop is carried out from its head alone, after which its connection is closed.
+// Returns a stop is executed from the head of the request alone; its connection is closed
+// afterwards.
 std::optional<Response> refused_framing(const ServerContext& server, const Head& head) {
   if (head.has_known_end() || server.transcoder.stops_motion(head.method, head.target)) return {};
   const bool is_unknown = head.framing == BodyFraming::kUnknownCoding;
@@ -96,7 +97,7 @@ std::optional<Response> refused(const ServerContext& server, const Head& head, b
   return {};
 }
 
-// Answers methods other than GET and HEAD on a path that supports only these.
+// Answers methods other than GET and HEAD on a path that supports only these two.
 Task<bool> is_refused_method(Exchange& exchange) {
   const std::string& method = exchange.head().method;
   if (method == "GET" || method == "HEAD") co_return false;

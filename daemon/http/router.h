@@ -7,8 +7,8 @@
 
 namespace hydroprint::http {
 
-/// Answers one request: refuses it, or passes it to the handler for its path.
-/// @return the name under which the request is counted
+/// Answers one request: rejects it, or passes it to the handler for its path.
+/// @return the route name for the metrics
 [[nodiscard]] Task<std::string> answer(ServerContext& server, Exchange& exchange);
 
 }  // namespace hydroprint::http

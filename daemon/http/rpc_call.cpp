@@ -29,7 +29,7 @@ std::string joined(const std::vector<std::string>& words) {
   return text;
 }
 
-// The methods allowed on a path, including OPTIONS and HEAD, which HTTP adds.
+// Returns the methods allowed on a path, including OPTIONS and HEAD, which HTTP adds.
 std::string allowed_at(const ServerContext& server, const std::string& target) {
   std::vector<std::string> methods = server.transcoder.methods_at(target);
   const bool is_artifact = artifact_target(target).has_value();
@@ -76,14 +76,14 @@ Task<void> answer_unary(ServerContext& server, Exchange& exchange, rest::Call re
   co_await exchange.send(std::move(response));
 }
 
-// Reads the body. A call that stops motion does not wait for its body, which may never arrive.
+// Reads the body. A call that stops motion does not wait for the body, which may never arrive.
 Task<Result<std::string>> body_of(const ServerContext& server, Exchange& exchange) {
   const Head& head = exchange.head();
   if (server.transcoder.stops_motion(head.method, head.target)) co_return std::string();
   co_return co_await exchange.read_body();
 }
 
-// Answers a request that the transcoder refused.
+// Answers a request that the transcoder rejected.
 Task<std::string> refuse_call(const ServerContext& server, Exchange& exchange, Error error) {
   Response response = refusal(error);
   if (error.reason == "METHOD_NOT_ALLOWED") {

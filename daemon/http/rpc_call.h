@@ -10,7 +10,7 @@
 namespace hydroprint::http {
 
 /// Answers a request for a method of the API.
-/// @return the name under which the request is counted
+/// @return the route name for the metrics
 [[nodiscard]] Task<std::string> answer_call(ServerContext& server, Exchange& exchange);
 
 /// Makes a call and waits for the response. The call is cancelled if the client disconnects, unless

@@ -8,8 +8,8 @@ namespace hydroprint::http {
 namespace {
 
 constexpr milliseconds kStopPatience{2000};
-constexpr int kMostTurnedAway =
-    64;  // simultaneous replies; further connections are closed without one
+// Maximum of simultaneous replies; further connections are closed without a reply.
+constexpr int kMostTurnedAway = 64;
 
 }  // namespace
 
@@ -64,7 +64,7 @@ void Server::stop() {
   const bool all_ended = impl_->server->connections.wait_for_none(kStopPatience) &&
                          impl_->server->rpc.wait_for_none(kStopPatience);
   impl_->listener->stop();
-  // A call that has not ended could still call back, so the objects it uses are leaked.
+  // A call that has not ended could still call back, so the objects that it uses are leaked.
   if (!all_ended)
     static_cast<void>(impl_->listener.release()), static_cast<void>(impl_->server.release());
 }

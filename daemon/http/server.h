@@ -31,25 +31,27 @@ struct Options {
   tls::CurrentIdentity identity;  ///< TLS certificate and key; none: no TLS
 };
 
-/// Health of the daemon, for /healthz.
+/// Health of the daemon, returned by /healthz.
 struct Health {
   bool is_good = true;
   std::string json;
 };
 
-/// Establishes the caller of an API method and checks its role (RoleCheck::admit). Never waits.
+/// Determines the caller of an API method and checks its role (RoleCheck::admit). Never waits.
 using Admit = std::function<Result<std::optional<auth::Caller>>(std::string_view method,
                                                                 const auth::Credentials&)>;
 
-/// Callbacks into the daemon. health and metrics may block: a separate thread calls them.
+/// Functions that the daemon provides. health and metrics may block: they are called on a separate
+/// thread.
 struct Sources {
   Admit admit;
   std::function<Health()> health;
   std::function<std::string()> metrics;  ///< Prometheus text
 };
 
-/// The HTTP server: the services as JSON, their streams as server-sent events, uploads, downloads,
-/// and the web client's files. Connections never block a thread, so no client can hold up another.
+/// The HTTP server. It offers the services as JSON, their streams as server-sent events, uploads,
+/// downloads, and the web client's files. Connections never block a thread, so no client can delay
+/// another.
 class Server {
  public:
   /// Starts listening and serving.
@@ -64,12 +66,12 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  /// The actual port.
+  /// Returns the actual port.
   [[nodiscard]] int port() const;
-  /// Refuses new connections.
+  /// Stops accepting new connections.
   void stop_accepting();
-  /// Ends running requests within about a second. The services must have ended their calls, or
-  /// still answer.
+  /// Ends running requests within about a second. The services must have ended their calls, or must
+  /// still be able to respond.
   void stop();
 
  private:

@@ -13,7 +13,7 @@
 
 namespace hydroprint::http {
 
-/// The objects that all requests share; outlives them.
+/// State shared by all requests; outlives them.
 struct ServerContext {
   Options options;
   Sources sources;
@@ -24,7 +24,7 @@ struct ServerContext {
   StaticFiles files;
   Connections connections;
   HttpMetrics metrics;
-  std::atomic<int> asides{0};  // tasks waiting for the blocking thread
+  std::atomic<int> asides{0};  // number of tasks waiting for the blocking thread
 };
 
 }  // namespace hydroprint::http

@@ -9,7 +9,7 @@
 namespace hydroprint::http {
 namespace {
 
-constexpr milliseconds kEndPatience{5000};  // for a cancelled call to end
+constexpr milliseconds kEndPatience{5000};  // time for a cancelled call to end
 
 Response event_stream() {
   Response response;
@@ -17,8 +17,8 @@ Response event_stream() {
   return response;
 }
 
-/// One stream sent to one client. The next message is requested once the previous one was sent. A
-/// client that does not read therefore holds up at most one message and the kernel's buffer.
+/// One stream to one client. The next message is requested after the previous one was sent. A
+/// client that does not read therefore occupies at most one message and the kernel's buffer.
 class EventStream {
  public:
   EventStream(ServerContext& server, Exchange& exchange, rest::Call request,
@@ -42,7 +42,7 @@ class EventStream {
   }
 
  private:
-  // Sends the request. The first read shows whether it was accepted.
+  // Sends the request. The first read shows whether the services accepted it.
   Task<void> ask() {
     AsyncValue<bool> written(exchange_.shared_socket());
     stream_->write(request_.request, true, written.receiver());
@@ -93,7 +93,7 @@ class EventStream {
     co_return co_await exchange_.write(std::move(text));
   }
 
-  // An error before the first message is sent as a normal response.
+  // An error before the first message is sent as an ordinary error response.
   Task<void> end() {
     AsyncValue<Reply> coming(exchange_.shared_socket());
     stream_->finish(coming.receiver());

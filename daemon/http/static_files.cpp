@@ -131,7 +131,7 @@ Response StaticFiles::answer(const Head& head) const {
   }
   if (file->gzip.content || file->brotli.content) response.fields.set("Vary", "Accept-Encoding");
   response.fields.set("ETag", chosen->tag);
-  // Files in /assets/ have a hash in their name, so a changed file has a new name.
+  // File names in /assets/ contain a hash, so a changed file has a new name.
   const bool is_hashed = path.starts_with("/assets/");
   response.fields.set("Cache-Control",
                       is_hashed ? "public, max-age=31536000, immutable" : "no-cache");

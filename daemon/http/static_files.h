@@ -12,17 +12,17 @@
 
 namespace hydroprint::http {
 
-/// The web client's files, read once at the start. A request selects an entry of a table, never a
+/// The web client's files, read once at startup. A request selects an entry of a table, never a
 /// path on the disk.
 class StaticFiles {
  public:
-  /// Reads a folder. Without it, the only page explains how to build the client. "app.js.br" and
-  /// "app.js.gz" are compressed variants of "app.js".
+  /// Reads a folder. If it is missing, the only page explains how to build the client. "app.js.br"
+  /// and "app.js.gz" are compressed variants of "app.js".
   /// @return kInvalidArgument if the folder has more than 64 MiB or 10000 files
   [[nodiscard]] static Result<StaticFiles> load(const std::filesystem::path& folder);
 
-  /// The response to a GET or HEAD: a file, or index.html for a path that may be a page of the
-  /// client (no dot in its last part). Otherwise status 404 without a body.
+  /// Returns the response to a GET or HEAD: a file, or index.html for a path that may be a page of
+  /// the client (no dot in its last part). Otherwise status 404 without a body.
   [[nodiscard]] Response answer(const Head& head) const;
 
  private:
@@ -36,7 +36,7 @@ class StaticFiles {
   };
   [[nodiscard]] const File* find(std::string_view path) const;
 
-  std::map<std::string, File, std::less<>> files_;  // by path: "/assets/app-3f.js"
+  std::map<std::string, File, std::less<>> files_;  // keyed by path: "/assets/app-3f.js"
 };
 
 }  // namespace hydroprint::http

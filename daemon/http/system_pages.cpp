@@ -10,7 +10,8 @@ namespace {
 constexpr milliseconds kSourcePatience{5000};
 constexpr int kMostAsides = 100;
 
-/// Runs a blocking function on another thread; nullopt on timeout, such as when the disk hangs.
+/// Runs a blocking function on another thread; nullopt on timeout, for example if the disk does not
+/// respond.
 template <class T>
 Task<std::optional<T>> ask_aside(ServerContext& server, Exchange& exchange,
                                  std::function<T()> source) {

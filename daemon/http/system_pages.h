@@ -7,7 +7,7 @@
 
 namespace hydroprint::http {
 
-// Each function answers one request and returns the name under which the request is counted.
+// Each function answers one request and returns the route name for the metrics.
 
 /// Serves a file of the web client.
 [[nodiscard]] Task<std::string> answer_file(ServerContext& server, Exchange& exchange);

@@ -11,7 +11,7 @@
 namespace hydroprint::http {
 namespace {
 
-constexpr milliseconds kStorePatience{60'000};  // for a slow disk
+constexpr milliseconds kStorePatience{60'000};  // time allowed for a slow disk
 const std::string kUploadChunk = "/hydroprint.v1.AssetService/UploadChunk";
 const std::string kGetUpload = "/hydroprint.v1.AssetService/GetUpload";
 
@@ -23,7 +23,7 @@ Response state_of(const v1::Upload& upload) {
   return response;
 }
 
-/// Passes a body on. The next piece is read once the store has taken the previous one.
+/// Passes a body to the store. The next piece is read once the store has received the previous one.
 class Passing {
  public:
   Passing(ServerContext& server, Exchange& exchange, std::string name, std::int64_t offset,
@@ -33,8 +33,8 @@ class Passing {
         name_(std::move(name)),
         offset_(offset) {}
 
-  // Returns the call's status, or an Error if the body is incomplete. Bytes received so far are
-  // kept.
+  // Returns the call's status, or an Error if the body is incomplete. The store keeps the bytes
+  // received so far.
   Task<Result<Reply>> run() {
     bool is_taken = co_await pass_on({});  // opens the upload, even if no bytes follow
     while (is_taken) {
@@ -63,7 +63,7 @@ class Passing {
     const Reply late{4, "the store did not answer in time", "", ""};
     AsyncValue<std::optional<std::string>> response(exchange_.shared_socket());
     AsyncValue<Reply> coming(exchange_.shared_socket());
-    // This order is required: within a process, gRPC drops a response that is not awaited before
+    // This order is required. Within a process, gRPC drops a response that is not being read when
     // the status arrives, and then the call never ends for the store.
     stream_->read(response.receiver());
     stream_->end_writing();

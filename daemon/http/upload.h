@@ -8,7 +8,7 @@
 namespace hydroprint::http {
 
 /// Answers a request for the bytes of an upload (PATCH, HEAD).
-/// @return the name under which the request is counted
+/// @return the route name for the metrics
 [[nodiscard]] Task<std::string> answer_upload(ServerContext& server, Exchange& exchange);
 
 }  // namespace hydroprint::http

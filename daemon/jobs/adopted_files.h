@@ -7,15 +7,16 @@
 
 namespace hydroprint::daemon {
 
-/// Makes an artifact of a finished job an input file of another job, through an asset. The other
-/// job can then be run again after the first is deleted. Fails as AssetStore::adopt() does.
+/// Turns an artifact of a finished job into an input file of another job, through an asset. The
+/// other job can then be run again after the first is deleted. Returns the errors of
+/// AssetStore::adopt().
 /// @param job   the job that has the artifact
 /// @param name  of the input file
 [[nodiscard]] Result<v1::InputFile> adopt_artifact(std::int64_t job, const Artifact& artifact,
                                                    const std::string& name,
                                                    const JobSources& sources);
 
-/// Makes a text an input file, since the file that the text came from may change.
+/// Turns a text into an input file, because its source file may change.
 [[nodiscard]] Result<v1::InputFile> adopt_text(const std::string& text, const std::string& name,
                                                const JobSources& sources);
 

@@ -8,38 +8,39 @@
 
 namespace hydroprint::daemon {
 
-/// Converts a calibration to its API message, with its validity for the present state of the rig.
+/// Converts a calibration to its API message, with its validity for the current state of the rig.
 [[nodiscard]] v1::Calibration to_message(const Calibration& calibration, const RigPlace& now);
 
-/// The reasons why an observation made at `then` is no longer valid.
+/// Returns the reasons why an observation made at `then` is no longer valid.
 [[nodiscard]] std::vector<v1::Calibration::Staleness> staleness(const RigPlace& then,
                                                                 const RigPlace& now);
 
-/// Looks up "calibrations/3", or "calibrations/active" for the active one of an object. ID_INVALID,
-/// CALIBRATION_NOT_FOUND.
+/// Looks up "calibrations/3", or "calibrations/active" for the active object calibration. Errors:
+/// ID_INVALID, CALIBRATION_NOT_FOUND.
 [[nodiscard]] Result<Calibration> find_calibration(const std::string& name,
                                                    CalibrationStore& calibrations);
 
-/// As find_calibration(), for a job that uses the calibration of an object.
+/// Same as find_calibration(), for a job that needs an object calibration.
 /// @param field  of the spec that names it, for errors
-/// @return ID_INVALID; CALIBRATION_MISSING; SPEC_INVALID for the calibration of a camera
+/// @return ID_INVALID; CALIBRATION_MISSING; SPEC_INVALID for a camera calibration
 [[nodiscard]] Result<Calibration> needed_calibration(const std::string& name,
                                                      const std::string& field,
                                                      CalibrationStore& calibrations);
 
-/// Why a calibration may not be used for a mesh now; empty if it may.
+/// Why a calibration cannot be used for a mesh now; empty if it can.
 struct Objection {
-  std::string words;  ///< for people
-  std::string names;  ///< for programs: "MOVED,OTHER_OBJECT"
+  std::string words;  ///< text for display
+  std::string names;  ///< names for programs: "MOVED,OTHER_OBJECT"
   void add(const std::string& why, const std::string& name);
 };
 [[nodiscard]] Objection objection(const v1::Calibration& calibration, const v1::InputFile& mesh);
 
-/// Refuses (CALIBRATION_STALE) a calibration with an objection, unless that is allowed.
+/// Returns CALIBRATION_STALE for a calibration with an objection, unless that is allowed.
 [[nodiscard]] Status check_objection(const v1::Calibration& calibration, const Objection& objection,
                                      bool is_allowed);
 
-/// Whether the axis has kept its reference and the object since the calibration.
+/// Returns whether the axis has kept its reference, and the object its place, since the
+/// calibration.
 [[nodiscard]] bool knows_contact(const v1::Calibration& calibration);
 
 }  // namespace hydroprint::daemon

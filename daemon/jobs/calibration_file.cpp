@@ -16,7 +16,7 @@ constexpr std::size_t kMostEntries = 100;
 constexpr std::size_t kLongestText = 1000;
 constexpr double kFarthest_mm = 1e5;
 
-/// Takes values from a worker's file and keeps the first error.
+/// Reads values from a worker's file and keeps the first error.
 class Reader {
  public:
   explicit Reader(const Json& json) : json_(json) {}
@@ -35,7 +35,7 @@ class Reader {
       out.Add(number(fmt::format("{}/{}", pointer, i), most));
     }
   }
-  /// Reads a text, truncated if too long, without unprintable characters.
+  /// Reads a text, truncated if it is too long, without unprintable characters.
   std::string text(const std::string& pointer) {
     const Json* found = find(pointer);
     if (found == nullptr || !found->is_string()) {

@@ -10,13 +10,13 @@ class Calibration;
 
 namespace hydroprint::daemon {
 
-// Readers for files written by a worker, which are untrusted. They refuse (kInternal,
-// WORKER_UNUSABLE) a key that is missing or out of range.
+// Readers for files written by a worker, which are untrusted. They return kInternal,
+// WORKER_UNUSABLE if a key is missing or out of range.
 
 /// Reads calibration.json into the fields of a calibration.
 [[nodiscard]] Status read_calibration(const std::string& json, v1::Calibration& out);
 
-/// Same, for camera.json.
+/// Same as read_calibration(), for camera.json.
 [[nodiscard]] Status read_camera(const std::string& json, v1::Calibration& out);
 
 }  // namespace hydroprint::daemon

@@ -9,7 +9,8 @@ Result<v1::Calibration> check_calibration(const v1::Calibration& entered) {
   if (!entered.has_mesh()) return invalid_field("calibration.mesh", "is missing");
   if (!entered.has_pose()) return invalid_field("calibration.pose", "is missing");
   if (entered.film().starts_with("polygon:")) {
-    return invalid_field("calibration.film", "cannot be a polygon here; give its box as WxH");
+    return invalid_field("calibration.film",
+                         "cannot be a polygon here; use its bounding box as WxH");
   }
   if (entered.covariance().empty() != entered.centre_mm().empty()) {
     return invalid_field(

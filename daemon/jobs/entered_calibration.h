@@ -6,7 +6,8 @@
 namespace hydroprint::daemon {
 
 /// Checks a manually entered calibration, beyond the rules of its fields (check_fields()).
-/// @return the fields that the client decides; SPEC_INVALID, NAME_INVALID, ID_INVALID
+/// @return a calibration with only the fields that the client sets; SPEC_INVALID, NAME_INVALID,
+///         ID_INVALID
 [[nodiscard]] Result<v1::Calibration> check_calibration(const v1::Calibration& entered);
 
 }  // namespace hydroprint::daemon

@@ -9,30 +9,31 @@
 
 namespace hydroprint::daemon {
 
-/// A job that a client asks for, checked and with all references resolved.
+/// A job requested by a client, checked and with all references resolved.
 struct JobRequest {
   NewJob made;
-  v1::Job job;  ///< with the spec as the job shows it, which `made.body` serialises
+  v1::Job job;  ///< with the spec as the job shows it; `made.body` serialises it
   RequestKey key;
   std::string lease_id;
 };
 
-/// Carries out jobs of some kinds. Any thread may call.
+/// Executes jobs of some kinds. Thread-safe.
 class JobExecutor {
  public:
   virtual ~JobExecutor() = default;
   JobExecutor(const JobExecutor&) = delete;
   JobExecutor& operator=(const JobExecutor&) = delete;
 
-  /// Refuses what create() would refuse, except for limits of the store.
-  /// @return the job as it would begin, without a name
+  /// Makes the checks of create(), except for limits of the store.
+  /// @return the job in its initial state, without a name
   [[nodiscard]] virtual Result<Job> check(const JobRequest& request) = 0;
-  /// Stores a job and starts or queues it. A repeated request returns its first job.
+  /// Stores a job and starts or queues it. A repeated request returns the job that it created
+  /// first.
   [[nodiscard]] virtual Result<Job> create(const JobRequest& request) = 0;
   /// Cancels a job, whether or not it is running.
   [[nodiscard]] virtual Result<Job> cancel(std::int64_t job) = 0;
-  /// Brings running jobs to rest for a shutdown and refuses new ones. What remains open is left to
-  /// JobStore::interrupt_all().
+  /// Ends running jobs for a shutdown and rejects new ones. JobStore::interrupt_all() ends the jobs
+  /// that remain open.
   virtual void stop() = 0;
 
  protected:

@@ -13,7 +13,7 @@ std::string problem_of(const Result<Value>& parsed) {
   return parsed ? std::string() : parsed.error().message;
 }
 
-// A polygon is read from a file, which only the worker opens.
+// Checks a film. The file of a polygon is opened only by the worker.
 std::string film_problem(const std::string& text) {
   if (film::polygon_file(text)) return {};
   return problem_of(film::parse_outline(text));

@@ -8,8 +8,8 @@ class Message;
 
 namespace hydroprint::daemon {
 
-/// Checks a message by the rules of its fields. Films and paper sizes are parsed as the worker
-/// does.
+/// Checks a message against the rules of its fields. Films and paper sizes are parsed as in the
+/// worker.
 /// @return kInvalidArgument with all wrong fields (rest::bad_request())
 [[nodiscard]] Status check_fields(const google::protobuf::Message& message);
 

@@ -17,7 +17,7 @@ namespace {
 
 using google::protobuf::Message;
 
-/// Checks all fields of a job by their rules, with the resolved spec in place of the one sent.
+/// Checks all fields of a job by their rules, using the resolved spec instead of the original one.
 Status check_all_fields(const JobKind& kind, const v1::Job& job, const Message& resolved) {
   v1::Job filled = job;
   filled.GetReflection()->MutableMessage(&filled, &kind.field())->CopyFrom(resolved);
@@ -26,7 +26,8 @@ Status check_all_fields(const JobKind& kind, const v1::Job& job, const Message& 
   return invalid_field("labels", "have an empty key");
 }
 
-/// The number of threads belongs to the pool and does not change the result.
+/// Removes the number of threads from the spec, because it is an option of the pool and does not
+/// change the result.
 std::int32_t take_threads(Message& spec) {
   const auto* const field = spec.GetDescriptor()->FindFieldByName("threads");
   if (field == nullptr) return 0;

@@ -6,7 +6,7 @@
 namespace hydroprint::daemon {
 
 /// Resolves and checks a job that a client sent; proto/hydroprint/v1/spec.proto describes the
-/// errors. Sets all of the request except NewJob's owner, the key and the lease.
+/// errors. Sets the whole request except NewJob's owner, key and lease.
 /// @return errors of the kind's resolve(), then of check_job()
 [[nodiscard]] Result<JobRequest> job_request(const JobKind& kind, const v1::Job& sent,
                                              const JobSources& sources);

@@ -16,53 +16,56 @@
 
 namespace hydroprint::daemon {
 
-/// The sources for resolving a spec's references: earlier jobs, calibrations, the configuration.
+/// The sources from which a spec's references are resolved: earlier jobs, calibrations, the
+/// configuration.
 struct JobSources {
   JobStore& jobs;
   AssetStore& assets;
   CalibrationStore& calibrations;
   const CameraConfig& camera;
   Layout layout;
-  RigPlace place;  ///< present state of the rig
+  RigPlace place;  ///< current state of the rig
 };
 
-/// Base class of all job kinds: everything the daemon knows about one kind. Each kind has a file in
-/// daemon/jobs/kinds and derives from KindOf below. Objects are constant and live as long as the
-/// program.
+/// Base class of all job kinds: the properties that distinguish one kind from the others. Each kind
+/// has a file in daemon/jobs/kinds and derives from KindOf below. Objects are constant and live as
+/// long as the program.
 class JobKind {
  public:
   virtual ~JobKind() = default;
   JobKind(const JobKind&) = delete;
   JobKind& operator=(const JobKind&) = delete;
 
-  /// The kind's field in the oneof of hydroprint.v1.Job, whose name appears in errors
+  /// Returns the kind's field in the oneof of hydroprint.v1.Job. Its name appears in errors
   /// ("print_image").
   [[nodiscard]] const google::protobuf::FieldDescriptor& field() const { return field_; }
-  /// "print-image": the worker's verb, and the kind in logs and metrics.
+  /// Returns the worker's verb, which is also the kind in logs and metrics: "print-image".
   [[nodiscard]] const std::string& name() const { return name_; }
 
-  /// The role required to create such a job.
+  /// Returns the role required to create such a job.
   [[nodiscard]] virtual auth::Role least_role() const { return auth::Role::kMaker; }
   [[nodiscard]] virtual ExecutorId executor() const { return ExecutorId::kWorkers; }
   [[nodiscard]] virtual JobTraits traits() const { return {}; }
-  /// Whether a job may get the artifacts of an earlier one with the same inputs.
+  /// Returns whether a job may reuse the artifacts of an earlier one with the same inputs.
   [[nodiscard]] virtual bool is_cacheable() const { return true; }
-  /// Why a finished job cannot be retried, to follow "jobs/7 is "; empty if it can.
+  /// Returns why a finished job cannot be retried, as the end of a sentence "jobs/7 is "; empty if
+  /// it can.
   [[nodiscard]] virtual std::string why_no_retry() const { return {}; }
 
-  /// Resolves the references of a spec. Both messages are copies of the spec as it was sent.
+  /// Resolves the references of a spec. Both messages are initially copies of the spec as it was
+  /// sent.
   /// @param shown     becomes the spec that the job shows, with default references named
-  /// @param resolved  becomes the spec that is carried out, without any reference
+  /// @param resolved  becomes the spec that is executed, without references
   [[nodiscard]] virtual Status resolve(google::protobuf::Message& shown,
                                        google::protobuf::Message& resolved,
                                        const JobSources& sources) const = 0;
-  /// Checks what the rules of single fields cannot express: fields that depend on each other, and
-  /// fields that a resolved spec must have. SPEC_INVALID, ID_INVALID
+  /// Makes checks that the rules of single fields cannot express: fields that depend on each other,
+  /// and fields that a resolved spec must have. Errors: SPEC_INVALID, ID_INVALID.
   [[nodiscard]] virtual Status check(const google::protobuf::Message& resolved) const = 0;
-  /// The part of a default display name that follows the kind ("jobs/3", "mug.obj"): the earlier
-  /// job that the spec refers to, otherwise its first file.
+  /// Returns the part of a default display name that follows the kind ("jobs/3", "mug.obj"): the
+  /// earlier job that the spec refers to, otherwise its first file.
   [[nodiscard]] virtual std::string subject(const google::protobuf::Message& shown) const;
-  /// The calibration that a successful job produces, read from its (untrusted) artifacts.
+  /// Returns the calibration that a successful job produces, read from its (untrusted) artifacts.
   /// @return nullopt if the kind produces none; kInternal, WORKER_UNUSABLE
   [[nodiscard]] virtual Result<std::optional<NewCalibration>> calibration(
       const Job& job, const std::filesystem::path& artifacts) const;
@@ -76,7 +79,7 @@ class JobKind {
   std::string name_;
 };
 
-/// A kind whose spec is the message `Spec`.
+/// A kind with a spec of type `Spec`.
 template <class Spec>
 class KindOf : public JobKind {
  protected:

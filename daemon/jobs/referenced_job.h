@@ -8,21 +8,21 @@
 
 namespace hydroprint::daemon {
 
-/// The job that another one continues from.
+/// Returns the job that another job continues from.
 /// @param name   "jobs/7"
 /// @param kind   required kind: "print-image"
 /// @param field  of the spec that names it, for errors
 /// @return ID_INVALID, JOB_NOT_FOUND; SPEC_INVALID for a job of another kind; STATE_FORBIDS for a
-/// job that did not succeed
+///         job that did not succeed
 [[nodiscard]] Result<Job> earlier_job(const std::string& name, const std::string& kind,
                                       const std::string& field, JobStore& jobs);
 
-/// A simulate job that another one continues from, and its spec.
+/// A simulate job that another job continues from, and its spec.
 struct EarlierSimulation {
   Job job;
   v1::SimulateSpec spec;
 };
-/// As earlier_job(); kInternal, STORE_FAILED if its spec cannot be read.
+/// Same as earlier_job(), with the spec. Also kInternal, STORE_FAILED if the spec cannot be read.
 [[nodiscard]] Result<EarlierSimulation> earlier_simulation(const std::string& name,
                                                            const std::string& field,
                                                            JobStore& jobs);

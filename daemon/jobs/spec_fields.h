@@ -8,8 +8,8 @@
 
 namespace hydroprint::daemon {
 
-// Checks that several kinds share, for fields that depend on each other; rules of single fields are
-// in the .proto. A `Spec` is a message of proto/hydroprint/v1/spec.proto that has these fields.
+// Checks that several kinds share, for fields that depend on each other; the rules of single fields
+// are in the .proto. `Spec` is a message of proto/hydroprint/v1/spec.proto that has these fields.
 // `kind` is the kind's field ("print_image"), for errors.
 
 using InputFiles = google::protobuf::RepeatedPtrField<v1::InputFile>;
@@ -17,10 +17,10 @@ using InputFiles = google::protobuf::RepeatedPtrField<v1::InputFile>;
 /// Checks frames as hydroprint-capture writes them: a folder with frames.json for each view.
 [[nodiscard]] Status check_frames(const std::string& kind, const InputFiles& frames,
                                   int most_views);
-/// Number of folders with frames.
+/// Returns the number of folders with frames.
 [[nodiscard]] int count_views(const InputFiles& frames);
 
-/// A polygon film must be among the extra files.
+/// Checks that the extra files contain the file of a polygon film.
 template <class Spec>
 [[nodiscard]] Status check_polygon(const std::string& kind, const Spec& spec) {
   if (!spec.film().starts_with("polygon:")) return {};
@@ -30,7 +30,7 @@ template <class Spec>
   return invalid_field(kind + ".film", "names a polygon that is not in extra_files");
 }
 
-/// Only the sheet moves with inertia.
+/// Checks that inertia is used only with the sheet model.
 template <class Spec>
 [[nodiscard]] Status check_inertia(const std::string& kind, const Spec& spec) {
   if (!spec.inertia() || spec.model() != v1::MODEL_STOKES) return {};
@@ -38,7 +38,7 @@ template <class Spec>
                        "Stokes flow has no inertia; leave it out, or set the model to sheet");
 }
 
-/// There must be room between the margins of the paper.
+/// Checks that the margins leave space for printing.
 template <class Spec>
 [[nodiscard]] Status check_margin(const std::string& kind, const Spec& spec) {
   print::PageSettings page;

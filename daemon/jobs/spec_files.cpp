@@ -32,7 +32,8 @@ Status each_file(const Message& spec, const FileVisitor& visit) {
   return {};
 }
 
-// A name that occurs twice, or is also the folder of another file; empty if there is none.
+// Returns a name that occurs twice, or that is also the folder of another file; empty if there is
+// none.
 std::string ambiguous_name(const std::vector<InputFile>& inputs) {
   std::set<std::string> names;
   for (const InputFile& file : inputs) {
@@ -67,7 +68,7 @@ Result<std::vector<InputFile>> input_files(const Message& spec, const std::strin
   if (const std::string name = ambiguous_name(out); !name.empty()) {
     return fail(
         Code::kInvalidArgument,
-        fmt::format("{}: the name \"{}\" is used for two files; give each file its own name", path,
+        fmt::format("{}: the name \"{}\" is used for two files; use a different name for each file", path,
                     name),
         "NAME_INVALID");
   }

@@ -24,7 +24,7 @@ using v1::Rig;
 constexpr std::array kOpenStates{JobState::kQueued, JobState::kWaitingForOperator,
                                  JobState::kRunning, JobState::kCancelling};
 
-// Resident bytes of a process; 0 if /proc does not give them.
+// Returns the resident bytes of a process; 0 if /proc does not contain them.
 double memory_of(const std::string& process) {
   std::ifstream file("/proc/" + process + "/statm");
   double pages = 0, resident = 0;

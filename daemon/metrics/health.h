@@ -10,15 +10,15 @@ namespace hydroprint::daemon {
 
 /// The content of /healthz.
 struct HealthReport {
-  bool is_good = true;  ///< the store answers and the daemon is not shutting down
+  bool is_good = true;  ///< the store responds and the daemon is not shutting down
   std::string json;
 };
 
-/// Reads the store, so it may take time. A missing or faulty rig or camera is reported but does not
-/// make the daemon unhealthy.
+/// Creates the health report. Reads the store, so it may take time. A missing or faulty rig or
+/// camera is reported but does not make the daemon unhealthy.
 [[nodiscard]] HealthReport health_report(const ServiceContext& backend);
 
-/// All metrics except the HTTP server's, in Prometheus format. Reads the store.
+/// Returns all metrics except the HTTP server's, in Prometheus format. Reads the store.
 /// @param certificate  null if there is none
 [[nodiscard]] std::string metrics_text(const ServiceContext& backend, const JobMetrics& meter,
                                        const CertificateReloader* certificate);

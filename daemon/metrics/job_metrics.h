@@ -13,9 +13,8 @@
 
 namespace hydroprint::daemon {
 
-/// Measures how long jobs wait, run and stay in each stage, and how they end, from the daemon's
-/// start on. Follows job events in its own thread, since PROGRESS events are deleted when a job
-/// ends.
+/// Measures how long jobs stay in each stage and how they end, since the daemon started. Follows
+/// job events in its own thread, because PROGRESS events are deleted when a job ends.
 class JobMetrics {
  public:
   /// @param jobs  must outlive this object

@@ -5,10 +5,10 @@
 
 namespace hydroprint::daemon {
 
-/// Returns the Unix time in ms; tests pass their own.
+/// Returns the Unix time in ms. Tests provide their own.
 using Clock = std::function<std::int64_t()>;
 
-/// The machine's clock.
+/// Reads the machine's clock.
 [[nodiscard]] std::int64_t system_clock_ms();
 
 }  // namespace hydroprint::daemon

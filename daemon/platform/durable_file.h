@@ -27,12 +27,12 @@ class UniqueFd {
   int fd_ = -1;
 };
 
-/// Builds an Error for the last failed system call: "path: what: reason of the system". A full disk
-/// is kResourceExhausted, DISK_FULL; anything else is kInternal, STORE_FAILED.
+/// Returns an Error for the last failed system call: "PATH: WHAT: REASON", with the reason from the
+/// system. A full disk is kResourceExhausted, DISK_FULL; anything else is kInternal, STORE_FAILED.
 [[nodiscard]] tl::unexpected<Error> system_failure(const std::filesystem::path& path,
                                                    std::string_view what);
 
-/// Opens a file with O_CLOEXEC, and refuses a symbolic link.
+/// Opens a file with O_CLOEXEC. A symbolic link is an error.
 [[nodiscard]] Result<UniqueFd> open_file(const std::filesystem::path& path, int flags,
                                          unsigned mode = 0600);
 
@@ -40,7 +40,7 @@ class UniqueFd {
 [[nodiscard]] Status write_at(const UniqueFd& file, const std::filesystem::path& path,
                               std::string_view bytes, std::int64_t offset);
 
-/// Replaces a file's content, which may be lost in a power cut.
+/// Replaces a file's content. Does not sync, so a power cut may lose the content.
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view bytes);
 
 /// Syncs a file's content, or a folder's entries, to disk.
@@ -49,10 +49,10 @@ class UniqueFd {
 /// Renames a file and syncs the new name to disk.
 [[nodiscard]] Status publish(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Creates a private folder (0700) with its parents, unless it exists.
+/// Creates a private folder (0700) and its missing parents, unless it exists.
 [[nodiscard]] Status make_folder(const std::filesystem::path& path);
 
-/// Deletes a file or a folder with its content, if it exists. After a failure the next start tries
+/// Deletes a file or a folder with its content, if it exists. If that fails, the next start tries
 /// again.
 void discard(const std::filesystem::path& path);
 
@@ -60,10 +60,10 @@ void discard(const std::filesystem::path& path);
 [[nodiscard]] Status link_or_copy(const std::filesystem::path& from,
                                   const std::filesystem::path& to);
 
-/// SHA-256 of a file's content, as 64 lower-case hex digits.
+/// Returns the SHA-256 of a file's content, as 64 lower-case hex digits.
 [[nodiscard]] Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
-/// Refuses (kResourceExhausted, DISK_FULL) if the disk of `path` has less than `bytes` free.
+/// Returns kResourceExhausted, DISK_FULL if the disk of `path` has less than `bytes` free.
 [[nodiscard]] Status check_free_space(const std::filesystem::path& path, std::int64_t bytes);
 
 }  // namespace hydroprint::daemon

@@ -73,8 +73,8 @@ Status start_logging(LogLevel level, const std::filesystem::path& file) {
   } catch (const spdlog::spdlog_ex&) {
     return fail(
         Code::kPermissionDenied,
-        fmt::format("log.file: cannot open \"{}\" for writing; name a file in a folder that exists "
-                    "and is writable for the daemon, or leave log.file empty",
+        fmt::format("log.file: cannot open \"{}\" for writing; use an existing folder that the "
+                    "daemon can write to, or leave log.file empty",
                     file.string()));
   }
 }

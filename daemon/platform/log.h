@@ -27,7 +27,7 @@ struct LogField {
   std::string value;
 };
 
-/// Sends the log to stderr and appends it to `file`, unless that is empty.
+/// Starts logging to stderr and, unless empty, to the end of `file`.
 /// @return kPermissionDenied if the file cannot be opened
 [[nodiscard]] Status start_logging(LogLevel level, const std::filesystem::path& file);
 

@@ -8,7 +8,7 @@
 namespace hydroprint::daemon {
 
 /// Wakes threads that wait for changes in the store. A ring() between count() and wait() is not
-/// lost.
+/// missed.
 class Notifier {
  public:
   void ring() {
@@ -22,7 +22,7 @@ class Notifier {
     const std::lock_guard lock(mutex_);
     return rings_;
   }
-  /// Returns after a ring() later than `seen`, or after `timeout`.
+  /// Waits for a ring() after `seen`, or until `timeout`.
   void wait(std::uint64_t seen, std::chrono::milliseconds timeout) const {
     std::unique_lock lock(mutex_);
     rung_.wait_for(lock, timeout, [&] { return rings_ != seen; });

@@ -12,7 +12,7 @@ namespace {
 bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }
 bool is_hex(char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); }
 
-// A client's text for messages: shortened, without control characters.
+// Makes a client's text safe for messages: shortened, without control characters.
 std::string shown(std::string_view text) {
   std::string out(text.substr(0, 80));
   std::replace_if(out.begin(), out.end(), is_control, '?');

@@ -7,7 +7,7 @@
 
 namespace hydroprint::daemon {
 
-// The return value only says whether a notification socket exists.
+// The return value is ignored: it only shows whether there is a notification socket.
 void notify_ready(const std::string& status) {
   (void)sd_notify(0, ("READY=1\nSTATUS=" + status).c_str());
 }

@@ -14,10 +14,10 @@ void notify_ready(const std::string& status);
 void notify_stopping();
 
 /// Feeds systemd's watchdog, if there is one, as long as the loop that monitors the drive makes
-/// progress. That loop alone must never hang, even if everything else still answers.
+/// progress. That loop must never stall, even if everything else still responds.
 class WatchdogFeeder {
  public:
-  /// Iterations of that loop since the start; nullopt without a drive.
+  /// Number of iterations of that loop since the start; nullopt without a drive.
   using Rounds = std::function<std::optional<std::uint64_t>()>;
 
   explicit WatchdogFeeder(Rounds rounds);
@@ -26,8 +26,8 @@ class WatchdogFeeder {
   void feed();
 
   Rounds rounds_;
-  std::optional<std::uint64_t> before_;  // iterations at the last feeding
-  // A separate thread, so that a hanging disk cannot stop it.
+  std::optional<std::uint64_t> before_;  // number of iterations at the last feeding
+  // A separate thread, so that a disk that does not respond cannot stop it.
   std::optional<PeriodicThread> thread_;
 };
 

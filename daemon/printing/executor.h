@@ -10,7 +10,7 @@
 
 namespace hydroprint::daemon {
 
-/// Carries out prints, one at a time, each in its own thread. Thread-safe.
+/// Executes prints, one at a time, each in its own thread. Thread-safe.
 class PrintExecutor final : public JobExecutor {
  public:
   /// @param setup  nullopt: no printer is configured
@@ -19,14 +19,14 @@ class PrintExecutor final : public JobExecutor {
   /// Calls stop() if needed.
   ~PrintExecutor() override;
 
-  /// Fails as print_plan_of() does; kFailedPrecondition, PRINTER_MISSING if no printer is
-  /// configured.
+  /// Returns the errors of print_plan_of(), and kFailedPrecondition, PRINTER_MISSING if no printer
+  /// is configured.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
-  /// Requests cancellation; the job ends when the printer confirms.
+  /// Requests cancellation; the job ends when the printer confirms it.
   [[nodiscard]] Result<Job> cancel(std::int64_t job) override;
-  /// Leaves a running print to the printer, and its job to JobStore::interrupt_all(). Takes a few
-  /// seconds at most.
+  /// Stops following a running print, which the printer continues; JobStore::interrupt_all() ends
+  /// its job. Takes a few seconds at most.
   void stop() override;
 
  private:

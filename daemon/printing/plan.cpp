@@ -14,7 +14,7 @@ namespace {
 constexpr const char* kPdf = "print.pdf";
 constexpr double kLongest_mm = 5000;
 
-/// A length in the report, from 0 to the maximum; NaN if missing or out of range.
+/// Returns a length in the report, from 0 to the maximum; NaN if missing or out of range.
 double length_mm(const nlohmann::json& report, const std::string& pointer) {
   const nlohmann::json::json_pointer place(pointer);
   if (!report.contains(place) || !report.at(place).is_number()) return NAN;

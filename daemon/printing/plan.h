@@ -17,19 +17,19 @@ namespace hydroprint::daemon {
 struct PrintPlan {
   std::string print_image_job;  ///< "jobs/7"
   std::filesystem::path pdf;
-  std::string sha256;  ///< of the PDF
+  std::string sha256;  ///< hash of the PDF
   int pages = 1;
   Eigen::Vector2d paper_mm = {210, 297};  ///< the shorter side first, as in the tray
-  double margin_mm = 0;                   ///< margin of the printer that print-image assumed
+  double margin_mm = 0;                   ///< the printer's margin, as assumed by print-image
 };
 
 /// Reads the pages of a print-image job from its untrusted report.json.
 /// @return kFailedPrecondition, STATE_FORBIDS
 [[nodiscard]] Status read_printed_pages(const std::string& report, PrintPlan& plan);
 
-/// Makes the plan of a spec.
-/// @return SPEC_INVALID, ID_INVALID, JOB_NOT_FOUND; STATE_FORBIDS if that job did not succeed or
-/// has no PDF or no usable report
+/// Creates the plan of a spec.
+/// @return SPEC_INVALID, ID_INVALID, JOB_NOT_FOUND; STATE_FORBIDS if that job did not succeed, or
+///         has no PDF or no usable report
 [[nodiscard]] Result<PrintPlan> print_plan_of(const v1::PrintSpec& spec, JobStore& jobs,
                                               const Layout& layout);
 

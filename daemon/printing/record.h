@@ -29,20 +29,20 @@ struct PrintFacts {
   std::string message;
 };
 
-/// The report as a JSON object.
+/// Returns the report as a JSON object.
 [[nodiscard]] std::string report_json(const PrintFacts& facts);
 
-/// Reasons to expect a poor print on this printer.
+/// Returns reasons to expect a poor print on this printer.
 [[nodiscard]] Warnings warnings_of(const PrintPlan& plan, const printer::Attributes& printer);
 
-/// Warnings about job attributes that the printer ignores.
+/// Returns warnings about job attributes that the printer ignores.
 [[nodiscard]] Warnings warnings_of(const std::vector<std::string>& ignored);
 
-/// Refuses (FORMAT_NOT_SUPPORTED, PRINTER_REFUSED) a job that the printer would refuse.
+/// Returns FORMAT_NOT_SUPPORTED or PRINTER_REFUSED if the printer cannot accept the job.
 [[nodiscard]] Status check_takes_pdf(const printer::Attributes& printer,
                                      const std::string& address);
 
-/// A status report on one line: "processing", "stopped: printer-stopped, media-empty".
+/// Formats a status report on one line: "processing", "stopped: printer-stopped, media-empty".
 [[nodiscard]] std::string words_of(const printer::JobReport& report);
 
 }  // namespace hydroprint::daemon

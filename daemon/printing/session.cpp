@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kLargestPdf = std::size_t{2} << 30;
 constexpr std::chrono::milliseconds kStoreAgainAfter{500};
-// Fixed shares of the progress, since the duration of a print is unknown.
+// Fixed fractions of the progress, because the duration of a print is unknown.
 constexpr double kSending = 0.05, kSent = 0.3;
 
 std::string phase_of(printer::JobState state) {
@@ -56,7 +56,7 @@ Status PrintSession::print() {
   note(warnings_of(facts_.plan, facts_.printer));
   HP_ASSIGN_OR_RETURN(const printer::Submitted sent, send());
   note(warnings_of(sent.ignored));
-  // A sent document is followed to its end, even after a cancellation.
+  // A document that was sent is followed to its end, even after a cancellation.
   const printer::Printer followed(setup_.address, setup_.timing, [this] { return left_.load(); });
   HP_RETURN_IF_ERROR(followed.follow(
       sent.id, [this](const printer::JobReport& report) { note(report); },
@@ -128,7 +128,8 @@ void PrintSession::finish(const Status& done) {
       {{"job", job_}, {"state", name_of(state)}, {"message", facts_.message}});
 }
 
-/// If the record cannot be stored, the print ends without it, since its outcome matters more.
+/// If the record cannot be stored, the print ends without it, because its outcome is more
+/// important.
 std::vector<Artifact> PrintSession::publish_record() {
   const auto folder = layout_.run_out(job_);
   const auto written = [&]() -> Result<std::vector<Artifact>> {

@@ -25,9 +25,9 @@ class PrintSession {
 
   /// Runs until the print ends, or until shortly after leave().
   void go();
-  /// Cancels the print on the printer; if the document is still being sent, aborts the transfer.
+  /// Cancels the print on the printer. If the document is still being sent, aborts the transfer.
   void cancel() { cancelled_ = true; }
-  /// Makes go() return soon; the printer continues.
+  /// Makes go() return soon; the printer continues the print.
   void leave() { left_ = true; }
 
  private:

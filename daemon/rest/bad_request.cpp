@@ -8,7 +8,8 @@ namespace {
 
 // gRPC limits the total size of all details to 8 KiB.
 constexpr std::size_t kMostViolations = 16;
-// Prefix of a violation's metadata key; then come a letter that keeps the order, and the field.
+// Prefix of a violation's metadata key; it is followed by a letter that keeps the order, and the
+// field.
 constexpr std::string_view kPrefix = "violation-";
 
 bool is_violation(const std::string& key) { return key.starts_with(kPrefix); }

@@ -28,9 +28,10 @@ enum class ValueKind { kNull, kBool, kNumber, kString, kObject, kList };
 
 // An object or list that is still open.
 struct Level {
-  const pb::Descriptor* message =
-      nullptr;  // type that the object is read as; null for a map or a list
-  const pb::FieldDescriptor* field = nullptr;  // field of the next value, once a key was read
+  // Type that the object represents; null for a map or a list.
+  const pb::Descriptor* message = nullptr;
+  // Field of the next value, once its key has been read.
+  const pb::FieldDescriptor* field = nullptr;
   bool is_list = false;
   std::size_t count = 0;            // number of list values so far
   std::string name = {};            // name of the object's next value
@@ -116,7 +117,7 @@ class Checker : public nlohmann::json_sax<json> {
     return false;
   }
 
-  // The error for invalid JSON at a byte of the text.
+  // Returns the error for invalid JSON at a byte of the text.
   [[nodiscard]] Error no_json(std::size_t at, std::string_view what) const {
     const std::string_view before = text_.substr(0, at);
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -169,20 +170,20 @@ class Checker : public nlohmann::json_sax<json> {
 
   bool number() { return is_fit(ValueKind::kNumber) && end_value(); }
 
-  // The field, or the one in its wrapper, of the next value; null at the top level.
+  // Returns the field of the next value, or the field in its wrapper; null at the top level.
   [[nodiscard]] const pb::FieldDescriptor* leaf_here() const {
     if (levels_.empty()) return nullptr;
     const pb::FieldDescriptor* field = levels_.back().field;
     return is_wrapper(*field) ? field->message_type()->field(0) : field;
   }
 
-  // Whether a value of this kind may come next. Protobuf checks the ranges of numbers and texts
-  // later.
+  // Returns whether a value of this kind may come next. Protobuf later checks the ranges of numbers
+  // and texts.
   bool is_fit(ValueKind kind) {
     if (levels_.empty()) return kind == ValueKind::kObject || refuse("must be an object, { }");
     const Level& level = levels_.back();
     const pb::FieldDescriptor& field = *level.field;
-    const bool is_one = level.is_list || level.message == nullptr;  // of a list or map
+    const bool is_one = level.is_list || level.message == nullptr;  // one value of a list or map
     if (kind == ValueKind::kNull) return !is_one || refuse("must not be null");
     if (field.is_repeated() && !field.is_map() && !level.is_list) {
       return kind == ValueKind::kList || refuse("must be a list, [ ]");

@@ -10,9 +10,9 @@ class Descriptor;
 
 namespace hydroprint::rest {
 
-/// Refuses text that protobuf's parser would accept although it is invalid, or would take too long
-/// to parse; see read_json(). Takes time and memory in proportion to the text.
-/// @param message  type of the message that the text is read as
+/// Rejects text that protobuf's parser would accept although it is invalid, or would take too long
+/// to parse; see read_json(). Time and memory are proportional to the length of the text.
+/// @param message  type of the message that the text represents
 [[nodiscard]] Status check_json(std::string_view text, const google::protobuf::Descriptor& message);
 
 }  // namespace hydroprint::rest

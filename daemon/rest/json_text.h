@@ -10,9 +10,9 @@ class Message;
 
 namespace hydroprint::rest {
 
-/// Reads a JSON object into an empty message, following the proto3 JSON mapping strictly. Refuses
-/// (kInvalidArgument, JSON_INVALID, metadata `field` where there is one; the message gives line and
-/// column, or the field):
+/// Reads a JSON object into an empty message, following the proto3 JSON mapping strictly. Returns
+/// kInvalidArgument, JSON_INVALID, with line and column, or the field (also as metadata `field`),
+/// for:
 /// - text that is not valid JSON (comments, trailing commas, NaN, unquoted names, bytes that are
 ///   not UTF-8);
 /// - more than 32 levels;
@@ -20,7 +20,7 @@ namespace hydroprint::rest {
 /// - NUL in a string, a number that is not finite, an unknown enum number, a value of another type.
 [[nodiscard]] Status read_json(std::string_view text, google::protobuf::Message& message);
 
-/// Refuses (kInvalidArgument, JSON_INVALID) numbers that are not finite and unknown enum numbers.
+/// Returns kInvalidArgument, JSON_INVALID for numbers that are not finite and unknown enum numbers.
 [[nodiscard]] Status check_values(const google::protobuf::Message& message);
 
 }  // namespace hydroprint::rest

@@ -136,7 +136,7 @@ std::string value_of(const Variable& variable, const PathTemplate& path_template
   std::string value;
   for (std::size_t i = variable.begin; i < end; ++i) {
     if (i > variable.begin) value += '/';
-    // split_path() has decoded the segment before, so this cannot fail.
+    // This cannot fail, because split_path() has decoded the segment before.
     value += *decode(path.segments[i], is_single ? Keep::kNothing : Keep::kSlash);
   }
   return value;

@@ -21,7 +21,7 @@ struct Segment {
   std::string literal;  ///< decoded; only for kLiteral
 };
 
-/// `{name=jobs/*}`: the segments [begin, end) of the template give the field `field_path`.
+/// `{name=jobs/*}`: the segments [begin, end) of the template are the value of `field_path`.
 struct Variable {
   std::string field_path;  ///< "name", "job.name"
   std::size_t begin = 0;
@@ -35,7 +35,7 @@ struct PathTemplate {
   std::string verb;                 ///< "cancel" of "/v1/jobs/7:cancel"; empty: none
 };
 
-/// Parses "/v1/{name=jobs/*}:cancel". Refuses (kInvalidArgument) text that does not follow the
+/// Parses "/v1/{name=jobs/*}:cancel". Returns kInvalidArgument for text that does not follow the
 /// grammar in http.proto, a `**` that is not last, and a field that is bound twice.
 [[nodiscard]] Result<PathTemplate> parse_template(std::string_view text);
 
@@ -46,17 +46,17 @@ struct Path {
 };
 
 /// Splits "/v1/jobs/7:cancel". Returns nullopt for a path that no template can match: one that does
-/// not begin with a slash, has empty segments, or ends with a slash or a colon. Refuses
-/// (kInvalidArgument, URL_INVALID) malformed escapes, decoded text that is not UTF-8 or holds NUL,
-/// and characters that a request line cannot have.
+/// not begin with a slash, has empty segments, or ends with a slash or a colon. Returns
+/// kInvalidArgument, URL_INVALID for malformed escapes, decoded text that is not UTF-8 or contains
+/// NUL, and characters that are not allowed in a request line.
 [[nodiscard]] Result<std::optional<Path>> split_path(std::string_view path);
 
-/// The values of a template's variables, in order, if the path matches it. A variable of one
-/// segment is decoded; in one of several segments, %2F stays encoded.
+/// Returns the values of a template's variables, in order, if the path matches it. The value of a
+/// single segment is decoded; in a value of several segments, %2F stays encoded.
 [[nodiscard]] std::optional<std::vector<std::string>> match(const PathTemplate& path_template,
                                                             const Path& path);
 
-/// Whether any path matches both templates.
+/// Returns whether any path matches both templates.
 [[nodiscard]] bool overlap(const PathTemplate& a, const PathTemplate& b);
 
 }  // namespace hydroprint::rest

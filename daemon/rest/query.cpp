@@ -12,7 +12,7 @@
 namespace hydroprint::rest {
 namespace {
 
-// Whether the fields are the same, or one contains the other.
+// Returns whether the fields are equal, or one contains the other.
 bool are_one(const FieldPath& a, const FieldPath& b) {
   return std::equal(a.begin(), a.begin() + static_cast<long>(std::min(a.size(), b.size())),
                     b.begin());
@@ -20,7 +20,7 @@ bool are_one(const FieldPath& a, const FieldPath& b) {
 
 Status check_free(const Route& route, const FieldPath& path) {
   for (const FieldPath& bound : route.path_fields) {
-    if (are_one(bound, path)) return bad_parameter(path_text(path), "is given by the path");
+    if (are_one(bound, path)) return bad_parameter(path_text(path), "is already set by the path");
   }
   const bool in_body = route.body == Body::kAll || path.front() == route.body_field;
   return in_body ? bad_parameter(path_text(path), "belongs in the body") : Status{};

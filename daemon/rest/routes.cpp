@@ -21,7 +21,8 @@ tl::unexpected<Error> refuse(const pb::MethodDescriptor& method, const std::stri
   return fail(Code::kInternal, method.full_name() + ", google.api.http: " + what);
 }
 
-// The HTTP method and the path template of a rule; the method is empty if the rule gives none.
+// Returns the HTTP method and the path template of a rule; the method is empty if the rule has
+// none.
 std::pair<std::string, std::string> pattern_of(const HttpRule& rule) {
   switch (rule.pattern_case()) {
     case HttpRule::kGet:
@@ -39,8 +40,8 @@ std::pair<std::string, std::string> pattern_of(const HttpRule& rule) {
   }
 }
 
-// Whether a message may hold anything. Reading such messages from JSON takes time quadratic in the
-// size of the text, or worse.
+// Returns whether a message can contain arbitrary data. Reading such messages from JSON takes time
+// quadratic in the size of the text, or worse.
 bool holds_anything(const pb::Descriptor& message, std::set<const pb::Descriptor*>& seen) {
   static const std::set<std::string> kAnything = {"google.protobuf.Any", "google.protobuf.Struct",
                                                   "google.protobuf.Value",
@@ -60,7 +61,7 @@ Status check_method(const pb::MethodDescriptor& method) {
   }
   std::set<const pb::Descriptor*> seen;
   if (holds_anything(*method.input_type(), seen)) {
-    return refuse(method, "the request holds Any, Struct, Value or ListValue");
+    return refuse(method, "the request contains Any, Struct, Value or ListValue");
   }
   return {};
 }
@@ -99,7 +100,7 @@ Status read_body(const pb::MethodDescriptor& method, const std::string& body, Ro
   return {};
 }
 
-// A stop that takes fields from its body or query could be refused because of them.
+// If a stop had fields in its body or query, errors in these fields could prevent it.
 Status read_stop(const pb::MethodDescriptor& method, Route& route) {
   route.stops_motion = method.options().GetExtension(v1::stops_motion);
   if (!route.stops_motion) return {};

@@ -18,17 +18,17 @@ namespace hydroprint::rest {
 /// The path to a field, through the messages that contain it.
 using FieldPath = std::vector<const google::protobuf::FieldDescriptor*>;
 
-/// How deep a request may be nested, in JSON or in a query name; gRPC's limit is 100.
+/// Maximum nesting of a request, in JSON or in a query name; gRPC's limit is 100.
 inline constexpr std::size_t kMostLevels = 32;
 
-/// Which part of the request message is in the body.
+/// The part of the request message that is in the body.
 enum class Body {
   kNone,   ///< no body: fields that are not in the path are in the query
   kField,  ///< one field; the rest is in the query
   kAll,    ///< all fields that are not in the path; there is no query
 };
 
-/// One way to call a method over HTTP: a parsed and checked google.api.http rule.
+/// An HTTP binding of a method: a parsed and checked google.api.http rule.
 struct Route {
   const google::protobuf::MethodDescriptor* method = nullptr;
   std::string http_method;  ///< "GET"
@@ -39,22 +39,23 @@ struct Route {
   bool stops_motion = false;  ///< access.proto; body and query are ignored
 };
 
-/// Full names of the services of package hydroprint.v1 ("hydroprint.v1.JobService").
+/// Returns the full names of the services of package hydroprint.v1 ("hydroprint.v1.JobService").
 [[nodiscard]] const std::vector<std::string>& api_services();
 
-/// The method's gRPC name: "/hydroprint.v1.JobService/CreateJob".
+/// Returns the method's gRPC name: "/hydroprint.v1.JobService/CreateJob".
 [[nodiscard]] std::string rpc_name(const google::protobuf::MethodDescriptor& method);
 
-/// Routes of these services, which must be linked in; methods without an annotation have none.
-/// Fails as Transcoder::make() does (kInternal, since the rules are part of the program).
+/// Returns the routes of these services, which must be linked in; methods without an annotation
+/// have none. Returns the errors of Transcoder::make() (kInternal, because the rules are part of
+/// the program).
 [[nodiscard]] Result<std::vector<Route>> read_routes(const std::vector<std::string>& services);
 
-/// The field with this name or JSON name; null if there is none.
+/// Returns the field with this name or JSON name; null if there is none.
 [[nodiscard]] const google::protobuf::FieldDescriptor* field_called(
     const google::protobuf::Descriptor& message, const std::string& name);
 
-/// Finds the field at "job.display_name" by its name or its JSON name ("job.displayName"). Refuses
-/// (kInvalidArgument) an unknown field, a field inside a repeated field or a scalar, and a path
+/// Finds the field at "job.display_name" by its name or its JSON name ("job.displayName"). Returns
+/// kInvalidArgument for an unknown field, a field inside a repeated field or a scalar, and a path
 /// deeper than kMostLevels. The error message does not name the field.
 [[nodiscard]] Result<FieldPath> find_field(const google::protobuf::Descriptor& message,
                                            std::string_view path);
@@ -62,11 +63,11 @@ struct Route {
 /// Joins the names of the fields: "job.display_name".
 [[nodiscard]] std::string path_text(const FieldPath& path);
 
-/// Whether the field is a message that JSON writes as one string or number: Timestamp, Duration,
-/// FieldMask and the wrappers.
+/// Returns whether JSON represents the field's message as one string or number: Timestamp,
+/// Duration, FieldMask and the wrappers.
 [[nodiscard]] bool is_written_as_value(const google::protobuf::FieldDescriptor& field);
 
-/// Whether the field is a wrapper, a message with one value (BoolValue, StringValue, ...).
+/// Returns whether the field is a wrapper, a message with one value (BoolValue, StringValue, ...).
 [[nodiscard]] bool is_wrapper(const google::protobuf::FieldDescriptor& field);
 
 }  // namespace hydroprint::rest

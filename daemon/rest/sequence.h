@@ -4,7 +4,7 @@
 
 namespace hydroprint::rest {
 
-/// The singular int64 field with this name; null if there is none.
+/// Returns the singular int64 field with this name; null if there is none.
 [[nodiscard]] inline const google::protobuf::FieldDescriptor* number_called(
     const google::protobuf::Descriptor& message, const char* name) {
   const auto* field = message.FindFieldByName(name);
@@ -13,7 +13,7 @@ namespace hydroprint::rest {
   return is_number ? field : nullptr;
 }
 
-/// Whether a stream can be resumed: its messages carry `seq`, its request `after_seq`.
+/// Returns whether a stream can be resumed: its messages have `seq`, its request has `after_seq`.
 [[nodiscard]] inline bool is_resumable(const google::protobuf::MethodDescriptor& method) {
   return method.server_streaming() && number_called(*method.output_type(), "seq") != nullptr &&
          number_called(*method.input_type(), "after_seq") != nullptr;

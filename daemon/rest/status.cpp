@@ -10,7 +10,7 @@
 namespace hydroprint::rest {
 namespace {
 
-// The name of the code, for errors without a reason.
+// Returns the name of the code, for errors without a reason.
 const char* default_reason(Code code) {
   switch (code) {
     case Code::kCancelled:

@@ -68,8 +68,8 @@ Status read_body(std::string_view body, const Route& route, pb::Message& request
   HP_RETURN_IF_ERROR(read_json(body, request));
   for (const FieldPath& path : route.path_fields) {
     if (!has_value(request, path)) continue;
-    auto error =
-        fail(Code::kInvalidArgument, path_text(path) + ": is given by the path", "JSON_INVALID");
+    auto error = fail(Code::kInvalidArgument, path_text(path) + ": is already set by the path",
+                      "JSON_INVALID");
     error.value().metadata["field"] = path_text(path);
     return error;
   }
@@ -117,7 +117,7 @@ struct Transcoder::Impl {
     return found;
   }
 
-  // The route for a request.
+  // Returns the route for a request.
   [[nodiscard]] Result<Match> match_of(std::string_view http_method, std::string_view path) const {
     HP_ASSIGN_OR_RETURN(std::vector<Match> found, matches(path));
     for (Match& match : found) {

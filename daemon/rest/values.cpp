@@ -19,7 +19,7 @@ namespace {
 namespace pb = google::protobuf;
 using Type = pb::FieldDescriptor::CppType;
 
-// The whole text as a number; nullopt if it does not fit.
+// Parses the whole text as a number; nullopt if it does not fit.
 template <class Number>
 std::optional<Number> number_in(const std::string& text) {
   Number number{};
@@ -116,7 +116,7 @@ std::string expected(const pb::FieldDescriptor& field) {
   return std::string("a number that fits, ") + field.type_name();
 }
 
-// Another member of the field's oneof that is already set; null if there is none.
+// Returns another member of the field's oneof that is already set; null if there is none.
 const pb::FieldDescriptor* rival(const pb::Message& message, const pb::FieldDescriptor& field) {
   const pb::OneofDescriptor* oneof = field.real_containing_oneof();
   if (oneof == nullptr) return nullptr;

@@ -13,27 +13,27 @@ namespace hydroprint::daemon {
 
 /// The right to command the rig for a limited time. Times are Unix times in ms.
 struct Lease {
-  std::string id;  ///< unguessable; commands must name it
+  std::string id;  ///< cannot be guessed; commands must contain it
   std::string holder;
   std::string purpose;
   std::int64_t acquire_ms = 0;
   std::int64_t expire_ms = 0;
 };
 
-/// Manages the lease of the rig. It is one row of the store, with a copy in memory against which
-/// commands are checked, so no command waits for the disk. Thread-safe.
+/// Manages the lease of the rig. The lease is one row of the store. Commands are checked against a
+/// copy in memory, so no command waits for the disk. Thread-safe.
 class LeaseManager {
  public:
   LeaseManager(Database& database, Clock clock);
 
-  /// Reads the row; call this once, at the start.
+  /// Reads the row. Must be called once, at startup.
   [[nodiscard]] Status load();
 
-  /// The active lease.
+  /// Returns the active lease.
   [[nodiscard]] std::optional<Lease> current() const;
 
   /// @return kAborted, LEASE_HELD if another client has the lease; REQUEST_ID_REUSED;
-  /// LEASE_REQUIRED if the lease that this same request took has ended since
+  ///         LEASE_REQUIRED if the lease that the first request with this id acquired has ended
   [[nodiscard]] Result<Lease> acquire(const std::string& holder, const std::string& purpose,
                                       std::int64_t ttl_ms, const RequestKey& request);
   /// @return LEASE_REQUIRED
@@ -42,14 +42,14 @@ class LeaseManager {
   [[nodiscard]] Result<std::optional<Lease>> release(const std::string& id);
   /// Ends the active lease, if any.
   [[nodiscard]] Result<std::optional<Lease>> take_away();
-  /// The lease that expired since the last call, if any.
+  /// Returns the lease that expired since the last call, if any.
   [[nodiscard]] std::optional<Lease> take_expired();
 
-  /// The active lease if it has this id, otherwise kFailedPrecondition, LEASE_REQUIRED.
+  /// Returns the active lease if it has this id, otherwise kFailedPrecondition, LEASE_REQUIRED.
   [[nodiscard]] Result<Lease> require(const std::string& id) const;
 
-  /// Runs `action`, which returns a Result and must not wait, if require(id) succeeds. No lease
-  /// ends meanwhile.
+  /// Runs `action` if require(id) succeeds. The lease cannot end meanwhile. `action` returns a
+  /// Result and must not wait.
   template <class Action>
   auto with(const std::string& id, const Action& action) const -> decltype(action()) {
     const std::lock_guard lock(now_);
@@ -58,7 +58,7 @@ class LeaseManager {
   }
 
  private:
-  [[nodiscard]] std::optional<Lease> held() const;  // these need now_
+  [[nodiscard]] std::optional<Lease> held() const;  // needs now_
   [[nodiscard]] Result<Lease> required(const std::string& id) const;
   void set(std::optional<Lease> lease);
   [[nodiscard]] Status write(const Lease& lease);
@@ -66,7 +66,7 @@ class LeaseManager {
 
   Database& database_;
   Clock clock_;
-  std::mutex writing_;  // held while the row changes; never needed for commands
+  std::mutex writing_;  // locked while the row changes; never needed for commands
   mutable std::mutex now_;
   std::optional<Lease> lease_;
 };

@@ -12,7 +12,7 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr std::size_t kMostStops = 64;
-// A jog that was not renewed has ended by then, or is at least coming to rest.
+// After this time a jog that was not requested again has ended, or is at least coming to rest.
 constexpr std::int64_t kJogMemoryMs = static_cast<std::int64_t>(1000 * rig::kPresence_s) + 50;
 
 std::int64_t steady_ms() {
@@ -75,7 +75,8 @@ bool RigGateway::jogged_lately() const {
   return jogged_ms != 0 && steady_ms() - jogged_ms < kJogMemoryMs;
 }
 
-// A running dip continues: the rig was at rest before it, and the dip has had exclusive use since.
+// A dip in progress continues: the rig was at rest before it, and the dip has had exclusive use
+// since then.
 void RigGateway::end_jog() {
   if (controller_ == nullptr || claimed_) return;
   if (jogged_lately() || controller_->snapshot().condition.motion == rig::Motion::kJog) {

@@ -14,38 +14,38 @@
 namespace hydroprint::daemon {
 
 /// Entry point for commands to the rig. Checks the lease and that no dip has exclusive use, and
-/// keeps information for other threads. Thread-safe; nothing waits for the drive or the disk.
+/// stores information for other threads. Thread-safe; never waits for the drive or the disk.
 class RigGateway {
  public:
   /// @param controller  null if no rig is configured; must outlive this object
   RigGateway(rig::Controller* controller, LeaseManager& leases)
       : controller_(controller), leases_(leases) {}
 
-  /// Null if no rig is configured.
+  /// Returns null if no rig is configured.
   [[nodiscard]] rig::Controller* controller() const { return controller_; }
   [[nodiscard]] LeaseManager& leases() const { return leases_; }
 
   using Order = std::function<std::future<rig::Answer>(rig::Controller&)>;
-  /// Gives an order to the controller. Refuses with LEASE_REQUIRED, RIG_OFFLINE if no rig is
-  /// configured, or STATE_FORBIDS while a dip has exclusive use.
+  /// Passes a command to the controller. Errors: LEASE_REQUIRED; RIG_OFFLINE if no rig is
+  /// configured; STATE_FORBIDS while a dip has exclusive use.
   [[nodiscard]] Result<std::future<rig::Answer>> order(const std::string& lease_id,
                                                        const Order& order);
-  /// Same, for Controller::jog.
+  /// Same as order(), for Controller::jog.
   [[nodiscard]] Result<std::future<rig::Answer>> jog(const std::string& lease_id,
                                                      double speed_mm_per_s);
 
-  /// Remembers who asked for a stop; RigMonitor writes the log.
+  /// Stores who requested a stop, for the log entry written by RigMonitor.
   void note_stop(const std::string& who);
-  /// Callers that asked for stops since the last call; the oldest may be missing.
+  /// Returns the callers that requested stops since the last call; the oldest may be missing.
   [[nodiscard]] std::vector<std::string> take_stops();
-  /// Stops a possible jog, because its client has lost the lease.
+  /// Stops a jog, if there is one, because its client has lost the lease.
   void end_jog();
 
-  /// Refuses if the rig's state forbids a move: not homed, in motion, ... Also refuses shortly
-  /// after a jog was requested, since that may not have started yet.
+  /// Returns an error if the rig's state forbids a move: not homed, in motion, ... Also returns an
+  /// error shortly after a jog was requested, because the jog may not have started yet.
   [[nodiscard]] Status check_at_rest() const;
 
-  /// The unfinished dip; 0: none.
+  /// Sets the id of the unfinished dip; 0: none.
   void set_dip(std::int64_t job) { dip_ = job; }
   [[nodiscard]] std::int64_t dip() const { return dip_; }
   /// Sets whether the dip has exclusive use of the rig.
@@ -64,7 +64,7 @@ class RigGateway {
   std::vector<std::string> stops_;
 };
 
-/// The error kFailedPrecondition, RIG_OFFLINE: no rig is configured.
+/// Returns the error kFailedPrecondition, RIG_OFFLINE: no rig is configured.
 [[nodiscard]] tl::unexpected<Error> no_rig();
 
 }  // namespace hydroprint::daemon

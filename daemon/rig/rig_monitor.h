@@ -10,13 +10,13 @@
 
 namespace hydroprint::daemon {
 
-/// Monitors the rig ten times a second. Ends a jog whose lease expired, and reports when the rig
-/// starts or stops working. Writes log entries for threads that must not wait for the log, and
-/// makes RigReference check for homing.
+/// Monitors the rig ten times a second. Ends a jog whose lease has expired, and reports when the
+/// rig becomes usable or unusable. Writes log entries for threads that must not wait for the log,
+/// and makes RigReference check for homing.
 class RigMonitor {
  public:
-  /// @param tell  called at the start and after every change; true: the rig works, as far as is
-  /// known (not OFFLINE, FAULT or ESTOPPED)
+  /// @param tell  called at the start and after every change; true: the rig is usable, as far as
+  ///              known (not OFFLINE, FAULT or ESTOPPED)
   RigMonitor(RigGateway& gateway, RigReference& places, std::function<void(bool)> tell);
 
  private:

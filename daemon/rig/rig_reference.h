@@ -9,22 +9,22 @@
 
 namespace hydroprint::daemon {
 
-/// Tracks events that make the object's position uncertain. Thread-safe. Nothing waits for the
-/// drive; only keep() and note_dip() wait for the disk.
+/// Tracks events that make the object's position uncertain. Thread-safe. Never waits for the drive;
+/// only keep() and note_dip() wait for the disk.
 class RigReference {
  public:
   /// @param controller  null if there is no rig
   RigReference(Database& database, const rig::Controller* controller)
       : database_(database), controller_(controller) {}
 
-  /// Reads the stored counts; call this first.
+  /// Reads the stored counts. Must be called first.
   [[nodiscard]] Status load();
-  /// Checks whether the rig was homed since the last call; call this often. (A homing that is
-  /// forgotten when the daemon exits does no harm: after the start homing is required again.)
+  /// Checks whether the rig was homed since the last call. Must be called often. (A homing that is
+  /// forgotten when the daemon exits does no harm: after the start, homing is required again.)
   void look() { (void)place(); }
-  /// The present place.
+  /// Returns the current place.
   [[nodiscard]] RigPlace place();
-  /// Stores the counts, before storing anything that is compared with them later.
+  /// Stores the counts. Must be called before data is stored that is later compared with them.
   [[nodiscard]] Status keep();
   /// Counts a dip.
   void note_dip();

@@ -5,13 +5,14 @@
 
 namespace hydroprint::daemon {
 
-/// The rig as an API message, whether or not a drive answers or is configured. Never waits.
+/// Returns the rig as an API message, whether or not a drive responds or is configured. Never
+/// waits.
 [[nodiscard]] v1::Rig rig_message(const RigGateway& gateway);
 
-/// Whether two messages differ only in the time of the last poll.
+/// Returns whether two messages differ only in the time of the last poll.
 [[nodiscard]] bool looks_same(v1::Rig a, v1::Rig b);
 
-/// Converts a lease to its API message. Only its holder sees the id.
+/// Converts a lease to its API message. Only the holder of the lease sees its id.
 [[nodiscard]] v1::Lease to_message(const Lease& lease, bool with_id);
 
 }  // namespace hydroprint::daemon

@@ -12,25 +12,25 @@
 
 namespace hydroprint::daemon {
 
-// Metadata with which the endpoints identify callers to the services, which are called only within
+// Metadata with which the endpoints pass the caller to the services, which are called only within
 // the process.
 
 /// Metadata of a gRPC call: names in lower case, values in printable ASCII.
 using CallMetadata = std::vector<std::pair<std::string, std::string>>;
 
-/// The metadata of an admitted call.
+/// Returns the metadata of an authorized call.
 /// @param caller  nullopt: unknown; the method needs no sign-in
 [[nodiscard]] CallMetadata caller_metadata(const std::optional<auth::Caller>& caller,
                                            const auth::Credentials& credentials);
 
-/// The caller that the endpoint established.
+/// Returns the caller that the endpoint determined.
 /// @return kUnauthenticated, SIGN_IN_NEEDED if the caller is not known
 [[nodiscard]] Result<auth::Caller> caller_of(const grpc::ServerContextBase& context);
 
-/// The credentials of the call.
+/// Returns the credentials of the call.
 [[nodiscard]] auth::Credentials credentials_of(const grpc::ServerContextBase& context);
 
-/// The value of a metadata key; empty if the call does not have it.
+/// Returns the value of a metadata key; empty if the call does not have it.
 [[nodiscard]] std::string metadata_value(const grpc::ServerContextBase& context, const char* name);
 
 }  // namespace hydroprint::daemon

@@ -9,7 +9,7 @@
 
 namespace hydroprint::daemon {
 
-/// Media type for a file name's extension; "application/octet-stream" if unknown.
+/// Returns the media type for a file name's extension; "application/octet-stream" if unknown.
 [[nodiscard]] std::string media_type(const std::string& name);
 
 /// Creates `folder` with a job's input files, under their names. Replaces an existing folder.
@@ -18,7 +18,7 @@ namespace hydroprint::daemon {
                                     const std::filesystem::path& folder);
 
 /// Publishes a worker's files in `from` as the artifacts of a job: only regular files, hashed,
-/// synced to disk, then made visible by one rename to `to`.
+/// synced to disk, then made visible with a single rename to `to`.
 /// @return kInternal, WORKER_UNUSABLE if there is anything except regular files, or no file
 [[nodiscard]] Result<std::vector<Artifact>> publish_artifacts(const std::filesystem::path& from,
                                                               const std::filesystem::path& to);

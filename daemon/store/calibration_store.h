@@ -12,8 +12,8 @@
 
 namespace hydroprint::daemon {
 
-/// Stores calibrations, and the state of the rig during captures. Thread-safe. Methods that name a
-/// calibration return kNotFound, CALIBRATION_NOT_FOUND if there is none.
+/// Stores calibrations, and the state of the rig during captures. Thread-safe. Methods with a
+/// calibration's id return kNotFound, CALIBRATION_NOT_FOUND if there is none.
 class CalibrationStore {
  public:
   CalibrationStore(Database& database, Clock clock)
@@ -23,7 +23,7 @@ class CalibrationStore {
   /// @return kInvalidArgument, REQUEST_ID_REUSED
   [[nodiscard]] Result<Calibration> create(const NewCalibration& made, const RequestKey& request);
   [[nodiscard]] Result<Calibration> get(std::int64_t id);
-  /// The active calibration of a kind, if there is one.
+  /// Returns the active calibration of a kind, if there is one.
   [[nodiscard]] Result<std::optional<Calibration>> active(CalibrationKind kind);
   /// Lists calibrations, newest first.
   /// @param before_id  only older ones; 0: all
@@ -32,7 +32,7 @@ class CalibrationStore {
   [[nodiscard]] Result<Calibration> activate(std::int64_t id);
   [[nodiscard]] Status remove(std::int64_t id);
 
-  /// State of the rig when a job took its frames; nullopt if it took none.
+  /// Returns the state of the rig when a job captured its frames; nullopt if it captured none.
   [[nodiscard]] Result<std::optional<Captured>> capture(std::int64_t job);
   /// Stores the state of the rig at the start of a capture.
   [[nodiscard]] Status note_capture(std::int64_t job, const RigPlace& place);
@@ -46,13 +46,13 @@ class CalibrationStore {
 };
 
 /// Stores a calibration and makes it the active one of its kind. Call this within the transaction
-/// that produces it.
+/// of the job that produces it.
 /// @return its id
 [[nodiscard]] Result<std::int64_t> insert_calibration(Database& database,
                                                       const NewCalibration& made,
                                                       std::int64_t now_ms);
 
-/// The calibration that a job produced; 0 if there is none.
+/// Returns the id of the calibration that a job produced; 0 if there is none.
 [[nodiscard]] Result<std::int64_t> calibration_of_job(Database& database, std::int64_t job);
 
 }  // namespace hydroprint::daemon

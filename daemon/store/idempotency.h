@@ -9,12 +9,12 @@
 
 namespace hydroprint::daemon {
 
-/// How long request ids are remembered.
+/// How long request ids are stored.
 inline constexpr std::int64_t kRequestMemoryMs = 7LL * 24 * 3600 * 1000;
 
-/// The result of an earlier request with the same id; nullopt if there was none, or if the request
-/// has no id. Call this within the transaction that carries out the request.
-/// @return kInvalidArgument, REQUEST_ID_REUSED if the earlier request had another content
+/// Returns the result of an earlier request with the same id; nullopt if there was none, or if the
+/// request has no id. Call this within the transaction that executes the request.
+/// @return kInvalidArgument, REQUEST_ID_REUSED if the earlier request had different content
 [[nodiscard]] Result<std::optional<std::string>> earlier_result(Database& database,
                                                                 const std::string& owner,
                                                                 const RequestKey& key,
@@ -25,9 +25,9 @@ inline constexpr std::int64_t kRequestMemoryMs = 7LL * 24 * 3600 * 1000;
                                      const RequestKey& key, const std::string& result,
                                      std::int64_t now_ms);
 
-/// Remembers a request whose effect is not in the store, before it is carried out. Returns true if
-/// it is new or has no id; otherwise nothing must be done. If it is then refused, call
-/// forget_request().
+/// Records a request whose effect is not in the store, before it is executed. Returns true if it is
+/// new or has no id; otherwise the caller must not execute it. If the request is then rejected,
+/// call forget_request().
 /// @return kInvalidArgument, REQUEST_ID_REUSED
 [[nodiscard]] Result<bool> first_time(Database& database, const std::string& owner,
                                       const RequestKey& key, std::int64_t now_ms);

@@ -21,11 +21,11 @@ enum class JobState : std::int8_t {
   kInterrupted = 8,
 };
 
-/// The state's name: "RUNNING".
+/// Returns the state's name: "RUNNING".
 [[nodiscard]] const char* name_of(JobState state);
 
-/// Whether the state is final. (Computed jobs are INTERRUPTED only in their history; for other jobs
-/// it is final.)
+/// Returns whether the state is final. (Computed jobs are INTERRUPTED only in their history; for
+/// other jobs this state is final.)
 [[nodiscard]] constexpr bool is_finished(JobState state) {
   return state == JobState::kSucceeded || state == JobState::kFailed ||
          state == JobState::kCancelled || state == JobState::kInterrupted;
@@ -34,7 +34,7 @@ enum class JobState : std::int8_t {
 /// Kinds of event; numbers as in hydroprint.v1.JobEvent.Kind.
 enum class EventKind : std::int8_t { kStateChanged = 1, kProgress = 2, kMoved = 3 };
 
-/// An input file of a job: the name that the computation sees, and the hash of its bytes.
+/// An input file of a job: its name for the computation, and the hash of its bytes.
 struct InputFile {
   std::string name;
   std::string sha256;
@@ -55,19 +55,20 @@ struct Work {
 
 /// Properties of a job's kind that the store needs.
 struct JobTraits {
-  /// A worker computes it: it is queued, and queued again after the daemon was killed. Other jobs
-  /// start at once, one of each kind at a time, and remain INTERRUPTED.
+  /// A worker computes it: it is queued, and queued again if the daemon is killed. Other jobs start
+  /// immediately, one of each kind at a time, and remain INTERRUPTED.
   bool computed = true;
   /// It reads the artifacts of another job, which must not be deleted meanwhile.
   bool reads_artifacts = false;
-  /// Advice for people, appended to the event if the job is interrupted.
+  /// Advice that is appended to the event if the job is interrupted.
   std::string interrupted_advice = {};
 };
 
-/// SHA-256 of everything that determines the result of the work; `worker` identifies the program.
+/// Returns the SHA-256 of everything that determines the result of the work; `worker` identifies
+/// the program.
 [[nodiscard]] std::string input_digest(const Work& work, const std::string& worker);
 
-/// A request id chosen by the client, so that a repeated request is not carried out twice.
+/// A request id chosen by the client. It prevents a repeated request from being executed twice.
 struct RequestKey {
   std::string method;
   std::string id;      ///< empty: no id

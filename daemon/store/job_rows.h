@@ -22,24 +22,24 @@ namespace hydroprint::daemon {
 [[nodiscard]] Result<std::vector<Job>> select_jobs(Database& database, const std::string& where,
                                                    std::initializer_list<DbValue> values);
 
-/// One job with its inputs; kNotFound, JOB_NOT_FOUND.
+/// Returns one job with its inputs; kNotFound, JOB_NOT_FOUND.
 [[nodiscard]] Result<Job> select_job(Database& database, std::int64_t id);
 
-/// Events selected by "WHERE ...".
+/// Returns events selected by "WHERE ...".
 [[nodiscard]] Result<std::vector<JobEvent>> select_events(Database& database,
                                                           const std::string& where,
                                                           std::initializer_list<DbValue> values);
 
-/// Artifacts selected by "WHERE ...".
+/// Returns artifacts selected by "WHERE ...".
 [[nodiscard]] Result<std::vector<Artifact>> select_artifacts(Database& database,
                                                              const std::string& where,
                                                              std::initializer_list<DbValue> values);
 
-/// The integers in the first column of a result.
+/// Returns the integers in the first column of a result.
 [[nodiscard]] Result<std::vector<std::int64_t>> select_numbers(
     Database& database, const std::string& sql, std::initializer_list<DbValue> values);
 
-/// Joins flags for storage: one per line.
+/// Joins lines for storage, for example flags: one per line.
 [[nodiscard]] std::string join_lines(const std::vector<std::string>& lines);
 
 }  // namespace hydroprint::daemon

@@ -86,7 +86,7 @@ Result<std::int64_t> JobStore::insert(const NewJob& made) {
        now,
        now}));
   const std::int64_t id = database_.last_id();
-  // Later jobs rank behind earlier ones; moving permutes ranks.
+  // Later jobs rank after earlier ones; moving permutes ranks.
   HP_RETURN_IF_ERROR(database_.run("UPDATE jobs SET rank=id WHERE id=?", {id}));
   for (const InputFile& input : made.work.inputs) {
     HP_RETURN_IF_ERROR(
@@ -156,7 +156,8 @@ Result<bool> JobStore::adopt_cached(const Job& job) {
   return true;
 }
 
-// Deletes the artifacts folder of a job without stored artifacts, after a failed adoption.
+// Deletes the artifacts folder of a job without stored artifacts, after reusing artifacts has
+// failed.
 void JobStore::discard_unowned(std::int64_t id) {
   (void)database_.transaction([&]() -> Status {
     HP_ASSIGN_OR_RETURN(const auto owner,
@@ -375,7 +376,7 @@ Result<std::vector<JobEvent>> JobStore::events(std::int64_t id, std::int64_t aft
 }
 
 Result<std::int64_t> JobStore::last_seq() {
-  // The newest number, even if its event was deleted.
+  // The newest number is returned even if its event was deleted.
   HP_ASSIGN_OR_RETURN(
       const auto newest,
       select_numbers(database_, "SELECT seq FROM sqlite_sequence WHERE name='events'", {}));

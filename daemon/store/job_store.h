@@ -28,40 +28,52 @@ struct JobStoreOptions {
   Quota quota = {};  ///< for each owner
 };
 
-/// Why running jobs are interrupted: the daemon shut down, or it was lost (killed, or the machine
-/// crashed) and the next daemon finds them running.
+/// Why running jobs are interrupted: the daemon shut down, or it was lost (it was killed, or the
+/// machine crashed), in which case the next daemon finds them running.
 enum class Interruption { kShutdown, kLoss };
 
-/// Stores jobs, their events and the rows of their artifacts. See JobChanges for states, errors and
-/// transactions. Thread-safe.
+/// Stores jobs, their events and the rows of their artifacts. Every change is one transaction with
+/// its event, is on disk when the call returns, and is then notified. Thread-safe.
+///
+/// Computed jobs: QUEUED -> RUNNING -> SUCCEEDED | FAILED; QUEUED -> CANCELLED; RUNNING ->
+/// CANCELLING -> CANCELLED; QUEUED -> SUCCEEDED from the cache. RUNNING -> INTERRUPTED -> QUEUED if
+/// the daemon shut down or was lost; the third loss leads to FAILED (DAEMON_LOST).
+/// Prints and captures: RUNNING immediately -> SUCCEEDED | FAILED, -> CANCELLING -> CANCELLED, ->
+/// INTERRUPTED.
+/// Dips: WAITING_FOR_OPERATOR <-> RUNNING -> SUCCEEDED | FAILED, both -> CANCELLING -> CANCELLED,
+/// both -> INTERRUPTED.
+///
+/// Methods that name a job return kNotFound, JOB_NOT_FOUND if there is none, and
+/// kFailedPrecondition, STATE_FORBIDS if its state does not allow the change. Disk errors are as in
+/// Database::run().
 class JobStore {
  public:
   JobStore(JobChanges& changes, const Layout& layout, const JobStoreOptions& options);
 
   /// Stores a job, or returns the one that the same request created. A computed job with the inputs
-  /// of a successful one gets its artifacts and is finished at once. Jobs that are not computed are
-  /// RUNNING, dips WAITING_FOR_OPERATOR.
+  /// of a successful one reuses its artifacts and is finished immediately. Jobs that are not
+  /// computed are RUNNING, dips WAITING_FOR_OPERATOR.
   /// @return kResourceExhausted: QUEUE_FULL, QUOTA_EXCEEDED; kFailedPrecondition: ASSET_MISSING, or
-  /// STATE_FORBIDS for a job that is not computed while another of its kind is unfinished;
-  /// kInvalidArgument, REQUEST_ID_REUSED
+  ///         STATE_FORBIDS for a job that is not computed while another of its kind is unfinished;
+  ///         kInvalidArgument, REQUEST_ID_REUSED
   [[nodiscard]] Result<Job> create(const NewJob& made, const RequestKey& request);
-  /// The job that the same request created, if any. REQUEST_ID_REUSED; JOB_NOT_FOUND if it was
-  /// deleted.
+  /// Returns the job that the same request created, if any. Errors: REQUEST_ID_REUSED;
+  /// JOB_NOT_FOUND if it was deleted.
   [[nodiscard]] Result<std::optional<Job>> repeated(const std::string& owner,
                                                     const RequestKey& request);
-  /// Refuses (ASSET_MISSING) inputs that are not stored.
+  /// Returns ASSET_MISSING for inputs that are not stored.
   [[nodiscard]] Status check_inputs(const std::vector<InputFile>& inputs);
 
   [[nodiscard]] Result<Job> get(std::int64_t id);
   /// Lists jobs, newest first.
   [[nodiscard]] Result<std::vector<Job>> list(const JobFilter& filter);
-  /// Deletes a finished job with all its data. Also STATE_FORBIDS while the calibration that it
-  /// produced exists.
+  /// Deletes a finished job with all its data. Also returns STATE_FORBIDS while the calibration
+  /// that it produced exists.
   [[nodiscard]] Status remove(std::int64_t id);
   /// Sets whether all users may see the job's artifacts.
   [[nodiscard]] Result<Job> share(std::int64_t id, bool shared);
   /// QUEUED -> CANCELLED, RUNNING or WAITING_FOR_OPERATOR -> CANCELLING; CANCELLING and CANCELLED
-  /// stay.
+  /// do not change.
   [[nodiscard]] Result<Job> cancel(std::int64_t id);
 
   /// QUEUED -> RUNNING, or -> SUCCEEDED if an equal job has finished.
@@ -69,7 +81,7 @@ class JobStore {
   /// Stores the progress of a running job; ignored in other states.
   [[nodiscard]] Status report(std::int64_t id, const Progress& progress);
   /// RUNNING -> SUCCEEDED; CANCELLING -> CANCELLED.
-  /// @param calibration  calibration that the job produced, stored in the same transaction
+  /// @param calibration  produced by the job, stored in the same transaction
   [[nodiscard]] Result<Job> succeed(std::int64_t id, const std::vector<Artifact>& artifacts,
                                     const std::optional<NewCalibration>& calibration = {});
   /// RUNNING -> FAILED, CANCELLING -> CANCELLED.
@@ -78,19 +90,19 @@ class JobStore {
   /// CANCELLED. The events contain the reason. Call this only when no worker runs.
   [[nodiscard]] Status interrupt_all(Interruption why);
 
-  /// Artifacts whose names follow `after`, sorted by name.
+  /// Returns artifacts with names after `after`, sorted by name.
   [[nodiscard]] Result<std::vector<Artifact>> artifacts(std::int64_t id, const std::string& after,
                                                         int limit);
-  /// One artifact; kNotFound, ARTIFACT_NOT_FOUND.
+  /// Returns one artifact; kNotFound, ARTIFACT_NOT_FOUND.
   [[nodiscard]] Result<Artifact> artifact(std::int64_t id, const std::string& name);
 
-  /// Events of one job after `seq`, oldest first. kOutOfRange, EVENTS_GONE if there was never an
-  /// event `seq`.
+  /// Returns the events of one job after `seq`, oldest first; kOutOfRange, EVENTS_GONE if event
+  /// `seq` never existed.
   [[nodiscard]] Result<std::vector<JobEvent>> events(std::int64_t id, std::int64_t after_seq,
                                                      int limit);
-  /// Same, for all jobs.
+  /// Same as events(), for all jobs.
   [[nodiscard]] Result<std::vector<JobEvent>> all_events(std::int64_t after_seq, int limit);
-  /// The newest event's number; 0 if there was never one.
+  /// Returns the number of the newest event; 0 if there was never one.
   [[nodiscard]] Result<std::int64_t> last_seq();
 
   [[nodiscard]] Result<std::vector<std::int64_t>> ids_in_state(JobState state);

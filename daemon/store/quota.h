@@ -16,16 +16,17 @@ struct Quota {
 /// Resources that one owner uses.
 struct Usage {
   std::int64_t queued_jobs = 0;
-  std::int64_t stored_bytes = 0;  ///< assets, open uploads (announced size) and artifacts
-  std::int64_t pinned_bytes = 0;  ///< of these, the bytes of pinned jobs
+  /// Assets, open uploads (with their announced size) and artifacts.
+  std::int64_t stored_bytes = 0;
+  std::int64_t pinned_bytes = 0;  ///< the part of stored_bytes that belongs to pinned jobs
 };
 
 /// Reads an owner's usage. Errors as in Database::each().
 [[nodiscard]] Result<Usage> usage_of(Database& database, const std::string& owner);
 
-/// Refuses another job of an owner whose quota of bytes, or of queued jobs (if it `is_queued`), is
-/// used up. The error is kResourceExhausted, QUOTA_EXCEEDED with metadata `quota`, `used`,
-/// `allowed`. Call this within the transaction that then stores the job.
+/// Returns kResourceExhausted, QUOTA_EXCEEDED (metadata `quota`, `used`, `allowed`) if an owner
+/// cannot have another job. This is the case if the quota of bytes or, if `is_queued`, of queued
+/// jobs is used up. Call this within the transaction that then stores the job.
 [[nodiscard]] Status check_job_quota(Database& database, const std::string& owner,
                                      const Quota& quota, bool is_queued);
 

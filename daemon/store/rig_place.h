@@ -6,7 +6,7 @@ namespace hydroprint::daemon {
 
 /// State of the rig at one time, to check later whether it has changed.
 struct RigPlace {
-  bool watched = false;  ///< whether a rig is configured; the other fields are valid only then
+  bool watched = false;  ///< whether a rig is configured; otherwise the other fields are not valid
   bool homed = false;
   double axis_mm = 0;  ///< only if homed
   /// Number of homings and dips since the store was created.

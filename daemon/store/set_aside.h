@@ -9,8 +9,8 @@
 
 namespace hydroprint::daemon {
 
-/// Moves files that the database does not know out of the way. Most are leftovers of a crash. If
-/// the database was lost or replaced by an older copy, they are people's results, so nothing is
+/// Moves files that the database does not know out of the way. Most are left over from a crash. If
+/// the database was lost or replaced by an older copy, they are results of users, so nothing is
 /// deleted. Finally logs how many files were moved, and where.
 class SetAside {
  public:

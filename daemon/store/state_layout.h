@@ -27,24 +27,25 @@ struct Layout {
   [[nodiscard]] std::filesystem::path run_out(std::int64_t job) const {
     return run_work(job) / "out";
   }
-  /// The job's spec, separate from its inputs, whose names might collide.
+  /// Returns the job's spec, in a different folder from its inputs, because their names might
+  /// collide.
   [[nodiscard]] std::filesystem::path run_spec(std::int64_t job) const {
     return run_work(job) / "spec.json";
   }
-  /// The pose of a job whose options are stored as flags.
+  /// Returns the pose of a job whose options are stored as flags.
   [[nodiscard]] std::filesystem::path run_pose(std::int64_t job) const {
     return run_work(job) / "pose.json";
   }
-  /// Folder of a resident preview worker.
+  /// Returns the folder of a resident preview worker.
   [[nodiscard]] std::filesystem::path preview(std::int64_t number) const {
     return runs() / ("preview-" + std::to_string(number));
   }
-  /// Folder into which a restore unpacks, and the mark of an unfinished restore.
+  /// Returns the folder into which a restore unpacks, and the marker of an unfinished restore.
   [[nodiscard]] std::filesystem::path restoring() const { return root / "restoring"; }
   [[nodiscard]] std::filesystem::path unrestored() const { return root / "unrestored"; }
-  /// Folder of the live camera process.
+  /// Returns the folder of the live camera process.
   [[nodiscard]] std::filesystem::path live_camera() const { return runs() / "live-camera"; }
-  /// Files that the database does not know; see SetAside.
+  /// Returns the folder for files that the database does not know; see SetAside.
   [[nodiscard]] std::filesystem::path set_aside() const { return root / "set-aside"; }
   /// Records of unfinished dips.
   [[nodiscard]] std::filesystem::path dips() const { return root / "dips"; }

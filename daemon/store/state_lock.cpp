@@ -17,7 +17,7 @@ Result<UniqueFd> lock_state(const Layout& layout) {
     std::ifstream(layout.lock()) >> holder;
     return fail(Code::kFailedPrecondition,
                 layout.root.string() + ": another hydroprintd (process " + holder +
-                    ") uses this state folder; stop it or give another one with --state-dir");
+                    ") uses this state folder; stop it or choose another folder with --state-dir");
   }
   const std::string pid = fmt::format("{}\n", ::getpid());
   if (::ftruncate(file.get(), 0) != 0) return system_failure(layout.lock(), "cannot be written");

@@ -9,7 +9,7 @@ namespace hydroprint::daemon {
 /// @return kFailedPrecondition if another daemon uses it
 [[nodiscard]] Result<UniqueFd> lock_state(const Layout& layout);
 
-/// Refuses (kFailedPrecondition, RESTORE_UNFINISHED) a folder with an unfinished restore.
+/// Returns kFailedPrecondition, RESTORE_UNFINISHED for a folder with an unfinished restore.
 [[nodiscard]] Status check_restored(const Layout& layout);
 
 }  // namespace hydroprint::daemon

@@ -17,18 +17,18 @@ namespace hydroprint::daemon {
 [[nodiscard]] google::protobuf::Timestamp time_of(std::int64_t ms);
 [[nodiscard]] std::string time_text(std::int64_t ms);
 
-/// Convert stored data to API messages.
+/// Converts stored data to API messages.
 [[nodiscard]] v1::Job to_message(const Job& job);
 [[nodiscard]] v1::JobEvent to_message(const JobEvent& event);
 [[nodiscard]] v1::Artifact to_message(std::int64_t job, const Artifact& artifact);
 [[nodiscard]] v1::Asset to_message(const Asset& asset);
 [[nodiscard]] v1::Upload to_message(const Upload& upload);
 
-/// The spec of a job, whatever its kind; null if the job has none.
+/// Returns the spec of a job of any kind; null if the job has none.
 [[nodiscard]] const google::protobuf::Message* spec_of(const v1::Job& job);
 
-/// Key of a request: SHA-256 of its content without request_id, to distinguish a repetition from
-/// another request.
+/// Returns the key of a request: SHA-256 of its content without request_id, to distinguish a
+/// repetition from another request.
 template <class Request>
 [[nodiscard]] RequestKey request_key(const char* method, const Request& request);
 

@@ -82,8 +82,8 @@ Status CertificateReloader::load() {
   return {};
 }
 
-// One file of the pair may be written before the other, so an invalid pair is read again until it
-// is valid; each error is logged once.
+// One file of the pair may be written before the other. An invalid pair is therefore read again
+// until it is valid; each error is logged once.
 void CertificateReloader::look_again() {
   if (stamps() == loaded_ && refused_.empty()) return;
   const Status done = load();

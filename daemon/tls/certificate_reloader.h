@@ -16,8 +16,8 @@
 namespace hydroprint::daemon {
 
 /// The certificate of the gRPC and HTTP servers. Checks its files every two seconds. A valid new
-/// pair applies from the next connection on. An invalid one is logged, and the previous pair
-/// remains. Logs once a day if the certificate has expired or is about to.
+/// pair applies to all later connections. An invalid pair is logged, and the previous pair remains
+/// in use. Logs once a day if the certificate has expired or is about to.
 class CertificateReloader {
  public:
   /// @return errors of tls::Identity::read()
@@ -25,7 +25,7 @@ class CertificateReloader {
       const std::filesystem::path& certificate_file, const std::filesystem::path& key_file,
       Clock clock);
 
-  /// The current pair. Thread-safe.
+  /// Returns the current pair. Thread-safe.
   [[nodiscard]] std::shared_ptr<const tls::Identity> current() const;
 
  private:
@@ -42,7 +42,7 @@ class CertificateReloader {
 
   std::filesystem::path certificate_file_, key_file_;
   Clock clock_;
-  Stamps loaded_;        // from here on used only by the thread, once it runs
+  Stamps loaded_;        // this and the members below are used only by the thread, once it runs
   std::string refused_;  // last logged error of an invalid pair
   std::int64_t warn_next_ms_ = 0;
   mutable std::mutex mutex_;

@@ -9,8 +9,9 @@
 namespace hydroprint::daemon {
 namespace {
 
-/// gRPC's own classes either keep a certificate forever, or watch the files and have no certificate
-/// while the pair does not match. gRPC's C interface asks for the certificate at every handshake.
+/// gRPC's C interface requests the certificate at every handshake. gRPC's own classes do not
+/// suffice: they keep a certificate forever, or watch the files and have no certificate while the
+/// pair does not match.
 class TlsCredentials final : public grpc::ServerCredentials {
  public:
   explicit TlsCredentials(tls::CurrentIdentity identity)
@@ -38,8 +39,8 @@ class TlsCredentials final : public grpc::ServerCredentials {
     auto current = identity_();
     if (current == shown_) return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_UNCHANGED;
     const grpc_ssl_pem_key_cert_pair pair{current->key_pem().c_str(), current->chain_pem().c_str()};
-    // The roots verify client certificates, which are not requested; but gRPC 1.51 aborts the
-    // program if no certificate is given here.
+    // The roots verify client certificates, which are not requested. However, gRPC 1.51 aborts the
+    // program if no roots are passed.
     *config = grpc_ssl_server_certificate_config_create(pair.cert_chain, &pair, 1);
     shown_ = std::move(current);
     return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_NEW;

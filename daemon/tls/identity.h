@@ -26,12 +26,12 @@ class Identity {
 
   [[nodiscard]] const std::string& chain_pem() const { return chain_pem_; }
   [[nodiscard]] const std::string& key_pem() const { return key_pem_; }
-  /// Host names and addresses in the certificate, written as in a URL: "rig.example.org",
-  /// "*.example.org", "192.168.1.20", "[fd00::20]".
+  /// Returns the host names and addresses in the certificate, written as in a URL:
+  /// "rig.example.org", "*.example.org", "192.168.1.20", "[fd00::20]".
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-  /// Expiry, Unix time in s.
+  /// Returns the expiry as Unix time in s.
   [[nodiscard]] std::int64_t expire_s() const { return expire_s_; }
-  /// Settings for a server's connections: TLS 1.2 and later, without session resumption.
+  /// Returns settings for a server's connections: TLS 1.2 and later, without session resumption.
   [[nodiscard]] SSL_CTX* context() const { return context_.get(); }
 
  private:
@@ -46,7 +46,8 @@ class Identity {
 /// Returns the current identity; thread-safe.
 using CurrentIdentity = std::function<std::shared_ptr<const Identity>()>;
 
-/// Whether the identity covers a host, given as in a URL without port. A wildcard covers one label.
+/// Returns whether the identity covers a host, given as in a URL without port. A wildcard covers
+/// one label.
 [[nodiscard]] bool stands_for(const Identity& identity, std::string_view host);
 
 }  // namespace hydroprint::tls

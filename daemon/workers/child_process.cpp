@@ -40,7 +40,7 @@ Result<Pipe> make_pipe(UniqueFd Pipe::*ours = &Pipe::read) {
   return pipe;
 }
 
-/// The worker's stdin: a pipe for requests, or /dev/null.
+/// Returns the worker's stdin: a pipe for requests, or /dev/null.
 Result<Pipe> make_stdin(bool is_asked) {
   if (is_asked) return make_pipe(&Pipe::write);
   const UniqueFd null(::open("/dev/null", O_RDWR | O_CLOEXEC));
@@ -66,8 +66,8 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
   return out;
 }
 
-// Everything the child needs, prepared before fork; afterwards only functions that take no lock are
-// safe.
+// The data that the child needs, prepared before fork; after fork, only functions that acquire no
+// lock are safe.
 struct ChildPlan {
   const char* program;
   char* const* arguments;

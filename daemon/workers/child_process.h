@@ -13,7 +13,8 @@
 
 namespace hydroprint::daemon {
 
-/// Flags of hydroprint-worker for a spec file; the input files are in the working directory.
+/// Returns the flags of hydroprint-worker for a spec file; the input files are in the working
+/// directory.
 [[nodiscard]] std::vector<std::string> spec_options(const std::filesystem::path& spec_file);
 
 /// The program to run, and its environment.
@@ -27,8 +28,8 @@ struct Launch {
   bool confined = true;   ///< false: only limits apply; for trusted programs that need a device
 };
 
-/// A running worker: leader of its own process group, which is killed with the thread that started
-/// it. The non-blocking pipes carry its progress, stderr (`errors`) and stdout (`answer`).
+/// A running worker. It leads its own process group, which is killed when the thread that started
+/// it ends. The non-blocking pipes carry its progress, stderr (`errors`) and stdout (`answer`).
 struct ChildProcess {
   pid_t pid = -1;
   UniqueFd handle;  ///< becomes readable when the worker ends
@@ -58,10 +59,11 @@ void signal_group(const ChildProcess& worker, int signal);
 /// @return the status from waitpid()
 int kill_and_wait(const ChildProcess& worker);
 
-/// Appends the available bytes, up to `most` or slightly more; false at the end of the pipe.
+/// Appends the available bytes, up to `most` or slightly more; returns false at the end of the
+/// pipe.
 [[nodiscard]] bool drain(const UniqueFd& pipe, std::string& bytes, std::size_t most);
 
-/// Resident memory of the worker in bytes; 0 if it has ended.
+/// Returns the resident memory of the worker in bytes; 0 if it has ended.
 [[nodiscard]] std::int64_t resident_bytes(const ChildProcess& worker);
 
 }  // namespace hydroprint::daemon

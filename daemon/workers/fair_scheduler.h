@@ -9,16 +9,16 @@
 
 namespace hydroprint::daemon {
 
-/// Schedules jobs fairly among owners. The owner with the fewest running jobs is next, then the one
-/// served longest ago, then the one with the oldest job. Within an owner, higher priority comes
-/// first, then lower rank.
+/// Schedules jobs fairly among owners. The next owner is the one with the fewest running jobs;
+/// among these the one served longest ago, then the one with the oldest job. Within an owner,
+/// higher priority comes first, then lower rank.
 class FairScheduler {
  public:
   /// Records that a job of this owner was started.
   void served(const std::string& owner) { last_turn_[owner] = ++turn_; }
 
-  /// Ids in starting order if nothing changes; at most `limit`.
-  /// @param running  running jobs by owner
+  /// Returns ids in the order in which the jobs would start now; at most `limit`.
+  /// @param running  number of running jobs by owner
   [[nodiscard]] std::vector<std::int64_t> order(const std::vector<WaitingJob>& waiting,
                                                 std::map<std::string, int> running,
                                                 std::size_t limit) const;

@@ -21,14 +21,14 @@ constexpr std::array kSystem{"/usr", "/lib",  "/lib64", "/lib32", "/bin",
                              "/etc", "/proc", "/sys",   "/dev",   "/opt"};
 constexpr std::uint64_t kOnFiles = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_WRITE_FILE;
 
-// The version of Landlock; 0 if the kernel has none.
+// Returns the version of Landlock; 0 if the kernel has none.
 long version() {
   const long answer =
       ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION);
   return answer > 0 ? answer : 0;
 }
 
-// The right to move files between folders exists since version 2; in version 1 it is always denied.
+// The right to move files between folders exists since version 2; version 1 always denies it.
 std::uint64_t move_right() { return version() >= 2 ? LANDLOCK_ACCESS_FS_REFER : 0; }
 
 // Allows access below a path; a missing path needs no rule.
@@ -62,7 +62,7 @@ Result<UniqueFd> make_fence(const std::filesystem::path& program,
   const landlock_ruleset_attr everything{kRead | kWrite | move_right()};
   const UniqueFd low(
       static_cast<int>(::syscall(SYS_landlock_create_ruleset, &everything, sizeof everything, 0)));
-  // Above the descriptors that a worker uses.
+  // Moves the descriptor above those that a worker uses.
   UniqueFd rules(::fcntl(low.get(), F_DUPFD_CLOEXEC, 10));
   bool good = rules.valid();
   for (const char* path : kSystem) good = good && allow(rules, path, kRead);

@@ -7,23 +7,24 @@
 namespace hydroprint::daemon {
 
 /// Limits the files that a worker can access, enforced by the kernel (Landlock). An untrusted model
-/// that names textures in "/home/..." cannot read them, and a compromised worker cannot change
-/// anything. Readable: the system (/usr, /lib, /etc, /proc, ...), the worker program's folder and
-/// `inputs`. Writable: `work`.
+/// that refers to textures in "/home/..." cannot read them, and a compromised worker cannot change
+/// other files. Readable: the system (/usr, /lib, /etc, /proc, ...), the worker program's folder
+/// and `inputs`. Writable: `work`.
 /// @return a descriptor for enter_fence(), or an invalid one if the kernel has no Landlock
 [[nodiscard]] Result<UniqueFd> make_fence(const std::filesystem::path& program,
                                           const std::filesystem::path& inputs,
                                           const std::filesystem::path& work);
 
-/// Whether the kernel has Landlock.
+/// Returns whether the kernel has Landlock.
 [[nodiscard]] bool fences_work();
 
-/// Whether the workers of `program` can read this file although it is not an input: system files,
-/// and files next to the program.
+/// Returns whether the workers of `program` can read this file although it is not an input: system
+/// files, and files next to the program.
 [[nodiscard]] bool is_within_fence(const std::filesystem::path& file,
                                    const std::filesystem::path& program);
 
-/// Confines the calling thread permanently. It must have given up new privileges. Takes no locks.
+/// Confines the calling thread permanently. The no_new_privs attribute must be set. Acquires no
+/// locks.
 [[nodiscard]] bool enter_fence(int fence);
 
 }  // namespace hydroprint::daemon

@@ -8,15 +8,14 @@
 
 namespace hydroprint::daemon {
 
-/// A message of a resident process: a line of JSON, and the bytes whose number it announces
-/// ("bytes").
+/// A message of a resident process: a line of JSON, and as many bytes as it announces ("bytes").
 struct FramedMessage {
   std::string head;
   std::string bytes;
 };
 
-/// Takes the first complete message from the bytes read; nullopt if it is still incomplete. The
-/// bytes are untrusted, since the process may be compromised.
+/// Removes the first complete message from the bytes read; nullopt if it is still incomplete. The
+/// bytes are untrusted, because the process may be compromised.
 /// @param most  maximum number of announced bytes
 /// @return kInternal for a malformed or too large message
 [[nodiscard]] Result<std::optional<FramedMessage>> cut_framed(std::string& read, std::size_t most);

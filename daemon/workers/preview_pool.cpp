@@ -30,7 +30,7 @@ tl::unexpected<Error> shutting_down() {
               "SHUTTING_DOWN");
 }
 
-/// The worker's answer to the request with this id; nullopt for other answers.
+/// Returns the worker's response to the request with this id; nullopt for other responses.
 std::optional<Result<PreviewFrame>> answer_to(std::int64_t id, PreviewFrame frame) {
   const auto head = parse_json(frame.head).value_or(nullptr);
   if (json_unsigned(head, "id") != static_cast<std::uint64_t>(id)) return {};
@@ -99,7 +99,7 @@ Result<Previewed> PreviewPool::compute(const std::string& owner, const PreviewRe
   return std::move(*call->result);
 }
 
-/// Assigns a slot to the owner, which ends the owner's previous call.
+/// Assigns a slot to the owner and ends the owner's previous call.
 Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string& owner,
                                                               const PreviewRequest& ask) {
   if (stopping_) return shutting_down();
@@ -119,7 +119,7 @@ Result<std::shared_ptr<PreviewPool::Call>> PreviewPool::place(const std::string&
   return slot->call;
 }
 
-/// If all slots are taken, frees the least recently used one without a waiting call.
+/// If all slots are in use, frees the least recently used slot without a waiting call.
 bool PreviewPool::make_room() {
   if (slots_.size() < kMostSeats) return true;
   auto oldest = slots_.end();
@@ -177,7 +177,7 @@ void PreviewPool::serve(Slot& slot, SteadyTime now) {
   }
 }
 
-/// Sends the call to the slot's worker, or starts a new one for another mesh.
+/// Sends the call to the slot's worker, or starts a new worker if the mesh is different.
 void PreviewPool::begin(Slot& slot) {
   Call& call = *slot.call;
   call.sent = true;

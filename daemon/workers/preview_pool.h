@@ -38,9 +38,9 @@ class PreviewPool {
   PreviewPool& operator=(const PreviewPool&) = delete;
 
   /// Computes a preview and waits for it.
-  /// @param gone  whether the caller has disconnected; polled
+  /// @param gone  returns whether the caller has disconnected; polled
   /// @return kAborted, PREVIEW_SUPERSEDED; kResourceExhausted, PREVIEWS_FULL, TIME_LIMIT or
-  /// MEMORY_LIMIT; kUnavailable, SHUTTING_DOWN; kCancelled; the worker's refusals
+  ///         MEMORY_LIMIT; kUnavailable, SHUTTING_DOWN; kCancelled; errors of the worker
   [[nodiscard]] Result<Previewed> compute(const std::string& owner, const PreviewRequest& ask,
                                           const std::function<bool()>& gone);
   /// Ends all workers; waiting calls return an error.
@@ -68,10 +68,10 @@ class PreviewPool {
   UniqueFd wake_;
   std::mutex mutex_;
   std::condition_variable answered_;
-  std::map<std::string, std::unique_ptr<Slot>> slots_;  // by owner
+  std::map<std::string, std::unique_ptr<Slot>> slots_;  // keyed by owner
   std::int64_t last_id_ = 0;
   bool stopping_ = false;
-  std::thread thread_;  // starts all workers, which end with it
+  std::thread thread_;  // starts all workers, which are killed when it ends
 };
 
 }  // namespace hydroprint::daemon

@@ -12,7 +12,7 @@ namespace {
 
 bool is_polygon(const std::string& film) { return film.starts_with("polygon:"); }
 
-/// The parts of a spec that stay the same while the object is rotated.
+/// Returns the parts of a spec that stay the same while the object is rotated.
 v1::SimulateSpec object_of(const v1::SimulateSpec& spec) {
   v1::SimulateSpec out;
   if (spec.has_mesh()) *out.mutable_mesh() = spec.mesh();
@@ -23,7 +23,7 @@ v1::SimulateSpec object_of(const v1::SimulateSpec& spec) {
   return out;
 }
 
-/// The parts of a spec that change.
+/// Returns the parts of a spec that change.
 v1::SimulateSpec dip_of(const v1::SimulateSpec& spec) {
   v1::SimulateSpec out;
   if (spec.has_pose()) *out.mutable_pose() = spec.pose();
@@ -39,7 +39,7 @@ Result<NewJob> check(const v1::SimulateSpec& spec) {
   return check_job(job);
 }
 
-/// The members of a JSON object, without braces, with the proto field names.
+/// Returns the members of a JSON object, without braces, with the proto field names.
 Result<std::string> keys_of(const v1::SimulateSpec& dip) {
   google::protobuf::util::JsonPrintOptions options;
   options.preserve_proto_field_names = true;

@@ -14,14 +14,14 @@
 
 namespace hydroprint::daemon {
 
-/// One answer of `hydroprint-worker preview`.
+/// One response of `hydroprint-worker preview`.
 using PreviewFrame = FramedMessage;
 
-/// A confined worker that keeps a mesh in memory and answers requests. Its first answer is the mesh
-/// itself. Use it only on the thread that started it.
+/// A confined worker that keeps a mesh in memory and responds to requests. Its first response is
+/// the mesh itself. Use it only on the thread that started it.
 class PreviewWorker {
  public:
-  /// @param number  names its folder, which is deleted with it
+  /// @param number  names its folder, which is deleted at the end
   /// @return kFailedPrecondition, ASSET_MISSING; kInternal, WORKER_UNUSABLE
   [[nodiscard]] static Result<std::unique_ptr<PreviewWorker>> start(
       const PreviewRequest& ask, std::int64_t number, const std::filesystem::path& program,
@@ -30,15 +30,15 @@ class PreviewWorker {
   PreviewWorker(const PreviewWorker&) = delete;
   PreviewWorker& operator=(const PreviewWorker&) = delete;
 
-  /// Key of the requests that it can answer; see PreviewRequest.
+  /// Returns the key of the requests that it can answer; see PreviewRequest.
   [[nodiscard]] const std::string& key() const { return key_; }
   [[nodiscard]] int answers_fd() const { return worker_.answer.get(); }
 
-  /// Sends a request. If that fails, the worker has ended.
+  /// Sends a request. A failure means that the worker has ended; see failure().
   void ask(std::int64_t id, const std::string& dip);
-  /// The answers received since the last call.
+  /// Returns the responses received since the last call.
   [[nodiscard]] std::vector<PreviewFrame> read();
-  /// Why the worker ended, if it has; also set after a malformed answer.
+  /// Returns why the worker ended, if it has; also set after a malformed response.
   [[nodiscard]] const std::optional<Error>& failure() const { return failure_; }
 
  private:

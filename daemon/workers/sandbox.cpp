@@ -20,9 +20,9 @@
 namespace hydroprint::daemon {
 namespace {
 
-// System calls that fail with EACCES. Sockets of all families are refused: no network, and no
-// contact with other services of the same user. io_uring could open sockets in spite of the filter,
-// and truncate() bypasses older versions of Landlock. The others access other processes, leave the
+// System calls that fail with EACCES. Sockets of all families are denied: no network, and no
+// contact with other services of the same user. io_uring could open sockets despite the filter, and
+// truncate() bypasses older versions of Landlock. The other calls access other processes, leave the
 // process group or change the kernel.
 constexpr std::array kRefused{
     SCMP_SYS(socket),
@@ -117,8 +117,8 @@ void volunteer_for_oom() {
   ::close(file);
 }
 
-// The rig and the daemon's responses have priority over computations. If the daemon already has a
-// lower priority, root could otherwise raise that of its workers.
+// The rig and the daemon's responses have priority over computations. If the daemon already runs
+// with a lower priority, the call would, as root, raise the priority of its workers.
 void give_way() {
   constexpr int kNiceness = 10;
   if (::getpriority(PRIO_PROCESS, 0) >= kNiceness) return;
@@ -139,8 +139,8 @@ const char* Sandbox::limit_use(const Limits& limits) {
       !limit(RLIMIT_FSIZE, limits.file_bytes) || !limit(RLIMIT_CPU, limits.cpu_s, 5)) {
     return "cannot set resource limits";
   }
-  // The pool monitors the actual use. This limit stops a growth that is too fast for that, and
-  // leaves room for memory that is reserved but not used.
+  // The pool monitors actual use. This limit stops growth that is too fast for the pool, with a
+  // margin for memory that is reserved but not used.
   constexpr std::int64_t kReserved = 512LL << 20;
   if (limits.memory_bytes > 0 &&
       !limit(RLIMIT_DATA, limits.memory_bytes + limits.memory_bytes / 4 + kReserved)) {

@@ -13,18 +13,18 @@ namespace hydroprint::daemon {
 struct Limits {
   std::int64_t memory_bytes = 0;  ///< 0: no limit
   std::int64_t cpu_s = 0;         ///< processor time, summed over all threads
-  std::int64_t file_bytes = 0;    ///< per file that it writes
+  std::int64_t file_bytes = 0;    ///< maximum size of each file that it writes
 };
 
-/// Confines a worker, since it reads untrusted files: no network, no access to other processes, no
-/// new privileges, no files except its own (landlock.h), and resource limits. Create it once,
+/// Confines a worker, because it reads untrusted files: no network, no access to other processes,
+/// no new privileges, no files except its own (landlock.h), and resource limits. Create it once,
 /// before starting workers; confine() runs in the child.
 class Sandbox {
  public:
-  /// kFailedPrecondition if the kernel or the seccomp library does not support it.
+  /// Returns kFailedPrecondition if the kernel or the seccomp library does not support it.
   [[nodiscard]] static Result<Sandbox> make();
 
-  /// Confines the calling process permanently. Runs between fork and exec, so it takes no locks.
+  /// Confines the calling process permanently. Runs between fork and exec, so it acquires no locks.
   /// @param fence  see make_fence(); negative: none
   /// @return the step that failed, or nullptr
   [[nodiscard]] const char* confine(const Limits& limits, int fence) const;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kLongestMessage = 1000;
 constexpr std::size_t kLongestPhase = 64;
 
-// Keeps printable ASCII and well-formed UTF-8; replaces all other bytes by '?'.
+// Keeps printable ASCII and well-formed UTF-8; replaces all other bytes with '?'.
 std::string printable(std::string_view text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
@@ -38,7 +38,7 @@ std::string printable(std::string_view text) {
   return out;
 }
 
-// Cuts at a character boundary.
+// Truncates a text at a character boundary.
 std::string shortened(std::string text, std::size_t longest) {
   if (text.size() <= longest) return text;
   while (longest > 0 && (static_cast<unsigned char>(text[longest]) & 0xc0) == 0x80) --longest;
@@ -110,14 +110,14 @@ JobFailure judge_signal(int signal) {
                              signal, ::strsignal(signal)));
 }
 
-// The reason code that a program printed for its failure; empty without one.
+// Returns the reason code that a program printed for its failure; empty if there is none.
 std::string printed_reason(std::string_view answer) {
   const auto object = parse_json(last_line(answer)).value_or(nullptr);
   return json_string(json_at(object, "error"), "reason").value_or("");
 }
 
-// Limits of the machine and of the worker, which the program names by its own reason codes
-// (sim/base, sim/worker); nullopt for other reasons.
+// Translates limits of the machine and of the worker, for which the program has its own reason
+// codes (sim/base, sim/worker); nullopt for other reasons.
 std::optional<JobFailure> limit_failure(const std::string& reason) {
   if (reason == "OUT_OF_MEMORY") return memory_failure();
   if (reason == "DISK_FULL") return disk_failure();
@@ -130,7 +130,7 @@ bool is_known(const std::string& reason) {
   return v1::ErrorReason_Parse(reason, &parsed);
 }
 
-// A program that ended by itself with a status other than 0.
+// Returns the failure of a program that ended by itself with a nonzero status.
 JobFailure judge_failed_exit(int status, const std::string& words, std::string_view answer) {
   const std::string reason = printed_reason(answer);
   if (auto failure = limit_failure(reason)) return *std::move(failure);

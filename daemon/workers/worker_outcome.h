@@ -11,13 +11,13 @@ namespace hydroprint::daemon {
 /// Why the pool stopped a worker, if it did.
 enum class StoppedFor { kNothing, kCancel, kShutdown, kTime, kMemory };
 
-/// The last non-empty line of a worker's stderr, made safe for one line of text.
+/// Returns the last non-empty line of a worker's stderr, made safe for one line of text.
 [[nodiscard]] std::string last_line(std::string_view errors);
 
 /// Translates the end of a worker to its job's failure; nullopt if it succeeded.
 /// @param wait_status  from waitpid()
 /// @param errors       its stderr
-/// @param answer       its stdout: with --json, may contain a reason of ErrorReason
+/// @param answer       its stdout, which with --json may contain a reason of ErrorReason
 [[nodiscard]] std::optional<JobFailure> judge(int wait_status, StoppedFor stopped,
                                               std::string_view errors,
                                               std::string_view answer = {});

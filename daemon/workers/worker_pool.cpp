@@ -217,7 +217,7 @@ bool WorkerPool::Impl::start_next() {
   if (!job) {
     log(LogLevel::kError, "job_not_started",
         {{"job", next.front()}, {"message", job.error().message}});
-    // A job that was just cancelled: check again. A store that failed: wait for the next wake.
+    // A job that was just cancelled: check again. A store error: wait for the next wake-up.
     return job.error().code == Code::kFailedPrecondition || job.error().code == Code::kNotFound;
   }
   {
@@ -259,7 +259,7 @@ Status WorkerPool::Impl::make_run_folder(const Job& job) const {
   return work.pose_json.empty() ? Status() : write_file(layout.run_pose(job.id), work.pose_json);
 }
 
-/// The job's options: its spec, or its flags if an earlier version of the daemon stored it.
+/// Returns the job's options: its spec, or its flags if an earlier version of the daemon stored it.
 std::vector<std::string> WorkerPool::Impl::options_of(const Job& job) const {
   const Work& work = job.made.work;
   if (!work.spec.empty()) return spec_options(layout.run_spec(job.id));
@@ -268,7 +268,7 @@ std::vector<std::string> WorkerPool::Impl::options_of(const Job& job) const {
   return out;
 }
 
-// Retried with every step if the store fails.
+// If the store fails, this is retried with every step.
 void WorkerPool::Impl::give_up_unstarted() {
   std::erase_if(unstarted, [&](const auto& entry) {
     const auto ended = store.give_up(entry.first, entry.second);

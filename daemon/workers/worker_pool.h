@@ -19,15 +19,15 @@ struct PoolOptions {
   std::filesystem::path program;
   int slots = 1;                  ///< maximum number of workers
   int cores = 1;                  ///< divided among workers if `threads` is 0
-  int threads = 0;                ///< per worker
-  std::int64_t memory_bytes = 0;  ///< per worker; 0: no limit
+  int threads = 0;                ///< number of threads per worker
+  std::int64_t memory_bytes = 0;  ///< limit per worker; 0: no limit
   std::int64_t time_limit_s = 3600;
   std::int64_t file_bytes = 4LL << 30;
 };
 
-/// Takes queued jobs from the store, runs a confined worker process for each, and stores the
-/// results. One thread starts and monitors all workers. They are killed with that thread, so a
-/// killed daemon leaves none behind.
+/// Executes queued jobs from the store: runs a confined worker process for each, and stores the
+/// results. One thread starts and monitors all workers. They are killed when that thread ends, so
+/// no worker survives a killed daemon.
 class WorkerPool final : public JobExecutor {
  public:
   /// @return kFailedPrecondition if workers cannot be confined or the program does not exist
@@ -38,7 +38,7 @@ class WorkerPool final : public JobExecutor {
   ~WorkerPool() override;
 
   void start();
-  /// Refuses missing inputs (ASSET_MISSING); WORKER_UNUSABLE.
+  /// Errors: ASSET_MISSING for missing inputs; WORKER_UNUSABLE.
   [[nodiscard]] Result<Job> check(const JobRequest& request) override;
   /// Stores and queues a job.
   [[nodiscard]] Result<Job> create(const JobRequest& request) override;
@@ -46,10 +46,10 @@ class WorkerPool final : public JobExecutor {
   /// Ends the workers and waits a few seconds at most. Their jobs stay RUNNING or CANCELLING in the
   /// store: see JobStore::interrupt_all().
   void stop() override;
-  /// Makes the pool check the store at once (new job, cancellation).
+  /// Makes the pool check the store immediately (new job, cancellation).
   void wake();
 
-  /// Queued jobs in starting order if nothing changes; at most `limit`.
+  /// Returns the ids of queued jobs in the order in which they would start now; at most `limit`.
   [[nodiscard]] Result<std::vector<std::int64_t>> order(std::size_t limit) const;
   [[nodiscard]] int slots() const;
 

@@ -18,7 +18,7 @@ constexpr std::chrono::seconds kTryAgainAfter{1};
 constexpr std::size_t kWordsKept = 16 << 10;
 constexpr std::size_t kLongestLine = 4 << 10;
 
-// A retry would not help, since the job has changed or is gone.
+// Returns whether a retry cannot help, because the job has changed or is gone.
 bool is_settled(const Error& error) {
   return error.code == Code::kFailedPrecondition || error.code == Code::kNotFound;
 }
@@ -122,7 +122,7 @@ void WorkerRun::watch_limits() {
   if (memory_bytes_ > 0 && stopped_ == StoppedFor::kNothing &&
       resident_bytes(worker_) > memory_bytes_) {
     stop(StoppedFor::kMemory);
-    kill_at_ = now;  // no grace period, since the worker might use still more memory
+    kill_at_ = now;  // no grace period, because the worker might use even more memory
   }
   if (kill_at_ && now >= *kill_at_) signal_group(worker_, SIGKILL);
 }
@@ -150,7 +150,7 @@ Result<WorkerRun::Outcome> WorkerRun::publish() const {
   return out;
 }
 
-// Hashing and syncing large files takes a while, and other jobs need the pool's thread meanwhile.
+// Other jobs need the pool's thread while large files are hashed and synced.
 void WorkerRun::begin_publishing() {
   publishing_ = std::async(std::launch::async, [this] {
     auto result = publish();
@@ -185,8 +185,8 @@ void WorkerRun::free_disk_for(const Error& error) {
   next_end_ = {};
 }
 
-// Deletes the output of a failed worker before its end is stored, since it may have filled the
-// disk.
+// Deletes the output of a failed worker before the end of its job is stored, because the output may
+// have filled the disk.
 void WorkerRun::discard_output() const {
   discard(layout_.run(job_.id));
   discard(layout_.artifacts(job_.id));

@@ -13,8 +13,8 @@
 
 namespace hydroprint::daemon {
 
-/// One job in its worker, from the start of the process to the end of the job in the store. Used
-/// only by the pool's thread; nothing here blocks.
+/// Runs one job in its worker, from the start of the process to the end of the job in the store.
+/// Used only by the pool's thread; never blocks.
 class WorkerRun {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -31,13 +31,13 @@ class WorkerRun {
 
   [[nodiscard]] std::int64_t job() const { return job_.id; }
   [[nodiscard]] const std::string& owner() const { return job_.made.owner; }
-  /// Descriptors that become readable when step() has something to do.
+  /// Returns descriptors that become readable when step() has something to do.
   [[nodiscard]] std::vector<int> descriptors() const;
 
-  /// Reads output, checks limits and takes the next action. Returns true once the job has ended in
-  /// the store, or the worker is gone after a stop for shutdown. A failed write is retried.
+  /// Reads output, checks limits and performs the next action. Returns true once the end of the job
+  /// is stored, or the worker has ended after a stop for shutdown. A failed write is retried.
   [[nodiscard]] bool step(JobStore& store, std::int64_t now_ms);
-  /// Asks the worker to end; it is killed after 3 s.
+  /// Requests the worker to end; it is killed after 3 s.
   void stop(StoppedFor why);
 
  private:

@@ -5,14 +5,14 @@
 
 namespace hydroprint::capture {
 
-/// A frame as a picture for people, at half its size.
+/// A frame as a picture for display, at half its size.
 struct DepthPicture {
   /// Viridis, which is readable for colour-blind people: nearer is brighter. Grey: not measured.
   image::RgbImage picture;
-  /// Ends of the colour scale. 1 % of the measured pixels are nearer and 1 % farther, so that a
-  /// stray point does not compress the scale.
+  /// Ends of the colour scale: the 1 % and 99 % quantiles of the measured depths, so that outliers
+  /// do not compress the scale.
   int nearest_mm = 0, farthest_mm = 0;
-  double measured_share = 0;  ///< of the frame's pixels
+  double measured_share = 0;  ///< fraction of the frame's pixels
 };
 
 [[nodiscard]] DepthPicture depth_picture(const depth_camera::DepthFrame& frame);

@@ -13,12 +13,13 @@ namespace hydroprint::capture {
 /// A series of captured frames.
 struct Taken {
   std::vector<depth_camera::DepthFrame> frames;
-  int lost = 0;      ///< counted by the camera but never received
-  int left_out = 0;  ///< black frames, and frames identical to the one before
+  int lost = 0;      ///< frames counted by the camera but never received
+  int left_out = 0;  ///< black frames, and frames identical to the previous one
 };
 
-/// Returns the next frame, within the options' patience; calls `alive` repeatedly while waiting.
-/// Returns nullopt at the end of a recording. Errors: those of DepthCamera::next, and kCancelled.
+/// Returns the next frame, waiting up to the patience in the options; calls `alive` repeatedly
+/// meanwhile. Returns nullopt at the end of a recording. Errors: those of DepthCamera::next, and
+/// kCancelled.
 [[nodiscard]] Result<std::optional<depth_camera::DepthFrame>> next_frame(
     depth_camera::DepthCamera& camera, const Options& options, const Context& context,
     const std::function<void()>& alive);

@@ -19,7 +19,9 @@ Status write_all(int to, const std::string& bytes) {
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t count = ::write(to, bytes.data() + done, bytes.size() - done);
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return fail(Code::kUnavailable, "the reader of the pictures has disconnected");
+    if (count <= 0)
+      return fail(Code::kUnavailable,
+                  "the process that reads the pictures has closed the connection");
     done += static_cast<std::size_t>(count);
   }
   return {};

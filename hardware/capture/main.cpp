@@ -151,7 +151,7 @@ Result<Summary> run(const Options& options, worker::Termination& termination,
 /// Runs until a signal or an error.
 Status live(const Options& options, worker::Termination& termination,
             const worker::QuietStderr& quiet) {
-  (void)::nice(kGivesWay);  // to the rig and to computations
+  (void)::nice(kGivesWay);  // gives way to the rig and to computations
   Context context;
   context.cancelled = [&termination] { return termination.requested(); };
   // Longer than the camera's own timeout, whose message is more specific.

@@ -8,8 +8,8 @@
 
 namespace hydroprint::capture {
 
-/// Ends a process that hangs. Unless fed in time, it calls `bites` on its own thread; `bites` must
-/// not return.
+/// Ends a process that hangs: calls `bites`, which must not return, on its own thread unless it is
+/// fed in time.
 class Watchdog {
  public:
   Watchdog(std::chrono::duration<double> patience, std::function<void()> bites);

@@ -119,7 +119,7 @@ Status OpenNiCamera::open(const std::string& uri) {
 Status OpenNiCamera::choose_mode() {
   const openni::SensorInfo* sensor = device_.getSensorInfo(openni::SENSOR_DEPTH);
   if (sensor == nullptr || stream_.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
-    return unusable(info_.uri, "it has no depth stream");
+    return unusable(info_.uri, "has no depth stream");
   }
   const auto& modes = sensor->getSupportedVideoModes();
   for (int i = 0; i < modes.getSize(); ++i) {
@@ -129,7 +129,7 @@ Status OpenNiCamera::choose_mode() {
       return {};
     }
   }
-  return unusable(info_.uri, "it does not support this frame size and rate");
+  return unusable(info_.uri, "does not support this frame size and rate");
 }
 
 Status OpenNiCamera::start_device() {
@@ -142,7 +142,7 @@ Status OpenNiCamera::start_device() {
     info_.serial = serial.data();
   }
   (void)stream_.setMirroringEnabled(false);  // may fail on devices that cannot mirror
-  if (stream_.start() != openni::STATUS_OK) return unusable(info_.uri, "it does not start");
+  if (stream_.start() != openni::STATUS_OK) return unusable(info_.uri, "does not start");
   info_.width = kWidth_px;
   info_.height = kHeight_px;
   return {};
@@ -161,14 +161,14 @@ Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
   }
   info_ = {path.string(), "recording", "", 0, 0, 0};
   if (stream_.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
-    return refuse("it has no depth stream");
+    return refuse("has no depth stream");
   }
   openni::PlaybackControl* const playback = device_.getPlaybackControl();
   // Frames are lost unless the recording is stepped manually (speed -1); seeking crashes OpenNI
   // 2.2.
   if (playback == nullptr || playback->setSpeed(-1) != openni::STATUS_OK ||
       playback->setRepeatEnabled(false) != openni::STATUS_OK) {
-    return refuse("it cannot be played frame by frame");
+    return refuse("cannot be played frame by frame");
   }
   const openni::VideoMode mode = stream_.getVideoMode();
   info_.width = mode.getResolutionX();
@@ -176,9 +176,9 @@ Status OpenNiCamera::start_recording(const std::filesystem::path& path) {
   info_.frames = playback->getNumberOfFrames(stream_);
   if (mode.getPixelFormat() != openni::PIXEL_FORMAT_DEPTH_1_MM || *info_.frames < 1 ||
       info_.width < 1 || info_.width > 4096 || info_.height < 1 || info_.height > 4096) {
-    return refuse("it contains no depth frames in whole mm");
+    return refuse("contains no depth frames in the 1 mm format");
   }
-  if (stream_.start() != openni::STATUS_OK) return refuse("it does not start");
+  if (stream_.start() != openni::STATUS_OK) return refuse("does not start");
   return {};
 }
 

@@ -11,13 +11,13 @@
 
 namespace hydroprint::depth_camera {
 
-/// Description of a source of frames.
+/// Description of a camera or recording.
 struct SourceInfo {
-  std::string uri;     ///< of a recording: its path
+  std::string uri;     ///< for a recording, its path
   std::string name;    ///< maker and model
   std::string serial;  ///< empty: none (recordings store none)
   int width = 0, height = 0;
-  std::optional<int> frames;  ///< of a recording
+  std::optional<int> frames;  ///< number of frames; only for a recording
 };
 
 /// A depth camera, or a recording, through OpenNI2. A driver may hang or crash: use each camera in
@@ -30,11 +30,11 @@ struct SourceInfo {
 class DepthCamera {
  public:
   /// Opens a camera and starts its depth stream: 640 x 480, 30 Hz, whole mm, not mirrored.
-  /// @param uri  OpenNI2's name ("hydroprint:/run/rig" is the virtual rig's camera); empty: the
-  ///             first camera that is plugged in
+  /// @param uri  name of the camera in OpenNI2 ("hydroprint:/run/rig" is the virtual rig's camera);
+  ///             empty: the first connected camera
   [[nodiscard]] static Result<std::unique_ptr<DepthCamera>> open_device(const std::string& uri);
 
-  /// Opens a recording (.oni). It delivers frames as fast as they are read and skips none.
+  /// Opens a recording (.oni). It returns all frames, as fast as they can be read.
   [[nodiscard]] static Result<std::unique_ptr<DepthCamera>> open_recording(
       const std::filesystem::path& path);
 
@@ -44,15 +44,15 @@ class DepthCamera {
 
   [[nodiscard]] virtual const SourceInfo& info() const = 0;
 
-  /// Returns the next frame; a camera returns one captured from now on. Returns nullopt at the end
-  /// of a recording. Waits at most `timeout`.
+  /// Returns the next frame; a camera returns one captured after the call. Returns nullopt at the
+  /// end of a recording. Waits at most `timeout`.
   [[nodiscard]] virtual Result<std::optional<DepthFrame>> next(
       std::chrono::milliseconds timeout) = 0;
 
-  /// Records all later frames of the stream, without loss, until finish_recording() or destruction.
+  /// Starts a lossless recording of all later frames, until finish_recording() or destruction.
   /// Returns kPermissionDenied if the file cannot be written.
   [[nodiscard]] virtual Status record(const std::filesystem::path& path) = 0;
-  /// No frames arrive afterwards.
+  /// Ends the recording. No further frames arrive.
   virtual void finish_recording() = 0;
 
  protected:

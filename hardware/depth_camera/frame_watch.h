@@ -9,22 +9,22 @@
 
 namespace hydroprint::depth_camera {
 
-/// Detects a camera that still sends frames, but useless ones. One or two such frames are not an
-/// error, since cameras warm up.
+/// Detects a camera whose frames are useless. One or two such frames are not an error, because
+/// cameras warm up.
 class FrameWatch {
  public:
-  /// Number of bad frames in sequence that is an error: a third of a second.
+  /// Number of consecutive bad frames that counts as an error (a third of a second).
   static constexpr int kMostBad = 10;
-  /// A frame with fewer measured pixels than this share is black.
+  /// Frames with a smaller fraction of measured pixels count as black.
   static constexpr double kLeastMeasured = 0.01;
 
   explicit FrameWatch(std::string name) : name_(std::move(name)) {}
 
-  /// Checks a frame. Returns kUnavailable at the kMostBad-th bad frame: CAMERA_FROZEN (identical to
-  /// the one before, which sensor noise rules out) or CAMERA_BLACK.
+  /// Checks a frame. Returns kUnavailable after kMostBad consecutive bad frames: CAMERA_FROZEN
+  /// (identical to the previous one, which sensor noise rules out) or CAMERA_BLACK.
   [[nodiscard]] Status look(const DepthFrame& frame);
 
-  /// Whether the last frame checked is usable.
+  /// Returns whether the last frame checked is usable.
   [[nodiscard]] bool good() const { return same_ == 0 && black_ == 0; }
 
  private:

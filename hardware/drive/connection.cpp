@@ -21,7 +21,7 @@
 namespace hydroprint::drive {
 namespace {
 
-constexpr std::size_t kTcpHeader = 6;  // before the unit id
+constexpr std::size_t kTcpHeader = 6;  // bytes before the unit id
 constexpr std::size_t kCrc = 2;
 
 tl::unexpected<Error> offline(const Endpoint& endpoint, const std::string& what) {
@@ -45,7 +45,7 @@ std::string serial_remedy(int error) {
   }
 }
 
-/// libmodbus uses select(), which cannot watch larger descriptors.
+/// Returns false for large descriptors, which select() in libmodbus cannot watch.
 bool can_be_watched(int descriptor) { return descriptor < FD_SETSIZE; }
 
 bool wait_connected(int socket, std::chrono::milliseconds patience) {

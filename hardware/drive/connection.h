@@ -9,7 +9,7 @@ struct _modbus;
 
 namespace hydroprint::drive {
 
-/// An open connection of libmodbus, closed by the destructor. Not thread-safe.
+/// An open libmodbus connection, closed by the destructor. Not thread-safe.
 class Connection {
  public:
   /// Opens a connection within timing.connect; locks a serial line for this process. Returns
@@ -28,8 +28,8 @@ class Connection {
     kLost,  ///< the connection is lost
   };
 
-  /// Empties the line, sends a request from encode_request and waits for the reply, which is stored
-  /// in `reply` for decode_reply. `cause` is libmodbus's description of the error.
+  /// Discards pending input, sends a request from encode_request and waits for the reply, which is
+  /// stored in `reply` for decode_reply. `cause` receives libmodbus's description of the error.
   End exchange(int unit, const std::vector<std::uint8_t>& request, std::size_t reply_bytes,
                std::vector<std::uint8_t>& reply, std::string& cause);
 

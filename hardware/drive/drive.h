@@ -13,9 +13,9 @@
 
 namespace hydroprint::drive {
 
-/// The state of a drive at one moment.
+/// The state of a drive at one point in time.
 struct DriveState {
-  double position_mm = 0;  ///< from the home switch; meaningless before homing
+  double position_mm = 0;  ///< relative to the home switch; meaningless before homing
   double velocity_mm_per_s = 0;
   std::optional<double> demand_mm;  ///< position of the drive's own trajectory, if reported
   bool enabled = false;
@@ -29,7 +29,8 @@ struct DriveState {
   int alarm_code = 0;       ///< 0: none
   std::string alarm_text;   ///< empty: none
   std::string alarm_hint;   ///< remedy
-  /// Midpoint between request and reply of the position, and its uncertainty.
+  /// Midpoint between sending the request for the position and receiving its reply, and the
+  /// uncertainty of that time.
   std::chrono::steady_clock::time_point time;
   std::chrono::duration<double> time_error{0};
 };
@@ -37,21 +38,21 @@ struct DriveState {
 /// The result of connect().
 struct Inspection {
   std::string drive;      ///< name in the profile
-  double watchdog_s = 0;  ///< as read back; 0: off, or no watchdog
-  /// Why this drive must not be armed in its present configuration (kFailedPrecondition, reason
+  double watchdog_s = 0;  ///< as read back from the drive; 0: off, or no watchdog
+  /// Why this drive must not be armed in its current configuration (kFailedPrecondition, reason
   /// DRIVE_CONFIG_UNSAFE); nullopt if it may be armed.
   std::optional<Error> unsafe;
 };
 
-/// A drive, controlled as its profile describes. One thread at a time may call; other threads use
-/// StopLine. Every call ends after a bounded number of requests, each limited by the link's timing.
-///
-/// Commands are sent once; one that fails with metadata `timeout` may have taken effect. After any
-/// failure of the link the state is unknown: enable, home, move_to and jog return RIG_OFFLINE until
-/// a poll() succeeds. They return DRIVE_CONFIG_UNSAFE if connect() found the configuration unsafe.
-/// disable and stop are always sent. Errors: RIG_OFFLINE, DRIVE_CONFIG_UNSAFE and those of
-/// decode_reply; kOutOfRange, reason LIMIT_EXCEEDED, for values that the profile or the registers
-/// do not allow.
+/// A drive, controlled as described by its profile. Only one thread at a time may call it; other
+/// threads use StopLine. Every call ends after a bounded number of requests, each limited by the
+/// link's timing.
+/// Commands are sent once. A command that fails with metadata `timeout` may have taken effect.
+/// After any failure of the link the state is unknown: enable, home, move_to and jog return
+/// RIG_OFFLINE until a poll() succeeds. They return DRIVE_CONFIG_UNSAFE if connect() found the
+/// configuration unsafe. disable and stop are always sent. Errors: RIG_OFFLINE, DRIVE_CONFIG_UNSAFE
+/// and those of decode_reply; kOutOfRange, reason LIMIT_EXCEEDED, for values beyond the limits of
+/// the profile or the registers.
 class Drive {
  public:
   Drive(DriveProfile profile, std::shared_ptr<Link> link);
@@ -62,7 +63,8 @@ class Drive {
   [[nodiscard]] Result<Inspection> connect();
   void disconnect();
 
-  /// If false, connect() must be called before poll() and motion can succeed.
+  /// Returns whether the drive is connected. If not, poll() and motion fail until connect()
+  /// succeeds.
   [[nodiscard]] bool connected() const;
 
   /// Reads all blocks and checks their marks.
@@ -71,21 +73,21 @@ class Drive {
   [[nodiscard]] Status enable();
   [[nodiscard]] Status disable();
 
-  /// Starts homing, which the drive performs by itself: first moving, then homed.
+  /// Starts homing, which the drive performs on its own: it reports first moving, then homed.
   [[nodiscard]] Status home();
 
-  /// Starts a move at constant speed (apart from the profile's ramps); speed above 0.
+  /// Starts a move at constant speed (except for the profile's ramps); the speed must be above 0.
   [[nodiscard]] Status move_to(double position_mm, double speed_mm_per_s);
 
   /// Starts or continues motion at a speed of either sign, not 0. Must be called again at least
-  /// every profile().jog_refresh_s. Ends with stop(), or by itself profile().jog_dead_man_s after
+  /// every profile().jog_refresh_s. The motion ends with stop(), or profile().jog_dead_man_s after
   /// the last call.
   [[nodiscard]] Status jog(double speed_mm_per_s);
 
-  /// Brakes; the drive stays enabled.
+  /// Brakes the axis; the drive stays enabled.
   [[nodiscard]] Status stop();
 
-  /// Clears an alarm whose cause is gone; moves nothing.
+  /// Clears an alarm whose cause has been removed. Moves nothing.
   [[nodiscard]] Status reset_fault();
 
   [[nodiscard]] const DriveProfile& profile() const { return profile_; }
@@ -104,7 +106,7 @@ class Drive {
   DriveProfile profile_;
   std::shared_ptr<Link> link_;
   bool known_ = false;  // the last exchange on the link succeeded
-  // connection that was inspected; StopLine may have reconnected since
+  // The connection that was inspected; StopLine may have reconnected since then.
   std::uint64_t connection_ = 0;
   std::optional<Error> unsafe_;
 };

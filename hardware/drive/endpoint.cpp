@@ -58,7 +58,7 @@ Result<Endpoint> parse_rtu(std::string_view all, std::string_view rest) {
   const std::size_t question = rest.find('?');
   out.device = rest.substr(0, question);
   if (out.device.empty() || out.device[0] != '/')
-    return refuse(all, "lacks the full path of a device");
+    return refuse(all, "the device path is not absolute");
   if (question == std::string_view::npos) return out;
   std::string_view options = rest.substr(question + 1);
   while (!options.empty()) {

@@ -10,19 +10,19 @@ namespace hydroprint::drive {
 /// The address of a drive.
 struct Endpoint {
   bool serial = false;
-  std::string host;  ///< of TCP: an IPv4 address (a name lookup could block)
+  std::string host;  ///< for TCP: an IPv4 address (a name lookup could block)
   int port = 502;
-  std::string device;  ///< of RTU: "/dev/serial/by-id/..."
+  std::string device;  ///< for RTU: "/dev/serial/by-id/..."
   int baud = 115200;
   char parity = 'E';  ///< 'N', 'E' or 'O'
   int stop_bits = 1;
 
-  /// Formats the endpoint as parse_endpoint expects it.
+  /// Formats the endpoint for parse_endpoint().
   [[nodiscard]] std::string text() const;
 };
 
-/// Parses "tcp:192.168.1.20:502" or "rtu:/dev/serial/by-id/X?baud=115200&parity=E&stop=1".
-/// Otherwise returns kInvalidArgument with the fault and the expected format.
+/// Parses "tcp:192.168.1.20:502" or "rtu:/dev/serial/by-id/X?baud=115200&parity=E&stop=1". Returns
+/// kInvalidArgument with the fault and the expected format for other text.
 [[nodiscard]] Result<Endpoint> parse_endpoint(std::string_view text);
 
 }  // namespace hydroprint::drive

@@ -37,7 +37,7 @@ struct Request {
 /// and count or value. `reply` is untrusted: unit, function and data, without the transport's
 /// header and checksum. Returns kDataLoss, reason REPLY_INVALID, if it is not a reply to `request`.
 /// Returns kFailedPrecondition, reason DRIVE_REFUSED with metadata `exception`, if the drive
-/// refuses. Exceptions 5 and 6 (busy) become kAborted, reason DRIVE_BUSY.
+/// rejects the request. Exceptions 5 and 6 (busy) become kAborted, reason DRIVE_BUSY.
 [[nodiscard]] Result<std::vector<std::uint16_t>> decode_reply(const Request& request,
                                                               std::span<const std::uint8_t> reply);
 

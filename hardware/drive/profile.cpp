@@ -29,7 +29,7 @@ std::uint16_t read_word(TomlReader& table, std::string_view key,
   return static_cast<std::uint16_t>(table.integer(key, 0, 0xffff, fallback));
 }
 
-/// @param per_unit  the key: "counts_per_mm"
+/// @param per_unit  name of the key: "counts_per_mm"
 Format read_format(TomlReader& table, std::string_view per_unit) {
   Format format;
   format.words = static_cast<int>(table.integer("words", 1, 2));
@@ -234,7 +234,8 @@ void read_motion(TomlReader table, DriveProfile& profile) {
   profile.jog_refresh_s = table.number("jog_refresh_s", 0.01, 0.25);
   profile.jog_dead_man_s = table.number("jog_dead_man_s", 0, 0.5);
   if (profile.jog_dead_man_s > 0 && profile.jog_dead_man_s < profile.jog_refresh_s) {
-    table.refuse("jog_dead_man_s", "is shorter than jog_refresh_s. Refresh more often than that");
+    table.refuse("jog_dead_man_s",
+                 "is shorter than jog_refresh_s. Set jog_refresh_s to jog_dead_man_s or less");
   }
 }
 

@@ -44,8 +44,9 @@ struct Mark {
   std::string meaning;  ///< "model", for error messages
 };
 
-/// Registers read with one request. The mark lies within the block and distinguishes its reply from
-/// a late reply to another request. No two requests of a profile read the same number of words.
+/// Registers that are read with one request. The mark lies within the block and distinguishes the
+/// reply from a late reply to another request. All requests of a profile read different numbers of
+/// words.
 struct Block {
   Space space = Space::kHolding;
   std::uint16_t address = 0;
@@ -106,17 +107,17 @@ struct Alarm {
   std::string hint;
 };
 
-/// The drive's supervision of its communication.
+/// The drive's watchdog, which monitors the communication.
 struct Watchdog {
-  Field time;                                ///< in s
-  double largest_time_s = 0;                 ///< longest acceptable time; 0 is never acceptable
+  Field time;                                ///< the watchdog time in s
+  double largest_time_s = 0;                 ///< longest permitted time; 0 is never permitted
   std::optional<Field> action;               ///< absent: this drive always stops
   std::vector<std::uint16_t> stopping = {};  ///< values of `action` that stop the axis
 };
 
-/// The description of a make of drive, read from a TOML file; hardware/profiles explains each key.
-/// Positions count from the home switch. The sign of `position.per_unit` decides which direction is
-/// positive (down, in a rig for dipping).
+/// The description of a type of drive, read from a TOML file; hardware/profiles explains each key.
+/// Positions are relative to the home switch. The sign of `position.per_unit` determines which
+/// direction is positive (down, in a rig for dipping).
 struct DriveProfile {
   std::string name;
   bool tried_on_hardware = false;
@@ -125,11 +126,12 @@ struct DriveProfile {
   bool single_writes_by_fc16 = false;  ///< single words are written with function 16, not 6
 
   double max_speed_mm_per_s = 0;
-  double acceleration_mm_per_s2 = 0;           ///< of moves, jogs and homing
-  double stopping_deceleration_mm_per_s2 = 0;  ///< lowest deceleration of stop and watchdog
+  double acceleration_mm_per_s2 = 0;  ///< acceleration of moves, jogs and homing
+  /// Lowest deceleration of a stop command and of the watchdog.
+  double stopping_deceleration_mm_per_s2 = 0;
 
-  std::chrono::milliseconds response_timeout{0};  ///< of one request
-  std::chrono::milliseconds worst_delay{0};       ///< after which a reply can no longer arrive
+  std::chrono::milliseconds response_timeout{0};  ///< timeout of one request
+  std::chrono::milliseconds worst_delay{0};       ///< after this time a reply can no longer arrive
 
   std::vector<Mark> identity;
   std::vector<Block> blocks;  ///< registers to poll; contain all fields and bits below
@@ -139,10 +141,12 @@ struct DriveProfile {
   std::array<std::optional<BitPlace>, kStatusBits> bits;
   std::map<int, Alarm> alarms;
 
-  Format position_format, speed_format, acceleration_format, deceleration_format;  ///< in writes
-  std::array<std::vector<Write>, kCommands> commands;  ///< in sending order
-  double jog_refresh_s = 0;   ///< a jog must be commanded again at least this often
-  double jog_dead_man_s = 0;  ///< a jog ends this long after its last command; 0: watchdog only
+  /// Formats in writes.
+  Format position_format, speed_format, acceleration_format, deceleration_format;
+  std::array<std::vector<Write>, kCommands> commands;  ///< writes of each command, in sending order
+  double jog_refresh_s = 0;  ///< maximum interval between the commands of a jog
+  /// Time after its last command at which a jog ends; 0: only the watchdog ends it.
+  double jog_dead_man_s = 0;
 
   std::optional<Watchdog> watchdog;  ///< absent: the drive has none and must not be armed
 
@@ -159,8 +163,8 @@ struct DriveProfile {
 /// without a mark, and addresses beyond 65535.
 [[nodiscard]] Result<DriveProfile> read_drive_profile(const std::filesystem::path& path);
 
-/// Upper bound of the distance that the axis travels after the last message to the drive, if the
-/// link breaks at `speed_mm_per_s` (daemon notes 3.6): v t_watchdog + v^2 / 2a.
+/// Returns an upper bound of the distance that the axis travels after the last message to the
+/// drive, if the link breaks at `speed_mm_per_s` (daemon notes 3.6): v t_watchdog + v^2 / 2a.
 [[nodiscard]] double stopping_distance_mm(const DriveProfile& profile, double speed_mm_per_s,
                                           double watchdog_s);
 

@@ -7,10 +7,10 @@
 
 namespace hydroprint::drive {
 
-/// Whether a block contains the whole field.
+/// Returns whether a block contains the whole field.
 [[nodiscard]] bool holds(const Block& block, const Field& field);
 
-/// Decodes the polled blocks, in the profile's order, without the time.
+/// Decodes the polled blocks, in the order of the profile. Does not set the time.
 [[nodiscard]] DriveState decode_state(const DriveProfile& profile,
                                       const std::vector<std::vector<std::uint16_t>>& blocks);
 

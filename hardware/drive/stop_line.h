@@ -12,12 +12,12 @@ namespace hydroprint::drive {
 
 /// Stops a drive from any thread, even while another thread is blocked in Drive. Uses its own
 /// connection (TCP) or takes precedence over all other requests on the line (RTU). It never polls,
-/// so the drive's watchdog still detects a main thread that has hung.
+/// so the drive's watchdog still detects a main thread that hangs.
 class StopLine {
  public:
   explicit StopLine(const Drive& drive);
 
-  /// Connects in advance, so that stop() need not; harmless if already connected.
+  /// Connects in advance, so that stop() does not have to. Does nothing if already connected.
   [[nodiscard]] Status connect();
 
   /// Sends stop to the drive, reconnecting and repeating (which is harmless) until the drive

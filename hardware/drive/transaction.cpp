@@ -41,7 +41,7 @@ class Link::Line {
   [[nodiscard]] const LinkTiming& timing() const { return timing_; }
 
  private:
-  /// Exclusive use of the line while it exists.
+  /// Holds exclusive use of the line during its lifetime.
   class Turn {
    public:
     Turn(Line& line, Urgency urgency);

@@ -14,23 +14,22 @@ namespace hydroprint::drive {
 /// The timeouts of a link.
 struct LinkTiming {
   std::chrono::milliseconds connect{500};
-  /// for a reply, in addition to its time on a serial line
+  /// Timeout for a reply, in addition to its transmission time on a serial line.
   std::chrono::milliseconds response{150};
-  std::chrono::milliseconds worst_delay{500};  ///< after which a reply can no longer arrive
+  std::chrono::milliseconds worst_delay{500};  ///< after this time a reply can no longer arrive
 };
 
-/// The priority of a request when two threads want the line.
+/// The priority of a request when two threads use the line.
 enum class Urgency {
   kNormal,
   kStop,  ///< precedes all waiting kNormal requests and does not wait for silence
 };
 
 /// A Modbus connection, TCP or RTU, over libmodbus. Thread-safe; requests are sent one at a time.
-///
 /// Every call ends within `response` (plus the `response` of another thread on the line). On RTU, a
-/// failure adds at most `worst_delay`: the line then stays silent for that time and is emptied
-/// before the next request, so that a late reply is not taken for another one. On TCP a failure
-/// closes the connection. Nothing is ever sent twice, and only connect() connects.
+/// failure adds at most `worst_delay`: the line stays silent for that time, and its input is
+/// discarded before the next request, so that a late reply is not mistaken for another one. On TCP
+/// a failure closes the connection. Requests are never sent twice, and only connect() connects.
 class Link {
  public:
   Link(Endpoint endpoint, const LinkTiming& timing);
@@ -39,26 +38,25 @@ class Link {
   Link& operator=(const Link&) = delete;
 
   /// Reopens the connection; on RTU, locks the line for this process. Returns kUnavailable, reason
-  /// RIG_OFFLINE, with the things to check.
+  /// RIG_OFFLINE, with a list of things to check.
   [[nodiscard]] Status connect();
 
-  /// Closes the connection; does nothing if it is closed.
+  /// Closes the connection, if it is open.
   void close();
 
   [[nodiscard]] bool is_open() const;
 
-  /// Number of connections made so far. A different number means a different connection, perhaps to
-  /// another drive.
+  /// Returns the number of connections made so far. If the number has changed, it is a different
+  /// connection, perhaps to another drive.
   [[nodiscard]] std::uint64_t connections() const;
 
   /// Sends a request and returns its reply: the words read, empty for a write. Errors: those of
-  /// decode_reply, and kUnavailable, reason RIG_OFFLINE. The latter means no connection, an
-  /// unplugged line, or no reply in time (metadata `timeout` = "1": the command may have taken
-  /// effect).
+  /// decode_reply, and kUnavailable, reason RIG_OFFLINE: no connection, an unplugged line, or no
+  /// reply in time (metadata `timeout` = "1": the command may have taken effect).
   [[nodiscard]] Result<std::vector<std::uint16_t>> transact(const Request& request,
                                                             Urgency urgency = Urgency::kNormal);
 
-  /// Must be called if a well-formed reply has the wrong content; handled like a failure.
+  /// Must be called if a well-formed reply has the wrong content. Handled like a failure.
   void distrust();
 
   [[nodiscard]] const Endpoint& endpoint() const;
@@ -69,8 +67,8 @@ class Link {
   std::unique_ptr<Line> line_;
 };
 
-/// Returns the link for stopping while `link` is busy or stuck: another TCP connection; on RTU,
-/// which has only one line, the same link (with Urgency::kStop).
+/// Returns the link for stopping while `link` is busy or does not respond: another TCP connection;
+/// on RTU, which has only one line, the same link (with Urgency::kStop).
 [[nodiscard]] std::shared_ptr<Link> stop_link(const std::shared_ptr<Link>& link);
 
 }  // namespace hydroprint::drive

@@ -10,13 +10,13 @@
 namespace hydroprint::drive {
 
 /// Encodes a value in mm, mm/s, mm/s^2 or s. Returns kOutOfRange, reason LIMIT_EXCEEDED, if it does
-/// not fit, or if a value other than 0 would be rounded to 0.
+/// not fit, or if a nonzero value would be rounded to 0.
 [[nodiscard]] Result<std::vector<std::uint16_t>> encode(const Format& format, double value);
 
 /// Decodes `format.words` words; an inverse format returns infinity for raw 0.
 [[nodiscard]] double decode(const Format& format, std::span<const std::uint16_t> words);
 
-/// Number of words that `quantity` takes in this profile's writes.
+/// Returns the number of words of `quantity` in this profile's writes.
 [[nodiscard]] int words_of(const DriveProfile& profile, Quantity quantity);
 
 }  // namespace hydroprint::drive

@@ -12,7 +12,7 @@ struct Address {
   int port = 631;
   std::string resource = "/ipp/print";
   bool encrypted = false;
-  std::string uri;  ///< as given
+  std::string uri;  ///< the address as given
 };
 
 /// Parses "ipp://host[:port]/resource" or "ipps://..."; returns kInvalidArgument otherwise.

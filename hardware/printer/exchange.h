@@ -21,11 +21,12 @@ using Ipp = std::unique_ptr<ipp_t, IppDelete>;
 /// Time limits of one exchange.
 struct ExchangeTiming {
   std::chrono::milliseconds connect{5000};
-  std::chrono::milliseconds answer{15000};  ///< after the last byte sent; also for every write
-  std::chrono::milliseconds whole{60000};   ///< for the whole exchange, however slow the printer is
+  /// For a response after the last byte is sent; also for every write.
+  std::chrono::milliseconds answer{15000};
+  std::chrono::milliseconds whole{60000};  ///< for the whole exchange, however slow the printer is
 };
 
-/// Reasons of failed exchanges.
+/// Error reasons for failed exchanges.
 inline constexpr const char* kUnreachable = "PRINTER_UNREACHABLE";  ///< nothing was sent
 inline constexpr const char* kSilent = "PRINTER_SILENT";  ///< connected, but no response in time
 inline constexpr const char* kLost = "PRINTER_LOST";      ///< the connection broke
@@ -35,7 +36,7 @@ inline constexpr const char* kLeft = "PRINTER_LEFT";      ///< the caller cancel
 /// Sends one request, followed by a document, over a new connection and waits for the printer's
 /// reply, whatever its status. Ends in bounded time, except for host name lookup, which depends on
 /// the resolver. Returns kUnavailable (kLeft: kCancelled) with one of the reasons above.
-/// @param gives_up  called ten times a second while connected; true ends the exchange
+/// @param gives_up  called ten times a second while connected; the exchange ends if it returns true
 [[nodiscard]] Result<Ipp> exchange(const Address& address, const ExchangeTiming& timing,
                                    const std::function<bool()>& gives_up, ipp_t* request,
                                    std::span<const unsigned char> document = {});

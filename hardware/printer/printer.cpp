@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kUser = "hydroprint";
-constexpr double kUnitsPerMm = 100;  // of PWG media sizes
+constexpr double kUnitsPerMm = 100;  // units of PWG media sizes
 
 Ipp request_of(ipp_op_t operation, const Address& address) {
   Ipp out(ippNewRequest(operation));  // includes charset and language
@@ -118,7 +118,7 @@ tl::unexpected<Error> refused(const Address& address, const std::string& what, i
       fmt::format("printer {}: refuses {} ({}{}{}). ", address.uri, what, ippErrorString(status),
                   message.empty() ? "" : ": ", message);
   if (is_about_format(reply)) {
-    return fail(Code::kInvalidArgument, start + "Use one of the formats that it lists",
+    return fail(Code::kInvalidArgument, start + "Use a format that the printer supports",
                 "FORMAT_NOT_SUPPORTED");
   }
   if (status == IPP_STATUS_ERROR_NOT_FOUND) {

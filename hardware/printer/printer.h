@@ -15,12 +15,12 @@ namespace hydroprint::printer {
 /// Timeouts for a printer.
 struct Timing {
   std::chrono::milliseconds connect{5000};
-  std::chrono::milliseconds answer{15000};   ///< to one request
-  std::chrono::milliseconds upload{300000};  ///< a document with its response
+  std::chrono::milliseconds answer{15000};   ///< timeout for a response to one request
+  std::chrono::milliseconds upload{300000};  ///< timeout for sending a document and its response
   std::chrono::milliseconds poll{1000};      ///< interval between polls of a job
-  /// A printer that does not respond for this long during a job counts as lost.
+  /// If a printer does not respond for this long during a job, it counts as lost.
   std::chrono::milliseconds patience{20000};
-  std::chrono::milliseconds job{3600000};  ///< from sending to its end
+  std::chrono::milliseconds job{3600000};  ///< timeout from sending a job to its end
 };
 
 /// A paper size supported by the printer.
@@ -29,7 +29,7 @@ struct Paper {
   Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
 };
 
-/// The printer's description of itself.
+/// Attributes reported by the printer.
 struct Attributes {
   std::string name, make_and_model;
   std::string state;                       ///< "idle", "processing", "stopped"
@@ -49,7 +49,7 @@ struct PrintJob {
   Eigen::Vector2d paper_mm = {210, 297};  ///< as loaded in the tray
 };
 
-/// RFC 8011, section 5.3.7.
+/// States of a job; see RFC 8011, section 5.3.7.
 enum class JobState { kPending, kHeld, kProcessing, kStopped, kCanceled, kAborted, kCompleted };
 
 [[nodiscard]] const char* job_state_name(JobState state);
@@ -68,38 +68,39 @@ struct JobReport {
 /// The result of sending a job.
 struct Submitted {
   int id = 0;
-  /// Attributes that the printer ignores. With "print-scaling" among them, the print may not be at
-  /// exact scale.
+  /// Attributes that the printer ignores. If "print-scaling" is one of them, the print may not be
+  /// at exact scale.
   std::vector<std::string> ignored;
 };
 
-/// A printer that speaks IPP (RFC 8010, RFC 8011); every call opens its own connection. Immutable
+/// A printer that supports IPP (RFC 8010, RFC 8011); every call opens its own connection. Immutable
 /// and thread-safe. All calls end in bounded time (Timing) and return kUnavailable, reason
-/// PRINTER_UNREACHABLE, PRINTER_SILENT, PRINTER_LOST or PRINTER_NOT_IPP. If the printer refuses a
-/// request, the error has reason PRINTER_REFUSED and the printer's own keyword.
+/// PRINTER_UNREACHABLE, PRINTER_SILENT, PRINTER_LOST or PRINTER_NOT_IPP. If the printer rejects a
+/// request, the error has reason PRINTER_REFUSED and contains the printer's own keyword.
 class Printer {
  public:
-  /// @param gives_up  called repeatedly, from any thread. If it returns true, every call ends soon
-  ///                  with kCancelled, reason PRINTER_LEFT (within Timing::connect while there is
-  ///                  no connection yet)
+  /// @param gives_up  called repeatedly, from any thread. Once it returns true, every call ends
+  ///                  soon with kCancelled, reason PRINTER_LEFT (within Timing::connect while there
+  ///                  is no connection yet)
   explicit Printer(Address address, const Timing& timing = {}, std::function<bool()> gives_up = {});
 
   [[nodiscard]] Result<Attributes> attributes() const;
 
-  /// Sends a document as a new job, on the given paper and unscaled. Never sends twice: if the
+  /// Sends a document as a new job, on the given paper and unscaled. Never sends it twice: if the
   /// response is lost, the printer may have accepted the job, and the message says so. Also returns
   /// kInvalidArgument, reason FORMAT_NOT_SUPPORTED, and kFailedPrecondition, reason
   /// PRINTER_REFUSED.
   [[nodiscard]] Result<Submitted> print(const PrintJob& job) const;
 
-  /// Returns the state of a job; kNotFound if the printer does not (or no longer) know it.
+  /// Returns the state of a job; kNotFound if the printer does not know it (any longer).
   [[nodiscard]] Result<JobReport> job(int id) const;
 
   /// Cancels a job; kFailedPrecondition if it has already ended.
   [[nodiscard]] Status cancel(int id) const;
 
   /// Waits until a job is finished and reports every change.
-  /// @param is_cancelled  called at every poll; true cancels the job, which is still followed
+  /// @param is_cancelled  called at every poll. If it returns true, the job is cancelled and still
+  ///                      followed
   /// @return the report if the job completed. Otherwise kAborted, reason PRINT_ABORTED or
   ///         PRINT_CANCELED, with the printer's reasons; kUnavailable, reason PRINTER_LOST, if the
   ///         printer does not respond; kUnavailable, reason PRINT_UNFINISHED, after Timing::job.

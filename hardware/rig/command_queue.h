@@ -14,12 +14,12 @@ namespace hydroprint::rig {
 /// The result of a command: the number of the motion that it started, or 0.
 using Answer = Result<std::uint64_t>;
 
-/// A command on its way to the control loop.
+/// A command for the control loop.
 struct Order {
   Event::Kind kind = Event::Kind::kArm;
   Plan plan = {};
   TimePoint given = {};
-  std::uint64_t stops = 0;  ///< number of stops requested before it
+  std::uint64_t stops = 0;  ///< number of stops requested before this command
   std::promise<Answer> answer = {};
 };
 
@@ -34,7 +34,8 @@ class CommandQueue {
     orders_.push_back(std::move(order));
     return true;
   }
-  /// Takes all waiting orders. Returns none if a caller is adding one, which is taken next time.
+  /// Takes all waiting orders. Returns none while a caller is adding one; that one is taken next
+  /// time.
   [[nodiscard]] std::deque<Order> take() {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     return lock ? std::exchange(orders_, {}) : std::deque<Order>();

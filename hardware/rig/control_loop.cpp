@@ -112,7 +112,7 @@ void ControlLoop::look() {
     seen.event->bits = settled(seen.event->bits);
     if (seen.event->kind == Kind::kSeen) {
       stop_channel_.prepare();
-      stopping_since_ = Clock::now();  // if STOPPING: the drive can obey from now on
+      stopping_since_ = Clock::now();  // if STOPPING: the drive can now obey again
     }
   }
   if (seen.event) apply(*seen.event);
@@ -325,7 +325,7 @@ void ControlLoop::publish() {
   now.connects = link_monitor_.connects();
   now.jitter = jitter_;
   shared_.status.snapshot.store(now);
-  (void)shared_.status.put(link_monitor_.trouble());  // if the lock is taken, at the next tick
+  (void)shared_.status.put(link_monitor_.trouble());  // if locked, retried at the next tick
   stop_channel_.watch(in_motion(condition_.state), link_monitor_.clean());
   for (auto& [promise, answer] : answers_) promise.set_value(std::move(answer));
   answers_.clear();

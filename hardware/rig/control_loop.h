@@ -12,7 +12,8 @@
 
 namespace hydroprint::rig {
 
-/// State shared by the controller's callers and the control loop; neither waits for the other.
+/// State shared by the controller's callers and the control loop, neither of which waits for the
+/// other.
 struct SharedState {
   CommandQueue orders;
   RigStatus status;
@@ -28,7 +29,7 @@ class ControlLoop {
   ControlLoop(const RigConfig& config, drive::Drive& drive, StopChannel& stop_channel,
               SharedState& shared);
 
-  /// Runs until shared.end; then stops the axis, disables its torque and releases the drive.
+  /// Runs until shared.end is set; then stops the axis, disables its torque and releases the drive.
   void run();
 
  private:
@@ -41,7 +42,7 @@ class ControlLoop {
   void publish();
   void shut_down();
 
-  /// Feeds the state machine and executes its actions, except starting a motion.
+  /// Feeds the state machine and executes its actions, except for starting a motion.
   Step apply(const Event& event);
   void note_change(const Condition& before);
   [[nodiscard]] Status act(const Actions& actions);
@@ -68,11 +69,11 @@ class ControlLoop {
   Condition condition_;
   std::optional<drive::DriveState> axis_;
   std::optional<MotionSupervisor> supervisor_;
-  std::uint64_t stops_ = 0;  // number of stops processed, of shared_.stops
-  int still_ = 0;            // number of consecutive polls with the axis at rest, while STOPPING
+  std::uint64_t stops_ = 0;  // number of the stops in shared_.stops that have been processed
+  int still_ = 0;            // number of consecutive polls at standstill, while STOPPING
   TimePoint jogged_, stop_sent_, stopping_since_;
-  std::vector<Order> waiting_;  // for confirmation by the drive
-  /// Answers that are sent once the snapshot shows their effect.
+  std::vector<Order> waiting_;  // orders waiting for confirmation by the drive
+  /// Responses that are sent once the snapshot shows their effect.
   std::vector<std::pair<std::promise<Answer>, Answer>> answers_;
   TimePoint pending_since_;
   Jitter jitter_;

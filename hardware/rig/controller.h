@@ -13,17 +13,16 @@
 namespace hydroprint::rig {
 
 /// One rig. Its control loop polls the drive at a fixed period, whether or not the drive responds.
-/// It never waits for a caller, a log or a disk, detects a lost drive and reconnects by itself.
-///
+/// It never waits for a caller, a log or a disk, detects a lost drive, and reconnects
+/// automatically.
 /// Thread-safe. Orders are executed one after the other. The future of an order is set when the
-/// drive has accepted it (arm and reset: when the drive shows it), or when it is refused. Reasons
-/// are those of errors.h, LIMIT_EXCEEDED and QUEUE_FULL, and kAborted if the order was late or
-/// followed by a stop. motion() reports the further course of a motion. An order never returns
+/// drive has accepted it (arm and reset: when the drive reports it), or when the order is refused.
+/// Reasons are those of errors.h, LIMIT_EXCEEDED and QUEUE_FULL, and kAborted if the order was late
+/// or followed by a stop. motion() reports the further course of a motion. An order never returns
 /// kUnavailable.
 class Controller {
  public:
-  /// Starts the controller; the drive need not be present. Returns the errors of check(config,
-  /// profile).
+  /// Starts the controller, even without the drive. Returns the errors of check(config, profile).
   [[nodiscard]] static Result<std::unique_ptr<Controller>> make(const RigConfig& config,
                                                                 drive::DriveProfile profile,
                                                                 drive::Endpoint endpoint);
@@ -42,17 +41,17 @@ class Controller {
   /// Moves at a speed of either sign as long as this is called again at least every kPresence_s.
   /// The axis stops within 500 ms of the last call, or before the soft limit.
   std::future<Answer> jog(double speed_mm_per_s);
-  /// Performs each leg and its hold; needs no client.
+  /// Performs each leg and its hold. Does not depend on the client.
   std::future<Answer> dip(std::vector<Leg> legs);
 
   /// Stops any motion. Returns immediately in every situation, is never refused and may be
-  /// repeated. Orders that were given before it and have not started are refused.
+  /// repeated. Earlier orders that have not started are refused.
   void stop() noexcept;
 
   [[nodiscard]] Snapshot snapshot() const;
-  /// Why the drive does not respond, or must not be armed.
+  /// Returns why the drive does not respond, or must not be armed.
   [[nodiscard]] std::optional<Error> trouble() const;
-  /// Report of a motion; nullopt if the number does not exist or is too old.
+  /// Returns the report of a motion; nullopt if the number does not exist or is too old.
   [[nodiscard]] std::optional<MotionReport> motion(std::uint64_t number) const;
   /// Returns samples by number, oldest first; old ones may have been overwritten
   /// (SampleRing::kSize).

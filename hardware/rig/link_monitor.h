@@ -18,21 +18,22 @@ class LinkMonitor {
   explicit LinkMonitor(drive::Drive& drive) : drive_(drive) {}
 
   struct Look {
-    std::optional<Event> event;  ///< kSeen, kSample or kLost; nullopt: missed, or not tried
+    /// KSeen, kSample or kLost; nullopt: the poll failed, or none was due.
+    std::optional<Event> event;
     std::optional<drive::DriveState> axis;
   };
-  /// Polls once, with a bounded number of requests.
+  /// Polls the drive once, with a bounded number of requests.
   [[nodiscard]] Look look();
-  /// Called from outside to declare the link lost.
+  /// Declares the link lost.
   void lose();
   /// Sends nothing to the drive for this long, so that its watchdog acts.
   void keep_silent(double silence_s);
 
-  /// Whether the drive responds, as far as known.
+  /// Returns whether the drive responds, as far as known.
   [[nodiscard]] bool is_up() const { return up_; }
-  /// Time of the last valid poll.
+  /// Returns the time of the last valid poll.
   [[nodiscard]] TimePoint clean() const { return clean_; }
-  /// Why the drive does not respond, or must not be armed.
+  /// Returns why the drive does not respond, or must not be armed.
   [[nodiscard]] const std::optional<Error>& trouble() const { return trouble_; }
   [[nodiscard]] double watchdog_s() const { return watchdog_s_; }
   [[nodiscard]] std::uint64_t missed() const { return missed_; }
@@ -44,18 +45,18 @@ class LinkMonitor {
 
   drive::Drive& drive_;
   bool up_ = false;
-  bool inspect_ = true;  ///< connect before the next poll, whatever the link reports
+  bool inspect_ = true;  ///< connect before the next poll, even if the link is connected
   bool fresh_ = true;    ///< no poll since the last inspection
   bool safe_ = false;
   double watchdog_s_ = 0;
-  int misses_ = 0;  ///< consecutive
+  int misses_ = 0;  ///< number of consecutive missed polls
   TimePoint clean_, next_try_;
   std::chrono::milliseconds pause_{0};
   std::optional<Error> trouble_;
   std::uint64_t missed_ = 0, connects_ = 0;
 };
 
-/// The part of a drive's state that the state machine needs.
+/// Returns the part of a drive's state that the state machine needs.
 [[nodiscard]] Bits bits_of(const drive::DriveState& axis);
 
 }  // namespace hydroprint::rig

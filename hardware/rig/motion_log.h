@@ -10,16 +10,17 @@ class MotionLog {
   /// @param status  must outlive this object
   explicit MotionLog(RigStatus& status) : status_(status) {}
 
-  /// Records the start of a motion; @return its number.
+  /// Records the start of a motion and returns its number.
   std::uint64_t begin(Motion motion, TimePoint now, double position_mm);
   /// Records the end of the motion, perhaps before standstill.
   void end(MotionReport::Outcome outcome, Cause cause, int alarm_code);
   /// Records a sample of the axis.
   void see(const Sample& sample, bool at_rest);
 
-  /// Number of the latest motion; 0: none yet.
+  /// Returns the number of the latest motion; 0: none yet.
   [[nodiscard]] std::uint64_t latest() const { return report_.number; }
-  /// Number of the motion that new samples belong to, until standstill; 0: none.
+  /// Returns the number of the motion to which new samples belong; 0 once the axis is at
+  /// standstill.
   [[nodiscard]] std::uint64_t current() const { return open_ ? report_.number : 0; }
 
  private:

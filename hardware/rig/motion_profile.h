@@ -2,21 +2,21 @@
 
 namespace hydroprint::rig {
 
-/// A move from rest to rest as the drive performs it: acceleration, constant speed, and
+/// A move from rest to rest, as performed by the drive: acceleration, constant speed, and
 /// deceleration at the same rate. A short move never reaches its speed.
 class Travel {
  public:
   /// @param speed_mm_per_s, acceleration_mm_per_s2  more than 0
   Travel(double from_mm, double to_mm, double speed_mm_per_s, double acceleration_mm_per_s2);
 
-  /// Position `t_s` after the start; clamped to the ends.
+  /// Returns the position `t_s` after the start; clamped to the ends.
   [[nodiscard]] double position_mm(double t_s) const;
   [[nodiscard]] double duration_s() const { return 2 * ramp_s_ + cruise_s_; }
-  /// Start and end of the constant speed; equal if the move is too short.
+  /// Returns the start and the end of the constant speed; equal if the move is too short.
   [[nodiscard]] double cruise_begin_s() const { return ramp_s_; }
   [[nodiscard]] double cruise_end_s() const { return ramp_s_ + cruise_s_; }
   [[nodiscard]] double to_mm() const { return to_mm_; }
-  /// The highest speed reached.
+  /// Returns the highest speed reached.
   [[nodiscard]] double speed_mm_per_s() const { return acceleration_mm_per_s2_ * ramp_s_; }
 
  private:

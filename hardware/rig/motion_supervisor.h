@@ -21,34 +21,35 @@ struct Leg {
 /// The parameters of a motion.
 struct Plan {
   Motion motion = Motion::kNone;
-  std::vector<Leg> legs = {};  ///< of a move (one) and a dip
-  double jog_mm_per_s = 0;     ///< of a jog; the sign is the direction
+  std::vector<Leg> legs = {};  ///< one for a move, or those of a dip
+  double jog_mm_per_s = 0;     ///< speed of a jog; the sign is the direction
 };
 
-/// Refuses a plan that leaves the soft limits or is too fast (check_target, check_speed), a move
-/// without its leg, a dip without legs, and an invalid hold time.
+/// Returns an error for a plan that leaves the soft limits or is too fast (check_target,
+/// check_speed), a move without a leg, a dip without legs, and an invalid hold time.
 [[nodiscard]] Status check(const RigConfig& config, const Plan& plan);
 
 /// One motion in progress: processes samples of the drive and returns the next action. Has no
 /// access to the drive.
 class MotionSupervisor {
  public:
-  /// @param plan  checked
+  /// @param plan  has passed check()
   MotionSupervisor(const RigConfig& config, const drive::DriveProfile& profile, Plan plan,
                    TimePoint start, double position_mm);
 
   struct Advice {
-    std::optional<Event::Kind> event;  ///< for the state machine
-    std::optional<Leg> next;           ///< send this move now, then call begin_leg()
+    std::optional<Event::Kind> event;  ///< event for the state machine
+    std::optional<Leg> next;           ///< if set, send this move now, then call begin_leg()
   };
   /// Processes a valid sample of the drive.
   [[nodiscard]] Advice look(const drive::DriveState& drive);
-  /// Records when the leg's move was sent.
+  /// Records the time at which the leg's move was sent.
   void begin_leg(TimePoint now);
-  /// Records that the jog was held at this time, with its speed.
+  /// Records that the jog was requested again at this time, with its speed.
   void hold_jog(TimePoint now, double speed_mm_per_s);
 
-  /// Fills in a sample's fields that depend on the motion: leg, expected position, constant speed.
+  /// Fills in the fields of a sample that depend on the motion: leg, expected position, constant
+  /// speed.
   void note(Sample& sample) const;
 
   [[nodiscard]] const Plan& plan() const { return plan_; }
@@ -64,11 +65,11 @@ class MotionSupervisor {
   Plan plan_;
   TimePoint start_;
   double start_mm_;
-  bool seen_moving_ = false;  // of homing
-  TimePoint held_;            // of a jog
+  bool seen_moving_ = false;  // for homing: the axis has been seen moving
+  TimePoint held_;            // for a jog: time of the last request
   std::size_t leg_ = 0;
   double from_mm_;
-  std::optional<Travel> travel_;  // of a leg that began
+  std::optional<Travel> travel_;  // for a leg that has begun
   TimePoint leg_start_;
   std::optional<TimePoint> arrived_;
 };

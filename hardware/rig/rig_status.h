@@ -17,44 +17,44 @@ struct MotionReport {
   enum class Outcome : std::uint8_t {
     kRunning,
     kDone,
-    kStopped,  ///< on request, or because the jog was released
-    kFailed,   ///< for `cause`
+    kStopped,  ///< on request, or because the jog was not requested again
+    kFailed,   ///< failed; `cause` is the reason
   };
   std::uint64_t number = 0;
   Motion motion = Motion::kNone;
   Outcome outcome = Outcome::kRunning;
   Cause cause = Cause::kNone;
-  std::int32_t alarm_code = 0;  ///< the drive's, if the motion failed; 0: none
-  bool at_rest = false;         ///< standstill was seen since the end
+  std::int32_t alarm_code = 0;  ///< alarm of the drive, if the motion failed; 0: none
+  bool at_rest = false;         ///< standstill was observed after the end
   double begin_mm = 0;
-  double end_mm = 0;  ///< last position seen
+  double end_mm = 0;  ///< last observed position
   TimePoint begun, ended;
   TimePoint rested;                ///< time of standstill
-  std::uint64_t first_sample = 0;  ///< numbers in the SampleRing, of the samples of the motion
-  std::uint64_t last_sample = 0;   ///< and of its way to standstill
+  std::uint64_t first_sample = 0;  ///< number, in the SampleRing, of the first sample of the motion
+  std::uint64_t last_sample = 0;   ///< number of the last sample before standstill
 };
 
-/// How regularly the control loop polls the drive.
+/// Timing statistics of the control loop's polls.
 struct Jitter {
   std::uint64_t ticks = 0;
-  std::uint64_t skipped = 0;  ///< periods skipped because the one before took longer
+  std::uint64_t skipped = 0;  ///< periods skipped because the previous one took longer
   double largest_s = 0;       ///< largest delay of a poll
   double rms_s = 0;           ///< rms delay of the polls
 };
 
-/// The complete state of the rig at one moment.
+/// The complete state of the rig at one point in time.
 struct Snapshot {
   Condition condition;
-  TimePoint time;         ///< of the last valid poll
-  bool has_axis = false;  ///< the fields below are valid since the drive last connected
+  TimePoint time;         ///< time of the last valid poll
+  bool has_axis = false;  ///< the fields below are valid, since the drive last connected
   Bits bits;
   double position_mm = 0;
   double velocity_mm_per_s = 0;
   std::int32_t alarm_code = 0;                   ///< text in DriveProfile::alarms
-  double watchdog_s = 0;                         ///< the drive's, as read back
+  double watchdog_s = 0;                         ///< watchdog time of the drive, as read back
   std::uint64_t motion = 0;                      ///< number of the latest motion; 0: none yet
   std::uint64_t missed_polls = 0, connects = 0;  ///< since the start
-  Jitter jitter;                                 ///< `ticks` shows that the control loop is alive
+  Jitter jitter;  ///< Jitter::ticks shows that the control loop is alive
 };
 
 /// Data that the control loop publishes without waiting and other threads copy.
@@ -67,20 +67,20 @@ class RigStatus {
 
   /// For the control loop.
   void put(const MotionReport& report) { motions_[report.number % kMotions].store(report); }
-  /// Returns the report of a motion; nullopt if it does not exist yet, or has been overwritten.
+  /// Returns the report of a motion; nullopt if it does not exist yet or has been overwritten.
   [[nodiscard]] std::optional<MotionReport> motion(std::uint64_t number) const {
     const MotionReport report = motions_[number % kMotions].load();
     if (number == 0 || report.number != number) return std::nullopt;
     return report;
   }
 
-  /// For the control loop. Returns false if another thread is reading; then call it again later.
+  /// For the control loop. Returns false while another thread is reading; then call it again later.
   [[nodiscard]] bool put(const std::optional<Error>& trouble) {
     const std::unique_lock lock(mutex_, std::try_to_lock);
     if (lock) trouble_ = trouble;
     return lock.owns_lock();
   }
-  /// Why the drive does not respond, or must not be armed; nullopt: no fault.
+  /// Returns why the drive does not respond, or must not be armed; nullopt: no fault.
   [[nodiscard]] std::optional<Error> trouble() const {
     const std::lock_guard lock(mutex_);
     return trouble_;

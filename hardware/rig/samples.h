@@ -19,7 +19,7 @@ struct Sample {
   TimePoint time;            ///< time of the position
   double time_error_s = 0;   ///< uncertainty of `time`
   double position_mm = 0;
-  double velocity_mm_per_s = 0;  ///< as the drive reports
+  double velocity_mm_per_s = 0;  ///< as reported by the drive
   double expected_mm = 0;        ///< expected position; NaN if unknown
   std::uint64_t motion = 0;      ///< the motion in progress; 0: none
   std::int32_t leg = -1;         ///< leg of the motion, from 0; -1: none
@@ -27,18 +27,19 @@ struct Sample {
   bool cruising = false;  ///< the leg's speed should be constant now
 };
 
-/// A ring of the latest samples: one thread adds without waiting, any thread copies.
+/// A ring buffer of the latest samples: one thread adds samples without waiting, other threads copy
+/// them.
 class SampleRing {
  public:
   static constexpr std::size_t kSize = std::size_t{1} << 16;  // 21 minutes at 50 Hz
 
   SampleRing();
-  /// Assigns a number to a sample and stores it. For one thread only.
+  /// Assigns a number to a sample and stores it. Only one thread may call this.
   /// @return its number
   std::uint64_t add(Sample sample);
-  /// Number of the newest sample; 0: none.
+  /// Returns the number of the newest sample; 0: none.
   [[nodiscard]] std::uint64_t newest() const { return newest_.load(std::memory_order_acquire); }
-  /// Copies the samples `first` to `last` that still exist, oldest first.
+  /// Returns a copy of the samples `first` to `last` that still exist, oldest first.
   [[nodiscard]] std::vector<Sample> copy(std::uint64_t first, std::uint64_t last) const;
 
  private:
@@ -46,21 +47,21 @@ class SampleRing {
   std::atomic<std::uint64_t> newest_{0};
 };
 
-/// How constant a speed was. A deviation counts only as far as the samples' time errors cannot
-/// explain it: the axis was off by at least that much.
+/// How constant a speed was. Deviations that the time errors of the samples can explain are not
+/// counted, so the values are lower bounds.
 struct ConstantSpeed {
   int samples = 0;
   double speed_mm_per_s = 0;  ///< slope of the line through the positions (least squares)
   double largest_way_mm = 0;  ///< largest distance of a position from that line
-  double largest_share = 0;   ///< largest |v / v_line - 1| between samples a window apart
-  /// distance in the largest time error; deviations below it are hidden
+  double largest_share = 0;   ///< largest |v / v_line - 1|, with v averaged over `window_s`
+  /// Distance travelled in the largest time error; smaller deviations cannot be detected.
   double way_uncertainty_mm = 0;
   double window_s = 0;
 };
 
-/// Evaluates the samples of one leg that should have its constant speed; zero with fewer than
-/// three. Speeds are averaged over at least `window_s`, so that they show the motion and not the
-/// encoder's steps.
+/// Evaluates the samples of one leg that should have its constant speed; returns zeros for fewer
+/// than three. Speeds are averaged over at least `window_s`, so that they show the motion and not
+/// the resolution of the encoder.
 [[nodiscard]] ConstantSpeed constant_speed(std::span<const Sample> samples, std::uint64_t motion,
                                            int leg, double window_s = 0.2);
 

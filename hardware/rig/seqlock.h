@@ -10,16 +10,15 @@ namespace hydroprint::rig {
 
 /// A value that one thread writes without waiting and any thread reads consistently: a reader that
 /// overlaps with a write repeats the read.
-///
-/// Every access is atomic, with release and acquire ordering and no fences. A reader that gets a
-/// word of a later value thereby also acquires the odd turn stored before it. Its second read of
-/// the turn then differs from the first, which had acquired all words of its own value.
+/// All accesses are atomic, with release and acquire ordering and no fences. A reader that sees a
+/// word of a newer value has thereby acquired the odd turn that was stored before that word. Its
+/// second read of the turn then differs from the first, so it repeats the read.
 template <class T>
 class Seqlock {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  /// For one thread only.
+  /// Only one thread may call this.
   void store(const T& value) {
     std::array<std::uint64_t, kWords> words{};
     std::memcpy(words.data(), &value, sizeof value);

@@ -9,13 +9,13 @@ namespace hydroprint::rig {
 /// The state of the rig; README.md draws the transitions.
 enum class State : std::uint8_t {
   kOffline,   ///< the drive does not respond: nothing is known
-  kDisarmed,  ///< the drive answers and holds no torque
+  kDisarmed,  ///< the drive responds and holds no torque
   kUnhomed,   ///< armed, but the position is unknown: only homing is allowed
   kIdle,      ///< armed, homed, at rest
   kMoving,    ///< homing, a move or a jog
   kDipping,
-  kStopping,  ///< stop sent, standstill not seen yet
-  kFault,     ///< at rest after a fault: must be reset
+  kStopping,  ///< stop sent, standstill not yet observed
+  kFault,     ///< at rest after a fault: a reset is required
   kEstopped,  ///< the stop button was pressed: release it, reset, arm and home
 };
 
@@ -24,7 +24,7 @@ enum class Motion : std::uint8_t { kNone, kHome, kMove, kJog, kDip };
 /// The fault that requires a reset.
 enum class Cause : std::uint8_t {
   kNone,
-  kLinkLost,          ///< while armed
+  kLinkLost,          ///< link lost while armed
   kAlarm,             ///< raised by the drive
   kDropped,           ///< the drive lost torque or home position: it was restarted
   kLimit,             ///< limit switch
@@ -38,21 +38,22 @@ enum class Cause : std::uint8_t {
 /// The state of the link to the drive.
 enum class Link : std::uint8_t {
   kNone,    ///< no response
-  kUnsafe,  ///< responds, but is the wrong drive, or its watchdog would not stop it
+  kUnsafe,  ///< responds, but is the wrong drive, or its watchdog would not stop the axis
   kSafe,
 };
 
 /// A request to the drive that it has not confirmed yet.
 enum class Pending : std::uint8_t { kNone, kArm, kReset };
 
-/// The complete input to decisions about the next action.
+/// The complete state on which decisions about the next action are based.
 struct Condition {
   State state = State::kOffline;
-  Motion motion = Motion::kNone;  ///< in progress
-  Cause cause = Cause::kNone;     ///< kept until a reset, through STOPPING and OFFLINE
+  Motion motion = Motion::kNone;  ///< the motion in progress
+  Cause cause = Cause::kNone;     ///< kept until a reset, also in STOPPING and OFFLINE
   Link link = Link::kNone;
   Pending pending = Pending::kNone;
-  bool homed = false;   ///< determined by this state machine; the drive may claim more
+  /// Determined by this state machine; the drive's own claim is not sufficient.
+  bool homed = false;
   bool button = false;  ///< pressed at the last poll
 
   bool operator==(const Condition&) const = default;
@@ -61,39 +62,39 @@ struct Condition {
 /// The result of a valid poll.
 struct Bits {
   bool moving = false;
-  bool enabled = false;  ///< holds torque
-  bool homed = false;    ///< claims a known position
+  bool enabled = false;  ///< the drive holds torque
+  bool homed = false;    ///< the drive reports that its position is known
   bool alarm = false;
   bool button = false;  ///< stop input active
-  bool limit = false;   ///< on either limit switch
+  bool limit = false;   ///< either limit switch is active
 
   bool operator==(const Bits&) const = default;
 };
 
 struct Event {
   enum class Kind : std::uint8_t {
-    kSeen,    ///< first valid poll after connecting; `safe`: identity and watchdog are good
+    kSeen,    ///< first valid poll after connecting; `safe`: identity and watchdog are correct
     kSample,  ///< any later poll
     kLost,    ///< three polls missed, 250 ms without a valid poll, or no connection
-    kStandstillAssumed,  ///< lost for longer than the drive's watchdog needs
+    kStandstillAssumed,  ///< lost for longer than the time in which the watchdog stops the axis
     kMotionDone,         ///< the drive is at rest at the motion's target
     kJogOver,            ///< the jog was released, or has reached its limit
     kOutsideLimits,
     kFollowingError,
-    kTimedOut,  ///< a pending confirmation takes too long
-    // Commands; only these can be refused.
+    kTimedOut,  ///< a pending confirmation took too long
+    // Commands follow. Only commands can be refused.
     kStop,  ///< never refused
     kArm,
     kDisarm,
     kHome,
     kMove,
-    kJog,  ///< again while jogging: another speed
+    kJog,  ///< repeated while jogging: new speed
     kDip,
     kReset,
   };
   Kind kind = Kind::kSample;
-  Bits bits = {};     ///< of kSeen and kSample
-  bool safe = false;  ///< of kSeen
+  Bits bits = {};     ///< result of the poll, for kSeen and kSample
+  bool safe = false;  ///< only for kSeen
 };
 
 /// Actions for the control loop, in this order.
@@ -102,7 +103,7 @@ struct Actions {
   bool disable = false;
   bool clear_alarm = false;
   bool enable = false;
-  bool start = false;  ///< the motion of the command
+  bool start = false;  ///< starts the motion of the command
 
   bool operator==(const Actions&) const = default;
 };
@@ -131,9 +132,9 @@ struct Step {
 ///   left while the axis moves.
 [[nodiscard]] Step step(const Condition& condition, const Event& event);
 
-/// Whether torque is or may be on.
+/// Returns whether torque is or may be on.
 [[nodiscard]] bool is_armed(State state);
-/// Whether a commanded motion is in progress.
+/// Returns whether a commanded motion is in progress.
 [[nodiscard]] bool in_motion(State state);
 
 }  // namespace hydroprint::rig

@@ -6,7 +6,7 @@
 
 namespace hydroprint::rig {
 
-/// Stable names: "OFFLINE", "RIG_NOT_HOMED", "LINK_LOST", "HOME".
+/// Return stable names: "OFFLINE", "RIG_NOT_HOMED", "LINK_LOST", "HOME".
 [[nodiscard]] std::string_view name(State state);
 [[nodiscard]] std::string_view name(Motion motion);
 [[nodiscard]] std::string_view name(Cause cause);

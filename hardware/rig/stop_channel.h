@@ -14,8 +14,8 @@ namespace hydroprint::rig {
 /// motion, has had no valid poll for kStale_s.
 class StopChannel {
  public:
-  /// How long an unconfirmed stop is repeated. It must not be longer: the drive hears each attempt,
-  /// and its watchdog acts only on silence.
+  /// Time for which an unconfirmed stop is repeated. It must not be longer, because every attempt
+  /// feeds the drive's watchdog, which acts only on silence.
   static constexpr std::chrono::milliseconds kPatience{150};
 
   explicit StopChannel(const drive::Drive& drive);
@@ -25,15 +25,16 @@ class StopChannel {
 
   /// Stops the drive. Thread-safe; returns immediately in every situation.
   void stop() noexcept;
-  /// Whether a stop is still on its way to the drive; it would also stop a motion that is started
-  /// now.
+  /// Returns whether a stop is still being sent to the drive. It would also stop a motion that is
+  /// started now.
   [[nodiscard]] bool is_busy() const noexcept { return stop_ || stopping_; }
   /// Connects in advance. Returns immediately.
   void prepare() noexcept;
 
-  /// For the control loop: whether a motion is in progress, and the time of the last valid poll.
+  /// For the control loop: sets whether a motion is in progress, and the time of the last valid
+  /// poll.
   void watch(bool in_motion, TimePoint clean) noexcept;
-  /// Returns true once after it has stopped the drive because the control loop was late.
+  /// Returns true once after the channel has stopped the drive because the control loop was late.
   [[nodiscard]] bool take_trip() noexcept { return tripped_.exchange(false); }
 
  private:

@@ -20,13 +20,13 @@ struct Violation {
   bool operator==(const Violation&) const = default;
 };
 
-/// Checks of notations by their names (FieldRules.format). Each returns the problem with a text, or
-/// an empty string. A notation without a check is not checked.
+/// Checks of text formats, by the name of the format (FieldRules.format). Each returns the problem
+/// with a text, or an empty string. Formats that are not listed are not checked.
 using FormatChecks = std::map<std::string, std::function<std::string(const std::string& text)>>;
 
-/// Checks a message and the messages in it. Read-only fields are ignored.
+/// Checks a message and its nested messages. Read-only fields are ignored.
 /// @param path  path of the message itself, for Violation::field; empty: the root
-/// @return all violations, in the order of the fields' declarations; one for each field
+/// @return all violations, at most one for each field, in declaration order
 [[nodiscard]] std::vector<Violation> check(const google::protobuf::Message& message,
                                            const FormatChecks& formats = {},
                                            const std::string& path = {});

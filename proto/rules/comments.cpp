@@ -26,9 +26,9 @@ std::string text_of(const std::string& leading) {
   return text;
 }
 
-// The full name of the element at a path in a FileDescriptorProto, which alternates field numbers
-// and list indices (google.protobuf.SourceCodeInfo.Location.path). Empty if the element has no
-// name.
+// Returns the full name of the element at a path in a FileDescriptorProto. The path alternates
+// field numbers and list indices (google.protobuf.SourceCodeInfo.Location.path). Empty if the
+// element has no name.
 std::string name_at(const pb::FileDescriptorProto& file,
                     const pb::RepeatedField<std::int32_t>& path) {
   std::string name = file.package();

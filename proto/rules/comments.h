@@ -4,12 +4,12 @@
 
 namespace hydroprint::rules {
 
-/// The comment in front of an element in the .proto file, by full name: "hydroprint.v1.Job.state",
-/// "hydroprint.v1.JobService.GetJob", or "hydroprint.v1.Job.State.QUEUED" for an enum value. Empty
-/// if there is no comment.
+/// Returns the comment in front of an element in the .proto file, by full name:
+/// "hydroprint.v1.Job.state", "hydroprint.v1.JobService.GetJob", or
+/// "hydroprint.v1.Job.State.QUEUED" for an enum value. Empty if there is no comment.
 [[nodiscard]] std::string comment_on(const std::string& full_name);
 
-/// The first sentence of a comment, on one line.
+/// Returns the first sentence of a comment, on one line.
 [[nodiscard]] std::string first_sentence(const std::string& comment);
 
 /// The default that a comment states in a sentence "Default: ...", on one line without quotation of

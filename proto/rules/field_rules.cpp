@@ -16,7 +16,7 @@ namespace {
 
 namespace pb = google::protobuf;
 
-// The shortest decimal notation without an exponent.
+// Returns the shortest decimal notation without an exponent.
 std::string number_text(double value) {
   std::array<char, 400> buffer{};
   const auto end =
@@ -24,7 +24,7 @@ std::string number_text(double value) {
   return {buffer.data(), end.ptr};
 }
 
-// A duration in the largest unit that divides it: "8 hours".
+// Returns a duration in the largest unit that divides it: "8 hours".
 std::string duration_text(double seconds) {
   struct Unit {
     double seconds;

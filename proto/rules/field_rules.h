@@ -11,27 +11,27 @@ namespace hydroprint::v1 {
 class FieldRules;
 }
 
-/// The rules that the .proto files declare with their fields (hydroprint/v1/field_rules.proto).
+/// The rules that the .proto files declare for their fields (hydroprint/v1/field_rules.proto).
 namespace hydroprint::rules {
 
-/// The rules of a field; null if it has none.
+/// Returns the rules of a field; null if it has none.
 [[nodiscard]] const v1::FieldRules* rules_of(const google::protobuf::FieldDescriptor& field);
 
-/// Whether a finite value lies in the range of the rules; true if they declare none.
+/// Returns whether a finite value lies in the range of the rules; true if they declare none.
 [[nodiscard]] bool is_in_range(const v1::FieldRules& rules, double value);
 
-/// "from 20 to 2400 dots per inch", "above 0 and at most 4"; empty if there is no range.
+/// Returns "from 20 to 2400 dots per inch", "above 0 and at most 4"; empty if there is no range.
 [[nodiscard]] std::string range_text(const google::protobuf::FieldDescriptor& field);
 
-/// The allowed values of a text or enum, as people write them: "sheet", "stokes". Empty if they are
-/// not restricted.
+/// Returns the allowed values of a text or enum in the notation for users: "sheet", "stokes". Empty
+/// if they are not restricted.
 [[nodiscard]] std::vector<std::string> choices(const google::protobuf::FieldDescriptor& field);
 
-/// The default, as people write it: "300", "sheet"; empty if none is declared.
+/// Returns the default in the notation for users: "300", "sheet"; empty if none is declared.
 [[nodiscard]] std::string default_text(const google::protobuf::FieldDescriptor& field);
 
-/// Range, choices and default for help texts: "from 20 to 2400 dots per inch; default 300". Empty
-/// if the field has none of them.
+/// Returns range, choices and default for help texts: "from 20 to 2400 dots per inch; default 300".
+/// Empty if the field has none of them.
 [[nodiscard]] std::string help_text(const google::protobuf::FieldDescriptor& field);
 
 /// Help text of the field's command-line flag: its `flag_help`, otherwise the first sentence of its

@@ -37,7 +37,7 @@ tl::unexpected<Error> system_failure(const std::filesystem::path& path, int erro
   }
 }
 
-/// @return 0 or errno
+/// @return 0 on success, otherwise errno
 int write_all(int file, std::span<const unsigned char> bytes) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(file, bytes.data(), bytes.size());

@@ -4,7 +4,7 @@
 
 namespace hydroprint {
 
-/// A broken invariant: a mistake in this program, not in its input.
+/// Thrown when an invariant does not hold: a bug in this program, not bad input.
 class InvariantError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -15,9 +15,9 @@ class InvariantError : public std::logic_error {
 
 }  // namespace hydroprint
 
-/// Throws InvariantError unless the condition holds; checked in every build. Then a worker ends
-/// with an internal error, or a request to the daemon fails, instead of going on with wrong
-/// numbers. For bugs in the program only; bad input yields an Error. Not for `hardware/rig` and
-/// `hardware/drive`, whose threads keep the axis safe and must not throw (tests/architecture).
+/// Throws InvariantError unless the condition holds; checked in every build. A worker then ends
+/// with an internal error, and a daemon request fails, instead of continuing with wrong numbers.
+/// For bugs only; bad input yields an Error. Not for `hardware/rig` and `hardware/drive`, whose
+/// threads keep the axis safe and must not throw (tests/architecture).
 #define HP_CHECK(condition) \
   ((condition) ? void() : ::hydroprint::throw_invariant_error(__FILE__, __LINE__, #condition))

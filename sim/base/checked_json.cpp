@@ -19,8 +19,8 @@ std::string place(std::string_view text, std::size_t byte) {
   return fmt::format("line {}, column {}", line, before.size() - line_start);
 }
 
-/// Whether the text, if it is JSON, nests objects and arrays more than `most` levels deep. Brackets
-/// in strings do not count.
+/// Returns whether the text, if it is JSON, nests objects and arrays more than `most` levels deep.
+/// Brackets in strings do not count.
 bool is_deeper(std::string_view text, int most) {
   int depth = 0;
   bool in_string = false;

@@ -9,14 +9,14 @@
 
 #include "sim/base/result.h"
 
-// Every read of JSON from a file, a process or the network goes through this header. Include it in
-// .cpp files only.
+// All JSON from files, processes and the network is read through this header. Include it in .cpp
+// files only.
 
 namespace hydroprint {
 
 struct JsonLimits {
   std::size_t bytes = std::size_t{16} << 20;
-  int depth = 64;  ///< levels of nested objects and arrays
+  int depth = 64;  ///< maximum nesting of objects and arrays
 };
 
 /// Parses untrusted text.
@@ -24,7 +24,8 @@ struct JsonLimits {
 ///     column), or contains a number beyond the range of double
 [[nodiscard]] Result<nlohmann::json> parse_json(std::string_view text, JsonLimits limits = {});
 
-/// Same as parse_json(), for a file; errors name it. Also fails as read_text_file() does.
+/// Same as parse_json(), for a file; errors name the file. Also returns the errors of
+/// read_text_file().
 [[nodiscard]] Result<nlohmann::json> read_json_file(const std::filesystem::path& path);
 
 /// The value at `key`; null if `object` is not an object or lacks the key.

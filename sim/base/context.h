@@ -15,7 +15,7 @@ struct Context {
   /// Called with the stage's name ("reading", "waterline", "velocity", "flow map", ...) and the
   /// share of that stage done, in [0, 1]. May be called from any thread, one call at a time.
   std::function<void(std::string_view stage, double fraction)> report;
-  /// Called often, from any thread; true ends the work with Code::kCancelled.
+  /// Called often, from any thread; returns true to end the work with Code::kCancelled.
   std::function<bool()> cancelled;
 
   [[nodiscard]] bool is_cancelled() const { return cancelled && cancelled(); }
@@ -24,13 +24,13 @@ struct Context {
   }
 };
 
-/// kCancelled if the context is cancelled.
+/// Returns kCancelled if the context is cancelled.
 [[nodiscard]] Status check_cancelled(const Context& context);
 
 /// Runs work(0) ... work(count - 1) on context.threads threads, in any order. Reports progress of
 /// `stage` (empty: no reports) and stops early on cancellation. Each index must write only its own
 /// results, so that the outcome does not depend on the number of threads.
-/// @return kCancelled, or the error of the smallest failed index seen
+/// @return kCancelled, or the error with the smallest index among those that occurred
 [[nodiscard]] Status parallel_for(const Context& context, std::string_view stage, std::size_t count,
                                   const std::function<Status(std::size_t)>& work);
 

@@ -27,7 +27,7 @@ std::string_view take(std::string_view& text, char separator) {
   return trimmed(part);
 }
 
-/// Cells of a line: one more than it has separators; empty for an empty line.
+/// Returns the cells of a line: one more than it has separators; no cells for an empty line.
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
   if (line.empty()) return cells;
@@ -36,7 +36,7 @@ std::vector<std::string_view> cells_of(std::string_view line) {
   return cells;
 }
 
-/// The fault in a header; empty if there is none.
+/// Returns the fault in a header; empty if there is none.
 std::string header_objection(const std::vector<std::string_view>& cells,
                              const std::vector<std::string_view>& wanted) {
   if (cells == wanted) return {};

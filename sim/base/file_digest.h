@@ -9,13 +9,13 @@
 
 namespace hydroprint {
 
-/// A file's hash and size.
+/// Hash and size of a file.
 struct FileDigest {
   std::string sha256;  ///< 64 lower-case hex digits
   std::int64_t size_bytes = 0;
 };
 
-/// Reads a regular file once. Fails as open_input_file() does, or with kCancelled.
+/// Reads a regular file once. Returns the errors of open_input_file(), and kCancelled.
 [[nodiscard]] Result<FileDigest> digest_file(const std::filesystem::path& path,
                                              const Context& context = {});
 

@@ -14,7 +14,7 @@ Result<std::ifstream> open_input_file(const std::filesystem::path& path) {
     return fail(Code::kNotFound, path.string() + ": no such file. Check the path");
   }
   if (!std::filesystem::is_regular_file(status)) {
-    return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Give a file");
+    return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Use a regular file");
   }
   std::ifstream file(path, std::ios::binary);
   if (!file) {
@@ -26,7 +26,8 @@ Result<std::ifstream> open_input_file(const std::filesystem::path& path) {
 
 Result<std::string> read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {
   HP_ASSIGN_OR_RETURN(std::ifstream file, open_input_file(path));
-  // Reads to the end instead of asking for the size: the file may grow, and some files report none.
+  // Reads to the end instead of querying the size, because the file may grow, and some files report
+  // no size.
   std::string text;
   std::array<char, 1 << 16> chunk;
   while (text.size() <= max_bytes && file) {

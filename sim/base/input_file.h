@@ -13,8 +13,8 @@ namespace hydroprint {
 /// it is unreadable, kInvalidArgument if it is a folder or a device.
 [[nodiscard]] Result<std::ifstream> open_input_file(const std::filesystem::path& path);
 
-/// The whole content of a file of at most `max_bytes`, for small hand-written files. Fails as
-/// open_input_file() does, and with kOutOfRange if the file is too large.
+/// Returns the whole content of a file of at most `max_bytes`, for small hand-written files.
+/// Returns the errors of open_input_file(), and kOutOfRange if the file is too large.
 [[nodiscard]] Result<std::string> read_text_file(const std::filesystem::path& path,
                                                  std::size_t max_bytes);
 

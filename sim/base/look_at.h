@@ -6,12 +6,12 @@
 
 namespace hydroprint {
 
-/// A camera's pose X_FC: transforms camera coordinates (x to the right of the image, y down, z
-/// forward along the axis, mm) to F. The near side of the film is at the bottom of the image. For a
-/// camera that looks along y, the water is at the bottom.
-/// @param eye_mm     the camera's position
-/// @param target_mm  the point it looks at; must differ from `eye_mm`
-/// @param turn_rad   rotation about its axis
+/// Returns a camera's pose X_FC, which transforms camera coordinates (x to the right of the image,
+/// y down, z forward along the optical axis, mm) to F. The near side of the film is at the bottom
+/// of the image. For a camera that looks along y, the water is at the bottom.
+/// @param eye_mm     position of the camera
+/// @param target_mm  the point at which it looks; must differ from `eye_mm`
+/// @param turn_rad   rotation about the optical axis
 [[nodiscard]] inline Pose look_at(const Eigen::Vector3d& eye_mm, const Eigen::Vector3d& target_mm,
                                   double turn_rad) {
   const Eigen::Vector3d forward = (target_mm - eye_mm).normalized();

@@ -4,8 +4,8 @@
 
 namespace hydroprint {
 
-/// Rigid transform, rotation and translation in mm. `X_FO` takes coordinates of the object frame O
-/// to the film frame F (contract, "Frames and units").
+/// A rigid transform: rotation and translation in mm. `X_FO` transforms coordinates in the object
+/// frame O to the film frame F.
 using Pose = Eigen::Isometry3d;
 
 }  // namespace hydroprint

@@ -37,7 +37,7 @@ std::string_view code_name(Code code) {
 }
 
 ExitStatus exit_status(const Error& error) {
-  // Unlike a full disk, which counts as bad input.
+  // A full disk, in contrast, counts as bad input.
   if (error.reason == "OUT_OF_MEMORY") return ExitStatus::kFailed;
   switch (error.code) {
     case Code::kCancelled:

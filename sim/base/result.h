@@ -9,7 +9,7 @@
 
 namespace hydroprint {
 
-/// Why an operation failed; names and meanings are those of gRPC's status codes.
+/// Error codes, with the names and meanings of gRPC's status codes.
 enum class Code {
   kCancelled,
   kInvalidArgument,
@@ -24,39 +24,38 @@ enum class Code {
   kInternal,
   kUnavailable,
   kDataLoss,
-  kUnauthenticated,  // stored by number: add new codes at the end
+  kUnauthenticated,  // stored as numbers: add new codes at the end
 };
 
-/// gRPC's name of a code: "INVALID_ARGUMENT".
+/// Returns gRPC's name of a code: "INVALID_ARGUMENT".
 [[nodiscard]] std::string_view code_name(Code code);
 
-/// A failure: a code for programs, and one sentence for people with the fault, its place and the
-/// remedy.
+/// A failure: a code for programs, and one sentence for people that names the fault, its place and
+/// the remedy.
 struct Error {
   Code code = Code::kInternal;
   std::string message;
-  /// Stable UPPER_SNAKE word that scripts may rely on ("ASSET_HASH_MISMATCH"); empty if the code is
-  /// enough.
+  /// Stable UPPER_SNAKE word for scripts ("ASSET_HASH_MISMATCH"); empty if the code says enough.
   std::string reason;
-  /// The message's parts for programs, under stable names ("field", "max_bytes").
+  /// Values from the message for programs, under stable names ("field", "max_bytes").
   std::map<std::string, std::string> metadata = {};
 };
 
-/// Errors are always returned this way: a value or an Error.
+/// A value or an Error. Functions report all errors this way.
 template <class T>
 using Result = tl::expected<T, Error>;
 
 /// Outcome of an operation that returns no value.
 using Status = Result<void>;
 
-/// Makes the error side of any Result.
+/// Returns an Error that converts to any Result.
 [[nodiscard]] inline tl::unexpected<Error> fail(Code code, std::string message,
                                                 std::string reason = {}) {
   return tl::unexpected<Error>(Error{code, std::move(message), std::move(reason), {}});
 }
 
-/// An assumption that was made, or a thing that the user should check; goes into report.json
-/// unchanged.
+/// An assumption that was made, or something for the user to check. Copied unchanged to
+/// report.json.
 struct Warning {
   std::string code;     ///< stable lower_snake word
   std::string message;  ///< one sentence: what was found and what was assumed
@@ -64,11 +63,11 @@ struct Warning {
 };
 using Warnings = std::vector<Warning>;
 
-/// Exit statuses of every program here (contract): 0 done, 2 bad usage, 3 bad input, 4 the
-/// computation failed, 130 cancelled.
+/// Exit statuses of all programs: 0 done, 2 bad usage, 3 bad input, 4 the computation failed, 130
+/// cancelled.
 enum class ExitStatus { kDone = 0, kUsage = 2, kBadInput = 3, kFailed = 4, kCancelled = 130 };
 
-/// The exit status that belongs to an error.
+/// Returns the exit status for an error.
 [[nodiscard]] ExitStatus exit_status(const Error& error);
 
 }  // namespace hydroprint
@@ -76,7 +75,7 @@ enum class ExitStatus { kDone = 0, kUsage = 2, kBadInput = 3, kFailed = 4, kCanc
 // A declaration cannot stand in parentheses.
 // NOLINTBEGIN(bugprone-macro-parentheses)
 
-/// Evaluates a Result; on error returns it from the enclosing function, else binds the value.
+/// Evaluates a Result. On error, returns it from the enclosing function; otherwise binds the value.
 #define HP_CONCAT_INNER(a, b) a##b
 #define HP_CONCAT(a, b) HP_CONCAT_INNER(a, b)
 #define HP_ASSIGN_OR_RETURN(declaration, expression)                        \

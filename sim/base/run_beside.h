@@ -9,10 +9,11 @@
 
 namespace hydroprint {
 
-/// Runs `background` in its own thread while `foreground` runs in this one; one after the other if
-/// the context allows only one thread. If `foreground` fails, `background` is cancelled and its
-/// result dropped. Each receives the context to work with; only the background reports progress.
-/// @return both values, or the error of `foreground` before that of `background`
+/// Runs `background` in its own thread while `foreground` runs in this one; runs them one after the
+/// other if the context allows only one thread. If `foreground` fails, `background` is cancelled
+/// and its result is dropped. Each function receives its own context; only the background reports
+/// progress.
+/// @return both values, or an error; the error of `foreground` takes precedence
 template <class Background, class Foreground>
 auto run_beside(const Context& context, const Background& background, const Foreground& foreground)
     -> Result<std::pair<typename decltype(background(context))::value_type,

@@ -7,7 +7,7 @@
 
 namespace hydroprint {
 
-/// SHA-256 of bytes added in pieces. Throws std::bad_alloc if the library runs out of memory.
+/// Computes a SHA-256 hash incrementally. Throws std::bad_alloc if the library runs out of memory.
 class Sha256 {
  public:
   Sha256();
@@ -16,7 +16,7 @@ class Sha256 {
   Sha256& operator=(const Sha256&) = delete;
 
   void add(std::string_view bytes);
-  /// 64 lower-case hex digits; ends the digest.
+  /// Returns the hash as 64 lower-case hex digits. No bytes may be added afterwards.
   [[nodiscard]] std::string finish();
 
  private:
@@ -24,10 +24,10 @@ class Sha256 {
   std::unique_ptr<Impl> impl_;
 };
 
-/// SHA-256 of bytes as 64 lower-case hex digits.
+/// Returns the SHA-256 hash of bytes as 64 lower-case hex digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
 
-/// Two lower-case hex digits per byte.
+/// Returns two lower-case hex digits per byte.
 [[nodiscard]] std::string to_hex(std::span<const unsigned char> bytes);
 
 }  // namespace hydroprint

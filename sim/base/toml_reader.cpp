@@ -120,7 +120,7 @@ bool TomlReader::flag(std::string_view key, std::optional<bool> fallback) {
   const toml::node* node = find(key, !fallback);
   if (node == nullptr) return fallback.value_or(false);
   const auto* value = node->as_boolean();
-  if (value == nullptr) refuse(key, "is neither true nor false. Write one of them");
+  if (value == nullptr) refuse(key, "must be true or false. Correct it");
   return value != nullptr && value->get();
 }
 

@@ -15,13 +15,13 @@
 
 namespace hydroprint {
 
-/// Reads a TOML file of at most 1 MiB. Include in .cpp files only.
-/// Fails as read_text_file() does, and with kInvalidArgument, naming the line, if the file is not
-/// valid TOML. Every error message is one line, whatever the file contains.
+/// Reads a TOML file of at most 1 MiB. Include in .cpp files only. Returns the errors of
+/// read_text_file(), and kInvalidArgument with the line if the file is not valid TOML. Error
+/// messages are always one line, whatever the file contains.
 [[nodiscard]] Result<toml::table> read_toml_file(const std::filesystem::path& path);
 
-/// Takes values out of a TOML file and refuses all other keys. It keeps the first error, with file,
-/// line, key and remedy; values read after an error have no meaning. Read every value, then call
+/// Reads values from a TOML file and rejects all other keys. It keeps the first error, with file,
+/// line, key and remedy; values read after an error are meaningless. Read every value, then call
 /// finish(). Copies refer to the same file. Include in .cpp files only.
 class TomlReader {
  public:
@@ -29,7 +29,7 @@ class TomlReader {
 
   [[nodiscard]] bool has(std::string_view key) const;
 
-  /// The value of a key; a missing key is refused unless there is a `fallback`.
+  /// Returns the value of a key. A missing key is an error unless there is a `fallback`.
   double number(std::string_view key, double least, double most,
                 std::optional<double> fallback = {});
   std::int64_t integer(std::string_view key, std::int64_t least, std::int64_t most,
@@ -37,28 +37,29 @@ class TomlReader {
   bool flag(std::string_view key, std::optional<bool> fallback = {});
   std::string text(std::string_view key, std::optional<std::string> fallback = {});
 
-  /// The index in `words` of a text that must be one of them.
+  /// Reads a text that must be one of `words` and returns its index.
   std::size_t choice(std::string_view key, const std::vector<std::string_view>& words,
                      std::optional<std::size_t> fallback = {});
 
-  /// A table, or an array of tables with at least one; empty if the key is missing.
+  /// Returns a table, or an array with at least one table; empty if the key is missing.
   TomlReader table(std::string_view key);
   std::vector<TomlReader> tables(std::string_view key);
 
-  /// The entries of an array, for callers that check their contents.
+  /// Returns the entries of an array, for callers that check the contents themselves.
   std::vector<const toml::node*> array(std::string_view key);
 
-  /// A list of as many numbers as `out` has; leaves `out` unchanged if the key is missing.
+  /// Reads a list with exactly as many numbers as `out` has; `out` is unchanged if the key is
+  /// missing.
   void vector(std::string_view key, double least, double most, Eigen::Ref<Eigen::VectorXd> out);
   /// Same as above, for a list within the value of `key`.
   void vector(std::string_view key, const toml::node& list, double least, double most,
               Eigen::Ref<Eigen::VectorXd> out);
 
-  /// Records the error "KEY what" for `key` (or the table itself), unless there is an earlier
-  /// error.
+  /// Records the error "KEY what" for `key` (or the table itself) unless an error was recorded
+  /// before.
   void refuse(std::string_view key, const std::string& what);
 
-  /// The first error; otherwise an error for the first key that was not read.
+  /// Returns the first error; if there is none, an error for the first key that was not read.
   [[nodiscard]] Status finish() const;
 
  private:
@@ -69,7 +70,7 @@ class TomlReader {
 
   std::shared_ptr<Shared> shared_;
   const toml::table* table_;
-  std::string name_;  // "watchdog.time"; empty at the top
+  std::string name_;  // "watchdog.time"; empty at the top level
 };
 
 }  // namespace hydroprint

@@ -8,10 +8,10 @@
 
 namespace hydroprint::calibrate {
 
-/// Bytes as text (RFC 4648, section 4, padded).
+/// Encodes bytes as base64 (RFC 4648, section 4, padded).
 [[nodiscard]] std::string base64(std::span<const unsigned char> bytes);
 
-/// Decodes such a text; nullopt if it is malformed. The result is never longer than the text.
+/// Decodes base64; nullopt if it is malformed. The result is never longer than the text.
 [[nodiscard]] std::optional<std::vector<unsigned char>> from_base64(std::string_view text);
 
 }  // namespace hydroprint::calibrate

@@ -48,7 +48,7 @@ Status add_points(const scan::Cloud& cloud, const Task& task, Calibration& out,
   return {};
 }
 
-/// The registration error at each point of the surface, from the pose's covariance.
+/// Returns the registration error at each point of the surface, from the pose's covariance.
 std::vector<double> error_map(const Task& task, const registration::ObjectPose& object) {
   std::vector<Eigen::Vector3d> points_F;
   points_F.reserve(task.surface.points.size());

@@ -14,7 +14,7 @@ namespace {
 using scan::Lens;
 using Json = nlohmann::ordered_json;
 
-/// In the order of Lens::parameters().
+/// Names of the parameters, in the order of Lens::parameters().
 constexpr std::array<const char*, Lens::kParameters> kNames = {
     "fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "depth_scale"};
 
@@ -78,7 +78,7 @@ Result<registration::CameraCalibration> read_camera(const std::filesystem::path&
     }
   } catch (const nlohmann::json::exception&) {
     return fail(Code::kInvalidArgument,
-                path.string() + ": not a camera's calibration. Make one with calibrate-camera");
+                path.string() + ": not a camera calibration. Create one with calibrate-camera");
   }
   if (!is_lens(out.lens) || !out.covariance.allFinite())
     return fail(Code::kInvalidArgument,

@@ -8,17 +8,17 @@
 
 namespace hydroprint::calibrate {
 
-/// A camera's calibration as JSON: image size, each lens parameter by name (Lens), their covariance
-/// in that order, the fit to the board, and the fixed pattern if known (pattern_json.h). Reading it
-/// back gives exactly the same values.
+/// Converts a camera calibration to JSON: image size, each lens parameter by name (Lens), their
+/// covariance in the same order, the fit to the board, and the fixed pattern if known
+/// (pattern_json.h). read_camera() restores exactly the same values.
 [[nodiscard]] std::string camera_json(const registration::CameraCalibration& camera);
 
-/// Same as camera_json(), for people: without the fixed pattern.
+/// Same as camera_json(), without the fixed pattern, for display.
 [[nodiscard]] std::string camera_summary_json(const registration::CameraCalibration& camera);
 
-/// Reads a camera's calibration; the fixed pattern may be missing. Fails as read_json_file() does,
-/// and with kInvalidArgument if a value is missing or out of range, or if the pattern does not
-/// match the image size.
+/// Reads a camera calibration; the fixed pattern may be missing. Returns the errors of
+/// read_json_file(), and kInvalidArgument if a value is missing or out of range, or if the pattern
+/// does not match the image size.
 [[nodiscard]] Result<registration::CameraCalibration> read_camera(
     const std::filesystem::path& path);
 

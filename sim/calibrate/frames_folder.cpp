@@ -30,7 +30,7 @@ Result<Listing> read_listing(const std::filesystem::path& path) {
   HP_ASSIGN_OR_RETURN(const nlohmann::json json, read_json_file(path));
   const auto wrong = [&](const std::string& what) {
     return fail(Code::kInvalidArgument,
-                path.string() + ": " + what + ". Give a folder that hydroprint-capture wrote");
+                path.string() + ": " + what + ". Use a folder written by hydroprint-capture");
   };
   Listing out;
   try {
@@ -81,7 +81,7 @@ Result<Frames> read_frames(const std::filesystem::path& folder, const Context& c
     if (grey.width != listing.width || grey.height != listing.height)
       return fail(Code::kDataLoss, path.string() +
                                        ": its size differs from that in frames.json. "
-                                       "Take the frames again");
+                                       "Capture the frames again");
     out.frames[i] = {grey.width, grey.height,
                      std::vector<float>(grey.grey.begin(), grey.grey.end())};
     return {};

@@ -13,16 +13,16 @@ namespace hydroprint::calibrate {
 /// Recorded frames, and the driver's description of the lens.
 struct Frames {
   std::vector<scan::DepthFrame> frames;
-  std::vector<double> times_s;  ///< of the frames; 0 if frames.json has none
+  std::vector<double> times_s;  ///< times of the frames; 0 if frames.json has none
   scan::Lens nominal_lens;
 };
 
-/// At most this many frames of a folder are used: 10 s.
+/// Maximum number of frames used from a folder: 10 s.
 inline constexpr std::size_t kMostFrames = 300;
 
 /// Reads the first `most` frames of a folder written by hydroprint-capture: frames.json and 16-bit
-/// PNGs of mm. Fails as read_json_file() and read_grey16() do, with kInvalidArgument if frames.json
-/// is malformed, and with kDataLoss if an image has another size than frames.json states.
+/// PNGs in mm. Returns the errors of read_json_file() and read_grey16(), kInvalidArgument if
+/// frames.json is malformed, and kDataLoss if the size of an image differs from frames.json.
 [[nodiscard]] Result<Frames> read_frames(const std::filesystem::path& folder,
                                          const Context& context, std::size_t most = kMostFrames);
 

@@ -25,7 +25,7 @@ void read_markers(TomlReader& top, registration::MarkerLayout& out) {
                                          Eigen::Vector3d::UnitZ()));
     for (const auto& other : out.markers)
       if (other.name == marker.name)
-        from.refuse("name", "is used by another marker. Give each marker its own name");
+        from.refuse("name", "is used by another marker. Use a different name for each marker");
     out.markers.push_back(std::move(marker));
   }
 }

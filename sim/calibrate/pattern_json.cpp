@@ -24,7 +24,7 @@ std::string text_of(const T* values, std::size_t count) {
   return base64(bytes);
 }
 
-/// The values in a base64 text; empty if it is malformed.
+/// Returns the values in a base64 text; empty if it is malformed.
 template <class T>
 std::vector<T> values_of(const nlohmann::json& text) {
   const auto bytes = from_base64(text.get_ref<const std::string&>());
@@ -34,7 +34,7 @@ std::vector<T> values_of(const nlohmann::json& text) {
   return out;
 }
 
-/// Whether all values are between `least` and `most`.
+/// Returns whether all values are between `least` and `most`.
 bool are_within(const std::vector<float>& values, float least, float most) {
   return std::all_of(values.begin(), values.end(),
                      [&](float x) { return x >= least && x <= most; });

@@ -12,11 +12,12 @@
 namespace hydroprint::calibrate {
 namespace {
 
-constexpr double kLeastFrames = 3;  ///< that must have seen a surface from 0.8 m
+constexpr double kLeastFrames = 3;  ///< number of frames that must have seen a surface from 0.8 m
 constexpr double kUsualDepth_mm = 800;
-constexpr double kLowest_mm = -40, kHighest_mm = 600;  ///< of a rig's contents, above the water
+/// Range of a rig's contents, above the water.
+constexpr double kLowest_mm = -40, kHighest_mm = 600;
 
-/// The noise-free view of the camera at its first frame.
+/// Returns the noise-free view of the camera at its first frame.
 scan::FusedFrame first_frame(const scan::PointGrid& seen, const scan::Lens& lens,
                              const scan::DepthNoise& noise, std::size_t frames) {
   const std::size_t pixels = seen.points.size();
@@ -34,7 +35,7 @@ scan::FusedFrame first_frame(const scan::PointGrid& seen, const scan::Lens& lens
   return out;
 }
 
-/// The film frame from the markers in the volume.
+/// Returns the film frame from the markers in the volume.
 Result<registration::FilmFrame> film_frame_of(const scan::Sweep& sweep, const SweptTask& task,
                                               const scan::DepthNoise& noise,
                                               const Context& context) {
@@ -62,7 +63,7 @@ Warnings lost_frames(const scan::Path& path) {
 
 void append(Warnings& to, const Warnings& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-/// A box around everything within the bars, which carry the markers.
+/// Returns a box around everything within the bars, which carry the markers.
 Eigen::AlignedBox3d rig_box(const registration::MarkerLayout& layout) {
   Eigen::AlignedBox3d out;
   for (const registration::Marker& marker : layout.markers) out.extend(marker.X_FM.translation());
@@ -73,7 +74,7 @@ Eigen::AlignedBox3d rig_box(const registration::MarkerLayout& layout) {
   return out;
 }
 
-/// The triangles whose corners all lie in a box, with their corners.
+/// Returns the triangles whose corners all lie in a box, with their corners.
 scan::TriangleMesh within(const scan::TriangleMesh& mesh, const Eigen::AlignedBox3d& box) {
   scan::TriangleMesh out;
   std::vector<int> at(mesh.points_mm.size(), -1);

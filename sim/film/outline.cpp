@@ -48,10 +48,11 @@ std::optional<double> number(std::string_view text) {
 }
 
 tl::unexpected<Error> not_understood(const std::string& text) {
-  return fail(Code::kInvalidArgument,
-              "film '" + text +
-                  "': not understood. Give A4, A3, letter, WIDTHxHEIGHT, circle:RADIUS (mm) or "
-                  "polygon:FILE.json");
+  return fail(
+      Code::kInvalidArgument,
+      "film '" + text +
+          "' is not a known size or shape. Use A4, A3, letter, WIDTHxHEIGHT, circle:RADIUS (mm) or "
+          "polygon:FILE.json");
 }
 
 Status check_size(const std::string& what, const Vector2d& size_mm) {
@@ -81,7 +82,7 @@ Outline rectangle(const std::string& name, const Vector2d& size_mm) {
 }
 
 Outline circle(const std::string& name, double radius_mm) {
-  // A multiple of four corners, the first on the x axis, keeps both mirror symmetries.
+  // Uses a multiple of four corners, the first on the x axis, to keep both mirror symmetries.
   int corners = 4 * static_cast<int>(std::ceil(std::numbers::pi * radius_mm / (2 * kMaxChord_mm)));
   const auto corner_radius_mm = [&] {
     const double sector_rad = 2 * std::numbers::pi / corners;
@@ -106,7 +107,7 @@ bool on_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
   return (p - a - share * along).norm() <= kOnEdge_mm;
 }
 
-/// True if the closed segments ab and cd have a point in common.
+/// Returns true if the closed segments ab and cd have a point in common.
 bool meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2d& d) {
   const double c_side = cross(b - a, c - a);
   const double d_side = cross(b - a, d - a);
@@ -119,8 +120,8 @@ bool meet(const Vector2d& a, const Vector2d& b, const Vector2d& c, const Vector2
   return on_segment(c, a, b) || on_segment(d, a, b) || on_segment(a, c, d) || on_segment(b, c, d);
 }
 
-/// Two edges (by their first corners) that cross, touch or fold back on each other; nullopt if none
-/// do.
+/// Returns two edges (by their first corners) that cross, touch or fold back on each other; nullopt
+/// if there are none.
 std::optional<std::pair<std::size_t, std::size_t>> crossing(const std::vector<Vector2d>& polygon) {
   const std::size_t n = polygon.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -242,7 +243,7 @@ bool contains(const Outline& outline, const Eigen::Vector2d& point_mm) {
     const Vector2d& a = polygon[i];
     const Vector2d& b = polygon[(i + 1) % polygon.size()];
     if (on_segment(point_mm, a, b)) return true;
-    // Half-open in y, so that a ray through a corner crosses once.
+    // The interval in y is half-open, so that a ray through a corner crosses once.
     if ((a.y() > point_mm.y()) != (b.y() > point_mm.y()) &&
         (cross(b - a, point_mm - a) > 0) == (b.y() > a.y())) {
       inside = !inside;

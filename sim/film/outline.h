@@ -17,21 +17,22 @@ struct Outline {
   std::vector<Eigen::Vector2d> polygon;
   Eigen::Vector2d min_mm = Eigen::Vector2d::Zero();
   Eigen::Vector2d max_mm = Eigen::Vector2d::Zero();
-  std::string name;  ///< as the user gave it
+  std::string name;  ///< as entered by the user
 
   [[nodiscard]] Eigen::Vector2d size_mm() const { return max_mm - min_mm; }
 };
 
-/// Parses "A4", "A3", "letter", "WxH", "circle:RADIUS" or "polygon:FILE.json" (contract). A circle
-/// becomes a polygon of the same area with chords of at most 3 mm.
-/// Errors: kOutOfRange for sizes below 10 mm or above 2000 mm; kInvalidArgument for malformed text
-/// and for polygons that cross themselves or have fewer than three corners.
+/// Parses "A4", "A3", "letter", "WxH", "circle:RADIUS" or "polygon:FILE.json". A circle becomes a
+/// polygon of the same area with chords of at most 3 mm. Errors: kOutOfRange for sizes below 10 mm
+/// or above 2000 mm; kInvalidArgument for malformed text and for polygons that intersect themselves
+/// or have fewer than three corners.
 [[nodiscard]] Result<Outline> parse_outline(const std::string& text);
 
-/// The file named in a text for parse_outline ("polygon:FILE.json"); nullopt if there is none.
+/// Returns the file in a text for parse_outline ("polygon:FILE.json"); nullopt for the other
+/// formats.
 [[nodiscard]] std::optional<std::filesystem::path> polygon_file(const std::string& text);
 
-/// True if the point lies inside the outline or on it.
+/// Returns true if the point lies inside the outline or on it.
 [[nodiscard]] bool contains(const Outline& outline, const Eigen::Vector2d& point_mm);
 
 }  // namespace hydroprint::film

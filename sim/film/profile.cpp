@@ -25,7 +25,7 @@ struct Key {
   Range range;
 };
 
-// The keys that hold a single number.
+// The keys with a single number as value.
 constexpr std::array<Key, 11> kKeys = {{
     {"thickness_mm", &Profile::thickness_mm, {1e-3, 10}},
     {"ink_ratio_mm", &Profile::ink_ratio_mm, {0, 10}},
@@ -50,7 +50,7 @@ std::string known_keys() {
   return out;
 }
 
-/// The place of an error: file, line and key.
+/// Returns the place of an error: file, line and key.
 std::string place(const std::filesystem::path& path, const toml::source_region& region,
                   std::string_view key) {
   return fmt::format("{}: line {}: {}", path.string(), region.begin.line, key);

@@ -26,8 +26,9 @@ struct Interval {
   bool is_one_sided;
 };
 
-/// A confidence interval within the domain. For an estimate at a bound, it begins there and ends as
-/// a one-sided interval. That one starts at the unconstrained estimate, if this is in the domain.
+/// Returns a confidence interval within the domain. If the estimate is at a bound, the interval is
+/// one-sided and starts at the bound; its width is computed from the unconstrained estimate, if
+/// that is in the domain.
 Interval interval_of(double value, double unbounded, double error, double low, double high,
                      double degrees) {
   constexpr double kAt = 1e-9;
@@ -40,13 +41,13 @@ Interval interval_of(double value, double unbounded, double error, double low, d
   return {std::max(low, value - half), std::min(high, value + half), false};
 }
 
-/// The standard error in the profile's terms, to first order.
+/// Returns the standard error in the profile's terms, to first order.
 double natural_error(Parameter parameter, double scaled, double error,
                      const film::Profile& profile) {
   if (parameter != Parameter::kDrag) {
     return natural_value(parameter, error, profile) - natural_value(parameter, 0, profile);
   }
-  // length = scaled^(-1/2), up to a factor.
+  // The length is scaled^(-1/2), up to a factor.
   const double length_mm = natural_value(parameter, scaled, profile);
   if (!std::isfinite(length_mm)) return std::numeric_limits<double>::quiet_NaN();
   return 0.5 * length_mm * error / scaled;

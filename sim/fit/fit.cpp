@@ -17,15 +17,16 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 using Places = std::vector<Vector2d>;
 
-/// Error of a prediction that varies from dip to dip, for example with the end of the sweeps.
+/// Error of a prediction that varies from dip to dip, for example because sweeps end earlier or
+/// later.
 constexpr double kFloor_mm = 0.003;
-/// Sweeps of the sheet end when they move the film by less than this, because derivatives are
-/// differences of predictions.
+/// Tolerance of the sheet's sweeps. It is small because derivatives are differences of predictions.
 constexpr double kSheetTolerance_mm = 3e-4;
-/// Mesh size and step of the finer computation that measures the computation's own error.
+/// Factor for mesh size and step of the finer computation, from which the discretisation error is
+/// estimated.
 constexpr double kFineFactor = 0.6;
-/// The error goes with the square of mesh size and step, so this share of the difference between
-/// the usual and the finer result remains in the finer one.
+/// The error grows with the square of mesh size and step. Of the difference between the usual and
+/// the finer result, this fraction remains as the error of the finer one.
 constexpr double kErrorLeft = kFineFactor * kFineFactor / (1 - kFineFactor * kFineFactor);
 constexpr double kDipsOfAFineOne = 4;
 constexpr int kMostOutlierRounds = 3;
@@ -96,7 +97,7 @@ class Fitting {
   }
 
  private:
-  /// Finds the points on the surface and decides which count.
+  /// Finds the points on the surface and decides which are used.
   Status select(const std::vector<Point>& points) {
     HP_ASSIGN_OR_RETURN(const pipeline::StokesPass* begun,
                         predictor_.start(dip_.profile.swelling, quiet_));
@@ -129,12 +130,12 @@ class Fitting {
     if (ink == free_.end() || dip_.ink.total_mm2() > 0) return;
     out_.undetermined.push_back(
         {"ink_ratio_mm",
-         "without ink nothing depends on it. Give the printed image (--ink-image)"});
+         "without ink nothing depends on it. Specify the printed image (--ink-image)"});
     free_.erase(ink);
   }
 
   Result<Places> predict(Predictor& predictor, const film::Profile& profile, double weight) {
-    // About three rounds of derivatives, and the finer dips.
+    // The expected number of dips: about three rounds of derivatives, and the finer dips.
     const double expected = 7.0 * static_cast<double>(options_.free.size()) + 2 * kDipsOfAFineOne;
     context_.progress("fit", std::min(0.99, work_ / expected));
     work_ += weight;
@@ -142,7 +143,7 @@ class Fitting {
     return predictor.predict(profile, spots_, quiet_);
   }
 
-  /// Predicted minus measured; NaN for points that do not count.
+  /// Predicted minus measured; NaN for points that are not used.
   [[nodiscard]] VectorXd residuals_of(const Places& predicted) const {
     VectorXd r(2 * static_cast<Index>(spots_.size()));
     for (std::size_t i = 0; i < spots_.size(); ++i) {
@@ -194,7 +195,7 @@ class Fitting {
     u_ = Eigen::Map<const VectorXd>(values.data(), static_cast<Index>(values.size()));
   }
 
-  /// A last step with a finer computation, whose error is smaller and can be estimated.
+  /// Makes a last step with a finer computation, whose error is smaller and can be estimated.
   Status refine() {
     discretisation_ = VectorXd::Zero(u_.size());
     motion_warnings_ = predictor_.warnings();
@@ -209,7 +210,7 @@ class Fitting {
     HP_ASSIGN_OR_RETURN(VectorXd there, fine_residuals(after));
     const Linearised usual = at_;
     at_.residuals = there;
-    // Only points known to both computations.
+    // Uses only points that are known in both computations.
     const Linearised difference = Linearised{there - usual.residuals, usual.jacobian}.of_known();
     discretisation_ = kErrorLeft * (gain(difference.jacobian) * difference.residuals).cwiseAbs();
     out_.discretisation_mm = std::sqrt(2 * mean_square(difference.residuals));
@@ -284,11 +285,11 @@ class Fitting {
   Predictor predictor_;
   std::vector<Parameter> free_;
   VectorXd u_;               ///< scaled values of free_
-  Linearised at_;            ///< at u_
-  VectorXd discretisation_;  ///< standard errors of u_ due to the computation itself
+  Linearised at_;            ///< linearisation at u_
+  VectorXd discretisation_;  ///< standard errors of u_ due to discretisation
   std::vector<Spot> spots_;
-  Warnings motion_warnings_;  ///< of the last prediction
-  double work_ = 0;           ///< in dips; a finer dip counts more
+  Warnings motion_warnings_;  ///< warnings of the last prediction
+  double work_ = 0;           ///< work done, in dips; a finer dip counts more
   Outcome out_;
 };
 

@@ -19,43 +19,45 @@ namespace hydroprint::fit {
 struct Options {
   std::vector<Parameter> free = {kAllParameters.begin(), kAllParameters.end()};
   bool drop_outliers = false;
-  std::string points_name = "points";  ///< of the points' file, for messages
+  std::string points_name = "points";  ///< name of the points' file, for messages
 };
 
-/// The result for a measured point. Places on the film are printed ones, in F, mm.
+/// The result for a measured point. Positions on the film are those of the printed image, in F, mm.
 struct PointResult {
   Point point;
-  Eigen::Vector2d before_mm;  ///< point landing there with the starting profile; NaN: none
-  Eigen::Vector2d after_mm;   ///< with the fitted profile
-  std::string left_out;       ///< why it does not count; empty: it counts
-  bool is_outlier = false;    ///< its residual lies beyond 4 robust standard deviations
+  /// The film point that lands there with the starting profile; NaN: none.
+  Eigen::Vector2d before_mm;
+  Eigen::Vector2d after_mm;  ///< the same with the fitted profile
+  std::string left_out;      ///< why the point is not used; empty: it is used
+  bool is_outlier = false;   ///< its residual lies beyond 4 robust standard deviations
 
   [[nodiscard]] bool is_used() const { return left_out.empty(); }
 };
 
 struct Outcome {
   film::Profile profile;         ///< the starting profile with the fitted parameters
-  Pose X_FO = Pose::Identity();  ///< as used: lowest point on the water, z = 0
+  Pose X_FO = Pose::Identity();  ///< pose as used: lowest point on the water, z = 0
   std::vector<Estimate> estimates;
-  Eigen::MatrixXd correlation;  ///< of the estimates, in their order
+  Eigen::MatrixXd correlation;  ///< correlations of the estimates, in their order
   std::vector<Undetermined> undetermined;
   std::vector<PointResult> points;
-  double rms_before_mm = 0, rms_after_mm = 0;  ///< of the used points' distances on the film
-  double residual_sigma_mm = 0;                ///< standard deviation of one coordinate
+  /// Of the distances, on the film, of the points used.
+  double rms_before_mm = 0, rms_after_mm = 0;
+  double residual_sigma_mm = 0;  ///< standard deviation of one coordinate
   double discretisation_mm = 0;  ///< rms change of the prediction with finer meshes and steps
   int degrees_of_freedom = 0;
-  double t_quantile = 0;  ///< Student's, of two-sided intervals
+  double t_quantile = 0;  ///< quantile of Student's t for two-sided intervals
   int iterations = 0, dips = 0;
   bool settled = true;
   Warnings warnings;
 };
 
-/// Fits the film profile to a measured dip, using the quasistatic sheet of section 4.3. Least
-/// squares of (predicted - measured) printed point, mm, with 95 % intervals. Parameters that the
-/// points do not determine keep their value in `dip.profile` and are listed. Warns if the dip's
-/// motion cannot be trusted (pipeline::warnings_of_motion).
+/// Fits the film profile to a measured dip, using the quasistatic sheet of section 4.3. Minimises
+/// the squares of predicted minus measured printed positions, mm; intervals are 95 %. Parameters
+/// that the points do not determine keep their values in `dip.profile` and are listed. Warns if the
+/// computed motion is unreliable (pipeline::warnings_of_motion). Returns the errors of the dip, and
+/// kInvalidArgument for fewer than four usable points 1 mm apart.
 /// @param dip  the measured dip; the fit starts with its profile
-/// Fails as the dip does, and with kInvalidArgument for fewer than four usable points 1 mm apart.
 [[nodiscard]] Result<Outcome> fit(const mesh::Model& model, const pipeline::DipOptions& dip,
                                   const std::vector<Point>& points, const Options& options,
                                   const Context& context);

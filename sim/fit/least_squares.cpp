@@ -19,10 +19,10 @@ using Eigen::VectorXd;
 constexpr int kMostIterations = 12;
 constexpr int kMostTrials = 5;
 constexpr double kFirstDamping = 1e-3;
-constexpr double kSettledShare = 0.05;  ///< of the uncertainty
+constexpr double kSettledShare = 0.05;  ///< last step, as a fraction of the uncertainty
 constexpr double kMostStep = 1;
 
-/// Mean squares of both, over the values known to both.
+/// Returns the mean squares of both, over the rows that are NaN in neither.
 std::pair<double, double> mean_squares(const VectorXd& a, const VectorXd& b) {
   double sum_a = 0, sum_b = 0;
   Index count = 0;
@@ -37,7 +37,7 @@ std::pair<double, double> mean_squares(const VectorXd& a, const VectorXd& b) {
   return {sum_a / static_cast<double>(count), sum_b / static_cast<double>(count)};
 }
 
-/// Minimises |r + J d|^2 + damping over the free parameters; the others move by `d`.
+/// Minimises |r + J d|^2 + damping over the free parameters; the others change by `d`.
 void solve_free(const Linearised& known, double damping, const std::vector<Index>& free,
                 VectorXd& d) {
   HP_CHECK(damping >= 0);

@@ -8,13 +8,14 @@
 namespace hydroprint::fit {
 namespace {
 
-/// Drag (1 / drag_length^2) is plausible from 0 to this: a length of 10 mm.
+/// Upper end of the plausible range of drag (1 / drag_length^2): a length of 10 mm. The lower end
+/// is 0.
 constexpr double kPlausibleDrag_per_mm2 = 0.01;
-/// The largest drag that is tried: a length of 1 mm.
+/// Maximum drag: a length of 1 mm.
 constexpr double kMostDrag_per_mm2 = 1;
-/// Longer ones make no difference, and profiles do not allow them.
+/// Longer drag lengths make no difference, and profiles do not allow them.
 constexpr double kLongestDrag_mm = 1e4;
-/// Above a swelling of 1.3, prints turn out blurred.
+/// Above a swelling of 1.3, prints are blurred.
 constexpr double kPlausibleGrowth = 0.3;
 constexpr double kMostGrowth = 1;
 constexpr double kMostInk_mm = 10;

@@ -12,8 +12,8 @@
 
 namespace hydroprint::fit {
 
-/// Predicts, for a profile, which printed points of the film land on given spots of a body. Runs a
-/// dip of the sheet and traces the film back from those spots only.
+/// Predicts, for a profile, which printed points of the film land on given spots of a body.
+/// Simulates the dip with the sheet model, then traces the film back from these spots only.
 class Predictor {
  public:
   /// @param model    must outlive the predictor
@@ -21,16 +21,17 @@ class Predictor {
   Predictor(const mesh::Model& model, pipeline::DipOptions options)
       : model_(model), options_(std::move(options)) {}
 
-  /// The part that does not depend on ink and drag; cached for the latest swelling.
+  /// Returns the first pass of the dip, which does not depend on ink and drag. Cached for the
+  /// latest swelling.
   [[nodiscard]] Result<const pipeline::StokesPass*> start(const Eigen::Vector2d& swelling,
                                                           const Context& context);
 
-  /// Per spot, the printed point, mm, in F; NaN where no film arrives.
+  /// Returns the printed point for each spot, mm, in F; NaN where no film arrives.
   [[nodiscard]] Result<std::vector<Eigen::Vector2d>> predict(const film::Profile& profile,
                                                              const std::vector<Spot>& spots,
                                                              const Context& context);
 
-  /// Reasons not to trust the motion of the last prediction (pipeline::warnings_of_motion).
+  /// Returns reasons not to trust the motion of the last prediction (pipeline::warnings_of_motion).
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 
  private:
@@ -38,7 +39,7 @@ class Predictor {
   pipeline::DipOptions options_;
   std::optional<pipeline::StokesPass> start_;
   Warnings warnings_;
-  Eigen::Vector2d swelling_ = Eigen::Vector2d::Zero();  ///< of start_
+  Eigen::Vector2d swelling_ = Eigen::Vector2d::Zero();  ///< the swelling of start_
 };
 
 }  // namespace hydroprint::fit

@@ -18,7 +18,7 @@ using Eigen::Vector2d;
 using image::Rgb8;
 using image::RgbImage;
 
-constexpr double kPanel_px = 760;  ///< the film's longer side
+constexpr double kPanel_px = 760;  ///< length of the film's longer side
 constexpr double kGap_px = 30;
 constexpr double kTitle_px = 60;
 constexpr double kLetter_px = 12;
@@ -33,7 +33,7 @@ struct Panel {
   std::string name;
   double rms_mm = 0;
   Vector2d PointResult::*predicted;
-  Vector2d corner_px = Vector2d::Zero();  ///< of the film's bounding box, top left
+  Vector2d corner_px = Vector2d::Zero();  ///< top left corner of the film's bounding box
 };
 
 struct Scale {
@@ -46,7 +46,8 @@ struct Scale {
   }
 };
 
-/// 1, 2 or 5 times a power of ten: the largest factor that keeps nearly all arrows short.
+/// Returns 1, 2 or 5 times a power of ten: the largest factor for which nearly all arrows stay
+/// short.
 double enlargement(const Outcome& outcome, const Panel& panel, double px_per_mm) {
   std::vector<double> lengths;
   for (const PointResult& p : outcome.points) {

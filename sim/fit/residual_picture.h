@@ -7,10 +7,10 @@
 
 namespace hydroprint::fit {
 
-/// Two pictures of the film seen from above, before and after the fit. They show its outline, the
-/// measured points (grey: left out, red: outliers) and from each an arrow to its prediction. The
-/// title states the factor by which arrows are enlarged. About 1600 pixels wide. Fails if
-/// text::Font::standard() fails.
+/// Draws two pictures of the film seen from above, before and after the fit. They show its outline,
+/// the measured points (grey: not used, red: outliers) and, from each, an arrow to its prediction.
+/// The title states the magnification of the arrows. About 1600 pixels wide. Returns the errors of
+/// text::Font::standard().
 [[nodiscard]] Result<image::RgbImage> residual_picture(const film::Outline& outline,
                                                        const Outcome& outcome);
 

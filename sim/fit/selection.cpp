@@ -16,7 +16,7 @@ constexpr double kOutlierSigmas = 4;
 /// Median of the absolute value of a standard normal variable.
 constexpr double kNormalMedian = 0.6744897501960817;
 
-/// The number of used points that are apart from one another, up to the number needed.
+/// Returns the number of used points that are apart from one another, up to the number needed.
 std::size_t places(const std::vector<PointResult>& points) {
   std::vector<Vector2d> apart;
   for (const PointResult& p : points) {
@@ -30,7 +30,7 @@ std::size_t places(const std::vector<PointResult>& points) {
   return apart.size();
 }
 
-/// The most frequent reason, empty if there is none.
+/// Returns the most frequent reason, empty if there is none.
 std::string main_reason(const std::vector<PointResult>& points) {
   std::map<std::string, int> counts;
   for (const PointResult& p : points) {

@@ -11,16 +11,16 @@
 
 namespace hydroprint::fit {
 
-/// Why a point cannot count because of its position; empty if it can.
+/// Returns why a point cannot be used because of its position; empty if it can.
 [[nodiscard]] std::string geometric_objection(const Point& point, const Spot& spot,
                                               const waterline::Body& body,
                                               const film::Outline& outline);
 
-/// Refuses fewer than four used points at places 1 mm apart on the film. The message names the main
-/// reason why others are left out.
+/// Returns an error if fewer than four used points lie 1 mm apart on the film. The message names
+/// the main reason why other points are not used.
 [[nodiscard]] Status check_enough(const std::vector<PointResult>& points, const std::string& name);
 
-/// Marks the used points whose residual (after) lies beyond 4 robust standard deviations.
+/// Marks the used points whose residual after the fit lies beyond 4 robust standard deviations.
 /// @return the number of points that were not marked before
 int mark_outliers(std::vector<PointResult>& points, double floor_mm);
 

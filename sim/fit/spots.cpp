@@ -36,7 +36,7 @@ Tree tree_of(const mesh::Surface& surface) {
   return Tree(entries);
 }
 
-/// Barycentric coordinates of the triangle's point nearest to p.
+/// Returns the barycentric coordinates of the triangle's point nearest to p.
 Vector3d nearest_in(const std::array<Vector3d, 3>& corners, const Vector3d& p) {
   const Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0];
   const Vector3d normal = ab.cross(ac);
@@ -75,7 +75,7 @@ double box_distance(const std::array<Vector3d, 3>& corners, const Vector3d& p) {
 Spot nearest_spot(const mesh::Surface& surface, const Tree& tree, const Vector3d& p) {
   Spot best;
   best.distance_mm = std::numeric_limits<double>::infinity();
-  // Boxes come nearest first.
+  // Boxes are visited nearest first.
   const auto nearest = bg::index::nearest(corner_of(p), static_cast<unsigned>(tree.size()));
   for (auto entry = tree.qbegin(nearest); entry != tree.qend(); ++entry) {
     const int triangle = entry->second;

@@ -12,11 +12,13 @@ namespace hydroprint::fit {
 /// A point of a surface.
 struct Spot {
   int triangle = 0;
-  Eigen::Vector3d barycentric = Eigen::Vector3d::UnitX();  ///< of its corners 0, 1, 2
-  double distance_mm = 0;                                  ///< from the requested point
+  /// In the corners 0, 1, 2 of the triangle.
+  Eigen::Vector3d barycentric = Eigen::Vector3d::UnitX();
+  double distance_mm = 0;  ///< distance from the requested point
 };
 
-/// Per point (O, mm), the nearest one of the surface; if several triangles share it, the first.
+/// Returns the nearest point of the surface for each point (O, mm). If several triangles share it,
+/// the first is returned.
 [[nodiscard]] Result<std::vector<Spot>> nearest_spots(const mesh::Surface& surface,
                                                       const std::vector<Eigen::Vector3d>& points_mm,
                                                       const Context& context);

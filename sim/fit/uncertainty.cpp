@@ -13,18 +13,18 @@ using Eigen::Matrix2d;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Parameters that move the points by less than this, rms, over their plausible range are lost in
-/// the computation's own error.
+/// If a parameter moves the points by less than this, rms, over its plausible range, its effect is
+/// lost in the discretisation error.
 constexpr double kLeastMove_mm = 0.02;
 /// Variance of an entirely unknown value.
 constexpr double kHuge = 1e12;
-/// A point that alone determines a direction keeps at least this share of its residual.
+/// A point that alone determines a direction keeps at least this fraction of its residual.
 constexpr double kLeastShare = 1e-3;
 
 /// Information in the residuals about the parameters, split into independent directions.
 struct Directions {
   MatrixXd known, unknown;  ///< orthonormal columns
-  VectorXd inverse_square;  ///< per known direction, of its singular value
+  VectorXd inverse_square;  ///< inverse squares of the singular values of the known directions
 };
 
 Directions directions_of(const MatrixXd& jacobian) {
@@ -42,7 +42,7 @@ MatrixXd inverse_normal(const Directions& d) {
   return d.known * d.inverse_square.asDiagonal() * d.known.transpose();
 }
 
-/// Root mean square of the points' moves for a step of 1.
+/// Returns the root mean square displacement of the points for a step of 1.
 double moves_mm(const MatrixXd& jacobian, Index j) {
   const double points = 0.5 * static_cast<double>(std::max<Index>(jacobian.rows(), 1));
   return std::sqrt(jacobian.col(j).squaredNorm() / points);
@@ -56,7 +56,7 @@ double half_width(const MatrixXd& covariance, Index j, double t) {
   return t * std::sqrt(std::max(covariance(j, j), 0.0));
 }
 
-/// The parameter whose estimate is most correlated with another one.
+/// Returns the parameter whose estimate is most correlated with another one.
 Index partner(const MatrixXd& covariance, Index parameter) {
   Index best = -1;
   double most = 0;
@@ -84,7 +84,7 @@ MatrixXd jackknife_covariance(const Linearised& known, double floor_mm) {
   MatrixXd scatter = MatrixXd::Zero(jacobian.cols(), jacobian.cols());
   for (Index i = 0; i + 1 < jacobian.rows(); i += 2) {
     const MatrixXd rows = jacobian.middleRows(i, 2);
-    // Share of the point's own error that shows in its residual; the fit absorbs the rest.
+    // Fraction of the point's own error that its residual shows; the fit absorbs the rest.
     const Matrix2d share = Matrix2d::Identity() - rows * inverse * rows.transpose();
     const Eigen::SelfAdjointEigenSolver<Matrix2d> eigen(share);
     const Eigen::Vector2d left = eigen.eigenvalues().cwiseMax(kLeastShare);

@@ -8,20 +8,20 @@
 
 namespace hydroprint::fit {
 
-/// Scaled covariance of least-squares estimates, by leaving out one point at a time (the linearised
-/// jackknife, known as HC3). It is valid for points with different errors, as where the film is
-/// stretched more or less, and for a point's two coordinates, whose errors are correlated.
-/// Directions in which the points hardly move (by less than the computation's own error over the
+/// Computes the scaled covariance of least-squares estimates by leaving out one point at a time
+/// (the linearised jackknife, known as HC3). It is valid if errors differ between points, for
+/// example because stretch varies, and if the errors of a point's two coordinates are correlated.
+/// Directions in which the points hardly move (by less than the discretisation error over the
 /// plausible range) have a huge variance.
-/// @param known     all rows known, two per point
-/// @param floor_mm  the computation's error in every residual, which the residuals do not show
+/// @param known     only rows that are not NaN, two per point
+/// @param floor_mm  the discretisation error in every residual, which the residuals do not show
 [[nodiscard]] Eigen::MatrixXd jackknife_covariance(const Linearised& known, double floor_mm);
 
-/// The linear map from residuals to the least-squares step: step = -gain * residuals. Directions on
-/// which the residuals do not depend stay unchanged.
+/// Returns the linear map from residuals to the least-squares step: step = -gain * residuals. The
+/// step is zero in directions on which the residuals do not depend.
 [[nodiscard]] Eigen::MatrixXd gain(const Eigen::MatrixXd& jacobian);
 
-/// Quantile of Student's t.
+/// Returns a quantile of Student's t.
 /// @param probability  in (0, 1)
 /// @param degrees      of freedom, above 0
 [[nodiscard]] double student_t(double probability, double degrees);
@@ -29,17 +29,18 @@ namespace hydroprint::fit {
 /// Why a parameter is unknown.
 struct Unknown {
   Eigen::Index parameter = 0;
-  double moves_mm = 0;    ///< rms move of the points over its plausible range
-  double half_width = 0;  ///< of its interval, scaled
-  /// The parameter it is confused with; -1 if the points simply contain too little information on
-  /// it.
+  double moves_mm = 0;    ///< rms displacement of the points over the parameter's plausible range
+  double half_width = 0;  ///< half the width of its interval, scaled
+  /// Index of the parameter with which it is confused; -1 if the points contain too little
+  /// information on it.
   Eigen::Index taken_for = -1;
 };
 
-/// The parameters (scaled) that the points do not determine, to be held one after the other: those
-/// with an interval wider than the plausible range. First come those that are unknown even if all
-/// others are known. If there are none, the least known of those that are only unknown together.
-/// @param t  quantile that turns a standard error into an interval
+/// Returns the scaled parameters that the points do not determine and that are therefore held one
+/// after the other. These are the parameters whose interval is wider than the plausible range.
+/// First come those that would be undetermined even if all others were known. If there are none,
+/// returns the least certain of those that are undetermined only together.
+/// @param t  quantile that converts a standard error to an interval
 [[nodiscard]] std::vector<Unknown> unknowns(const Linearised& known, double floor_mm, double t);
 
 }  // namespace hydroprint::fit

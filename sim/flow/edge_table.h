@@ -10,21 +10,21 @@
 
 namespace hydroprint::flow {
 
-/// Maps edges to values. An edge is given by the numbers of its two ends, in either order. The hash
-/// table is one array: with a separate node for each of millions of edges, most time would be spent
-/// waiting for memory.
+/// Maps edges to values. An edge is given by the indices of its two ends, in either order. The hash
+/// table is one array: with a separate node for each of millions of edges, cache misses would
+/// dominate the run time.
 template <class T>
 class EdgeTable {
  public:
   explicit EdgeTable(std::size_t expected = 0) : slots_(std::bit_ceil(2 * expected + 16)) {}
 
-  /// The value of an edge, or nullptr; valid until the next set().
+  /// Returns the value of an edge, or nullptr; valid until the next set().
   [[nodiscard]] const T* find(int a, int b) const {
     const Slot& slot = slots_[place(key_of(a, b))];
     return slot.key == kNone ? nullptr : &slot.value;
   }
 
-  /// Replaces an earlier value.
+  /// Sets the value of an edge, replacing an earlier one.
   void set(int a, int b, const T& value) {
     if (2 * (count_ + 1) > slots_.size()) grow();
     const std::uint64_t key = key_of(a, b);
@@ -45,7 +45,7 @@ class EdgeTable {
     return static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint32_t>(high);
   }
 
-  /// The slot that holds the key, or would hold it.
+  /// Returns the slot that holds the key, or the free slot for it.
   [[nodiscard]] std::size_t place(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
     std::uint64_t hash = (key ^ key >> 29) * 0x9e3779b97f4a7c15ULL;
@@ -63,7 +63,7 @@ class EdgeTable {
     }
   }
 
-  std::vector<Slot> slots_;  ///< a power of two, at most half of them used
+  std::vector<Slot> slots_;  ///< the size is a power of two; at most half of the slots are used
   std::size_t count_ = 0;
 };
 

@@ -12,23 +12,25 @@ namespace hydroprint::flow {
 
 struct MapOptions {
   double dip_speed_mm_per_s = 5;
-  Eigen::Vector2d swelling = {1, 1};  ///< rest film = floating film divided by this
-  /// Tiles are divided until the map is linear on each to within this tolerance, on the film. It
-  /// doubles with each division, so that scatter of the traced points is not mistaken for a jump.
+  /// Printed (x, y) floats at (s_x x, s_y y), see film::Profile.
+  Eigen::Vector2d swelling = {1, 1};
+  /// Tiles are divided until the map is linear on each of them to within this tolerance, measured
+  /// on the film. The tolerance doubles with each division, so that scatter of the traced points is
+  /// not mistaken for a jump.
   double tolerance_mm = 0.02;
-  /// Edges of tiles shorter than this on the film are not divided further (a pixel at 600 dpi).
+  /// Tile edges shorter than this on the film are not divided further (a pixel at 600 dpi).
   double least_edge_mm = 0.042;
   bool make_tiles = true;
 };
 
 /// Adapts options made for 600 dpi to an image of another resolution. Larger pixels allow a coarser
-/// map: tolerance and least edge stay the same in pixels down to 150 dpi. Smaller pixels change
+/// map: tolerance and least edge stay the same in pixels down to 150 dpi. Higher resolutions change
 /// nothing.
 /// @param dpi  positive
 [[nodiscard]] MapOptions for_resolution(MapOptions options, double dpi);
 
-/// Finds for every point of the surface the film that lands there, and tiles the part of the
-/// surface that film reaches.
+/// Computes for every point of the surface the film point that lands there, and tiles the part of
+/// the surface that the film reaches.
 [[nodiscard]] Result<FlowMap> make_flow_map(const mesh::Surface& surface,
                                             const waterline::Body& body, const DipField& dip,
                                             const waterline::Motion& motion,

@@ -19,15 +19,15 @@ struct Stretch {
 /// stretched without limit.
 [[nodiscard]] Stretch stretch_of(const Gradient& gradient);
 
-/// The gradient on one triangle, constant there.
+/// Returns the gradient on one triangle, where it is constant.
 /// @return zero if the surface triangle has no area
 [[nodiscard]] Gradient gradient_of(const std::array<Eigen::Vector2d, 3>& film_mm,
                                    const std::array<Eigen::Vector3d, 3>& surface_mm);
 
-/// The gradient at each point: the area-weighted mean over the triangles around it. Averaging the
-/// inverse map's gradients stays finite where the film is stretched without limit.
-/// @param film_mm  per point. Triangles with a NaN corner, with the film the wrong way up, or
-///     across a jump of the map are ignored
+/// Computes the gradient at each point: the area-weighted mean over the triangles around it. The
+/// mean of the inverse map's gradients stays finite where the film is stretched without limit.
+/// @param film_mm  per point. Ignores triangles with a NaN corner, with the film upside down, or
+///                 across a jump of the map
 /// @return NaN at points without a triangle
 [[nodiscard]] std::vector<Gradient> point_gradients(const std::vector<Eigen::Vector2d>& film_mm,
                                                     const std::vector<Eigen::Vector3d>& surface_mm,

@@ -10,15 +10,16 @@ namespace hydroprint::flow {
 
 /// A point of the surface at the moment the water reaches it.
 struct Landing {
-  Eigen::Vector2d point_mm = Eigen::Vector2d::Zero();  ///< on the water surface, in F
+  Eigen::Vector2d point_mm = Eigen::Vector2d::Zero();  ///< position on the water surface, in F
   double immersion_mm = 0;
-  /// Film velocity per unit dip speed by eq. (1); at a crease the mean of its sides.
+  /// Film velocity per unit dip speed by eq. (1); at a crease, the mean of the two sides.
   Eigen::Vector2d pull = Eigen::Vector2d::Zero();
-  bool is_smooth = false;        ///< no crease nearby, so `pull` is the film's velocity there
-  bool film_can_follow = false;  ///< false: no film arrives, the surface recedes too fast
+  bool is_smooth = false;        ///< no crease nearby, so `pull` is the film's velocity here
+  bool film_can_follow = false;  ///< false: no film arrives, because the surface recedes too fast
 };
 
-/// A landing shared by several triangles: the mean of their pulls, smooth if all of them are.
+/// Combines the landings that several triangles have at a shared point: the mean of their pulls;
+/// smooth if all of them are.
 [[nodiscard]] Landing shared(const Landing& a, const Landing& b);
 
 /// The landings of a body's surface.
@@ -26,10 +27,10 @@ class Landings {
  public:
   Landings(const waterline::Body& body, const waterline::Motion& motion);
 
-  /// Per welded point; a point without triangles lies infinitely deep.
+  /// Landing of each welded point; a point without triangles lies infinitely deep.
   [[nodiscard]] const std::vector<Landing>& of_points() const { return points_; }
 
-  /// At a point inside a triangle, given by `barycentric` coordinates of corners 0, 1, 2.
+  /// Returns the landing at a point inside a triangle; `barycentric` refers to corners 0, 1, 2.
   [[nodiscard]] Landing on(int triangle, const Eigen::Vector3d& barycentric) const;
 
  private:

@@ -6,22 +6,23 @@
 
 namespace hydroprint::flow {
 
-/// The film's landing as a function of the surface: one entry per point of mesh::Surface. NaN where
+/// The film's landing as a function of the surface: one entry per point of mesh::Surface; NaN where
 /// no film arrives.
 struct SurfaceMap {
   std::vector<Eigen::Vector2d> film_mm;  ///< the point of the film, in F at rest, that lands here
   std::vector<double> contact_time_s;    ///< since the start of the dip
-  std::vector<double>
-      stretch;  ///< largest singular value of the film-to-surface Jacobian (section 6)
+  /// Largest singular value of the film-to-surface Jacobian (section 6).
+  std::vector<double> stretch;
   std::vector<double> least_stretch;  ///< the smaller singular value
 };
 
-/// A small triangle of the surface on which the map film -> surface is continuous, and linear to
-/// within its tolerance. Together these triangles tile the part that the film reaches.
+/// A small triangle of the surface on which the map from surface to film is continuous, and linear
+/// to within its tolerance. Together these triangles tile the part that the film reaches.
 struct MappedTriangle {
   std::array<Eigen::Vector2d, 3> film_mm;  ///< counter-clockwise seen from above
   int triangle = 0;                        ///< into mesh::Surface::triangles
-  /// The three corners in barycentric coordinates (of corners 0, 1, 2) of that triangle.
+  /// The three corners in barycentric coordinates (corners 0, 1, 2) of the triangle with index
+  /// `triangle`.
   std::array<Eigen::Vector3f, 3> barycentric;
   std::array<float, 3> contact_time_s{};
 };

@@ -15,10 +15,11 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-/// More edges than this at one level are a scatter of reached and unreached points, which no
-/// division resolves.
+/// If a level has more edges than this, reached and unreached points are scattered, and further
+/// division does not resolve them.
 constexpr std::size_t kMostEdges = 400000;
-/// A 2 mm edge is shorter than a pixel by then; slivers could be divided without end.
+/// After this many levels, a 2 mm edge is shorter than a pixel; slivers could be divided without
+/// end.
 constexpr int kMostLevels = 6;
 
 /// A corner of tiles: its place on the surface and the film that lands there (NaN: none).
@@ -29,7 +30,7 @@ struct Node {
 
 struct Tile {
   int triangle;
-  double film_per_surface;  ///< length on the film per length on the surface, at most
+  double film_per_surface;  ///< upper bound of the length on the film per length on the surface
   std::array<int, 3> node;
   std::array<Vector3d, 3> barycentric;
 };
@@ -45,12 +46,12 @@ struct Edge {
   Landing middle = {};
   double film_per_surface = 0;
   Vector2d film_mm = Vector2d::Constant(kNaN);
-  /// For the tiles on its two sides.
+  /// One map for each of the tiles on its two sides.
   std::array<SurfacePerFilm, 2> side = {SurfacePerFilm::Zero(), SurfacePerFilm::Zero()};
   int sides = 0;
 
-  /// The distance on the surface that corresponds to `off_mm` on the film; the larger of both
-  /// sides.
+  /// Returns the distance on the surface that corresponds to `off_mm` on the film; the larger of
+  /// both sides.
   [[nodiscard]] double off_on_surface_mm(const Vector2d& off_mm) const {
     double most = 0;
     for (int i = 0; i < sides; ++i) most = std::max(most, (side[i] * off_mm).norm());
@@ -111,8 +112,9 @@ class Tiler {
   std::vector<MappedTriangle> take() { return std::move(done_); }
 
  private:
-  /// Marks edges of the mesh itself as linear if the map bends too little along them to matter. The
-  /// estimate is the middle of a cubic through the gradients at both ends.
+  /// Marks edges of the mesh itself as linear if the map deviates too little from a straight line
+  /// along them. The deviation is estimated at the middle of a cubic through the gradients at both
+  /// ends.
   void trust_smooth_edges(const std::vector<Gradient>& gradient) {
     for (const Tile& tile : active_) {
       for (int i = 0; i < 3; ++i) {
@@ -172,7 +174,7 @@ class Tiler {
     return {};
   }
 
-  /// Decides for each traced edge whether it is linear, worth dividing, or broken for good.
+  /// Decides for each traced edge whether it is linear, should be divided, or crosses a jump.
   void judge(const std::vector<Edge>& edges) {
     const bool may_divide = edges.size() < kMostEdges && level_ < kMostLevels;
     for (const Edge& edge : edges) {
@@ -223,7 +225,7 @@ class Tiler {
     active_ = std::move(next);
   }
 
-  /// Splits a tile into two, three or four, depending on the number of divided edges.
+  /// Splits a tile into two, three or four tiles, depending on the number of divided edges.
   static void split(const Tile& tile, const std::array<int, 3>& middle, std::vector<Tile>& out) {
     const auto bary_middle = [&](int i) -> Vector3d {
       return 0.5 * (tile.barycentric[(i + 1) % 3] + tile.barycentric[(i + 2) % 3]);
@@ -287,13 +289,13 @@ class Tiler {
   const DipField& dip_;
   const Landings& landings_;
   const MapOptions& options_;
-  double tolerance_mm_;  ///< at the present level of division
+  double tolerance_mm_;  ///< tolerance at the current level of division
   int level_ = 0;
   std::vector<Node> nodes_;
   std::vector<Tile> active_;
   std::vector<MappedTriangle> done_;
   EdgeTable<EdgeState> state_;
-  EdgeTable<int> middle_;  ///< of divided edges
+  EdgeTable<int> middle_;  ///< midpoints of divided edges
 };
 
 }  // namespace

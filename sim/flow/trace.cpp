@@ -12,7 +12,8 @@
 namespace hydroprint::flow {
 namespace {
 
-/// Chords of the film mesh cut off at most this much of the film; there is no film farther outside.
+/// Chords of the film mesh cut off at most this much of the film. Points farther outside have no
+/// film.
 constexpr double kReach_mm = 0.08;
 /// A step may overshoot the waterline, and a landing may be as far from its neighbouring waterlines
 /// as they are from each other. Such points still need a velocity. (The start of each path decides
@@ -22,29 +23,29 @@ constexpr double kFarReach_mm = velocity::Locator::kReach_mm;
 using Eigen::Vector2d;
 using velocity::VelocityField;
 
-/// A step at least this many times longer than the previous one restarts the multistep rule: the
-/// short step crossed an event, where the velocity jumps.
+/// If a step is at least this many times longer than the previous one, the multistep rule restarts:
+/// the short step crossed an event, where the velocity jumps.
 constexpr double kMostGrowth = 4;
 
 constexpr std::size_t kChunk = 512;  ///< points followed together
 
-/// A point of the film on its way back through the dip.
+/// A point of the film, traced back through the dip.
 struct BackPath {
   Vector2d point_mm;  ///< NaN: lost
   double immersion_mm;
-  Vector2d velocity;                           ///< of the film at that point and immersion
+  Vector2d velocity;                           ///< velocity of the film at that point and immersion
   std::size_t after;                           ///< number of waterlines still before it
   Vector2d later_velocity = Vector2d::Zero();  ///< one step later in the dip
   double later_span_mm = 0;
-  bool keeps_on = false;  ///< keeps its velocity where there is no film; else it is lost
+  bool keeps_on = false;  ///< if there is no film, keeps its velocity; otherwise the path is lost
 
   [[nodiscard]] bool is_lost() const { return std::isnan(point_mm.x()); }
   void lose() { point_mm.setConstant(std::numeric_limits<double>::quiet_NaN()); }
 };
 
-/// Displacement over a step, from the velocity at its start and the predicted one at its end.
-/// Quadratic in time through these and the previous velocity (Adams-Moulton rule for uneven steps);
-/// linear if there is no previous one.
+/// Returns the displacement over a step, from the velocity at its start and the predicted one at
+/// its end. Quadratic in time through these and the previous velocity (Adams-Moulton rule for
+/// uneven steps); linear if there is no previous one.
 Vector2d displacement(const BackPath& path, double span_mm, const Vector2d& end_velocity) {
   const double g = path.later_span_mm;
   const double h = span_mm;
@@ -63,8 +64,10 @@ Vector2d predicted_displacement(const BackPath& path, double span_mm) {
   return out;
 }
 
-/// One step back to the waterline at `immersion_mm`; the path is lost where the field has no film.
-/// @param triangle  of the film mesh, near the point if possible; set to the one under the point
+/// Traces one step back to the waterline at `immersion_mm`; the path is lost where the field has no
+/// film.
+/// @param triangle  of the film mesh, near the point if possible; set to the one that contains the
+///                  point
 void step_back(const VelocityField& field, double immersion_mm, int& triangle, BackPath& path) {
   const double span_mm = path.immersion_mm - immersion_mm;
   Vector2d before = path.velocity;
@@ -76,7 +79,8 @@ void step_back(const VelocityField& field, double immersion_mm, int& triangle, B
   path.later_span_mm = span_mm;
   path.immersion_mm = immersion_mm;
   --path.after;
-  // The step may have cut a corner of the waterline by as much as its two rules differ.
+  // The step may have cut off a corner of the waterline by as much as the results of the two rules
+  // differ.
   const double reach_mm = path.keeps_on
                               ? kFarReach_mm
                               : std::min(kFarReach_mm, kReach_mm + (corrected - predicted).norm());
@@ -84,7 +88,7 @@ void step_back(const VelocityField& field, double immersion_mm, int& triangle, B
   if (!is_film && !path.keeps_on) path.lose();
 }
 
-/// An order in which consecutive paths begin near each other: up and down narrow strips.
+/// Returns an order in which consecutive paths begin near each other: up and down narrow strips.
 std::vector<std::size_t> neighbours_in_turn(const std::vector<BackPath>& paths) {
   constexpr double kStrip_mm = 4;
   struct Key {
@@ -125,7 +129,7 @@ void follow_back(const DipField& dip, std::vector<BackPath>& paths, std::size_t 
   }
 }
 
-/// The last step of each path, to before first contact.
+/// Traces the last step of each path, to before first contact.
 void come_to_rest(const DipField& dip, std::vector<BackPath>& paths) {
   for (BackPath& path : paths) {
     if (path.is_lost()) continue;
@@ -135,10 +139,10 @@ void come_to_rest(const DipField& dip, std::vector<BackPath>& paths) {
   }
 }
 
-/// The film's velocity at the landing.
-/// @param after  index of the first waterline after it
+/// Computes the film's velocity at the landing.
+/// @param after  index of the first waterline after the landing
 /// @return false if there is film neither at the waterline before nor at the one after. The landing
-///     is then not on the film's boundary at all
+///         is then not on the film's boundary at all
 bool velocity_at(const DipField& dip, const Landing& landing, std::size_t after,
                  Vector2d& velocity) {
   velocity = landing.pull;

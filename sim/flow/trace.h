@@ -13,8 +13,8 @@
 
 namespace hydroprint::flow {
 
-/// The film's velocity through a whole dip. The velocity per unit dip speed depends on the
-/// immersion alone, so immersion takes the place of time.
+/// The film's velocity through a whole dip. The velocity per unit dip speed depends only on the
+/// immersion, so immersion is used in place of time.
 struct DipField {
   film::Outline outline;                        ///< the film as it floats at rest
   double depth_mm = 0;                          ///< immersion at the end of the dip
@@ -22,14 +22,14 @@ struct DipField {
   std::vector<velocity::VelocityField> fields;  ///< one per immersion
 };
 
-/// Traces a landing back to the point of the film at rest (the inverse map of section 4.5). The
-/// film is followed from waterline to waterline by a third-order multistep rule, which restarts at
-/// events. The place and time of the landing are known exactly, so no contact has to be searched
-/// for. The velocity there is that of eq. (1). Near creases, where eq. (1) jumps, it lies between
-/// the velocities at the waterlines before and after.
+/// Traces a landing back to the point of the film at rest (the inverse map of section 4.5). Follows
+/// the film from waterline to waterline with a third-order multistep rule, which restarts at
+/// events. Place and time of the landing are known exactly, so there is no search for the contact.
+/// The velocity there is that of eq. (1). Near creases, where eq. (1) jumps, it lies between the
+/// velocities at the waterlines before and after.
 /// @return nullopt where no film arrives: inside the union of the object's parts, in a cavity
-///     without film, behind a level top that the film cannot follow, beyond the film's edge, or
-///     past the end of the dip
+///         without film, behind a level top that the film cannot follow, beyond the film's edge, or
+///         past the end of the dip
 [[nodiscard]] std::optional<Eigen::Vector2d> trace_back(const DipField& dip,
                                                         const Landing& landing);
 
@@ -40,15 +40,14 @@ struct DipField {
                                                               const Context& context);
 
 /// Maps the film at one waterline to its position at rest: a quadratic function on the film mesh,
-/// stored in the same way as a velocity.
+/// stored like a velocity.
 struct RestMap {
   std::size_t waterline = 0;
   velocity::VelocityField rest_mm;
 };
 
-/// The position at rest of each node of the film mesh of waterline `k`.
-/// @param known  map of an earlier waterline, at which the paths end; nullptr: they are followed to
-///     rest
+/// Returns the position at rest of each node of the film mesh of waterline `k`.
+/// @param known  map of an earlier waterline, at which tracing stops; nullptr: traces back to rest
 /// @return NaN where the film at `known` does not contain the point
 [[nodiscard]] std::vector<Eigen::Vector2d> trace_back(const DipField& dip, std::size_t k,
                                                       const RestMap* known = nullptr);

@@ -16,15 +16,16 @@ using Eigen::Vector2d;
 
 constexpr int kMostCells = 2048;  // along a side
 constexpr int kPointsPerCell = 4;
-/// Gauss points relative to the middle, as parts of the length. They are exact for cubics, such as
-/// the integrand along a piece of an edge within one cell.
+/// Gauss points relative to the middle, as fractions of the length. They are exact for cubics, such
+/// as the integrand along a piece of an edge within one cell.
 constexpr std::array<double, 2> kGauss = {-0.28867513459481287, 0.28867513459481287};
 constexpr double kOnEdge_cells = 1e-9;
-/// Twice the area, in cells, below which rounding would show in a mean.
+/// For triangles with less than twice this area, in cells, rounding errors would be visible in a
+/// mean.
 constexpr double kFlat_cells2 = 1e-6;
 
-/// One axis of the field, cut at the nodes and at the field's two ends. Strip i in [0, cells] lies
-/// between the nodes i and i + 1. Strip -1 is before the field, strip cells + 1 behind it.
+/// One axis of the field, divided at the nodes and at the field's two ends. Strip i in [0, cells]
+/// lies between the nodes i and i + 1. Strip -1 lies before the field, strip cells + 1 after it.
 struct Axis {
   int cells;
 
@@ -35,7 +36,7 @@ struct Axis {
     if (!(u >= begin())) return -1;
     return u >= end() ? cells + 1 : static_cast<int>(u);
   }
-  /// The end of strip i and start of strip i + 1.
+  /// Returns the end of strip i and start of strip i + 1.
   [[nodiscard]] double end_of(int i) const { return clamp(i + 1); }
 };
 
@@ -43,7 +44,7 @@ double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 
 bool is_ink(double t) { return t >= 0 && t <= kMostInk; }
 
-/// Moves values that rounding took out of [0, 4] back into it; NaN becomes 0.
+/// Clamps values that rounding has moved out of [0, 4]; NaN becomes 0.
 double rounded_in(double t) { return t >= 0 ? std::min(t, kMostInk) : 0; }
 
 tl::unexpected<Error> not_ink(const InkGrid& grid, std::size_t cell, double t) {
@@ -133,8 +134,8 @@ double InkField::at(const Vector2d& point_mm) const {
   return (1 - b) * ((1 - a) * low[0].t + a * low[1].t) + b * ((1 - a) * high[0].t + a * high[1].t);
 }
 
-/// Integral of t along the horizontal line through v, from the row's first node to u. The point (u,
-/// v) is in strips i and j.
+/// Returns the integral of t along the horizontal line through v, from the row's first node to u.
+/// The point (u, v) is in strips i and j.
 double InkField::to_the_left(int i, int j, double u, double v) const {
   const double a = u - i, b = v - j;
   const auto along = [&](int row) {
@@ -144,7 +145,7 @@ double InkField::to_the_left(int i, int j, double u, double v) const {
   return (1 - b) * along(j) + b * along(j + 1);
 }
 
-/// Integral of t over the region left of an edge; positive if the edge goes up.
+/// Returns the integral of t over the region left of an edge; positive if the edge goes up.
 double InkField::left_of_edge(const Vector2d& from, const Vector2d& to) const {
   const Axis across{grid_.columns}, up{grid_.rows};
   if (const int i = across.strip(from.x()), j = up.strip(from.y());

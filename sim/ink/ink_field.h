@@ -10,7 +10,7 @@
 
 namespace hydroprint::ink {
 
-/// The largest possible amount of ink: C, M, Y and K in full (section 4.3).
+/// The largest possible amount of ink: full C, M, Y and K (section 4.3).
 inline constexpr double kMostInk = 4;
 
 inline constexpr double kInkCell_mm = 1;
@@ -28,47 +28,48 @@ struct InkGrid {
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(columns) * rows; }
 };
 
-/// The grid whose cells are nearest to `cell_mm`; they are wider if there would be more than 2048
-/// along a side.
+/// Returns the grid with cells nearest in size to `cell_mm`; they are larger if a side would have
+/// more than 2048 cells.
 [[nodiscard]] InkGrid ink_grid(const film::Outline& outline, double cell_mm = kInkCell_mm);
 
 /// The amount of ink t = C + M + Y + K on a printed film (section 4.3), in [0, 4], at printed
-/// points in F. It is given as means over the cells of a grid. Between their centres it is
-/// bilinear; from the outermost centres to the edge of the grid it is constant, and beyond the edge
-/// it is 0. The integral over the film is therefore that of the cells.
+/// points in F. It is defined by means over the cells of a grid: bilinear between the cells'
+/// centres, constant from the outermost centres to the edge of the grid, and 0 beyond. Its integral
+/// over the film is therefore that of the cells.
 class InkField {
  public:
-  /// No ink anywhere.
+  /// Creates a field without ink.
   InkField() = default;
 
+  /// Errors: kInvalidArgument for a wrong number of means or values outside [0, 4].
   /// @param means  of t over each cell, cell (i, j) at [j columns + i]
-  /// Refuses (kInvalidArgument) a wrong number of means and values outside [0, 4].
   [[nodiscard]] static Result<InkField> from_means(const InkGrid& grid,
                                                    const std::vector<double>& means);
 
-  /// From t as a function of the printed point (mm), as the mean of 4 x 4 points per cell. Refuses
-  /// (kInvalidArgument) a function with values outside [0, 4].
+  /// Creates a field from t as a function of the printed point (mm), as the mean of 4 x 4 points
+  /// per cell. Errors: kInvalidArgument if the function has values outside [0, 4].
   [[nodiscard]] static Result<InkField> from_function(
       const InkGrid& grid, const std::function<double(const Eigen::Vector2d&)>& t);
 
-  /// t at a printed point.
+  /// Returns t at a printed point.
   [[nodiscard]] double at(const Eigen::Vector2d& point_mm) const;
 
-  /// Mean of at() over a triangle of any size and orientation, exact up to rounding. Nothing is
-  /// lost or counted twice if triangles cover a film. The run time grows with the number of cells
-  /// along the edges. For a triangle without area, t at its centroid; 0 if a corner is not finite.
+  /// Returns the mean of at() over a triangle of any size and orientation, exact up to rounding.
+  /// Triangles that tile a film therefore conserve its total ink. The run time grows with the
+  /// number of cells along the edges. Returns t at the centroid if the triangle has no area, and 0
+  /// if a corner is not finite.
   [[nodiscard]] double mean(const Eigen::Vector2d& a_mm, const Eigen::Vector2d& b_mm,
                             const Eigen::Vector2d& c_mm) const;
 
-  /// Integral of t over the film, mm2.
+  /// Returns the integral of t over the film, mm2.
   [[nodiscard]] double total_mm2() const;
 
   [[nodiscard]] const InkGrid& grid() const { return grid_; }
 
  private:
-  // Below, coordinates are in cells, shifted by half a cell up and right: (1, 1) is the centre of
-  // cell (0, 0). Nodes are at whole numbers; the outermost cells have a second node beyond the
-  // edge.
+  // The functions below use coordinates in cells, shifted by half a cell up and right: (1, 1) is
+  // the centre of cell (0, 0). Nodes are at integers; the outermost cells have a second node beyond
+  // the edge.
   InkField(const InkGrid& grid, const std::vector<double>& means);
   [[nodiscard]] Eigen::Vector2d in_cells(const Eigen::Vector2d& point_mm) const;
   [[nodiscard]] double to_the_left(int i, int j, double u, double v) const;

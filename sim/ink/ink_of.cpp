@@ -15,7 +15,7 @@
 namespace hydroprint::ink {
 namespace {
 
-/// An image by its rows (8-bit sRGB, row 0 on top); `row` may store the row in `buffer`.
+/// Access to an image by rows (8-bit sRGB, row 0 at the top); `row` may store the row in `buffer`.
 struct Rows {
   int width, height;
   std::function<const std::uint8_t*(int y, std::vector<std::uint8_t>& buffer)> row;
@@ -63,7 +63,7 @@ Result<InkField> average(const Rows& image, const film::Outline& outline, const 
   const Eigen::Vector2d px_mm =
       extent.size_mm.cwiseQuotient(Eigen::Vector2d(image.width, image.height));
   const Eigen::Vector2d cell_px = grid.cell_mm.cwiseQuotient(px_mm);
-  // Counted from the top, like the image's rows.
+  // Position counted from the top, like the image's rows.
   const Eigen::Vector2d first_px =
       Eigen::Vector2d(outline.min_mm.x() - extent.low_mm.x(),
                       extent.low_mm.y() + extent.size_mm.y() - outline.max_mm.y())

@@ -15,15 +15,15 @@ struct InkOptions {
   double cell_mm = kInkCell_mm;
 };
 
-/// The ink of a film image on its film: each pixel's amount (make_separation), then means over the
-/// cells. The image covers image::image_extent(); there is no ink outside it. The result is
-/// bit-identical for any number of threads. Fails as make_separation() does.
+/// Computes the ink of a film image on its film: the amount for each pixel (make_separation), then
+/// means over the cells. The image covers image::image_extent(); there is no ink outside it. The
+/// result is bit-identical for any number of threads. Returns the errors of make_separation().
 [[nodiscard]] Result<InkField> ink_of(const image::RgbImage& film_image,
                                       const film::Outline& outline, const InkOptions& options,
                                       const Context& context);
 
-/// Same as ink_of(), for an image file (PNG, JPEG or TIFF, any number of pixels; transparency is
-/// white), by its 8-bit sRGB codes. Also fails as image::read_image() does.
+/// Same as ink_of(), for an image file (PNG, JPEG or TIFF of any size; transparency is white), read
+/// as 8-bit sRGB. Also returns the errors of image::read_image().
 [[nodiscard]] Result<InkField> read_ink_image(const std::filesystem::path& path,
                                               const film::Outline& outline,
                                               const InkOptions& options, const Context& context);

@@ -13,7 +13,7 @@ namespace hydroprint::ink {
 namespace {
 
 /// Limit on the size of files and of the tables that they announce. Real profiles have about 1 MiB,
-/// but the library would allocate half a GiB if a damaged header says so.
+/// but the library would allocate half a GiB if a damaged header announces it.
 constexpr std::size_t kMost_bytes = std::size_t{64} << 20;
 constexpr std::size_t kHeader_bytes = 128;
 
@@ -25,7 +25,7 @@ void* reallocate(cmsContext, void* memory, cmsUInt32Number bytes) {
 }
 void release(cmsContext, void* memory) { std::free(memory); }
 
-/// Keeps the library's first message.
+/// Stores the library's first message.
 void note_error(cmsContext context, cmsUInt32Number, const char* text) {
   auto* said = static_cast<std::string*>(cmsGetContextUserData(context));
   if (said != nullptr && said->empty()) *said = text;
@@ -48,7 +48,8 @@ Status check_whole(const std::string& bytes, const std::string& name) {
 
 }  // namespace
 
-/// A private context of the library, so that nothing is global, and the objects created in it.
+/// A private context of the library, so that there is no global state, and the objects created in
+/// it.
 class PrinterColours::LittleCms {
  public:
   LittleCms() {
@@ -77,7 +78,7 @@ class PrinterColours::LittleCms {
         (space != cmsSigCmykData && space != cmsSigRgbData)) {
       return fail(Code::kInvalidArgument, name +
                                               ": not the profile of a CMYK or RGB printer. "
-                                              "Give an ICC output profile whose colour space "
+                                              "Use an ICC output profile whose colour space "
                                               "is CMYK or RGB");
     }
     channels_ = space == cmsSigCmykData ? 4 : 3;
@@ -101,7 +102,7 @@ class PrinterColours::LittleCms {
     const std::string why = said_.substr(0, said_.find('\n'));
     return fail(Code::kDataLoss, name + ": damaged ICC profile" +
                                      (why.empty() ? "" : " (" + why + ")") +
-                                     ". Get the file again");
+                                     ". Download or export the file again");
   }
 
   std::string said_;

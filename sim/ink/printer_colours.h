@@ -10,20 +10,21 @@
 
 namespace hydroprint::ink {
 
-/// A printer's ICC output profile, by Little CMS: from 8-bit sRGB to its own channels, relative
-/// colorimetric, without black point compensation. Copies share their data.
+/// Converts 8-bit sRGB to a printer's own channels with its ICC output profile (Little CMS,
+/// relative colorimetric, without black point compensation). Copies share their data.
 class PrinterColours {
  public:
-  /// Errors, naming the file: if it is missing or cannot be read; kInvalidArgument for profiles of
-  /// other devices and of colour spaces other than CMYK and RGB; kDataLoss for damaged profiles;
-  /// kOutOfRange for more than 64 MiB.
+  /// Errors name the file: kNotFound or kPermissionDenied if it cannot be read; kInvalidArgument
+  /// for profiles of other devices and of colour spaces other than CMYK and RGB; kDataLoss for
+  /// damaged profiles; kOutOfRange for more than 64 MiB.
   [[nodiscard]] static Result<PrinterColours> open(const std::filesystem::path& icc_profile);
 
-  /// 4: C M Y K; 3: R G B.
+  /// Returns 4 for C M Y K and 3 for R G B.
   [[nodiscard]] int channels() const;
-  /// @param out  count times channels() values, at most 65535. May be called from any thread.
+  /// May be called from any thread.
+  /// @param out  count times channels() values, at most 65535
   void convert(const std::uint8_t* rgb, std::size_t count, std::uint16_t* out) const;
-  /// The profile itself, to embed in converted images.
+  /// Returns the profile itself, to embed in converted images.
   [[nodiscard]] const std::string& icc_profile() const { return icc_profile_; }
 
  private:

@@ -26,7 +26,7 @@ Result<Separation> make_separation(const std::filesystem::path& icc_profile) {
   if (colours.channels() != 4) {
     return fail(Code::kInvalidArgument,
                 icc_profile.string() +
-                    ": not the profile of a CMYK printer. Give an ICC output profile whose colour "
+                    ": not the profile of a CMYK printer. Use an ICC output profile whose colour "
                     "space is CMYK");
   }
   return Separation([colours](const std::uint8_t* rgb, std::size_t count, double* t) {

@@ -16,7 +16,8 @@ struct Keyed {
   int side;
 };
 
-/// Counting sort by one end: stable and linear; a comparison sort would dominate for big models.
+/// Counting sort by one end: stable and linear. A comparison sort would dominate the time for large
+/// models.
 void sort_by(int Keyed::*end, std::size_t points, std::vector<Keyed>& items,
              std::vector<Keyed>& buffer) {
   std::vector<std::size_t> start(points + 1, 0);

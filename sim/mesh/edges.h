@@ -8,14 +8,16 @@
 namespace hydroprint::mesh {
 
 /// The sides of triangles, grouped by edge. Side s = 3 t + k of triangle t runs from its corner k
-/// to its corner (k + 1) % 3. Two sides are on the same edge if their welded ends are the same.
+/// to its corner (k + 1) % 3. Two sides are on the same edge if their ends, after welding, are the
+/// same.
 class Edges {
  public:
-  /// @param weld  per point, its representative
+  /// @param weld  for each point, its representative
   Edges(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld);
 
   [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
-  /// The sides on edge e, ascending: one at a boundary, two on a manifold, else more.
+  /// Returns the sides on edge e in ascending order: one at a boundary, two on a manifold, more
+  /// elsewhere.
   [[nodiscard]] std::span<const int> sides(std::size_t e) const {
     return std::span(sides_).subspan(begin_[e], begin_[e + 1] - begin_[e]);
   }

@@ -24,7 +24,7 @@ void warn(Surface& surface, const Model& model, std::string code, std::string me
   surface.warnings.push_back({std::move(code), std::move(message), model.path.string()});
 }
 
-/// The triangles that still have an area after coincident points are welded.
+/// Returns the triangles that still have an area after coincident points are welded.
 std::vector<int> proper_triangles(const Model& model, const std::vector<int>& weld,
                                   double tolerance) {
   std::vector<int> kept;
@@ -56,7 +56,7 @@ Patchwork start(const Model& model, std::vector<int> weld, const std::vector<int
   return work;
 }
 
-/// @return true if anything was turned over (which renumbers sides)
+/// @return true if any triangle was flipped (which renumbers sides)
 bool turn_over(Patchwork& work, const std::vector<bool>& flip) {
   bool any = false;
   for (std::size_t t = 0; t < flip.size(); ++t) {
@@ -96,7 +96,7 @@ void warn_about_orientation(const Model& model, const Orientation& found, Surfac
                      found.shells, found.cavities));
 }
 
-/// @return true if every edge has two faces, one each way
+/// @return true if every edge has two faces with opposite directions
 bool check_edges(const Model& model, const Edges& edges, const Patchwork& work, Surface& surface) {
   std::size_t open = 0;
   std::size_t crowded = 0;

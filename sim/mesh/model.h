@@ -17,7 +17,7 @@ enum class Wrap { kRepeat, kMirror, kClamp };
 struct Material {
   std::string name;
   Eigen::Vector3f colour = {1, 1, 1};        ///< sRGB-coded, [0, 1]
-  bool has_colour = false;                   ///< false: the file states no colour
+  bool has_colour = false;                   ///< false: the file defines no colour
   std::filesystem::path texture;             ///< resolved against the model's folder; empty: none
   std::vector<unsigned char> texture_bytes;  ///< the image file itself if the model embeds it
   Wrap wrap_u = Wrap::kRepeat;
@@ -34,7 +34,7 @@ struct Model {
   std::vector<int> triangle_material;                      ///< into materials; empty: none
   std::vector<Material> materials;
   std::vector<Eigen::Vector3f> vertex_colours;  ///< sRGB-coded [0, 1]; empty: none
-  Warnings warnings;                            ///< assumptions made in reading
+  Warnings warnings;                            ///< assumptions made while reading
 };
 
 }  // namespace hydroprint::mesh

@@ -52,7 +52,8 @@ Result<Faces> measure(const std::vector<Eigen::Vector3d>& points,
   return faces;
 }
 
-/// Groups corners that share a normal. A corner has the number of the side that begins at it.
+/// Groups corners that share a normal. The number of a corner is that of the side that begins at
+/// it.
 Groups smooth_corners(const std::vector<Eigen::Vector3i>& triangles, const std::vector<int>& weld,
                       const Edges& edges, const std::vector<Eigen::Vector3d>& normals) {
   HP_CHECK(normals.size() == triangles.size());
@@ -63,8 +64,8 @@ Groups smooth_corners(const std::vector<Eigen::Vector3i>& triangles, const std::
     if (sides.size() != 2) continue;
     const int a = sides[0];
     const int b = sides[1];
-    // Faces that run the same way along their edge face opposite sides; no smooth surface does
-    // that.
+    // Faces with the same direction along their common edge face opposite sides, which is not
+    // possible on a smooth surface.
     if (side_ends(a, triangles, weld).from == side_ends(b, triangles, weld).from) continue;
     const double cosine =
         normals[static_cast<std::size_t>(a / 3)].dot(normals[static_cast<std::size_t>(b / 3)]);
@@ -96,7 +97,8 @@ Result<std::vector<std::array<Eigen::Vector3d, 3>>> corner_normals(
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& sum = sums[groups.find(3 * t + k)];
-      // The normals around a full ring of faces may cancel. Then the face's own normal is used.
+      // The normals around a full ring of faces may cancel. In that case the face's own normal is
+      // used.
       result[t][k] = sum.norm() > 1e-6 ? sum.normalized() : normals[t];
     }
   }

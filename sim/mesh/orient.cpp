@@ -21,8 +21,8 @@ struct Patch {
   Eigen::AlignedBox3d box;
 };
 
-/// Limit for the tests that distinguish cavities from inverted parts (a second of work). Beyond it,
-/// a part within another's bounding box counts as a cavity.
+/// Limit for the tests that distinguish cavities from inverted parts (about a second). Beyond it, a
+/// part within the bounding box of another counts as a cavity.
 constexpr std::size_t kMaxWindingTriangles = 100'000'000;
 
 class Orienter {
@@ -42,7 +42,7 @@ class Orienter {
       measure(patch);
       total += patch.volume;
     }
-    // The whole model is inverted, not just some parts, so its cavities have the positive sign.
+    // If the whole model is inverted, not just some parts, its cavities have a positive volume.
     if (total < 0)
       for (auto& patch : patches_) turn_over(patch);
     for (std::size_t i = 0; i < patches_.size(); ++i) {

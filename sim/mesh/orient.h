@@ -8,19 +8,19 @@
 
 namespace hydroprint::mesh {
 
-/// The triangles to turn over so that all face outward, and the defects that were found.
+/// The triangles to flip so that all face outward, and the defects that were found.
 struct Orientation {
-  std::vector<bool> flip;        ///< per triangle
-  std::size_t inconsistent = 0;  ///< triangles turned to agree with most of their neighbours
-  std::size_t one_sided = 0;     ///< edges that disagree either way (Moebius strips)
-  std::size_t inside_out = 0;    ///< shells turned because their volume was negative
+  std::vector<bool> flip;        ///< whether to flip, for each triangle
+  std::size_t inconsistent = 0;  ///< triangles flipped to agree with most of their neighbours
+  std::size_t one_sided = 0;     ///< edges whose faces cannot agree (Moebius strips)
+  std::size_t inside_out = 0;    ///< shells flipped because their volume was negative
   std::size_t cavities = 0;      ///< closed shells that bound a cavity inside another
   std::size_t shells = 0;        ///< parts that share no edge
 };
 
-/// Makes neighbours across edges of two faces agree; the minority is turned over. Then turns over
-/// parts with a negative volume, except cavities inside another part. To measure volumes, open
-/// parts are closed by a cone to the middle of their boundary. Flat parts stay unchanged.
+/// Makes neighbours across edges of two faces agree by flipping the minority. Then flips parts with
+/// a negative volume, except cavities inside another part. To measure volumes, open parts are
+/// closed by a cone to the middle of their boundary. Flat parts stay unchanged.
 [[nodiscard]] Orientation orient(const std::vector<Eigen::Vector3d>& points,
                                  const std::vector<int>& weld,
                                  const std::vector<Eigen::Vector3i>& triangles, const Edges& edges);

@@ -21,7 +21,7 @@ class Pass {
  public:
   Pass(Patchwork& work, double max_edge_mm) : work_(work), max_edge_mm_(max_edge_mm) {}
 
-  /// Finds the edges to cut. @return number of triangles after the pass
+  /// Finds the edges to cut and returns the number of triangles after the pass.
   std::size_t plan() {
     std::size_t cuts = 0;
     for (int side = 0; side < static_cast<int>(3 * work_.triangles.size()); ++side)

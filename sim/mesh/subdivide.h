@@ -18,10 +18,10 @@ struct Patchwork {
   std::vector<std::array<Eigen::Vector3f, 3>> source_barycentric;
 };
 
-/// Halves edges longer than `max_edge_mm` until none is left. Whether and where an edge is cut
-/// depends on its welded ends alone, so neighbours agree, also across seams. Old points keep their
-/// numbers; new ones follow, one per cut edge. Error: kResourceExhausted for more than
-/// `max_triangles`.
+/// Splits edges longer than `max_edge_mm` in half until none are left. Whether and where an edge is
+/// cut depends only on its welded ends, so neighbouring triangles agree, also across seams.
+/// Existing points keep their indices; new ones follow, one per cut edge. Error: kResourceExhausted
+/// for more than `max_triangles`.
 [[nodiscard]] Result<Patchwork> subdivide(Patchwork input, double max_edge_mm,
                                           std::size_t max_triangles, const Context& context);
 

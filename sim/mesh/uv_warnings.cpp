@@ -18,7 +18,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The number of times that each point of one texture is used, counted up to two.
+/// Counts how often each point of one texture is used, up to two.
 class Coverage {
  public:
   void add(const Uvs& uvs) {
@@ -62,7 +62,7 @@ class Coverage {
   int everywhere_ = 0;
 };
 
-/// Share of the used texture, over all materials, that is used more than once.
+/// Returns the fraction of the used texture, over all materials, that is used more than once.
 double overlapping_share(const Model& model) {
   double used = 0;
   double twice = 0;

@@ -4,10 +4,10 @@
 
 namespace hydroprint::mesh {
 
-/// Warnings about unusual texture coordinates. `uv_overlapping`: more than 0.5 % of the used
-/// texture is used twice (measured at 1024 x 1024 points, per material). `uv_mirrored`: more than
-/// 0.5 % of the area in the texture appears mirrored on the object. Both are often intended, so
-/// nothing is refused.
+/// Returns warnings about unusual texture coordinates. `uv_overlapping`: more than 0.5 % of the
+/// used texture is used twice (measured at 1024 x 1024 points, per material). `uv_mirrored`: more
+/// than 0.5 % of the area in the texture appears mirrored on the object. Both are often intended,
+/// so they are not errors.
 [[nodiscard]] Warnings uv_warnings(const Model& model);
 
 }  // namespace hydroprint::mesh

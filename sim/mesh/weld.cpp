@@ -13,9 +13,9 @@ namespace {
 
 using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// Points by cell of a grid, in a hash table. Cells in the same slot share a chain; the distance
-/// test separates them. Only representatives are stored, so a cell of four tolerances holds a
-/// bounded number.
+/// Points by grid cell, in a hash table. Cells in the same slot share a chain; the distance test
+/// separates them. Only representatives are stored, so a cell with a side of four tolerances
+/// contains a bounded number.
 class Grid {
  public:
   Grid(const std::vector<Eigen::Vector3d>& points, double tolerance)
@@ -30,7 +30,7 @@ class Grid {
     for (const auto& p : points) origin_ = origin_.cwiseMin(p);
   }
 
-  /// First representative within tolerance of point i, or -1.
+  /// Returns the first representative within tolerance of point i, or -1.
   [[nodiscard]] int find(std::size_t i) const {
     const Eigen::Vector3d reach = Eigen::Vector3d::Constant(tolerance_);
     const Cell low = cell(points_[i] - reach);

@@ -5,21 +5,21 @@
 
 namespace hydroprint::mesh {
 
-/// Lengths below this share of the bounding box's diagonal count as zero: closer points are welded,
-/// and triangles of less height have no area.
+/// Lengths below this fraction of the bounding box's diagonal count as zero: closer points are
+/// welded, and triangles with a smaller height count as degenerate.
 inline constexpr double kNothing = 1e-9;
 
-/// Diagonal of the points' bounding box; 0 if there are none.
+/// Returns the diagonal of the points' bounding box; 0 if there are no points.
 [[nodiscard]] double diagonal(const std::vector<Eigen::Vector3d>& points);
 
-/// Finds coincident points. Points are taken in order; each joins the first earlier representative
-/// within `tolerance`, or becomes a representative itself. Takes time linear in the number of
-/// points.
-/// @return per point: its representative (itself if none is near)
+/// Finds coincident points. Points are processed in order; each joins the first earlier
+/// representative within `tolerance`, or becomes a representative itself. Takes time linear in the
+/// number of points.
+/// @return for each point, its representative (itself if none is near)
 [[nodiscard]] std::vector<int> weld_points(const std::vector<Eigen::Vector3d>& points,
                                            double tolerance);
 
-/// True if the height of triangle abc over its longest side is below `tolerance`.
+/// Returns true if the height of triangle abc over its longest side is below `tolerance`.
 [[nodiscard]] bool is_degenerate(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                  const Eigen::Vector3d& c, double tolerance);
 

@@ -9,12 +9,12 @@
 
 namespace hydroprint::pipeline {
 
-/// The method of section 4: mesh, pose, waterline, film mesh, velocity, flow map.
-/// Refuses a pose whose first contact misses the film (kFailedPrecondition).
+/// Computes a dip with the method of section 4: mesh, pose, waterline, film mesh, velocity, flow
+/// map. Errors: kFailedPrecondition if the first contact misses the film.
 [[nodiscard]] Result<Dip> dip(const mesh::Model& model, const DipOptions& options,
                               const Context& context);
 
-/// Same as above, continuing from a first pass of this model with these options.
+/// Same as above, continuing from a first pass of the same model with the same options.
 [[nodiscard]] Result<Dip> dip(const mesh::Model& model, StokesPass first, const DipOptions& options,
                               const Context& context);
 

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kStokesStretch = 1.3;  ///< the paper's 0.3 is stretch beyond rest (section 4.4)
 
-/// A sheet that still moves by more than this at the end gets a warning: about a pixel at 300 dpi.
+/// If a sheet still moves by more than this at the end, there is a warning: about a pixel at 300
+/// dpi.
 constexpr double kUnsettled_mm = 0.08;
 
 struct Face {
@@ -56,7 +57,7 @@ std::string percent(double share) {
   return std::to_string(static_cast<int>(std::lround(1000 * share)) / 10.0).substr(0, 4) + " %";
 }
 
-/// A number with two digits after the point.
+/// Returns a number with two digits after the point.
 std::string fixed(double value) {
   std::array<char, 32> text{};
   const int length = std::snprintf(text.data(), text.size(), "%.2f", value);
@@ -96,7 +97,7 @@ void warn_of_traps(const std::vector<waterline::Trap>& traps, Warnings& warnings
                       where_of(*most)});
 }
 
-/// Warns where the film tears or wrinkles, so that it no longer behaves as a sheet.
+/// Warns if the film tears or wrinkles and thus no longer behaves like a sheet.
 void warn_of_strain(const DipFigures& figures, const film::Profile& profile, Warnings& warnings) {
   const auto warn = [&](double share, const char* code, const std::string& message) {
     if (share > 0) {

@@ -14,10 +14,10 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Resolution of film images that are only made to compute their ink: finer than the cells over
-/// which the ink is averaged.
+/// Resolution of film images that serve only to compute their ink: finer than the cells over which
+/// the ink is averaged.
 constexpr double kInkDpi = 60;
-/// Share of the points that must have come to rest; a few at the map's jumps may never settle.
+/// Fraction of the points that must have converged; a few at jumps of the map may never do so.
 constexpr double kMostPoints = 0.999;
 
 /// Coarsens the tiling of the map for such an image, to a fraction of its pixels.

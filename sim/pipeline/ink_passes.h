@@ -8,11 +8,11 @@
 
 namespace hydroprint::pipeline {
 
-/// The dip of a film that carries the ink of its own film image: the two-step scheme of section
-/// 4.3, repeated. Each pass draws the film image for the flow so far, takes the thickness of its
-/// ink and solves the sheet with it. The passes start from Stokes flow. They end after
-/// `most_passes`, or when a pass moves the film by less than a pixel. The figures list the result
-/// of each pass.
+/// Computes the dip of a film that carries the ink of its own film image: the two-step scheme of
+/// section 4.3, repeated. Each pass draws the film image for the flow so far, computes the
+/// thickness of its ink and solves the sheet with it. The passes start from Stokes flow. They end
+/// after `most_passes`, or when a pass moves the film by less than a pixel. The figures list the
+/// result of each pass.
 /// @param first        the first pass of this model with these options
 /// @param most_passes  at least 1
 /// @param dpi          of the film image

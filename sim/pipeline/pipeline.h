@@ -24,64 +24,67 @@ namespace hydroprint::pipeline {
 /// matters (section 4.3).
 enum class FilmModel { kStokes, kSheet };
 
-/// One immersion: the object's pose and motion, and the film.
+/// Options of one dip: the object's pose and motion, and the film.
 struct DipOptions {
-  /// Object frame to film frame at the start of the dip; z is ignored (contract). nullopt:
-  /// orientation as in the file, bounding box centred on the film.
+  /// Object frame to film frame at the start of the dip; z is ignored. nullopt: orientation as in
+  /// the file, bounding box centred on the film.
   std::optional<Pose> X_FO;
   film::Outline outline;
   film::Profile profile;
   std::optional<double> depth_mm;  ///< immersion at the end of the dip; nullopt: full
   double dip_speed_mm_per_s = 5;
   FilmModel film_model = FilmModel::kSheet;
-  /// The sheet moves with inertia, as in Algorithm 1, instead of quasistatically. This is slower
-  /// and gives the same answer.
+  /// True to model inertia as in Algorithm 1; false for the quasistatic sheet. Inertia is slower
+  /// and yields the same result.
   bool inertia = false;
   ink::InkField ink;         ///< printed on the film; used by the sheet only
-  waterline::Motion motion;  ///< the path as driven, in the plane; empty: straight down
+  waterline::Motion motion;  ///< the measured horizontal path; empty: straight down
   // Resolution: the defaults are both fast and accurate (tests/bench).
-  double surface_edge_mm = 2;  ///< longer faces are subdivided (contract)
+  double surface_edge_mm = 2;  ///< faces with longer edges are subdivided
   waterline::ScheduleOptions schedule;
   velocity::MeshOptions mesh;
   sheet::SheetOptions sheet;  ///< drag is taken from the profile
   flow::MapOptions map;       ///< speed and swelling are taken from above
 };
 
-/// The same dip with all lengths that set its resolution multiplied by `factor`; below 1 it is
-/// finer.
+/// Returns the options with every resolution length multiplied by `factor`; a factor below 1
+/// refines the computation.
 [[nodiscard]] DipOptions scaled_resolution(DipOptions options, double factor);
 
-/// The change of the landing points by an ink pass, compared with the previous pass.
+/// The change of the landing points from the previous ink pass to this one.
 struct InkPass {
   double moved_rms_mm = 0;
   double moved_most_mm = 0;  ///< the 99.9th percentile over the surface's points
   double moved_max_mm = 0;
 };
 
-/// Figures of one dip for the report.
+/// Figures of a dip for the report.
 struct DipFigures {
   double depth_mm = 0;           ///< immersion reached
   bool stopped_at_edge = false;  ///< the waterline reached the film's edge before `depth_mm`
   int steps = 0;                 ///< waterlines solved
-  /// Immersions of the waterlines that were not solved, because two of their curves nearly touch.
+  /// Immersions of the waterlines that were not solved because two of their curves nearly touch.
   std::vector<double> passed_over_mm;
   std::vector<InkPass> ink_passes;
-  int film_vertices_max = 0;  ///< of the largest film mesh
+  int film_vertices_max = 0;  ///< number of vertices of the largest film mesh
   int film_triangles_max = 0;
-  double coverage = 0;        ///< share of the object's surface that film reaches
-  double clamped_share = 0;   ///< share of the surface with theta beyond 170 degrees
-  double wrinkled_share = 0;  ///< of the surface, the film compressed below wrinkle_stretch
-  double torn_share = 0;      ///< of the surface, the film stretched beyond tear_stretch
-  /// Move of the sheet by further sweeps, where it tears or folds; see sheet::SheetFlow.
+  double coverage = 0;       ///< fraction of the object's surface that the film reaches
+  double clamped_share = 0;  ///< fraction of the surface where theta exceeds 170 degrees
+  /// Fraction of the surface where the film is compressed below wrinkle_stretch.
+  double wrinkled_share = 0;
+  /// Fraction of the surface where the film is stretched beyond tear_stretch.
+  double torn_share = 0;
+  /// Displacement of the sheet by further sweeps, where it tears or folds; see sheet::SheetFlow.
   double unsettled_mm = 0;
   std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first
-  double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;  ///< where theta is not clamped
+  /// Statistics where theta is not clamped.
+  double stretch_p50 = 0, stretch_p95 = 0, stretch_max = 0;
 };
 
-/// The outcome of one immersion: the surface used in the computation and the film's landing on it.
+/// The result of a dip: the surface used in the computation and the film's landing on it.
 struct Dip {
   mesh::Surface surface;
-  Pose X_FO;  ///< as used: lowest point on the water, z = 0
+  Pose X_FO;  ///< pose as used: lowest point on the water, z = 0
   flow::FlowMap map;
   DipFigures figures;
   Warnings warnings;

@@ -17,29 +17,30 @@ namespace hydroprint::pipeline {
 /// Options for predicting the look of the object from a printed film image.
 struct PredictOptions {
   std::filesystem::path mesh;
-  double scale = 1;                  ///< model units to mm
+  double scale = 1;                  ///< millimetres per model unit
   std::filesystem::path film_image;  ///< any image at the film's size
-  DipOptions dip;                    ///< the true pose, and the path as driven
-  int ink_passes = 1;  ///< not 0: the film carries the ink of film_image, else that of dip.ink
-  bool images = true;  ///< false: only the film's landing, without images
+  DipOptions dip;                    ///< options of the dip, with the measured pose and path
+  int ink_passes = 1;  ///< 0: the film carries the ink of dip.ink, otherwise that of film_image
+  bool images = true;  ///< false: computes only the film's landing, without images
 };
 
 /// The colours that land on the object.
 struct PredictedImages {
-  std::vector<Eigen::Vector3f> landed;      ///< per point of the surface; NaN: no film arrives
-  std::optional<image::RgbaImage> texture;  ///< the same as a texture; nullopt: no UVs
-  image::RgbImage picture;                  ///< of the object
+  /// Colour of each point of the surface; NaN: no film arrives.
+  std::vector<Eigen::Vector3f> landed;
+  std::optional<image::RgbaImage> texture;  ///< the same colours as a texture; nullopt: no UVs
+  image::RgbImage picture;                  ///< picture of the object
 };
 
 struct Prediction {
   mesh::Model model;
   Dip dip;
   std::optional<PredictedImages> images;
-  Warnings warnings;  ///< of every stage
+  Warnings warnings;  ///< warnings of all stages
 };
 
-/// The chain of section 4 in reverse: film image, model, dip, colours, pictures. Fails as its
-/// stages do.
+/// Runs the steps of section 4 from a film image to the colours on the object: film image, model,
+/// dip, colours, pictures. Returns the errors of its stages.
 [[nodiscard]] Result<Prediction> predict(const PredictOptions& options, const Context& context);
 
 }  // namespace hydroprint::pipeline

@@ -4,10 +4,11 @@
 
 namespace hydroprint::pipeline {
 
-/// A coarse version of the dip, for a page that responds while the user turns an object. It uses
-/// Stokes flow on the model's own triangles, with film mesh and steps just fine enough to show the
-/// film's landing (to a millimetre on the film up to theta = 120 degrees). The stretch is less
-/// accurate, by half near the end of the dip. Effects of the sheet and its ink are missing.
+/// Returns options for a coarse version of the dip, fast enough for a page on which the user turns
+/// the object. It uses Stokes flow on the model's own triangles, with a film mesh and steps just
+/// fine enough to show the film's landing (to a millimetre on the film up to theta = 120 degrees).
+/// The stretch is less accurate: up to 50 % off near the end of the dip. Effects of the sheet and
+/// its ink are not modelled.
 [[nodiscard]] DipOptions preview_of(DipOptions options);
 
 }  // namespace hydroprint::pipeline

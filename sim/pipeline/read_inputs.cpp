@@ -21,20 +21,20 @@ bool is_small(const std::filesystem::path& file) {
   return !unknown && bytes <= kSmallModel_bytes;
 }
 
-/// Refuses a model whose faces would be white because the files that define their colours are
-/// missing.
+/// Returns an error for a model whose faces would be white because the files that define their
+/// colours are missing.
 Status check_materials(const mesh::Model& model) {
   for (const Warning& warning : model.warnings) {
     if (warning.code != "material_file_missing" && warning.code != "material_missing") continue;
     return fail(Code::kNotFound, warning.where + ": " + warning.message +
-                                     ". Put it beside the model or give a texture");
+                                     ". Put it into the folder of the model, or specify a texture");
   }
   return {};
 }
 
 /// Loading the image libraries takes as long as reading most models. They are loaded before a large
-/// model, because they end the program if they find no memory. The calling thread always loads
-/// them, because LeakSanitizer fails on libraries whose loading thread has ended.
+/// model, because they end the program if there is no memory for them. The calling thread always
+/// loads them, because LeakSanitizer reports libraries whose loading thread has ended.
 Result<mesh::Model> read_model(const SimulateOptions& options, const Context& context) {
   const auto read = [&](const Context& reading) {
     return mesh::read_model(options.mesh, options.scale, reading);

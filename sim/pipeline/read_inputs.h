@@ -8,8 +8,8 @@
 namespace hydroprint::pipeline {
 
 /// Reads the model of a simulation and, if pictures will be needed, loads the image libraries at
-/// the same time. Fails as mesh::read_model() does and, unless a texture is given, with kNotFound
-/// for a model whose material file or material is missing.
+/// the same time. Returns the errors of mesh::read_model(). If no texture is given, also returns
+/// kNotFound for a model whose material file or material is missing.
 [[nodiscard]] Result<mesh::Model> read_inputs(const SimulateOptions& options,
                                               const Context& context);
 

@@ -15,36 +15,36 @@ namespace hydroprint::pipeline {
 /// Options for computing the image to print from a textured model.
 struct SimulateOptions {
   std::filesystem::path mesh;
-  double scale = 1;                              ///< model units to mm
+  double scale = 1;                              ///< millimetres per model unit
   std::optional<std::filesystem::path> texture;  ///< nullopt: the model's own colours
   DipOptions dip;
   double dpi = 300;
-  /// Passes of the two-step scheme (section 4.3); 0: the ink is dip.ink. Only for the sheet, and
-  /// for objects with colours.
+  /// Number of passes of the two-step scheme (section 4.3); 0: uses the ink in dip.ink. Only for
+  /// the sheet, and for objects with colours.
   int ink_passes = 1;
-  bool images = true;  ///< false: only the film's landing, without images
+  bool images = true;  ///< false: computes only the film's landing, without images
 };
 
-/// The image to print, and pictures for people.
+/// The image to print, and pictures for display.
 struct SimulatedImages {
   image::RgbImage film;     ///< the image to print
   image::FilmMap film_map;  ///< landing points of the film
   image::RgbImage stretch;  ///< picture of the stretch on the object
-  /// Picture of the film's compression; only if the film wrinkles (film_wrinkled).
+  /// Picture of the film's compression; present only if the film wrinkles (film_wrinkled).
   std::optional<image::RgbImage> wrinkles;
-  image::RgbImage predicted;  ///< picture of the object as it will look
+  image::RgbImage predicted;  ///< picture of the object with its predicted look
 };
 
 struct Simulation {
   mesh::Model model;
   Dip dip;
   std::optional<SimulatedImages> images;
-  Warnings warnings;  ///< of every stage
+  Warnings warnings;  ///< warnings of all stages
 };
 
-/// The whole chain of section 4: model, paint, dip, film image, pictures.
-/// Fails as its stages do and, unless a texture is given, with kNotFound for a model whose material
-/// file or material is missing: its colours would silently be white.
+/// Runs all steps of section 4: model, paint, dip, film image, pictures. Returns the errors of its
+/// stages. If no texture is given, also returns kNotFound for a model whose material file or
+/// material is missing, because its colours would silently be white.
 [[nodiscard]] Result<Simulation> simulate(const SimulateOptions& options, const Context& context);
 
 }  // namespace hydroprint::pipeline

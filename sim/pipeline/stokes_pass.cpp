@@ -15,7 +15,7 @@
 namespace hydroprint::pipeline {
 namespace {
 
-/// The floating film: swollen, together with its clamped edge.
+/// Returns the floating film: swollen, together with its clamped edge.
 film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   for (Eigen::Vector2d& p : outline.polygon) p = p.cwiseProduct(swelling);
   outline.min_mm = outline.min_mm.cwiseProduct(swelling);
@@ -23,12 +23,13 @@ film::Outline floating(film::Outline outline, const Eigen::Vector2d& swelling) {
   return outline;
 }
 
-/// Waterlines whose film cannot be meshed, because two of their curves nearly touch, are passed
-/// over. If their share exceeds this, the dip fails.
+/// Waterlines whose film cannot be meshed, because two of their curves nearly touch, are skipped.
+/// If their fraction exceeds this, the dip fails.
 constexpr double kMostPassedOver = 0.2;
 
-/// Meshes and solves every waterline separately and in parallel, because Stokes flow has no memory.
-/// @return nullopt for a waterline that is passed over
+/// Meshes and solves every waterline separately and in parallel, because Stokes flow does not
+/// depend on the past.
+/// @return nullopt for a waterline that is skipped
 Result<std::vector<std::optional<velocity::VelocityField>>> solve(
     const film::Outline& outline, waterline::Waterlines& waterlines,
     const velocity::MeshOptions& options, const Context& context) {

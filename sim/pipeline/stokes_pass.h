@@ -17,7 +17,7 @@ namespace hydroprint::pipeline {
 /// Stokes flow (section 4.2).
 struct StokesPass {
   mesh::Surface surface;
-  Pose X_FO;             ///< as used: lowest point on the water, z = 0
+  Pose X_FO;             ///< pose as used: lowest point on the water, z = 0
   waterline::Body body;  ///< the surface placed over the film
   flow::DipField stokes;
   std::vector<double> passed_over_mm;  ///< see DipFigures
@@ -25,18 +25,19 @@ struct StokesPass {
   std::vector<waterline::Trap> traps;  ///< trapped film and air, largest first
 };
 
-/// Computes mesh, pose, waterlines, film meshes and velocities. Returns the errors of its stages.
+/// Computes surface, pose, waterlines, film meshes and velocities. Returns the errors of its
+/// stages.
 [[nodiscard]] Result<StokesPass> run_stokes_pass(const mesh::Model& model,
                                                  const DipOptions& options, const Context& context);
 
-/// The flow of the viscous sheet (section 4.3) that carries this ink.
+/// Computes the flow of the viscous sheet (section 4.3) that carries this ink.
 /// @param first  the starting flow: Stokes flow, or that of the sheet with nearly the same ink
 [[nodiscard]] Result<sheet::SheetFlow> sheet_field(const flow::DipField& first,
                                                    const ink::InkField& ink,
                                                    const DipOptions& options,
                                                    const Context& context);
 
-/// Traces the landing points on the object of a film that moves like `field` (section 4.5).
+/// Traces where a film that moves like `field` lands on the object (section 4.5).
 [[nodiscard]] Result<flow::FlowMap> trace_flow_map(const StokesPass& pass,
                                                    const flow::DipField& field,
                                                    const DipOptions& options,

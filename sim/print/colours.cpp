@@ -36,7 +36,7 @@ void convert(const ink::PrinterColours& colours, const std::uint8_t* rgb, std::s
              std::uint8_t* out) {
   std::vector<std::uint16_t> wide(count * static_cast<std::size_t>(colours.channels()));
   colours.convert(rgb, count, wide.data());
-  // 65535 = 257 * 255
+  // Divides by 257, because 65535 = 257 * 255.
   std::transform(wide.begin(), wide.end(), out, [](std::uint16_t value) {
     return static_cast<std::uint8_t>((value + 128) / 257);
   });
@@ -54,7 +54,7 @@ int total(const std::uint8_t* cmyk) { return cmyk[0] + cmyk[1] + cmyk[2] + cmyk[
 
 /// Effect of the ink limit on a row.
 struct Limited {
-  int most = 0;  ///< of 4 * 255, after the limit
+  int most = 0;  ///< largest sum of a pixel after the limit, out of 4 * 255
   std::size_t changed = 0;
 };
 
@@ -81,7 +81,7 @@ Status check_limit(double ink_limit) {
                                      " is out of range. Use C + M + Y + K above 0 and at most 4");
 }
 
-/// The conversion for the settings; sets the number of channels.
+/// Returns the conversion for the settings; sets the number of channels.
 Result<Convert> converter(const ColourSettings& settings, PrinterColoured& out) {
   if (!settings.icc_profile.empty()) {
     HP_ASSIGN_OR_RETURN(const auto colours, ink::PrinterColours::open(settings.icc_profile));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMostPerSection = 100;  ///< entries of a CMap's section
 
-/// Four hexadecimal digits.
+/// Returns four hexadecimal digits.
 std::string hex16(unsigned value) {
   constexpr const char* kDigits = "0123456789ABCDEF";
   std::string out;
@@ -21,7 +21,7 @@ std::string hex16(unsigned value) {
   return out;
 }
 
-/// UTF-16, big-endian, as hexadecimal digits.
+/// Returns a character in UTF-16, big-endian, as hexadecimal digits.
 std::string utf16(char32_t c) {
   if (c < 0x10000) return hex16(c);
   const char32_t above = c - 0x10000;
@@ -47,7 +47,7 @@ std::string to_unicode_cmap(const std::map<char32_t, unsigned>& cids) {
   return out + "endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend\n";
 }
 
-/// The name of a subset: six capital letters that depend on its content, and the font's name.
+/// Returns the name of a subset: six capital letters derived from its content, and the font's name.
 std::string subset_name(const std::string& font_name, const std::string& file) {
   const std::string digest = sha256(file);
   std::string out;

@@ -10,9 +10,9 @@
 
 namespace hydroprint::print {
 
-/// The font of a document's texts as its PDF holds it: a composite font (ISO 32000-1, 9.7) whose
-/// character codes (CIDs) number the characters that are drawn. So every character can be copied
-/// and searched for, even where several of them share a glyph.
+/// The font of a document as embedded in its PDF: a composite font (ISO 32000-1, 9.7) whose
+/// character codes (CIDs) number the characters that are drawn. Every character can therefore be
+/// copied and searched for, even where several share a glyph.
 struct EmbeddedFont {
   const text::Font* font = nullptr;
   std::map<char32_t, unsigned> cids;  ///< 1, 2, ... in the order of the characters
@@ -22,12 +22,12 @@ struct EmbeddedFont {
   std::string cid_to_gid;             ///< its glyphs by CID, two bytes each
   std::string to_unicode;             ///< a CMap: characters by CID
 
-  /// A line of text as a hexadecimal string of CIDs.
+  /// Encodes a line of text as a hexadecimal string of CIDs.
   [[nodiscard]] std::string encoded(const std::string& text) const;
 };
 
-/// Prepares the font for the texts of all pages. The same characters give the same bytes. Fails as
-/// text::Font::standard() and text::make_subset() do.
+/// Prepares the font for the texts of all pages. The same characters yield the same bytes.
+/// Returns the errors of text::Font::standard() and text::make_subset().
 [[nodiscard]] Result<EmbeddedFont> embed_font(const std::vector<Page>& pages);
 
 }  // namespace hydroprint::print

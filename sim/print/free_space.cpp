@@ -13,7 +13,7 @@ using Eigen::Vector2d;
 constexpr double kCell_mm = 0.5;
 constexpr double kRounding_mm = 1e-9;
 
-/// The points at which a polygon's edges cross a height, from left to right.
+/// Returns the points at which a polygon's edges cross a height, from left to right.
 std::vector<double> crossings(const std::vector<Vector2d>& polygon, double y) {
   std::vector<double> out;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -57,8 +57,8 @@ void FreeSpace::take(const Box& box) { take(cells_under(box)); }
 
 void FreeSpace::take(const std::vector<Vector2d>& polygon, double clearance_mm) {
   HP_CHECK(polygon.size() >= 3);
-  // Sampling rows at mid-height is enough: parts between those heights are near an edge, taken
-  // below.
+  // Sampling rows at mid-height is sufficient: parts between those heights are near an edge, which
+  // is marked as taken below.
   for (int y = 0; y < rows_; ++y) {
     const double at_mm = printable_.low_mm.y() + (y + 0.5) * kCell_mm;
     const auto across = crossings(polygon, at_mm);
@@ -91,8 +91,8 @@ bool FreeSpace::is_free(const Box& box) const {
   return true;
 }
 
-/// Entry (x, y) of (columns + 1) x (rows + 1): number of taken cells to the left of it and below
-/// it.
+/// Entry (x, y) of (columns + 1) x (rows + 1) is the number of taken cells to the left of it and
+/// below it.
 std::vector<int> FreeSpace::taken_sums() const {
   const std::size_t stride = static_cast<std::size_t>(columns_) + 1;
   std::vector<int> sums(stride * (static_cast<std::size_t>(rows_) + 1));

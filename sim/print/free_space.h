@@ -13,21 +13,22 @@ struct Box {
   [[nodiscard]] Eigen::Vector2d size_mm() const { return high_mm - low_mm; }
 };
 
-/// The free part of a sheet for marks, in cells of half a millimetre. A cell counts as taken if any
-/// part of it is.
+/// Keeps track of the free part of a sheet, for placing marks, in cells of half a millimetre. A
+/// cell is taken if any part of it is.
 class FreeSpace {
  public:
-  /// @param printable  part of the sheet; all of it is free at first
+  /// @param printable  part of the sheet, initially free
   explicit FreeSpace(const Box& printable);
 
-  /// Marks the inside of a simple polygon and everything within `clearance_mm` of its edge as
+  /// Marks the inside of a simple polygon, and everything within `clearance_mm` of its edge, as
   /// taken.
   void take(const std::vector<Eigen::Vector2d>& polygon, double clearance_mm);
   void take(const Box& box);
 
   [[nodiscard]] bool is_free(const Box& box) const;
 
-  /// The free rectangle of this size with its middle nearest to a point; nullopt if there is none.
+  /// Returns the free rectangle of this size whose middle is nearest to a point; nullopt if there
+  /// is none.
   [[nodiscard]] std::optional<Box> find(const Eigen::Vector2d& size_mm,
                                         const Eigen::Vector2d& near_mm) const;
 

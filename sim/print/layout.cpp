@@ -14,20 +14,20 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Room left along the edges for marks, on sheets that hold only a part of the film.
+/// Space for marks along the edges of sheets that contain only a part of the film.
 constexpr double kJoinRoom_mm = 9;
 constexpr int kMostSheets = 100;
 constexpr double kRounding_mm = 1e-6;
 
 Vector2d turned(const Vector2d& size_mm) { return {size_mm.y(), size_mm.x()}; }
 
-/// Windows along one side of the film image, [first, end) of each.
+/// Windows along one side of the film image; each is [first, end).
 struct Cut {
   int first = 0, end = 0;
 };
 
-/// The smallest number of equal windows of at most `most_px` that cover `size_px` with at least
-/// this overlap; empty if there would be too many.
+/// Returns the smallest number of equal windows of at most `most_px` that cover `size_px` with at
+/// least this overlap; empty if there would be too many.
 std::vector<Cut> cuts(int size_px, int most_px, int overlap_px) {
   HP_CHECK(size_px > 0);
   HP_CHECK(overlap_px >= 0);
@@ -51,7 +51,7 @@ struct Cuts {
   [[nodiscard]] std::size_t sheets() const { return across.size() * down.size(); }
 };
 
-/// Cuts the film image for paper in this orientation; zero sheets if that is impossible.
+/// Cuts the film image for paper in this orientation; no sheets if that is impossible.
 Cuts cuts_for(const image::FilmGrid& grid, const Vector2d& film_mm, const Vector2d& sheet_mm,
               const PageSettings& settings) {
   if ((sheet_mm - film_mm).minCoeff() >= -kRounding_mm) {
@@ -126,7 +126,7 @@ class ToPage {
 
 Box box_between(const Vector2d& a, const Vector2d& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
 
-/// The film's outline on the sheet; its window if the film is on several sheets.
+/// Returns the film's outline on the sheet, or its window if the film is on several sheets.
 std::vector<Vector2d> film_on(const Sheet& sheet, const film::Outline& outline,
                               const ToPage& to_page, bool is_part, double pitch_mm) {
   if (is_part) {
@@ -151,7 +151,7 @@ std::vector<double> joins(const std::vector<Cut>& cuts, std::size_t own) {
   return out;
 }
 
-/// What follows the job name on a sheet.
+/// Returns the text that follows the job name on a sheet.
 std::string details(const PageSettings& settings, std::size_t number, std::size_t sheets) {
   std::string out;
   const auto add = [&out](const std::string& text) {

@@ -13,7 +13,7 @@
 
 namespace hydroprint::print {
 
-/// Pixels [x0, x1) by [y0, y1) of an image, row 0 on top.
+/// Pixels [x0, x1) by [y0, y1) of an image, row 0 at the top.
 struct Pixels {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
@@ -24,15 +24,16 @@ struct Pixels {
 /// One sheet of paper with its part of the film image. Coordinates are in the page's frame
 /// (Stroke).
 struct Sheet {
-  Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();  ///< in the orientation in which it is fed
-  int column = 0, row = 0;                            ///< among the sheets; row 0 on top
-  Pixels window;     ///< of the film image as printed (mirrored if requested)
-  Pixels printable;  ///< the part of it that the printer can print; the rest stays white
+  /// In the orientation in which the printer feeds it.
+  Eigen::Vector2d size_mm = Eigen::Vector2d::Zero();
+  int column = 0, row = 0;  ///< position among the sheets; row 0 at the top
+  Pixels window;            ///< part of the printed film image (mirrored if requested)
+  Pixels printable;  ///< the part of the window that the printer can print; the rest stays white
   Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< lower left corner of the window
   std::vector<Eigen::Vector2d> film_mm;              ///< the film's edge on this sheet
   std::vector<Stroke> marks;
-  std::vector<Text> texts;                  ///< of the marks
-  std::vector<std::string> drawn, dropped;  ///< marks, by name
+  std::vector<Text> texts;                  ///< texts of the marks
+  std::vector<std::string> drawn, dropped;  ///< names of marks
   bool is_text_shortened = false;
 };
 
@@ -43,12 +44,12 @@ struct Layout {
   Warnings warnings;          ///< marks_dropped, text_glyph_missing, text_shortened
 };
 
-/// Lays out a film image on paper at exact scale. It is in the middle of one sheet, rotated if it
-/// would not fit otherwise, or on several overlapping sheets if it is larger than the paper. Marks
-/// are only drawn outside the film, at a distance of a millimetre, and where the printer can print.
-/// They are registration marks for the sliding bars and at the corners, rulers, an arrow to the
-/// film's +y and a line of text. Marks without room are left out, with a warning.
-/// Fails as check() does, and with kOutOfRange for a film that needs more than 100 sheets.
+/// Lays out a film image on paper at exact scale. The image is in the middle of one sheet, rotated
+/// if it does not fit otherwise, or on several overlapping sheets if it is larger than the paper.
+/// Marks are drawn only outside the film, at least a millimetre away from it, and where the printer
+/// can print. They are registration marks for the sliding bars and at the corners, rulers, an arrow
+/// to the film's +y and a line of text. Marks without space are dropped, with a warning. Returns
+/// the errors of check(), and kOutOfRange for a film that needs more than 100 sheets.
 [[nodiscard]] Result<Layout> lay_out(const image::FilmGrid& grid, const film::Outline& outline,
                                      const PageSettings& settings);
 

@@ -16,9 +16,9 @@ using Eigen::Vector2d;
 using Strokes = std::vector<Stroke>;
 
 constexpr double kPen_mm = 0.25;
-constexpr double kClearance_mm = 1;  ///< from the film
-constexpr double kOff_mm = 2;        ///< from the film's edge to the start of a registration mark
-constexpr double kMark_mm = 5;       ///< its length
+constexpr double kClearance_mm = 1;  ///< distance of marks from the film
+constexpr double kOff_mm = 2;        ///< distance of a registration mark from the film's edge
+constexpr double kMark_mm = 5;       ///< length of a mark
 constexpr double kBleed_mm = 0.5;    ///< around the arrow
 
 Stroke line(const Vector2d& from_mm, const Vector2d& to_mm) {
@@ -37,14 +37,14 @@ Box box_of(const Strokes& strokes) {
   return box;
 }
 
-/// Draws marks on a sheet while there is room.
+/// Draws marks on a sheet while there is space.
 class Marker {
  public:
   Marker(Sheet& sheet, const Box& printable) : sheet_(sheet), space_(printable) {
     space_.take(sheet.film_mm, kClearance_mm);
   }
 
-  /// Draws marks at fixed places; those without room are left out.
+  /// Draws marks at fixed positions; those without space are dropped.
   void draw_fixed(const std::string& name, const Strokes& strokes) {
     bool all = true;
     for (const Stroke& stroke : strokes) {
@@ -59,12 +59,12 @@ class Marker {
     note(name, all);
   }
 
-  /// The place of a mark that may be anywhere; nullopt if there is no room.
+  /// Finds space for a mark that may be anywhere; nullopt if there is none.
   [[nodiscard]] std::optional<Box> find_room(const Vector2d& size_mm, const Vector2d& near_mm) {
     settle();
     return space_.find(size_mm, near_mm);
   }
-  /// Draws a mark into room that was found for it.
+  /// Draws a mark in the space that was found for it.
   void draw(const Box& room, Drawing mark) {
     append(sheet_.marks, sheet_.texts, std::move(mark));
     pending_.push_back(room);
@@ -76,7 +76,7 @@ class Marker {
   }
 
  private:
-  /// Marks at fixed places may touch each other; other marks keep a distance from all of them.
+  /// Marks at fixed positions may touch each other; other marks keep a distance from all of them.
   void settle() {
     for (const Box& box : pending_) {
       const Vector2d around = Vector2d::Constant(kClearance_mm);
@@ -92,8 +92,8 @@ class Marker {
 
 Vector2d middle_of(const Box& box) { return (box.low_mm + box.high_mm) / 2; }
 
-/// Marks outside a box: below and above it at the given x, and to its left and right at the given
-/// y, both relative to its middle.
+/// Returns marks outside a box: below and above it at the given x, and to its left and right at the
+/// given y. Both are relative to its middle.
 Strokes side_marks(const Box& box, const std::vector<double>& at_x,
                    const std::vector<double>& at_y) {
   Strokes out;
@@ -111,20 +111,20 @@ Strokes side_marks(const Box& box, const std::vector<double>& at_x,
   return out;
 }
 
-/// Marks at the middle of each side, where a sliding bar is, and at the bar's two ends.
+/// Returns marks at the middle of each side, where a sliding bar is, and at both ends of the bar.
 Strokes bar_marks(const Box& film, double bar_mm) {
   std::vector<double> along = {0};
   if (bar_mm > 0) along = {-bar_mm / 2, 0, bar_mm / 2};
   return side_marks(film, along, along);
 }
 
-/// Extends both edges beyond each corner of a box.
+/// Returns marks that extend both edges beyond each corner of a box.
 Strokes corner_marks(const Box& box) {
   const Vector2d half = box.size_mm() / 2;
   return side_marks(box, {-half.x(), half.x()}, {-half.y(), half.y()});
 }
 
-/// Marks at the edges of the neighbours' windows, along the sides of this window.
+/// Returns marks at the edges of the neighbours' windows, along the sides of this window.
 Strokes join_marks(const MarkPlan& plan) {
   const Vector2d middle = middle_of(plan.window);
   std::vector<double> at_x = plan.joins_x_mm, at_y = plan.joins_y_mm;
@@ -146,7 +146,7 @@ Strokes on_this_sheet(Strokes marks, const Box& window) {
 
 /// An arrow to the film's +y, which is up, with a label beside it.
 constexpr double kArrow_mm = 12;
-constexpr double kArrowText_mm = 3.5;  ///< from the arrow to the word
+constexpr double kArrowText_mm = 3.5;  ///< distance from the arrow to its label
 const Vector2d kArrowFoot_mm(2.5, kBleed_mm);
 
 Drawing arrow(const Vector2d& low_mm) {
@@ -179,7 +179,7 @@ void add_ruler(Marker& marker, const Box& printable, bool upright) {
   marker.note(upright ? "upright ruler" : "ruler", false);
 }
 
-/// The job name and the details on one line of at most that width.
+/// Returns the job name and the details on one line of at most that width.
 std::string text_line(const MarkPlan& plan, const text::Font& font, double width) {
   if (plan.job_name.empty()) return font.shortened(plan.details, width);
   const std::string rest = plan.details.empty() ? "" : "  " + plan.details;

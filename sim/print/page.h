@@ -13,28 +13,29 @@ namespace hydroprint::print {
 struct Stroke {
   std::vector<Eigen::Vector2d> points_mm;
   double width_mm = 0.25;
-  double ink = 1;  ///< black, from 0 to 1
+  double ink = 1;  ///< amount of black, from 0 to 1
 };
 
-/// A line of text in the document's font, UTF-8. Places are in the page's frame, as a Stroke's are.
+/// A line of text in the document's font, UTF-8. Coordinates are in the page's frame, as for
+/// Stroke.
 struct Text {
   std::string text;
-  Eigen::Vector2d at_mm = Eigen::Vector2d::Zero();  ///< where its baseline begins
+  Eigen::Vector2d at_mm = Eigen::Vector2d::Zero();  ///< start of the baseline
   double x_height_mm = 1.6;                         ///< height of a lower-case x
-  double ink = 1;                                   ///< black, from 0 to 1
+  double ink = 1;                                   ///< amount of black, from 0 to 1
 };
 
-/// Lines and text that belong together.
+/// Lines and text that are placed together.
 struct Drawing {
   std::vector<Stroke> strokes;
   std::vector<Text> texts;
 };
 
-/// An image on a page: square pixels, each of them exactly pitch_mm wide.
+/// An image on a page. Pixels are square, exactly pitch_mm wide.
 struct PlacedImage {
   image::PrinterImage image;
   double pitch_mm = 1;
-  Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< its lower left corner
+  Eigen::Vector2d low_mm = Eigen::Vector2d::Zero();  ///< position of its lower left corner
 };
 
 /// One side of one sheet of paper.
@@ -45,11 +46,12 @@ struct Page {
   std::vector<Text> texts;      ///< drawn over the strokes
 };
 
-/// Pages that are printed together, and the meaning of their colours.
+/// Pages that are printed together, and the colour space of their images.
 struct Document {
   std::string title;
-  std::string icc_profile;  ///< of the printer for which the images are; empty: sRGB or plain CMYK
-  bool cmyk = false;        ///< images have four channels, strokes use black ink only
+  /// Profile of the printer for which the images are made; empty: sRGB or plain CMYK.
+  std::string icc_profile;
+  bool cmyk = false;  ///< images have four channels, strokes use black ink only
   std::vector<Page> pages;
 };
 

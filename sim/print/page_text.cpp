@@ -13,10 +13,10 @@ using Eigen::Vector2d;
 
 constexpr double kAround_mm = 0.5;  ///< left free around a block
 constexpr double kLineStep = 2.8;   ///< between baselines, in heights of a lower-case x
-constexpr double kLeastWidth = 12;  ///< of a shortened block, in the same unit
+constexpr double kLeastWidth = 12;  ///< minimum width of a shortened block, in the same unit
 constexpr int kBisections = 12;
 
-/// Lines laid out below each other, the first baseline beginning at (0, 0); in heights of a
+/// Lines laid out one below the other, with the first baseline starting at (0, 0); in heights of a
 /// lower-case x.
 struct Lines {
   std::vector<std::string> texts;

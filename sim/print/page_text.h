@@ -13,36 +13,36 @@
 
 namespace hydroprint::print {
 
-/// Lines of text that were placed on a page.
+/// Lines of text placed on a page.
 struct TextBlock {
-  Box box;  ///< holds all of their ink and some room around it
+  Box box;  ///< contains the ink of all lines and a margin
   std::vector<Text> texts;
   bool is_shortened = false;
 };
 
-/// The lines of a block that may be at most `width` wide (heights of a lower-case x); HUGE_VAL:
-/// unshortened.
+/// Returns the lines of a block, shortened to at most `width` (in heights of a lower-case x);
+/// HUGE_VAL: unshortened.
 using LinesOfWidth = std::function<std::vector<std::string>(double width)>;
-/// Finds room for a block of a size, if there is any.
+/// Finds free space of a given size; nullopt if there is none.
 using FindRoom = std::function<std::optional<Box>(const Eigen::Vector2d& size_mm)>;
 
-/// Places lines of text one below the other, as large as there is room for, from 1.6 mm to 0.9 mm
-/// height of a lower-case x; if there is none, shortened so far that there is; nullopt if little
-/// would be left of them.
+/// Places lines of text one below the other, at the largest size for which there is space, with a
+/// lower-case x 1.6 mm to 0.9 mm high. If even the smallest size does not fit, the lines are
+/// shortened. Returns nullopt if little would be left of them.
 [[nodiscard]] std::optional<TextBlock> place_text(const text::Font& font, const LinesOfWidth& lines,
                                                   const FindRoom& find_room);
 
-/// The box round a text's ink and its baseline, on the page.
+/// Returns the box around a text's ink and its baseline, on the page.
 [[nodiscard]] Box text_box(const text::Font& font, const Text& text);
 
-/// Warns (text_glyph_missing) of characters of the texts that the font cannot draw.
+/// Adds the warning text_glyph_missing if the font cannot draw some characters of the texts.
 void warn_of_missing_glyphs(const text::Font& font, const std::vector<Text>& texts,
                             const std::string& where, Warnings& warnings);
 
-/// Warns (text_shortened) that the text was too long for the paper.
+/// Adds the warning text_shortened: the text is too long for the paper.
 void warn_of_shortened_text(const std::string& where, Warnings& warnings);
 
-/// Height of a lower-case x of most texts, and of the smallest.
+/// Height of a lower-case x in normal text, and in the smallest text.
 inline constexpr double kLetter_mm = 1.6, kSmallestLetter_mm = 0.9;
 
 }  // namespace hydroprint::print

@@ -1,7 +1,7 @@
-// The only file that uses QPDF. Of the PDF writers in Debian, only QPDF leaves every number and
-// every byte of a stream to the caller. Cairo has no CMYK, libharu computes in single precision and
-// accepts ICC profiles only for PDF/A, and PoDoFo 0.9 writes dates. QPDF compresses in one thread,
-// so images are compressed beforehand as in a PNG, which PDF accepts unchanged.
+// The only file that uses QPDF. Of the PDF writers in Debian, only QPDF lets the caller control
+// every number and every byte of a stream. Cairo does not support CMYK, libharu computes in single
+// precision and accepts ICC profiles only for PDF/A, and PoDoFo 0.9 writes dates. QPDF compresses
+// in one thread, so images are compressed in advance as in a PNG, which PDF accepts unchanged.
 #include "sim/print/pdf.h"
 
 #define POINTERHOLDER_TRANSITION 4  // required by its headers; 4: its old pointers are not used
@@ -27,7 +27,7 @@ namespace {
 
 constexpr double kPointsPerMm = 72 / 25.4;
 
-/// Six digits after the decimal point: a millionth of a point.
+/// Formats a number with six decimal places: a millionth of a point.
 std::string number(double value) {
   std::array<char, 64> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
@@ -43,7 +43,7 @@ QPDFObjectHandle name(const std::string& text) { return QPDFObjectHandle::newNam
 
 QPDFObjectHandle integer(long long value) { return QPDFObjectHandle::newInteger(value); }
 
-/// An image with its rows compressed by compress_rows().
+/// Returns an image with its rows compressed by compress_rows().
 Result<QPDFObjectHandle> image_object(QPDF& pdf, const image::PrinterImage& image,
                                       const Context& context) {
   HP_ASSIGN_OR_RETURN(const auto rows, image::compress_rows(image.samples.data(), image.width,
@@ -104,7 +104,7 @@ QPDFObjectHandle real(double value) { return QPDFObjectHandle::newReal(number(va
 
 QPDFObjectHandle font_descriptor(QPDF& pdf, const EmbeddedFont& font) {
   constexpr int kSymbolic = 4;  // its characters are not those of a standard set
-  constexpr int kStem = 80;     // a guess, which viewers only use without the font
+  constexpr int kStem = 80;     // an estimate; viewers use it only without the font
   const text::FontMetrics& metrics = font.metrics;
   QPDFObjectHandle file = QPDFObjectHandle::newStream(&pdf, font.file);
   file.getDict().replaceKey("/Length1", integer(static_cast<long long>(font.file.size())));
@@ -206,7 +206,7 @@ Status add_page(QPDF& pdf, const Page& page, bool cmyk, const std::optional<Docu
   return {};
 }
 
-/// States the meaning of the samples: amounts for the printer that the profile describes.
+/// Declares the meaning of the samples: ink amounts for the printer described by the profile.
 QPDFObjectHandle output_intents(QPDF& pdf, const Document& document) {
   QPDFObjectHandle profile = QPDFObjectHandle::newStream(&pdf, document.icc_profile);
   profile.getDict().replaceKey("/N", integer(document.cmyk ? 4 : 3));
@@ -229,7 +229,7 @@ void describe(QPDF& pdf, const Document& document) {
     pdf.getRoot().replaceKey("/OutputIntents", output_intents(pdf, document));
   }
   QPDFObjectHandle info = QPDFObjectHandle::newDictionary();
-  // The job name may be malformed UTF-8, which a PDF must not hold.
+  // The job name may be malformed UTF-8, which a PDF must not contain.
   const std::string title = text::encode_utf8(text::decode_utf8(document.title));
   info.replaceKey("/Title", QPDFObjectHandle::newUnicodeString(title));
   info.replaceKey("/Producer", QPDFObjectHandle::newString("Hydroprint"));

@@ -8,10 +8,11 @@
 
 namespace hydroprint::print {
 
-/// A PDF's bytes: pages of the paper's size, with lossless images at exact scale. Viewers are asked
-/// not to scale them when printing. Equal documents give equal bytes, because there is no date in
-/// them. The samples are the printer's own amounts, unchanged (DeviceRGB or DeviceCMYK); the
-/// profile is added as output intent. Fails as image::compress_rows() does.
+/// Encodes a document as PDF, with pages of the paper's size and lossless images at exact scale.
+/// Asks viewers not to scale the pages when printing. Equal documents yield equal bytes, because
+/// the PDF contains no date. The samples are the printer's own amounts, unchanged (DeviceRGB or
+/// DeviceCMYK); the profile is added as output intent. Returns the errors of
+/// image::compress_rows().
 [[nodiscard]] Result<std::vector<unsigned char>> encode_pdf(const Document& document,
                                                             const Context& context = {});
 

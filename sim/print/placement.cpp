@@ -30,7 +30,7 @@ constexpr double kBold_mm = 0.6, kThin_mm = 0.15, kLine_mm = 0.25;
 
 Vector2d turned(const Vector2d& size_mm) { return {size_mm.y(), size_mm.x()}; }
 
-/// The paper in the orientation in which the film fits.
+/// Returns the size of the paper in the orientation in which the film fits.
 Result<Vector2d> sheet_for(const film::Outline& outline, const PageSettings& settings) {
   for (const Vector2d& size_mm : {settings.paper_mm, turned(settings.paper_mm)}) {
     if ((size_mm - outline.size_mm()).minCoeff() >= -1e-6) return size_mm;
@@ -105,7 +105,7 @@ Stroke film_edge(const film::Outline& outline, const Vector2d& origin_mm) {
   return out;
 }
 
-/// A cross with a gap, so that the point itself stays visible.
+/// Returns a cross with a gap, so that the point itself stays visible.
 Strokes cross(const Vector2d& at_mm) {
   Strokes out;
   for (const Vector2d& way : {Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)}) {
@@ -120,7 +120,7 @@ std::string rounded(double value) {
   return buffer.data();
 }
 
-/// The text beside the drawing.
+/// Returns the text beside the drawing.
 std::vector<std::string> lines_of(const Placement& placement, const PageSettings& settings) {
   const Eigen::Quaterniond q(placement.X_FO.linear());
   const Eigen::Vector3d& t = placement.X_FO.translation();
@@ -138,7 +138,7 @@ std::vector<std::string> lines_of(const Placement& placement, const PageSettings
   return out;
 }
 
-/// Places text where the object is not.
+/// Places text and the ruler in the free space around the object.
 class Legend {
  public:
   Legend(Page& page, const text::Font& font, const Box& printable,
@@ -167,7 +167,7 @@ class Legend {
     return false;
   }
 
-  /// Returns what was placed; nullopt if there was no room.
+  /// Returns the placed text; nullopt if there was no space.
   [[nodiscard]] std::optional<TextBlock> add_text(const std::vector<std::string>& lines) {
     const auto of_width = [&](double width) {
       std::vector<std::string> out;
@@ -190,7 +190,7 @@ class Legend {
   FreeSpace space_;
 };
 
-/// The views of `simulate`'s pictures, for an object without colours.
+/// Draws the views of `simulate`'s pictures for an object without colours.
 Result<Page> orientation_page(const mesh::Surface& surface, const Pose& X_FO,
                               const Vector2d& size_mm, const film::Outline& outline,
                               double margin_mm, const Context& context) {

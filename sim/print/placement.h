@@ -12,24 +12,24 @@
 
 namespace hydroprint::print {
 
-/// A template to place under the gripper of a rig without a camera, and the data on it.
+/// A template to place under the gripper of a rig without a camera, and data about it.
 struct Placement {
-  Document document;             ///< the template; then a page with pictures of the orientation
-  Pose X_FO = Pose::Identity();  ///< as used: lowest point on the water, z = 0
-  /// Middle and extent of the first contact with the water: the box around the cross-section
+  Document document;             ///< the template, then a page with pictures of the orientation
+  Pose X_FO = Pose::Identity();  ///< pose as used: lowest point on the water, z = 0
+  /// Centre and extent of the first contact with the water: the box around the cross-section
   /// kFirstContact_mm above the lowest point, in F.
   Eigen::Vector2d contact_mm = Eigen::Vector2d::Zero(), contact_size_mm = Eigen::Vector2d::Zero();
-  Warnings warnings;  ///< template_cut_off: parts of the template for which the paper has no room
+  Warnings warnings;  ///< template_cut_off: the paper is too small for parts of the template
 };
 
-/// Immersion at which the first contact is drawn.
+/// Immersion for which the first contact is drawn.
 inline constexpr double kFirstContact_mm = 0.5;
 
 /// Draws the placement template, seen from above at exact scale: the film's edge, the axes of F
 /// with a tick every 10 mm, the first contact in bold, and the object's silhouette in grey. A
-/// ruler, the pose and a line of text are added if there is room.
-/// Fails as check() does, with kOutOfRange for paper smaller than the film in both orientations,
-/// and with kFailedPrecondition for a first contact that misses the film.
+/// ruler, the pose and a line of text are added if there is space. Returns the errors of check(),
+/// kOutOfRange for paper smaller than the film in both orientations, and kFailedPrecondition if the
+/// first contact misses the film.
 [[nodiscard]] Result<Placement> placement(const mesh::Surface& surface,
                                           const std::optional<Pose>& X_FO,
                                           const film::Outline& outline,

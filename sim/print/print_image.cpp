@@ -14,12 +14,12 @@ namespace {
 
 constexpr double kMmPerInch = 25.4;
 
-/// "2480 x 3508"
+/// Returns "2480 x 3508".
 std::string size_text(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
-/// Dots per inch of an image with the size of a film image of this film.
+/// Returns the dots per inch of an image with the size of a film image of this film.
 Result<double> dpi_of(const image::RgbImage& image, const std::string& name,
                       const film::Outline& outline, std::optional<double> given) {
   const double guess = std::max(1.0, std::round(image.width * kMmPerInch / outline.size_mm().x()));
@@ -50,8 +50,8 @@ bool has_colour(const std::uint8_t* pixel, int channels) {
   return std::any_of(pixel, pixel + channels, [nothing](std::uint8_t c) { return c != nothing; });
 }
 
-/// A sheet's part of an image, and the number of its coloured pixels that the printer cannot print.
-/// `at_edge` states the affected edges of the paper: left, right, top, bottom.
+/// A sheet's part of an image, and the number of its coloured pixels that cannot be printed.
+/// `at_edge` names the affected edges of the paper: left, right, top, bottom.
 struct Part {
   image::PrinterImage image;
   std::size_t lost = 0;

@@ -18,30 +18,30 @@ namespace hydroprint::print {
 struct PrintSettings {
   PageSettings page;
   ColourSettings colours;
-  /// Of the film image; nullopt: the whole number of dots per inch that matches its size.
+  /// Resolution of the film image; nullopt: the whole number of dots per inch that matches its
+  /// size.
   std::optional<double> dpi;
 };
 
-/// The output for the printer.
+/// A film image prepared for the printer.
 struct Print {
   Layout layout;
   Document document;  ///< one page per sheet; its first image is the sheet's part of the film image
   double dpi = 0;
   double most_ink = 0, limited_share = 0;  ///< see PrinterColoured
-  double cut_off_mm2 = 0;                  ///< coloured area that the printer cannot print
-  Warnings warnings;                       ///< marks_dropped, image_in_printer_margin
+  double cut_off_mm2 = 0;  ///< coloured area in the printer's margin, which cannot be printed
+  Warnings warnings;       ///< marks_dropped, image_in_printer_margin
 };
 
 /// Reads a film image written by `simulate`, or any PNG, JPEG or TIFF, as 8-bit sRGB with
-/// transparency on white. Fails as image::read_image() does.
+/// transparency composited over white. Returns the errors of image::read_image().
 [[nodiscard]] Result<image::RgbImage> read_film_image(const std::filesystem::path& path,
                                                       const Context& context);
 
-/// Lays out a film image on paper: exact scale, the printer's colours, marks (lay_out). Equal
-/// settings always give the same bytes.
+/// Lays out a film image on paper at exact scale, in the printer's colours, with marks (lay_out).
+/// Equal settings always yield equal bytes. Returns the errors of lay_out() and printer_coloured(),
+/// and kInvalidArgument if the image does not have the size of a film image of this film.
 /// @param name  of the image, for messages
-/// Fails as lay_out() and printer_coloured() do, and with kInvalidArgument if the image does not
-/// have the size of a film image of this film (contract, "Frames and units").
 [[nodiscard]] Result<Print> print_image(const image::RgbImage& film_image, const std::string& name,
                                         const film::Outline& outline, const PrintSettings& settings,
                                         const Context& context);

@@ -30,7 +30,7 @@ Result<Eigen::Vector2d> parse_paper(const std::string& text) {
     return fail(Code::kOutOfRange, about + "out of range. Use sides from 10 to 2000 mm");
   }
   return fail(Code::kInvalidArgument,
-              about + "not understood. Give A4, A3, letter or WIDTHxHEIGHT (mm)");
+              about + "unknown size. Use A4, A3, letter or WIDTHxHEIGHT (mm)");
 }
 
 std::string text_of(double value) {

@@ -8,26 +8,27 @@
 
 namespace hydroprint::print {
 
-/// The paper for a film image, and the layout on it.
+/// The paper for a film image, and the layout of the image on it.
 struct PageSettings {
-  Eigen::Vector2d paper_mm = {210, 297};  ///< as it lies in the tray; rotated if that fits better
-  /// Width of the strip along every edge of the paper that the printer cannot print, mm.
+  /// As it lies in the tray; the image is rotated if it fits better.
+  Eigen::Vector2d paper_mm = {210, 297};
+  /// Width, in mm, of the margin on every edge of the paper in which the printer cannot print.
   double printer_margin_mm = 0;
   /// Overlap of neighbouring sheets if the film needs several, mm.
   double overlap_mm = 10;
   /// Length of the sliding bars that hold the film at the middle of its four sides (section 5.1).
-  /// Each bar has marks at its two ends and its middle; 0: only at its middle.
+  /// Each bar gets marks at both ends and its middle; 0: only at its middle.
   double bar_mm = 0;
-  bool mirror = false;   ///< off: ink side up, seen from above
-  bool marks = true;     ///< around the film, where there is room
-  std::string job_name;  ///< on the paper; empty: none
-  std::string date;      ///< on the paper, as given; empty: none
+  bool mirror = false;   ///< false: ink side up, seen from above
+  bool marks = true;     ///< around the film, where there is space
+  std::string job_name;  ///< printed on the page; empty: none
+  std::string date;      ///< printed on the page unchanged; empty: none
 };
 
-/// The colours that are sent to the printer.
+/// The colours of the output.
 struct ColourSettings {
   bool cmyk = false;  ///< without a profile: plain CMYK, as in ink::make_separation; else sRGB
-  std::filesystem::path icc_profile;  ///< of the printer; selects CMYK or RGB
+  std::filesystem::path icc_profile;  ///< profile of the printer; selects CMYK or RGB
   /// The largest C + M + Y + K of a pixel, above 0 and at most 4; CMYK only.
   double ink_limit = 4;
 };
@@ -36,11 +37,11 @@ struct ColourSettings {
 /// for sides below 10 mm or above 2000 mm.
 [[nodiscard]] Result<Eigen::Vector2d> parse_paper(const std::string& text);
 
-/// A number for messages: six digits, without trailing zeros.
+/// Formats a number for messages: six digits, without trailing zeros.
 [[nodiscard]] std::string text_of(double value);
 
-/// Refuses (kOutOfRange), naming the setting, values out of range and settings that contradict each
-/// other.
+/// Returns kOutOfRange, naming the setting, for values out of range and settings that contradict
+/// each other.
 [[nodiscard]] Status check(const PageSettings& settings);
 
 }  // namespace hydroprint::print

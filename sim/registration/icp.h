@@ -13,13 +13,13 @@ namespace hydroprint::registration {
 
 /// The result of an alignment.
 struct Aligned {
-  Pose pose = Pose::Identity();  ///< takes the scan's points to the target
+  Pose pose = Pose::Identity();  ///< transforms the scan's points to the target
   bool converged = false;
 };
 
-/// Improves a start until fit_pose() can refine it: PCL's point-to-plane ICP (Besl and McKay 1992,
-/// Chen and Medioni 1992) against a surface given by samples. Points whose normals differ by more
-/// than 60 degrees are not paired. Thread-safe.
+/// Refines an initial pose until fit_pose() can take over. Uses PCL's point-to-plane ICP (Besl and
+/// McKay 1992, Chen and Medioni 1992) against samples of a surface. Points whose normals differ by
+/// more than 60 degrees are not paired. Thread-safe.
 class Icp {
  public:
   Icp() = default;
@@ -28,22 +28,23 @@ class Icp {
   Icp& operator=(const Icp&) = delete;
 
   /// @param scan         points with normals, at least 6
-  /// @param distance_mm  points farther apart are not paired
+  /// @param distance_mm  maximum distance between paired points
   [[nodiscard]] virtual Aligned align(std::span<const SurfacePoint> scan, const Pose& start,
                                       double distance_mm, int iterations) const = 0;
 };
 
-/// Returns a regular subset of a scan's points for align(): `most` points or up to twice as many.
+/// Returns every n-th point of a scan, for align(): between `most` and 2 * `most` points, or all of
+/// them if there are fewer.
 [[nodiscard]] std::vector<SurfacePoint> thinned(std::span<const scan::ScanPoint> points,
                                                 std::size_t most);
 
-/// Builds an Icp for a target. PCL depends on 30 libraries, which take a tenth of a second to load
-/// and which most runs of the worker do not need. So it is in a module that the first call loads.
-/// Fails as module_symbol() does.
+/// Creates an Icp for a target. It is in a module that the first call loads, because PCL depends on
+/// 30 libraries that take a tenth of a second to load, and most runs of the worker do not need it.
+/// Returns the errors of module_symbol().
 [[nodiscard]] Result<std::unique_ptr<const Icp>> make_icp(std::span<const SurfacePoint> target);
 
 }  // namespace hydroprint::registration
 
-/// The only symbol that the module exports. The caller owns the result.
+/// The only symbol that the module exports. The caller takes ownership of the result.
 extern "C" hydroprint::registration::Icp* hydroprint_icp(
     std::span<const hydroprint::registration::SurfacePoint> target);

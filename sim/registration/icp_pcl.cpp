@@ -43,9 +43,10 @@ Pose to_pose(const Eigen::Matrix4f& matrix) {
   return pose;
 }
 
-/// Least squares of distances along the target's normals. If the pairs do not determine the whole
-/// motion, the shortest solution is used. PCL's own estimation inverts a matrix that is singular if
-/// all pairs lie on one flat face, as is common with boards; ICP would then never turn a board.
+/// Minimises the distances along the target's normals by least squares. If the pairs do not
+/// determine the whole motion, the shortest solution is used. PCL's own estimation inverts a matrix
+/// that is singular if all pairs lie on one flat face, as is common with boards; ICP would then
+/// never rotate a board.
 class Estimation : public pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point> {
  public:
   using Base = pcl::registration::TransformationEstimationPointToPlaneLLS<Point, Point>;
@@ -74,7 +75,7 @@ class Estimation : public pcl::registration::TransformationEstimationPointToPlan
     for (const auto& pair : pairs) sum += place(scan, pair.index_query);
     return sum / static_cast<double>(pairs.size());
   }
-  /// Turn (radians) about the centre, and shift.
+  /// Returns the rotation (radians) about the centre, and the translation.
   static std::pair<Eigen::Vector3d, Eigen::Vector3d> step(const Points& scan, const Points& target,
                                                           const pcl::Correspondences& pairs,
                                                           const Eigen::Vector3d& centre) {

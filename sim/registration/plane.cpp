@@ -20,7 +20,7 @@ constexpr double kLeastUpright = 0.766;  ///< cosine of 40 degrees
 constexpr int kRefinements = 5;
 constexpr double kLevel = 0.9;  ///< least cosine between the plane's normal and a level point's
 constexpr double kBin_mm = 3;
-constexpr double kLevelShare = 0.01;  ///< of all points
+constexpr double kLevelShare = 0.01;  ///< minimum size of a level area, as a fraction of all points
 constexpr std::size_t kMostLevels = 6;
 
 bool on(const Plane& plane, const scan::ScanPoint& p) {
@@ -63,7 +63,8 @@ Result<Plane> find_plane(const scan::Cloud& cloud, const Eigen::Vector3d& up_C) 
   Plane best;
   std::size_t most = 0;
   for (int trial = 0; trial < kTrials && looked.size() >= 3; ++trial) {
-    // Not std::uniform_int_distribution: its results differ between standard libraries.
+    // Does not use std::uniform_int_distribution, because its results differ between standard
+    // libraries.
     const auto any = [&] { return looked[random() % looked.size()]->point_mm; };
     const Eigen::Vector3d a = any(), b = any(), c = any();
     Eigen::Vector3d normal = (b - a).cross(c - a);

@@ -17,15 +17,15 @@ struct Plane {
   }
 };
 
-/// Finds the plane that contains most points, the table or the water, which defines up. Uses random
-/// sampling (Fischler and Bolles 1981) with a fixed seed, then least squares.
-/// @param up_C  approximate direction of up; planes tilted from it by more than 40 degrees are
-///              ignored
-/// Fails (kFailedPrecondition, NO_PLANE) if fewer than a twentieth of the points lie on the plane.
+/// Finds the plane that contains the largest number of points (the table or the water), which
+/// defines up. Uses random sampling (Fischler and Bolles 1981) with a fixed seed, then least
+/// squares. Returns kFailedPrecondition (NO_PLANE) if fewer than a twentieth of the points lie on
+/// the plane.
+/// @param up_C  approximate up direction; planes tilted from it by more than 40 degrees are ignored
 [[nodiscard]] Result<Plane> find_plane(const scan::Cloud& cloud, const Eigen::Vector3d& up_C);
 
-/// Heights over the plane at which the scan has large level areas (table, water, bars). At most
-/// six, largest area first.
+/// Returns the heights above the plane at which the scan has large horizontal areas (table, water,
+/// bars): at most six, largest area first.
 [[nodiscard]] std::vector<double> level_heights(const scan::Cloud& cloud, const Plane& plane);
 
 }  // namespace hydroprint::registration

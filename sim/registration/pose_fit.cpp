@@ -19,13 +19,13 @@ constexpr double kLeastReach_mm = 5;
 constexpr double kReachShrinks = 0.8;
 constexpr double kSettled_mm = 1e-3, kNearlySettled_mm = 0.1;
 constexpr double kMostStep_mm = 10;
-constexpr double kNil = 1e-12;      ///< information below this share of the largest is rounding
-constexpr double kOnSurface = 0.3;  ///< robust weight from which a point counts as on the surface
+constexpr double kNil = 1e-12;      ///< information below this fraction of the largest is rounding
+constexpr double kOnSurface = 0.3;  ///< robust weight above which a point counts as on the surface
 
-/// The noise by which outliers are judged: that of a camera with an unknown fixed pattern
-/// (kUsual), or this camera's own, which may be smaller (kOwn). The fit first settles with kUsual.
-/// Far from the solution, kOwn would drop the few points of a narrow face for good, and with them
-/// the motions that only these points determine.
+/// The noise for detecting outliers: that of a camera with an unknown fixed pattern (kUsual), or
+/// this camera's own, which may be smaller (kOwn). The fit first converges with kUsual. Far from
+/// the solution, kOwn would drop the few points of a narrow face permanently, and with them the
+/// motions that only these points determine.
 enum class Gate { kUsual, kOwn };
 
 /// Residuals in units of noise, and their robust weights.
@@ -53,19 +53,19 @@ struct Split {
   Vector6 sigma_mm;
   Eigen::Array<bool, 6, 1> weak;
 
-  /// Pseudo-inverse of the information, without the weak directions.
+  /// Returns the pseudo-inverse of the information, without the weak directions.
   [[nodiscard]] Matrix6 inverse() const {
     const Vector6 each = weak.select(0, information.array().inverse()).matrix();
     return directions * each.asDiagonal() * directions.transpose();
   }
-  /// Projection onto the weak directions.
+  /// Returns the projection onto the weak directions.
   [[nodiscard]] Matrix6 onto_weak() const {
     const Vector6 each = weak.cast<double>().matrix();
     return directions * each.asDiagonal() * directions.transpose();
   }
 };
 
-/// @param told  number of weak directions once it is settled: those with the largest errors.
+/// @param told  number of weak directions once it is final: those with the largest errors.
 ///              Directions without any information are weak in addition
 Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::Index> told = {}) {
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(normals.information);
@@ -75,7 +75,7 @@ Split split(const Normals& normals, double weak_sigma_mm, std::optional<Eigen::I
     const Vector6 e = out.directions.col(k);
     const double information = std::max(out.information[k], nil);
     out.sigma_mm[k] = std::sqrt(std::max(0.0, e.dot(normals.scatter * e))) / information;
-    // Without noise the scatter is 0, so the information alone also bounds the error.
+    // Without noise the scatter is 0, so the information also limits the error.
     const double at_least = 1 / std::sqrt(information);
     out.sigma_mm[k] = std::max(out.sigma_mm[k], at_least);
   }
@@ -169,7 +169,7 @@ class Fitter {
   }
   [[nodiscard]] Vector6 unscaled(const Vector6& step) const { return scale().cwiseProduct(step); }
 
-  /// The Gauss-Newton step, and along weak directions the step to the nominal pose.
+  /// Returns the Gauss-Newton step, and along weak directions the step to the nominal pose.
   [[nodiscard]] Vector6 step_of(const Look& look, const Split& parts, const Pose& pose) const {
     const Vector6 to_nominal = twist_between(pose, nominal_, look.centre).cwiseQuotient(scale());
     const Vector6 step = parts.inverse() * look.normals.pull + parts.onto_weak() * to_nominal;
@@ -199,7 +199,7 @@ class Fitter {
     return out;
   }
 
-  /// Uses the usual noise, so that the criteria for a match do not depend on how well the camera is
+  /// Uses kUsual, so that the criteria for a match do not depend on how well the camera is
   /// calibrated.
   void judge(std::span<const Pair> pairs, PoseFit& out) const {
     const Judged usual = judged(pairs, Gate::kUsual);
@@ -255,7 +255,7 @@ std::vector<double> error_at(std::span<const Eigen::Vector3d> points_mm,
 std::string describe(const WeakDirection& direction, const Eigen::Vector3d& centre_C,
                      const Pose& X_AC) {
   const Eigen::Vector3d turn = direction.twist.head<3>(), shift = direction.twist.tail<3>();
-  if (turn.isZero() || shift.norm() > 0.7)  // of the 1 mm that the twist moves the surface
+  if (turn.isZero() || shift.norm() > 0.7)  // of the 1 mm by which the twist moves the surface
     return "shift along " + text(X_AC.linear() * shift.normalized(), 2);
   const Eigen::Vector3d on_axis = centre_C + turn.cross(shift) / turn.squaredNorm();
   return "turn about the axis through " + text(X_AC * on_axis, 0) + " along " +

@@ -11,52 +11,53 @@
 
 namespace hydroprint::registration {
 
-/// A motion of the body that the scan does not determine; it is taken from the nominal pose.
+/// A motion of the body that the scan does not determine; the fit takes it from the nominal pose.
 struct WeakDirection {
   /// Camera frame, about PoseFit::centre_mm. Scaled so that it moves the surface by 1 mm (rms).
   Vector6 twist = Vector6::Zero();
-  double sigma_mm = 0;  ///< standard error of the surface along it, from the scan alone
+  double sigma_mm = 0;  ///< standard error of the surface along this motion, from the scan alone
 };
 
 /// Pose of a body and its uncertainty.
 struct PoseFit {
   Pose X_CB = Pose::Identity();
-  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< camera frame; twists are about it
-  /// Covariance of the twist (camera frame) between X_CB and the truth. It is due to the depths'
-  /// noise and, along weak directions, to the nominal pose's uncertainty. Radians and mm.
+  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< camera frame; origin of the twists
+  /// Covariance of the twist (camera frame) between X_CB and the true pose, in radians and mm. It
+  /// includes noise of the depths and, along weak directions, the nominal pose's uncertainty.
   Matrix6 covariance = Matrix6::Zero();
-  /// Derivative of that twist by the camera's unknowns, which `covariance` leaves out. They
-  /// contribute camera_gain * camera_gain^T to it.
+  /// Derivative of that twist with respect to the camera's unknowns. `covariance` does not include
+  /// them; their contribution is camera_gain * camera_gain^T.
   CameraGain camera_gain = CameraGain::Zero(6, 0);
   std::vector<WeakDirection> weak;
-  /// Number of points on the surface within their noise, and their share of all given points. Here
-  /// and in rms_sigmas the noise is that of a camera with an unknown fixed pattern.
+  /// Number of points that lie on the surface within their noise, and their fraction of all given
+  /// points. The noise, here and in rms_sigmas, is that of a camera with an unknown fixed pattern.
   std::size_t points = 0;
   double paired_share = 0;
-  double rms_mm = 0;      ///< of the distances of these points
-  double rms_sigmas = 0;  ///< of the same distances in units of their noise
+  double rms_mm = 0;      ///< rms distance of these points
+  double rms_sigmas = 0;  ///< the same distances in units of their noise
 };
 
 struct FitOptions {
-  /// Directions with a larger standard error than this are taken from the nominal pose.
+  /// Motions with a larger standard error are taken from the nominal pose.
   double weak_sigma_mm = 1;
   double nominal_turn_sigma_rad = 0.1;
   double nominal_shift_sigma_mm = 10;
-  double reach_mm = 10;  ///< points farther from the surface at the start are not paired
+  double reach_mm = 10;  ///< points that start farther from the surface are not paired
   int most_iterations = 60;
 };
 
-/// Least squares of the distances of scan points from a surface, along its normals. Each point is
-/// weighted by its noise and by Tukey's weight. The start must be within a few mm and degrees. Only
-/// the last iterations use the camera's fixed pattern to decide which points lie on the surface.
-/// The covariance accounts for the part of the noise that a patch of pixels shares.
-/// Fails (kFailedPrecondition) if fewer than 30 points lie on the surface.
+/// Fits a pose by least squares over the distances of scan points to a surface, measured along its
+/// normals. Each point is weighted by its noise and by Tukey's weight. The initial pose must be
+/// within a few mm and degrees. Only the last iterations use the camera's fixed pattern to decide
+/// which points lie on the surface. The covariance accounts for noise that is correlated within
+/// patches of pixels. Returns kFailedPrecondition if fewer than 30 points lie on the surface.
 [[nodiscard]] Result<PoseFit> fit_pose(const Shape& shape, std::span<const scan::ScanPoint> points,
                                        const scan::Camera& camera, const Pose& start_CB,
                                        const Pose& nominal_CB, const FitOptions& options,
                                        const Context& context);
 
-/// Registration error (rms over its distribution, mm) at each point, from a pose's covariance.
+/// Computes the registration error (rms over its distribution, mm) at each point from the
+/// covariance of a pose.
 /// @param covariance  of a twist in the frame of the points, about `centre_mm`
 [[nodiscard]] std::vector<double> error_at(std::span<const Eigen::Vector3d> points_mm,
                                            const Eigen::Vector3d& centre_mm,

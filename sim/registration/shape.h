@@ -14,30 +14,31 @@ namespace hydroprint::registration {
 /// A point of a surface.
 struct SurfacePoint {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward unit, smooth except at creases
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< outward, unit, smooth except at creases
 };
 
-/// A surface for comparison with scans, with a search structure for nearest points and rays. Body
+/// A surface with a search structure for nearest points and rays, for comparison with scans. Body
 /// frame B, mm. Thread-safe; copies share their data.
 class Shape {
  public:
-  /// @param surface  at least one triangle
+  /// @param surface  has at least one triangle
   explicit Shape(const mesh::Surface& surface);
 
-  /// The nearest point of the surface.
+  /// Returns the nearest point of the surface.
   [[nodiscard]] SurfacePoint closest(const Eigen::Vector3d& p_B) const;
-  /// Where a ray first meets the surface, from either side; nullopt if it does not.
+  /// Returns the first intersection of a ray with the surface, from either side; nullopt if there
+  /// is none.
   [[nodiscard]] std::optional<SurfacePoint> hit(const Eigen::Vector3d& from_B,
                                                 const Eigen::Vector3d& towards_B) const;
-  /// True if no part of the surface lies between the eye and a point on the surface.
+  /// Returns true if no part of the surface lies between the eye and a point on the surface.
   [[nodiscard]] bool is_seen(const SurfacePoint& p_B, const Eigen::Vector3d& eye_B) const;
-  /// About `count` points, spread evenly over the area. Deterministic.
+  /// Returns about `count` points, distributed evenly over the area. Deterministic.
   [[nodiscard]] std::vector<SurfacePoint> samples(std::size_t count) const;
 
-  /// Root mean square distance of the surface from its centroid.
+  /// Returns the root mean square distance of the surface from its centroid.
   [[nodiscard]] double radius_mm() const;
   [[nodiscard]] const Eigen::Vector3d& centroid() const;
-  /// Diagonal of the bounding box.
+  /// Returns the diagonal of the bounding box.
   [[nodiscard]] double diagonal_mm() const;
 
  private:

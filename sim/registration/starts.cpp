@@ -39,7 +39,7 @@ std::vector<Eigen::Matrix3d> quarter_turns() {
   return out;
 }
 
-/// Orientations to start from, without the nominal one.
+/// Returns the initial orientations, without the nominal one.
 std::vector<Eigen::Matrix3d> turns(const Eigen::Matrix3d& nominal) {
   std::vector<Eigen::Matrix3d> out;
   for (int axis = 0; axis < 3; ++axis)
@@ -57,7 +57,8 @@ Eigen::Vector3d middle(const std::vector<SurfacePoint>& points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// The given orientation, with the camera-facing part of the body at the middle of the scan.
+/// Returns a pose with the given orientation, with the camera-facing part of the body at the middle
+/// of the scan.
 Pose placed(const Eigen::Matrix3d& turn, const std::vector<SurfacePoint>& body,
             const Eigen::Vector3d& middle_C) {
   std::vector<SurfacePoint> facing;

@@ -9,10 +9,11 @@ namespace hydroprint::registration {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-/// Derivative of a motion by the camera's unknowns (scan::CameraErrors), one column for each.
+/// Derivative of a motion with respect to the camera's unknowns (scan::CameraErrors), one column
+/// for each.
 using CameraGain = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// A small motion about `centre`: turn (radians) first, then shift (mm).
+/// Returns a small motion: rotation about `centre` (radians), then translation (mm).
 [[nodiscard]] inline Pose motion(const Vector6& twist, const Eigen::Vector3d& centre) {
   const double angle = twist.head<3>().norm();
   Pose out = Pose::Identity();
@@ -21,7 +22,7 @@ using CameraGain = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   return out;
 }
 
-/// The twist about `centre` that takes `from` to `to`.
+/// Returns the twist about `centre` that transforms `from` to `to`.
 [[nodiscard]] inline Vector6 twist_between(const Pose& from, const Pose& to,
                                            const Eigen::Vector3d& centre) {
   const Pose step = to * from.inverse();
@@ -37,14 +38,14 @@ using CameraGain = Eigen::Matrix<double, 6, Eigen::Dynamic>;
   return out;
 }
 
-/// Matrix that converts twists about the centre `from` to twists about the centre `to`.
+/// Returns the matrix that converts twists about the centre `from` to twists about the centre `to`.
 [[nodiscard]] inline Matrix6 recentred(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   Matrix6 out = Matrix6::Identity();
   out.bottomLeftCorner<3, 3>() = -cross_matrix(to - from);
   return out;
 }
 
-/// Matrix that rotates the coordinates of twists.
+/// Returns the matrix that rotates the coordinates of twists.
 [[nodiscard]] inline Matrix6 turned(const Eigen::Matrix3d& turn) {
   Matrix6 out = Matrix6::Zero();
   out.topLeftCorner<3, 3>() = turn;

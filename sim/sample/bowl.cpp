@@ -20,8 +20,8 @@ constexpr double kRimMm = 50;   // outer radius at the rim
 constexpr double kFilletMm = 3;
 constexpr int kAround = 180;
 
-/// The outline from the middle of the bottom outward, up, over the rim, and down inside to the
-/// middle again.
+/// Returns the outline from the middle of the bottom outward, up, over the rim, and down inside to
+/// the middle again.
 Outline make_outline() {
   Outline out(1);
   add_line(out, kFootMm - kFilletMm, 0, 22);
@@ -62,7 +62,8 @@ Sample make_bowl() {
     }
     const double v = p.arc_mm / length_mm;
     uv.push_back(mesh.add_uv({is_middle ? 0.5 / kAround : 0, v}));
-    for (int i = 1; i <= kAround; ++i) {  // at a middle, they lie between those of the rings
+    for (int i = 1; i <= kAround;
+         ++i) {  // at a middle, it lies between the coordinates of the rings
       mesh.add_uv({std::min<double>(kAround, is_middle ? i + 0.5 : i) / kAround, v});
     }
   }

@@ -24,7 +24,7 @@ constexpr double kRoundMm = 2 * pi * kRadiusMm;
 /// Parts of the outline, from the middle of the bottom outward, up, over the rim and down inside.
 enum Part : std::size_t { kBottom, kOuter, kInner, kFloor, kHandle };
 
-/// The parts of the outline. Each begins with the last point of the previous one.
+/// Returns the parts of the outline. Each begins with the last point of the previous one.
 std::vector<Outline> make_parts() {
   std::vector<Outline> parts(1, Outline(1));
   const auto next = [&] {
@@ -108,7 +108,7 @@ class MugMaker {
   // --- the body ---
 
   /// Adds the ring of an outline point and returns its first vertex. The two middles are single
-  /// vertices. Parts share the ring between them.
+  /// vertices. Parts share the ring at their common boundary.
   int ring_of(std::size_t part, std::size_t row) {
     if (row == 0 && part != kBottom) return last_ring_;
     const auto& p = parts_[part][row];
@@ -160,8 +160,8 @@ class MugMaker {
 
   // --- the handle ---
 
-  /// The rim of a hole: from the middle of its outer side (upper side of the upper hole, lower side
-  /// of the lower hole) towards +y and around.
+  /// Returns the rim of a hole, starting at the middle of its outer side (upper side of the upper
+  /// hole, lower side of the lower hole), towards +y and around.
   [[nodiscard]] std::vector<int> hole_rim(int first_row, bool is_upper) const {
     std::vector<int> rim;
     const auto add = [&](int i, int row) {
@@ -181,7 +181,9 @@ class MugMaker {
     return parts_[kOuter][static_cast<std::size_t>(row)].z_mm;
   }
 
-  /// Half an ellipse from the upper hole to the lower one. @param t  0 to 1
+  /// Returns a point on the handle's middle line: half an ellipse from the upper hole to the lower
+  /// one.
+  /// @param t  0 to 1
   [[nodiscard]] Eigen::Vector3d middle(double t) const {
     const double high = row_z(kHighRow + kHoleRows / 2);
     const double low = row_z(kLowRow + kHoleRows / 2);

@@ -8,7 +8,7 @@
 
 namespace hydroprint::sample {
 
-/// sRGB-coded, [0, 1].
+/// An sRGB-coded colour, [0, 1].
 using Colour = Eigen::Vector3f;
 
 /// Draws a picture from a function of position (x to the right, y up, in the given unit). Each
@@ -22,20 +22,20 @@ using Colour = Eigen::Vector3f;
   return (1 - w) * a + w * b;
 }
 
-/// 0 below `from`, 1 above `to`, and smooth between them.
+/// Returns 0 below `from`, 1 above `to`, and a smooth transition in between.
 [[nodiscard]] inline double ramp(double from, double to, double x) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
-/// Distance to the nearest multiple of `spacing`.
+/// Returns the distance to the nearest multiple of `spacing`.
 [[nodiscard]] double to_nearest_line(double x, double spacing);
 
-/// True on every other square of a chessboard.
+/// Returns true on every other square of a chessboard.
 [[nodiscard]] bool is_dark_square(double x, double y, double size);
 
-/// Smooth noise in about [-1, 1] with features about 1 apart: the sum of `octaves` layers of value
-/// noise, each twice as fine and half as strong as the previous one.
+/// Returns smooth noise in about [-1, 1] with features about 1 apart: the sum of `octaves` layers
+/// of value noise, each twice as fine and half as strong as the previous one.
 [[nodiscard]] double noise(const Eigen::Vector3d& p, int octaves);
 
 }  // namespace hydroprint::sample

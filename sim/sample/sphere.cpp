@@ -10,8 +10,8 @@ namespace {
 using std::numbers::pi;
 constexpr double kDegree = pi / 180;
 
-/// A sphere of meridians and parallels with an equirectangular map. u runs east from 180 W, and v
-/// north from the south pole, which is the lowest point.
+/// Returns a sphere of meridians and parallels with an equirectangular map. u runs east from 180 W,
+/// and v north from the south pole, which is the lowest point.
 TexturedMesh make_sphere(double radius_mm, int meridians, int parallels) {
   TexturedMesh mesh;
   const auto position = [&](int i, int j) {

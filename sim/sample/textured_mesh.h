@@ -19,7 +19,7 @@ class TexturedMesh {
 
   int add_vertex(const Eigen::Vector3d& position_mm);
   int add_uv(const Eigen::Vector2d& uv);
-  /// Three or four corners, counter-clockwise from outside.
+  /// Adds a face with three or four corners, counter-clockwise from outside.
   void add_face(std::vector<Corner> corners);
 
   [[nodiscard]] const Eigen::Vector3d& vertex(int i) const {

@@ -26,7 +26,8 @@ struct Ring {
   double radius_mm;
 };
 
-/// The ring at arc length s: up the left leg from its foot, over the bend and down the right leg.
+/// Returns the ring at arc length s: up the left leg from its foot, over the bend and down the
+/// right leg.
 Ring ring_at(double s) {
   if (s > kLengthMm / 2) {
     Ring ring = ring_at(kLengthMm - s);

@@ -8,7 +8,7 @@ namespace hydroprint::scan {
 /// The calibration of a depth camera.
 struct Camera {
   Lens lens;
-  Lens::Matrix covariance = Lens::Matrix::Zero();  ///< of Lens::parameters()
+  Lens::Matrix covariance = Lens::Matrix::Zero();  ///< covariance of Lens::parameters()
   FixedPattern pattern = {};                       ///< may be unknown
 };
 

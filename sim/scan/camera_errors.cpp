@@ -17,7 +17,7 @@ Eigen::RowVectorXd CameraErrors::along(const Eigen::Vector3d& direction,
       direction.transpose() * camera_.lens.derivatives(point.u, point.v, point.reported_mm) * root_;
   const FixedPattern& pattern = camera_.pattern;
   if (!pattern.is_known()) return out;
-  // The offset is subtracted, so an error of it moves the point towards the camera.
+  // The offset is subtracted, so a positive error of the offset moves the point towards the camera.
   const double per_offset =
       -direction.dot(point.point_mm) / point.point_mm.z() * point.usual_constant_mm;
   out += per_offset * pattern.shared.col(point.patch)

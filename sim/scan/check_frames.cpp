@@ -12,7 +12,7 @@ namespace hydroprint::scan {
 Status check_frames(std::span<const DepthFrame> frames) {
   if (frames.empty()) return fail(Code::kInvalidArgument, "no depth frames. Switch the camera on");
   if (frames.size() > std::numeric_limits<std::uint16_t>::max())
-    return fail(Code::kInvalidArgument, "more than 65535 depth frames. Give fewer");
+    return fail(Code::kInvalidArgument, "more than 65535 depth frames. Use fewer frames");
   const DepthFrame& first = frames.front();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const DepthFrame& frame = frames[i];

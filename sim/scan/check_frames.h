@@ -7,8 +7,8 @@
 
 namespace hydroprint::scan {
 
-/// Fails (kInvalidArgument) if there are no frames or more than 65535, or if they differ in size.
-/// Fails (kFailedPrecondition, CAMERA_FROZEN) if several frames are all identical.
+/// Returns kInvalidArgument if there are no frames or more than 65535, or if they differ in size.
+/// Returns kFailedPrecondition (CAMERA_FROZEN) if there are several frames and all are identical.
 [[nodiscard]] Status check_frames(std::span<const DepthFrame> frames);
 
 }  // namespace hydroprint::scan

@@ -29,7 +29,7 @@ bool on_a_surface(const PointGrid& grid, int u, int v) {
   return true;
 }
 
-/// Zero if there are too few pixels around.
+/// Returns the normal at a pixel; zero if there are too few pixels around it.
 Eigen::Vector3d normal_at(const PointGrid& grid, int u, int v) {
   const Eigen::Vector3d& centre = grid.at(u, v);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

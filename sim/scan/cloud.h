@@ -13,13 +13,15 @@ namespace hydroprint::scan {
 struct ScanPoint {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, towards the camera
-  double reported_mm = 0;        ///< depth without the fixed pattern and without the lens's scale
-  double sigma_mm = 0;           ///< of noise that differs between frames, along the axis
-  double constant_sigma_mm = 0;  ///< of the constant noise that a patch shares, along the axis
+  double reported_mm = 0;  ///< depth without the fixed pattern, before scaling by the lens
+  /// Standard deviation of the noise that differs between frames, along the optical axis.
+  double sigma_mm = 0;
+  /// Of the constant noise that a patch shares, along the optical axis.
+  double constant_sigma_mm = 0;
   double usual_constant_mm = 0;  ///< constant_sigma_mm for an unknown fixed pattern
   int u = 0;                     ///< pixel
   int v = 0;
-  int patch = 0;  ///< index of its square of DepthNoise::patch_px pixels
+  int patch = 0;  ///< index of its patch, a square of DepthNoise::patch_px pixels
 };
 
 /// The points of a fused frame.
@@ -31,11 +33,10 @@ struct Cloud {
   [[nodiscard]] const ScanPoint* at(int u, int v) const;
 };
 
-/// Computes points with normals. A normal is that of a plane through the surrounding pixels on the
-/// same surface. Pixels beside a jump in depth are left out. The camera's known fixed pattern is
-/// subtracted first.
-/// Fails (kInvalidArgument) if the lens or the pattern is for another image size, or if the patches
-/// of the pattern and of the noise differ.
+/// Computes points with normals. The normal is that of a plane through the surrounding pixels on
+/// the same surface. Pixels beside a jump in depth are dropped. The camera's known fixed pattern is
+/// subtracted first. Returns kInvalidArgument if the lens or the pattern is for another image size,
+/// or if the patches of the pattern and of the noise differ.
 [[nodiscard]] Result<Cloud> make_cloud(const FusedFrame& fused, const Camera& camera,
                                        const DepthNoise& noise, const Context& context);
 

@@ -15,7 +15,7 @@ constexpr std::size_t kOften = 8;         ///< pixels; fewer may be outliers
 constexpr double kHalf = 0.5 + 1e-4;      ///< rounding error in mm
 constexpr double kCoarseSlack_mm = 0.12;  ///< extra error allowed in the coarse search
 constexpr double kFinest = 1e-7;
-/// Minus the log of the probability (1e-11) that wrong steps explain all depths.
+/// Negative logarithm of the probability (1e-11) that wrong steps explain all depths.
 constexpr double kSure = 25;
 
 struct Steps {
@@ -26,7 +26,8 @@ struct Steps {
   }
 };
 
-/// Largest distance of a depth from the nearest step. Stops as soon as it reaches `enough`.
+/// Returns the largest distance of a depth from the nearest step. Stops as soon as it reaches
+/// `enough`.
 double worst_mm(const std::vector<double>& depths, const Steps& steps, double enough) {
   double out = 0;
   for (const double depth : depths) {
@@ -36,8 +37,8 @@ double worst_mm(const std::vector<double>& depths, const Steps& steps, double en
   return out;
 }
 
-/// Depths that occur often, in the range where steps are longer than 1 mm. Empty if not all depths
-/// are whole mm.
+/// Returns the depths that occur often, in the range where steps are longer than 1 mm. Empty if not
+/// all depths are whole mm.
 std::vector<double> often_told(const DepthCounts& counts) {
   std::vector<double> out;
   if (!counts.are_whole) return out;
@@ -80,7 +81,7 @@ Steps closest(const std::vector<double>& depths) {
   return best;
 }
 
-/// The mean of the steps that are rounded to a depth; the depth itself if there are none.
+/// Returns the mean of the steps that are rounded to a depth; the depth itself if there are none.
 double before_rounding(const Steps& steps, std::size_t whole_mm) {
   const auto depth = static_cast<double>(whole_mm);
   const double first = std::ceil(steps.scale_mm / (depth + kHalf) - steps.shift);

@@ -6,7 +6,7 @@
 namespace hydroprint::scan {
 
 /// One depth image as reported by the camera, row by row from the top left. Depth is measured along
-/// the camera's axis, not along the pixel's ray.
+/// the optical axis, not along the pixel's ray.
 struct DepthFrame {
   int width_px = 0;
   int height_px = 0;

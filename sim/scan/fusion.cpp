@@ -11,8 +11,9 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kDarkShare = 0.02;      ///< the image is black if fewer pixels have a depth
-constexpr double kUnsteadyShare = 0.05;  ///< of pixels that may vary beyond the noise, at edges
+constexpr double kDarkShare = 0.02;  ///< the image is black if fewer pixels have a depth
+/// Fraction of pixels that may vary beyond the noise, at edges.
+constexpr double kUnsteadyShare = 0.05;
 constexpr double kUnsteadySigmas = 2.5;
 constexpr double kOutlierSigmas = 4;
 constexpr double kMadToSigma = 1.4826;
@@ -20,7 +21,7 @@ constexpr std::size_t kFewFrames = 5;  ///< fewest frames for a standard deviati
 
 struct Pixel {
   double mean_mm = 0;
-  double sigma_mm = 0;  ///< of the mean
+  double sigma_mm = 0;  ///< standard error of the mean
   std::size_t frames = 0;
   bool unsteady = false;
 };

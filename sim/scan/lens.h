@@ -30,12 +30,12 @@ struct Lens {
   double depth_scale = 1;
 
   [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p_C) const;
-  /// The point of depth 1 on a pixel's ray.
+  /// Returns the point of depth 1 on a pixel's ray.
   [[nodiscard]] Eigen::Vector3d ray(double u, double v) const;
-  /// ray() of every pixel, row by row.
+  /// Returns ray() of every pixel, row by row.
   [[nodiscard]] std::vector<Eigen::Vector3d> rays() const;
   [[nodiscard]] double true_depth_mm(double reported_mm) const { return depth_scale * reported_mm; }
-  /// Point of a pixel with this reported depth.
+  /// Returns the point seen by a pixel with this reported depth.
   [[nodiscard]] Eigen::Vector3d point(double u, double v, double reported_mm) const {
     return ray(u, v) * true_depth_mm(reported_mm);
   }
@@ -43,7 +43,7 @@ struct Lens {
   /// fx, fy, cx, cy, k1, k2, p1, p2, depth_scale.
   [[nodiscard]] Vector parameters() const;
   [[nodiscard]] Lens with(const Vector& parameters) const;
-  /// Derivatives of point() by the parameters, from central differences.
+  /// Returns the derivatives of point() with respect to the parameters, from central differences.
   [[nodiscard]] Eigen::Matrix<double, 3, kParameters> derivatives(double u, double v,
                                                                   double reported_mm) const;
 };

@@ -8,13 +8,13 @@
 
 namespace hydroprint::scan {
 
-/// A surface as triangles, in mm, with corners counter-clockwise as seen from outside.
+/// A surface of triangles, in mm, with corners counter-clockwise as seen from outside.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> points_mm;
   std::vector<Eigen::Vector3i> triangles;
 };
 
-/// Corner c (0 to 7) of a unit cube, at (c & 1, c >> 1 & 1, c >> 2).
+/// Returns corner c (0 to 7) of a unit cube, at (c & 1, c >> 1 & 1, c >> 2).
 [[nodiscard]] inline Eigen::Vector3i cube_corner(int c) { return {c & 1, c >> 1 & 1, c >> 2}; }
 
 /// Extracts the zero level set of a function given on a grid, cube by cube (marching tetrahedra,

@@ -6,7 +6,7 @@
 
 namespace hydroprint::scan {
 
-/// The point seen by each pixel, row by row; z = 0: no point. Camera frame.
+/// The points seen by all pixels, row by row; z = 0: no point. Camera frame.
 struct PointGrid {
   int width_px = 0;
   int height_px = 0;

@@ -10,7 +10,7 @@ namespace {
 constexpr int kReach_patches = 2;
 constexpr double kBendSigmas = 3;  ///< deviation of a depth from the mean of two opposite ones
 
-/// Offsets to one pixel in each patch around, but only one of each opposite pair.
+/// Returns the offsets to one pixel in each surrounding patch, but only one of each opposite pair.
 std::vector<Eigen::Vector2i> half_of_neighbours(const DepthNoise& noise) {
   std::vector<Eigen::Vector2i> out;
   for (int dv = 0; dv <= kReach_patches; ++dv)

@@ -18,11 +18,11 @@
 namespace hydroprint::scan {
 namespace {
 
-constexpr double kFarthest_mm = 1500;   ///< depths beyond it belong to the room, not the rig
+constexpr double kFarthest_mm = 1500;   ///< farther depths belong to the room, not to the rig
 constexpr double kRoundAbout_mm = 300;  ///< margin around the first frame for later frames
 constexpr double kDarkShare = 0.02;     ///< the image is black if fewer pixels have a depth
 constexpr std::size_t kMostLost = 10;   ///< frames in a row: a third of a second
-constexpr std::size_t kTakeEvery = 3;   ///< all frames are registered, but only these are fused
+constexpr std::size_t kTakeEvery = 3;  ///< all frames are registered, but only every third is fused
 constexpr Volume::Options kToFollow{3, 12, 60000};
 constexpr const char* kLost = "CAMERA_LOST";
 
@@ -41,7 +41,7 @@ Status check(const SweepTask& task) {
 }
 
 /// Returns frames one by one. Undoes rounding, subtracts the camera's fixed pattern and drops
-/// depths that are too far.
+/// depths that are too large.
 class Source {
  public:
   explicit Source(const SweepTask& task) : task_(task), steps_(find_depth_steps(task.frames)) {}

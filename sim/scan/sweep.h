@@ -12,16 +12,17 @@ namespace hydroprint::scan {
 
 /// Poses of a camera swept by hand. Frame W is the camera's frame at the first depth frame.
 struct Path {
-  std::vector<Pose> X_WC;       ///< for each frame
-  std::vector<bool> is_placed;  ///< false: not registered; it has the pose of the previous frame
-  double rms_mm = 0;  ///< rms distance of smoothed frames from the volume before them, along rays
+  std::vector<Pose> X_WC;       ///< camera pose for each frame
+  std::vector<bool> is_placed;  ///< false: not registered; the pose is that of the previous frame
+  /// Rms distance, along rays, of smoothed frames from the volume built before them.
+  double rms_mm = 0;
 
   [[nodiscard]] std::size_t lost() const {
     return static_cast<std::size_t>(std::count(is_placed.begin(), is_placed.end(), false));
   }
 };
 
-/// The fused frames of such a camera, in frame W.
+/// The fused frames of a hand-swept camera, in frame W.
 struct Sweep {
   Volume volume;
   Path path;
@@ -31,7 +32,7 @@ struct Sweep {
 /// Input of fuse_sweep().
 struct SweepTask {
   std::span<const DepthFrame> frames;
-  std::span<const double> times_s;  ///< of the frames, increasing
+  std::span<const double> times_s;  ///< times of the frames, increasing
   Camera camera;
   DepthNoise noise;
   Volume::Options volume;
@@ -40,8 +41,8 @@ struct SweepTask {
 /// Fuses the frames of a moving camera into one volume. Each frame is smoothed and registered to
 /// the frames before it (frame to model, KinectFusion, Izadi et al. 2011). Then every third frame
 /// is fused without smoothing. The camera's known fixed pattern is subtracted from all frames.
-/// Fails as check_frames() does, and with kInvalidArgument if the frames' size differs from the
-/// lens's or their times do not increase. Fails with kFailedPrecondition and a reason: CAMERA_BLACK
+/// Returns the errors of check_frames(), and kInvalidArgument if the frames' size differs from the
+/// lens's or their times do not increase. Returns kFailedPrecondition with a reason: CAMERA_BLACK
 /// if the first frame has hardly any depth, CAMERA_LOST if ten frames in a row cannot be
 /// registered.
 [[nodiscard]] Result<Sweep> fuse_sweep(const SweepTask& task, const Context& context);

@@ -24,9 +24,9 @@ constexpr int kIterations = 15;
 constexpr std::size_t kChunk = 512;
 
 // Limits for accepting a pose.
-constexpr double kLeastShare = 0.5;  ///< of the points that are matched
+constexpr double kLeastShare = 0.5;  ///< fraction of the points that must be matched
 constexpr double kMostSigma_mm = 1;
-constexpr double kMostRmsSigmas = 0.8;  ///< of the matches; smoothed frames have 0.3 to 0.4
+constexpr double kMostRmsSigmas = 0.8;  ///< limit for the matches; smoothed frames have 0.3 to 0.4
 constexpr double kStillMoves_mm = 0.2;  ///< step of the last iteration
 
 /// Normal equations for a small motion (translation, turn times kLever_mm) of matched points.
@@ -34,7 +34,7 @@ struct Equations {
   Matrix6d A = Matrix6d::Zero();
   Vector6d b = Vector6d::Zero();
   double squares_mm2 = 0;
-  double squares = 0;  ///< in standard deviations
+  double squares = 0;  ///< sum of squares, in units of the variance
   int matched = 0;
 
   void add(const Vector3d& lever, const Volume::Slope& slope, double sigma_mm) {
@@ -65,7 +65,7 @@ struct Match {
   const std::vector<Vector3d>& points;
   const DepthNoise& noise;
   const Volume& volume;
-  Vector3d middle_C;  ///< of the points
+  Vector3d middle_C;  ///< middle of the points
 
   [[nodiscard]] Equations part(const Pose& X_WC, std::size_t from) const {
     Equations out;
@@ -90,7 +90,7 @@ Result<Equations> match(const Match& with, const Pose& X_WC, const Context& cont
   return all;
 }
 
-/// Standard error of the motion that the matches determine worst.
+/// Returns the standard error of the motion in the direction that the matches determine worst.
 double worst_sigma_mm(const Equations& equations) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(equations.A, Eigen::EigenvaluesOnly);
   const double least = eigen.eigenvalues()[0];

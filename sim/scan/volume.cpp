@@ -16,11 +16,12 @@ using Eigen::Vector3i;
 // The range of a depth camera, along rays.
 constexpr double kNear_mm = 250;
 constexpr double kFar_mm = 2500;
-constexpr double kWidestTangent = 0.8;  ///< beyond it a lens's polynomial is not valid
-constexpr double kSaturated = 0.95;  ///< share of the truncation above which distances are unusable
-/// Largest slope of distances on a real surface, 1 / cos(66 degrees). Past the edge of a surface,
-/// positive distances seen beyond it meet negative ones assumed behind it, with a steeper slope;
-/// that zero is not a surface.
+constexpr double kWidestTangent = 0.8;  ///< a lens's polynomial is not valid beyond this
+/// Fraction of the truncation above which distances are unusable.
+constexpr double kSaturated = 0.95;
+/// Largest slope of distances on a real surface, 1 / cos(66 degrees). Beyond the edge of a surface,
+/// positive distances of the space seen there meet negative ones assumed behind the surface, with a
+/// steeper slope. That zero crossing is not a surface.
 constexpr double kSteepest = 2.5;
 constexpr int kMarkEvery_px = 4;  ///< small enough not to skip a block
 
@@ -32,7 +33,7 @@ std::size_t in_block(const Vector3i& cell) {
   return static_cast<std::size_t>(((cell.z() & 7) << 6) | ((cell.y() & 7) << 3) | (cell.x() & 7));
 }
 
-/// Reported depth at the pixel that sees a point; 0 if the point is out of view.
+/// Returns the reported depth at the pixel that sees a point; 0 if the point is out of view.
 double reported_at(const DepthFrame& frame, const Lens& lens, const Vector3d& p_C) {
   if (p_C.z() < kNear_mm ||
       std::max(std::abs(p_C.x()), std::abs(p_C.y())) > kWidestTangent * p_C.z())
@@ -44,7 +45,7 @@ double reported_at(const DepthFrame& frame, const Lens& lens, const Vector3d& p_
   return frame.depth_mm[frame.index(static_cast<int>(pixel.x()), static_cast<int>(pixel.y()))];
 }
 
-/// True if the distance changes by more than `most` along an edge of the cube.
+/// Returns true if the distance changes by more than `most` along an edge of the cube.
 bool leaps(const std::array<double, 8>& distances, double most) {
   for (std::size_t c = 0; c < 8; ++c)
     for (const std::size_t bit : {1U, 2U, 4U})
@@ -52,8 +53,8 @@ bool leaps(const std::array<double, 8>& distances, double most) {
   return false;
 }
 
-/// Weight in [0, 1] of a distance in units of the truncation. Far behind a surface it is lower,
-/// because the surface may be thin or end nearby.
+/// Returns the weight in [0, 1] of a distance in units of the truncation. It is lower far behind a
+/// surface, because the surface may be thin or end nearby.
 double trust(double distance) { return std::min(1.0, 2 * (1 + distance)); }
 
 }  // namespace
@@ -101,8 +102,8 @@ const Volume::Voxel* Volume::voxel(const Vector3i& cell) const {
 }
 
 std::optional<double> Volume::distance_mm(const Vector3d& p_W) const {
-  const Vector3d at =
-      ((p_W - origin_mm_) / options_.voxel_mm).array() - 0.5;  // in voxels from their centres
+  // In voxels, relative to the centre of the first voxel.
+  const Vector3d at = ((p_W - origin_mm_) / options_.voxel_mm).array() - 0.5;
   const Vector3i low = at.array().floor().cast<int>();
   const Vector3d share = at - low.cast<double>();
   const bool is_inside = (low.x() & 7) != 7 && (low.y() & 7) != 7 && (low.z() & 7) != 7;
@@ -136,7 +137,7 @@ std::optional<Volume::Slope> Volume::slope(const Vector3d& p_W, double reach_mm)
   return out;
 }
 
-/// Marks the blocks along the surface that a frame shows; creates missing ones.
+/// Marks the blocks along the surface in a frame; creates missing ones.
 Status Volume::mark_surface(const DepthFrame& frame, const Optics& optics, const Pose& X_WC,
                             std::vector<char>& marked) {
   const auto mark = [&](const Vector3d& p_W) {
@@ -169,8 +170,8 @@ Status Volume::mark_surface(const DepthFrame& frame, const Optics& optics, const
   return {};
 }
 
-/// Marks the blocks in front of the surface that a frame shows. They are empty now, even if earlier
-/// frames had a surface there.
+/// Marks the blocks in front of the surface in a frame. They are empty now, even if earlier frames
+/// had a surface there.
 void Volume::mark_before_surface(const DepthFrame& frame, const Optics& optics, const Pose& X_CW,
                                  std::vector<char>& marked) const {
   for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -222,7 +223,8 @@ Status Volume::add(const DepthFrame& frame, const Optics& optics, const DepthNoi
   });
 }
 
-/// Distance along a ray of unit direction to the first surface that it meets from the front.
+/// Returns the distance along a ray of unit direction to the first surface that it hits from the
+/// front.
 std::optional<double> Volume::first_hit_mm(const Vector3d& from, const Vector3d& along) const {
   std::optional<std::pair<double, double>> before;  // way, and the positive distance there
   for (double way = kNear_mm; way < kFar_mm;) {
@@ -242,7 +244,7 @@ std::optional<double> Volume::first_hit_mm(const Vector3d& from, const Vector3d&
     } else if (before) {
       return before->first + (way - before->first) * before->second / (before->second - *distance);
     } else {
-      return std::nullopt;  // from behind
+      return std::nullopt;  // the surface is seen from behind
     }
   }
   return std::nullopt;

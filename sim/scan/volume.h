@@ -17,26 +17,27 @@
 
 namespace hydroprint::scan {
 
-/// Truncated signed distances to the surfaces seen, positive in front of a surface. The grid has
+/// Truncated signed distances to the visible surfaces, positive in front of a surface. The grid has
 /// blocks only near surfaces (Curless and Levoy 1996; Izadi et al. 2011, section 3). Frame W.
 class Volume {
  public:
   struct Options {
     double voxel_mm = 3;
     double truncation_mm = 12;        ///< about eight standard deviations of depth at 0.8 m
-    std::size_t most_blocks = 60000;  ///< of 4 KiB each
+    std::size_t most_blocks = 60000;  ///< maximum number of blocks of 4 KiB
   };
 
   /// @param box_mm  bounds of the volume
   Volume(const Eigen::AlignedBox3d& box_mm, const Options& options);
 
   /// Adds a frame seen from X_WC. Depths are weighted by their inverse variance. The result does
-  /// not depend on the number of threads. Fails if the frame's size differs from the lens's
-  /// (kInvalidArgument), or if more blocks than allowed are needed (kResourceExhausted).
+  /// not depend on the number of threads. Returns kInvalidArgument if the frame's size differs from
+  /// the lens's, and kResourceExhausted if more blocks than allowed are needed.
   [[nodiscard]] Status add(const DepthFrame& frame, const Optics& optics, const DepthNoise& noise,
                            const Pose& X_WC, const Context& context);
 
-  /// Distance at a point, interpolated linearly; nullopt if a voxel around it was never seen.
+  /// Returns the distance at a point, interpolated linearly; nullopt if a voxel around it was never
+  /// seen.
   [[nodiscard]] std::optional<double> distance_mm(const Eigen::Vector3d& p_W) const;
 
   /// Distance and gradient at a point.
@@ -44,16 +45,17 @@ class Volume {
     double distance_mm = 0;
     Eigen::Vector3d gradient = Eigen::Vector3d::Zero();  ///< mm per mm
   };
-  /// Distance and gradient at a point. The gradient is from points `reach_mm` away along the axes.
-  /// Returns nullopt if any of the points was never seen or lies beyond the truncation.
+  /// Returns distance and gradient at a point. The gradient is computed from points `reach_mm` away
+  /// along the axes. Returns nullopt if any of the points was never seen or lies beyond the
+  /// truncation.
   [[nodiscard]] std::optional<Slope> slope(const Eigen::Vector3d& p_W, double reach_mm) const;
 
-  /// The points that a camera at X_WV would see, in its own frame.
+  /// Returns the points that a camera at X_WV would see, in its own frame.
   [[nodiscard]] Result<PointGrid> look(const Optics& optics, const Pose& X_WV,
                                        const Context& context) const;
 
-  /// The surface in the volume (marching tetrahedra, Doi and Koide 1991).
-  /// @param least_weight  least weight of the voxels used: sum of inverse variances, 1/mm²
+  /// Extracts the surface in the volume (marching tetrahedra, Doi and Koide 1991).
+  /// @param least_weight  minimum weight of the voxels used: sum of inverse variances, 1/mm²
   [[nodiscard]] TriangleMesh surface(double least_weight = 0) const;
 
   [[nodiscard]] std::size_t blocks() const { return blocks_.size(); }
@@ -61,7 +63,7 @@ class Volume {
  private:
   static constexpr int kSide = 8;
   struct Voxel {
-    float distance = 1;  ///< in units of the truncation
+    float distance = 1;  ///< distance in units of the truncation
     float weight = 0;    ///< 0: never seen
   };
   using Block = std::array<Voxel, kSide * kSide * kSide>;

@@ -9,13 +9,14 @@
 
 namespace hydroprint::sheet {
 
-/// For each node, the prescribed velocity at the film's edges; NaN at all other nodes.
+/// Returns the prescribed velocity of each node at the film's edges; NaN for all other nodes.
 [[nodiscard]] std::vector<Eigen::Vector2d> prescribed(const velocity::VelocityField& field);
 
-/// Length of dip that waterline `k` represents, in mm: between the midpoints to its two neighbours.
+/// Returns the length of dip that waterline `k` represents, in mm: between the midpoints to its two
+/// neighbours.
 [[nodiscard]] double span_mm(const flow::DipField& dip, std::size_t k);
 
-/// Root mean square of the difference.
+/// Returns the root mean square of the difference between two lists of vectors.
 [[nodiscard]] double rms_change(const std::vector<Eigen::Vector2d>& a,
                                 const std::vector<Eigen::Vector2d>& b);
 

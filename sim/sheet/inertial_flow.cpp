@@ -24,8 +24,8 @@ Velocities scaled(Velocities velocities, double by) {
   return velocities;
 }
 
-/// The velocity, in mm/s, that the film at the nodes of waterline `k` had at the previous
-/// waterline. Where there was no film nearby, the current velocity is used.
+/// Returns the velocity, in mm/s, that the film at the nodes of waterline `k` had at the previous
+/// waterline. If there was no film nearby, uses the current velocity.
 Velocities velocity_before(const flow::DipField& dip, std::size_t k, double speed_mm_per_s) {
   HP_CHECK(k < dip.fields.size());
   const VelocityField& now = dip.fields[k];
@@ -64,8 +64,9 @@ Result<Velocities> last_step(const flow::DipField& dip, std::size_t k, double st
   return scaled(std::move(out), 1 / speed);
 }
 
-/// Computes the velocities at waterline `k` from those at the previous waterlines and a first guess
-/// at `k`. Steps are shortened if they do not converge, as where film is drawn through narrow gaps.
+/// Computes the velocities at waterline `k` from those at the previous waterlines and an initial
+/// guess at `k`. Steps are shortened if they do not converge, for example where film is drawn
+/// through narrow gaps.
 Result<Velocities> step(const flow::DipField& dip, std::size_t k,
                         const std::vector<double>& thickness_mm, const InertialOptions& options) {
   HP_CHECK(options.step_mm > 0);

@@ -8,7 +8,7 @@
 
 namespace hydroprint::velocity {
 
-/// Material constants of energy (4) of a sheet.
+/// Material constants in the energy (4) of a sheet.
 struct Elasticity {
   double young_modulus_mpa;  ///< Y, MPa = N/mm^2
   double poisson_ratio;      ///< nu in (-1, 1); 0.5 keeps the volume
@@ -17,11 +17,12 @@ struct Elasticity {
 /// Membrane energy of one triangle with displaced nodes, and its derivatives. The triangle's shape
 /// in the mesh is its rest shape.
 struct MembraneEnergy {
-  double energy_mj = 0;    ///< N mm
-  ElementVector gradient;  ///< by the displacements, N; the elastic force is its negative
-  ElementMatrix hessian;   ///< N/mm; zero for Hessian::kNone
-  /// Smallest det F at the quadrature points. It is not positive if the film is turned inside out,
-  /// which the energy does not prevent.
+  double energy_mj = 0;  ///< N mm
+  /// With respect to the displacements, N; the elastic force is its negative.
+  ElementVector gradient;
+  ElementMatrix hessian;  ///< N/mm; zero for Hessian::kNone
+  /// Smallest det F at the quadrature points. It is zero or negative if the film is turned inside
+  /// out, which the energy does not prevent.
   double least_area_ratio = std::numeric_limits<double>::infinity();
 };
 
@@ -29,14 +30,13 @@ enum class Hessian {
   kNone,  ///< not computed
   kTrue,
   /// Positive semidefinite: without the negative part due to compressive stress. For Newton's
-  /// method if the true Hessian is indefinite.
+  /// method where the true Hessian is indefinite.
   kPositive,
 };
 
-/// Energy (4) of section 4.3, integrated over the triangle at rest:
-/// W = Y h / (2 (1 - nu^2)) ((1 - nu) tr(e^2) + nu tr(e)^2), with the Green strain
-/// e = (F^T F - I) / 2 and F = I + grad d. It does not depend on rotation. Uses quadratic shape
-/// functions, and the integral is exact.
+/// Computes the energy (4) of section 4.3, integrated over the triangle at rest: W = Y h / (2 (1 -
+/// nu^2)) ((1 - nu) tr(e^2) + nu tr(e)^2), with the Green strain e = (F^T F - I) / 2 and F = I +
+/// grad d. It is invariant under rotation. Uses quadratic shape functions; the integral is exact.
 /// @param thickness_mm     of the triangle
 /// @param displacement_mm  d of its nodes
 [[nodiscard]] MembraneEnergy membrane_energy(const FilmMesh& mesh, std::size_t triangle,

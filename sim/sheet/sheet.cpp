@@ -43,7 +43,7 @@ ElementMatrix stiffness(const FilmMesh& mesh, std::size_t t) {
 }
 
 constexpr double kTolerance = 1e-7;  ///< relative error of the velocities in conjugate gradients
-constexpr int kMostIterations = 12;  ///< beyond that a new factorisation is cheaper
+constexpr int kMostIterations = 12;  ///< with more iterations, a new factorisation is cheaper
 constexpr int kFewIterations = 3;    ///< enough to estimate the total number of iterations
 
 }  // namespace
@@ -60,7 +60,7 @@ struct Sheet::State {
   double drag_per_mm;
   std::vector<Eigen::Vector2d> fixed;
   Unknowns unknowns;
-  std::vector<ElementMatrix> element;  ///< for each triangle, for unit thickness
+  std::vector<ElementMatrix> element;  ///< matrix of each triangle, for unit thickness
   /// For each triangle, the index of each element entry among the matrix's values; -1: not stored.
   std::vector<std::array<int, 144>> place;
   Matrix matrix;  ///< lower triangle
@@ -152,7 +152,7 @@ bool Sheet::State::factorize() {
   return has_factor;
 }
 
-/// Conjugate gradients from the previous solution, preconditioned by the factor of an earlier
+/// Runs conjugate gradients from the previous solution, preconditioned by the factor of an earlier
 /// matrix. Returns false if a new factorisation is cheaper.
 bool Sheet::State::iterate() {
   const auto whole = matrix.selfadjointView<Eigen::Lower>();

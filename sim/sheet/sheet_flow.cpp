@@ -14,32 +14,33 @@ namespace {
 
 using velocity::VelocityField;
 
-/// Number of waterlines solved together. A small number lets each window start from settled
+/// Number of waterlines solved together. With a small number, each window starts from converged
 /// waterlines; a large one keeps the cores busy. It must not depend on the number of cores, because
 /// the results depend on it.
 constexpr std::size_t kWindow = 8;
 
-/// If a sweep reduces the change by less than this factor, the film does not settle. Film that
+/// If a sweep reduces the change by less than this factor, the film does not converge. Film that
 /// tears or folds has no definite thickness.
 constexpr double kSettling = 0.5;
 
 /// State of the sweeps over a window of waterlines. A waterline depends only on those before it, so
-/// they settle in order, and settled ones are not solved again.
+/// they converge in order, and converged ones are not solved again.
 class Progress {
  public:
   explicit Progress(std::size_t count) : moved_mm(count), before_mm_(count) {}
 
-  /// Movement of the film at each waterline in this sweep.
+  /// Displacement of the film at each waterline in this sweep.
   std::vector<double> moved_mm;
 
-  /// The first waterline that has not settled.
+  /// Returns the first waterline that has not converged.
   [[nodiscard]] std::size_t first() const { return first_; }
-  /// Total movement in this sweep at waterlines that had not settled.
+  /// Returns the total displacement in this sweep at waterlines that had not converged.
   [[nodiscard]] double sum_mm() const { return sum(moved_mm, moved_mm.size()); }
 
   enum class Next { kSweep, kSettled, kUnsettled };
-  /// To be called after each sweep except the first. Assumes that the next sweep reduces the
-  /// movement by the same factor as this one. The tolerance is divided evenly among the waterlines.
+  /// Must be called after each sweep except the first. Assumes that the next sweep reduces the
+  /// displacement by the same factor as this one. The tolerance is divided evenly among the
+  /// waterlines.
   Next judge(double tolerance_mm) {
     const std::size_t count = moved_mm.size();
     const double before_mm = sum(before_mm_, count);

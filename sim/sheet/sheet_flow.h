@@ -8,17 +8,17 @@
 namespace hydroprint::sheet {
 
 struct SheetOptions {
-  double drag_per_mm = 0;  ///< see velocity::Sheet
-  /// Sweeps end when the next one would move the film by less than this.
+  double drag_per_mm = 0;  ///< see Sheet in sheet.h
+  /// Sweeps end when the next sweep would move the film by less than this.
   double tolerance_mm = 0.003;
   int most_sweeps = 6;  ///< at least 2
 };
 
 struct SheetFlow {
   flow::DipField field;
-  int sweeps = 0;  ///< largest number for any group of waterlines
-  /// Movement in the last sweep of groups of waterlines that did not settle, where film tears or
-  /// folds (rms over the film of a waterline, summed over the dip).
+  int sweeps = 0;  ///< maximum over all groups of waterlines
+  /// Displacement in the last sweep of groups of waterlines that did not converge, where film tears
+  /// or folds (rms over the film of a waterline, summed over the dip).
   double unsettled_mm = 0;
 };
 
@@ -26,7 +26,7 @@ struct SheetFlow {
 /// depend on each other. Solves a few waterlines at a time by waveform relaxation: each sweep
 /// computes the thickness at all of them from the previous velocities, then solves for new
 /// velocities in parallel. The sweeps converge to the solution of the coupled problem. Each reduces
-/// the error of the first guess six- to tenfold.
+/// the error of the initial guess six- to tenfold.
 /// @param first  any velocities on the dip's film meshes, with the right values at the edges;
 ///               Stokes flow is a good start
 [[nodiscard]] Result<SheetFlow> sheet_flow(flow::DipField first,

@@ -26,8 +26,8 @@ constexpr int kMostHalvings = 30;
 /// Largest change in the last full Newton step, relative to the largest velocity. The remaining
 /// relative error is about its square.
 constexpr double kTolerance = 1e-7;
-constexpr double kLeastDecrease =
-    1e-4;  ///< least decrease in the line search, relative to the slope
+/// Least decrease in the line search, relative to the slope.
+constexpr double kLeastDecrease = 1e-4;
 
 /// Second-order expansion of the objective in the velocities of the free nodes.
 struct Quadratic {
@@ -83,7 +83,7 @@ ElementVector Step::gather(const Velocities& velocities, std::size_t triangle) c
   return out;
 }
 
-/// One triangle's part of the objective as a function of its velocities: the integral of
+/// Computes one triangle's part of the objective as a function of its velocities: the integral of
 /// rho h |u - u_before|^2 / 2 + dt k |u|^2 / 2 + W(dt u). Its gradient is dt times the balance of
 /// forces.
 MembraneEnergy Step::element(std::size_t triangle, const Velocities& velocities, Strain strain,
@@ -155,7 +155,7 @@ Quadratic Step::expand(const Velocities& velocities, Strain strain, Hessian kind
   return out;
 }
 
-/// Newton's direction, which is a descent direction.
+/// Computes Newton's direction, which is a descent direction.
 /// @param value  set to the objective at `velocities`
 /// @param slope  set to the objective's derivative along the direction
 Result<VectorXd> Step::direction(const Velocities& velocities, Strain strain, double& value,

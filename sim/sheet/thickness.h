@@ -9,16 +9,16 @@
 
 namespace hydroprint::sheet {
 
-/// Mean thickness, in mm, of the film at rest over a triangle. The corners are given in F, for the
-/// swollen film floating at rest.
+/// Returns the mean thickness, in mm, of the film at rest over a triangle. The corners are given in
+/// F, for the swollen film floating at rest.
 using RestThickness = std::function<double(const std::array<Eigen::Vector2d, 3>& rest_mm)>;
 
-/// Thickness of the floating film on each triangle of the film mesh of waterline `k`, from the
-/// conservation of volume (section 4.3): h = h0 A0 / A. A0 is the rest area of the material in the
-/// triangle, found by tracing the triangle's nodes back through the dip. So the material carries
-/// its thickness, which is never interpolated from mesh to mesh.
-///
-/// Area ratios are limited to five, because beyond that film has wrinkled or torn.
+/// Computes the thickness of the floating film on each triangle of the film mesh of waterline `k`,
+/// from the conservation of volume (section 4.3): h = h0 A0 / A. A0 is the rest area of the
+/// material in the triangle, found by tracing the triangle's nodes back through the dip. Thickness
+/// thus moves with the material and is never interpolated from mesh to mesh.
+/// Area ratios are limited to five, because film stretched or compressed further has torn or
+/// wrinkled.
 /// @param known  rest positions of the film at an earlier waterline; nullptr: traced all the way
 ///               back
 [[nodiscard]] std::vector<double> thickness_mm(const flow::DipField& dip, std::size_t k,

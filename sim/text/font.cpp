@@ -1,4 +1,4 @@
-// The only file that knows FreeType.
+// The only file that uses FreeType.
 #include "sim/text/font.h"
 
 #include <ft2build.h>
@@ -44,13 +44,14 @@ struct Font::Impl {
   }
   [[nodiscard]] double em() const { return face->units_per_EM; }
 
-  /// An outline in the font's units; what cannot be loaded is empty. The mutex must be held.
+  /// Returns an outline in the font's units; empty if it cannot be loaded. The mutex must be
+  /// locked.
   [[nodiscard]] FT_Outline* outline(std::uint32_t glyph) {
     if (FT_Load_Glyph(face, glyph, FT_LOAD_NO_SCALE | FT_LOAD_NO_HINTING) != 0) return nullptr;
     return face->glyph->format == FT_GLYPH_FORMAT_OUTLINE ? &face->glyph->outline : nullptr;
   }
 
-  /// Box round an outline and how far the glyph moves the pen, in the font's units.
+  /// Bounding box of an outline, and the glyph's advance, in the font's units.
   struct Extent {
     Vector2d low = Vector2d::Zero(), high = Vector2d::Zero();
     double advance = 0;
@@ -74,7 +75,7 @@ struct Font::Impl {
   std::string bytes;
   FT_Library library = nullptr;
   FT_Face face = nullptr;
-  double x_height = 0;  ///< in the font's units
+  double x_height = 0;  ///< height of a lower-case x, in the font's units
   std::mutex mutex;     ///< a face has room for one glyph
 };
 

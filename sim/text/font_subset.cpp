@@ -1,4 +1,4 @@
-// The only file that knows HarfBuzz.
+// The only file that uses HarfBuzz.
 #include "sim/text/font_subset.h"
 
 #include <hb-subset.h>
@@ -24,7 +24,8 @@ using Face = Owned<hb_face_t, hb_face_destroy>;
 using Input = Owned<hb_subset_input_t, hb_subset_input_destroy>;
 using Plan = Owned<hb_subset_plan_t, hb_subset_plan_destroy>;
 
-/// A PDF names glyphs by number: it needs no tables for choosing and placing them, and no names.
+/// A PDF refers to glyphs by number, so it does not need tables for selecting and placing glyphs,
+/// nor names.
 constexpr std::array<hb_tag_t, 5> kUnneeded = {
     HB_TAG('G', 'S', 'U', 'B'), HB_TAG('G', 'P', 'O', 'S'), HB_TAG('G', 'D', 'E', 'F'),
     HB_TAG('k', 'e', 'r', 'n'), HB_TAG('n', 'a', 'm', 'e')};

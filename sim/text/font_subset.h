@@ -10,14 +10,15 @@
 
 namespace hydroprint::text {
 
-/// A font that holds a few glyphs of another.
+/// A font that contains a few glyphs of another font.
 struct FontSubset {
-  std::string file;                               ///< TrueType, without instructions for hinting
-  std::map<std::uint32_t, std::uint32_t> glyphs;  ///< numbers of its glyphs by those of the whole
+  std::string file;  ///< TrueType, without instructions for hinting
+  /// Index of each glyph, by its index in the original font.
+  std::map<std::uint32_t, std::uint32_t> glyphs;
 };
 
-/// Reduces a font to the given glyphs and those that they are composed of. The same glyphs give the
-/// same bytes. Fails (kInternal) if HarfBuzz cannot do it.
+/// Reduces a font to the given glyphs and their components. The same glyphs yield the same bytes.
+/// Returns kInternal if HarfBuzz fails.
 [[nodiscard]] Result<FontSubset> make_subset(const Font& font,
                                              const std::set<std::uint32_t>& glyphs);
 

@@ -7,9 +7,9 @@
 
 namespace hydroprint::text {
 
-/// The warning `text_glyph_missing`, which names the characters that are drawn as U+FFFD.
+/// Returns the warning `text_glyph_missing`, which names the characters that are drawn as U+FFFD.
 /// @param characters  Line::missing, not empty
-/// @param where  the place of the text, for the report
+/// @param where       location of the text, for the report
 [[nodiscard]] Warning missing_glyphs_warning(const std::vector<char32_t>& characters,
                                              const std::string& where);
 

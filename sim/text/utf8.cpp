@@ -3,11 +3,12 @@
 namespace hydroprint::text {
 namespace {
 
-/// What a first byte says about the bytes after it. Only the second byte's range depends on it.
+/// The sequence that a first byte announces. Only the range of the second byte depends on the
+/// first.
 struct Sequence {
   int continuation_bytes = 0;
   char32_t first_bits = 0;
-  unsigned low = 0x80, high = 0xBF;  ///< of the second byte
+  unsigned low = 0x80, high = 0xBF;  ///< range of the second byte
   bool is_valid = true;
 };
 
@@ -27,7 +28,7 @@ Sequence sequence_of(unsigned char first) {
 
 bool is_control(char32_t c) { return c < 0x20 || (c >= 0x7F && c < 0xA0); }
 
-/// Decodes the sequence at `at` and moves `at` behind it, or behind its well-formed beginning.
+/// Decodes the sequence at `at` and moves `at` past it, or past its well-formed beginning.
 char32_t decode_one(std::string_view text, std::size_t& at) {
   const auto byte_at = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const Sequence sequence = sequence_of(byte_at(at++));

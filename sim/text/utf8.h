@@ -5,11 +5,11 @@
 
 namespace hydroprint::text {
 
-/// Stands for whatever cannot be drawn: U+FFFD, a question mark on a black diamond.
+/// The replacement character U+FFFD, for characters that cannot be drawn.
 inline constexpr char32_t kReplacement = 0xFFFD;
 
-/// Decodes UTF-8. Each malformed sequence becomes one U+FFFD, cut as the Unicode Standard
-/// recommends (section 3.9, maximal subparts), and so does each control character.
+/// Decodes UTF-8. Each malformed sequence becomes one U+FFFD, split as the Unicode Standard
+/// recommends (section 3.9, maximal subparts). Each control character becomes U+FFFD as well.
 [[nodiscard]] std::u32string decode_utf8(std::string_view text);
 
 /// Encodes code points as UTF-8; surrogates and numbers above U+10FFFF become U+FFFD.

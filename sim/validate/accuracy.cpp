@@ -29,7 +29,7 @@ bool is_sphere_cross(const Vector3d& p) {
   return is_whole(theta_deg(p) / 15) && is_whole(std::atan2(p.y(), p.x()) / (15 * kDegree));
 }
 
-/// A table of the errors at the cross-points and at all points, with a row for each region.
+/// Returns a table of the errors at the cross-points and at all points, with a row for each region.
 Table error_table(const std::string& caption, const mesh::Surface& surface,
                   const std::vector<double>& errors, const Region& is_cross,
                   const std::vector<std::pair<NamedRegion, std::string>>& regions) {
@@ -51,7 +51,7 @@ Table error_table(const std::string& caption, const mesh::Surface& surface,
   return table;
 }
 
-/// Largest error at the cross-points of a region.
+/// Returns the largest error at the cross-points of a region.
 double worst(const mesh::Surface& surface, const std::vector<double>& errors,
              const Region& is_cross, const Region& region) {
   return summarise(values_where(surface, errors,
@@ -59,7 +59,7 @@ double worst(const mesh::Surface& surface, const std::vector<double>& errors,
       .max;
 }
 
-/// @param body  its name, and the region that the scale of errors fits
+/// @param body  its name, and the region whose errors determine the scale
 Status show(const ExperimentContext& setup, Experiment& out, const NamedRegion& body,
             const Plan& plan, const pipeline::Dip& truth, const std::vector<double>& errors,
             const Context& context) {

@@ -15,9 +15,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Stretch, equal in all directions, of the film on the floor of a bowl dipped mouth down. Inside
-/// the ring where film has landed, eqs. (1) and (2) stretch the film evenly at the rate
-/// tan(theta / 2) v / a, for a ring of radius a. With v dt = sin(theta) ds along the wall, the
+/// Returns the stretch, equal in all directions, of the film on the floor of a bowl dipped mouth
+/// down. Inside the ring where film has landed, eqs. (1) and (2) stretch the film evenly at the
+/// rate tan(theta / 2) v / a, for a ring of radius a. With v dt = sin(theta) ds along the wall, the
 /// stretch is exp(integral of (1 - cos theta) / a ds), from the rim to the floor.
 double exact_floor_stretch(const mesh::Model& model) {
   // The sample's outline, in order: the vertices at y = 0 on the +x side.

@@ -21,7 +21,7 @@ namespace {
 using Eigen::Vector3d;
 using std::numbers::pi;
 
-/// The rotation in which a body is held.
+/// Returns the rotation in which a body is held.
 Eigen::AngleAxisd rotation_of(const std::string& name) {
   if (name == "board") return {pi / 6, Vector3d::UnitX()};
   if (name == "bowl") return {pi, Vector3d::UnitX()};

@@ -17,23 +17,23 @@
 namespace hydroprint::validate {
 
 inline constexpr double kFineFactor = 0.6;
-/// Factor on all lengths in a quick run.
+/// Factor for all lengths in a quick run.
 inline constexpr double kQuickFactor = 2.5;
 
 /// Resolution of a dip's computation.
 enum class Fineness {
   kUsual,  ///< the defaults of `simulate`
-  kFine,   ///< all lengths times kFineFactor; stands for the physical experiment
+  kFine,   ///< all lengths times kFineFactor; represents the physical experiment
 };
 
-/// A body of the paper and its pose in the gripper.
+/// A body from the paper and its pose in the gripper.
 struct Body {
   mesh::Model model;
   image::Paint paint;
   Pose X_FO;
 };
 
-/// The result of the computation at the usual settings, before the experiment.
+/// The result of computing the film image with the usual settings, before the experiment.
 struct Plan {
   pipeline::Dip dip;
   image::RgbImage film;  ///< the image to print
@@ -49,26 +49,25 @@ class ExperimentContext {
 
   [[nodiscard]] bool quick() const { return quick_; }
 
-  /// A body of sim/sample, held as in the paper: "board" tilted by 30 degrees, "bowl" mouth down,
-  /// "bowl-upright" upright.
+  /// Returns a body of sim/sample, oriented as in the paper: "board" tilted by 30 degrees, "bowl"
+  /// mouth down, "bowl-upright" upright.
   [[nodiscard]] Result<const Body*> body(const std::string& name, const Context& context);
 
-  /// Options for dipping a body.
+  /// Returns the options for dipping a body.
   [[nodiscard]] pipeline::DipOptions options(const Body& body, Fineness fineness) const;
 
-  /// The film image for a body, and the dip that it is computed for (two-step scheme, one ink
-  /// pass).
+  /// Returns the film image for a body, and the dip for which it is computed (two-step scheme, one
+  /// ink pass).
   [[nodiscard]] Result<const Plan*> plan(const std::string& name, const Context& context);
 
-  /// The dip of the planned film at the fine settings, which stands for reality.
+  /// Returns the dip of the planned film with the fine settings, which represents reality.
   [[nodiscard]] Result<pipeline::Dip> experiment(const std::string& name, const Context& context);
 
-  /// A film image, for pictures of the landed film.
+  /// Returns a film image as a texture, for pictures of the landed film.
   [[nodiscard]] Result<image::FilmTexture> texture(const image::RgbImage& film,
                                                    const Context& context) const;
 
-  /// Passes a picture on to be written as validate-EXPERIMENT-`what`.png, and adds it to the
-  /// experiment.
+  /// Passes a picture to the sink as validate-EXPERIMENT-`what`.png, and adds it to the experiment.
   [[nodiscard]] Status show(Experiment& experiment, const std::string& what,
                             const Result<image::RgbImage>& picture,
                             const std::string& caption) const;
@@ -82,9 +81,9 @@ class ExperimentContext {
   std::map<std::string, std::unique_ptr<Plan>> plans_;
 };
 
-/// Computes the film image of a body's texture and its dip, like ExperimentContext::plan, with
-/// any options.
-/// @param ink_passes  0: the thickness of the film is taken to be uniform
+/// Computes the film image of a body's texture and its dip, like ExperimentContext::plan, with any
+/// options.
+/// @param ink_passes  0: assumes a film of uniform thickness
 [[nodiscard]] Result<Plan> make_plan(const Body& body, const pipeline::DipOptions& options,
                                      int ink_passes, double dpi, const Context& context);
 
@@ -94,7 +93,7 @@ class Steps {
   Steps(const Context& whole, std::string experiment, int count)
       : whole_(whole), experiment_(std::move(experiment)), count_(count) {}
 
-  /// The context of the next step. The stages of a dip count as parts of the step.
+  /// Returns the context of the next step. The stages of a dip count as parts of the step.
   [[nodiscard]] Context next();
 
  private:

@@ -8,16 +8,16 @@
 
 namespace hydroprint::validate {
 
-/// The range that a figure must be in.
+/// The range in which a figure must lie.
 struct Limit {
   double least = -1e300, most = 1e300;
   std::string why;  ///< reason for the limit
 };
 
-/// A number that an experiment found.
+/// A number measured by an experiment.
 struct Figure {
-  std::string name;  ///< for programs: a to z, 0 to 9 and _, its unit at the end
-  std::string text;  ///< for people
+  std::string name;  ///< for programs: a to z, 0 to 9 and _, with its unit at the end
+  std::string text;  ///< name for display
   std::string unit;  ///< "mm", "%", ...; empty: no unit
   double value = 0;
   std::optional<Limit> limit;  ///< nullopt: no limit is known
@@ -34,7 +34,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// A picture that was passed on to be written.
+/// A picture that was passed to the sink.
 struct Picture {
   std::string file;  ///< file name, in the report's folder
   std::string caption;
@@ -44,7 +44,7 @@ struct Picture {
 /// The result of one experiment.
 struct Experiment {
   std::string name;               ///< name for --only
-  std::string title;              ///< for people
+  std::string title;              ///< title for display
   std::string paper;              ///< place in the paper: "section 7.1, Fig. 12"
   std::vector<std::string> text;  ///< paragraphs
   std::vector<Figure> figures;

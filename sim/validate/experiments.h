@@ -5,8 +5,8 @@
 #include "sim/validate/experiment_context.h"
 #include "sim/validate/experiment_result.h"
 
-// The paper's experiments (section 7 and Fig. 7), one file each. Each gets an Experiment with name
-// and title from validate.cpp, and adds its results.
+// The paper's experiments (section 7 and Fig. 7), one file each. Each function receives an
+// Experiment with name and title from validate.cpp and adds its results.
 namespace hydroprint::validate {
 
 /// Section 7.1, Fig. 11: the same film dipped many times with random errors of pose and placement.

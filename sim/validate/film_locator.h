@@ -15,9 +15,9 @@ class FilmLocator {
   /// Both must outlive the locator.
   FilmLocator(const mesh::Surface& surface, const std::vector<flow::MappedTriangle>& tiles);
 
-  /// The point of the surface, in O, mm. Of several places, the one with the earliest contact is
-  /// returned, because film that has landed does not move. Between tiles, the nearest tile within
-  /// 0.1 mm on the film is used; nullopt: the point does not land.
+  /// Returns the point of the surface where a film point lands, in O, mm; nullopt if it does not
+  /// land. If there are several, returns the one with the earliest contact, because film that has
+  /// landed does not move. Between tiles, uses the nearest tile within 0.1 mm on the film.
   [[nodiscard]] std::optional<Eigen::Vector3d> at(const Eigen::Vector2d& film_mm) const;
 
  private:

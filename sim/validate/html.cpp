@@ -60,7 +60,7 @@ std::string number(double value) {
   return text_of(value, size < 0.1 ? 4 : size < 10 ? 3 : 1);
 }
 
-/// A limit without trailing zeros.
+/// Returns a limit without trailing zeros.
 std::string bound(double value) {
   std::string text = text_of(value, 4);
   while (text.back() == '0') text.pop_back();

@@ -9,10 +9,10 @@
 
 namespace hydroprint::validate {
 
-/// The part of a body's face that one dip can print.
+/// How much of a body's face one dip can print.
 struct Verdict {
-  double reached = 0;  ///< share of the face that film reaches
-  double torn = 0;     ///< share of the face where the film is stretched beyond tearing
+  double reached = 0;  ///< fraction of the face that film reaches
+  double torn = 0;     ///< fraction of the face where the film is stretched until it tears
 
   [[nodiscard]] double good() const { return reached - torn; }
   [[nodiscard]] const char* text() const {
@@ -34,17 +34,17 @@ inline constexpr const char* kPrintableRule =
 
 [[nodiscard]] inline std::string percent(double share) { return text_of(100 * share, 1) + " %"; }
 
-/// The outer wall of the sample mug, without its handle, foot and rim.
+/// Returns true on the outer wall of the sample mug, without its handle, foot and rim.
 [[nodiscard]] inline bool is_mug_wall(const Eigen::Vector3d& p) {
   return std::abs(std::hypot(p.x(), p.y()) - 40) < 0.05 && p.z() > 6 && p.z() < 88;
 }
 
-/// The inside of the sample bowl: its wall and its floor.
+/// Returns true on the inside of the sample bowl: its wall and its floor.
 [[nodiscard]] inline bool is_bowl_inside(const Eigen::Vector3d& p) {
   return p.z() > 5 - 1e-6 && p.z() < 64 + 1e-6 && std::hypot(p.x(), p.y()) < 46 + 1e-6;
 }
 
-/// The level part of the bowl's floor.
+/// Returns true on the level part of the bowl's floor.
 [[nodiscard]] inline bool is_bowl_floor(const Eigen::Vector3d& p) {
   return std::abs(p.z() - 5) < 1e-6 && std::hypot(p.x(), p.y()) < 35;
 }

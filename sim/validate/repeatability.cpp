@@ -42,7 +42,8 @@ class Dice {
   std::mt19937_64 engine_{kSeed};
 };
 
-/// The object's pose relative to the film, with random errors of the gripper and of the film.
+/// Returns the object's pose relative to the film, with random errors of the gripper and of the
+/// film.
 Pose drawn(const Pose& X_FO, Dice& dice) {
   const Vector3d turn =
       kGripper_deg * kDegree * Vector3d(dice.normal(), dice.normal(), dice.normal());
@@ -55,7 +56,7 @@ Pose drawn(const Pose& X_FO, Dice& dice) {
   return film.inverse() * held;
 }
 
-/// The film's grid points, row by row from the bottom.
+/// Returns the film's grid points, row by row from the bottom.
 std::vector<Vector2d> grid() {
   std::vector<Vector2d> points;
   for (int j = -kAlong; j <= kAlong; ++j) {
@@ -73,7 +74,7 @@ double scatter(const std::vector<Vector3d>& places) {
   return std::sqrt(sum / static_cast<double>(places.size() - 1));
 }
 
-/// Bilinear interpolation of values at the grid points; NaN if one of the four values is missing.
+/// Interpolates values at the grid points bilinearly; NaN if one of the four values is missing.
 double between(const std::vector<double>& values, const Vector2d& film_mm) {
   constexpr int kColumns = 2 * kAcross + 1, kRows = 2 * kAlong + 1;
   const double x = film_mm.x() / kGrid_mm + kAcross, y = film_mm.y() / kGrid_mm + kAlong;
@@ -122,7 +123,8 @@ Status repeatability(ExperimentContext& setup, Experiment& out, const Context& c
 
   const std::vector<Vector2d> points = grid();
   std::vector<std::vector<Vector3d>> landed(points.size());
-  std::vector<Vector3d> contacts;  // where the film's middle lands; independent of the flow
+  // Where the film's middle lands, which does not depend on the flow.
+  std::vector<Vector3d> contacts;
   Dice dice;
   for (int draw = 0; draw < draws; ++draw) {
     const Context next = steps.next();

@@ -13,7 +13,7 @@ namespace {
 
 struct Shown {
   std::string body;    ///< name for ExperimentContext
-  std::string people;  ///< name for people
+  std::string people;  ///< name for display
   NamedRegion face;    ///< the face to print
 };
 

@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kSquare_deg = 45;
 
-/// A chessboard in longitude and latitude, with squares of much ink (t = 2.4) and squares without
-/// ink, and a graticule that makes displacements visible.
+/// Returns a chessboard in longitude and latitude, with squares of much ink (t = 2.4) and squares
+/// without ink, and a graticule that makes displacements visible.
 image::RgbImage squares() {
   constexpr int kHeight_px = 720;
   return sample::draw(2 * kHeight_px, kHeight_px, 180.0 / kHeight_px, 2,
@@ -30,7 +30,7 @@ image::RgbImage squares() {
                       });
 }
 
-/// The dip of a film image, with the thickness of the ink printed on it.
+/// Returns the dip of a film image, with the thickness of the ink printed on it.
 Result<pipeline::Dip> dip_as_printed(const Body& body, const Plan& plan,
                                      pipeline::DipOptions options, const Context& context) {
   options.ink = plan.ink;

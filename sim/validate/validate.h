@@ -18,12 +18,12 @@ struct ExperimentKind {
   double weight = 1;  ///< typical share of the total time
 };
 
-/// All experiments, in the order of the report.
+/// Returns all experiments, in the order of the report.
 [[nodiscard]] std::vector<ExperimentKind> kinds();
 
 struct Options {
   std::vector<std::string> only;  ///< names of experiments; empty: all
-  bool quick = false;             ///< coarse: checks that everything works, not its accuracy
+  bool quick = false;             ///< coarse: checks that everything runs, not its accuracy
 };
 
 /// Writes a finished picture; `file` ends in ".png".
@@ -35,12 +35,12 @@ struct Report {
   int passed = 0, failed = 0;  ///< numbers of figures that have a limit
 };
 
-/// Fails (kInvalidArgument) for unknown names of experiments.
+/// Returns kInvalidArgument for unknown names of experiments.
 [[nodiscard]] Status check(const Options& options);
 
-/// Runs the experiments of the paper's section 7 in silico. A finer computation stands for the
+/// Runs the experiments of the paper's section 7 in silico. A finer computation represents the
 /// physical experiment. Progress is reported under the experiments' names. The report and the
-/// pictures do not depend on the number of threads. Fails as check() does.
+/// pictures do not depend on the number of threads. Returns the errors of check().
 [[nodiscard]] Result<Report> validate(const Options& options, const PictureSink& pictures,
                                       const Context& context);
 

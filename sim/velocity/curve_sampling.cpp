@@ -38,8 +38,8 @@ bool strays(const std::vector<Eigen::Vector2d>& fine, std::size_t from, std::siz
   return false;
 }
 
-/// The corner at which the curve turns most sharply. Sampling starts there, so that a single corner
-/// is never cut off.
+/// Returns the corner at which the curve turns most sharply. Sampling starts there, so that a
+/// single corner is never cut off.
 std::size_t sharpest(const std::vector<Eigen::Vector2d>& curve) {
   std::size_t best = 0;
   double least = 2;

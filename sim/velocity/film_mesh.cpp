@@ -30,7 +30,7 @@ using Triangulation =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, Structure, CGAL::Exact_predicates_tag>;
 using Point = Kernel::Point_2;
 
-constexpr double kSquaredSine = 0.25;  ///< of the smallest angle, 30 degrees
+constexpr double kSquaredSine = 0.25;  ///< squared sine of the smallest angle, 30 degrees
 
 /// Triangles with shorter edges are not refined for their angles. Otherwise, gaps between
 /// waterlines that nearly touch would be filled with ever smaller triangles.
@@ -113,7 +113,7 @@ void mark_film(Triangulation& triangulation) {
   std::deque<Triangulation::Face_handle> border = {triangulation.infinite_face()};
   nesting[triangulation.infinite_face()] = 0;
   while (!border.empty()) {
-    // Flood one level; faces behind its constraints belong to the next.
+    // Floods one level; faces behind its constraints belong to the next.
     const auto start = border.front();
     border.pop_front();
     std::vector<Triangulation::Face_handle> open = {start};
@@ -146,8 +146,8 @@ bool lies_on(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d&
   return false;
 }
 
-/// Limit far above the number of vertices that the sizes imply. Where two waterlines touch, the
-/// mesher would divide their edges forever.
+/// Returns a limit far above the number of vertices that the sizes imply. Where two waterlines
+/// touch, the mesher would divide their edges forever.
 std::size_t most_vertices(const film::Outline& outline,
                           const std::vector<std::vector<Eigen::Vector2d>>& waterlines,
                           const Sizing::Options& size) {

@@ -11,22 +11,22 @@
 
 namespace hydroprint::velocity {
 
-/// The other side of an edge of the film mesh.
+/// What lies on the other side of an edge of the film mesh.
 enum class EdgeKind : unsigned char {
   kInner,      ///< more film
   kVat,        ///< the film's clamped edge, Gamma_v
   kWaterline,  ///< the object, Gamma_s
 };
 
-/// The floating film at one immersion as triangles with six nodes each. The nodes are the vertices,
-/// then the midpoints of the edges (node vertices_mm.size() + e for edge e).
+/// The floating film at one immersion as triangles with six nodes each. The nodes are first the
+/// vertices, then the midpoints of the edges (node vertices_mm.size() + e for edge e).
 struct FilmMesh {
   std::vector<Eigen::Vector2d> vertices_mm;
   std::vector<Eigen::Vector3i> triangles;       ///< counter-clockwise
   std::vector<Eigen::Vector3i> triangle_edges;  ///< edge i of a triangle lies opposite corner i
   std::vector<std::array<int, 2>> edges;
   std::vector<EdgeKind> edge_kind;
-  /// All nodes, in an order for which factoring a matrix produces little fill.
+  /// All nodes, in an order that produces little fill when a matrix is factored.
   std::vector<int> elimination_order;
 
   [[nodiscard]] std::size_t node_count() const { return vertices_mm.size() + edges.size(); }
@@ -36,17 +36,17 @@ struct FilmMesh {
 /// paper's.
 struct MeshOptions {
   Sizing::Options size;
-  double spacing_mm = 2.0;     ///< of mesh vertices along the waterline
+  double spacing_mm = 2.0;     ///< distance of mesh vertices along the waterline
   double tolerance_mm = 0.01;  ///< largest distance of their chords from the waterline
-  double least_mm = 0.1;       ///< waterline features smaller than this are smoothed over
+  double least_mm = 0.1;       ///< smaller features of the waterline are smoothed
 };
 
-inline constexpr const char* kMeshUnbounded = "MESH_UNBOUNDED";  ///< an error's reason
+inline constexpr const char* kMeshUnbounded = "MESH_UNBOUNDED";  ///< reason of an error
 
 /// Meshes the film between its edge and the waterline. Uses a constrained Delaunay triangulation,
-/// refined to angles of 30 degrees (where the boundary permits) and to the sizing field.
+/// refined to angles of at least 30 degrees (where the boundary permits) and to the sizing field.
 /// @return kInternal, kMeshUnbounded if the mesh needs far more vertices than the sizes imply,
-///   which happens where two curves of the waterline just touch
+///         which happens where two curves of the waterline just touch
 [[nodiscard]] Result<FilmMesh> mesh_film(const film::Outline& outline,
                                          const waterline::Waterline& line,
                                          const MeshOptions& options);

@@ -11,7 +11,7 @@ namespace hydroprint::velocity {
 namespace {
 
 constexpr double kCell_mm = 2.0;
-constexpr int kMostSteps = 8;  ///< of a walk; the grid is faster for longer walks
+constexpr int kMostSteps = 8;  ///< maximum steps of a walk; for longer walks the grid is faster
 
 struct Box {
   Eigen::Vector2d low, high;
@@ -23,7 +23,7 @@ Box box_of(const FilmMesh& mesh, const Eigen::Vector3i& triangle) {
           v[triangle[0]].cwiseMax(v[triangle[1]]).cwiseMax(v[triangle[2]])};
 }
 
-/// The point of the triangle nearest to an outside point, in barycentric coordinates.
+/// Returns the point of the triangle nearest to an outside point, in barycentric coordinates.
 Eigen::Vector3d nearest_in(const Eigen::Vector2d& p, const Eigen::Vector2d& origin,
                            const Eigen::Matrix2d& edges, double& square_mm2) {
   const std::array<Eigen::Vector2d, 3> corner = {origin, origin + edges.col(0),

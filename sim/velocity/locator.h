@@ -7,7 +7,7 @@
 
 namespace hydroprint::velocity {
 
-/// Finds the triangle of a film mesh under a point, in constant time for graded meshes.
+/// Finds the triangle of a film mesh that contains a point, in constant time for graded meshes.
 class Locator {
  public:
   Locator() = default;
@@ -15,11 +15,12 @@ class Locator {
 
   struct Place {
     int triangle = -1;
-    Eigen::Vector3d barycentric;  ///< of corners 0, 1, 2; clamped into the triangle if outside
-    double outside_mm = 0;        ///< distance of the point from the film; 0: inside
+    /// Coordinates for corners 0, 1, 2; clamped into the triangle if the point is outside.
+    Eigen::Vector3d barycentric;
+    double outside_mm = 0;  ///< distance of the point from the film; 0: inside
   };
 
-  /// Largest distance from the film at which a point is found, mm.
+  /// Points farther than this from the film are not found, mm.
   static constexpr double kReach_mm = 1.0;
 
   /// Finds the triangle that contains the point or, outside the film, the nearest one within
@@ -28,7 +29,7 @@ class Locator {
   [[nodiscard]] Place find(const Eigen::Vector2d& point_mm, int guess = -1) const;
 
  private:
-  /// The data that a step of a walk reads, in one cache line.
+  /// The data needed for one step of a walk, in one cache line.
   struct alignas(64) Corners {
     Eigen::Vector2d origin_mm;
     Eigen::Matrix2d to_barycentric;  ///< (point - origin) to the coordinates of corners 1 and 2
@@ -40,10 +41,10 @@ class Locator {
   [[nodiscard]] Place find_nearest(const Eigen::Vector2d& point_mm, int cell) const;
 
   std::vector<Corners> triangles_;
-  std::vector<Eigen::Matrix2d> edges_mm_;  ///< from corner 0 to the others
+  std::vector<Eigen::Matrix2d> edges_mm_;  ///< edges from corner 0 to the others
   Eigen::Vector2d origin_mm_ = Eigen::Vector2d::Zero();
   int columns_ = 0, rows_ = 0;
-  /// For each cell, the triangles that overlap it, and the border triangles within reach of it.
+  /// For each cell, the triangles that overlap it, and the border triangles within kReach_mm of it.
   std::vector<int> inner_start_, inner_, near_start_, near_;
 };
 

@@ -7,9 +7,9 @@
 
 namespace hydroprint::velocity {
 
-/// Target edge length at each place of the film, which is small at the waterline and grows with the
-/// distance from it. The distance is a chamfer transform on a grid, with an error of a few percent,
-/// which is accurate enough for mesh sizes.
+/// Target edge length at each point of the film: small at the waterline, and growing with the
+/// distance from it. The distance is a chamfer transform on a grid, whose error of a few percent is
+/// small enough for mesh sizes.
 class Sizing {
  public:
   struct Options {
@@ -29,7 +29,8 @@ class Sizing {
   Options options_;
   Eigen::Vector2d origin_mm_;
   int columns_ = 0, rows_ = 0;
-  std::vector<float> distance_mm_;  ///< for the cells and a margin of one cell around them
+  /// Distances for the cells and a margin of one cell around them.
+  std::vector<float> distance_mm_;
 };
 
 }  // namespace hydroprint::velocity

@@ -15,23 +15,24 @@ namespace hydroprint::velocity {
 /// film mesh.
 class VelocityField {
  public:
-  /// A field without film.
+  /// Creates a field without film.
   VelocityField() = default;
   VelocityField(FilmMesh mesh, std::vector<Eigen::Vector2d> nodes);
 
-  /// Returns a field of other velocities that shares the film mesh.
+  /// Returns a field with other velocities that shares the film mesh.
   [[nodiscard]] VelocityField with(std::vector<Eigen::Vector2d> nodes) const;
 
-  /// Velocity at a point of the film. For a point up to `reach_mm` outside, the velocity at the
+  /// Computes the velocity at a point of the film. For a point up to `reach_mm` outside, uses the
   /// nearest point of the film.
-  /// @param triangle  first triangle to try (-1: unknown); set to the triangle found
+  /// @param triangle  the triangle to try first (-1: unknown); set to the triangle found
   /// @return false, without changing `velocity`, if there is no film within reach
   [[nodiscard]] bool at(const Eigen::Vector2d& point_mm, double reach_mm, Eigen::Vector2d& velocity,
                         int& triangle) const;
   [[nodiscard]] bool at(const Eigen::Vector2d& point_mm, double reach_mm,
                         Eigen::Vector2d& velocity) const;
 
-  /// Velocity at the nearest point of the film; zero if the film is beyond the locator's reach.
+  /// Computes the velocity at the nearest point of the film; zero if the film is beyond the
+  /// locator's reach.
   /// @return distance of the point from the film, mm; kNoFilm_mm if beyond reach
   double nearest(const Eigen::Vector2d& point_mm, Eigen::Vector2d& velocity) const;
   static constexpr double kNoFilm_mm = 1e30;
@@ -52,13 +53,13 @@ class VelocityField {
   std::vector<Eigen::Vector2d> nodes_;
 };
 
-/// Dirichlet values of eq. (1) for all nodes: zero at the vat, the pull at the waterline (at a
-/// corner, the mean of its two sides) and NaN for inner nodes.
+/// Returns the Dirichlet values of eq. (1) for all nodes: zero at the vat, the pull at the
+/// waterline (at a corner, the mean of its two sides) and NaN for inner nodes.
 [[nodiscard]] std::vector<Eigen::Vector2d> boundary_velocities(const FilmMesh& mesh,
                                                                const waterline::PullIndex& pulls);
 
-/// Stokes flow (section 4.2, eq. 2). Each component is harmonic; both use the same factorisation,
-/// on quadratic elements.
+/// Solves for the Stokes flow (section 4.2, eq. 2). Each component is harmonic; both use the same
+/// factorisation, on quadratic elements.
 /// @param fixed  for each node, the prescribed velocity, or NaN where it is unknown
 /// @return the velocity of each node; kInternal if the matrix cannot be factored
 [[nodiscard]] Result<std::vector<Eigen::Vector2d>> solve_stokes(

@@ -41,7 +41,8 @@ std::vector<int> link_ends(const std::vector<CutSegment>& cuts) {
     for (; i < ends.size() && ends[i].edge == edge; ++i) {
       (is_start(ends[i].end) ? starts : finishes).push_back(ends[i].end);
     }
-    // First pairs ends with starts, then the remaining ones with each other (faces inside out).
+    // First pairs ends with starts, then the remaining ones with each other (if faces are inside
+    // out).
     const std::size_t pairs = std::min(starts.size(), finishes.size());
     for (std::size_t k = 0; k < pairs; ++k) join_two(starts[k], finishes[k]);
     auto& rest = starts.size() > pairs ? starts : finishes;
@@ -51,8 +52,8 @@ std::vector<int> link_ends(const std::vector<CutSegment>& cuts) {
 }
 
 Segment reversed(const Segment& s) {
-  // Reversing a face reverses its normal. So the pull changes its direction, and theta becomes
-  // pi - theta, whose half-angle tangent is the reciprocal.
+  // Reversing a face reverses its normal. The pull therefore changes its direction, and theta
+  // becomes pi - theta, whose half-angle tangent is the reciprocal.
   const auto turned = [](const Eigen::Vector2d& pull) -> Eigen::Vector2d {
     const double square = pull.squaredNorm();
     static const double limit = std::tan(0.5 * kThetaLimit_rad);

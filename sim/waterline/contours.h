@@ -7,15 +7,15 @@
 
 namespace hydroprint::waterline {
 
-/// A segment with the mesh edges on which its ends lie.
+/// A segment, and the mesh edges on which its ends lie.
 struct CutSegment {
   Segment segment;
   std::uint64_t edge_a = 0, edge_b = 0;
 };
 
-/// Joins segments that share a mesh edge into closed curves. Segments that run against the rest of
-/// their curve (faces that are inside out) are reversed together with their pull. Open curves are
-/// closed by straight lines from each end to the nearest start.
+/// Joins segments that share a mesh edge into closed curves. Segments whose direction is opposite
+/// to the rest of their curve (faces that are inside out) are reversed together with their pull.
+/// Open curves are closed by straight lines from each end to the nearest start.
 [[nodiscard]] std::vector<Contour> join(const std::vector<CutSegment>& cuts);
 
 }  // namespace hydroprint::waterline

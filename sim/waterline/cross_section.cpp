@@ -43,7 +43,7 @@ void collect(const clip::PolyNode& node, int parent, CrossSection& section) {
   }
 }
 
-/// Closes gaps narrower than kSlit_mm between curves, by widening the solid and narrowing it again.
+/// Closes gaps narrower than kSlit_mm between curves by widening the solid and narrowing it again.
 /// This joins parts that touch except for rounding errors; film does not fit between them.
 void close_slits(clip::PolyTree& tree) {
   clip::Paths paths;

@@ -12,26 +12,26 @@ namespace hydroprint::waterline {
 struct Loop {
   std::vector<Eigen::Vector2d> points_mm;
   bool is_hole = false;
-  int parent = -1;  ///< the loop directly around it; -1: no loop
+  int parent = -1;  ///< the innermost loop around it; -1: none
 };
 
-/// The union of all solid parts at one immersion, as simple closed curves that do not cross. A
-/// union is right because the film touches the first surface that reaches it.
+/// The union of all solid parts at one immersion, as simple closed curves that do not cross. The
+/// union is used because the film sticks to the first surface that touches it.
 using CrossSection = std::vector<Loop>;
 
-/// Unites contours by winding number; regions with a nonzero winding number are solid. Gaps
-/// narrower than 0.3 mm between curves are closed. Curves that enclose less than 0.001 mm2 are left
-/// out.
+/// Merges contours by winding number; regions with a nonzero winding number are solid. Gaps
+/// narrower than 0.3 mm between curves are closed. Curves that enclose less than 0.001 mm2 are
+/// dropped.
 [[nodiscard]] CrossSection unite(const std::vector<Contour>& contours);
 
-/// Area of a closed curve, positive if counter-clockwise, mm2.
+/// Returns the area of a closed curve, positive if counter-clockwise, mm2.
 [[nodiscard]] double signed_area(const std::vector<Eigen::Vector2d>& polygon);
 
-/// Even-odd test of a point against several closed curves.
+/// Tests a point against several closed curves with the even-odd rule.
 [[nodiscard]] bool is_inside(const CrossSection& section, const Eigen::Vector2d& point_mm);
 
-/// Area of the intersection of two regions, each given by simple curves under the even-odd rule,
-/// mm2.
+/// Returns the area of the intersection of two regions, each given by simple curves under the
+/// even-odd rule, mm2.
 [[nodiscard]] double common_area(const std::vector<std::vector<Eigen::Vector2d>>& a,
                                  const std::vector<std::vector<Eigen::Vector2d>>& b);
 

@@ -5,8 +5,8 @@
 
 namespace hydroprint::waterline {
 
-/// The measured sideways motion of the object during the dip: its offset from the planned axis as a
-/// function of immersion. Empty: straight down. Immersion never decreases from row to row.
+/// The measured horizontal motion of the object during the dip: its offset from the planned axis as
+/// a function of immersion. Empty: straight down. Immersion never decreases from row to row.
 struct Motion {
   struct Row {
     double time_s = 0;

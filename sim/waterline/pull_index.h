@@ -7,15 +7,15 @@
 
 namespace hydroprint::waterline {
 
-/// Looks up the pull of eq. (1) at any point of the waterline, by the nearest segment. The segments
-/// of all contours at one immersion are binned on a grid.
+/// Looks up the pull of eq. (1) at any point of the waterline from the nearest segment. The
+/// segments of all contours at one immersion are binned on a grid.
 class PullIndex {
  public:
   PullIndex() = default;
   explicit PullIndex(const std::vector<Contour>& contours);
 
-  /// Film velocity per unit of dip speed at the waterline point nearest to `point_mm`; zero if
-  /// there are no segments.
+  /// Returns the film velocity per unit of dip speed at the waterline point nearest to `point_mm`;
+  /// zero if there are no segments.
   [[nodiscard]] Eigen::Vector2d at(const Eigen::Vector2d& point_mm) const;
 
  private:

@@ -17,10 +17,10 @@ constexpr int kBins = 8192;
 constexpr double kLeastShelf_mm2 = 0.5;  ///< smaller level faces are not events
 constexpr double kLeastRim_mm = 5;       ///< shorter level edges are not events
 constexpr double kCreaseCosine = 0.8;    ///< corner normals with a smaller cosine make a crease
-/// Factor by which steps are shorter at creases. Across an upright crease, the direction of eq. (1)
-/// jumps, and with it the film's velocity.
+/// Factor by which steps are shortened at creases. Across an upright crease, the direction of eq.
+/// (1) jumps, and with it the film's velocity.
 constexpr double kCreaseSteps = 2;
-/// Below the first radius, steps are shorter. Radii below the second count as the second.
+/// Below the first radius, steps are shortened. Radii below the second count as the second.
 constexpr double kBend_mm = 20, kSharpest_mm = 1;
 
 struct Triangle {
@@ -42,18 +42,18 @@ struct Bins {
   std::vector<double> wetted_mm2;  ///< wetted surface, weighted
   std::vector<double> length_mm;   ///< mean waterline length
   std::vector<double> smallness;   ///< mean smallness() over it, for the upward curvature
-  std::vector<char> has_crease;    ///< the waterline crosses creases
+  std::vector<char> has_crease;    ///< whether the waterline crosses creases
 };
 
-/// Weight of surface at this angle. Near level faces the film hardly moves (u = tan(theta / 2)), so
-/// steps may be longer there.
+/// Returns the weight of surface at this angle. Near level faces the film hardly moves (u =
+/// tan(theta / 2)), so steps may be longer there.
 double weight(double cosine) {
   const double tangent = std::sqrt(std::max(0.0, 1 - cosine) / std::max(1e-12, 1 + cosine));
   return std::clamp(2 * tangent, 0.3, 1.0);
 }
 
-/// Factor for the swept width where a radius is smaller than the one that the steps are meant for.
-/// It keeps the error in mm about the same (ScheduleOptions::swept_mm).
+/// Returns the factor for the swept width where a radius is smaller than the one for which the
+/// steps are designed. It keeps the error in mm about the same (ScheduleOptions::swept_mm).
 double smallness(double radius_mm, double meant_for_mm) {
   return std::min(1.0, std::pow(radius_mm / meant_for_mm, 2.0 / 3));
 }
@@ -65,8 +65,8 @@ double smallness(const Body& body) {
   return smallness(std::sqrt(area_mm2 / (4 * std::numbers::pi)), ScheduleOptions::kLarge_mm);
 }
 
-/// Radius of curvature in the uphill direction on a triangle: from the change of theta between the
-/// corners' normals. Infinite if theta does not change.
+/// Returns the radius of curvature in the uphill direction on a triangle, from the change of theta
+/// between the corners' normals. Infinite if theta does not change.
 double bend_mm(const Body& body, std::size_t triangle) {
   const Eigen::Vector3i& t = body.triangles[triangle];
   const auto point = [&](int i) { return body.points_mm[t[i % 3]]; };

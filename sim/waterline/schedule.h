@@ -8,24 +8,26 @@ namespace hydroprint::waterline {
 
 /// Resolution of the dip.
 struct ScheduleOptions {
-  /// Surface wetted between two waterlines, as a width: swept area over waterline length. So a
-  /// sphere is divided evenly in theta. This value is for bodies with at least the surface of a
-  /// sphere of radius kLarge_mm. For smaller bodies it is multiplied by the power 2/3 of the ratio
-  /// of radii. The same holds where the surface has a small radius of curvature upward, so that the
-  /// error in mm stays about the same. It is halved where the waterline crosses creases.
+  /// Surface wetted between two waterlines, as a width: swept area divided by waterline length. A
+  /// sphere is thus divided evenly in theta. This value is for bodies with at least the surface of
+  /// a sphere of radius kLarge_mm. For smaller bodies, and where the surface has a small radius of
+  /// curvature in the vertical direction, it is multiplied by the ratio of the radii to the power
+  /// 2/3, so that the error in mm stays about the same. It is halved where the waterline crosses
+  /// creases.
   double swept_mm = 3.2;
   static constexpr double kLarge_mm = 42;
-  /// Faces within this angle of the water's plane touch it all at once. Waterlines are taken just
-  /// before and just after them.
+  /// Faces within this angle of horizontal touch the water all at once. Waterlines are computed
+  /// just before and just after them.
   double shelf_slope_rad = 2e-3;
   /// Distance of the waterlines before and after an event: a shelf, a level edge or a change of
   /// topology.
   double event_gap_mm = 2e-3;
 };
 
-/// Immersions at which to take waterlines, increasing, from just after first contact to just before
-/// the end of the dip. They are even in swept surface, weighted by the speed of the film there,
-/// with additional ones on both sides of every level face and level sharp edge.
+/// Returns the immersions at which to compute waterlines, increasing, from just after first contact
+/// to just before the end of the dip. They are evenly spaced in swept surface, weighted by the
+/// speed of the film there, with additional ones on both sides of every level face and level sharp
+/// edge.
 [[nodiscard]] std::vector<double> schedule(const Body& body, double depth_mm,
                                            const ScheduleOptions& options = {});
 

@@ -21,7 +21,7 @@ struct Crossing {
   std::uint64_t edge;
 };
 
-/// The point at which the edge from corner i to corner j of triangle t crosses the level.
+/// Returns the point at which the edge from corner i to corner j of triangle t crosses the level.
 Crossing cross(const Body& body, int t, int i, int j, double level_mm) {
   const int vi = body.triangles[t][i];
   const int vj = body.triangles[t][j];

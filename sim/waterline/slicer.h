@@ -17,20 +17,20 @@ struct Segment {
 using Contour = std::vector<Segment>;
 
 /// Slices a body at any immersion. Triangles are binned by height once, so that the cost of a cut
-/// is proportional to its result.
+/// is proportional to the size of its result.
 class Slicer {
  public:
   explicit Slicer(const Body& body);
 
-  /// The curves along which the body's triangles meet the water. Vertices exactly at the water
-  /// level count as dry, so all curves of a closed body are closed. Curves of an open or
-  /// non-manifold body are closed by straight lines between the nearest ends.
+  /// Returns the curves in which the body's triangles intersect the water surface. Vertices exactly
+  /// at the water level count as dry, so all curves of a closed body are closed. Curves of an open
+  /// or non-manifold body are closed by straight lines between the nearest ends.
   [[nodiscard]] std::vector<Contour> cut(double immersion_mm) const;
 
  private:
   const Body* body_;
   double bins_per_mm_ = 1;
-  std::vector<int> bin_start_;  ///< indices into bin_triangles_, one more than there are bins
+  std::vector<int> bin_start_;  ///< start of each bin in bin_triangles_, and the end of the last
   std::vector<int> bin_triangles_;
 };
 

@@ -59,7 +59,7 @@ Eigen::Vector2d middle_of(const std::vector<Eigen::Vector2d>& polygon) {
 /// Follows holes from waterline to waterline.
 class Follower {
  public:
-  /// @param is_dip  false above the end of the dip, where no more film is enclosed
+  /// @param is_dip  false above the end of the dip, where film is no longer enclosed
   void follow(const Waterline& line, bool is_dip) {
     std::vector<Hole> now = holes_of(line);
     std::vector<char> is_taken(traps_.size(), 0);

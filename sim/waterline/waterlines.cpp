@@ -13,7 +13,8 @@
 namespace hydroprint::waterline {
 namespace {
 
-constexpr double kEdgeMargin_mm = 0.05;   ///< points nearer to the film's edge have reached it
+/// Points within this distance of the film's edge count as having reached it.
+constexpr double kEdgeMargin_mm = 0.05;
 constexpr double kLeastIsland_mm2 = 0.2;  ///< smaller contours may come and go unresolved
 constexpr std::size_t kMostWaterlines = 3000;
 
@@ -93,7 +94,7 @@ Status check_first_contact(const Body& body, const film::Outline& outline, const
 
 using Curves = std::vector<std::vector<Eigen::Vector2d>>;
 
-/// The curves around regions that are neither film nor solid: holes without film.
+/// Returns the curves around regions that are neither film nor solid: holes without film.
 Curves dry_curves(const Waterline& line) {
   Curves curves;
   for (std::size_t l = 0; l < line.section.size(); ++l) {
@@ -125,7 +126,7 @@ void carry_film(const film::Outline& outline, const Waterline& before, Waterline
   }
 }
 
-/// Takes waterlines at the given immersions, and more where the topology changes between them.
+/// Computes waterlines at the given immersions, and more where the topology changes between them.
 Result<std::vector<Waterline>> take_all(const Slicer& slicer, const Motion& motion,
                                         const std::vector<double>& depths, double event_gap_mm,
                                         const Context& context) {
@@ -185,7 +186,7 @@ void stop_at_edge(const Slicer& slicer, const Motion& motion, const film::Outlin
   waterlines.depth_mm = beyond;
 }
 
-/// Takes the waterlines above the end of the dip, for finding the ceilings of holes.
+/// Computes the waterlines above the end of the dip, for finding the ceilings of holes.
 Result<std::vector<Waterline>> take_beyond(const Slicer& slicer, const Body& body, double depth_mm,
                                            const Motion& motion, const ScheduleOptions& options,
                                            const Context& context) {

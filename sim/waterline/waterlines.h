@@ -16,12 +16,12 @@
 namespace hydroprint::waterline {
 
 /// The intersection of the water surface with the object at one immersion, in F, including the
-/// object's sideways offset.
+/// object's horizontal offset.
 struct Waterline {
   double immersion_mm = 0;
   CrossSection section;
-  /// For each loop of the section, whether film lies on its open side. Holes that film never
-  /// entered do not bound film, nor do outer loops within such holes.
+  /// For each loop of the section, whether there is film on its open side. There is none in holes
+  /// that film never entered, nor around loops within such holes.
   std::vector<char> bounds_film;
   PullIndex pulls;
 };
@@ -34,15 +34,17 @@ struct Waterlines {
   std::vector<Trap> traps;       ///< enclosed film and air, largest first
 };
 
-/// Sideways offset of the object at an immersion, mm: linear between the motion's rows.
+/// Returns the horizontal offset of the object at an immersion, mm: linear between the motion's
+/// rows.
 [[nodiscard]] Eigen::Vector2d offset_at(const Motion& motion, double immersion_mm);
 
-/// Derivative of offset_at() by immersion, dimensionless. The film at the waterline moves with it.
+/// Returns the derivative of offset_at() with respect to immersion, dimensionless. The object
+/// carries the film at the waterline along at this rate.
 [[nodiscard]] Eigen::Vector2d drift_at(const Motion& motion, double immersion_mm);
 
 /// Computes the waterlines of a dip at the scheduled immersions, and more closely where contours
-/// appear, vanish, split or merge (bisecting down to `event_gap_mm` * 5). Tracks which holes
-/// contain film; a hole that opens inside the cross-section contains none.
+/// appear, vanish, split or merge (by bisection down to `event_gap_mm` * 5). Keeps track of which
+/// holes contain film; a hole that opens inside the cross-section contains none.
 /// @param outline  the floating film; the dip ends where the waterline reaches its edge
 /// @return kFailedPrecondition if the first contact misses the film
 [[nodiscard]] Result<Waterlines> take_waterlines(const Body& body, const film::Outline& outline,
@@ -50,7 +52,8 @@ struct Waterlines {
                                                  const ScheduleOptions& options,
                                                  const Context& context);
 
-/// The closed curves that bound the film under the even-odd rule; the film's edge is the first.
+/// Returns the closed curves that bound the film under the even-odd rule; the film's edge is the
+/// first.
 [[nodiscard]] std::vector<std::vector<Eigen::Vector2d>> film_curves(const film::Outline& outline,
                                                                     const Waterline& line);
 

@@ -152,7 +152,7 @@ std::filesystem::path VerbParser::inputs() const {
                            : std::filesystem::path(*run_.spec).parent_path();
 }
 
-/// Fills the spec from the files that the run flags and `--pose` name.
+/// Fills the spec from the files named in the run flags and in `--pose`.
 Status VerbParser::read_files() {
   if (!run_.spec) return flags_.read_pose();
   const auto from_flags = std::unique_ptr<Message>(spec_->New());
@@ -174,7 +174,7 @@ int VerbParser::threads() const {
   return reflection.HasField(*spec_, &field) ? reflection.GetInt32(*spec_, &field) : all_cores();
 }
 
-/// Adds the flag to the error's message or, for a spec, the field. Without `--json` also adds the
+/// Adds the flag or, for a spec, the field to the error's message. Without `--json` also adds the
 /// name of the spec file.
 Error VerbParser::located(Error error) const {
   const bool is_in_spec = run_.spec && error.metadata.contains("field");

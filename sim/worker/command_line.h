@@ -20,9 +20,9 @@ struct CommandLine {
   ExitStatus status = ExitStatus::kDone;
 };
 
-/// Reads the command line and the spec or pose file that it names. Checks all options as far as
-/// possible without reading the other input files. Refuses an invalid command line with kUsage,
-/// and an invalid spec or values out of range with kBadInput.
+/// Parses the command line and the spec or pose file that it names. Checks the options as far as
+/// possible without reading other input files. Returns a refusal with kUsage for an invalid command
+/// line, and with kBadInput for an invalid spec or values out of range.
 [[nodiscard]] CommandLine parse_command_line(int argc, const char* const* argv);
 
 }  // namespace hydroprint::worker

@@ -6,7 +6,7 @@
 
 namespace hydroprint::worker {
 
-/// All verbs of the program, by name. The build lists them from the folder verbs/.
+/// Returns all verbs of the program, by name. The build lists them from the folder verbs/.
 [[nodiscard]] std::vector<Verb> verbs();
 
 }  // namespace hydroprint::worker

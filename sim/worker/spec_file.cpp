@@ -32,7 +32,7 @@ Result<std::string> read_stdin() {
     if (got == 0) return text;
     text.append(chunk.data(), static_cast<std::size_t>(got));
     if (text.size() > kMaxBytes)
-      return fail(Code::kOutOfRange, "stdin: larger than 16 MiB. Give a smaller spec");
+      return fail(Code::kOutOfRange, "stdin: larger than 16 MiB. Use a smaller spec");
   }
 }
 
@@ -81,7 +81,7 @@ Status check(const Message& spec, const std::filesystem::path& inputs) {
   for (const FieldDescriptor* field : fields) {
     if (is_reference(*field)) {
       return fail_field(Code::kInvalidArgument, field->name(),
-                        "only a daemon can resolve this. Give files and values instead");
+                        "only a daemon can resolve this. Use files and values instead");
     }
     if (is_input_file(*field)) HP_RETURN_IF_ERROR(check_files(spec, *field, inputs));
   }

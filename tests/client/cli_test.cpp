@@ -345,7 +345,8 @@ TEST_F(Cli, ValidateOnlyRefusesWhatTheWorkerWouldRefuse) {
   EXPECT_EQ(validate({"A3"}).status, 0);
   const Outcome ended = validate({"A9"});
   EXPECT_EQ(ended.status, 3);
-  EXPECT_NE(ended.err.find("simulate.film: film 'A9': not understood"), std::string::npos)
+  EXPECT_NE(ended.err.find("simulate.film: film 'A9' is not a known size or shape"),
+            std::string::npos)
       << ended.err;
 }
 
@@ -356,7 +357,7 @@ TEST_F(Cli, EachWrongFieldHasItsOwnLine) {
   EXPECT_EQ(ended.status, 3);
   EXPECT_EQ(ended.err,
             "hydroprint: the request has several wrong fields:\n"
-            "  print_image.paper: paper 'A9': not understood. Give A4, A3, letter or WIDTHxHEIGHT "
+            "  print_image.paper: paper 'A9': unknown size. Use A4, A3, letter or WIDTHxHEIGHT "
             "(mm)\n"
             "  print_image.bar_mm: must be from 0 to 2000 mm\n"
             "  print_image.formats: must be pdf, png or tiff, not \"svg\"\n");
@@ -496,7 +497,7 @@ TEST_F(CliDownload, ADashPrintsOneArtifact) {
   const Outcome printed = client({"download", job_, "film.png", "--out", "-"});
   EXPECT_EQ(printed.status, 0) << printed.err;
   EXPECT_EQ(hash_of(printed.out), sha256_);
-  expect_error({"download", job_, "--out", "-"}, 3, "give its name");
+  expect_error({"download", job_, "--out", "-"}, 3, "specify its name");
 }
 
 TEST_F(CliDownload, NamesAFolderThatCannotBeCreated) {

@@ -134,9 +134,9 @@ test('every control can be reached by keyboard, with a visible focus', async () 
   await tabTo('Longest side');
   await page.keyboard.press('ControlOrMeta+a');
   await page.keyboard.type('80');
-  await tabTo('Turn about x');
+  await tabTo('Rotation about x');
   await page.keyboard.press('ArrowUp');
-  expect(await page.getByLabel('Turn about x').inputValue()).toBe('1');
+  expect(await page.getByLabel('Rotation about x').inputValue()).toBe('1');
   await tabTo('More settings');
   await page.keyboard.press('Enter');
   await page.getByLabel('Dip speed').waitFor();

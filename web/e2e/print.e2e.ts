@@ -35,7 +35,7 @@ test('a maker drops a model, turns it and submits; the film image equals the wor
 
   await page.getByLabel('Longest side').fill('30');
   await page.getByRole('button', { name: '+90° x' }).click();
-  await page.getByLabel('Turn about z').fill('30');
+  await page.getByLabel('Rotation about z').fill('30');
   await page.getByLabel('Offset to the right').fill('12,5');
   await page.getByLabel('Resolution').selectOption('150 dpi');
   await look(person, 'new-print');
@@ -44,7 +44,7 @@ test('a maker drops a model, turns it and submits; the film image equals the wor
   await page.reload();
   await page.locator('.stage canvas').waitFor();
   expect(await page.getByLabel('Longest side').inputValue()).toBe('30');
-  expect(await page.getByLabel('Turn about z').inputValue()).toBe('30');
+  expect(await page.getByLabel('Rotation about z').inputValue()).toBe('30');
   expect(await page.getByLabel('Offset to the right').inputValue()).toBe('12.5');
 
   await page.getByRole('button', { name: 'Simulate' }).click();
@@ -168,7 +168,7 @@ test('running again with changes starts from the settings of the job', async () 
   await page.getByRole('link', { name: 'Run again with changes' }).click();
   await page.locator('.stage canvas').waitFor();
   expect(await page.getByLabel('Longest side').inputValue()).toBe('30');
-  expect(await page.getByLabel('Turn about z').inputValue()).toBe('30');
+  expect(await page.getByLabel('Rotation about z').inputValue()).toBe('30');
   await page.getByLabel('Resolution').selectOption('300 dpi');
   await page.getByRole('button', { name: 'Simulate' }).click();
   await page.waitForURL(/#\/jobs\/\d+$/);

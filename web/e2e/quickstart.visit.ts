@@ -84,6 +84,6 @@ test('a new print takes its pose from the calibration', async () => {
   await page.getByRole('heading', { name: 'Preview' }).waitFor();
   await look(admin, 'new-print-measured');
   await page.getByLabel('Source of the pose').selectOption('');
-  await page.getByLabel('Turn about z').waitFor();
+  await page.getByLabel('Rotation about z').waitFor();
   expect(admin.complaints).toEqual([]);
 });

@@ -100,8 +100,8 @@ function Account() {
         type="button"
         class="plain"
         onClick={nextTheme}
-        aria-label={`Colours: ${theme.value}. Change`}
-        title={`Colours: ${theme.value}`}
+        aria-label={`Theme: ${theme.value}. Change`}
+        title={`Theme: ${theme.value}`}
       >
         <Icon name={theme.value} />
       </button>
@@ -109,7 +109,7 @@ function Account() {
   );
 }
 
-const kStopText = { ready: 'Stop', sending: 'Stopping…', stopped: 'Stopped', failed: 'Stop again' };
+const kStopText = { ready: 'Stop', sending: 'Stopping…', stopped: 'Stopped', failed: 'Retry stop' };
 
 /** Shown on every screen to everyone who is signed in. A stop needs no lease and is always safe. */
 function StopButton() {

@@ -12,8 +12,8 @@
 #include "client/cli/program/program.h"
 #include "client/cli/terminal/secret.h"
 
-// These commands act on the daemon's state folder, on its own machine. The work is done by the
-// program "hydroprintd admin"; this file has the command line and the questions on the terminal.
+// These commands act on the daemon's state folder and run on its machine. The program "hydroprintd
+// admin" does the work; this file defines the command line and asks for confirmation.
 namespace hydroprint::cli {
 namespace {
 
@@ -23,7 +23,7 @@ struct AdminOptions {
   bool replace = false;
 };
 
-// Looks beside this program, or else in PATH.
+// Returns the daemon's program: next to this program, otherwise from PATH.
 std::string daemon_program() {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);

@@ -23,10 +23,10 @@ struct Flag {
 struct Command {
   std::string path;  // "hydroprint submit simulate"
   std::vector<std::string> words;
-  std::vector<std::string> helps;  // of words
+  std::vector<std::string> helps;  // help text of each word
   std::vector<Flag> flags;
   bool takes_file = false;           // its arguments are files
-  std::vector<std::string> choices;  // or one of these
+  std::vector<std::string> choices;  // the choices of its arguments; empty: any
 };
 
 // CLI11 keeps the choices of IsMember in the type's name, as "STATE:{A,B}".

@@ -43,10 +43,10 @@ class ScratchFolder {
   std::string path_ = std::filesystem::temp_directory_path() / "hydroprint-XXXXXX";
 };
 
-// The bytes are checked before the first one is printed.
+// All bytes are checked before the first one is printed.
 Status print_artifact(Program& program, const std::string& job, const DownloadOptions& options) {
   if (options.artifacts.size() != 1)
-    return fail(Code::kInvalidArgument, "--out - prints one artifact; give its name");
+    return fail(Code::kInvalidArgument, "--out - prints one artifact; specify its name");
   const ScratchFolder scratch;
   HP_ASSIGN_OR_RETURN(const auto files,
                       download_all(program.daemon(), job, options.artifacts, scratch.path()));

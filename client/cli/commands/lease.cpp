@@ -111,7 +111,8 @@ void add_acquire(CLI::App& parent, Program& program) {
 
 void add_renew(CLI::App& parent, Program& program) {
   auto options = std::make_shared<LeaseOptions>();
-  CLI::App* command = parent.add_subcommand("renew", "Extend your lease, counted from now");
+  CLI::App* command =
+      parent.add_subcommand("renew", "Renew your lease; the new duration starts now");
   add_time_flag(*command, *options);
   program.on(*command, [&program, options] { return renew(program, *options); });
 }

@@ -44,10 +44,10 @@ Status show_identity(const Program& program, const v1::WhoAmIResponse& me) {
   std::cout << printable(me.user()) << " is " << client::name_of(me.role()) << " at "
             << program.server() << " (by " << printable(me.via()) << ")" << std::endl;
   if (!me.accounts()) {
-    std::cout
-        << "There are no users yet: everybody on that machine is admin. Add the first user with "
-           "'hydroprint users add NAME --role ADMIN'."
-        << std::endl;
+    std::cout << "There are no users yet: every caller on that machine is an admin. Add the first "
+                 "user with "
+                 "'hydroprint users add NAME --role ADMIN'."
+              << std::endl;
   }
   return {};
 }
@@ -118,8 +118,8 @@ Status log_in(Program& program, const LoginOptions& options) {
   return show_identity(program, me);
 }
 
-// Deletes the stored key first, so that the logout is effective here even if the daemon does not
-// respond.
+// Deletes the stored key first, so that the logout takes effect on this machine even if the daemon
+// does not respond.
 Status log_out(const Program& program) {
   HP_ASSIGN_OR_RETURN(const std::string key, kept_key(program.server()));
   if (key.empty()) {
@@ -147,7 +147,7 @@ void add_login(CLI::App& app, Program& program) {
   auto options = std::make_shared<LoginOptions>();
   CLI::App* login = app.add_subcommand(
       "login",
-      "Create an API key by password or sign-in link, or take an existing one, and store it");
+      "Create an API key with a password or sign-in link, or use an existing key, and store it");
   login->add_option("--user", options->user, "Your user name; default: asks for it")
       ->type_name("NAME");
   auto* key = login->add_flag("--api-key-stdin", options->key_from_stdin,

@@ -33,7 +33,7 @@ std::string in_collection(const std::string& collection, const std::string& text
 
 std::string bare(const std::string& name) { return printable(name.substr(name.find('/') + 1)); }
 
-// Returns ROLE_UNSPECIFIED for no name.
+// Returns the role of a name; ROLE_UNSPECIFIED for an empty name.
 v1::Role role_of(const std::string& name) {
   v1::Role role = v1::ROLE_UNSPECIFIED;
   v1::Role_Parse(name, &role);
@@ -68,7 +68,7 @@ Status list_people(Program& program) {
   return {};
 }
 
-// The page's address differs from the daemon's and is not known here.
+// Returns the address of the web page is not that of the gRPC endpoint and is not known here.
 Status show_link(Program& program, const std::string& name) {
   HP_ASSIGN_OR_RETURN(const auto link, client::create_sign_in_link(program.daemon(), name));
   if (program.json()) {
@@ -121,7 +121,7 @@ Status say_done(const Program& program, const std::string& name, const Status& d
   return {};
 }
 
-// The names of all roles.
+// Returns the names of all roles.
 std::vector<std::string> role_names() {
   std::vector<std::string> names;
   for (int i = 1; i < v1::Role_descriptor()->value_count(); ++i)

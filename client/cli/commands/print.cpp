@@ -19,7 +19,7 @@ struct PrintOptions {
   WaitOptions wait;
 };
 
-// A print has a record, however it ended.
+// Downloads the record in any case: every print has one, regardless of its outcome.
 Status follow_to_end(Program& program, const std::string& name, const PrintOptions& options) {
   const auto ended = wait_for(program, name, options.wait);
   Result<std::vector<Downloaded>> files;

@@ -23,7 +23,7 @@ Status retry(Program& program, const std::string& name) {
 
 void add_retry(CLI::App& app, Program& program) {
   auto job = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("retry", "Queue a finished job again, under a new name");
+  CLI::App* command = app.add_subcommand("retry", "Queue a finished job again, as a new job");
   add_job_argument(*command, *job);
   command->footer(
       "The job is computed again; cached results are not used.\n\n"

@@ -13,7 +13,7 @@ namespace hydroprint::cli {
 /// Returns the message of an update; empty if there is none, or if dip_status already contains it.
 [[nodiscard]] std::string message_of(const v1::WatchJobResponse& update);
 
-/// Returns the warnings of a dip that were not in `before`.
+/// Returns the warnings of `now` that are not in `before`.
 [[nodiscard]] std::vector<std::string> new_warnings(const v1::DipStatus& before,
                                                     const v1::DipStatus& now);
 
@@ -26,7 +26,7 @@ class JobDisplay {
   JobDisplay(std::string job, int descriptor);
 
   void update(const v1::WatchJobResponse& update);
-  /// Prints a line that stays on the screen.
+  /// Prints a permanent line above the progress.
   void say(const std::string& text) { line_.say(text); }
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 namespace pb = google::protobuf;
 
-// The API's messages contain no Any, so they always have a JSON form.
+// Messages of the API contain no Any, so they always have a JSON form.
 std::string json_text(const pb::Message& message) {
   const auto text = write_json(message);
   HP_CHECK(text.has_value());

@@ -9,7 +9,7 @@
 
 namespace hydroprint::cli {
 
-/// The output of --json: messages of the API as REST writes them.
+/// The output of --json: messages of the API in the format of the REST API.
 using Json = nlohmann::ordered_json;
 
 [[nodiscard]] Json to_json(const google::protobuf::Message& message);
@@ -18,13 +18,13 @@ using Json = nlohmann::ordered_json;
 /// Converts a message for print_tree(): with the field names of the .proto files.
 [[nodiscard]] Json tree_of(const google::protobuf::Message& message);
 
-/// Prints JSON in readable form: one field per line, list items one below the other. Fields without
-/// content are omitted.
+/// Prints JSON in readable form: one field per line, list items one below the other. Empty fields
+/// are omitted.
 void print_tree(const Json& json, const std::string& indent = "");
 
 /// Prints JSON on one line of standard output.
 void print(const Json& json);
-/// Same, for a message.
+/// Same as above, for a message.
 void print(const google::protobuf::Message& message);
 
 }  // namespace hydroprint::cli

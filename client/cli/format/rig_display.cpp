@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The fault, after two spaces; the alarm's own text if the daemon gives none.
+// Returns the fault after two spaces; the alarm's own text if the daemon reports no fault.
 std::string trouble(const v1::Rig& rig) {
   if (!rig.trouble().empty()) return "  " + printable(rig.trouble());
   std::string text = rig.cause().empty() ? "" : "  " + rig.cause();

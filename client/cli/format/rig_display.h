@@ -19,15 +19,15 @@ namespace hydroprint::cli {
 /// the lease".
 [[nodiscard]] std::string lease_line(const v1::Lease* lease);
 
-/// Shows changes of the rig: one live line on a terminal; elsewhere one line for each change.
-/// Changes of the position alone are shown at most once a second.
+/// Shows changes of the rig: a line that is updated in place on a terminal; elsewhere one line for
+/// each change. Changes of only the position are shown at most once a second.
 class RigDisplay {
  public:
   /// @param descriptor  destination: STDOUT_FILENO or STDERR_FILENO
   explicit RigDisplay(int descriptor) : line_(descriptor) {}
 
   void update(const v1::Rig& rig);
-  /// Prints a line that stays on the screen.
+  /// Prints a permanent line above the live one.
   void say(const std::string& text) { line_.say(text); }
 
  private:

@@ -7,16 +7,16 @@
 
 namespace hydroprint::cli {
 
-// Access to the fields of a spec by their names in the API. The specs of different kinds share many
-// fields. A name that the spec does not have is a bug (InvariantError).
+// Access to the fields of a spec by their names in the API, because the specs of different kinds
+// share many fields. It is a bug if the spec does not have a field of that name (InvariantError).
 
 /// Returns the spec of a job, whose kind must be set.
 [[nodiscard]] google::protobuf::Message& spec_of(v1::Job& job);
 
-/// Returns a job of a kind, for example "print_image", with an empty spec.
+/// Creates a job of a kind, for example "print_image", with an empty spec.
 [[nodiscard]] v1::Job job_of_kind(const std::string& kind);
 
-/// Returns the file in a field; for a repeated field, a new last one.
+/// Returns the file in a field; appends one to a repeated field.
 [[nodiscard]] v1::InputFile& file_in(google::protobuf::Message& spec, const std::string& field);
 
 void set_text(google::protobuf::Message& spec, const std::string& field, const std::string& text);

@@ -14,7 +14,7 @@ namespace hydroprint::cli {
 namespace {
 
 constexpr int kViews = 12;
-constexpr double kSeconds = 1;  // per view
+constexpr double kSeconds = 1;  // duration of the capture of each view
 
 /// Shows only the board to the camera, until destroyed.
 class HeldBoard {

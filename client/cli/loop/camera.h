@@ -9,8 +9,9 @@
 
 namespace hydroprint::cli {
 
-/// Calibrates the virtual rig's camera like a real one: the calibration board is held before it in
-/// twelve ways, with one capture each. A calibrate-camera job then finds lens and depth scale.
+/// Calibrates the virtual rig's camera like a real one: holds the calibration board in front of it
+/// in twelve poses, with one capture each, then finds lens and depth scale with a calibrate-camera
+/// job.
 /// @param control  control socket of the virtual rig
 /// @param folder   for the board's mesh and poses
 /// @param seed     of the board's poses

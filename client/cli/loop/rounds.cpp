@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kAbove_mm = 40;       ///< height above the water during the capture
-constexpr double kRoundDepth_mm = 90;  ///< of the sphere: slightly beyond its equator
+constexpr double kRoundDepth_mm = 90;  ///< depth for the sphere, slightly beyond its equator
 
 }  // namespace
 
@@ -160,7 +160,8 @@ Result<v1::Job> LoopRounds::dip(const std::string& simulation, loop::Round& out)
   return ended;
 }
 
-/// Downloads an artifact under a name with the pose's number; pictures go into the report.
+/// Downloads an artifact to a file name that contains the pose's number; pictures are added to the
+/// report.
 Result<std::string> LoopRounds::fetch(const std::string& job, const std::string& artifact,
                                       const std::string& as, loop::Round& out) const {
   HP_ASSIGN_OR_RETURN(const auto files,
@@ -183,7 +184,7 @@ Result<v1::Job> LoopRounds::run_predict(const v1::PredictSpec& spec) {
   return run_quietly(program_, job);
 }
 
-/// Computes with predict where a film image lands at a pose.
+/// Computes where a film image lands at a pose, with a predict job.
 Result<loop::SurfaceMap> LoopRounds::predict(v1::PredictSpec spec, const Pose& pose,
                                              const std::string& as, loop::Round& out) {
   *spec.mutable_pose() = message_of(pose);
@@ -192,7 +193,7 @@ Result<loop::SurfaceMap> LoopRounds::predict(v1::PredictSpec spec, const Pose& p
   return loop::read_surface_map(file(map));
 }
 
-/// The actual motion of the descent, along its true direction.
+/// Returns the actual motion of the descent, along its true direction.
 Result<v1::InputFile> LoopRounds::driven(const std::string& dip, loop::Round& out) {
   HP_ASSIGN_OR_RETURN(const std::string positions, fetch(dip, "positions.csv", "positions", out));
   std::ifstream from(file(positions));
@@ -234,7 +235,7 @@ Status LoopRounds::compare(const v1::Calibration& found, loop::Round& out) const
   return {};
 }
 
-/// Spec of a virtual dip of the film image.
+/// Creates the spec of a virtual dip of the film image.
 Result<v1::PredictSpec> LoopRounds::landing(const v1::Job& simulation, loop::Round& out) {
   HP_ASSIGN_OR_RETURN(const std::string film, fetch(simulation.name(), "film.png", "film", out));
   v1::PredictSpec spec;

@@ -22,10 +22,11 @@ struct LoopOptions {
   int poses = 10;
   std::uint32_t seed = 1;
   double dpi = 150, seconds = 2;
-  v1::SimulateSpec simulation;  ///< only its model is used
+  v1::SimulateSpec simulation;  ///< only the name of the film model is used
 };
 
-/// Runs the whole loop pose by pose, from the object's pose to the place where its film lands.
+/// Runs the whole loop for one pose after the other: from the object's pose to the place where its
+/// film lands.
 class LoopRounds {
  public:
   LoopRounds(Program& program, const LoopOptions& options, loop::Body body, const HeldLease& lease);
@@ -35,7 +36,7 @@ class LoopRounds {
   [[nodiscard]] Status prepare();
   /// Runs the loop for pose number `index`.
   [[nodiscard]] Result<loop::Round> round(int index);
-  /// The camera calibration, or its file.
+  /// Returns the name of the camera calibration, or its file.
   [[nodiscard]] const std::string& camera() const { return camera_name_; }
 
  private:

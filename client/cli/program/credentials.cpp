@@ -21,7 +21,7 @@ std::filesystem::path folder_in(const char* name) {
 
 Status cannot_keep_key(const std::filesystem::path& file) {
   return fail(Code::kPermissionDenied,
-              fmt::format("{}: the key cannot be stored there: {}; set XDG_CONFIG_HOME to a folder "
+              fmt::format("{}: cannot store the key: {}; set XDG_CONFIG_HOME to a folder "
                           "that you can write to",
                           file.string(), std::strerror(errno)));
 }

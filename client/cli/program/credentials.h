@@ -7,8 +7,9 @@
 
 namespace hydroprint::cli {
 
-/// Path of the file that stores API keys, one for each address of a daemon. It has mode 0600 and is
-/// $XDG_CONFIG_HOME/hydroprint/credentials.toml or ~/.config/hydroprint/credentials.toml.
+/// Returns the path of the file that stores API keys, one for each daemon address:
+/// $XDG_CONFIG_HOME/hydroprint/credentials.toml or ~/.config/hydroprint/credentials.toml, mode
+/// 0600.
 [[nodiscard]] std::filesystem::path credentials_file();
 
 /// Returns the stored key for a daemon; empty if there is none.

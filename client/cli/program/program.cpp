@@ -35,7 +35,7 @@ Result<std::string> read_authorities(const std::string& file) {
   std::string pem{std::istreambuf_iterator<char>(in), {}};
   if (in && pem.find("-----BEGIN CERTIFICATE-----") != std::string::npos) return pem;
   return fail(Code::kInvalidArgument,
-              fmt::format("--ca (HYDROPRINT_CA) {}: no readable certificate; give a PEM file with "
+              fmt::format("--ca (HYDROPRINT_CA) {}: no readable certificate; use a PEM file with "
                           "the certificate of the authority that signed the daemon's certificate",
                           file));
 }
@@ -139,7 +139,7 @@ void add_job_argument(CLI::App& command, std::string& job) {
 
 int exit_code(const Error& error) {
   if (error.code == Code::kUnavailable) return kUnreachable;
-  // Damaged at the daemon or in transit: the user's input is not at fault.
+  // The data was damaged at the daemon or in transit, so this is not an input error.
   if (error.code == Code::kDataLoss) return static_cast<int>(ExitStatus::kFailed);
   return static_cast<int>(exit_status(error));
 }

@@ -23,19 +23,19 @@ class Program {
   [[nodiscard]] Status run();
 
   [[nodiscard]] bool json() const { return json_; }
-  /// "host:port".
+  /// Returns "host:port".
   [[nodiscard]] const std::string& server() const { return server_; }
-  /// The owner of new jobs: the user, or --owner if there are no users.
+  /// Returns the owner of new jobs: the user, or --owner if there are no users.
   [[nodiscard]] Result<std::string> own_name();
-  /// Options for a separate connection as the same caller.
+  /// Returns options for a separate connection as the same caller.
   [[nodiscard]] client::ConnectionOptions options(std::stop_token stop) const;
-  /// Options for a connection with other credentials; both empty: anonymous.
+  /// Returns options for a connection with other credentials; both empty: anonymous.
   [[nodiscard]] client::ConnectionOptions options_as(const std::string& key,
                                                      const std::string& session) const;
-  /// Returns the connection to the daemon. From the first call on, Ctrl-C ends its calls with
+  /// Returns the connection to the daemon. After the first call, Ctrl-C ends its calls with
   /// kCancelled.
   [[nodiscard]] client::Connection& daemon();
-  /// Whether Ctrl-C was pressed since then.
+  /// Returns whether Ctrl-C was pressed after the first call of daemon().
   [[nodiscard]] bool is_interrupted() const {
     return interrupt_ && interrupt_->token().stop_requested();
   }
@@ -56,7 +56,7 @@ class Program {
   std::unique_ptr<client::Connection> daemon_;
 };
 
-/// Returns "jobs/7" for "7" or "jobs/7"; other text is passed on for the daemon to refuse.
+/// Returns "jobs/7" for "7" or "jobs/7". Returns other text unchanged; the daemon will reject it.
 [[nodiscard]] std::string job_name(const std::string& text);
 
 /// Returns "calibrations/3" for "3" or "calibrations/3", and "calibrations/active" for "active".
@@ -65,8 +65,8 @@ class Program {
 /// Adds the positional argument JOB.
 void add_job_argument(CLI::App& command, std::string& job);
 
-/// The program's exit status: as in sim/base/result.h, but 5 if no daemon responds, and 4 (failed)
-/// if bytes arrive damaged.
+/// Returns the program's exit status: as in sim/base/result.h, but 5 if no daemon responds, and 4
+/// (failed) if bytes arrive damaged.
 [[nodiscard]] int exit_code(const Error& error);
 
 }  // namespace hydroprint::cli

@@ -11,7 +11,7 @@
 namespace hydroprint::cli {
 namespace {
 
-// Number of letters to insert, delete, replace or swap with the next one.
+// Returns the number of letters to insert, delete, replace or swap with the next one.
 std::size_t distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> last, row(b.size() + 1), next(b.size() + 1);
   std::iota(row.begin(), row.end(), 0U);

@@ -5,11 +5,11 @@
 
 namespace hydroprint::cli {
 
-/// Returns a command with its parents, for example "hydroprint submit simulate".
+/// Returns the full name of a command, for example "hydroprint submit simulate".
 [[nodiscard]] std::string full_name(const CLI::App& app);
 
-/// Explains wrong usage in one line. An unknown command or flag is named, with the nearest one that
-/// exists.
+/// Explains wrong usage in one line. For an unknown command or flag, names it and the nearest one
+/// that exists.
 [[nodiscard]] std::string usage_error(const CLI::App* app, const CLI::Error& error);
 
 }  // namespace hydroprint::cli

@@ -51,12 +51,12 @@ class WatchedJob {
     const std::lock_guard lock(mutex_);
     return job_;
   }
-  /// Returns the messages since the last call.
+  /// Returns the messages received since the last call.
   [[nodiscard]] std::vector<std::string> take_messages() {
     const std::lock_guard lock(mutex_);
     return std::exchange(messages_, {});
   }
-  /// The result of watching; nullopt while it continues.
+  /// Returns the result of watching; nullopt while it continues.
   [[nodiscard]] std::optional<Result<v1::Job>> ended() const {
     const std::lock_guard lock(mutex_);
     return ended_;
@@ -135,7 +135,7 @@ class Guide {
     show_clock(job);
   }
 
-  // At a new step, pending keys are discarded: they were not meant for it.
+  // At a new step, pending keys are discarded, because they were not meant for it.
   void begin(const v1::DipStatus& status) {
     Keyboard::forget();
     begun_ = std::chrono::system_clock::now();
@@ -192,7 +192,7 @@ class Guide {
     const v1::Job job = watched_.job();
     if (!waits(job) || !shown_ || shown_->step() != job.dip_status().step()) return;
     if (jogger_ && jogger_->is_held()) return;  // release the key first: contact is at standstill
-    // The next step is shown as soon as it is reported; this response may be older.
+    // The stream reports the next step immediately; this response may be older.
     const auto next =
         client::confirm_step(daemon_, job.name(), job.dip_status().step(), lease_.id());
     if (!next) line_.say("  REFUSED: " + in_our_words(next.error()).message);
@@ -224,7 +224,8 @@ class Guide {
   std::optional<Jogger> jogger_;
   v1::Rig rig_;
   Clock::time_point looked_;
-  Clock::time_point drawn_;  // of the live line; other lines and a new step are shown at once
+  // When the live line was drawn; other lines and a new step are shown immediately.
+  Clock::time_point drawn_;
 };
 
 }  // namespace

@@ -42,7 +42,8 @@ std::map<std::string, std::string> metadata_of(const v1::Lease& lease) {
           {"expire_time", google::protobuf::util::TimeUtil::ToString(lease.expire_time())}};
 }
 
-// Remaining time of a lease, at least kLeaseTime: renewing must not shorten it.
+// Returns the remaining time of a lease, at least kLeaseTime, because a renewal must not shorten
+// the lease.
 std::chrono::seconds time_to_renew_to(const v1::Lease& lease) {
   const auto end = client::time_of(lease.expire_time());
   if (!end) return kLeaseTime;
@@ -103,7 +104,7 @@ void HeldLease::renew_until(const std::stop_token& stop) {
   std::mutex mutex;
   std::unique_lock lock(mutex);
   std::condition_variable_any bell;
-  // A failed renewal is not reported here: the next command is refused.
+  // A failed renewal is not reported here: the next command will fail and report it.
   while (!bell.wait_for(lock, stop, kLookEvery, [] { return false; }) && !stop.stop_requested()) {
     const auto lease = client::get_lease(daemon_);
     const auto end = lease ? client::time_of(lease->expire_time()) : std::nullopt;

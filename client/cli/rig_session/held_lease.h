@@ -13,12 +13,12 @@
 namespace hydroprint::cli {
 
 /// The lease under which a command moves the rig: stored by `rig lease acquire`, or acquired for
-/// this command only. It is renewed as long as this object lives.
+/// this command only. It is renewed during the lifetime of this object.
 class HeldLease {
  public:
   /// With a purpose: acquires a lease and releases it at the end. Without: uses the stored lease.
-  /// @return kFailedPrecondition (LEASE_REQUIRED) if none is stored; the message names the holder
-  /// and the remedy
+  /// @return kFailedPrecondition (LEASE_REQUIRED) if none is stored; the message contains the
+  ///         holder and the remedy
   [[nodiscard]] static Result<std::unique_ptr<HeldLease>> take(Program& program,
                                                                const std::string& purpose);
   /// Uses the stored lease if it is still valid. Otherwise acquires one, stores it for other
@@ -30,7 +30,7 @@ class HeldLease {
   HeldLease& operator=(const HeldLease&) = delete;
 
   [[nodiscard]] const std::string& id() const { return id_; }
-  /// Keeps the lease at the end.
+  /// Does not release the lease at the end.
   void leave() { is_given_back_ = false; }
 
  private:
@@ -43,7 +43,7 @@ class HeldLease {
   client::Connection daemon_;  // not affected by Ctrl-C
   std::string id_;
   bool is_given_back_;
-  std::jthread renewer_;  // last member: it uses all the others
+  std::jthread renewer_;  // last member, because it uses the others
 };
 
 /// Default duration of a lease, also for renewals.
@@ -52,7 +52,7 @@ inline constexpr std::chrono::minutes kLeaseTime{10};
 /// Adds --with-lease PURPOSE.
 void add_lease_flag(CLI::App& command, std::string& purpose);
 
-/// Rewords errors about the lease: holder, purpose, expiry, and the command that helps. Other
+/// Extends errors about the lease with holder, purpose, expiry, and the command that helps. Other
 /// errors are returned unchanged.
 [[nodiscard]] Error in_our_words(Error error);
 

@@ -10,7 +10,7 @@ namespace hydroprint::cli {
 
 /// Options of `rig jog`.
 struct JogOptions {
-  std::optional<double> speed_mm_per_s;  ///< positive is down; default with keys: 2
+  std::optional<double> speed_mm_per_s;  ///< positive: down; nullopt: 2 mm/s when jogging with keys
   std::optional<double> time_s;          ///< duration; nullopt: while a key is held
   std::string with_lease;                ///< see add_lease_flag
 };

@@ -9,11 +9,11 @@
 
 namespace hydroprint::cli {
 
-/// Turns a held key into a jog. A terminal reports a held key by repeating it after a delay (often
-/// half a second), and does not report its release. So each key event moves the axis for kHeldFor,
-/// and the next event prolongs that. Without a further event the axis is stopped: a tap is a short
-/// step, and a held key continues the motion once it repeats. Bridging the first delay instead
-/// would stop the axis half a second late after every release.
+/// Converts key events to jog commands. A terminal reports a held key by repeating it after a delay
+/// (often half a second), and does not report its release. Each key event therefore moves the axis
+/// for kHeldFor, and the next event extends the motion. Without a further event the axis stops: a
+/// tap is a short step, and a held key continues the motion once it repeats. If the motion bridged
+/// the first delay, the axis would stop half a second late after every release.
 class Jogger {
  public:
   using TimePoint = std::chrono::steady_clock::time_point;
@@ -25,7 +25,7 @@ class Jogger {
 
   /// @param speed_mm_per_s  above 0
   Jogger(client::Connection& daemon, std::string lease_id, double speed_mm_per_s);
-  /// Stops the axis if it is jogged.
+  /// Stops a jog in progress.
   ~Jogger();
   Jogger(const Jogger&) = delete;
   Jogger& operator=(const Jogger&) = delete;
@@ -33,14 +33,14 @@ class Jogger {
   /// Handles a key: directions start a jog, faster and slower double and halve the speed, any other
   /// key stops.
   void press(Key key, TimePoint now);
-  /// Must be called at least every 50 ms. Jogs while a key is held, and stops the axis after its
-  /// release. Temporary refusals of the rig (a limit, a motion that has to end) appear in text().
+  /// Jogs while a key is held, and stops the axis after its release. Must be called at least every
+  /// 50 ms. text() contains temporary refusals of the rig (a limit, a motion that has to end).
   /// @return the rig's response, if a command was sent; an error if jogging cannot continue
   [[nodiscard]] Result<std::optional<v1::Rig>> tick(TimePoint now);
 
-  /// "down at 5.00 mm/s", or the reason why the axis does not move.
+  /// Returns "down at 5.00 mm/s", or the reason why the axis does not move.
   [[nodiscard]] std::string text() const;
-  /// Whether a key is held, or the stop has not been sent yet.
+  /// Returns whether a key is held, or the stop has not been sent yet.
   [[nodiscard]] bool is_held() const { return direction_ != 0 || moved_; }
 
  private:
@@ -51,7 +51,7 @@ class Jogger {
   double speed_mm_per_s_;
   int direction_ = 0;  // 1 down, -1 up, 0 at standstill
   TimePoint pressed_, told_;
-  bool moved_ = false;   // a jog was sent, and no stop since
+  bool moved_ = false;   // a jog was sent, and no stop since then
   std::string refusal_;  // why the last jog was refused
 };
 

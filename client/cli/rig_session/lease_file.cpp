@@ -29,7 +29,7 @@ std::filesystem::path folder() {
 
 Status cannot_keep(const std::filesystem::path& file) {
   return fail(Code::kPermissionDenied,
-              fmt::format("{}: the lease cannot be stored there: {}; set XDG_RUNTIME_DIR to a "
+              fmt::format("{}: cannot store the lease: {}; set XDG_RUNTIME_DIR to a "
                           "folder that you can write to",
                           file.string(), std::strerror(errno)));
 }

@@ -8,8 +8,8 @@
 
 namespace hydroprint::cli {
 
-/// Path of the file that stores the lease id between commands: mode 0600, one file for each
-/// address, in $XDG_RUNTIME_DIR/hydroprint or else ~/.local/state/hydroprint.
+/// Returns the path of the file that stores the lease id between commands: one file for each
+/// address, mode 0600, in $XDG_RUNTIME_DIR/hydroprint or ~/.local/state/hydroprint.
 [[nodiscard]] std::filesystem::path lease_file(const std::string& server);
 
 /// Stores a lease id; the file is written atomically.

@@ -9,14 +9,14 @@
 
 namespace hydroprint::cli {
 
-/// Removes control characters, so that no name can move a terminal's cursor.
+/// Removes control characters, so that names cannot move a terminal's cursor.
 [[nodiscard]] std::string printable(std::string_view text);
 
 /// Local time, "2026-03-01 14:05:09"; "-" for nullopt.
 [[nodiscard]] std::string format_time(
     const std::optional<std::chrono::system_clock::time_point>& time);
 
-/// "0.05", "-12.30": for millimetres and millimetres per second.
+/// Formats millimetres or millimetres per second: "0.05", "-12.30".
 [[nodiscard]] std::string format_fixed(double value);
 
 /// A line at the bottom of a terminal that is updated in place.

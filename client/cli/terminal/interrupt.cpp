@@ -15,7 +15,8 @@ constexpr int kEnd = SIGUSR1;  // sent by the destructor to the listener
   _exit(status);
 }
 
-// Whether the signal is ignored, as SIGHUP under nohup. sigwait() would receive it nevertheless.
+// Returns whether the signal is ignored, like SIGHUP under nohup. sigwait() would receive it
+// nevertheless.
 bool is_ignored(int signal) {
   struct sigaction action {};
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;

@@ -6,8 +6,9 @@
 
 namespace hydroprint::cli {
 
-/// Turns the first Ctrl-C (or SIGTERM) into a stop request; a second one ends the program at once.
-/// Must be created before any other thread, so that all threads inherit the blocked signals.
+/// Converts the first Ctrl-C (or SIGTERM) to a stop request; a second one ends the program
+/// immediately. Must be created before any other thread, so that all threads inherit the blocked
+/// signals.
 class Interrupt {
  public:
   Interrupt();

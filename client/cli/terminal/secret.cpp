@@ -10,8 +10,8 @@ namespace {
 
 constexpr char kCtrlC = 3;
 
-// Disables the terminal's echo while this object lives. Ctrl-C ends the line instead of the
-// program, which would leave the echo disabled.
+// Disables the terminal's echo during its lifetime. Ctrl-C ends the input line: ending the program
+// would leave the echo disabled.
 class Unseen {
  public:
   Unseen() {

@@ -17,7 +17,7 @@ class AsyncValue {
     state_->socket = std::move(socket);
   }
 
-  /// A callback for the value; any thread may call it.
+  /// Returns a callback that receives the value; any thread may call it.
   [[nodiscard]] std::function<void(T)> receiver() const {
     return [state = state_](T value) {
       auto kept = std::make_shared<T>(std::move(value));
@@ -28,7 +28,7 @@ class AsyncValue {
     };
   }
   [[nodiscard]] bool is_here() const { return state_->value.has_value(); }
-  /// Takes the value, so that the next one may arrive.
+  /// Returns the value and clears it, so that the next one can arrive.
   [[nodiscard]] T take() {
     T value = std::move(*state_->value);
     state_->value.reset();

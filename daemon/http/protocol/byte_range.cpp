@@ -11,7 +11,7 @@
 namespace hydroprint::http {
 namespace {
 
-// A number that does not fit is beyond the end of every file.
+// Parses a number. One that does not fit is treated as beyond the end of every file.
 std::optional<std::int64_t> byte_number(std::string_view text) {
   if (text.empty() || text.find_first_not_of("0123456789") != std::string_view::npos) return {};
   std::int64_t number = 0;

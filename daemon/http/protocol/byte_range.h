@@ -14,19 +14,19 @@ struct ByteRange {
   std::int64_t end = 0;  ///< one past the last byte
 };
 
-/// Parses the Range header (RFC 9110): "bytes=10-19", "bytes=10-", "bytes=-5". Anything else, and
-/// more than one range, means the whole file, as the RFC allows.
+/// Parses the Range header (RFC 9110): "bytes=10-19", "bytes=10-", "bytes=-5". Any other text, or
+/// more than one range, means the whole file, as the RFC permits.
 [[nodiscard]] ByteRange byte_range(std::string_view header, std::int64_t size);
 
-/// Whether a list of entity tags, as in If-None-Match, contains this one ("*" matches any).
+/// Returns whether a list of entity tags, as in If-None-Match, contains this one ("*" matches any).
 [[nodiscard]] bool lists_tag(std::string_view list, std::string_view tag);
 
-/// The Content-Disposition header for a file name in UTF-8 (RFC 6266). A name that is not ASCII is
-/// given twice.
+/// Returns the Content-Disposition header for a file name in UTF-8 (RFC 6266). It contains a
+/// non-ASCII name in two encodings.
 [[nodiscard]] std::string content_disposition(bool is_inline, std::string_view name);
 
-/// Whether a browser may display files of this type on the daemon's pages: only types that cannot
-/// contain scripts.
+/// Returns whether a browser may display files of this type on the daemon's pages: only types that
+/// cannot contain scripts.
 [[nodiscard]] bool may_be_shown(std::string_view media_type);
 
 }  // namespace hydroprint::http

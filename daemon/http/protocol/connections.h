@@ -13,7 +13,7 @@ namespace hydroprint::http {
 /// The open connections. Thread-safe.
 class Connections {
  public:
-  /// False after close_all().
+  /// Adds a connection; returns false after close_all().
   [[nodiscard]] bool add(const std::shared_ptr<Socket>& socket);
   void remove(const std::shared_ptr<Socket>& socket);
   [[nodiscard]] int count() const;

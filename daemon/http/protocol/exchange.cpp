@@ -136,7 +136,8 @@ Task<Result<std::string>> Exchange::read_body() {
   }
 }
 
-// Sends pieces with a timeout each, so that a slow client that keeps reading is not cut off.
+// Sends pieces with a timeout for each, so that a slow client that keeps reading is not
+// disconnected.
 Task<bool> Exchange::send_pieces(std::string_view bytes) {
   while (!bytes.empty()) {
     const std::string_view piece = bytes.substr(0, kPiece_bytes);
@@ -186,8 +187,9 @@ Task<bool> Exchange::end_answer() {
   co_return co_await send_pieces("0\r\n\r\n");
 }
 
-// Whether reading the rest of the body is worthwhile to keep the connection. A client that still
-// waits for 100 Continue may or may not send the body, so the start of the next request is unknown.
+// Returns whether to read the rest of the body in order to keep the connection. If the client still
+// waits for 100 Continue, it may or may not send the body, so the start of the next request is
+// unknown.
 bool Exchange::may_drop_rest() const {
   if (parser_.is_done()) return true;
   return was_invited_ && head().content_length.value_or(0) <= kMostDropped_bytes;

@@ -24,29 +24,29 @@ class Exchange {
   [[nodiscard]] Task<Begun> begin_request(bool is_first);
   [[nodiscard]] const Head& head() const { return parser_.head(); }
 
-  /// Reads a piece of the body, at most 64 KiB; empty at the end. Refuses a malformed body
-  /// (kInvalidArgument, REQUEST_MALFORMED), a disconnect (kCancelled), and a timeout (kCancelled,
-  /// REQUEST_TIMED_OUT).
+  /// Reads a piece of the body, at most 64 KiB; empty at the end. Errors: kInvalidArgument,
+  /// REQUEST_MALFORMED for a malformed body; kCancelled if the client disconnects; kCancelled,
+  /// REQUEST_TIMED_OUT on timeout.
   [[nodiscard]] Task<Result<std::string>> read_body_piece();
-  /// Reads the whole body. Refuses more than the limit (BODY_TOO_LARGE), at once if Content-Length
-  /// exceeds it.
+  /// Reads the whole body. Returns BODY_TOO_LARGE if it exceeds the limit, immediately if
+  /// Content-Length does.
   [[nodiscard]] Task<Result<std::string>> read_body();
 
-  /// Sends a whole response, without the body for HEAD. Call this or begin_answer() once per
+  /// Sends a complete response, without the body for HEAD. Call this or begin_answer() once per
   /// request.
   [[nodiscard]] Task<bool> send(Response response);
-  /// Begins a response whose body follows by write(), of `length` if known. All three functions
-  /// return false if the client has disconnected.
+  /// Begins a response whose body is sent with write(); `length` is its size, if known. All three
+  /// functions return false if the client has disconnected.
   [[nodiscard]] Task<bool> begin_answer(Response response, std::optional<std::uint64_t> length);
   [[nodiscard]] Task<bool> write(std::string bytes);
   [[nodiscard]] Task<bool> end_answer();
   /// Closes the connection without ending the response, so the client sees that it is incomplete.
   void break_off() { keeps_alive_ = false; }
 
-  /// Reads the rest of the request if it is short; whether another request may follow.
+  /// Reads the rest of the request if it is short. Returns whether another request may follow.
   [[nodiscard]] Task<bool> end_request();
 
-  /// Status of the response; 0: none was begun.
+  /// Returns the status of the response; 0 if none was begun.
   [[nodiscard]] int status() const { return status_; }
   [[nodiscard]] Socket& socket() { return *socket_; }
   [[nodiscard]] const std::shared_ptr<Socket>& shared_socket() const { return socket_; }
@@ -66,7 +66,7 @@ class Exchange {
   int status_ = 0;
   bool keeps_alive_ = true;
   bool is_chunking_ = false;
-  bool was_invited_ = false;  // by 100 Continue, or none was needed
+  bool was_invited_ = false;  // 100 Continue was sent, or the client did not ask for it
 };
 
 }  // namespace hydroprint::http

@@ -21,13 +21,13 @@ class HeaderFields {
   /// Adds a received field; names may repeat.
   void add(std::string name, std::string value);
 
-  /// The first field with this name.
+  /// Returns the first field with this name.
   [[nodiscard]] std::optional<std::string_view> find(std::string_view name) const;
   [[nodiscard]] std::size_t count(std::string_view name) const;
-  /// The elements of a comma-separated field, which may occur several times. The views are valid as
-  /// long as the fields.
+  /// Returns the elements of a comma-separated field, which may occur several times. The views are
+  /// valid as long as the fields.
   [[nodiscard]] std::vector<std::string_view> words(std::string_view name) const;
-  /// Whether a comma-separated field has this element.
+  /// Returns whether a comma-separated field has this element.
   [[nodiscard]] bool lists(std::string_view name, std::string_view word) const;
   [[nodiscard]] const std::vector<HeaderField>& all() const { return fields_; }
 
@@ -35,13 +35,13 @@ class HeaderFields {
   std::vector<HeaderField> fields_;
 };
 
-/// Whether two names are equal, ignoring the case of ASCII letters.
+/// Returns whether two names are equal, ignoring the case of ASCII letters.
 [[nodiscard]] bool same_name(std::string_view a, std::string_view b);
 
-/// The parts of `text` between separators, trimmed, without empty ones.
+/// Splits `text` at separators into trimmed parts; empty parts are dropped.
 [[nodiscard]] std::vector<std::string_view> parts_of(std::string_view text, char separator);
 
-/// Removes blanks and tabs at both ends.
+/// Removes spaces and tabs at both ends.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
 }  // namespace hydroprint::http

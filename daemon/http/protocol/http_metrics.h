@@ -18,7 +18,7 @@ class HttpMetrics {
   /// @param duration  from the request's header to the end of the response
   void observe_duration(const std::string& route, std::chrono::duration<double> duration);
   void count_refused_connection();
-  /// The metrics in Prometheus format.
+  /// Returns the metrics in Prometheus format.
   [[nodiscard]] std::string text(int open_connections) const;
 
  private:

@@ -6,7 +6,7 @@
 
 namespace hydroprint::http {
 
-/// A transport without encryption.
+/// Creates a transport without encryption.
 /// @param socket  non-blocking descriptor
 [[nodiscard]] std::unique_ptr<Transport> plain_transport(int socket);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <boost/beast/http/basic_parser.hpp>
 #include <limits>
-#include <utility>  // Asio 1.74, within Beast, does not include what it needs
+#include <utility>  // Asio 1.74, which Beast uses, does not include what it needs
 #include <vector>
 
 namespace hydroprint::http {
@@ -14,7 +14,8 @@ using beast::error_code;
 
 bool is_chunked(std::string_view coding) { return same_name(coding, "chunked"); }
 
-// Beast treats a body as empty unless its last coding is "chunked".
+// Determines the framing here, because Beast treats a body as empty unless its last coding is
+// "chunked".
 BodyFraming framing_of(const HeaderFields& fields, int version) {
   constexpr std::string_view kCodings = "Transfer-Encoding";
   const std::size_t count = fields.count(kCodings);
@@ -87,7 +88,8 @@ RequestParser::Outcome RequestParser::put(std::string_view bytes, std::size_t& u
   error_code error;
   const bool had_head = has_head();
   used = impl_->parser.put(boost::asio::buffer(bytes.data(), bytes.size()), error);
-  // Beast's own limit stops a header that does not end; a complete header may be slightly longer.
+  // Beast's own limit stops a header that does not end; a complete header may slightly exceed that
+  // limit.
   if (!had_head) impl_->header_bytes += used;
   if (impl_->header_bytes > impl_->header_limit_bytes) return Outcome::kHeaderTooLarge;
   if (!error) return Outcome::kGotOn;

@@ -10,9 +10,9 @@
 
 namespace hydroprint::http {
 
-/// How a request marks the end of its body (RFC 9112, 6.1 and 6.3).
+/// How the end of a request's body is determined (RFC 9112, 6.1 and 6.3).
 enum class BodyFraming {
-  kLength,         ///< by Content-Length; 0 without one
+  kLength,         ///< Content-Length; 0 without one
   kChunked,        ///< Transfer-Encoding: chunked
   kUnknownCoding,  ///< chunked after an unsupported coding, such as gzip
   kFaulty,         ///< any other Transfer-Encoding: the end of the body is unknown
@@ -29,11 +29,11 @@ struct Head {
   std::optional<std::uint64_t> content_length;
   bool expects_continue = false;
 
-  /// Whether the end of the body is known, and so the start of the next request.
+  /// Returns whether the end of the body is known, and with it the start of the next request.
   [[nodiscard]] bool has_known_end() const {
     return framing == BodyFraming::kLength || framing == BodyFraming::kChunked;
   }
-  /// The target without its query.
+  /// Returns the target without its query.
   [[nodiscard]] std::string_view path() const {
     return std::string_view(target).substr(0, target.find('?'));
   }
@@ -48,14 +48,14 @@ class RequestParser {
   RequestParser& operator=(const RequestParser&) = delete;
 
   enum class Outcome { kGotOn, kNeedsMore, kMalformed, kHeaderTooLarge };
-  /// Parses the next bytes; `used` is set to the number consumed. Makes progress by the head or by
-  /// a part of the body.
+  /// Parses the next bytes and sets `used` to the number consumed. Each call completes the head or
+  /// consumes a part of the body.
   [[nodiscard]] Outcome put(std::string_view bytes, std::size_t& used);
   [[nodiscard]] bool has_head() const;
   [[nodiscard]] bool is_done() const;
-  /// The head; call this only if has_head().
+  /// Returns the head. Call this only if has_head() is true.
   [[nodiscard]] const Head& head() const;
-  /// The body bytes parsed since the last call.
+  /// Returns the body bytes parsed since the last call.
   [[nodiscard]] std::string take_body();
 
  private:

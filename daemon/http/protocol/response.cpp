@@ -61,8 +61,9 @@ void line(std::string& text, std::string_view name, std::string_view value) {
 // 204 and 304 have neither a body nor a Content-Length.
 bool may_have_body(int status) { return status != 204 && status != 304; }
 
-// Whether to send Strict-Transport-Security, after which browsers use only TLS for all ports of the
-// name. Other programs may listen on localhost, and browsers ignore the header for addresses.
+// Returns whether to send Strict-Transport-Security, after which browsers use only TLS for all
+// ports of the host name. It is not sent for localhost, where other programs may listen. Browsers
+// ignore it for addresses.
 bool may_be_remembered(const Head& request) {
   const std::string_view host = request.fields.find("Host").value_or("localhost");
   return !same_name(host.substr(0, 9), "localhost");

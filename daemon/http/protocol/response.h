@@ -21,25 +21,26 @@ struct Response {
   [[nodiscard]] const std::string& content() const { return shared_body ? *shared_body : body; }
 };
 
-/// How the body of a response ends.
+/// How the end of a response's body is marked.
 struct Framing {
-  std::optional<std::uint64_t>
-      length;  ///< none: chunked, or until the connection closes for HTTP/1.0
+  /// Nullopt: chunked, or until the connection closes for HTTP/1.0.
+  std::optional<std::uint64_t> length;
   bool keeps_alive = true;
-  bool is_secure = false;  ///< over TLS: tells browsers to use only TLS afterwards
+  bool is_secure = false;  ///< over TLS: instructs browsers to use only TLS afterwards
 };
 
-/// Status line and header fields, including those of every response. They forbid sniffing, framing
-/// and referrers, and caching unless `response` allows it.
+/// Returns the status line and header fields, including the security headers common to all
+/// responses. These forbid MIME sniffing, framing and referrers. Caching is forbidden unless
+/// `response` sets Cache-Control.
 [[nodiscard]] std::string head_text(const Response& response, const Head& request,
                                     const Framing& framing);
 
-/// A response with type application/json.
+/// Returns a response with type application/json.
 [[nodiscard]] Response json_response(int status, std::string json);
-/// A response with type text/plain.
+/// Returns a response with type text/plain.
 [[nodiscard]] Response text_response(int status, std::string text);
 
-/// An error as google.rpc.Status JSON; the HTTP status follows from the code unless given.
+/// Converts an error to google.rpc.Status JSON; the HTTP status follows from the code unless given.
 [[nodiscard]] Response refusal(const Error& error, std::optional<int> status = {});
 
 }  // namespace hydroprint::http

@@ -13,12 +13,12 @@ namespace hydroprint::http {
 
 using std::chrono::milliseconds;
 
-/// The bytes of one connection, with or without TLS. All functions and callbacks run on the
+/// A connection that transfers bytes, with or without TLS. All functions and callbacks run on the
 /// connection's strand, except post(), which is thread-safe. Each callback is called exactly once,
-/// and never before the function returned. Buffers must stay valid until then.
+/// and never before the function has returned. Buffers must stay valid until then.
 class Socket {
  public:
-  /// Result of a read; no bytes at the peer's end, after an error or on timeout.
+  /// Result of a read. `bytes` is 0 at the peer's end, after an error or on timeout.
   struct Got {
     std::size_t bytes = 0;
     bool timed_out = false;
@@ -33,9 +33,9 @@ class Socket {
 
   virtual ~Socket() = default;
 
-  /// Performs the TLS handshake, if TLS is used; call this first.
+  /// Performs the TLS handshake, if TLS is used. Must be called first.
   virtual void open(milliseconds timeout, std::function<void(Opened)> done) = 0;
-  /// Waits until data or the end arrives; false on timeout.
+  /// Waits until data or the end of the stream arrives; false on timeout.
   virtual void when_readable(milliseconds timeout, std::function<void(bool)> done) = 0;
   virtual void read_some(char* into, std::size_t size, milliseconds timeout,
                          std::function<void(Got)> done) = 0;
@@ -43,11 +43,11 @@ class Socket {
   virtual void write(std::string_view bytes, milliseconds timeout,
                      std::function<void(bool)> done) = 0;
 
-  /// Waits for ring(); false on timeout. One earlier ring is remembered.
+  /// Waits for ring(); false on timeout. One earlier ring() is remembered.
   virtual void wait(milliseconds timeout, std::function<void(bool)> done) = 0;
   virtual void ring() = 0;
-  /// Calls `gone` once if the peer disconnects or close() is called before unwatch(). A disconnect
-  /// behind unread bytes is not noticed. Nothing may be read meanwhile.
+  /// Calls `gone` once if the peer disconnects or close() is called before unwatch(). Does not
+  /// notice a disconnect behind unread bytes. Must not be combined with reads.
   virtual void watch(std::function<void()> gone) = 0;
   /// Must not be called during a write.
   virtual void unwatch() = 0;
@@ -58,11 +58,11 @@ class Socket {
   virtual void close() = 0;
   [[nodiscard]] virtual bool is_closed() const = 0;
 
-  /// Runs `work` on the strand soon.
+  /// Schedules `work` on the strand.
   virtual void post(std::function<void()> work) = 0;
-  /// Address of the peer: "127.0.0.1:40312".
+  /// Returns the address of the peer: "127.0.0.1:40312".
   [[nodiscard]] virtual const std::string& peer() const = 0;
-  /// Whether the connection is encrypted.
+  /// Returns whether the connection is encrypted.
   [[nodiscard]] virtual bool is_secure() const = 0;
 
   // The same functions as awaitables.

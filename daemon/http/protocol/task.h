@@ -8,7 +8,7 @@
 
 namespace hydroprint::http {
 
-/// The coroutine that waits for a task, and the task's exception.
+/// Stores the coroutine that awaits a task, and the task's exception.
 class TaskPromiseBase {
  public:
   std::coroutine_handle<> waiting = std::noop_coroutine();
@@ -40,9 +40,8 @@ struct TaskResult<void> {
   void take() const noexcept {}
 };
 
-/// A coroutine that starts when it is awaited, and is awaited once. It resumes wherever the awaited
-/// operation calls back: here, on the strand of its connection.
-///
+/// A lazy coroutine that can be awaited once. It resumes where the awaited operation completes; in
+/// this server that is the connection's strand.
 /// GCC 12 destroys the result of `?:` within a co_await twice: store it in a variable first.
 template <class T = void>
 class [[nodiscard]] Task {
@@ -76,7 +75,7 @@ class [[nodiscard]] Task {
 };
 
 /// Awaits a callback: `co_await Awaiting<T>{[&](auto done) { socket.read(..., done); }}`. The
-/// callback must come later, never from within the start.
+/// callback must not run before `start` has returned.
 template <class T>
 class Awaiting {
  public:
@@ -99,7 +98,7 @@ class Awaiting {
   std::optional<T> value_;
 };
 
-/// A coroutine that nobody awaits. An exception ends the program.
+/// A coroutine that is not awaited. An exception ends the program.
 struct Detached {
   struct promise_type {
     Detached get_return_object() noexcept { return {}; }

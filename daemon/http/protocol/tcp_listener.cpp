@@ -43,8 +43,8 @@ std::string text_of(const tcp::endpoint& endpoint) {
                                     : fmt::format("{}:{}", host, endpoint.port());
 }
 
-// A transport is not used after the socket is closed, since its descriptor may then belong to
-// another connection.
+// A transport must not be used after the socket is closed, because its descriptor may then belong
+// to another connection.
 class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSocket> {
  public:
   TcpSocket(StrandSocket socket, const std::shared_ptr<const tls::Identity>& identity)
@@ -215,7 +215,7 @@ class TcpSocket final : public Socket, public std::enable_shared_from_this<TcpSo
 
   StrandSocket socket_;
   std::unique_ptr<Transport> transport_;
-  StrandTimer deadline_;  // for reading or writing
+  StrandTimer deadline_;  // timeout for reading or writing
   StrandTimer wake_timer_;
   std::string peer_;
   std::function<void()> gone_;
@@ -231,7 +231,7 @@ struct TcpListener::Impl {
   asio::executor_work_guard<asio::io_context::executor_type> work{context.get_executor()};
   asio::executor_work_guard<asio::io_context::executor_type> waiting_work{
       waiting_context.get_executor()};
-  Strand strand{context.get_executor()};  // the listener's
+  Strand strand{context.get_executor()};  // strand of the listener
   asio::basic_socket_acceptor<tcp, Strand> acceptor{strand};
   StrandTimer nap{strand};
   Accepted accepted;
@@ -243,7 +243,7 @@ struct TcpListener::Impl {
     const tcp::endpoint endpoint(asio::ip::make_address(host, error),
                                  static_cast<unsigned short>(port));
     if (!error) acceptor.open(endpoint.protocol(), error);
-    // Allows a port that was in use a moment ago; a port with a listener is still refused.
+    // Allows a port that was in use a moment ago, but not one on which another program listens.
     if (!error) acceptor.set_option(tcp::acceptor::reuse_address(true), error);
     if (!error) acceptor.bind(endpoint, error);
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
@@ -274,7 +274,7 @@ struct TcpListener::Impl {
                               take(std::move(socket));
                               return accept();
                             }
-                            // No descriptor is free until another connection ends.
+                            // Waits, because no descriptor is free until another connection ends.
                             nap.expires_after(kNapWithoutDescriptors);
                             nap.async_wait([this](error_code ended) {
                               if (!ended && acceptor.is_open()) accept();

@@ -10,16 +10,16 @@
 
 namespace hydroprint::http {
 
-/// The listening socket, two threads that run all connections, and a third thread for work that may
-/// block (the store's disk).
+/// Owns the listening socket, two threads that run all connections, and a third thread for work
+/// that may block (disk access of the store).
 class TcpListener {
  public:
-  /// Called with each connection, on its strand.
+  /// Called for each connection, on its strand.
   using Accepted = std::function<void(std::shared_ptr<Socket>)>;
 
   /// Binds the address; connections are accepted after start().
-  /// @param port  0: any
-  /// @param identity  TLS certificate and key; none: no TLS
+  /// @param port      0: any
+  /// @param identity  TLS certificate and key; null: no TLS
   /// @return kUnavailable if the address cannot be bound, usually because another program uses it
   [[nodiscard]] static Result<std::unique_ptr<TcpListener>> listen(const std::string& host,
                                                                    int port,

@@ -14,8 +14,8 @@ namespace {
 
 using Came = Step::Came;
 
-// A BIO that uses send() without SIGPIPE. OpenSSL's own would end the program when a client
-// disconnects.
+// Returns the functions below implement a BIO that uses send() without SIGPIPE, because the signal
+// from OpenSSL's own BIO would end the program when a client disconnects.
 int socket_of(BIO* bio) {
   return static_cast<int>(reinterpret_cast<std::intptr_t>(BIO_get_data(bio)));
 }

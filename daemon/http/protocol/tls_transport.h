@@ -7,7 +7,7 @@
 
 namespace hydroprint::http {
 
-/// A transport with TLS, as the server.
+/// Creates a transport with TLS, for the server side.
 /// @param socket  non-blocking descriptor
 /// @return null if memory is exhausted
 [[nodiscard]] std::unique_ptr<Transport> tls_transport(

@@ -24,17 +24,17 @@ class Transport {
  public:
   virtual ~Transport() = default;
 
-  /// Performs the handshake; call this first, until it is done.
+  /// Performs the handshake. Must be called first, and repeated until it returns kDone.
   virtual Step open() = 0;
-  /// Reads some bytes; kDone if there were any.
+  /// Reads available bytes; kDone if there were any.
   virtual Step read(char* into, std::size_t size) = 0;
   /// Writes as many bytes as possible; kDone with their number.
   virtual Step write(std::string_view bytes) = 0;
-  /// kDone if there is something to read; consumes nothing.
+  /// Returns kDone if there is something to read. Consumes nothing.
   virtual Step look() = 0;
-  /// Whether decrypted data is buffered, so the socket may not become readable.
+  /// Returns whether decrypted data is buffered. In that case the socket may not become readable.
   [[nodiscard]] virtual bool has_some() const = 0;
-  /// Tells the peer that no more data follows.
+  /// Sends the peer the end of the stream.
   virtual void end() = 0;
   [[nodiscard]] virtual bool is_secure() const = 0;
 };

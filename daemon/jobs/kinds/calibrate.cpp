@@ -14,7 +14,8 @@ namespace {
 constexpr std::size_t kLargestCalibration = 4 << 20;
 constexpr const char* kLens = "camera.json";
 
-/// The lens calibration that a spec names, otherwise the active one; nullopt if there is none.
+/// Returns the lens calibration named in a spec, otherwise the active one; nullopt if there is
+/// none.
 Result<std::optional<Calibration>> lens_of(const v1::CalibrateSpec& spec,
                                            CalibrationStore& calibrations) {
   if (spec.camera_calibration().empty()) return calibrations.active(CalibrationKind::kCamera);
@@ -62,9 +63,9 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
   }
 
  private:
-  /// Frames come from the capture job, if one is named. Fields that are not given come from other
-  /// sources: layout from the configuration, lens from the active calibration of the camera,
-  /// gripper height from the capture.
+  /// If a capture job is named, the frames are taken from it. Missing fields are taken from other
+  /// sources: layout from the configuration, lens from the active camera calibration, gripper
+  /// height from the capture.
   [[nodiscard]] Status resolve_spec(v1::CalibrateSpec& shown, v1::CalibrateSpec& resolved,
                                     const JobSources& sources) const override {
     if (!shown.capture_job().empty()) {
@@ -92,7 +93,7 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
     if (sources.camera.layout.empty()) {
       return invalid_field(
           "calibrate.layout",
-          "is missing, and the daemon's configuration has no camera.layout; give one");
+          "is missing, and the daemon's configuration has no camera.layout; specify one");
     }
     HP_ASSIGN_OR_RETURN(const std::string text, read_layout_text(sources.camera));
     HP_ASSIGN_OR_RETURN(*spec.mutable_layout(), adopt_text(text, "rig/layout.toml", sources));
@@ -112,7 +113,7 @@ class CalibrateKind final : public KindOf<v1::CalibrateSpec> {
     return {};
   }
 
-  /// Sets the gripper height, if the configuration and the capture give it.
+  /// Sets the gripper height, if the configuration and the capture determine it.
   [[nodiscard]] static Status take_gripper(v1::CalibrateSpec& spec, const JobSources& sources) {
     const auto& gripper_water_mm = sources.camera.gripper_water_mm;
     if (spec.has_gripper_mm() || spec.capture_job().empty() || !gripper_water_mm) return {};

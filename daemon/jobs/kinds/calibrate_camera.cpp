@@ -44,7 +44,7 @@ class CalibrateCameraKind final : public KindOf<v1::CalibrateCameraSpec> {
   }
 
  private:
-  /// Frames come from the capture jobs, if any are named.
+  /// If capture jobs are named, the frames are taken from them.
   [[nodiscard]] Status resolve_spec(v1::CalibrateCameraSpec& shown,
                                     v1::CalibrateCameraSpec& resolved,
                                     const JobSources& sources) const override {

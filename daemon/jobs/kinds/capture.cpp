@@ -1,4 +1,4 @@
-// Takes depth frames with the camera above the vat.
+// Captures depth frames with the camera above the vat.
 #include "daemon/jobs/kind.h"
 #include "hydroprint/v1/spec.pb.h"
 

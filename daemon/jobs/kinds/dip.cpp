@@ -24,7 +24,7 @@ class DipKind final : public KindOf<v1::DipSpec> {
   }
 
  private:
-  /// A dip without a calibration uses that of its simulation.
+  /// A dip without a calibration uses the calibration of its simulation.
   [[nodiscard]] Status resolve_spec(v1::DipSpec& shown, v1::DipSpec& resolved,
                                     const JobSources& sources) const override {
     std::string simulated;

@@ -1,4 +1,4 @@
-// Predicts the colours on the object from a film image as printed.
+// Predicts the colours on the object from a printed film image.
 #include "daemon/jobs/kind.h"
 #include "daemon/jobs/spec_fields.h"
 

@@ -9,12 +9,12 @@ namespace hydroprint::daemon {
 namespace {
 
 constexpr const char* kFilmImage = "film.png";
-constexpr double kDefaultDpi =
-    300;  // as in the worker, for simulations whose spec has no resolution
+// The worker's default, for simulations whose spec has no resolution.
+constexpr double kDefaultDpi = 300;
 
 class PrintImageKind final : public KindOf<v1::PrintImageSpec> {
  private:
-  /// The film image, the film and the resolution come from the simulate job, if one is named.
+  /// If a simulate job is named, film image, film and resolution are taken from it.
   [[nodiscard]] Status resolve_spec(v1::PrintImageSpec& shown, v1::PrintImageSpec& resolved,
                                     const JobSources& sources) const override {
     if (shown.simulate_job().empty()) return {};
@@ -38,7 +38,7 @@ class PrintImageKind final : public KindOf<v1::PrintImageSpec> {
       return fail(Code::kFailedPrecondition,
                   job_name(id) + " has no film.png; simulate with all artifacts", "STATE_FORBIDS");
     }
-    // A separate folder keeps it apart from the simulation's files.
+    // A separate folder prevents collisions with the simulation's files.
     HP_ASSIGN_OR_RETURN(*spec.mutable_film_image(),
                         adopt_artifact(id, *image, std::string("image/") + kFilmImage, sources));
     take_film(simulation.spec, spec);

@@ -9,7 +9,7 @@ namespace {
 
 class SimulateKind final : public KindOf<v1::SimulateSpec> {
  private:
-  /// Pose, scale and film come from the calibration, if one is named.
+  /// If a calibration is named, pose, scale and film are taken from it.
   [[nodiscard]] Status resolve_spec(v1::SimulateSpec& shown, v1::SimulateSpec& resolved,
                                     const JobSources& sources) const override {
     if (!shown.calibration().empty()) HP_RETURN_IF_ERROR(take_calibration(shown, sources));

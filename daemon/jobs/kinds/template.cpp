@@ -8,7 +8,7 @@ namespace {
 
 class TemplateKind final : public KindOf<v1::TemplateSpec> {
  private:
-  /// The object, its pose and the film come from the simulate job, if one is named.
+  /// If a simulate job is named, the object, its pose and the film are taken from it.
   [[nodiscard]] Status resolve_spec(v1::TemplateSpec& shown, v1::TemplateSpec& resolved,
                                     const JobSources& sources) const override {
     if (shown.simulate_job().empty()) return {};

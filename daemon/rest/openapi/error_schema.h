@@ -6,7 +6,7 @@
 
 namespace hydroprint::rest {
 
-/// Schema of the JSON that error_answer() writes. Adds ErrorReason to `schemas`.
+/// Returns the schema of the JSON that error_answer() writes. Adds ErrorReason to `schemas`.
 [[nodiscard]] nlohmann::ordered_json error_schema(Schemas& schemas);
 
 }  // namespace hydroprint::rest

@@ -85,7 +85,7 @@ OtherRoute download(const std::string& http_method) {
                   {304, "The file has the ETag in If-None-Match.", "", "", {}}}};
 }
 
-// A route without parameters and with one kind of answer.
+// Returns a route without parameters and with one kind of answer.
 OtherRoute plain_get(std::string path, std::string operation, const std::string& summary,
                      std::string description, std::string content_type) {
   return {.http_method = "GET",

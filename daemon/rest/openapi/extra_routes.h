@@ -14,7 +14,7 @@ struct OtherParameter {
   std::string description;
 };
 
-/// One possible answer of a route.
+/// One possible response of a route.
 struct OtherAnswer {
   int status = 200;
   std::string description;
@@ -33,12 +33,12 @@ struct OtherRoute {
   std::string summary;
   std::string description;
   std::vector<OtherParameter> parameters;
-  std::string content_type;  ///< of the request's body; empty: no body
+  std::string content_type;  ///< type of the request's body; empty: no body
   std::vector<OtherAnswer> answers;
   bool is_open = false;  ///< needs no authentication
 };
 
-/// All such routes, sorted by path.
+/// Returns all such routes, sorted by path.
 [[nodiscard]] const std::vector<OtherRoute>& other_routes();
 
 }  // namespace hydroprint::rest

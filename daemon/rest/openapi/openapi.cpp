@@ -24,7 +24,7 @@ namespace {
 namespace pb = google::protobuf;
 using Json = nlohmann::ordered_json;
 
-// A path as the document shows it: "/jobs/{job}/artifacts/{artifact}". OpenAPI allows only
+// A path in the notation of the document: "/jobs/{job}/artifacts/{artifact}". OpenAPI allows only
 // parameters of one segment; each is named after the literal before it.
 struct ShownPath {
   std::string text;

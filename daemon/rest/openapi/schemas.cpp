@@ -34,7 +34,7 @@ bool is_oneof_member(const pb::FieldDescriptor& field) {
   return field.real_containing_oneof() != nullptr;
 }
 
-// Whether answers always contain the field.
+// Returns whether answers always contain the field.
 bool is_always_there(const pb::FieldDescriptor& field) {
   return field.is_repeated() || !field.has_presence();
 }
@@ -62,7 +62,7 @@ bool differs(const pb::Descriptor& message, std::set<const pb::Descriptor*>& see
 
 Json string_of(const char* format) { return {{"type", "string"}, {"format", format}}; }
 
-// Schemas of Timestamp and the other well-known types, as JSON writes them.
+// Returns the schemas of Timestamp and the other well-known types in their JSON form.
 Json of_well_known(const pb::Descriptor& type) {
   static const std::map<std::string, Json> kSchemas = {
       {"Timestamp", string_of("date-time")},
@@ -117,7 +117,7 @@ Json number_of(double value) {
   return value;
 }
 
-// A value that the rules write as text, converted to the field's JSON type; null if it is the name
+// Converts a value that the rules contain as text to the field's JSON type; null if it is the name
 // of a value ("full").
 Json value_in(const pb::FieldDescriptor& field, const std::string& text) {
   if (text.empty()) return nullptr;
@@ -136,7 +136,7 @@ Json value_in(const pb::FieldDescriptor& field, const std::string& text) {
   }
 }
 
-// Adds the rules for one value of the field, if sent: ranges, lengths, choices.
+// Adds the rules for a value of the field in requests: ranges, lengths, choices.
 void add_limits(const v1::FieldRules& rules, Json& schema) {
   const bool is_number =
       schema.value("type", "") == "number" || schema.value("type", "") == "integer";
@@ -144,7 +144,8 @@ void add_limits(const v1::FieldRules& rules, Json& schema) {
   if (is_number && rules.has_min()) schema["minimum"] = number_of(rules.min());
   if (is_number && rules.above_min()) schema["exclusiveMinimum"] = true;
   if (is_number && rules.has_max()) schema["maximum"] = number_of(rules.max());
-  // JSON schema counts characters, the rule bytes of UTF-8: longer text is refused either way.
+  // JSON Schema counts characters, the rule counts UTF-8 bytes. Longer text is rejected in either
+  // case.
   if (is_text && rules.max_bytes() > 0) {
     schema["maxLength"] = rules.max_bytes();
     schema["x-max-bytes"] = rules.max_bytes();
@@ -170,7 +171,7 @@ void add_field_rules(const pb::FieldDescriptor& field, Way way, Json& schema) {
   }
 }
 
-// Sentences about the oneofs: "At most one of a, b is set (spec: what to do)."
+// Returns sentences about the oneofs: "At most one of a, b is set (spec: what to do)."
 std::string oneofs_of(const pb::Descriptor& message) {
   std::string text;
   for (int i = 0; i < message.real_oneof_decl_count(); ++i) {

@@ -15,12 +15,12 @@ struct AssetUser {
   bool is_operator = false;  ///< operators may use all assets
 };
 
-/// Whether a user may use the bytes with that hash. Operators may, users who uploaded them, and
-/// users who can see a job that uses them (their own or a shared one).
+/// Returns whether a user may use the bytes with that hash. Operators may, as may users who
+/// uploaded them or who can see a job that uses them (their own or a shared one).
 [[nodiscard]] Result<bool> may_use(Database& database, const std::string& sha256,
                                    const AssetUser& user);
 
-/// Refuses (kFailedPrecondition, ASSET_MISSING) input files that a user may not use. The error is
+/// Returns kFailedPrecondition, ASSET_MISSING for input files that a user may not use. The error is
 /// the same if the file does not exist.
 [[nodiscard]] Status check_may_use(Database& database, const std::vector<InputFile>& inputs,
                                    const AssetUser& user);
@@ -29,7 +29,7 @@ struct AssetUser {
 [[nodiscard]] Result<std::vector<std::string>> owners_of(Database& database,
                                                          const std::string& sha256);
 
-/// Adds an owner; no error if they already own it.
+/// Adds an owner; no error if they are one already.
 [[nodiscard]] Status add_owner(Database& database, const std::string& sha256,
                                const std::string& owner, std::int64_t now_ms);
 

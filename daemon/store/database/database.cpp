@@ -16,7 +16,8 @@ using Statement = std::unique_ptr<sqlite3_stmt, CloseStatement>;
 
 sqlite3_stmt* as_statement(void* statement) { return static_cast<sqlite3_stmt*>(statement); }
 
-// SQLite reports "full" if a write finds no space, but not if extending or syncing a file fails.
+// Returns whether the disk is full. SQLite reports "full" if a write finds no space, but not if
+// extending or syncing a file fails.
 bool disk_is_full(sqlite3* db) {
   const int code = sqlite3_errcode(db), error = sqlite3_system_errno(db);
   return code == SQLITE_FULL || ((code == SQLITE_IOERR || code == SQLITE_CANTOPEN) &&
@@ -35,14 +36,15 @@ tl::unexpected<Error> database_failure(sqlite3* db) {
               "STORE_FAILED");
 }
 
-// Copies the write-ahead log to the database, so that the log restarts and has space without
-// growing. A change that found the disk full may then succeed. A failure does no harm.
+// Copies the write-ahead log to the database, so that the log starts again and does not need to
+// grow. A change that failed because the disk was full may then succeed. If this fails, it does no
+// harm.
 void empty_log(sqlite3* db) {
   sqlite3_wal_checkpoint_v2(db, nullptr, SQLITE_CHECKPOINT_RESTART, nullptr, nullptr);
 }
 
 // Reserves empty pages in the file and space in its log. They are needed to store the end of a job
-// when the disk is full. A failure does no harm.
+// when the disk is full. If this fails, it does no harm.
 void keep_room(sqlite3* db) {
   sqlite3_exec(db,
                "BEGIN IMMEDIATE; CREATE TABLE kept_room(bytes BLOB); "

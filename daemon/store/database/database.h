@@ -29,11 +29,11 @@ class DbRow {
   void* statement_;
 };
 
-/// One SQLite file, in WAL mode and synchronous=FULL: a transaction is on disk when it returns.
+/// An SQLite file, in WAL mode and synchronous=FULL: a transaction is on disk when it returns.
 /// Thread-safe; calls run one at a time, and a transaction counts as one call.
 class Database {
  public:
-  /// Opens or creates the file and runs `schema` (statements that may be repeated).
+  /// Opens or creates the file and runs `schema` (statements that can be run repeatedly).
   /// @return kInternal, STORE_FAILED if the file is not a database or cannot be used
   [[nodiscard]] static Result<std::unique_ptr<Database>> open(const std::filesystem::path& path,
                                                               const char* schema);
@@ -52,9 +52,9 @@ class Database {
   /// Runs `body` as one transaction; an error rolls all of it back.
   [[nodiscard]] Status transaction(const std::function<Status()>& body);
 
-  /// Key of the last inserted row; only within a transaction.
+  /// Returns the key of the last inserted row; only within a transaction.
   [[nodiscard]] std::int64_t last_id() const;
-  /// Number of rows that the last statement changed; only within a transaction.
+  /// Returns the number of rows that the last statement changed; only within a transaction.
   [[nodiscard]] std::int64_t changes() const;
 
  private:

@@ -23,7 +23,7 @@ Status write(Database& database, const char* name, std::int64_t value) {
                       {name, std::to_string(value)});
 }
 
-/// The jump in a step of the clock; 0 if the step is plausible as elapsed time.
+/// Returns the jump in a step of the clock; 0 if the step is plausible as elapsed time.
 std::int64_t jump_in(std::int64_t step_ms) {
   return step_ms < 0 || step_ms > kDay_ms ? step_ms : 0;
 }

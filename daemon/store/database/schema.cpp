@@ -35,8 +35,8 @@ const std::vector<Migration>& migrations() {
         "object TEXT NOT NULL, outcome TEXT NOT NULL, detail TEXT NOT NULL)",
         "CREATE INDEX audit_by_time ON audit(time_ms)",
         "ALTER TABLE jobs ADD COLUMN shared INTEGER NOT NULL DEFAULT 0"}},
-      // Quotas and retention. Assets used by a job become its owner's; all assets count as used
-      // now. Retention of a finished job starts at `keep_from_ms`.
+      // Version 3: quotas and retention. Assets used by a job become its owner's; all assets count
+      // as used now. Retention of a finished job starts at `keep_from_ms`.
       {3,
        {"CREATE TABLE asset_owners(owner TEXT NOT NULL, "
         "sha256 TEXT NOT NULL REFERENCES assets(sha256) ON DELETE CASCADE, "
@@ -52,8 +52,8 @@ const std::vector<Migration>& migrations() {
         "UPDATE jobs SET keep_from_ms=end_ms", "CREATE INDEX jobs_by_owner ON jobs(owner)",
         "CREATE TABLE former_users(name TEXT PRIMARY KEY, delete_ms INTEGER NOT NULL) "
         "WITHOUT ROWID"}},
-      // The spec of a job is stored as JSON; earlier jobs keep their flags. Properties of the kind
-      // are columns of the row.
+      // Version 4: the spec of a job is stored as JSON; earlier jobs keep their flags. Properties
+      // of the kind are columns of the row.
       {4,
        {"ALTER TABLE jobs ADD COLUMN spec TEXT NOT NULL DEFAULT ''",
         "ALTER TABLE jobs ADD COLUMN computed INTEGER NOT NULL DEFAULT 1",

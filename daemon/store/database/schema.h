@@ -13,15 +13,15 @@ namespace hydroprint::daemon {
 
 /// Opens a store of this version without changing it, for programs that run beside the daemon.
 /// @return kFailedPrecondition: STORE_TOO_NEW, or without a reason for a store of an earlier
-/// version
+///         version
 [[nodiscard]] Result<std::unique_ptr<Database>> open_store_as_it_is(
     const std::filesystem::path& path);
 
-/// Tables of the store in version 1; schema.cpp has the later changes. `jobs.flags` holds one flag
+/// Tables of the store in version 1; schema.cpp has the later changes. `jobs.flags` has one flag
 /// per line; `jobs.body`, `dips.status` and `calibrations.body` are serialised messages.
-/// `losses.count` is how often the daemon was lost while the job ran. `lease` has at most one row.
-/// `calibrations.job` is 0 for an entry by hand. `captures` outlive their jobs, since calibrations
-/// do.
+/// `losses.count` is the number of times that the daemon was lost while the job ran. `lease` has at
+/// most one row. `calibrations.job` is 0 for a manual entry. `captures` outlive their jobs, because
+/// calibrations do.
 inline constexpr const char* kSchema = R"sql(
 CREATE TABLE IF NOT EXISTS settings(name TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID;
 INSERT OR IGNORE INTO settings VALUES ('schema', '1');

@@ -32,7 +32,8 @@ struct Lens {
   double depth_scale = 1;
 };
 
-/// Draws a camera that differs from the manufacturer's values as much as published calibrations do.
+/// Draws the lens of a random camera. It deviates from the manufacturer's values as much as
+/// published calibrations do.
 [[nodiscard]] Lens drawn_lens(std::uint64_t seed);
 
 /// Returns the pixel of a direction (x, y, 1).

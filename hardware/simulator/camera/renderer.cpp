@@ -81,7 +81,7 @@ bool add(RTCDevice device, RTCScene tree, const simulated_scene::Mesh& mesh) {
 struct Renderer::Rays {
   simulated_scene::Scenery scenery;
   Lens lens;
-  std::vector<Eigen::Vector2f> directions;  // of the pixels, z = 1
+  std::vector<Eigen::Vector2f> directions;  // directions of the pixels, z = 1
   Device device;
   Tree hanging;                   // G
   Tree all;                       // F
@@ -184,7 +184,8 @@ void aim(Packet& packet, const Eigen::Vector2f* directions, const Eigen::Isometr
   }
 }
 
-/// Whether a ray has hit a surface at a sufficient angle. `turn`: orientation of the hanging body.
+/// Returns whether a ray has hit a surface at a sufficient angle. `turn`: orientation of the
+/// hanging body.
 bool faces(const Packet& packet, int i, const Eigen::Matrix3f& turn) {
   const auto& hit = packet.rays.hit;
   if (hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) return false;

@@ -9,8 +9,9 @@
 
 namespace hydroprint::simulated_camera {
 
-/// Renders a scene with one camera: Embree traces rays, then lens and sensor errors are applied.
-/// The result depends only on the arguments. Not thread-safe; uses two threads itself.
+/// Renders a scene from the view of one camera: traces rays with Embree, then applies lens and
+/// sensor errors. The result depends only on the arguments. Not thread-safe; uses two threads
+/// itself.
 class Renderer {
  public:
   /// Returns kInternal if Embree fails.
@@ -20,14 +21,14 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  /// Renders depths without errors, from a pose X_FC (simulated_scene::camera_pose). A depth is 0
-  /// where nothing is hit, or where the surface is seen at less than 10 degrees (Nguyen et al.
-  /// 2012: no measurements there).
+  /// Renders depths without errors from a pose X_FC (simulated_scene::camera_pose). A depth is 0
+  /// where nothing is hit, or where the angle between ray and surface is less than 10 degrees
+  /// (Nguyen et al. 2012: no measurements there).
   /// @param lit  only where the projector's light arrives as well
   [[nodiscard]] Depths look(const simulated_scene::Sight& sight, const Pose& X_FC, bool lit = true);
 
   /// Renders a frame of the scenery's own camera at its pose for that time, with all of its errors
-  /// (or none, if it has none). Accepts a sight whose camera is frozen, black or gone.
+  /// (or none, if it has none). Ignores whether the camera is frozen, black or gone in the sight.
   [[nodiscard]] Frame photograph(const simulated_scene::Sight& sight);
 
  private:

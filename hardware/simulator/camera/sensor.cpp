@@ -11,7 +11,8 @@ namespace {
 /// pixels, Konolige and Mihelich 2011) sees two surfaces there, and about half of the pixels have
 /// no measurement.
 constexpr float kEdgeJump = 0.02F;
-constexpr std::uint64_t kMissing = 0x80000000U;  ///< of 2^32
+constexpr std::uint64_t kMissing =
+    0x80000000U;  ///< probability of a missing pixel, in units of 2^-32
 
 /// Mixes the bits of a word (the finaliser of Steele, Lea and Flood's SplitMix, 2014).
 std::uint64_t mixed(std::uint64_t x) {

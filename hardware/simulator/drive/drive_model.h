@@ -11,14 +11,16 @@ namespace hydroprint::simulated_drive {
 enum class WatchdogAction { kNothing, kStop };
 
 /// The axis and the settings of its drive. World coordinate: 0 at the edge of the home switch,
-/// which is pressed above (x <= 0); positive is down.
+/// which is pressed at x <= 0; positive is down.
 struct Machine {
   double travel_mm = 300;
-  double end_switches_beyond_mm = 5;  ///< distance of the limit switches above 0 and below `travel`
-  double hard_stops_beyond_mm = 8;    ///< the carriage stops there
+  /// Distance of the limit switches from the ends of the travel.
+  double end_switches_beyond_mm = 5;
+  double hard_stops_beyond_mm = 8;  ///< the carriage stops there
   double max_speed_mm_per_s = 20;
   double acceleration_mm_per_s2 = 200;
-  double stopping_deceleration_mm_per_s2 = 200;  ///< of stop, watchdog, alarms and the brake
+  /// Deceleration of stop, watchdog, alarms and the brake.
+  double stopping_deceleration_mm_per_s2 = 200;
   double homing_speed_mm_per_s = 10;
   double back_off_speed_mm_per_s = 1;
   double largest_following_error_mm = 1;
@@ -60,7 +62,7 @@ enum class Mode {
   kStopToOff,
 };
 
-/// The complete variable state.
+/// The complete variable state of the drive.
 struct Model {
   double time_s = 0;
   Mode mode = Mode::kOff;
@@ -79,33 +81,33 @@ struct Model {
   [[nodiscard]] bool moving() const { return mode != Mode::kOff && mode != Mode::kHold; }
 };
 
-/// A drive that has just been switched on, its carriage at rest at `x_mm`.
+/// Returns a drive that has just been switched on, with its carriage at rest at `x_mm`.
 [[nodiscard]] Model switched_on(double x_mm);
 
-/// States of the switches, pressed by the carriage or by `inputs`.
+/// Return the states of the switches, which the carriage or `inputs` press.
 [[nodiscard]] bool at_home_switch(const Model& model);
 [[nodiscard]] bool at_positive_end(const Machine& machine, const Model& model,
                                    const Inputs& inputs);
 [[nodiscard]] bool at_negative_end(const Machine& machine, const Model& model,
                                    const Inputs& inputs);
 
-/// Position and velocity as the drive reports them, relative to its zero.
+/// Returns position and velocity as reported by the drive, relative to its zero.
 [[nodiscard]] Kinematics told(const Model& model, const Inputs& inputs);
 
-/// Advances the drive by `dt_s`. Motion is exact; switches, watchdog and dead-man timer are checked
-/// every millisecond, as in a drive.
+/// Advances the drive by `dt_s`. Motion is computed exactly; switches, watchdog and dead-man timer
+/// are checked every millisecond, as in a real drive.
 [[nodiscard]] Model step(const Machine& machine, Model model, const Inputs& inputs, double dt_s);
 
-/// A decoded command; fields that it does not use are 0.
+/// A decoded command; unused fields are 0.
 struct Order {
   drive::Command command = drive::Command::kStop;
   double position_mm = 0;
   double speed_mm_per_s = 0;
-  double acceleration_mm_per_s2 = 0;  ///< 0: the machine's
+  double acceleration_mm_per_s2 = 0;  ///< 0: the default of the machine
 };
 
-/// Executes an order; nullopt if the state forbids it (alarm, stop button, not enabled, motion into
-/// a pressed limit switch). A move replaces a move in progress.
+/// Executes an order; returns nullopt if the state forbids it (alarm, stop button, not enabled,
+/// motion into a pressed limit switch). A move replaces a move in progress.
 [[nodiscard]] std::optional<Model> obey(const Machine& machine, Model model, const Inputs& inputs,
                                         const Order& order);
 

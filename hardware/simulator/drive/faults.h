@@ -11,16 +11,16 @@
 
 namespace hydroprint::simulated_drive {
 
-/// A fault of one reply.
+/// A fault in a reply.
 enum class ReplyFaultKind {
   kNone,
   kLate,           ///< arrives `delay` later
   kDrop,           ///< never arrives
   kTruncate,       ///< only half arrives
-  kWrongId,        ///< of another unit
-  kWrongFunction,  ///< of another function
+  kWrongId,        ///< reply of another unit
+  kWrongFunction,  ///< reply of another function
   kWrongCrc,       ///< RTU: checksum; TCP: transaction id
-  kWrongLength,    ///< well framed, but a word short; of a write: confirms another value
+  kWrongLength,    ///< correctly framed, but a word short; for a write: confirms another value
   kBusy,           ///< exception 6; the request has no effect
   kDeaf,           ///< the drive does not receive the request
 };
@@ -45,10 +45,10 @@ struct Action {
     kCamera,  ///< becomes `camera`
     kMarker,  ///< the marker `name` becomes `marker`
     kPush,    ///< moves the marker `name` by `push_mm`
-    kHang,    ///< sets the object's pose from the file `name`, or replaces it by `mesh`
+    kHang,    ///< sets the object's pose from the file `name`, or replaces the object by `mesh`
     kShow,    ///< shows `mesh` to the camera at the pose of the file `name`; empty: nothing
     kState,
-    kScenery,  ///< requests of the camera's driver: the scenery and its variable part
+    kScenery,  ///< requests of the camera driver: the scenery and its variable part
     kSight,
     kHelp,
   };
@@ -64,12 +64,12 @@ struct Action {
   std::string mesh = {};
 };
 
-/// Parses one line of the control socket: "fault late 700ms 3", "press stop", "reboot 2s", ... A
-/// name with spaces must be in double quotes. Otherwise returns kInvalidArgument with the list of
-/// actions.
+/// Parses one line of the control socket: "fault late 700ms 3", "press stop", "reboot 2s", ...
+/// Names with spaces must be in double quotes. Returns kInvalidArgument with the list of actions
+/// for other text.
 [[nodiscard]] Result<Action> parse_action(std::string_view line);
 
-/// An action at a time, measured from the start.
+/// An action at a time measured from the start.
 struct TimedAction {
   std::chrono::milliseconds at{0};
   Action action;
@@ -79,7 +79,7 @@ struct TimedAction {
 /// end: "late=700ms@5s,press=stop@8s".
 [[nodiscard]] Result<std::vector<TimedAction>> parse_timed_actions(std::string_view text);
 
-/// The actions of the control socket, for people.
+/// Returns the help text for the actions of the control socket.
 [[nodiscard]] std::string_view action_help();
 
 }  // namespace hydroprint::simulated_drive

@@ -36,7 +36,7 @@ Bytes exception(Request request, std::uint8_t code) {
   return {request[0], static_cast<std::uint8_t>(request[1] | 0x80U), code};
 }
 
-/// The words of a write; empty if it is malformed.
+/// Returns the words of a write; empty if it is malformed.
 std::vector<std::uint16_t> written(Request request) {
   if (request[1] == kWriteOne) return {word_at(request, 4)};
   const std::size_t count = word_at(request, 4);

@@ -14,7 +14,7 @@
 namespace hydroprint::simulated_drive {
 
 /// The reply to a request: unit, function and data (empty if the drive does not reply), and the
-/// fault to apply.
+/// fault to apply to it.
 struct Answer {
   std::vector<std::uint8_t> reply;
   ReplyFault reply_fault;
@@ -40,8 +40,8 @@ class Plant {
   /// Clears all faults, including pressed, stalled and frozen inputs.
   void clear();
 
-  /// Power failure: the brake stops the axis, and nothing is received. Afterwards the drive has no
-  /// state.
+  /// Simulates a power failure: the brake stops the axis, and no requests are received. The drive
+  /// loses its state.
   void power_off();
   void power_on();
 
@@ -52,7 +52,7 @@ class Plant {
   };
   [[nodiscard]] Place place();
 
-  /// The complete state as one line of JSON, for people and tests.
+  /// Returns the complete state as one line of JSON, for users and tests.
   [[nodiscard]] std::string state_json();
 
   [[nodiscard]] int unit() const;

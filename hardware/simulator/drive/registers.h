@@ -17,11 +17,12 @@ namespace hydroprint::simulated_drive {
 /// writes are commands.
 class Registers {
  public:
-  /// Contains the profile's identity and the given watchdog settings. `watchdog_action` is the
-  /// register's value; it is ignored if the profile has no such register.
+  /// Initialises the registers with the profile's identity and the given watchdog settings.
+  /// `watchdog_action` is the value of the register; it is ignored if the profile has no such
+  /// register.
   Registers(drive::DriveProfile profile, double watchdog_s, std::uint16_t watchdog_action);
 
-  /// Writes the drive's status; only the bits of `state` are used, not its texts.
+  /// Writes the drive's status. Uses only the bits of `state`, not its texts.
   void tell(const drive::DriveState& state);
 
   /// Returns `count` words; nullopt if one of them does not exist (Modbus exception 2).
@@ -33,11 +34,11 @@ class Registers {
   [[nodiscard]] bool write(std::uint16_t address, std::span<const std::uint16_t> words);
 
   /// Returns the command that is completed by writing these words, with its quantities; nullopt if
-  /// they do not complete one. Must be called after write().
+  /// they do not complete a command. Must be called after write().
   [[nodiscard]] std::optional<Order> order(std::uint16_t address,
                                            std::span<const std::uint16_t> words) const;
 
-  /// Values in the registers now.
+  /// Returns the current values of the registers.
   [[nodiscard]] double watchdog_s() const;
   [[nodiscard]] WatchdogAction watchdog_action() const;
 

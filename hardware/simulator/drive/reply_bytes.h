@@ -13,12 +13,12 @@ namespace hydroprint::simulated_drive {
 [[nodiscard]] std::vector<std::uint8_t> serial_frame(std::vector<std::uint8_t> reply,
                                                      ReplyFaultKind fault);
 
-/// Same for TCP, in reply to a request that starts with `header` (six bytes).
+/// Same as serial_frame(), for TCP, in reply to a request that starts with `header` (six bytes).
 [[nodiscard]] std::vector<std::uint8_t> tcp_frame(std::span<const std::uint8_t> header,
                                                   std::vector<std::uint8_t> reply,
                                                   ReplyFaultKind fault);
 
-/// Writes all bytes to a descriptor, which may be non-blocking; gives up when it is closed.
+/// Writes all bytes to a descriptor, which may be non-blocking. Stops if the descriptor is closed.
 void write_all(int descriptor, std::span<const std::uint8_t> bytes);
 
 }  // namespace hydroprint::simulated_drive

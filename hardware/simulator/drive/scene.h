@@ -23,13 +23,13 @@ struct Camera {
 struct Scene {
   std::filesystem::path mesh;  ///< empty: no object
   double scale = 1;            ///< model units -> mm
-  /// Pose of the object: transforms object coordinates to the gripper's frame, whose origin is
-  /// where the gripper holds, z up.
+  /// Pose of the object: transforms object coordinates to the gripper frame, whose origin is the
+  /// gripping point, z up.
   Pose X_GO = Pose::Identity();
   double travel_mm = 300;
   double start_mm = 50;   ///< position of the carriage when the rig is switched on
   double water_mm = 200;  ///< axis position at which the gripper's origin is level with the water
-  Eigen::Vector2d film_mm{210, 297};             ///< size that the sliding bars are set to
+  Eigen::Vector2d film_mm{210, 297};             ///< size for which the sliding bars are set
   std::vector<simulated_scene::Marker> markers;  ///< true positions
   std::optional<Camera> camera;                  ///< nullopt: no camera
 };
@@ -40,7 +40,7 @@ struct Scene {
 /// folder.
 [[nodiscard]] Result<Scene> read_scene(const std::filesystem::path& path);
 
-/// Returns everything the scene's camera could see; reads the object's mesh. Errors: those of
+/// Returns everything that the scene's camera can see. Reads the object's mesh. Errors: those of
 /// mesh::read_model, and kNotFound if the scene has no camera.
 [[nodiscard]] Result<simulated_scene::Scenery> scenery_of(const Scene& scene);
 

@@ -14,7 +14,7 @@ struct _modbus;
 namespace hydroprint::simulated_drive {
 
 /// Serves Modbus RTU on a pseudo-terminal, with the timing of a serial line. The destructor closes
-/// the terminal, and its users get errors at once, as when an adapter is unplugged.
+/// the terminal; its users then get errors immediately, as when an adapter is unplugged.
 class SerialServer {
  public:
   /// @param line  device: path of the link to the terminal (an existing link is replaced); baud,
@@ -35,10 +35,11 @@ class SerialServer {
   Plant& plant_;
   drive::Endpoint line_;
   int master_ = -1;
-  int slave_ = -1;  // kept open: otherwise reading the master fails
+  int slave_ = -1;  // kept open, because otherwise reading from the master fails
   _modbus* modbus_ = nullptr;
   std::vector<std::uint8_t> adu_;
-  std::chrono::steady_clock::time_point free_at_;  // when the line has been silent long enough
+  // Time at which the line will have been silent long enough.
+  std::chrono::steady_clock::time_point free_at_;
   std::atomic<bool> ends_ = false;
   std::thread thread_;
 };

@@ -21,7 +21,7 @@ constexpr int kLook_ms = 20;
 
 tl::unexpected<Error> refuse(const std::string& place, int error) {
   return fail(Code::kFailedPrecondition,
-              fmt::format("{}: cannot listen there ({}). Use another address, or stop the program "
+              fmt::format("cannot listen on {} ({}). Use another address, or stop the program "
                           "that uses it",
                           place, std::strerror(error)));
 }

@@ -22,18 +22,18 @@ namespace hydroprint::simulated_drive {
 
 /// Options of a virtual rig.
 struct Options {
-  drive::DriveProfile profile;  ///< of the simulated drive
+  drive::DriveProfile profile;  ///< profile of the simulated drive
   Scene scene;
   std::optional<int> tcp_port;          ///< 0: any free port; nullopt: no TCP
   std::optional<drive::Endpoint> line;  ///< nullopt: no RTU
   std::filesystem::path control;        ///< path of the control socket; empty: none
-  /// nullopt: the largest value that the profile accepts
+  /// nullopt: the largest value that the profile permits
   std::optional<double> watchdog_s;
-  std::optional<std::uint16_t> watchdog_action;  ///< nullopt: the first that stops
+  std::optional<std::uint16_t> watchdog_action;  ///< nullopt: the first action that stops the axis
   std::vector<TimedAction> actions;
 };
 
-/// The machine that results from a profile and a scene.
+/// Returns the machine that results from a profile and a scene.
 [[nodiscard]] Machine machine_of(const drive::DriveProfile& profile, const Scene& scene);
 
 /// A simulated drive with its connections: a plant, its servers, and a clock. Thread-safe.
@@ -45,14 +45,14 @@ class VirtualRig {
   VirtualRig(const VirtualRig&) = delete;
   VirtualRig& operator=(const VirtualRig&) = delete;
 
-  /// Performs an action and returns the reply for the control socket: "ok", the state as JSON, or
-  /// help.
+  /// Performs an action and returns the response for the control socket: "ok", the state as JSON,
+  /// or help.
   [[nodiscard]] Result<std::string> perform(const Action& action);
 
-  /// Returns the reply to a line of the control socket: perform()'s, or "error: ...".
+  /// Returns the response to a line of the control socket: that of perform(), or "error: ...".
   [[nodiscard]] std::string reply_to(const std::string& line);
 
-  /// The drive's TCP port; 0 if TCP is off.
+  /// Returns the drive's TCP port; 0 if TCP is off.
   [[nodiscard]] int tcp_port() const { return tcp_port_; }
 
  private:
@@ -65,9 +65,9 @@ class VirtualRig {
 
   Options options_;
   Plant plant_;
-  int tcp_port_ = 0;  // determined before any thread starts, then constant
+  int tcp_port_ = 0;  // set before any thread starts, then constant
   CameraControl camera_control_;
-  std::mutex plugs_;  // guards the members below
+  std::mutex plugs_;  // protects the members below
   std::unique_ptr<SocketServer> tcp_;
   std::unique_ptr<SerialServer> serial_;
   std::optional<std::chrono::steady_clock::time_point> boots_at_;

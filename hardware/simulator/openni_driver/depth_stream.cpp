@@ -88,7 +88,7 @@ OniStatus DepthStream::start() {
   const auto sight = line->ask_patiently("sight").and_then(
       [](const std::string& text) { return simulated_scene::sight_of(text); });
   if (sight && sight->camera == simulated_scene::CameraState::kHung) {
-    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // as real drivers do
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // like a real driver
   }
   stop();
   ends_ = false;

@@ -17,7 +17,7 @@ namespace hydroprint::openni_driver {
 class DepthStream : public oni::driver::StreamBase {
  public:
   /// @param on_gone  called from the stream's thread when the camera disappears; the thread then
-  /// ends
+  ///                 ends
   DepthStream(const simulated_scene::Scenery& scenery, simulated_camera::Renderer& renderer,
               std::string control, std::function<void()> on_gone);
   ~DepthStream() override;

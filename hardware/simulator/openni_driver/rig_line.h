@@ -15,18 +15,18 @@ class RigLine {
   RigLine& operator=(RigLine&&) = delete;
   ~RigLine();
 
-  /// Sends a line and returns the line of the reply. Returns kUnavailable if the rig is gone and
-  /// kFailedPrecondition if the rig refuses. Returns kAborted if the rig does not reply within a
-  /// second; the next call then only waits for that reply and sends nothing.
+  /// Sends a line and returns the line of the response. Returns kUnavailable if the rig is gone and
+  /// kFailedPrecondition if the rig reports an error. Returns kAborted if the rig does not respond
+  /// within a second; the next call then only waits for that response and sends nothing.
   [[nodiscard]] Result<std::string> ask(const std::string& line);
-  /// Same with a timeout of half a minute: a scene may have millions of triangles.
+  /// Same as ask(), with a timeout of half a minute: a scene may have millions of triangles.
   [[nodiscard]] Result<std::string> ask_patiently(const std::string& line);
 
  private:
   explicit RigLine(int descriptor) : descriptor_(descriptor) {}
 
   int descriptor_;
-  bool owes_ = false;  // a reply that did not arrive in time
+  bool owes_ = false;  // a response is outstanding because it did not arrive in time
   std::string heard_;
 };
 

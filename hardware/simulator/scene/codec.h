@@ -12,7 +12,8 @@ namespace hydroprint::simulated_scene {
 [[nodiscard]] std::string to_json(const Scenery& scenery);
 [[nodiscard]] std::string to_json(const Sight& sight);
 
-/// Decodes that line. Returns kDataLoss if it is malformed or has indices out of range.
+/// Decode the lines of to_json(). Errors: kDataLoss if the text is malformed or has indices out of
+/// range.
 [[nodiscard]] Result<Scenery> scenery_of(std::string_view json);
 [[nodiscard]] Result<Sight> sight_of(std::string_view json);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kBarBottom_mm = -4;
 constexpr double kGap_mm = 25;  ///< between bars and wall of the vat
-constexpr double kWall_mm = 8;  ///< of the vat
+constexpr double kWall_mm = 8;  ///< thickness of the vat's walls
 constexpr double kRim_mm = 20;  ///< above the water
 constexpr double kTable_mm = -180;
 constexpr double kTableHalf_mm = 1500;

@@ -9,14 +9,15 @@ namespace hydroprint::simulated_scene {
 inline constexpr double kBarWidth_mm = 60;
 inline constexpr double kBarTop_mm = 10;
 
-/// The nominal positions of the four markers: one on each bar, placed so that no rotation maps them
-/// onto each other.
+/// Returns the nominal positions of the four markers: one on each bar, placed so that no rotation
+/// maps them onto each other.
 [[nodiscard]] std::vector<Marker> nominal_markers(const Eigen::Vector2d& film_mm);
 
-/// Table, vat, water (level z = 0) and the four bars around a film of that size, F.
+/// Returns table, vat, water (level z = 0) and the four bars around a film of that size, in the
+/// film frame F.
 [[nodiscard]] std::vector<Body> standing_bodies(const Eigen::Vector2d& film_mm);
 
-/// The gripper and its rod, G.
+/// Returns the gripper and its rod, in the gripper frame G.
 [[nodiscard]] Body gripper();
 
 }  // namespace hydroprint::simulated_scene

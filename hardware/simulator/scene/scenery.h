@@ -15,8 +15,8 @@ struct Mesh {
   std::vector<Eigen::Vector3i> triangles;
 };
 
-/// A rigid body: it stands in the rig (film frame F), or hangs in the gripper and moves with it
-/// (gripper frame G: origin where the gripper holds, z up).
+/// A rigid body. It stands in the rig (film frame F), or hangs in the gripper and moves with it
+/// (gripper frame G: origin at the gripping point, z up).
 struct Body {
   std::string name;
   Mesh mesh;
@@ -30,27 +30,28 @@ struct Marker {
   double turn_rad = 0;                              ///< about z, seen from above
 };
 
-/// Position and orientation of the camera (F). It looks along its axis, with the far side of the
-/// film at the top of its image.
+/// Position and orientation of the camera (F). It looks along its optical axis, with the far side
+/// of the film at the top of its image.
 struct CameraStand {
   Eigen::Vector3d at_mm{0, -350, 720};
   Eigen::Vector3d looks_at_mm{0, 0, 0};
   double turn_rad = 0;  ///< about its axis
-  /// Swept by hand: from `at_mm` through these positions and back in `period_s`, repeatedly. Empty:
-  /// it stands still.
+  /// Path of a hand-held camera: from `at_mm` through these positions and back in `period_s`,
+  /// repeatedly. Empty: the camera is stationary.
   std::vector<Eigen::Vector3d> via_mm;
   double period_s = 10;
-  bool trembles = true;  ///< of the hand, while it sweeps
+  bool trembles = true;  ///< simulates hand tremor during a sweep
 };
 
-/// Everything a depth camera could see in a rig, and the camera's own properties.
+/// Everything that a depth camera can see in a rig, and the camera's own properties.
 struct Scenery {
   std::vector<Body> bodies;
   std::vector<Marker> markers;
   CameraStand stand;
-  std::uint64_t seed = 1;  ///< of the camera: its lens, its noise, the motion of the hand
-  bool has_errors = true;  ///< false: a perfect camera
-  /// Frames are 1/30 s apart regardless of the clock, so the same scene gives the same frames.
+  std::uint64_t seed = 1;  ///< for the camera: its lens, its noise, and the motion of the hand
+  bool has_errors = true;  ///< false: an ideal camera
+  /// If true, frames are 1/30 s apart regardless of the clock, so the same scene yields the same
+  /// frames.
   bool counts_frames = false;
 };
 
@@ -62,10 +63,10 @@ struct Sight {
   double time_s = 0;
   double gripper_height_mm = 150;  ///< height of the gripper's origin above the water
   CameraState camera = CameraState::kWell;
-  std::vector<MarkerState> markers;  ///< as Scenery::markers; missing entries are well
+  std::vector<MarkerState> markers;  ///< same order as Scenery::markers; missing entries are well
 };
 
-/// Transforms gripper coordinates to F.
+/// Returns the pose that transforms gripper coordinates to F.
 [[nodiscard]] Pose gripper_pose(const Sight& sight);
 
 }  // namespace hydroprint::simulated_scene

@@ -8,13 +8,13 @@ namespace hydroprint::simulated_scene {
 inline constexpr double kMarkerWidth_mm = 60;
 inline constexpr double kMarkerHeight_mm = 40;
 
-/// Axis-parallel box between two corners, faces outward.
+/// Returns an axis-parallel box between two corners, faces outward.
 [[nodiscard]] Mesh box(const Eigen::Vector3d& least, const Eigen::Vector3d& most);
 
-/// Square pyramid on z = 0 over the origin.
+/// Returns a square pyramid on z = 0 over the origin.
 [[nodiscard]] Mesh pyramid(double width_mm, double height_mm);
 
-/// Upright cylinder around the z axis.
+/// Returns a vertical cylinder around the z axis.
 [[nodiscard]] Mesh rod(double radius_mm, double bottom_mm, double top_mm);
 
 /// Returns the mesh with all points transformed.
@@ -23,7 +23,8 @@ inline constexpr double kMarkerHeight_mm = 40;
 /// Merges meshes into one.
 [[nodiscard]] Mesh joined(const std::vector<Mesh>& meshes);
 
-/// The visible mesh of a marker, F: the pyramid, the pyramid on its side, or a box over it.
+/// Returns the visible mesh of a marker, F: the pyramid, the pyramid on its side, or a box that
+/// covers it.
 [[nodiscard]] Mesh marker_mesh(const Marker& marker, MarkerState state);
 
 }  // namespace hydroprint::simulated_scene

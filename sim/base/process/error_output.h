@@ -6,7 +6,7 @@
 
 namespace hydroprint::worker {
 
-/// Reports a failure of `program`: one line on stderr and, if `json`, the same as
+/// Reports a failure of `program`: one line on stderr and, if `json`, also
 /// {"error":{"code","reason","message","metadata","exit_status"}} on stdout.
 void tell(const Error& error, ExitStatus status, bool json,
           std::string_view program = "hydroprint-worker");

@@ -27,7 +27,8 @@ constexpr std::array<std::string_view, 17> kArtifacts = {
     "report.html",     "report.json",   "residuals.csv",     "residuals.png", "stretch.png",
     "surface_map.ply", "wrinkles.png"};
 
-/// Every run writes one of these files; they show that a folder holds artifacts.
+/// Returns true for the files of which every run writes one; they mark a folder as an artifact
+/// folder.
 bool is_record(std::string_view name) { return name == "report.json" || name == "frames.json"; }
 
 /// Whether a run may write a file with this name.
@@ -96,7 +97,7 @@ tl::unexpected<Error> system_failure(const fs::path& dir, int error) {
                                            "). Choose another --out");
 }
 
-/// After a power cut, DIR then has all its files or does not exist.
+/// Syncs a folder, so that DIR either has all its files or does not exist after a power cut.
 void sync_folder(const fs::path& folder) {
   const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (file < 0) return;
@@ -146,7 +147,7 @@ void remove_stale(const fs::path& dir) {
   }
   for (const fs::path& folder : stale) {
     const int locked = open_locked(folder);
-    if (locked < 0) continue;  // in use, or a file system without locks: leave it
+    if (locked < 0) continue;  // in use, or on a file system without locks: keep it
     const bool ours = std::all_of(fs::directory_iterator(folder, error), {}, [](const auto& entry) {
       return is_artifact(entry.path().filename().string());
     });
@@ -211,15 +212,15 @@ OutFolder::~OutFolder() {
 
 Status OutFolder::create() {
   remove_stale(dir_);
-  // Until the folder is locked, another process may take it for abandoned and remove it. Then try
-  // again.
+  // Until the folder is locked, another process may mistake it for an abandoned one and remove it.
+  // In that case, tries again.
   for (int attempt = 0; attempt < 100 && lock_ < 0; ++attempt) {
     if (::mkdir(partial_.c_str(), 0777) != 0 && !(created_ && errno == EEXIST)) {
       return system_failure(dir_, errno);
     }
     created_ = true;
     lock_ = open_locked(partial_);
-    // No locks on this file system.
+    // The file system does not support locks.
     if (lock_ < 0 && errno != EWOULDBLOCK && errno != ENOENT) break;
     if (lock_ < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

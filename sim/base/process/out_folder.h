@@ -7,15 +7,14 @@
 
 namespace hydroprint::worker {
 
-/// The artifact folder DIR while it is being written. Files go to DIR.partial-XXXXXX beside it,
-/// which is renamed to DIR as the last step. If the program ends before that, DIR is unchanged. The
-/// process holds a lock on its partial folder. A partial folder without a lock was left by a killed
-/// process; the next process for the same DIR removes it.
+/// An artifact folder DIR that is being written. Files go to DIR.partial-XXXXXX beside it, which is
+/// renamed to DIR in the last step. If the program ends earlier, DIR is unchanged. The process
+/// holds a lock on its partial folder. A partial folder without a lock belongs to a killed process;
+/// the next process for the same DIR removes it.
 class OutFolder {
  public:
-  /// Refuses a DIR whose parent folder is missing, that is not a folder, or that contains files
-  /// other than artifacts of an earlier run (report.json etc.). The artifacts of an earlier run
-  /// will be replaced.
+  /// Rejects a DIR whose parent folder is missing, that is not a folder, or that contains files
+  /// other than the artifacts of an earlier run (report.json etc.), which will be replaced.
   [[nodiscard]] static Result<OutFolder> plan(const std::filesystem::path& dir);
 
   OutFolder(OutFolder&& other) noexcept;
@@ -29,7 +28,7 @@ class OutFolder {
   /// Renames the partial folder to DIR, replacing an earlier run's folder. Atomic if the file
   /// system can exchange names.
   [[nodiscard]] Status commit();
-  /// Removes the partial folder; may be called while another thread still writes into it.
+  /// Removes the partial folder. May be called while another thread still writes into it.
   void abandon() const;
 
   [[nodiscard]] const std::filesystem::path& dir() const { return dir_; }
@@ -42,7 +41,7 @@ class OutFolder {
 
   std::filesystem::path dir_;
   std::filesystem::path partial_;
-  int lock_ = -1;  ///< the partial folder, open and locked
+  int lock_ = -1;  ///< file descriptor of the locked partial folder
   bool created_ = false;
 };
 

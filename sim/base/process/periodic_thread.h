@@ -8,8 +8,8 @@
 
 namespace hydroprint {
 
-/// Calls a function on a thread of its own: at once, then again one period after each return.
-/// The destructor waits for a call in progress and makes no further one.
+/// Calls a function periodically on its own thread: immediately, then one period after each return.
+/// The destructor waits for a call in progress; no call follows it.
 class PeriodicThread {
  public:
   /// @param task  must not throw
@@ -25,7 +25,7 @@ class PeriodicThread {
   std::mutex mutex_;
   std::condition_variable stopped_;
   bool stop_ = false;
-  std::thread thread_;  // last: it uses the other members
+  std::thread thread_;  // last member, because it uses the others
 };
 
 }  // namespace hydroprint

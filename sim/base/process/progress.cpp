@@ -8,7 +8,7 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr double kInterval_s = 0.1;
-// Before this, an estimate would reflect the first stage rather than the whole.
+// Earlier, an estimate would only reflect the first stage.
 constexpr double kFirstEstimate_s = 0.3;
 constexpr double kFirstEstimateFraction = 0.02;
 

@@ -11,29 +11,30 @@
 
 namespace hydroprint::worker {
 
-/// A stage of the work and its usual share of the total.
+/// A stage of the work and its typical share of the total time.
 struct Stage {
   std::string name;
   double weight = 0;
 };
 
-/// Progress of the work at one moment.
+/// Progress of the work at one point in time.
 struct ProgressReport {
   std::string stage;
-  double fraction = 0;          ///< of the stage, [0, 1]
-  double total_fraction = 0;    ///< of the whole, [0, 1], never decreasing
+  double fraction = 0;          ///< progress of the stage, [0, 1]
+  double total_fraction = 0;    ///< progress of the whole work, [0, 1], never decreasing
   std::optional<double> eta_s;  ///< nullopt: too early to estimate
 };
 
-/// Turns the stages' own reports into total progress, seconds per stage and time left. It owns the
-/// clock; the simulation has none.
+/// Converts the progress of single stages to total progress, seconds per stage and time left. This
+/// class reads the clock; the simulation does not.
 class Progress {
  public:
   /// @param stages  in the order of work; a stage that recurs is listed each time. Skipped stages
-  ///     count as done; a stage not found ahead in the list adds nothing to the total.
+  ///                count as done. A stage that is not found ahead in the list adds nothing to the
+  ///                total.
   /// @param now_s   a monotonic clock
   /// @param sink    called at the beginning and end of each stage, and at most ten times a second
-  ///     in between
+  ///                in between
   Progress(std::vector<Stage> stages, std::function<double()> now_s,
            std::function<void(const ProgressReport&)> sink);
 
@@ -53,9 +54,9 @@ class Progress {
   double start_s_;
   mutable std::mutex mutex_;
   std::string stage_;
-  std::size_t next_ = 0;  ///< in stages_: the first that has not begun
-  double before_ = 0;     ///< of the stages before the present one
-  double weight_ = 0;     ///< of the present one
+  std::size_t next_ = 0;  ///< index in stages_ of the first stage that has not begun
+  double before_ = 0;     ///< total weight of the stages before the current one
+  double weight_ = 0;     ///< weight of the current stage
   double fraction_ = 0;
   double stage_start_s_;
   double last_told_s_;

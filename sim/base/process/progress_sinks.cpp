@@ -33,7 +33,7 @@ void ProgressPipe::write(const ProgressReport& report) {
                                  {"total_fraction", rounded(report.total_fraction, 1e4)},
                                  {"eta_s", nullptr}};
   if (report.eta_s) line["eta_s"] = rounded(*report.eta_s, 10);
-  // A line is shorter than PIPE_BUF, so if poll reports room, one write takes it whole without
+  // A line is shorter than PIPE_BUF, so if poll() reports space, one write sends all of it without
   // blocking.
   const std::string text = line.dump() + "\n";
   pollfd ready{fd_, POLLOUT, 0};

@@ -4,9 +4,9 @@
 
 namespace hydroprint::worker {
 
-/// Writes reports to a pipe, one JSON object per line (contract, `--progress-fd`):
+/// Writes reports to a pipe (option `--progress-fd`), one JSON object per line:
 /// {"stage":"velocity","fraction":0.42,"total_fraction":0.31,"eta_s":3.1}; eta_s is null while
-/// unknown. A slow reader misses lines. Writing stops when the reader is gone.
+/// unknown. Lines are dropped if the reader is slow. Writing stops when the reader closes the pipe.
 class ProgressPipe {
  public:
   explicit ProgressPipe(int fd) : fd_(fd) {}
@@ -16,11 +16,11 @@ class ProgressPipe {
   int fd_;
 };
 
-/// Shows one progress line on a terminal: bar, stage, time left. Prints nothing elsewhere.
+/// Shows a progress line with bar, stage and time left. Prints only to a terminal.
 class ProgressLine {
  public:
   explicit ProgressLine(int fd);
-  /// Clears the line for the output that follows.
+  /// Clears the line, so that other output can follow.
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;

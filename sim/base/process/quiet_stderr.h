@@ -2,8 +2,9 @@
 
 namespace hydroprint::worker {
 
-/// Hides library output on the process's stderr, where one line per error is promised. While it
-/// exists, descriptor 2 is /dev/null, except in sanitizer builds, whose reports go there.
+/// Redirects the process's stderr to /dev/null during its lifetime, so that messages of libraries
+/// do not mix with the one line per error. Sanitizer builds are not redirected, because their
+/// reports go to stderr.
 class QuietStderr {
  public:
   QuietStderr();
@@ -11,7 +12,7 @@ class QuietStderr {
   QuietStderr(const QuietStderr&) = delete;
   QuietStderr& operator=(const QuietStderr&) = delete;
 
-  /// The process's original stderr.
+  /// Returns the descriptor of the process's original stderr.
   [[nodiscard]] int own() const { return own_; }
   /// Restores the original stderr.
   void restore() const;

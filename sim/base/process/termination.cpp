@@ -12,7 +12,7 @@ namespace hydroprint::worker {
 namespace {
 
 constexpr long kGrace_ns = 700'000'000;
-// Wakes the listener when the process ends by itself.
+// Wakes the signal thread when the process ends without a signal.
 constexpr int kWake = SIGUSR1;
 
 sigset_t watched() {
@@ -21,7 +21,7 @@ sigset_t watched() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction action {};
     sigaction(number, nullptr, &action);
-    // nohup and a shell's background jobs set some signals to be ignored.
+    // nohup and a shell's background jobs cause some signals to be ignored.
     if (action.sa_handler != SIG_IGN) sigaddset(&set, number);
   }
   sigaddset(&set, kWake);
@@ -31,7 +31,7 @@ sigset_t watched() {
 }  // namespace
 
 Termination::Termination(std::function<void()> last_words) : last_words_(std::move(last_words)) {
-  // A closed pipe and a file beyond the size limit only fail the write in question.
+  // A closed pipe, or a file beyond the size limit, must only fail the write in question.
   signal(SIGPIPE, SIG_IGN);
   signal(SIGXFSZ, SIG_IGN);
   const sigset_t set = watched();

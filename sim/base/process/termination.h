@@ -8,30 +8,28 @@
 
 namespace hydroprint::worker {
 
-/// Decides once how this process ends: by the main thread with a result or an error, or by an
-/// earlier signal.
-///
-/// SIGINT, SIGTERM and SIGHUP ask the process to end: `requested()` becomes true, and the
-/// computation sees this and unwinds. A stage that does not check it in time (an importer at work
-/// on a file) is not waited for. After a grace period, or at a second signal, `last_words` runs and
-/// the process exits with status 130.
-///
+/// Decides exactly once how this process ends: either the main thread ends it with a result or an
+/// error, or a signal ends it first.
+/// SIGINT, SIGTERM and SIGHUP request termination: `requested()` becomes true, and the computation
+/// checks it and returns. A stage that does not check in time (such as an importer that reads a
+/// file) is not waited for. After a grace period, or at a second signal, `last_words` runs and the
+/// process exits with status 130.
 /// Must be created before any other thread, because threads inherit its signal mask.
 class Termination {
  public:
   explicit Termination(std::function<void()> last_words);
-  /// Stops listening.
+  /// Stops handling signals.
   ~Termination();
   Termination(const Termination&) = delete;
   Termination& operator=(const Termination&) = delete;
 
   [[nodiscard]] bool requested() const { return requested_; }
-  /// Asks the process to end, as a signal does; may be called from any thread.
+  /// Requests termination, as a signal does. May be called from any thread.
   void request() { requested_ = true; }
-  /// Leaves it to the main thread alone to decide how the process ends. Does not return if the
-  /// signal thread has already decided.
+  /// Reserves the decision for the main thread: later signals have no effect. Does not return if
+  /// the signal thread has already decided.
   void decide();
-  /// Sets the clean-up that runs before `last_words`; empty: nothing. Waits for a clean-up in
+  /// Sets the clean-up function that runs before `last_words`; empty: none. Waits for a clean-up in
   /// progress.
   void set_cleanup(std::function<void()> cleanup);
 
@@ -48,7 +46,7 @@ class Termination {
   std::thread thread_;
 };
 
-/// Runs a clean-up if a signal ends the process during this object's lifetime.
+/// Registers a clean-up function for its lifetime, in case a signal ends the process.
 class CleanupAtTermination {
  public:
   CleanupAtTermination(Termination& termination, std::function<void()> cleanup)

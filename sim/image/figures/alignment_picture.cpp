@@ -14,7 +14,7 @@ namespace {
 constexpr double kPoint_mm = 0.7;  ///< radius of a disc
 constexpr double kDeep_mm = 3;     ///< points deeper below the surface belong to the other side
 constexpr double kShown = 0.98;    ///< share of the points that the scale covers
-constexpr int kSteps = 5;          ///< of the scale, in each direction
+constexpr int kSteps = 5;          ///< number of steps of the scale in each direction
 const Eigen::Vector3f kObject(0.45F, 0.45F, 0.44F);  // linear
 
 /// Blue over white to red, with equal lightness on both sides (ColorBrewer's RdBu); sRGB-coded.
@@ -26,7 +26,7 @@ Eigen::Vector3f diverging(double t) {
                  : Eigen::Vector3f(white + off * (red - white));
 }
 
-/// A range that is symmetric about zero.
+/// Returns a range that is symmetric about zero.
 Range range_of(std::span<const double> off_mm) {
   std::vector<double> sorted;
   for (const double x : off_mm) sorted.push_back(std::abs(x));

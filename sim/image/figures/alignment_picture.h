@@ -9,8 +9,8 @@
 
 namespace hydroprint::image {
 
-/// A sheet of views of the plain object (found without tiles), with the points of a scan over it.
-/// They are coloured by their distance from its surface: blue inside, red outside.
+/// Draws a sheet of views of the object without film (`views` has no tiles), with the points of a
+/// scan on top. Points are coloured by their distance from the surface: blue inside, red outside.
 /// @param points_O  frame O
 /// @param off_mm    per point, positive outward
 [[nodiscard]] Result<RgbImage> alignment_picture(const ObjectViews& views,

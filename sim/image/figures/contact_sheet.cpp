@@ -37,7 +37,7 @@ void fill(RgbImage& image, const Window& area,
 }  // namespace
 
 Eigen::Vector3f hatch(int x, int y) {
-  constexpr int kPeriod = 18, kStripe = 4;  // in samples
+  constexpr int kPeriod = 18, kStripe = 4;  // measured in samples
   return Eigen::Vector3f::Constant((x + y) % kPeriod < kStripe ? 0.38F : 0.68F);
 }
 

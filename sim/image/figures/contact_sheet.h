@@ -15,17 +15,17 @@ namespace hydroprint::image {
 /// Height of the space for a legend below the views of a sheet.
 inline constexpr int kLegend_px = 110;
 
-/// The standard views on one sheet, each drawn by `draw`, with their names, and space for a legend
-/// below.
+/// Draws the standard views on one sheet, with their names, calling `draw` for each, and keeps
+/// space for a legend below.
 [[nodiscard]] Result<RgbImage> draw_sheet(const ObjectViews& views, int legend_px,
                                           const Context& context,
                                           const std::function<void(ViewDrawing&)>& draw);
 
-/// Diagonal stripes in two greys (linear), by samples of a drawing; they mark areas without a
-/// value.
+/// Returns the colour (linear) of a pattern of diagonal stripes in two greys at a sample; it marks
+/// areas without a value.
 [[nodiscard]] Eigen::Vector3f hatch(int x, int y);
 
-/// Range of a scale, and the step between its numbers.
+/// Range of a scale, and the step between its labels.
 struct Range {
   double low = 1, high = 2, step = 0.2;
 };
@@ -34,12 +34,13 @@ struct Range {
 struct Scale {
   std::string label;
   Range range;
-  std::function<Eigen::Vector3f(double)> coded;  ///< sRGB-coded; takes the range as [0, 1]
-  std::string hatched;                           ///< label of hatch(); empty: not used
+  /// SRGB-coded colour for a position in the range, [0, 1].
+  std::function<Eigen::Vector3f(double)> coded;
+  std::string hatched;  ///< label of hatch(); empty: not used
 };
 
-/// Draws a legend into the space that draw_sheet() left for it. Fails if text::Font::standard()
-/// fails.
+/// Draws a legend into the space that draw_sheet() kept for it. Returns the errors of
+/// text::Font::standard().
 [[nodiscard]] Status draw_legend(RgbImage& sheet, const Scale& scale);
 
 }  // namespace hydroprint::image

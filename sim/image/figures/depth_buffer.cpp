@@ -15,8 +15,8 @@ namespace {
 constexpr int kSupersample = 2;
 constexpr float kOutlineShade = 0.35F;
 
-/// A view from a direction given by azimuth (0: from -y, counter-clockwise seen from above) and
-/// elevation.
+/// Returns a view from a direction given by azimuth (0: from -y, counter-clockwise seen from above)
+/// and elevation.
 View view_from(std::string name, double azimuth_deg, double elevation_deg) {
   const double azimuth = azimuth_deg * M_PI / 180, elevation = elevation_deg * M_PI / 180;
   const Eigen::Vector3d right(std::cos(azimuth), std::sin(azimuth), 0);
@@ -56,8 +56,8 @@ Corners flat(const std::array<Eigen::Vector3d, 3>& corners) {
   return {corners[0].head<2>(), corners[1].head<2>(), corners[2].head<2>()};
 }
 
-/// Calls visit(x, y, towards) for every sample inside a triangle; `towards` is its position along
-/// the view.
+/// Calls visit(x, y, towards) for every sample inside a triangle; `towards` is the position of the
+/// sample along the view.
 /// @param corners  x and y in samples, z along the view
 template <class Visit>
 void for_each_place(const std::array<Eigen::Vector3d, 3>& corners, const Window& window,

@@ -23,17 +23,17 @@ struct View {
   Eigen::Matrix3d axes;
 };
 
-/// Front (from -y), back, three-quarter and from below (the side that the film touches first); +z
-/// of F is up.
+/// Returns the standard views: front (from -y), back, three-quarter and from below (the side that
+/// touches the film first); +z of F is up.
 [[nodiscard]] std::vector<View> standard_views();
 
-/// Size of the object as seen: half the width and height about its middle, mm.
+/// Returns the size of the object in the view: half its width and height, mm.
 [[nodiscard]] Eigen::Vector2d half_extent_mm(const mesh::Surface& surface, const Pose& X_FO,
                                              const View& view);
 
-/// The visible parts of an object, and of tiles of film on it, from one side, with 2 x 2 samples
-/// per pixel. Found once with a depth buffer, for drawings in any colours. Object and tiles must
-/// outlive it.
+/// The parts of an object, and of the film tiles on it, that are visible from one side, with 2 x 2
+/// samples per pixel. Computed once with a depth buffer and then used for drawings in any colours.
+/// Object and tiles must outlive it.
 class SeenObject {
  public:
   SeenObject(const mesh::Surface& surface, const Pose& X_FO,
@@ -41,9 +41,9 @@ class SeenObject {
              int height_px, double px_per_mm);
 
   struct Sample {
-    int tile = -1;               ///< the tile that is seen there; -1: bare, or background
+    int tile = -1;               ///< index of the visible tile; -1: no tile, or background
     float towards = -HUGE_VALF;  ///< position along the view, mm; -infinity: background
-    float light = 1;             ///< from a lamp over the viewer's left shoulder
+    float light = 1;             ///< shading by a lamp over the viewer's left shoulder
     [[nodiscard]] bool is_background() const { return towards == -HUGE_VALF; }
   };
   /// A visible tile and its samples.
@@ -52,14 +52,14 @@ class SeenObject {
     std::span<const int> samples;
   };
 
-  [[nodiscard]] int width() const { return width_; }  ///< in samples, as the height
+  [[nodiscard]] int width() const { return width_; }  ///< in samples, like the height
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] double samples_per_mm() const { return samples_per_mm_; }
   [[nodiscard]] double depth_step_mm() const { return depth_step_mm_; }
   [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
   [[nodiscard]] std::size_t seen_tiles() const { return tile_numbers_.size(); }
   [[nodiscard]] SeenTile seen_tile(std::size_t i) const;
-  /// x and y in samples, z along the view.
+  /// Projects a point: x and y in samples, z along the view.
   [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& point_O) const;
   [[nodiscard]] std::array<Eigen::Vector3d, 3> tile_corners(const flow::MappedTriangle& tile) const;
 
@@ -69,9 +69,9 @@ class SeenObject {
     return static_cast<std::size_t>(y) * width_ + x;
   }
   [[nodiscard]] std::array<Eigen::Vector3d, 3> corners_of(std::size_t triangle) const;
-  /// Normals at a triangle's corners, one per column, in the view.
+  /// Returns the normals at the corners of a triangle, in the view frame, one per column.
   [[nodiscard]] Eigen::Matrix3d normals_of(std::size_t triangle) const;
-  /// The triangle of the surface that is seen at each sample; -1: none.
+  /// Index of the visible triangle of the surface at each sample; -1: none.
   std::vector<int> place_surface();
   void place_tiles();
   void sort_by_tile();
@@ -80,12 +80,12 @@ class SeenObject {
 
   const mesh::Surface& surface_;
   std::span<const flow::MappedTriangle> tiles_;
-  Eigen::Isometry3d X_VO_;  ///< object to view, mm, about the object's middle
+  Eigen::Isometry3d X_VO_;  ///< object to view, mm; the origin is the object's middle
   int width_, height_;
   double samples_per_mm_;
   double depth_step_mm_;  ///< jumps in depth beyond this are outlines
   std::vector<Sample> samples_;
-  /// The visible tiles, the start of each one's samples in `by_tile_`, and these samples.
+  /// The visible tiles, the first index of each in `by_tile_`, and the samples of all tiles.
   std::vector<int> tile_numbers_, first_of_tile_, by_tile_;
 };
 
@@ -94,15 +94,15 @@ class ViewDrawing {
  public:
   explicit ViewDrawing(const SeenObject& seen);
 
-  /// Draws the tiles. `colour_of` is called once per tile with its corners on the grid of samples.
-  /// It returns a function from the barycentric coordinates of a sample to its linear colour,
-  /// before lighting.
+  /// Draws the tiles. `colour_of` is called once per tile with its corners on the sample grid. It
+  /// returns a function from a sample's barycentric coordinates to its linear colour before
+  /// shading.
   using TileColour = std::function<Eigen::Vector3f(int x, int y, const Eigen::Vector3d&)>;
   using TileColourMaker =
       std::function<TileColour(const flow::MappedTriangle& tile, const Corners& at)>;
   void draw_tiles(const TileColourMaker& colour_of);
 
-  /// Draws the rest of the surface in linear colours per sample, before lighting.
+  /// Draws the rest of the surface in linear colours per sample, before shading.
   using Colour = std::function<Eigen::Vector3f(int x, int y)>;
   void draw_bare(const Colour& colour);
 
@@ -112,13 +112,13 @@ class ViewDrawing {
   void draw_points(std::span<const Eigen::Vector3d> points_O,
                    std::span<const Eigen::Vector3f> colours, double radius_mm, double deep_mm);
 
-  /// Copies the drawing, with its outlines, onto a picture whose pixels there are background.
+  /// Copies the drawing and its outlines onto a picture that shows background there.
   void put_on(RgbImage& picture, int left_px, int top_px) const;
 
  private:
   struct Sample {
     Eigen::Vector3f colour;
-    float towards;  ///< of the drawn surface
+    float towards;  ///< position of the drawn surface along the view
   };
   [[nodiscard]] bool is_outline(int x, int y) const;
   [[nodiscard]] Sample& at(int x, int y) {

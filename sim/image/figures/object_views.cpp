@@ -14,7 +14,7 @@ struct Layout {
   double px_per_mm = 1;
 };
 
-/// Chooses two by two or four in a row: the compact row unless it shows the object much smaller.
+/// Chooses two by two views or four in a row: the row, unless it shows the object much smaller.
 Layout lay_out(const mesh::Surface& surface, const Pose& X_FO, const std::vector<View>& views) {
   Layout best;
   double best_score = 0;

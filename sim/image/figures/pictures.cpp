@@ -14,13 +14,13 @@
 namespace hydroprint::image {
 namespace {
 
-/// Differences in stretch above this do not matter, because film tears at about 3. The poles of
-/// spheres, where stretch is in the hundreds, would take up the whole scale.
+/// Upper end of the stretch scale. Larger stretches do not matter, because film tears at about 3.
+/// At the poles of spheres stretch is in the hundreds and would use up the whole scale.
 constexpr double kMostStretch = 4;
 const Eigen::Vector3f kBareObject(0.72F, 0.72F, 0.71F);  // linear
 
-/// Colours from dark to light at an even pace, distinguishable for every kind of colour vision:
-/// evenly spaced control points, sRGB.
+/// Colours of evenly increasing lightness, distinguishable with every kind of colour vision: evenly
+/// spaced control points, sRGB.
 constexpr std::array<Rgb8, 9> kScale = {{{68, 1, 84},
                                          {71, 45, 123},
                                          {59, 82, 139},
@@ -31,7 +31,7 @@ constexpr std::array<Rgb8, 9> kScale = {{{68, 1, 84},
                                          {173, 220, 48},
                                          {253, 231, 37}}};
 
-/// sRGB-coded, [0, 1]
+/// Returns an sRGB-coded colour, [0, 1].
 Eigen::Vector3f scale_colour(double t) {
   const double at = std::clamp(t, 0.0, 1.0) * (kScale.size() - 1);
   const auto i = std::min(static_cast<std::size_t>(at), kScale.size() - 2);

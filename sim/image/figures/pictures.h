@@ -14,24 +14,24 @@
 
 namespace hydroprint::image {
 
-/// A sheet of the object's views, coloured by stretch (section 6) from dark blue over green to
-/// yellow, with a legend; hatched grey where no film arrives. The colours are distinguishable for
-/// colour-blind readers and in grey.
-/// @param map  of the tiles in view
+/// Draws a sheet of the object's views, coloured by stretch (section 6) from dark blue over green
+/// to yellow, with a legend; hatched grey where no film arrives. The colours can be distinguished
+/// by colour-blind readers and in grey.
+/// @param map  the map that contains the tiles in `views`
 [[nodiscard]] Result<RgbImage> stretch_picture(const ObjectViews& views,
                                                const flow::SurfaceMap& map, const Context& context);
 
 /// A quantity by which to colour an object.
 struct Quantity {
-  std::string label;                  ///< for the legend
+  std::string label;                  ///< title of the legend
   std::vector<double> values;         ///< the scale ignores extremes and NaN
   double rest = 0, least_span = 0.1;  ///< the scale contains `rest` and spans at least `least_span`
-  /// At a tile's corners; NaN is drawn as if no film arrived.
+  /// Returns the values at a tile's corners; NaN is drawn as if no film arrived.
   std::function<std::array<double, 3>(const flow::MappedTriangle&)> at_corners;
-  std::string hatched = "no film";  ///< label of NaN and bare surface
+  std::string hatched = "no film";  ///< legend label of NaN and of the bare surface
 };
 
-/// Same as stretch_picture(), coloured by any quantity.
+/// Same as stretch_picture(), coloured by the given quantity.
 [[nodiscard]] Result<RgbImage> quantity_picture(const ObjectViews& views, const Quantity& quantity,
                                                 const Context& context);
 
@@ -39,11 +39,13 @@ struct Quantity {
 [[nodiscard]] Result<RgbImage> wrinkle_picture(const ObjectViews& views,
                                                const flow::SurfaceMap& map, const Context& context);
 
-/// The object as it will look: the film's colours where it lands, plain light grey elsewhere.
+/// Draws the object with its predicted look: the film's colours where it lands, light grey
+/// elsewhere.
 [[nodiscard]] Result<RgbImage> predicted_picture(const ObjectViews& views, const FilmTexture& film,
                                                  const Context& context);
 
-/// Longest side, in pixels, that a film image needs for these pictures (FilmTexture::from_image).
+/// Longest side of a film image, in pixels, that is enough for these pictures
+/// (FilmTexture::from_image).
 inline constexpr int kPictureFilmSide_px = 3000;
 
 }  // namespace hydroprint::image

@@ -8,13 +8,13 @@
 namespace hydroprint::image {
 
 /// Draws text with built-in strokes, so that pictures need no installed font. Supports lower-case
-/// letters, digits, space and "+-._:/,#()". Other characters leave a gap.
+/// letters, digits, space and "+-._:/,#()". Other characters produce a gap.
 /// @param left_px, baseline_px  start of the text
 /// @param size_px  height of a lower-case x
 void draw_text(RgbImage& image, const text::Font& font, double left_px, double baseline_px,
                double size_px, std::string_view text, const Rgb8& colour);
 
-/// Width of a text drawn by draw_text().
+/// Returns the width of a text drawn by draw_text().
 [[nodiscard]] double text_width_px(const text::Font& font, double size_px, std::string_view text);
 
 }  // namespace hydroprint::image

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kBlock_px = 64;
 constexpr int kSamples = 4;
-/// A rotated grid: no two samples in one row or column, so that edges near either axis are smooth.
+/// A rotated grid: no two samples are in one row or column, so edges near either axis are smooth.
 const std::array<Eigen::Vector2d, kSamples> kOffsets = {
     Eigen::Vector2d(-0.125, -0.375), Eigen::Vector2d(0.375, -0.125), Eigen::Vector2d(0.125, 0.375),
     Eigen::Vector2d(-0.375, 0.125)};
@@ -39,12 +39,12 @@ const std::array<Eigen::Vector2d, kAllSamples + 1>& mean_offsets() {
   return offsets;
 }
 
-/// How far beyond a tile's edge its colours are used, as a share of its size.
+/// Distance beyond a tile's edge up to which its colours are used, relative to its size.
 constexpr double kBeyondEdge = 0.5;
 
-/// The point at which a pixel's colour is looked up, once for all its samples. It is the pixel's
-/// middle, so that tiles that share the pixel agree, unless the middle lies far outside a tiny
-/// tile.
+/// Returns the point at which a pixel's colour is looked up, once for all its samples. It is the
+/// pixel's middle, so that tiles that share the pixel agree, unless the middle lies far outside a
+/// tiny tile.
 /// @param covered  the mean position of the samples that the tile covers
 Eigen::Vector2d look_up_at(const BarycentricMap& map, const Eigen::Vector2d& middle,
                            const Eigen::Vector2d& covered) {
@@ -135,7 +135,8 @@ class Block {
 
   void paint_row(int y, const BarycentricMap& map, const TimePlane& times, const Brush& brush) {
     const Spans& spans = rows_[y - window_.y0];
-    Span some{window_.x1, window_.x0}, all{window_.x0, window_.x1};  // of a pixel's samples
+    // Pixels of which some samples, and all samples, are covered.
+    Span some{window_.x1, window_.x0}, all{window_.x0, window_.x1};
     for (const Span& span : spans) {
       all = {std::max(all.begin, span.begin), std::min(all.end, span.end)};
       if (span.begin >= span.end) continue;

@@ -21,28 +21,29 @@ struct FilmGrid {
   double pitch_mm = 1;
   double left_mm = 0, top_mm = 0;
 
-  /// Position of a point of the film on the grid, in cells; y down.
+  /// Converts a point of the film to cell coordinates; y down.
   [[nodiscard]] Eigen::Vector2d cell(const Eigen::Vector2d& film_mm) const {
     return {(film_mm.x() - left_mm) / pitch_mm, (top_mm - film_mm.y()) / pitch_mm};
   }
 };
 
-/// The grid of the given pitch; its size is the nearest integer to the film's, at least 1.
+/// Returns the grid with the given pitch. Its number of cells is the film's size divided by the
+/// pitch, rounded, at least 1.
 [[nodiscard]] FilmGrid film_grid(const film::Outline& outline, double pitch_mm);
 
-/// A tile's corners in barycentric coordinates of the model triangle that contains it.
+/// Returns a tile's corners in barycentric coordinates of the model triangle that contains it.
 [[nodiscard]] std::array<Eigen::Vector3d, 3> model_barycentric(const mesh::Surface& surface,
                                                                const flow::MappedTriangle& tile);
 
 inline constexpr double kMinDpi = 20, kMaxDpi = 2400;
 inline constexpr double kMaxFilmImage_px = 400e6;
 
-/// The image to print (end of section 4.5): every point of the film gets the colour of the surface
-/// where it lands, or white if it lands nowhere. Ink side up, seen from above; size and pitch
-/// follow the contract. Pixels at edges of the covered region have four samples; the texture is
-/// filtered over the pixel's footprint. Film that has landed stays, so the earlier contact wins
-/// where tiles overlap. The result is bit-identical for any number of threads. Refuses
-/// (kOutOfRange) dpi outside [kMinDpi, kMaxDpi] and images beyond kMaxFilmImage_px.
+/// Computes the image to print (end of section 4.5). Every point of the film gets the colour of the
+/// surface point where it lands, or white if it does not land. Ink side up, seen from above. Pixels
+/// at edges of the covered region have four samples; the texture is filtered over the pixel's
+/// footprint. Film that has landed does not move, so the earlier contact wins where tiles overlap.
+/// The result is bit-identical for any number of threads. Errors: kOutOfRange for dpi outside
+/// [kMinDpi, kMaxDpi] and images larger than kMaxFilmImage_px.
 [[nodiscard]] Result<RgbImage> film_image(const mesh::Surface& surface,
                                           const std::vector<flow::MappedTriangle>& tiles,
                                           const Paint& paint, const film::Outline& outline,

@@ -17,18 +17,18 @@ namespace hydroprint::image {
 /// is transferred.
 struct FilmMap {
   FilmGrid grid;
-  std::vector<Eigen::Vector3f> contact_mm;  ///< on the object, frame O
-  std::vector<float> time_s;                ///< of contact, since the start of the dip
+  std::vector<Eigen::Vector3f> contact_mm;  ///< contact point on the object, frame O
+  std::vector<float> time_s;                ///< time of contact, since the start of the dip
   std::vector<float> stretch;               ///< largest singular value there (section 6)
 };
 
-/// Evaluates the map at the cells' centres; the earliest contact wins where tiles overlap. Refuses
-/// (kOutOfRange) cells below 0.05 mm or larger than the film.
+/// Evaluates the map at the cells' centres; the earliest contact wins where tiles overlap. Errors:
+/// kOutOfRange for cells below 0.05 mm or larger than the film.
 [[nodiscard]] Result<FilmMap> film_map(const mesh::Surface& surface, const flow::FlowMap& map,
                                        const film::Outline& outline, double cell_mm,
                                        const Context& context);
 
-/// Writes film_map.exr (contract): float channels X, Y, Z, T, stretch, zip-compressed.
+/// Writes film_map.exr: float channels X, Y, Z, T, stretch, zip-compressed.
 [[nodiscard]] Status write_film_map_exr(const std::filesystem::path& path, const FilmMap& map);
 
 }  // namespace hydroprint::image

@@ -16,8 +16,8 @@ constexpr int kMaxSide_px = 16384;
 
 int wrap_index(int i, int size) { return ((i % size) + size) % size; }
 
-/// The tile's corners in the texture, in texels, y down, shifted by whole textures so that the tile
-/// starts in the first one. NaN if the model has no coordinates.
+/// Returns the tile's corners in the texture, in texels, y down, shifted by whole textures so that
+/// the tile starts in the first one. NaN if the model has no coordinates.
 Corners texel_corners(const mesh::Model& model, const mesh::Surface& surface,
                       const flow::MappedTriangle& tile, int width, int height) {
   const auto barycentric = model_barycentric(surface, tile);

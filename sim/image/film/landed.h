@@ -13,8 +13,8 @@
 
 namespace hydroprint::image {
 
-/// The colour that lands on each point of the surface, sRGB-coded in [0, 1]; NaN where no film
-/// arrives.
+/// Returns the colour that lands on each point of the surface, sRGB-coded in [0, 1]; NaN where no
+/// film arrives.
 [[nodiscard]] std::vector<Eigen::Vector3f> landed_colours(const flow::SurfaceMap& map,
                                                           const FilmTexture& film);
 
@@ -24,10 +24,11 @@ struct RgbaImage {
   std::vector<std::uint8_t> rgba;
 };
 
-/// The landed film, laid out as the object's texture. Each texel gets the colour of the film that
-/// lands there, filtered over the texel; white and transparent where no film lands. The earliest
-/// contact wins where parts of the surface share texels. Coordinates outside [0, 1] repeat.
-/// Refuses a model without UVs (kFailedPrecondition) and sizes outside 1 to 16384 (kOutOfRange).
+/// Computes the colours of the landed film as a texture of the object. Each texel gets the colour
+/// of the film that lands there, filtered over the texel; white and transparent where no film
+/// lands. The earliest contact wins where parts of the surface share texels. Coordinates outside
+/// [0, 1] repeat. Errors: kFailedPrecondition for a model without UVs, kOutOfRange for sizes
+/// outside 1 to 16384.
 [[nodiscard]] Result<RgbaImage> landed_texture(const mesh::Model& model,
                                                const mesh::Surface& surface,
                                                const std::vector<flow::MappedTriangle>& tiles,

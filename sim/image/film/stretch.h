@@ -8,16 +8,16 @@
 
 namespace hydroprint::image {
 
-/// The tile's corners on the object, frame O, mm.
+/// Returns the tile's corners on the object, frame O, mm.
 [[nodiscard]] std::array<Eigen::Vector3d, 3> tile_points(const mesh::Surface& surface,
                                                          const flow::MappedTriangle& tile);
 
 /// Selects a singular value of the film-to-surface Jacobian.
 enum class Stretch { kLargest, kLeast };
 
-/// That singular value at a tile's corners (section 6). It is interpolated from the surface's
-/// points if all three around the tile have one; else it is that of the tile itself. NaN for a tile
-/// whose film has no area.
+/// Returns that singular value at a tile's corners (section 6). It is interpolated from the surface
+/// points if all three around the tile have one; otherwise it is that of the tile itself. NaN for a
+/// tile whose film has no area.
 [[nodiscard]] std::array<double, 3> tile_stretch(const mesh::Surface& surface,
                                                  const flow::SurfaceMap& map,
                                                  const flow::MappedTriangle& tile,

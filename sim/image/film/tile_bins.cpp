@@ -7,7 +7,8 @@
 namespace hydroprint::image {
 namespace {
 
-/// First and last block along one axis that [low, high], in cells, may touch.
+/// Returns the first and last block along one axis that the interval [low, high], in cells, may
+/// touch.
 std::pair<int, int> blocks(double low, double high, int block, int count) {
   const double last = count;
   const int first_block = static_cast<int>(std::clamp(std::floor((low - 1) / block), 0.0, last));

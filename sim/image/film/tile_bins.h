@@ -8,7 +8,7 @@
 
 namespace hydroprint::image {
 
-/// The tiles that may touch each square block of a grid, in the order of the tiles.
+/// Lists the tiles that may touch each square block of a grid, in tile order.
 class TileBins {
  public:
   TileBins(const std::vector<flow::MappedTriangle>& tiles, const FilmGrid& grid, int block);

@@ -27,11 +27,11 @@ using OIIO::Filesystem::IOProxy;
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 tl::unexpected<Error> corrupt(const std::string& name, const std::string& why) {
-  return fail(Code::kDataLoss,
-              name + ": truncated or corrupt image (" + first_line(why) + "). Get the file again");
+  return fail(Code::kDataLoss, name + ": truncated or corrupt image (" + first_line(why) +
+                                   "). Download or export the file again");
 }
 
-/// How the channels of a file form a texel.
+/// How the channels of a file are combined to a texel.
 struct Layout {
   int channels = 3;
   int alpha = -1;  ///< channel, -1: none
@@ -53,7 +53,7 @@ Layout layout_of(const ImageSpec& spec) {
   return layout;
 }
 
-/// One texel from values in [0, 1], sRGB-coded unless the file holds floats.
+/// Returns one texel from values in [0, 1], sRGB-coded unless the file holds floats.
 Texel to_texel(std::array<float, 3> colour, float alpha, const Layout& layout, bool& had_alpha) {
   const float opacity = alpha > 0 ? std::min(alpha, 1.0F) : 0;
   had_alpha = had_alpha || opacity < 1;
@@ -170,9 +170,8 @@ Result<Grey16Image> decode_grey16(IOProxy& proxy, const std::string& name) {
   HP_ASSIGN_OR_RETURN(const Opened opened, open(proxy, name));
   const ImageSpec& spec = opened.spec;
   if (spec.nchannels != 1 || spec.format != TypeDesc::UINT16 || spec.tile_width != 0) {
-    return fail(
-        Code::kInvalidArgument,
-        name + ": not a grey image of 16 bits. Give depths as hydroprint-capture writes them");
+    return fail(Code::kInvalidArgument,
+                name + ": not a 16-bit grey image. Use depth images written by hydroprint-capture");
   }
   Grey16Image out{spec.width, spec.height, {}};
   out.grey.resize(static_cast<std::size_t>(spec.width) * spec.height);
@@ -263,8 +262,8 @@ Result<std::vector<unsigned char>> encode_tiff(const std::string& name, const Pr
   spec.attribute("XResolution", static_cast<float>(dpi));
   spec.attribute("YResolution", static_cast<float>(dpi));
   spec.attribute("ResolutionUnit", "in");
-  // If it is missing, the library writes the current time. This is Exif's unknown time (2.3, tag
-  // 306).
+  // Without this attribute, the library writes the current time. This is Exif's unknown time (2.3,
+  // tag 306).
   spec.attribute("DateTime", "    :  :     :  :  ");
   if (image.channels == 4) {
     spec.channelnames = {"C", "M", "Y", "K"};
@@ -285,7 +284,8 @@ Result<std::vector<unsigned char>> encode_exr(const std::string& name, int width
   ImageSpec spec(width, height, static_cast<int>(channels.size()), TypeDesc::FLOAT);
   spec.channelnames = channels;
   spec.attribute("compression", "zip");
-  spec.attribute("DateTime", "");  // else the time of writing; equal images must give equal files
+  spec.attribute("DateTime",
+                 "");  // otherwise the time of writing; equal images must yield equal files
   return encode(name, "openexr", spec, TypeDesc::FLOAT, values.data());
 }
 

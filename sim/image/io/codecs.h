@@ -13,9 +13,9 @@
 
 namespace hydroprint::image {
 
-/// The functions that need an image library, each documented with its caller in image_file.h.
+/// The functions that need an image library; image_file.h documents each with its caller.
 /// OpenImageIO depends on some two hundred libraries that take a third of a second to load, and
-/// most work needs none of them. They are therefore in a module that is loaded on first use.
+/// most runs need none of them. They are therefore in a module that is loaded on first use.
 struct ImageCodecs {
   Result<ReadImage> (*read_file)(const std::filesystem::path& path, const Context& context);
   Result<ReadImage> (*read_bytes)(const std::vector<unsigned char>& bytes, const std::string& name,

@@ -6,14 +6,14 @@
 
 namespace hydroprint::image {
 
-/// sRGB's transfer curve (IEC 61966-2-1); both ways map [0, 1] to [0, 1], clamping what lies
-/// outside (NaN becomes 0).
+/// Apply the sRGB transfer function (IEC 61966-2-1) and its inverse. Both map [0, 1] to [0, 1] and
+/// clamp values outside (NaN becomes 0).
 [[nodiscard]] float linear_from_srgb(float coded);
 [[nodiscard]] float srgb_from_linear(float linear);
 [[nodiscard]] Eigen::Vector3f linear_from_srgb(const Eigen::Vector3f& coded);
 [[nodiscard]] Eigen::Vector3f srgb_from_linear(const Eigen::Vector3f& linear);
 
-/// Gives the nearest 8-bit sRGB code from a table: fast enough for every pixel of a film image.
+/// Finds the nearest 8-bit sRGB code with a table: fast enough for every pixel of a film image.
 class Srgb8Encoder {
  public:
   Srgb8Encoder();
@@ -29,8 +29,8 @@ class Srgb8Encoder {
 /// Same as Srgb8Encoder, for single values.
 [[nodiscard]] std::uint8_t srgb8_from_linear(float linear);
 
-/// Linear light in 16 bits from 16-bit sRGB codes, by table. 8-bit codes times 257 survive the
-/// round trip.
+/// Converts 16-bit sRGB codes to 16-bit linear light with a table. 8-bit codes times 257 survive
+/// the round trip.
 [[nodiscard]] std::uint16_t linear16_from_srgb16(std::uint16_t coded);
 
 }  // namespace hydroprint::image

@@ -63,16 +63,17 @@ Status check_png(const ByteSource& bytes, const std::string& name) {
   for (std::int64_t at = 8;;) {
     if (bytes.read(head.data(), 8, at) != 8) {
       return fail(Code::kDataLoss,
-                  at_byte(name, at) + "the PNG ends before its last chunk. Get the file again");
+                  at_byte(name, at) +
+                      "the PNG ends before its last chunk. Download or export the file again");
     }
     const std::int64_t length = big_endian(head.data(), 4);
     const bool is_last = std::memcmp(head.data() + 4, "IEND", 4) == 0;
-    // A wrong checksum after the very last chunk does no harm.
+    // A wrong checksum after the last chunk does no harm.
     if (is_last) return {};
     if (at + 12 + length > bytes.size || !is_chunk_sound(bytes, at, length)) {
       return fail(Code::kDataLoss, at_byte(name, at) +
-                                       "a chunk of the PNG is cut short or "
-                                       "damaged. Get the file again");
+                                       "a chunk of the PNG is truncated or "
+                                       "damaged. Download or export the file again");
     }
     at += 12 + length;
   }
@@ -99,7 +100,8 @@ Status check_jpeg(const ByteSource& bytes, const std::string& name) {
     if (marker == 0xDA || marker == 0xD9) break;
     at += 2 + big_endian(head.data() + 2, 2);
   }
-  return fail(Code::kDataLoss, name + ": a JPEG without a readable header. Get the file again");
+  return fail(Code::kDataLoss,
+              name + ": a JPEG without a readable header. Download or export the file again");
 }
 
 }  // namespace
@@ -141,8 +143,8 @@ Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_siz
                   const std::string& name) {
   const std::string size = std::to_string(width) + " x " + std::to_string(height) + " pixels";
   if (width < 1 || height < 1) {
-    return fail(Code::kDataLoss,
-                name + ", header: impossible size, " + size + ". Get the file again");
+    return fail(Code::kDataLoss, name + ", header: impossible size, " + size +
+                                     ". Download or export the file again");
   }
   if (width > kMaxImageSide_px || height > kMaxImageSide_px || width * height > kMaxImageArea_px) {
     return fail(Code::kOutOfRange, name + ", header: " + size + ", more than " +
@@ -150,8 +152,8 @@ Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_siz
                                        std::to_string(kMaxImageArea_px / 1'000'000) +
                                        " million in all. Scale the image down");
   }
-  // Deflate compresses at most 1032 to 1, here at least one bit per pixel; the other formats less
-  // than 5000 to 1.
+  // Deflate compresses at most 1032 to 1, and here a pixel has at least one bit; the other formats
+  // compress less than 5000 to 1.
   const std::int64_t pixels_per_byte = format == Format::kPng ? 8 * 1032 : 8 * 5000;
   if (width * height / pixels_per_byte > file_size) {
     return fail(Code::kDataLoss, name + ", header: announces " + size + " in a file of " +

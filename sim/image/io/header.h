@@ -9,8 +9,8 @@
 
 namespace hydroprint::image {
 
-/// The bytes of a file or of a part of one; `read` copies up to `count` bytes from `offset` and
-/// returns the number copied.
+/// A file or a part of one; `read` copies up to `count` bytes from `offset` and returns the number
+/// copied.
 struct ByteSource {
   std::int64_t size = 0;
   std::function<std::size_t(void* to, std::size_t count, std::int64_t offset)> read;
@@ -20,13 +20,13 @@ struct ByteSource {
 enum class Format { kPng, kJpeg, kTiff };
 [[nodiscard]] const char* decoder_name(Format format);
 
-/// Detects the format from the first bytes. Before any decoder sees them, it refuses PNG and JPEG
-/// that announce more than the limits of image_file.h or more than the file's size can hold. It
-/// also refuses PNG with truncated or damaged chunks. (TIFF is left to check_size(): its decoder
-/// opens it lazily.)
+/// Detects the format from the first bytes. Before a decoder sees them, rejects PNG and JPEG images
+/// whose announced size exceeds the limits of image_file.h or does not fit the file's size, and PNG
+/// images with truncated or damaged chunks. (check_size() checks TIFF, because its decoder opens
+/// files lazily.)
 [[nodiscard]] Result<Format> check_header(const ByteSource& bytes, const std::string& name);
 
-/// Refuses sizes beyond the limits or beyond what `file_size` bytes can hold.
+/// Rejects sizes beyond the limits, and sizes for which `file_size` bytes are too few.
 [[nodiscard]] Status check_size(std::int64_t width, std::int64_t height, std::int64_t file_size,
                                 Format format, const std::string& name);
 

@@ -13,7 +13,7 @@
 namespace hydroprint::image {
 namespace {
 
-/// Loads the module, which lies beside the program, on first use.
+/// Loads the module, which is in the same folder as the program, on first use.
 Result<const ImageCodecs*> codecs() {
   static const auto symbol = module_symbol("hydroprint-image-codecs.so", "hydroprint_image_codecs");
   if (!symbol) return tl::unexpected(symbol.error());
@@ -27,7 +27,7 @@ Status check_file(const std::filesystem::path& path) {
     return fail(Code::kNotFound, path.string() + ": no such file. Check the path");
   }
   if (!std::filesystem::is_regular_file(status)) {
-    return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Give an image file");
+    return fail(Code::kInvalidArgument, path.string() + ": not a regular file. Use an image file");
   }
   return {};
 }

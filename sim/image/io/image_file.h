@@ -17,7 +17,7 @@ struct Texel {
   std::uint16_t r = 0, g = 0, b = 0, chart = 0;
 };
 
-/// An image as read, row 0 on top.
+/// A decoded image, row 0 at the top.
 struct Texels {
   int width = 0, height = 0;
   std::vector<Texel> texels;
@@ -25,36 +25,35 @@ struct Texels {
 
 struct ReadImage {
   Texels image;
-  bool had_alpha = false;  ///< parts were transparent and were laid over white
+  bool had_alpha = false;  ///< had transparent parts, which were composited over white
 };
 
-/// Images larger than this are refused before anything is decoded.
+/// Larger images are rejected before they are decoded.
 inline constexpr int kMaxImageSide_px = 16384;
 inline constexpr std::int64_t kMaxImageArea_px = 200'000'000;
 
-/// Loads the image libraries, which otherwise happens when the first image is read. Call it before
-/// work that takes much memory: the libraries end the program if they find none.
+/// Loads the image libraries now instead of at the first image. Call it before work that takes much
+/// memory: the libraries end the program if memory runs out while they load.
 void load_image_libraries();
 
-/// Reads PNG, JPEG or TIFF (detected by content, not by name): grey, RGB or palette, with or
-/// without alpha (laid over white in linear light), 8 or 16 bits or floats. Integers are read as
-/// sRGB-coded, floats as linear.
-/// Errors, naming the file: kInvalidArgument for other formats, kOutOfRange for images beyond the
-/// limits above, kDataLoss for truncated or corrupt files and files too short for the size they
-/// announce.
+/// Reads a PNG, JPEG or TIFF image (detected by content, not by name): grey, RGB or palette, with
+/// or without alpha (composited over white in linear light), 8 or 16 bits or floats. Integers are
+/// read as sRGB-coded, floats as linear. Errors name the file: kInvalidArgument for other formats,
+/// kOutOfRange for images beyond the limits above, kDataLoss for truncated or corrupt files and
+/// files too short for the announced size.
 [[nodiscard]] Result<ReadImage> read_image(const std::filesystem::path& path,
                                            const Context& context);
 
-/// Same as above, for an image embedded in another file; `name` is its place in messages.
+/// Same as above, for an image embedded in another file; `name` identifies it in messages.
 [[nodiscard]] Result<ReadImage> read_image(const std::vector<unsigned char>& bytes,
                                            const std::string& name, const Context& context);
 
-/// Resolution stated in pictures for the screen.
+/// Resolution written to pictures for the screen.
 inline constexpr double kScreenDpi = 96;
 
-/// Writes a PNG with its resolution (encode_png), under a temporary name that is renamed at the
-/// end. Errors: kResourceExhausted (reason DISK_FULL) if the disk is full, kPermissionDenied or
-/// kNotFound if the file cannot be written.
+/// Writes a PNG with its resolution (encode_png) atomically, by renaming a temporary file. Errors:
+/// kResourceExhausted (reason DISK_FULL) if the disk is full, kPermissionDenied or kNotFound if the
+/// file cannot be written.
 [[nodiscard]] Status write_png(const std::filesystem::path& path, const RgbImage& image, double dpi,
                                const Context& context = {});
 
@@ -63,7 +62,7 @@ inline constexpr double kScreenDpi = 96;
 [[nodiscard]] Status write_png_rgba(const std::filesystem::path& path, int width, int height,
                                     const std::vector<std::uint8_t>& rgba);
 
-/// Writes float channels, interleaved, as a zip-compressed OpenEXR, as write_png does.
+/// Writes interleaved float channels as a zip-compressed OpenEXR file, atomically like write_png().
 [[nodiscard]] Status write_exr(const std::filesystem::path& path, int width, int height,
                                const std::vector<std::string>& channels,
                                const std::vector<float>& values);

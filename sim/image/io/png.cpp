@@ -20,7 +20,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr std::size_t kBandBytes = std::size_t{1} << 20;  ///< not compressed
+constexpr std::size_t kBandBytes = std::size_t{1} << 20;  ///< size before compression
 constexpr double kMmPerInch = 25.4;
 
 /// Filters of the PNG specification (section 9.2): difference to the byte on the left, or above.
@@ -60,14 +60,14 @@ void append_chunk(Bytes& out, std::string_view type, std::span<const unsigned ch
                       crc32_z(0, out.data() + start, static_cast<z_size_t>(out.size() - start))));
 }
 
-/// Sum of a row's bytes as signed magnitudes; rows with a smaller sum compress better.
+/// Returns the sum of a row's bytes as signed magnitudes; rows with a smaller sum compress better.
 long weight(std::span<const unsigned char> row) {
   long sum = 0;
   for (const unsigned char byte : row) sum += std::abs(static_cast<signed char>(byte));
   return sum;
 }
 
-/// Appends the number of the better of two filters and the row filtered by it.
+/// Appends the number of the better of the two filters, and the row filtered with it.
 void append_row(Bytes& out, const unsigned char* row, const unsigned char* above, std::size_t bytes,
                 std::size_t pixel_bytes) {
   const std::size_t start = out.size();
@@ -99,7 +99,7 @@ Bytes filtered(const Rows& image, int first, int last) {
 }
 
 /// Compresses bytes so that the next compressed block can be appended directly.
-/// @return false if memory does not suffice
+/// @return false if there is not enough memory
 bool deflate(Bytes& raw, bool is_end, Bytes& out) {
   z_stream stream{};
   constexpr int kRawDeflate = -15;
@@ -141,8 +141,8 @@ Status compress(const Rows& image, std::vector<Band>& bands, const Context& cont
   });
 }
 
-/// Signature and header. `depth` and `colour` are bits of a channel and colour type, as the
-/// specification numbers them.
+/// Returns signature and header. `depth` is the number of bits per channel and `colour` the colour
+/// type, as numbered in the specification.
 Bytes start(const Rows& image, unsigned char depth, unsigned char colour) {
   Bytes header;
   append_u32(header, static_cast<std::uint32_t>(image.width));
@@ -158,11 +158,11 @@ Bytes resolution(double dpi) {
   Bytes out;
   append_u32(out, per_metre);
   append_u32(out, per_metre);
-  out.push_back(1);  // the unit is the metre
+  out.push_back(1);  // unit: metre
   return out;
 }
 
-/// The zlib stream of the compressed bands: header, bands, checksum of all.
+/// Returns the zlib stream of the compressed bands: header, bands, checksum of all.
 Bytes join(const std::vector<Band>& bands) {
   Bytes out = {0x78, 0x01};
   uLong adler = 1;
@@ -174,7 +174,7 @@ Bytes join(const std::vector<Band>& bands) {
   return out;
 }
 
-/// Appends the chunk that states the colour space.
+/// Appends the chunk that declares the colour space.
 Status append_colours(Bytes& out, const std::string& icc_profile) {
   if (icc_profile.empty()) {
     append_chunk(out, "sRGB", std::array<unsigned char, 1>{0});
@@ -193,7 +193,7 @@ Status append_colours(Bytes& out, const std::string& icc_profile) {
   return {};
 }
 
-/// Appends IDAT chunks. Each may hold any part of the stream; its length has 31 bits.
+/// Appends IDAT chunks. Each may contain any part of the stream; its length field has 31 bits.
 void append_data(Bytes& out, std::span<const unsigned char> stream) {
   constexpr std::size_t kMost = std::size_t{1} << 24;
   while (!stream.empty()) {

@@ -29,18 +29,18 @@ struct PrinterImage {
   }
 };
 
-/// A PNG file's bytes: an RGB image (3 channels) with its resolution, in the colours of an ICC
-/// profile; empty: sRGB. Fails as compress_rows() (png.h) does.
+/// Encodes an RGB image (3 channels) as a PNG with its resolution and an ICC profile; an empty
+/// profile means sRGB. Returns the errors of compress_rows() (png.h).
 [[nodiscard]] Result<std::vector<unsigned char>> encode_png(const PrinterImage& image, double dpi,
                                                             const std::string& icc_profile,
                                                             const Context& context = {});
 
 /// Writes a printer image as a TIFF (LZW) with its resolution and, unless empty, the ICC profile of
-/// its colours. The number of channels selects RGB or CMYK. Fails as write_png() does.
+/// its colours. The number of channels selects RGB or CMYK. Returns the errors of write_png().
 [[nodiscard]] Status write_tiff(const std::filesystem::path& path, const PrinterImage& image,
                                 double dpi, const std::string& icc_profile);
 
-/// One row of an image as 8-bit sRGB codes; `rgb` has room for three per texel.
+/// Converts one row of an image to 8-bit sRGB codes; `rgb` has space for three per texel.
 void srgb8_row(const Texels& image, int y, std::uint8_t* rgb);
 
 }  // namespace hydroprint::image

@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kRings = 16;
 constexpr double kMaxCover = 64;
-/// Charts that share more than this part of their texels with others overlap on purpose; a smaller
-/// part is rounding along a common border.
+/// If a chart shares more than this fraction of its texels with other charts, they overlap on
+/// purpose; a smaller fraction is due to rounding along a common border.
 constexpr double kSharedPart = 0.02;
 
 class UnionFind {
@@ -36,7 +36,7 @@ class UnionFind {
 };
 
 std::uint64_t mix(std::uint64_t hash, double value) {
-  // Adding zero makes -0 and 0 one value.
+  // Adding zero maps -0 and 0 to the same value.
   std::uint64_t x = hash ^ (std::bit_cast<std::uint64_t>(value + 0.0) + 0x9E3779B97F4A7C15U +
                             (hash << 6) + (hash >> 2));
   x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9U;
@@ -51,7 +51,8 @@ std::uint64_t corner_hash(const UvTriangle& triangle, int corner) {
   return hash;
 }
 
-/// Per triangle, the number of its connected piece: 0, 1, ... in order of their first triangles.
+/// Returns for each triangle the number of its connected piece: 0, 1, ... in order of their first
+/// triangles.
 std::vector<int> connected_pieces(const std::vector<UvTriangle>& triangles, int& count) {
   std::vector<std::pair<std::uint64_t, int>> edges;
   edges.reserve(3 * triangles.size());
@@ -59,7 +60,7 @@ std::vector<int> connected_pieces(const std::vector<UvTriangle>& triangles, int&
     std::array<std::uint64_t, 3> corners;
     for (int i = 0; i < 3; ++i) corners[i] = corner_hash(triangles[t], i);
     for (int i = 0; i < 3; ++i) {
-      // Symmetric in the edge's two ends.
+      // The sum is symmetric in the edge's two ends.
       edges.emplace_back(corners[i] + corners[(i + 1) % 3], static_cast<int>(t));
     }
   }
@@ -135,8 +136,8 @@ double cover(const std::vector<UvTriangle>& triangles) {
 
 std::uint16_t id_of(int piece) { return static_cast<std::uint16_t>(1 + piece % 65535); }
 
-/// Marks the texels of every piece and unites pieces that overlap.
-/// @return per id (1 ... 65535), the id of its united chart
+/// Marks the texels of every piece and merges pieces that overlap.
+/// @return for each id (1 ... 65535), the id of the merged chart
 std::vector<std::uint16_t> mark(const std::vector<UvTriangle>& triangles,
                                 const std::vector<int>& piece_of, int pieces,
                                 const Marker& marker) {
@@ -162,7 +163,7 @@ std::vector<std::uint16_t> mark(const std::vector<UvTriangle>& triangles,
       marker.for_each(triangles[t], [&](const Texel& texel) { same.unite(texel.chart, id); });
     }
     if (count.all > 0) continue;
-    // The triangle is too slim to contain a texel's centre: it gets the unmarked texels that it
+    // The triangle is too slim to contain a texel's centre, so it gets the unmarked texels that it
     // touches.
     const auto& uv = triangles[t].uv;
     for (const Eigen::Vector2d& point : {uv[0], uv[1], uv[2]}) {
@@ -192,7 +193,7 @@ void for_each_neighbour(const Texels& image, std::size_t at, Visit&& visit) {
   }
 }
 
-/// Grows all charts into the background, in step, by one ring of texels at a time.
+/// Extends all charts into the background, simultaneously, by one ring of texels at a time.
 void dilate(Texels& image) {
   std::vector<std::size_t> frontier;
   for (std::size_t i = 0; i < image.texels.size(); ++i) {
@@ -215,7 +216,7 @@ void dilate(Texels& image) {
   }
 }
 
-/// Whether [low, high] lies in one unit interval that starts at an integer, up to rounding.
+/// Returns whether [low, high] lies in one unit interval that starts at an integer, up to rounding.
 bool is_in_one_tile(double low, double high, double& tile) {
   constexpr double kRounding = 1e-4;
   tile = std::floor(0.5 * (low + high));

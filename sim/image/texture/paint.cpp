@@ -100,7 +100,7 @@ class PaintLoader {
     return !model_.corner_uvs.empty() && is_finite(model_.corner_uvs[triangle]);
   }
 
-  /// --texture FILE: colours all triangles that have coordinates.
+  /// Applies --texture FILE to all triangles that have coordinates.
   Status lay_texture(const std::filesystem::path& path) {
     const auto& uvs = model_.corner_uvs;
     if (std::none_of(uvs.begin(), uvs.end(), is_finite)) {
@@ -126,7 +126,7 @@ class PaintLoader {
     return {};
   }
 
-  /// The ink for triangles whose material states no colour.
+  /// Returns the ink for triangles whose material defines no colour.
   Ink fallback() {
     if (model_.vertex_colours.empty()) return {};
     if (paint_.vertex_colours_.empty()) {
@@ -139,8 +139,8 @@ class PaintLoader {
   }
 
   Status gather_materials() {
-    // Ink 0 is the fallback, 1 + 2 m that of material m, and 2 + 2 m that of material m without
-    // coordinates.
+    // Ink 0 is the fallback, ink 1 + 2 m is that of material m, and ink 2 + 2 m that of material m
+    // without coordinates.
     const std::size_t materials = model_.materials.size();
     paint_.inks_.assign(1 + 2 * materials, fallback());
     std::vector<bool> is_ready(materials, false);
@@ -161,7 +161,7 @@ class PaintLoader {
     const mesh::Material& material = model_.materials[m];
     Ink& with_uvs = paint_.inks_[1 + 2 * m];
     Ink& without_uvs = paint_.inks_[2 + 2 * m];
-    // Exporters write plain white if the vertices carry the colour.
+    // Exporters write plain white if the colours are those of the vertices.
     const bool is_white = material.colour == Eigen::Vector3f::Ones();
     if (material.has_colour && !(is_white && !model_.vertex_colours.empty())) {
       without_uvs = {Ink::Kind::kColour, linear_from_srgb(material.colour), -1};
@@ -194,7 +194,7 @@ class PaintLoader {
       if (error.code == Code::kNotFound) {
         error.message = name +
                         ": no such file. Put the texture there, correct the path in the "
-                        "material, or give --texture";
+                        "material, or use --texture";
       }
       return tl::unexpected(std::move(error));
     }
@@ -282,7 +282,7 @@ class PaintLoader {
   Paint paint_;
   std::vector<Pending> pending_;
   std::int64_t area_px_ = 0;
-  /// A texture and how it is used: path, content if embedded, wrap modes.
+  /// A texture and its use: path, content if embedded, wrap modes.
   using Key = std::tuple<std::filesystem::path, std::size_t, mesh::Wrap, mesh::Wrap>;
   std::map<Key, int> known_;
 };

@@ -14,23 +14,23 @@
 
 namespace hydroprint::image {
 
-/// The colour of a small piece of the surface, seen through an affine map from a grid of samples
-/// and filtered for that grid.
+/// The colour of a small piece of the surface, sampled through an affine map from a sample grid and
+/// filtered for that grid.
 class Brush {
  public:
   /// White everywhere.
   Brush() = default;
-  /// A patch of a texture. Texture and chart must outlive the brush.
-  /// @param at  three points on the grid of samples
+  /// Samples a patch of a texture. Texture and chart must outlive the brush.
+  /// @param at  three points on the sample grid
   /// @param uv  their texture coordinates
   Brush(const Texture& texture, const Chart& chart, const Corners& at, const Corners& uv);
 
-  /// Mean colour in linear light over the sample at this point of the grid.
+  /// Returns the mean colour in linear light over the sample at this grid point.
   [[nodiscard]] Eigen::Vector3f at(double x, double y) const;
 
  private:
   friend class Paint;
-  const Texture* texture_ = nullptr;  ///< nullptr: colour_ and its slopes apply
+  const Texture* texture_ = nullptr;  ///< nullptr: uses colour_ and its slopes
   const Chart* chart_ = nullptr;
   Texture::Footprint footprint_;
   Texture::Shortcut shortcut_;
@@ -44,14 +44,14 @@ class Brush {
 /// The desired look of the object: a colour for every point of its surface.
 class Paint {
  public:
-  /// False if the model states no colours; then the film stays white everywhere.
+  /// False if the model defines no colours; the film then stays white everywhere.
   [[nodiscard]] bool has_colour() const { return has_colour_; }
   [[nodiscard]] const Warnings& warnings() const { return warnings_; }
 
-  /// @param model_triangle  into Model::triangles
-  /// @param at  three points of that triangle on the grid of samples (sample (i, j) at (i + 1/2, j
-  ///     + 1/2))
-  /// @param barycentric  the three points, in that triangle
+  /// @param model_triangle  index into Model::triangles
+  /// @param at           three points of that triangle on the sample grid (sample (i, j) at (i +
+  ///                     1/2, j + 1/2))
+  /// @param barycentric  the three points as barycentric coordinates in that triangle
   [[nodiscard]] Brush brush(int model_triangle, const Corners& at,
                             const std::array<Eigen::Vector3d, 3>& barycentric) const;
 
@@ -70,17 +70,16 @@ class Paint {
   std::vector<Ink> inks_;
   std::vector<int> ink_of_triangle_;
   std::vector<Texture> textures_;
-  std::vector<Chart> chart_of_triangle_;  ///< empty: no textures
+  std::vector<Chart> chart_of_triangle_;  ///< empty: the model has no textures
   std::vector<std::array<Eigen::Vector2f, 3>> corner_uvs_;
   std::vector<Eigen::Vector3i> triangles_;
   std::vector<Eigen::Vector3f> vertex_colours_;  ///< linear
 };
 
-/// Collects a model's colours: `texture` on its UVs if given, else its materials' textures and
-/// colours, else its vertex colours, else none.
-/// Fails as read_image() does. Other errors, naming file and remedy: kInvalidArgument for a texture
-/// without UVs in the model, kNotFound for a material's missing texture, kOutOfRange for more than
-/// kMaxImageArea_px in all textures together.
+/// Loads a model's colours: `texture` on its UVs if given, otherwise its materials' textures and
+/// colours, otherwise its vertex colours. Returns the errors of read_image(). Other errors name
+/// file and remedy: kInvalidArgument for a texture on a model without UVs, kNotFound for a
+/// material's missing texture, kOutOfRange for more than kMaxImageArea_px in all textures together.
 [[nodiscard]] Result<Paint> load_paint(const mesh::Model& model,
                                        const std::optional<std::filesystem::path>& texture,
                                        const Context& context);

@@ -21,7 +21,7 @@ namespace raster_detail {
 
 __extension__ typedef __int128 Int128;
 
-/// Corners are rounded to 1/1024 of a sample; after that everything is exact.
+/// Corners are rounded to 1/1024 of a sample; all later computation is exact.
 inline constexpr int kOne = 1024;
 /// Corners up to kNarrow fit 64-bit edge functions, up to kWide 128-bit ones.
 inline constexpr double kNarrow = 1 << 19;
@@ -33,7 +33,7 @@ Int floor_div(Int a, Int b) {  // b > 0
   return q - (a % b < 0 ? 1 : 0);
 }
 
-/// One edge, oriented so that its function is positive on the inner side.
+/// One edge, oriented so that its edge function is positive on the inner side.
 template <class Int>
 struct Edge {
   Int ax, ay, dx, dy;
@@ -50,8 +50,8 @@ struct Edge {
         per_row((dy < 0 ? -dy : dy) * kOne),
         reciprocal(1 / static_cast<double>(per_row)) {}
 
-  /// Exactly floor(k / per_row). Multiplies by the reciprocal, because 64-bit division is slow;
-  /// that result is off by one at most.
+  /// Computes floor(k / per_row) exactly. Multiplies by the reciprocal, because 64-bit division is
+  /// slow, and then corrects the result, which is off by at most one.
   Int rows(Int k) const {
     if constexpr (sizeof(Int) > sizeof(std::int64_t)) {
       return floor_div<Int>(k, per_row);
@@ -141,7 +141,8 @@ class BarycentricMap {
     per_y_ = Eigen::Vector3d((b.x() - a.x()) / area, -b.x() / area, a.x() / area);
   }
 
-  /// May lie slightly outside [0, 1] at samples that are inside only because corners are rounded.
+  /// May lie slightly outside [0, 1] at samples that are inside only because the corners are
+  /// rounded.
   [[nodiscard]] Eigen::Vector3d at(double x, double y) const {
     return Eigen::Vector3d::UnitX() + per_x_ * (x - origin_.x()) + per_y_ * (y - origin_.y());
   }

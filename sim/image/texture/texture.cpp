@@ -11,8 +11,8 @@ namespace {
 constexpr int kMaxProbes = 16;
 constexpr int kRowsAtOnce = 32;
 
-/// Mean of up to four texels, over those of their most frequent chart (0: none of them has a
-/// chart).
+/// Returns the mean of up to four texels, using only those of their most frequent chart (0: none of
+/// them has a chart).
 Texel mean(const std::array<const Texel*, 4>& children, int count) {
   std::uint16_t chart = 0;
   int most = 0;
@@ -64,7 +64,8 @@ Status halve(const Texels& from, Texels& to, const Context& context) {
   });
 }
 
-/// std::floor is a library call on plain x86-64; this is inlined. Exact up to 2^62, else 0.
+/// std::floor is a library call on plain x86-64; this function is inlined. Exact up to 2^62,
+/// otherwise 0.
 inline double fast_floor(double t) {
   if (!(std::abs(t) < 4e18)) return 0;
   const auto whole = static_cast<double>(static_cast<std::int64_t>(t));
@@ -113,7 +114,7 @@ inline Taps taps_at(double position, int size, bool wraps) {
 using Shorts = std::uint16_t __attribute__((vector_size(8)));
 using Floats = float __attribute__((vector_size(16)));
 
-/// r, g, b and an unused value, all four at once.
+/// Converts r, g, b and an unused value simultaneously.
 inline Floats floats(const Texel& texel) {
   return __builtin_convertvector(std::bit_cast<Shorts>(texel), Floats);
 }
@@ -242,7 +243,7 @@ Texture::Sum Texture::trilinear(const Eigen::Vector2d& folded, const Footprint& 
   Sum sum = bilinear(folded, footprint.level, chart);
   if (footprint.blend <= 0) return sum;
   const Sum coarse = bilinear(folded, footprint.level + 1, chart);
-  // Each level counts by its share, even if little of it belongs to the chart.
+  // Each level is weighted by its fraction, even if little of it belongs to the chart.
   if (coarse.weight <= 0) return sum;
   if (sum.weight <= 0) return coarse;
   sum.colour = sum.colour / sum.weight * (1 - footprint.blend) +

@@ -12,39 +12,39 @@
 
 namespace hydroprint::image {
 
-/// An image that can be sampled at any size: linear light, a pyramid of halved copies, and averages
-/// that stay within one chart.
+/// An image that can be sampled at any size: linear light, a mipmap pyramid, and averages that stay
+/// within one chart.
 class Texture {
  public:
-  /// Takes the texels as level 0 and builds the other levels: 8 bytes per texel, a third more for
+  /// Uses the texels as level 0 and builds the other levels: 8 bytes per texel, plus a third for
   /// the pyramid.
   [[nodiscard]] static Result<Texture> build(Texels texels, mesh::Wrap wrap_u, mesh::Wrap wrap_v,
                                              const Context& context);
 
-  /// The shape of a sample's neighbourhood on the texture; constant over an affine patch.
+  /// The shape of a sample's neighbourhood in the texture; constant over an affine patch.
   struct Footprint {
     int level = 0;
-    float blend = 0;  ///< share of the next level
+    float blend = 0;  ///< weight of the next level
     int probes = 1;   ///< along the longer axis of the footprint
     Eigen::Vector2d step_uv = Eigen::Vector2d::Zero();
   };
   /// @param uv_per_sample  columns: change of (u, v) from one sample to the next in x and in y
   [[nodiscard]] Footprint footprint(const Eigen::Matrix2d& uv_per_sample) const;
 
-  /// Mean colour, linear light, of the footprint around a point (v up).
+  /// Returns the mean colour, linear light, of the footprint around a point (v up).
   [[nodiscard]] Eigen::Vector3f sample(const Eigen::Vector2d& uv, const Footprint& footprint,
                                        const Chart& chart) const;
 
-  /// A fast path for samples of an affine patch. It applies to samples no larger than a texel that
-  /// lie among four texels of their chart, away from the texture's edges; most do. The texture must
-  /// outlive it, and must not move.
+  /// A fast path for samples of an affine patch. It applies to the common case: samples of at most a
+  /// texel in size that lie among four texels of their chart, away from the edge of the texture.
+  /// The texture must outlive it, and must not be moved.
   class Shortcut {
    public:
-    /// Never applies.
+    /// Creates a shortcut that never applies.
     Shortcut() = default;
     /// Same as Texture::sample(), up to rounding.
     /// @param offset  from the patch's origin, in samples
-    /// @param colour  linear light, in [0, 1]
+    /// @param colour  output: linear light, in [0, 1]
     /// @return false, without a colour, if Texture::sample() has to be used
     [[nodiscard]] bool sample(const Eigen::Vector2d& offset, Eigen::Vector3f& colour) const;
 
@@ -52,7 +52,8 @@ class Texture {
     friend class Texture;
     const Texels* image_ = nullptr;
     std::uint16_t chart_ = 0;
-    Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();  ///< in texels, (0, 0) a texel's centre
+    /// In texels; (0, 0) is the centre of a texel.
+    Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
     Eigen::Matrix2d per_sample_ = Eigen::Matrix2d::Zero();
   };
   /// @param uv  of the patch's origin

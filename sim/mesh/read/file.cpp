@@ -21,7 +21,7 @@ Result<std::string> read_file(const std::filesystem::path& path) {
   if (!std::filesystem::exists(status))
     return fail(Code::kNotFound, path.string() + ": no such file; check the path");
   if (!std::filesystem::is_regular_file(status))
-    return bad_input(path, "", "is not a regular file; give the path of a model");
+    return bad_input(path, "", "is not a regular file; use the path of a model");
   const auto size = std::filesystem::file_size(path, error);
   if (error || size == 0) return bad_input(path, "", "the file is empty; export it again");
   if (size > kMaxBytes)

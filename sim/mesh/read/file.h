@@ -8,11 +8,11 @@
 
 namespace hydroprint::mesh {
 
-/// The whole content of a regular file. Errors: kNotFound if it is missing; kInvalidArgument if it
-/// is empty, not a regular file, or larger than 4 GiB.
+/// Returns the whole content of a regular file. Errors: kNotFound if it is missing;
+/// kInvalidArgument if it is empty, not a regular file, or larger than 4 GiB.
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 
-/// kInvalidArgument with the message "FILE: PLACE: WHAT" on one line.
+/// Returns kInvalidArgument with the message "FILE: PLACE: WHAT" on one line.
 [[nodiscard]] tl::unexpected<Error> bad_input(const std::filesystem::path& path,
                                               std::string_view place, std::string_view what);
 

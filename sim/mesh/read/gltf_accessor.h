@@ -19,9 +19,10 @@ class GltfAccessor {
 
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] int components() const { return components_; }
-  /// Components of element i, normalised if the file requires it; those beyond components() are 1.
+  /// Returns the components of element i, normalised if the file requires it; those beyond
+  /// components() are 1.
   [[nodiscard]] std::array<double, 4> values(std::size_t i) const;
-  /// First component of element i as an index; UINT32_MAX if it is not an index.
+  /// Returns the first component of element i as an index; UINT32_MAX if it is not a valid index.
   [[nodiscard]] std::uint32_t index(std::size_t i) const;
 
  private:

@@ -20,14 +20,14 @@ constexpr int kMaxDepth = 64;
 Result<std::string_view> json_text(std::string_view bytes, const std::filesystem::path& path) {
   if (!bytes.starts_with("glTF")) return bytes;
   std::array<std::uint32_t, 4> words{};  // version, length, JSON length, JSON magic
-  if (bytes.size() < 20) return damaged(path, "header", "is cut short");
+  if (bytes.size() < 20) return damaged(path, "header", "is truncated");
   std::memcpy(words.data(), bytes.data() + 4, sizeof words);
   if (words[1] > bytes.size() || words[2] > bytes.size() - 20)
     return damaged(path, "header", "announces more bytes than the file has");
   return bytes.substr(20, words[2]);
 }
 
-/// A non-negative integer member; `otherwise` if there is none.
+/// Returns a non-negative integer member; `otherwise` if there is none.
 std::uint64_t number(const json& object, const char* key, std::uint64_t otherwise) {
   return json_unsigned(object, key).value_or(otherwise);
 }

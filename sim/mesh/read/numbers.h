@@ -7,7 +7,8 @@
 
 namespace hydroprint::mesh {
 
-/// Removes the next word (between blanks) from the front of `text`; empty at the end.
+/// Removes the next word (delimited by `blanks`) from the front of `text` and returns it; empty at
+/// the end.
 [[nodiscard]] inline std::string_view next_word(std::string_view& text,
                                                 std::string_view blanks = " \t") {
   const auto begin = text.find_first_not_of(blanks);
@@ -21,7 +22,7 @@ namespace hydroprint::mesh {
   return word;
 }
 
-/// The whole word as a finite number, else nullopt. Values too small for a double count as 0.
+/// Parses the whole word as a finite number, else nullopt. Values too small for a double become 0.
 [[nodiscard]] inline std::optional<double> parse_number(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;

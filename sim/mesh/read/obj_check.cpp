@@ -33,7 +33,7 @@ class ObjChecker {
   }
 
  private:
-  /// Largest index so far and its line; the element may be defined further down.
+  /// Largest index so far and its line. The element may be defined later in the file.
   struct Largest {
     std::int64_t index = 0;
     std::size_t line = 0;
@@ -58,7 +58,7 @@ class ObjChecker {
 
   Status check(std::string_view line) {
     if (line.find('\0') != line.npos)
-      return bad(line_, "holds binary data; give a Wavefront OBJ file as text");
+      return bad(line_, "contains binary data; use a Wavefront OBJ file in text format");
     const auto keyword = next_word(line);
     if (keyword == "v") return check_vertex(line);
     if (keyword == "vt") return check_texture_coordinate(line);

@@ -10,18 +10,19 @@
 
 namespace hydroprint::mesh {
 
-/// Facts collected by the check of an OBJ file.
+/// Facts about an OBJ file, collected while checking it.
 struct ObjFacts {
   std::size_t vertices = 0;
   std::size_t texture_coordinates = 0;
-  std::size_t triangles = 0;                    ///< after polygons are split
-  std::vector<std::string> libraries;           ///< arguments of `mtllib`, one per line
-  std::vector<Eigen::Vector3f> vertex_colours;  ///< of `v x y z r g b`; some or all vertices
+  std::size_t triangles = 0;           ///< after polygons are split
+  std::vector<std::string> libraries;  ///< arguments of `mtllib`, one per line
+  /// Colours of `v x y z r g b`, for some or all vertices.
+  std::vector<Eigen::Vector3f> vertex_colours;
 };
 
 /// Checks every line of an OBJ file strictly, because the importer reads malformed numbers as 0 and
-/// accepts indices out of range. Refuses, naming the line: malformed or non-finite numbers, faces
-/// with fewer than three corners, indices out of range, binary data.
+/// accepts indices out of range. Rejects malformed or non-finite numbers, faces with fewer than
+/// three corners, indices out of range, and binary data. Errors name the line.
 [[nodiscard]] Result<ObjFacts> check_obj(std::string_view text, const std::filesystem::path& path,
                                          const Context& context);
 

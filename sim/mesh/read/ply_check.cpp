@@ -39,7 +39,7 @@ const std::map<std::string_view, Type>& types() {
 struct Property {
   std::string name;
   Type type;
-  std::optional<Type> count;  ///< of a list
+  std::optional<Type> count;  ///< type of a list's length
   bool is_corners = false;    ///< the list of a face's vertices
 };
 
@@ -177,7 +177,7 @@ class PlyChecker {
     return std::any_of(element.properties.begin(), element.properties.end(), predicate);
   }
 
-  /// Checks that the file can hold that many items, before any is read.
+  /// Checks that the file is large enough for that many items, before any is read.
   Status check_size(const Element& element) {
     std::uint64_t least = 0;
     for (const auto& p : element.properties)
@@ -203,7 +203,7 @@ class PlyChecker {
     double count = 1;
     if (property.count) {
       const auto length = next(*property.count);
-      if (!length || *length < 0) return bad_item(element, item, "is cut short");
+      if (!length || *length < 0) return bad_item(element, item, "is truncated");
       count = *length;
       if (property.is_corners && count < 3)
         return bad_item(element, item, "has fewer than three corners");
@@ -212,7 +212,7 @@ class PlyChecker {
       const auto value = next(property.type);
       if (!value)
         return bad_item(element, item,
-                        "is cut short or contains a value that is not a finite number");
+                        "is truncated or contains a value that is not a finite number");
       if (property.is_corners && !(*value >= 0 && *value < static_cast<double>(facts_.vertices)))
         return bad_item(element, item,
                         fmt::format("uses a vertex out of range; there are {}", facts_.vertices));
@@ -220,7 +220,7 @@ class PlyChecker {
     return {};
   }
 
-  /// The next number; nullopt if it is missing or not finite.
+  /// Returns the next number; nullopt if it is missing or not finite.
   std::optional<double> next(const Type& type) {
     if (format_ == Format::kAscii) return parse_number(next_word(item_));
     if (rest_.size() < type.bytes) return std::nullopt;

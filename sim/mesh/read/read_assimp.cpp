@@ -17,7 +17,7 @@
 namespace hydroprint::mesh {
 namespace {
 
-/// Unregisters all other importers, so that a file never reaches any of those forty.
+/// Unregisters all other importers (about forty), so that no file can reach them.
 void keep_only(Assimp::Importer& importer, const std::string& extension) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     if (importer.GetImporterIndex(extension.c_str()) == i) continue;

@@ -18,10 +18,10 @@
 namespace hydroprint::mesh {
 namespace {
 
-constexpr int kMaxDepth = 256;              // of nodes
+constexpr int kMaxDepth = 256;              // maximum depth of nodes
 constexpr std::size_t kMaxNodes = 100'000;  // visited
 
-/// glTF's colours are linear light.
+/// Converts to sRGB, because glTF's colours are linear light.
 float to_srgb(double linear) {
   const double c = std::clamp(linear, 0.0, 1.0);
   return static_cast<float>(c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
@@ -112,7 +112,8 @@ class GltfImporter {
     model_.warnings.push_back({std::move(code), std::move(message), model_.path.string()});
   }
 
-  /// The root nodes: of the default scene, else of the first, else every node that is not a child.
+  /// Returns the root nodes: those of the default scene, else of the first scene, else all nodes
+  /// that are not children.
   [[nodiscard]] std::vector<int> roots() const {
     const auto* scene = entry(source_.scenes, std::max(source_.defaultScene, 0));
     if (scene != nullptr) return scene->nodes;
@@ -269,7 +270,7 @@ class GltfImporter {
     return result;
   }
 
-  /// KHR_texture_transform: scale, then rotate, then shift.
+  /// Returns the transform of KHR_texture_transform: scaling, then rotation, then translation.
   static Eigen::Affine2d texture_transform(const tinygltf::Material* material) {
     Eigen::Affine2d result = Eigen::Affine2d::Identity();
     if (material == nullptr) return result;
@@ -341,8 +342,8 @@ class GltfImporter {
   std::size_t morphing_ = 0;
 };
 
-/// Limits the importer to buffers below the model's folder. It is compiled so that it does not open
-/// images; the texture loader opens the one that is needed.
+/// Restricts the importer to buffers below the model's folder. It is compiled without support for
+/// images; the texture loader opens the images that are needed.
 tinygltf::FsCallbacks file_access(std::filesystem::path& folder) {
   tinygltf::FsCallbacks callbacks{};
   callbacks.user_data = &folder;
@@ -385,7 +386,7 @@ Result<Model> read_gltf(std::string bytes, const std::filesystem::path& path,
   HP_RETURN_IF_ERROR(check_cancelled(context));
   const auto size = static_cast<unsigned int>(bytes.size());
   if (size != bytes.size()) return bad_input(path, "", "is too large; simplify the model");
-  bytes.append(64, '\0');  // the importer's check of the last chunk is eight bytes off
+  bytes.append(64, '\0');  // the importer's check of the last chunk is off by eight bytes
 
   std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
   tinygltf::TinyGLTF loader;

@@ -100,7 +100,7 @@ Result<Model> read_model(const std::filesystem::path& path, double scale, const 
                                        "--scale to the millimetres per unit of the model");
   const Reader reader = reader_for(path);
   if (reader == nullptr)
-    return bad_input(path, "", "unknown format; give an OBJ, STL, PLY, glTF or GLB file");
+    return bad_input(path, "", "unknown format; use an OBJ, STL, PLY, glTF or GLB file");
   context.progress("reading", 0);
   HP_ASSIGN_OR_RETURN(std::string bytes, read_file(path));
   HP_RETURN_IF_ERROR(check_cancelled(context));

@@ -8,19 +8,19 @@
 
 namespace hydroprint::mesh {
 
-/// Models of more faces than this are refused.
+/// Models with more faces are rejected.
 inline constexpr std::size_t kMaxFaces = 20'000'000;
 
 /// Reads OBJ (with MTL), STL, PLY, glTF or GLB; the file extension selects the format. Polygons are
 /// split into triangles. Vertices keep the file's order (STL: three per facet; glTF: in the order
-/// of the scene's nodes, with node transforms applied).
-/// @param scale  model units to mm, more than 1e-6 and less than 1e6
-/// Errors are one line that names file, place and remedy. kNotFound: missing file. kOutOfRange:
-/// scale out of range. kInvalidArgument: unknown formats, truncated files, headers that announce
-/// more than the file contains, coordinates that are not finite or beyond 1 km, indices out of
-/// range, no faces, no face with an area, more than kMaxFaces faces. A missing material file or
-/// material is a warning. Textures are named in the materials and not opened. Faces without area
-/// are dropped with the warning `zero_area_faces`.
+/// of the scene's nodes, with node transforms applied). Textures are named in the materials but not
+/// opened. Faces without area are dropped with the warning `zero_area_faces`. A missing material
+/// file or material is a warning.
+/// Errors are one line with file, place and remedy. kNotFound: missing file. kOutOfRange: scale out
+/// of range. kInvalidArgument: unknown formats, truncated files, headers that announce more than
+/// the file contains, coordinates that are not finite or beyond 1 km, indices out of range, files
+/// without a face that has an area, more than kMaxFaces faces.
+/// @param scale  millimetres per model unit, more than 1e-6 and less than 1e6
 [[nodiscard]] Result<Model> read_model(const std::filesystem::path& path, double scale,
                                        const Context& context);
 

@@ -27,7 +27,7 @@ class MemoryBuffer : public std::streambuf {
   }
 };
 
-/// Joins lines that continue after a backslash; the importer does not support them.
+/// Joins lines that continue after a backslash, because the importer does not support them.
 void join_continued_lines(std::string& text) {
   for (auto at = text.find('\\'); at != text.npos; at = text.find('\\', at + 1)) {
     const auto end = text.compare(at + 1, 2, "\r\n") == 0 ? at + 3
@@ -37,7 +37,7 @@ void join_continued_lines(std::string& text) {
   }
 }
 
-/// Blanks comments behind faces, which the importer would read as more corners.
+/// Replaces comments after faces with blanks, because the importer would read them as more corners.
 void blank_face_comments(std::string& text) {
   for (auto at = text.find('#'); at != text.npos; at = text.find('#', at)) {
     const auto begin = text.find_last_of("\r\n", at) + 1;  // npos + 1 is 0: the first line
@@ -51,7 +51,7 @@ void blank_face_comments(std::string& text) {
 struct MaterialFile {
   std::vector<tinyobj::material_t> materials;
   std::map<std::string, int> by_name;
-  std::set<std::string> coloured;  ///< those with a Kd line, which the importer does not report
+  std::set<std::string> coloured;  ///< materials with a Kd line, which the importer does not report
   std::filesystem::path folder;
 };
 
@@ -156,7 +156,7 @@ class ObjImporter {
     transforms_.push_back(transform_);
   }
 
-  /// The material as defined in the files; one without colour if it is not defined.
+  /// Returns the material as defined in the files; one without colour if it is not defined.
   Material find(const std::string& name) {
     Material material;
     material.name = name;
@@ -270,7 +270,7 @@ class ObjImporter {
   std::map<std::string, int> used_;
   std::set<std::string> missing_;
   Transform transform_;
-  std::vector<Transform> transforms_;  ///< per material
+  std::vector<Transform> transforms_;  ///< texture transform of each material
   std::vector<Eigen::Vector2f> uvs_;
   std::vector<int> corners_;
   std::vector<int> corner_uvs_;  ///< -1: none

@@ -8,8 +8,8 @@
 namespace hydroprint::mesh {
 
 /// Checks an STL file, binary (its length must match its facet count) or ASCII (read to its last
-/// word). Refuses, naming the line or facet: wrong counts, truncated files, facets without three
-/// corners, malformed or non-finite numbers.
+/// word). Rejects wrong counts, truncated files, facets without three corners, and malformed or
+/// non-finite numbers. Errors name the line or facet.
 /// @return number of facets
 [[nodiscard]] Result<std::size_t> check_stl(std::string_view bytes,
                                             const std::filesystem::path& path,

@@ -1,5 +1,5 @@
 // The importer's code is compiled here with hidden visibility instead of being linked. libdraco, a
-// dependency of assimp, exports another version of the same symbols, and the order of a program's
-// libraries decided which of the two it called.
+// dependency of assimp, exports another version of the same symbols. With linking, the order of a
+// program's libraries would decide which version is called.
 #define TINYGLTF_IMPLEMENTATION
 #include <tiny_gltf.h>

@@ -10,7 +10,7 @@ namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;
 
-/// The polygon projected onto a plane in which it runs counter-clockwise.
+/// Returns the polygon projected onto a plane in which it runs counter-clockwise.
 std::vector<Eigen::Vector2d> flatten(const std::vector<Eigen::Vector3d>& points,
                                      std::span<const int> polygon) {
   const auto point = [&](std::size_t i) -> const Eigen::Vector3d& {

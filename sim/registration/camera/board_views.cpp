@@ -17,8 +17,8 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr double kJump_mm = 12;
-constexpr double kLeastSize = 0.8,
-                 kMostSize = 1.2;  ///< of a piece, relative to the board's diagonal
+/// Limits for the size of a cluster, relative to the board's diagonal.
+constexpr double kLeastSize = 0.8, kMostSize = 1.2;
 constexpr std::size_t kMostStarts = 6;
 constexpr double kLeastPaired = 0.6, kSurely = 0.85;  ///< share of points on the board over rms
 constexpr double kStartReach_mm = 25, kLeastFacing = 0.2;
@@ -29,7 +29,7 @@ constexpr double kLeastTilt_rad = 25 * std::numbers::pi / 180;
 constexpr double kLeastRange = 0.15;
 
 double across(const scan::Cloud& cloud, const std::vector<int>& piece) {
-  // The largest distance between the two extreme points along any of several directions.
+  // The distance between the two extreme points, maximised over several directions.
   double most = 0;
   constexpr int kDirections = 24;
   for (int i = 0; i < kDirections; ++i) {
@@ -47,7 +47,7 @@ double across(const scan::Cloud& cloud, const std::vector<int>& piece) {
   return most;
 }
 
-/// The pose in which the board faces the camera upright.
+/// Returns the pose in which the board faces the camera upright.
 Pose facing() {
   Pose out = Pose::Identity();
   out.linear() = Eigen::Vector3d(1, -1, -1).asDiagonal();
@@ -64,8 +64,8 @@ std::vector<scan::ScanPoint> one_a_patch(const scan::Cloud& cloud, const std::ve
   return out;
 }
 
-/// The board's plates slope away from its ridge, so normals vary most across it. That determines
-/// the board's orientation up to half a turn.
+/// The board's plates slope away from its ridge, so normals vary most across the ridge. This
+/// determines the board's orientation up to half a turn.
 std::array<Pose, 2> by_its_bend(const std::vector<scan::ScanPoint>& points, const Shape& board) {
   // Weighted by area on the board, not in the image.
   double area = 0;

@@ -10,19 +10,19 @@
 
 namespace hydroprint::registration {
 
-/// A board in one image.
+/// The board in one image.
 struct BoardView {
   std::vector<scan::ScanPoint> points;  ///< one for each patch
   Pose X_CB = Pose::Identity();
 };
 
-/// Finds the board in a cloud: the piece of its size with the best fit.
+/// Finds the board in a cloud: the piece of the board's size that fits best.
 /// @return nullopt if there is none
 [[nodiscard]] Result<std::optional<BoardView>> find_board(const scan::Cloud& cloud,
                                                           const Shape& board, int patch_px,
                                                           const Context& context);
 
-/// Describes why the views are not enough to calibrate a camera; empty if they are.
+/// Returns why the views do not suffice to calibrate a camera; empty if they do.
 [[nodiscard]] std::string lacking(const std::vector<BoardView>& views, const scan::Lens& lens);
 
 }  // namespace hydroprint::registration

@@ -112,8 +112,8 @@ class Adjuster {
     return {};
   }
 
-  /// Deviation of each sighting from the prediction of the others of its patch, in standard
-  /// deviations.
+  /// Returns the deviation of each sighting from the value predicted by the others of its patch, in
+  /// standard deviations.
   [[nodiscard]] std::vector<double> sigmas_off() const {
     std::vector<double> out;
     out.reserve(sightings_.size());
@@ -143,8 +143,9 @@ class Adjuster {
     }
   }
 
-  /// Evaluated on the board, not at the scan point. Otherwise noise in the rows would correlate
-  /// with noise in the residuals and flatten the relief by the ratio of their variances (3 %).
+  /// The row is evaluated on the board, not at the scan point. Otherwise noise in the rows would
+  /// correlate with noise in the residuals and flatten the relief by the ratio of their variances
+  /// (3 %).
   [[nodiscard]] SightingRow row_of(const Sighting& s) const {
     const Pair& pair = s.pair;
     const double reported_mm = pair.on_mm.z() / lens_.depth_scale;
@@ -156,8 +157,9 @@ class Adjuster {
     return out;
   }
 
-  /// The normal equations, with each patch's constant noise eliminated. That noise is one more
-  /// unknown for each patch, the same in every view, with mean 0 and a known standard deviation.
+  /// Returns the normal equations, with each patch's constant noise eliminated. This noise is one
+  /// more unknown for each patch, the same in every view, with mean 0 and a known standard
+  /// deviation.
   [[nodiscard]] System build() const {
     System out(views_.size());
     out.matrix.topLeftCorner<kLens, kLens>().setIdentity();  // the prior

@@ -9,12 +9,12 @@
 namespace hydroprint::registration {
 namespace {
 
-constexpr double kWidth_mm = 140, kHeight_mm = 210;  ///< of one plate
+constexpr double kWidth_mm = 140, kHeight_mm = 210;  ///< size of one plate
 constexpr double kPitch_mm = 66, kPyramid_mm = 44, kTall_mm = 25;
 constexpr int kColumns = 2, kRows = 3;
 constexpr double kSlope_rad = std::numbers::pi / 6;
 
-/// A rectangle in z = 0 whose normal points up.
+/// Returns a rectangle in z = 0 whose normal points up.
 mesh::Surface rectangle(double x0, double y0, double x1, double y1) {
   mesh::Surface out;
   out.points = {{x0, y0, 0}, {x1, y0, 0}, {x1, y1, 0}, {x0, y1, 0}};
@@ -30,8 +30,8 @@ mesh::Surface rectangle(double x0, double y0, double x1, double y1) {
 
 double row_at(int row) { return kPitch_mm * (row - (kRows - 1) / 2.0); }
 
-/// Pyramids of one row with the plate between them. The plate is open below the pyramids, where it
-/// is not visible and must not be paired with scan points.
+/// Returns the pyramids of one row with the plate between them. The plate is open below the
+/// pyramids, because it is not visible there and must not be paired with scan points.
 mesh::Surface row_of(int row, int columns) {
   const double y = row_at(row), y0 = y - kPyramid_mm / 2, y1 = y + kPyramid_mm / 2;
   mesh::Surface out;
@@ -46,7 +46,7 @@ mesh::Surface row_of(int row, int columns) {
   return joined(std::move(out), rectangle(left, y0, kWidth_mm, y1));
 }
 
-/// A flat plate, with the ridge along y.
+/// Returns a flat plate, with the ridge along y.
 mesh::Surface plate(bool is_whole) {
   mesh::Surface out;
   double below = -kHeight_mm / 2;

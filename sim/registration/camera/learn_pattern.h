@@ -13,7 +13,7 @@ namespace hydroprint::registration {
 /// @param covariance  of all unknowns: the lens in units of its prior standard deviations, then the
 ///                    pose of each view
 /// @param spread      ratio of the sightings' spread to their noise
-/// @param empty       an unknown pattern with the size of the image and of the patches
+/// @param empty       an unknown pattern with the same image size and patch size
 [[nodiscard]] scan::FixedPattern learn_pattern(
     const std::vector<Sighting>& sightings,
     const std::function<SightingRow(const Sighting&)>& row_of, const Eigen::MatrixXd& covariance,

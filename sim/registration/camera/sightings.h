@@ -11,7 +11,7 @@
 
 namespace hydroprint::registration {
 
-/// A point of one view on the board, at the current estimate of lens and pose.
+/// A point on the board in one view, for the current estimate of lens and pose.
 struct Sighting {
   std::size_t view;
   Pair pair;
@@ -20,8 +20,8 @@ struct Sighting {
   [[nodiscard]] double weight() const { return robust / std::pow(pair.own_sigma_mm(), 2); }
 };
 
-/// Estimate of the constant noise of a patch from its sightings, in units of its standard
-/// deviation: pull / square, positive outward, with variance 1 / square.
+/// Estimate of a patch's constant noise from its sightings, in units of its standard deviation:
+/// pull / square, positive outward, with variance 1 / square.
 struct Constant {
   double square = 1, pull = 0;
 
@@ -39,7 +39,7 @@ struct Constant {
   return out;
 }
 
-/// Calls `use` with all sightings of one patch, for each patch.
+/// Calls `use` for each patch, with all sightings of the patch.
 /// @param sightings  sorted by patch
 template <class Use>
 void for_each_patch(const std::vector<Sighting>& sightings, Use use) {
@@ -53,11 +53,11 @@ void for_each_patch(const std::vector<Sighting>& sightings, Use use) {
   }
 }
 
-/// Derivative of a sighting's residual by the lens's parameters, in units of their prior standard
-/// deviations, and by the pose of its view.
+/// Derivative of a sighting's residual with respect to the lens parameters, in units of their prior
+/// standard deviations, and to the pose of its view.
 using SightingRow = Eigen::Matrix<double, scan::Lens::kParameters + 6, 1>;
 
-/// Index of a view's pose among all unknowns; the lens comes first.
+/// Returns the index of a view's pose among all unknowns; the lens comes first.
 [[nodiscard]] inline Eigen::Index place_of(std::size_t view) {
   return scan::Lens::kParameters + 6 * static_cast<Eigen::Index>(view);
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kFewestMarkers = 3;
 constexpr std::size_t kSightSamples = 600;
 constexpr double kSight_mm = 8;
 constexpr double kHiddenShare = 0.5;
-constexpr double kMoved_mm = 40;  ///< a marker found this near to a place belongs there
+constexpr double kMoved_mm = 40;  ///< a marker found within this distance of a place belongs there
 constexpr double kWeak_mm = 5;
 
 /// The pyramids that are used, at their places in the layout, as one body in the film frame.

@@ -11,20 +11,22 @@ namespace hydroprint::registration {
 struct MarkerReport {
   std::string name;
   bool used = false;
-  double rms_mm = 0;  ///< rms distance of its points from its surface, in the fit of all markers
-  double residual_mm = 0;  ///< distance of its own fit from its place in the fit of all markers
-  std::string why_not;     ///< if not used: hidden, moved or not its shape
+  /// Rms distance of the marker's points from its surface, in the fit of all markers.
+  double rms_mm = 0;
+  /// Distance of the marker, fitted alone, from its place in the fit of all markers.
+  double residual_mm = 0;
+  std::string why_not;  ///< why it is not used: hidden, displaced or of another shape
 };
 
 /// The film frame, found from the markers.
 struct FilmFrame {
-  PoseFit fit;                        ///< of F in the camera frame
-  std::vector<MarkerReport> markers;  ///< in the layout's order
+  PoseFit fit;                        ///< pose of F in the camera frame
+  std::vector<MarkerReport> markers;  ///< reports in the layout's order
   Warnings warnings;                  ///< `marker_left_out` for each unused marker
 
   [[nodiscard]] const Pose& X_CF() const { return fit.X_CB; }
-  /// Derivative of `motion` times the frame's twist by the camera's unknowns; zero if the frame was
-  /// not found with a camera.
+  /// Returns the derivative of `motion` times the frame's twist with respect to the camera's
+  /// unknowns; zero if the frame was not found with a camera.
   template <int Rows>
   [[nodiscard]] Eigen::Matrix<double, Rows, Eigen::Dynamic> camera_gain(
       const Eigen::Matrix<double, Rows, 6>& motion, Eigen::Index unknowns) const {
@@ -34,13 +36,13 @@ struct FilmFrame {
   }
 };
 
-/// Finds the markers (find_markers), identifies them by the distances between them (match), leaves
-/// out those that disagree with the layout (agreeing), and fits all others together.
+/// Finds the markers (find_markers), identifies them by the distances between them (match), drops
+/// those that disagree with the layout (agreeing), and fits all others together. Returns
+/// kInvalidArgument if the layout has fewer than three markers. Returns kFailedPrecondition
+/// (TOO_FEW_MARKERS) if fewer than three can be used, or if three do not agree; the message states
+/// the problem of each marker. Also returns the errors of find_plane().
 /// @param nominal_CF  the film's pose in the rig's configuration, accurate to about 30 degrees. It
-///                    defines up, and tells the two ends of a symmetrical layout apart
-/// Fails with kInvalidArgument if the layout has fewer than three markers. Fails with
-/// TOO_FEW_MARKERS (kFailedPrecondition) if fewer than three can be used, or three do not agree;
-/// the message states the problem of each marker. Also fails as find_plane() does.
+///                    defines up, and distinguishes the two ends of a symmetrical layout
 [[nodiscard]] Result<FilmFrame> find_film_frame(const scan::Cloud& cloud,
                                                 const MarkerLayout& layout, const Pose& nominal_CF,
                                                 const Context& context);

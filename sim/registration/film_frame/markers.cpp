@@ -15,12 +15,12 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr double kJump_mm = 10;
-constexpr double kCut_mm = 8;  ///< height over a level area at which pieces are cut off
+constexpr double kCut_mm = 8;  ///< height above a level area at which clusters are cut off
 constexpr double kSameCut_mm = 4;
-constexpr double kAboveBase_mm = 4;     ///< lower points may belong to the bar
-constexpr double kSlack_mm = 12;        ///< tolerance of a piece's height
-constexpr double kMargin_mm = 6;        ///< around a marker; points within it count as its own
-constexpr double kLeastOfHeight = 0.3;  ///< smallest height of a piece, relative to a marker's
+constexpr double kAboveBase_mm = 4;  ///< lower points may belong to the bar
+constexpr double kSlack_mm = 12;     ///< tolerance of a piece's height
+constexpr double kMargin_mm = 6;     ///< margin around a marker; points within it count as its own
+constexpr double kLeastOfHeight = 0.3;  ///< smallest height of a cluster, relative to a marker's
 constexpr std::size_t kFewestPoints = 80;
 constexpr std::size_t kTargetSamples = 1500;
 constexpr std::size_t kIcpPoints = 400;
@@ -31,7 +31,8 @@ constexpr double kMostSigmas = 1.8;
 constexpr double kLeastPaired = 0.75;
 constexpr double kSurelyPaired = 0.9;
 constexpr double kSame_mm = 20;
-constexpr double kAny_mm = 1e3;  ///< no direction is weak: there is no nominal pose
+/// Ensures that no direction is weak, because there is no nominal pose.
+constexpr double kAny_mm = 1e3;
 
 /// Data that all candidates share.
 struct Search {
@@ -42,8 +43,8 @@ struct Search {
   std::unique_ptr<const Icp> icp;
 };
 
-/// Heights at which pieces are cut off from the level area that they stand on. That area may be the
-/// markers' own level or, if it is not seen, the water below.
+/// Returns the heights at which clusters are cut off from the level area on which they stand. This
+/// may be the markers' own level or, if that is not visible, the water below.
 std::vector<double> cuts(const Search& s) {
   double lowest = INFINITY;
   for (const Marker& m : s.layout.markers) lowest = std::min(lowest, m.X_FM.translation().z());
@@ -57,7 +58,7 @@ std::vector<double> cuts(const Search& s) {
   return out;
 }
 
-/// Pieces over a cut that are about as tall and as wide as a pyramid.
+/// Returns the clusters above a cut that are about as tall and as wide as a pyramid.
 std::vector<std::vector<int>> candidates(const Search& s, double cut_mm) {
   const auto& points = s.cloud.points;
   std::vector<bool> chosen(points.size());
@@ -80,8 +81,8 @@ std::vector<std::vector<int>> candidates(const Search& s, double cut_mm) {
   return pieces;
 }
 
-/// Approximate position of the tip. Of the part of a pyramid above a fifth of its height, the
-/// highest tenth is, on average, a sixth of the pyramid's height below the tip.
+/// Estimates the position of the tip. In the part of a pyramid above a fifth of its height, the
+/// highest tenth of the points is, on average, a sixth of the pyramid's height below the tip.
 Eigen::Vector3d tip_of(const Search& s, std::vector<int> piece) {
   const auto at = [&](int i) -> const Eigen::Vector3d& {
     return s.cloud.points[static_cast<std::size_t>(i)].point_mm;
@@ -95,7 +96,7 @@ Eigen::Vector3d tip_of(const Search& s, std::vector<int> piece) {
   return sum / static_cast<double>(tenth) + s.layout.height_mm / 6 * s.level.normal;
 }
 
-/// The points around a marker at the given pose, without those of its base.
+/// Returns the points around a marker at the given pose, without those of its base.
 std::vector<scan::ScanPoint> around(const Search& s, const Pose& X_CM) {
   std::vector<scan::ScanPoint> out;
   const Pose X_MC = X_CM.inverse();
@@ -123,7 +124,8 @@ bool is_pyramid(const Search& s, const PoseFit& fit) {
          fit.rms_sigmas < kMostSigmas && fit.paired_share > kLeastPaired;
 }
 
-/// Aligns with ICP, then twice selects the marker's points by its current pose and fits to them.
+/// Aligns a marker with ICP. Then twice: selects the points near the current pose and fits the pose
+/// to them.
 std::optional<FoundMarker> fitted_from(const Search& s, Pose X_CM, const Context& context) {
   FitOptions options;
   options.weak_sigma_mm = kAny_mm;
@@ -144,7 +146,8 @@ std::optional<FoundMarker> fitted_from(const Search& s, Pose X_CM, const Context
   return out;
 }
 
-/// The best fit from three starting turns within a quarter, after which the shape repeats.
+/// Returns the best fit from three initial rotations within a quarter turn, after which the shape
+/// repeats.
 std::optional<FoundMarker> fitted(const Search& s, const Eigen::Vector3d& tip,
                                   const Context& context) {
   std::optional<FoundMarker> best;

@@ -9,8 +9,8 @@
 
 namespace hydroprint::registration {
 
-/// A marker on a sliding bar. Its frame M: origin in the middle of its square base, sides along x
-/// and y, tip along z.
+/// A marker on a sliding bar. Frame M: origin in the middle of its square base, x and y along the
+/// sides, z to the tip.
 struct Marker {
   std::string name;
   Pose X_FM = Pose::Identity();
@@ -23,19 +23,20 @@ struct MarkerLayout {
   std::vector<Marker> markers;
 };
 
-/// A pyramid's four sides; frame M.
+/// Returns the four sides of a pyramid; frame M.
 [[nodiscard]] mesh::Surface pyramid(double width_mm, double height_mm);
 
 /// A pyramid in a scan.
 struct FoundMarker {
-  PoseFit fit;  ///< of M in the camera frame, turned by any multiple of a quarter about z
+  PoseFit fit;  ///< pose of M in the camera frame, up to multiples of 90 degrees about z
   std::vector<scan::ScanPoint> points;
 
   [[nodiscard]] Eigen::Vector3d place_C() const { return fit.X_CB.translation(); }
 };
 
-/// Finds all upright pyramids of the layout's size that stand on a level area. Pieces of about that
-/// size and height are aligned by ICP and fit_pose(); pieces of another shape are left out.
+/// Finds the upright pyramids with the layout's dimensions that stand on a horizontal surface.
+/// Clusters of similar size and height are aligned with ICP and fit_pose(); clusters with another
+/// shape are skipped.
 /// @param level  a plane that defines up (find_plane)
 [[nodiscard]] Result<std::vector<FoundMarker>> find_markers(const scan::Cloud& cloud,
                                                             const Plane& level,

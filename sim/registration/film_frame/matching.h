@@ -6,20 +6,21 @@
 
 namespace hydroprint::registration {
 
-/// An assignment of found markers to markers of the layout.
+/// An assignment of detected markers to markers of the layout.
 struct Matching {
-  std::vector<int> found;  ///< for each marker of the layout, the found marker's index; -1: none
+  /// For each marker of the layout, the index of the detected marker; -1: none.
+  std::vector<int> found;
   Pose X_CF = Pose::Identity();
-  double rms_mm = 0;   ///< of the markers' positions in the camera frame
+  double rms_mm = 0;   ///< rms error of the markers' positions in the camera frame
   bool agrees = true;  ///< false: the relative positions of the markers do not match the layout
 
   [[nodiscard]] int count() const;
 };
 
-/// Finds the matching with the most markers, each within 4 mm of its place. Of equally good
-/// matchings with the same number, it takes the one turned least from `nominal_CF`. Found markers
-/// that are not near any place are left out: they were moved, or are not markers.
-/// @return a matching with fewer than three markers if there is none
+/// Finds the matching with the most markers, each within 4 mm of its place. If several have the
+/// same number, returns the one with the smallest rotation from `nominal_CF`. Detected markers that
+/// are not near any place are dropped: they were displaced, or are not markers.
+/// @return a matching with fewer than three markers if none is found
 [[nodiscard]] Matching match(const std::vector<FoundMarker>& found, const MarkerLayout& layout,
                              const Pose& nominal_CF);
 

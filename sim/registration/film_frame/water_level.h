@@ -11,10 +11,10 @@ struct WaterLevel {
   std::size_t points = 0;
 };
 
-/// Mean height of the points near z = 0 over the film. Its error is due to noise, the film frame's
-/// covariance and the camera's.
+/// Computes the mean height of the points near z = 0 over the film. Its error includes noise, the
+/// covariance of the film frame and that of the camera. Returns kFailedPrecondition (NO_WATER) if
+/// there are fewer than 200 points within 15 mm of z = 0.
 /// @param half_film_mm  half of the film's width and height
-/// Fails (kFailedPrecondition, NO_WATER) with fewer than 200 points within 15 mm of z = 0.
 [[nodiscard]] Result<WaterLevel> water_level(const scan::Cloud& cloud, const FilmFrame& frame,
                                              const Eigen::Vector2d& half_film_mm);
 

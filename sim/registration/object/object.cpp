@@ -29,8 +29,8 @@ constexpr double kLeastOn = 0.85;
 constexpr double kMostThrough = 0.12;
 constexpr double kMostMisfit_mm = 1;
 constexpr double kAsGood = 0.03;
-constexpr double kOtherShare =
-    0.08;  ///< share of the points in one piece that means a second object
+/// Share of the points in one piece that means a second object.
+constexpr double kOtherShare = 0.08;
 constexpr double kOtherJump_mm = 12;
 constexpr double kMostlySeen = 0.6;
 constexpr double kOutOfView = 0.15;
@@ -107,11 +107,11 @@ class Finder {
   [[nodiscard]] static tl::unexpected<Error> not_this(const std::string& why) {
     return fail(Code::kFailedPrecondition,
                 "the object in view does not match the mesh: " + why +
-                    ". Give the mesh of the object in the gripper",
+                    ". Use the mesh of the object in the gripper",
                 "NOT_THIS_OBJECT");
   }
 
-  /// The largest connected piece of points off the mesh, as a share of the scan.
+  /// Returns the largest connected piece of points off the mesh, as a fraction of the scan.
   [[nodiscard]] double other_share(const Candidate& candidate, const scan::Cloud& cloud) const {
     std::vector<bool> off(cloud.points.size());
     const Pose X_BC = candidate.fit.X_CB.inverse();
@@ -149,8 +149,8 @@ class Finder {
     return out;
   }
 
-  /// Of the candidates about as good as the best, chooses the one turned least from the nominal
-  /// pose.
+  /// Of the candidates that are about as good as the best, returns the one with the smallest
+  /// rotation from the nominal pose.
   [[nodiscard]] const Candidate& choose(const std::vector<Candidate>& tried) const {
     double least = 1e9;
     for (const Candidate& c : tried) least = std::min(least, c.mismatch());

@@ -14,15 +14,16 @@ namespace hydroprint::registration {
 /// Pose of the object and its uncertainty.
 struct ObjectPose {
   Pose X_FO = Pose::Identity();
-  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();  ///< film frame; the covariance is about it
-  /// Covariance of the twist (film frame) between X_FO and the truth. It is due to noise in the
+  /// Film frame; origin of the covariance's twist.
+  Eigen::Vector3d centre_mm = Eigen::Vector3d::Zero();
+  /// Covariance of the twist (film frame) between X_FO and the true pose. It includes noise in the
   /// depths of object and markers, the camera's uncertainty and, along weak directions, the nominal
   /// pose's uncertainty.
   Matrix6 covariance = Matrix6::Zero();
-  PoseFit fit;                    ///< in the camera frame
+  PoseFit fit;                    ///< pose in the camera frame
   std::vector<std::string> weak;  ///< motions that the scan does not determine (describe())
-  double misfit_mm = 0;           ///< rms of the mean distances of 16 x 16 pixels from the mesh
-  double on_share = 0;            ///< share of the scan's points within 4 mm of the mesh
+  double misfit_mm = 0;           ///< rms distance from the mesh of means over 16 x 16 pixels
+  double on_share = 0;            ///< fraction of the scan's points within 4 mm of the mesh
   Sight sight;
   Warnings warnings;  ///< `object_partly_out_of_view`, `object_partly_hidden`, `pose_unconstrained`
 };
@@ -35,13 +36,13 @@ struct ObjectTask {
   FitOptions fit;
 };
 
-/// Finds the object. Masks points that cannot belong to it, then fits rough alignments from many
-/// starts. If several explain the scan about equally well, as quarter turns of a board do, the one
-/// nearest to the nominal pose is chosen. Motions that the scan does not determine are taken from
-/// the nominal pose, with a warning.
-/// Fails with kFailedPrecondition: NO_OBJECT; WRONG_UNITS if the size of the mesh is wrong by the
-/// factor of a unit, which the message names; TWO_OBJECTS if a large part of the scan belongs to
-/// something else; MIRRORED if only the mirrored mesh fits; NOT_THIS_OBJECT.
+/// Finds the object. Removes points that cannot belong to it, then fits rough alignments from many
+/// initial poses. If several explain the scan about equally well, as quarter turns of a board do,
+/// returns the one nearest to the nominal pose. Motions that the scan does not determine are taken
+/// from the nominal pose, with a warning. Fails with kFailedPrecondition: NO_OBJECT; WRONG_UNITS if
+/// the mesh would have the right size in another unit, which the message names; TWO_OBJECTS if a
+/// large part of the scan belongs to something else; MIRRORED if only the mirrored mesh fits;
+/// NOT_THIS_OBJECT.
 [[nodiscard]] Result<ObjectPose> find_object(const scan::Cloud& cloud,
                                              const scan::DepthFrame& depth,
                                              const FilmFrame& film_frame, const ObjectTask& task,

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kJump_mm = 12;
 constexpr double kMarkerMargin_mm = 10;
-constexpr double kStray_mm = 50;      ///< margin around a marker that may lie beside its place
+constexpr double kStray_mm = 50;      ///< margin around a marker that may be displaced
 constexpr double kSpeckShare = 0.03;  ///< share of the largest piece
 constexpr std::size_t kSpeckPoints = 40;
 

@@ -6,27 +6,27 @@
 
 namespace hydroprint::registration {
 
-/// The parts of a scan that cannot be the object; film frame.
+/// Parts of a scan that cannot belong to the object; film frame.
 struct Surroundings {
-  double clear_mm = 16;  ///< points below this height over the water are water, film or bars
-  /// The gripper lies within an upright cylinder above this height.
+  double clear_mm = 16;  ///< points below this height above the water are water, film or bars
+  /// The gripper lies within a vertical cylinder above this height.
   Eigen::Vector2d gripper_mm = Eigen::Vector2d::Zero();
   double gripper_radius_mm = 28;
-  double gripper_from_mm = 1e9;  ///< the default means that there is no gripper
+  double gripper_from_mm = 1e9;  ///< height; by default there is no gripper
   /// The object is within this distance of the film's centre in x and in y.
   Eigen::Vector2d reach_mm{140, 180};
-  MarkerLayout layout;  ///< the layout given to find_film_frame()
+  MarkerLayout layout;  ///< the layout passed to find_film_frame()
 };
 
-/// The points of a scan that may be the object.
+/// The points of a scan that may belong to the object.
 struct ObjectPoints {
-  std::vector<scan::ScanPoint> all;  ///< without specks; the largest connected piece first
-  std::size_t largest = 0;           ///< number of points in that piece
+  /// Without isolated specks; the largest connected piece comes first.
+  std::vector<scan::ScanPoint> all;
+  std::size_t largest = 0;  ///< number of points in that piece
 };
 
-/// Selects the points that may be the object.
-/// @param frame  points at its markers are left out, with a wider margin around markers that are
-///               not at their places
+/// Selects the points that may belong to the object.
+/// @param frame  points at its markers are dropped, with a wider margin around displaced markers
 [[nodiscard]] ObjectPoints object_points(const scan::Cloud& cloud, const FilmFrame& frame,
                                          const Surroundings& surroundings);
 

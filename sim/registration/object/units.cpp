@@ -13,7 +13,8 @@ namespace hydroprint::registration {
 namespace {
 
 constexpr std::size_t kSamples = 1000;
-constexpr double kLeast = 0.4, kMost = 1.25;  ///< size of a scan over that of its object
+/// Limits for the size of a scan relative to its object.
+constexpr double kLeast = 0.4, kMost = 1.25;
 
 struct Unit {
   double mm;
@@ -21,8 +22,8 @@ struct Unit {
 };
 constexpr std::array kUnits{Unit{1000, "metres"}, Unit{25.4, "inches"}, Unit{10, "centimetres"}};
 
-/// Approximate diameter: takes the point farthest from the middle, and returns the largest distance
-/// of another point from it.
+/// Returns the approximate diameter: the largest distance from the point that is farthest from the
+/// middle.
 double across(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Vector3d from = Eigen::Vector3d::Zero();
   for (const auto& p : points) from += p / static_cast<double>(points.size());
@@ -69,7 +70,7 @@ Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points) {
                                        three_digits(mesh_mm), three_digits(scan_mm));
   if (best == nullptr)
     return fail(Code::kFailedPrecondition,
-                what + ". Give the mesh of the object in the gripper, all of it",
+                what + ". Use the complete mesh of the object in the gripper",
                 "NOT_THIS_OBJECT");
   return fail(Code::kFailedPrecondition,
               fmt::format("{}. {} {}. Give a scale {} times {}", what,

@@ -7,8 +7,8 @@
 
 namespace hydroprint::registration {
 
-/// Fails (kFailedPrecondition) if the scan is far larger or smaller than the mesh: with WRONG_UNITS
-/// if metres, inches or centimetres explain it, otherwise with NOT_THIS_OBJECT.
+/// Returns kFailedPrecondition if the scan is far larger or smaller than the mesh: WRONG_UNITS if
+/// the mesh fits in metres, centimetres or inches, otherwise NOT_THIS_OBJECT.
 /// @param points  of one connected piece
 [[nodiscard]] Status check_size(const Shape& shape, std::span<const scan::ScanPoint> points);
 

@@ -21,13 +21,13 @@ class ArtifactTask : public Task {
   [[nodiscard]] Result<Finished> run(const RunOptions& options, Termination& termination,
                                      int stderr_fd) final;
 
-  /// The stages of a run in order, each with its rough share of the total time, from which the
-  /// remaining time is estimated. A repeated stage is listed once per repetition. A run may skip
+  /// Returns the stages of a run in order, each with its approximate share of the total time, from
+  /// which the remaining time is estimated. A stage that recurs is listed each time. A run may skip
   /// stages.
   [[nodiscard]] virtual std::vector<Stage> stages() const = 0;
 
  protected:
-  /// Files that must be readable before the computation starts. report.json lists them.
+  /// Returns the files that must be readable before the computation starts. report.json lists them.
   [[nodiscard]] virtual std::vector<InputPath> input_files() const = 0;
 
   /// Computes, creates `folder` and writes the artifacts into it. Adds warnings, artifacts and
@@ -35,11 +35,11 @@ class ArtifactTask : public Task {
   [[nodiscard]] virtual Status compute(OutFolder& folder, Report& report,
                                        const Context& context) = 0;
 
-  /// After compute(): the verb's own keys of report.json, in order.
+  /// Returns the verb's own keys of report.json, in order. Called after compute().
   [[nodiscard]] virtual Json findings(const Report& report) const = 0;
-  /// After compute(): the figures of the summary with `--json`.
+  /// Returns the figures of the summary for `--json`. Called after compute().
   [[nodiscard]] virtual Json figures() const = 0;
-  /// After compute(): the summary for people; each line ends with a newline.
+  /// Returns the summary as text; each line ends with a newline. Called after compute().
   [[nodiscard]] virtual std::string summary(const Report& report,
                                             const std::filesystem::path& dir) const = 0;
 

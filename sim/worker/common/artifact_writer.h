@@ -13,17 +13,18 @@
 
 namespace hydroprint::worker {
 
-/// A file to write: its name, and the function that writes it to a path.
+/// A file to write: its name, and a function that writes it to a path.
 using FileTask = std::pair<std::string, std::function<Status(const std::filesystem::path&)>>;
 
-/// Writes surface_map.ply. The dip must live until the file is written.
+/// Writes surface_map.ply. The dip must outlive the task.
 [[nodiscard]] FileTask surface_map_file(const pipeline::Dip& dip);
-/// Writes a PNG. The image and the context must live until the file is written.
+/// Writes a PNG. The image and the context must outlive the task.
 [[nodiscard]] FileTask png_file(const std::string& name, const image::RgbImage& image, double dpi,
                                 const Context& context);
 
-/// Writes files into a folder and reports the progress of the stage `writing`.
-/// @return the files' names. Fails as image::write_artifact does.
+/// Writes files into a folder and reports the progress of the stage `writing`. Returns the errors
+/// of image::write_artifact().
+/// @return the names of the files
 [[nodiscard]] Result<std::vector<std::string>> write_files(const std::filesystem::path& folder,
                                                            const std::vector<FileTask>& files,
                                                            const Context& context);

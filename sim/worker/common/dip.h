@@ -32,13 +32,13 @@ Result<DipOptions> dip_options(const Spec& spec, const InputFolder& inputs) {
 /// Reads the film and its profile.
 [[nodiscard]] Result<pipeline::DipOptions> read_dip(const DipOptions& options);
 
-/// Same as read_dip(), and reads the ink on the film if `ink_image` is not empty. Adds the
+/// Same as read_dip(). Also reads the ink on the film if `ink_image` is not empty, and adds the
 /// profile's own files to the report's inputs.
 [[nodiscard]] Result<pipeline::DipOptions> read_inked_dip(const DipOptions& options,
                                                           const std::filesystem::path& ink_image,
                                                           Report& report, const Context& context);
 
-/// The parameters in report.json that all verbs with a dip share.
+/// Returns the parameters in report.json that all verbs with a dip share.
 /// @param dip   the result of read_dip() or read_inked_dip()
 /// @param X_FO  the pose of the computed dip
 [[nodiscard]] Json dip_parameters_json(const DipOptions& options, const pipeline::DipOptions& dip,
@@ -46,7 +46,7 @@ Result<DipOptions> dip_options(const Spec& spec, const InputFolder& inputs) {
 
 [[nodiscard]] Json profile_json(const film::Profile& profile);
 
-/// {p50, p95, max}
+/// Returns {p50, p95, max}.
 [[nodiscard]] Json stretch_json(const pipeline::DipFigures& figures);
 
 }  // namespace hydroprint::worker

@@ -11,16 +11,16 @@ class Message;
 
 namespace hydroprint::worker {
 
-/// An error about a field of the spec. Its metadata holds the field's name ("dpi") and its message
-/// only the problem; name_field() combines the two.
+/// Returns an error about a field of the spec. Its metadata contains the name of the field ("dpi"),
+/// its message only the problem; name_field() combines them.
 [[nodiscard]] tl::unexpected<Error> fail_field(Code code, const std::string& field,
                                                std::string problem);
 
-/// Adds the field to the error's message as the user wrote it: "--ink-passes: ..." for flags,
+/// Prefixes the error's message with the field as the user wrote it: "--ink-passes: ..." for flags,
 /// "ink_passes: ..." for a spec. Errors without a field are returned unchanged.
 [[nodiscard]] Error name_field(Error error, bool as_flag);
 
-/// "--ink-passes" for "ink_passes".
+/// Returns "--ink-passes" for "ink_passes".
 [[nodiscard]] std::string flag_of(const std::string& field);
 
 /// True if only a daemon can resolve the field: the name of a job or calibration, or an option of

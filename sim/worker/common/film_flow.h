@@ -17,7 +17,7 @@ enum Model : int;
 enum ArtifactSet : int;
 }  // namespace hydroprint::v1
 
-// Options and findings that simulate and predict share. For inclusion in .cpp files only.
+// Options and results that simulate and predict share. For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
 /// A dip whose film carries an image.
@@ -30,7 +30,8 @@ struct FlowOptions {
   std::filesystem::path ink_image;  ///< empty: no ink image
   bool map_only = false;            ///< `--artifacts map`
 
-  /// Passes that take the image's own ink into account; an ink image replaces them.
+  /// Returns the number of passes that account for the image's own ink; 0 with an ink image, which
+  /// replaces them.
   [[nodiscard]] int passes() const { return ink_image.empty() ? ink_passes : 0; }
   [[nodiscard]] bool is_sheet() const { return film_model == pipeline::FilmModel::kSheet; }
 };
@@ -55,15 +56,15 @@ Result<FlowOptions> flow_options(const Spec& spec, const InputFolder& inputs) {
 [[nodiscard]] std::vector<Stage> simulate_stages(const FlowOptions& options);
 [[nodiscard]] std::vector<Stage> predict_stages(const FlowOptions& options);
 
-/// Reads the files that the options name.
+/// Reads the files named in the options.
 [[nodiscard]] Result<pipeline::DipOptions> read_flow(const FlowOptions& options, Report& report,
                                                      const Context& context);
 
-/// The dip's figures for report.json and for the summaries.
+/// Formats the dip's figures for report.json and for the summaries.
 class DipFindings {
  public:
   DipFindings() = default;
-  /// @param dip     the dip's options
+  /// @param dip     options of the dip
   /// @param result  the computed dip
   DipFindings(const pipeline::DipOptions& dip, const mesh::Model& model,
               const pipeline::Dip& result);

@@ -20,7 +20,7 @@ namespace hydroprint::worker {
 /// `ink_passes`.
 class Flags {
  public:
-  /// Both must live while the command line is parsed.
+  /// Both must stay valid while the command line is parsed.
   Flags(CLI::App& app, google::protobuf::Message& spec) : app_(app), spec_(spec) {}
 
   /// Adds the flags of all fields, or of the named ones; except threads, lists of files, and
@@ -31,8 +31,8 @@ class Flags {
   /// Adds a required flag for folders. The spec gets the path of `file` in each folder.
   void require_folders(const std::string& field, const std::string& file);
 
-  /// After parsing: fills in the pose from the file of `--pose`, if the flag was given. Fails as
-  /// read_pose_file() does.
+  /// Called after parsing: reads the pose from the file of `--pose`, if the flag was given. Returns
+  /// the errors of read_pose_file().
   [[nodiscard]] Status read_pose();
   [[nodiscard]] const std::filesystem::path& pose_file() const { return pose_file_; }
 

@@ -17,12 +17,12 @@
 // only.
 namespace hydroprint::worker {
 
-/// Finds the folders of hydroprint-capture among the files of a spec: those with a frames.json.
-/// Fails with fail_field() if there are none, or more than `most` (0: any number).
+/// Finds the folders written by hydroprint-capture among the files of a spec: those with a
+/// frames.json. Returns fail_field() if there are none, or more than `most` (0: any number).
 [[nodiscard]] Result<std::vector<std::filesystem::path>> frames_folders(
     const std::vector<std::filesystem::path>& files, std::size_t most);
 
-/// Same as above, for the spec's field `frames`.
+/// Same as above, for the field `frames` of a spec.
 template <class Spec>
 Result<std::vector<std::filesystem::path>> frames_folders(const Spec& spec,
                                                           const InputFolder& inputs,
@@ -39,18 +39,19 @@ void append_frames(std::vector<InputPath>& files,
 /// Adds `--frames DIR`.
 void add_frames_flag(Flags& flags);
 
-/// Frames and the camera that took them.
+/// Depth frames and the calibration of their camera.
 struct Scan {
   calibrate::Frames frames;
   registration::CameraCalibration camera;
 };
 
-/// Reads the frames of a folder, and the camera from its file. If `camera` is empty, the camera is
-/// described by its driver's values.
+/// Reads the frames of a folder, and the camera from its file. If `camera` is empty, the camera has
+/// the driver's nominal values.
 [[nodiscard]] Result<Scan> read_scan(const std::filesystem::path& folder,
                                      const std::filesystem::path& camera, const Context& context);
 
-/// The camera's pose, the rms misfit of the markers, and the markers that were used.
+/// Formats the film frame: the camera's pose, the rms misfit of the markers, and the markers that
+/// were used.
 [[nodiscard]] Json film_frame_json(const registration::FilmFrame& frame);
 
 }  // namespace hydroprint::worker

@@ -42,7 +42,7 @@ Result<waterline::Motion> read_motion(const std::filesystem::path& path) {
   }
   if (motion.rows.size() < 2) {
     return fail(Code::kInvalidArgument,
-                path.string() + ": fewer than two rows. Give the whole way down");
+                path.string() + ": fewer than two rows. Use a file with the whole descent");
   }
   return motion;
 }

@@ -17,19 +17,19 @@ class Pose;
 // For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
-/// An object over a film.
+/// An object above a film.
 struct ObjectOptions {
   std::filesystem::path mesh;
-  double scale = 1;                 ///< model units to mm
+  double scale = 1;                 ///< millimetres per model unit
   std::optional<Pose> X_FO;         ///< nullopt: as in the mesh file, centred on the film
   std::filesystem::path pose_file;  ///< file of X_FO; empty: not from a file
-  std::string film = "A4";          ///< for film::parse_outline()
+  std::string film = "A4";          ///< name for film::parse_outline()
 };
 
 /// The input file of a film for report.json: that of a polygon, otherwise an empty path.
 [[nodiscard]] InputPath film_file(const std::string& film);
 
-/// Reads the field `pose`. Fails with fail_field() if it is not a rigid transform.
+/// Reads the field `pose`. Returns fail_field() if it is not a rigid transform.
 [[nodiscard]] Result<Pose> pose_of(const v1::Pose& pose);
 
 /// Reads the field `film`.

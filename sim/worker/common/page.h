@@ -21,7 +21,7 @@ Result<print::PageSettings> page_settings(const Spec& spec) {
   return out;
 }
 
-/// The page's part of the parameters in report.json.
+/// Returns the page's part of the parameters in report.json.
 [[nodiscard]] Json page_parameters_json(const print::PageSettings& page,
                                         const film::Outline& outline, int threads);
 

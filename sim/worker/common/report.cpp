@@ -33,7 +33,7 @@ Json seconds_json(const std::vector<std::pair<std::string, double>>& seconds) {
 }
 
 std::string dump(const Json& json, int indent) {
-  // JSON must be UTF-8, but file names may hold other bytes.
+  // JSON must be UTF-8, but file names may contain other bytes.
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

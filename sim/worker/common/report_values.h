@@ -12,20 +12,20 @@
 // Values that the reports of several verbs contain. For inclusion in .cpp files only.
 namespace hydroprint::worker {
 
-/// [x, y]
+/// Returns [x, y].
 [[nodiscard]] Json pair_of(const Eigen::Vector2d& v);
-/// [x, y, z]
+/// Returns [x, y, z].
 [[nodiscard]] Json list_of(const Eigen::Vector3d& v);
 
-/// A pose in the format of pose files (contract, `--pose`).
+/// Returns a pose in the format of pose files (option `--pose`).
 [[nodiscard]] Json pose_json(const Pose& X_FO);
 
 [[nodiscard]] Json film_json(const film::Outline& outline);
 
-/// [{code, message, where}]
+/// Returns [{code, message, where}].
 [[nodiscard]] Json warnings_json(const Warnings& warnings);
 
-/// Size of a mesh in its file.
+/// Size of a mesh, as in its file.
 struct MeshSize {
   std::size_t vertices = 0, triangles = 0;
 };

@@ -11,20 +11,20 @@
 
 namespace hydroprint::worker {
 
-/// Writes surface_map.ply (contract). For each point it holds x, y, z (O, mm), film_x, film_y (F,
-/// mm), contact_time (s) and stretch, as binary little-endian doubles, NaN where no film arrives.
-/// The triangles follow. Fails as image::write_artifact does.
+/// Writes surface_map.ply: for each point, x, y, z (O, mm), film_x, film_y (F, mm), contact_time
+/// (s) and stretch, as binary little-endian doubles, NaN where no film arrives; then the triangles.
+/// Returns the errors of image::write_artifact().
 [[nodiscard]] Status write_surface_map(const std::filesystem::path& path,
                                        const mesh::Surface& surface, const flow::SurfaceMap& map);
 
-/// Writes landed.ply. For each point it holds x, y, z (O, mm), red, green, blue and landed (1, or 0
-/// where no film arrives). The triangles follow. Fails as image::write_artifact does.
+/// Writes landed.ply: for each point, x, y, z (O, mm), red, green, blue and landed (1, or 0 where
+/// no film arrives); then the triangles. Returns the errors of image::write_artifact().
 /// @param colours  per point, sRGB-coded in [0, 1]; NaN where no film arrives, written as white
 [[nodiscard]] Status write_landed(const std::filesystem::path& path, const mesh::Surface& surface,
                                   const std::vector<Eigen::Vector3f>& colours);
 
-/// Writes a scan's surface: x, y, z (mm) for each point, then the triangles. Fails as
-/// image::write_artifact does.
+/// Writes a scan's surface: x, y, z (mm) for each point, then the triangles. Returns the errors of
+/// image::write_artifact().
 [[nodiscard]] Status write_scan(const std::filesystem::path& path, const scan::TriangleMesh& mesh);
 
 }  // namespace hydroprint::worker

@@ -18,7 +18,7 @@ struct RunOptions {
 
 /// The output of a successful run.
 struct Finished {
-  std::string summary;  ///< for stdout; JSON if RunOptions::json
+  std::string summary;  ///< text for stdout; JSON if RunOptions::json
   Warnings warnings;
 };
 
@@ -30,13 +30,14 @@ class Task {
   Task(const Task&) = delete;
   Task& operator=(const Task&) = delete;
 
-  /// The main input, for error messages: a file name, or the verb's name if it reads no file.
+  /// Returns the main input for error messages: a file name, or the verb's name if it reads no
+  /// file.
   [[nodiscard]] virtual std::string subject() const = 0;
   /// Advice if memory runs out: "Use ... or more memory".
   [[nodiscard]] virtual std::string memory_tip() const { return "a smaller model"; }
 
-  /// Runs to the end. Reports progress to `progress_fd` of the options and, if it is a terminal, to
-  /// `stderr_fd`. On failure no files remain.
+  /// Runs the task to its end. Reports progress to `progress_fd` of the options and, if it is a
+  /// terminal, to `stderr_fd`. On failure no files remain.
   [[nodiscard]] virtual Result<Finished> run(const RunOptions& options, Termination& termination,
                                              int stderr_fd) = 0;
 };

@@ -63,7 +63,7 @@ Result<CalibrateOptions> read_options(const v1::CalibrateSpec& spec, const Input
   return out;
 }
 
-/// The object coloured by registration error.
+/// Returns the object coloured by registration error.
 Result<image::RgbImage> error_picture(const mesh::Surface& surface, const Pose& X_FO,
                                       const std::vector<double>& error_mm, const Context& context) {
   std::vector<flow::MappedTriangle> whole(surface.triangles.size());
@@ -96,7 +96,7 @@ Status write_pictures(const std::filesystem::path& folder, const mesh::Surface& 
   return image::write_png(folder / "error.png", error, image::kScreenDpi, context);
 }
 
-/// z of the lowest point of the object at the given pose.
+/// Returns z of the lowest point of the object at the given pose.
 double lowest_mm(const mesh::Surface& surface, const Pose& X_FO) {
   double out = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& p : surface.points) out = std::min(out, (X_FO * p).z());

@@ -55,7 +55,7 @@ Result<FitOptions> read_options(const v1::FitSpec& spec, const InputFolder& inpu
   return out;
 }
 
-/// The shortest text that reads back as the same number; empty if the number is not finite.
+/// Returns the shortest text that reads back as the same number; empty if the number is not finite.
 std::string cell(double value) {
   if (!std::isfinite(value)) return {};
   std::array<char, 32> buffer{};

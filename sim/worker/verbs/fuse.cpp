@@ -54,8 +54,8 @@ Result<FuseOptions> read_options(const v1::FuseSpec& spec, const InputFolder& in
   return out;
 }
 
-/// The camera's path, one line for each registered frame: its time, and the camera's pose in the
-/// coordinate frame of the mesh.
+/// Returns the camera's path, one line for each registered frame: its time, and the camera's pose
+/// in the coordinate frame of the mesh.
 std::string path_csv(const scan::Path& path, const std::vector<double>& times_s) {
   std::string out = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz\n";
   for (std::size_t i = 0; i < path.X_WC.size(); ++i) {

@@ -4,8 +4,8 @@
 
 namespace hydroprint::worker {
 
-/// Predicts the colours that a printed film image leaves on the object: landed.ply, landed.png for
-/// models with texture coordinates, and predicted.png.
+/// Predicts the colours of an object dipped through a printed film image: landed.ply, landed.png
+/// for models with texture coordinates, and predicted.png.
 [[nodiscard]] Verb predict_verb();
 
 }  // namespace hydroprint::worker

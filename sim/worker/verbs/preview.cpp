@@ -89,13 +89,13 @@ Status answer_model(const mesh::Model& model) {
                 bytes);
 }
 
-/// A number within bounds.
+/// Returns a number within bounds.
 Result<double> read_number(const nlohmann::json& value, const std::string& key, double least,
                            double most) {
   const double number =
       value.is_number() ? value.get<double>() : std::numeric_limits<double>::quiet_NaN();
   if (number >= least && number <= most) return number;
-  return fail(Code::kInvalidArgument, key + ": not a number, or out of range. Give mm or mm/s");
+  return fail(Code::kInvalidArgument, key + ": not a number, or out of range. Use mm or mm/s");
 }
 
 struct Request {
@@ -131,7 +131,7 @@ Status read_request(const std::string& line, const pipeline::DipOptions& otherwi
   const auto id = json_unsigned(json, "id");
   if (!id || *id > std::uint64_t{1} << 53) {
     return fail(Code::kInvalidArgument,
-                "id: missing, or not a whole number. Give each request one");
+                "id: missing, or not an integer. Add an id to each request");
   }
   request.id = static_cast<std::int64_t>(*id);
   for (const auto& [key, value] : json.items()) HP_RETURN_IF_ERROR(take(request, key, value));

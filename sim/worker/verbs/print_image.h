@@ -4,8 +4,8 @@
 
 namespace hydroprint::worker {
 
-/// Makes printable files of a film image: print.pdf, and print.png and print.tif (print-N.png and
-/// print-N.tif for several sheets).
+/// Converts a film image to printable files: print.pdf, and print.png and print.tif (print-N.png
+/// and print-N.tif for several sheets).
 [[nodiscard]] Verb print_image_verb();
 
 }  // namespace hydroprint::worker

@@ -47,9 +47,9 @@ TEST(Routes, InvalidRulesAreRefusedAtStart) {
       {"NoPattern", "no GET, PUT"},
       {"PartOfAnswer", "response_body is not supported"},
       {"StopWithField", "stops motion, so its path must hold the field seq"},
-      {"StructRequest", "holds Any, Struct"},
-      {"AnyRequest", "holds Any, Struct"},
-      {"DeepRequest", "holds Any, Struct"},
+      {"StructRequest", "contains Any, Struct"},
+      {"AnyRequest", "contains Any, Struct"},
+      {"DeepRequest", "contains Any, Struct"},
       {"Missing", "is not linked in"},
   };
   for (const auto& [service, part] : words) {

@@ -96,8 +96,8 @@ TEST_F(CameraFile, ABrokenPatternIsRefused) {
   EXPECT_NE(refusal("shared_step", "").find(broken), std::string::npos);
   for (const int patch_px : {0, -4, 1, 100000, 2147483647})
     EXPECT_NE(refusal("patch_px", patch_px).find(broken), std::string::npos) << patch_px;
-  EXPECT_NE(refusal("offset", 3).find("not a camera's calibration"), std::string::npos);
-  EXPECT_NE(refusal("sigma", nullptr).find("not a camera's calibration"), std::string::npos);
+  EXPECT_NE(refusal("offset", 3).find("not a camera calibration"), std::string::npos);
+  EXPECT_NE(refusal("sigma", nullptr).find("not a camera calibration"), std::string::npos);
   // All values are NaN (0x7fc00000).
   std::vector<unsigned char> nan;
   for (std::size_t i = 0; i < camera().pattern.patches(); ++i)

@@ -165,7 +165,7 @@ TEST(ReadPly, InconsistentTruncatedOrBrokenFilesAreRefused) {
   }
   const std::string binary = ply_header("binary_little_endian") + tetrahedron_ply_body();
   expect_refused(folder.write("cut.ply", binary.substr(0, binary.size() - 1)),
-                 "face 3: is cut short");
+                 "face 3: is truncated");
   std::string changed = binary;
   const std::int32_t far = 4;
   std::memcpy(changed.data() + changed.size() - 4, &far, 4);
@@ -181,7 +181,7 @@ TEST(ReadPly, InconsistentTruncatedOrBrokenFilesAreRefused) {
                         ply_header("ascii") + text.replace(text.find(good), good.size(), bad));
   };
   expect_refused(with("1 0 0", "nan 0 0"), "vertex 1: ");
-  expect_refused(with("3 0 2 1", "3 0 2"), "face 0: is cut short");
+  expect_refused(with("3 0 2 1", "3 0 2"), "face 0: is truncated");
   expect_refused(with("3 0 2 1", "2 0 2"), "face 0: has fewer than three corners");
   expect_refused(with("3 0 2 1", "3 0 2 -1"), "face 0: uses a vertex out of range");
   expect_refused(with("3 2 0 3\n", ""), "face 3: ");
@@ -269,7 +269,7 @@ TEST(ReadGltf, BrokenFilesAreRefused) {
   refused({{"uri", "../../../../../../etc/passwd"}}, "");
   const std::string glb = tetrahedron_glb();
   expect_refused(folder.write("a.glb", glb.substr(0, glb.size() - 10)), "announces more bytes");
-  expect_refused(folder.write("a.glb", glb.substr(0, 15)), "cut short");
+  expect_refused(folder.write("a.glb", glb.substr(0, 15)), "truncated");
   expect_refused(folder.write("b.gltf", "[1,2,3]"), "not valid glTF JSON");
 }
 

@@ -186,7 +186,7 @@ TEST(ReadObj, BadLinesAreNamedByNumber) {
       {"f 1 3 2", "f 1 3 2x", "line 5: a face uses vertex \"2x\""},
       {"f 1 3 2", "f 1/1 3/1 2/1", "line 5: a face uses texture coordinate \"1\""},
       {"f 1 3 2", "vt nan 0\nf 1 3 2", "line 5: \"nan\""},
-      {"f 1 3 2", std::string("f 1\0 3 2", 8), "line 5: holds binary data"},
+      {"f 1 3 2", std::string("f 1\0 3 2", 8), "line 5: contains binary data"},
   }};
   for (const auto& [good, bad, words] : cases) {
     std::string text = kTetrahedronObj;

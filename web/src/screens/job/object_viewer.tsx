@@ -160,7 +160,7 @@ export function ObjectViewer({ results, pointed, onView }: Props) {
         </>
       )}
       {pointed && mode !== 'contact' && (
-        <p class="quiet">Pink: the place of the selected warning.</p>
+        <p class="quiet">Pink marks the location of the selected warning.</p>
       )}
     </div>
   );

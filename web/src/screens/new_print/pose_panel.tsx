@@ -73,7 +73,7 @@ function ByHand() {
         {kAxes.map((axis, i) => (
           <NumberField
             key={axis}
-            label={`Turn about ${axis}`}
+            label={`Rotation about ${axis}`}
             unit="°"
             value={angles[i]}
             min={-360}

@@ -156,7 +156,7 @@ function LeasePanel({ now }: { now: Rig }) {
       ) : (
         <>
           {lease.holder === me.value && (
-            <p class="quiet">You took the rig in another browser or program.</p>
+            <p class="quiet">You hold the lease in another browser or program.</p>
           )}
           {may('ADMIN') && (
             <details>
